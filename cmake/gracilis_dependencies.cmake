@@ -1,0 +1,28 @@
+# Every library we stand on, with the Debian package that brings it named when it is missing.
+
+macro(gracilis_find name package)
+  find_package(${name} QUIET ${ARGN})
+  if(NOT ${name}_FOUND)
+    message(FATAL_ERROR "${name} was not found. On Debian: apt-get install ${package} (all packages: packages.txt)")
+  endif()
+endmacro()
+
+gracilis_find(Eigen3 libeigen3-dev)
+gracilis_find(TBB libtbb-dev)
+gracilis_find(embree libembree-dev)
+gracilis_find(hwy libhwy-dev CONFIG)
+gracilis_find(VTK libvtk9-dev COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore IOCore IOGeometry IOLegacy
+              IOPLY IOXML IOImage RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation FiltersSources)
+gracilis_find(tomlplusplus libtomlplusplus-dev)
+gracilis_find(CLI11 libcli11-dev)
+gracilis_find(spdlog libspdlog-dev)
+gracilis_find(fmt libfmt-dev)
+gracilis_find(nanoflann libnanoflann-dev)
+gracilis_find(nlohmann_json nlohmann-json3-dev)
+gracilis_find(OpenSSL libssl-dev)
+if(GRACILIS_BUILD_TESTS)
+  gracilis_find(GTest libgtest-dev)
+endif()
+if(GRACILIS_BUILD_BENCHMARKS)
+  gracilis_find(benchmark libbenchmark-dev)
+endif()

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+#include <functional>
+
+namespace gracilis {
+
+/// Calls body(begin, end) on disjoint ranges that cover [0, count), possibly at the same time. How the work is cut never
+/// depends on the number of threads, so a body that writes only to its own range gives the same bits with any number.
+/// `grain` is the size of a range; a count up to `grain` runs on the calling thread.
+void parallel_for(Index count, Index grain, const std::function<void(Index begin, Index end)>& body);
+
+/// Caps the threads that parallel_for uses while it lives. 0 means all of the machine's.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  void* control_;
+};
+
+/// How many threads parallel_for may use at this moment.
+int thread_count();
+
+}  // namespace gracilis

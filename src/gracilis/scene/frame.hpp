@@ -1,0 +1,22 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/scene/pose.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// One muscle's shape at one instant.
+struct MuscleShape {
+  Points points;  ///< 3 × n, m, the muscle's surface vertices in the scene's order
+};
+
+/// Everything a method reports for one instant.
+struct Frame {
+  int number = 0;  ///< 0 is the capture pose
+  Pose pose;
+  std::vector<MuscleShape> muscles;  ///< in the scene's order
+};
+
+}  // namespace gracilis

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// Where every body is at one instant.
+struct Pose {
+  Real time = 0;                         ///< s
+  std::vector<Real> coordinates;         ///< rad, in the order of all axes of all joints of the scene
+  std::vector<RigidTransform> bodies;    ///< per body: from its place in the capture pose to its place now, world frame
+};
+
+}  // namespace gracilis

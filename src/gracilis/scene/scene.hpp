@@ -1,0 +1,83 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/scene/settings.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// A rigid surface fixed to a body, in the world frame of the capture pose.
+struct Bone {
+  std::string name;
+  Index body = 0;  ///< index into Scene::bodies
+  TriangleMesh surface;
+};
+
+/// One rotation of a joint, about an axis fixed in the frame left by the rotations before it.
+struct JointAxis {
+  std::string coordinate;              ///< OpenSim's name, e.g. hip_flexion_r
+  Vec3 axis = Vec3::UnitZ();           ///< unit, in the joint's frame
+  Real capture_value = 0;              ///< rad, at which the meshes were captured
+  Real range_min = -pi;                ///< rad; a motion may leave the range, with a warning
+  Real range_max = pi;
+};
+
+/// Moves the child body (and all that hangs on it) about a center fixed in the parent body.
+struct Joint {
+  std::string name;
+  Index parent_body = 0;
+  Index child_body = 0;
+  RigidTransform frame = RigidTransform::Identity();  ///< joint frame in the parent, world frame of the capture pose
+  std::vector<JointAxis> axes;                        ///< applied in this order, body-fixed
+};
+
+/// Which end of a muscle an attachment is; the fibers run from origin to insertion.
+enum class AttachmentEnd { origin, insertion };
+
+/// Vertices of a muscle that move with a body.
+struct Attachment {
+  std::string name;
+  AttachmentEnd end = AttachmentEnd::origin;
+  Index body = 0;
+  std::vector<Index> vertices;  ///< of the muscle's surface, ascending
+  bool guessed = false;         ///< not measured: marked so in the run's manifest
+};
+
+struct Muscle {
+  std::string name;
+  TriangleMesh surface;  ///< closed, oriented outwards
+  std::vector<Attachment> attachments;
+  XpbdSettings xpbd;
+};
+
+/// Coordinate values over time; a row is a pose. Coordinates not named keep their capture value.
+struct Motion {
+  std::string name;
+  std::vector<std::string> coordinates;
+  std::vector<Real> times;  ///< s, one per row
+  Eigen::MatrixXd values;   ///< rows × coordinates, rad
+};
+
+/// How a run goes from the capture pose (frame 0) into the motion and out of it.
+struct Sequence {
+  int ramp_frames = 0;         ///< between the capture pose and the motion's first pose; 0: as many as 1 degree each needs
+  int hold_frames = 0;         ///< the motion's last pose repeated
+  bool return_to_capture = false;  ///< ramp back to the capture pose at the end
+};
+
+/// Everything a run needs, as plain values in SI units. `validate` finds all that is wrong with it.
+struct Scene {
+  std::string name;
+  std::vector<std::string> bodies;  ///< names; bodies[0] is fixed in the world
+  std::vector<Bone> bones;
+  std::vector<Joint> joints;        ///< parents before children
+  std::vector<Muscle> muscles;
+  Motion motion;
+  Sequence sequence;
+  DistanceFieldSettings distance_fields;
+};
+
+}  // namespace gracilis

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+namespace gracilis {
+
+/// How time passes for a muscle. `quasi_static` carries no velocity from frame to frame; `dynamic` does.
+enum class TimeMode { quasi_static, dynamic };
+
+/// Which angle measure the dihedral constraint uses: the stable atan2 or the published arccos.
+enum class DihedralFormula { atan2, arccos };
+
+/// Settings of the XPBD method, for one muscle. Defaults are the `physical` preset. The unit, range and meaning shown to
+/// users stand in one table, settings.cpp; a new setting is one line here and one there.
+struct XpbdSettings {
+  // Solver
+  int iterations = 30;                           ///< inner iterations per substep
+  int substeps = 1;                              ///< outer steps per frame
+  Real time_step = 1.0 / 60;                     ///< s, per frame
+  Real constraint_time_step = 0;                 ///< s, used inside distance and dihedral projections; 0: the substep's
+  TimeMode time_mode = TimeMode::quasi_static;
+  Real damping = 0.9;                            ///< factor on velocities per step, dynamic mode
+  Vec3 gravity = Vec3::Zero();                   ///< m/s²
+  Real rayleigh_beta = 0;                        ///< 1/s, dissipation of the distance and dihedral constraints
+  Real stop_displacement = 0;                    ///< m; stop a substep early when no vertex moved further; 0: never
+  Real stop_milliseconds = 0;                    ///< ms; stop a frame early after this time; 0: never
+
+  // Material
+  bool unit_masses = false;                      ///< every vertex weighs 1 kg, as published
+  Real density = 1060;                           ///< kg/m³
+  Real distance_stiffness = 2000;                ///< N/m
+  bool fiber_anisotropy = true;                  ///< scale the distance stiffness by 1 - |u·v|
+  Real anisotropy_floor = 0.1;                   ///< smallest factor the anisotropy may reach
+  Real dihedral_stiffness = 1e-3;                ///< N·m
+  bool dihedral_shape_scaling = true;            ///< scale per hinge by 3 l²/A
+  DihedralFormula dihedral_formula = DihedralFormula::atan2;
+  Real volume_compliance = 0;                    ///< m³·m³/J
+  Real pressure = 1;                             ///< target volume as a multiple of the volume at rest
+
+  // Bone contact
+  Real bone_margin = 0.0003;                     ///< m, kept between muscle and bone where the gap at rest allows
+  bool edge_contact = true;                      ///< keep points along edges out of bones, not vertices only
+
+  // What this project adds to the published method
+  bool predictor = true;                         ///< carry free vertices with the bones before solving
+  Real hinge_limit = 0.05;                       ///< largest motion by one hinge projection, as a share of its edge; 0: off
+  bool slack_uptake = true;                      ///< a muscle whose ends approach shortens its fibers evenly and thickens
+};
+
+/// Settings of the distance fields of all bones.
+struct DistanceFieldSettings {
+  Real cell_size = 0.001;       ///< m; used where resolution is 0
+  int resolution = 0;           ///< cells along each axis, as published; 0: from cell_size
+  Real domain_margin = 0.012;   ///< m around the bone's bounding box
+  Real domain_factor = 1;       ///< bounding box scaled by this factor about its center, as published
+};
+
+}  // namespace gracilis
