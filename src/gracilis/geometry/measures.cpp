@@ -1,0 +1,37 @@
+#include <gracilis/geometry/measures.hpp>
+
+namespace gracilis {
+
+Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners) {
+  const Vec3 a = vertices.col(corners[0]);
+  return (vertices.col(corners[1]) - a).cross(vertices.col(corners[2]) - a);
+}
+
+Real enclosed_volume(const Points& vertices, const Eigen::Matrix3Xi& faces) {
+  if (vertices.cols() == 0) return 0;
+  const Vec3 origin = vertices.col(0);
+  Real six_volumes = 0;
+  for (Index face = 0; face < faces.cols(); ++face) {
+    const Vec3 a = vertices.col(faces(0, face)) - origin, b = vertices.col(faces(1, face)) - origin,
+               c = vertices.col(faces(2, face)) - origin;
+    six_volumes += a.dot(b.cross(c));
+  }
+  return six_volumes / 6;
+}
+
+Real surface_area(const Points& vertices, const Eigen::Matrix3Xi& faces) {
+  Real area = 0;
+  for (Index face = 0; face < faces.cols(); ++face) area += area_vector(vertices, faces.col(face)).norm() / 2;
+  return area;
+}
+
+Eigen::VectorXd vertex_areas(const Points& vertices, const Eigen::Matrix3Xi& faces) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(vertices.cols());
+  for (Index face = 0; face < faces.cols(); ++face) {
+    const Real third = area_vector(vertices, faces.col(face)).norm() / 6;
+    for (int k = 0; k < 3; ++k) areas[faces(k, face)] += third;
+  }
+  return areas;
+}
+
+}  // namespace gracilis

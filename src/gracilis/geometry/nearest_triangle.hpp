@@ -1,0 +1,36 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/geometry/triangle_mesh.hpp>
+
+#include <limits>
+#include <memory>
+
+namespace gracilis {
+
+/// The point of a surface nearest to a query point.
+struct NearestPoint {
+  Index face = -1;                     ///< -1: nothing within the distance asked for
+  Vec3 barycentric = Vec3::Zero();     ///< of `point` in the face; zeros tell edges and corners
+  Vec3 point = Vec3::Zero();
+  Real distance = std::numeric_limits<Real>::infinity();
+};
+
+/// Answers nearest-point queries on a fixed surface (Embree's bounding volume hierarchy; distances in double precision).
+/// Queries may run at the same time. Precondition: at least one face, all coordinates finite.
+class NearestTriangle {
+ public:
+  explicit NearestTriangle(const TriangleMesh& mesh);
+  ~NearestTriangle();
+  NearestTriangle(NearestTriangle&&) noexcept;
+  NearestTriangle& operator=(NearestTriangle&&) noexcept;
+
+  /// The nearest point within `reach`, or face -1.
+  NearestPoint query(const Vec3& p, Real reach = std::numeric_limits<Real>::infinity()) const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace gracilis
