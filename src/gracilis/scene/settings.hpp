@@ -11,7 +11,7 @@ enum class TimeMode { quasi_static, dynamic };
 enum class DihedralFormula { atan2, arccos };
 
 /// Settings of the XPBD method, for one muscle. Defaults are the `physical` preset. The unit, range and meaning shown to
-/// users stand in one table, settings.cpp; a new setting is one line here and one there.
+/// users stand in one table, setting_table.cpp; a new setting is one line here and one there.
 struct XpbdSettings {
   // Solver
   int iterations = 30;                           ///< inner iterations per substep

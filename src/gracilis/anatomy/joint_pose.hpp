@@ -1,0 +1,27 @@
+#pragma once
+
+#include <gracilis/scene/pose.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// The coordinates of all axes of all joints, in the order that Pose::coordinates uses.
+std::vector<std::string> coordinate_names(const Scene& scene);
+
+/// Their values at which the meshes were captured, rad.
+std::vector<Real> capture_coordinates(const Scene& scene);
+
+/// Where every body is when the coordinates have these values (rad, in the order of `coordinate_names`).
+///
+/// A body's transform carries it from its place in the capture pose: T_child = T_parent P X(q) X(q_capture)⁻¹ P⁻¹,
+/// where P is the joint's frame and X the product of its rotations in their order, each about an axis fixed in the
+/// frame left by the ones before (OpenSim's CustomJoint without translations). At the capture values every transform is
+/// the identity, to the last bit. Joints must stand parents before children, and each body must be the child of one
+/// joint at most.
+Pose pose_at(const Scene& scene, std::span<const Real> coordinates);
+
+}  // namespace gracilis

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <gracilis/scene/pose.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// The poses of all frames of a run: frame 0 is the capture pose; a ramp leads to the motion's first row; then come the
+/// motion's rows, the frames that hold the last one, and, where the scene asks for it, a ramp back to the capture pose.
+///
+/// A ramp moves all coordinates in equal steps. It takes `Sequence::ramp_frames` frames, the last of which is the pose
+/// it leads to; 0 means as many as it takes for no coordinate to change by more than 1 degree in a frame, and none
+/// where the pose is the capture pose already. The motion's rows keep their times; the frames before and after them
+/// follow at the motion's mean spacing (1/60 s for a single row), so the capture pose usually has a negative time.
+/// Coordinates that the motion does not name keep their capture value. A motion without rows leaves frame 0 alone.
+/// Requires a scene in which `validate` finds nothing.
+std::vector<Pose> pose_sequence(const Scene& scene);
+
+}  // namespace gracilis

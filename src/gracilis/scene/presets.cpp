@@ -1,0 +1,49 @@
+#include <gracilis/scene/presets.hpp>
+
+namespace gracilis {
+
+static Preset thesis_2024() {
+  Preset preset;
+  preset.name = "thesis-2024";
+  preset.meaning = "the published setting, with everything that this project added switched off";
+  XpbdSettings& xpbd = preset.xpbd;
+  xpbd.iterations = 70;
+  xpbd.time_step = 0.001;
+  xpbd.constraint_time_step = 1;
+  xpbd.time_mode = TimeMode::dynamic;
+  xpbd.damping = 0.9;
+  xpbd.gravity = Vec3::Zero();
+  xpbd.rayleigh_beta = 0.01;
+  xpbd.unit_masses = true;
+  xpbd.distance_stiffness = 1e2;
+  xpbd.fiber_anisotropy = true;
+  xpbd.anisotropy_floor = 0;
+  xpbd.dihedral_stiffness = 1e8;
+  xpbd.dihedral_shape_scaling = false;
+  xpbd.dihedral_formula = DihedralFormula::arccos;
+  xpbd.volume_compliance = 0;
+  xpbd.pressure = 1;
+  xpbd.bone_margin = 0.001;
+  xpbd.edge_contact = false;
+  xpbd.predictor = false;
+  xpbd.hinge_limit = 0;
+  xpbd.slack_uptake = false;
+  preset.distance_fields.resolution = 128;
+  preset.distance_fields.domain_margin = 0;
+  preset.distance_fields.domain_factor = 1.5;
+  return preset;
+}
+
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all = {
+      {"physical", "real masses and units, and what this project added for stability", {}, {}}, thesis_2024()};
+  return all;
+}
+
+const Preset* find_preset(std::string_view name) {
+  for (const Preset& preset : presets())
+    if (preset.name == name) return &preset;
+  return nullptr;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,78 @@
+#include <gracilis/scene/setting_table.hpp>
+
+namespace gracilis {
+
+template <>
+std::span<const Setting<XpbdSettings>> setting_table() {
+  using S = XpbdSettings;
+  static const Setting<S> table[] = {
+      {"iterations", &S::iterations, "", 1, 100000, "Inner iterations of the solver in each substep."},
+      {"substeps", &S::substeps, "", 1, 1000, "Outer steps of the solver in each frame."},
+      {"time_step", &S::time_step, "s", 1e-6, 1, "Time that passes in a frame."},
+      {"constraint_time_step", &S::constraint_time_step, "s", 0, 1000,
+       "Time step inside the distance and dihedral projections; 0 takes the substep's own, as the theory asks."},
+      {"time_mode", &S::time_mode, "", 0, 0,
+       "'quasi_static' carries no velocity from frame to frame, 'dynamic' gives the muscle inertia."},
+      {"damping", &S::damping, "", 0, 1, "Factor on all velocities in each step; used by the dynamic mode only."},
+      {"gravity", &S::gravity, "m/s²", -1000, 1000, "Acceleration of free fall."},
+      {"rayleigh_beta", &S::rayleigh_beta, "1/s", 0, 1e6,
+       "Rayleigh dissipation of the distance and dihedral constraints; used by the dynamic mode only."},
+      {"stop_displacement", &S::stop_displacement, "m", 0, 1,
+       "A substep ends early once no vertex moved further in an iteration; 0 never ends it early."},
+      {"stop_milliseconds", &S::stop_milliseconds, "ms", 0, 1e6,
+       "A frame ends early after this time, which makes results depend on the machine; 0 never ends it early."},
+      {"unit_masses", &S::unit_masses, "", 0, 0,
+       "Gives every vertex 1 kg, as the published setting does, instead of its share of the muscle's mass."},
+      {"density", &S::density, "kg/m³", 1, 1e5, "Density of muscle; ignored with unit masses."},
+      {"distance_stiffness", &S::distance_stiffness, "N/m", 0, 1e18,
+       "Stiffness of the surface's edges against stretch."},
+      {"fiber_anisotropy", &S::fiber_anisotropy, "", 0, 0,
+       "Scales each edge's stiffness by 1 - |u·v|, u along the edge and v along the fibers."},
+      {"anisotropy_floor", &S::anisotropy_floor, "", 0, 1, "Smallest factor that the anisotropy may reach."},
+      {"dihedral_stiffness", &S::dihedral_stiffness, "N·m", 0, 1e18,
+       "Stiffness of the surface's hinges against bending."},
+      {"dihedral_shape_scaling", &S::dihedral_shape_scaling, "", 0, 0,
+       "Scales each hinge's stiffness by 3 l²/A (l its edge, A its two triangles), which makes it independent of the "
+       "mesh."},
+      {"dihedral_formula", &S::dihedral_formula, "", 0, 0,
+       "Measure of the hinge's angle: 'atan2' is stable everywhere, 'arccos' is the published one."},
+      {"volume_compliance", &S::volume_compliance, "m⁶/J", 0, 1e6,
+       "Compliance of the enclosed volume; 0 keeps it exactly."},
+      {"pressure", &S::pressure, "", 0.01, 100, "Volume aimed at, as a multiple of the volume at rest."},
+      {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Gap kept between muscle and bone where the gap at rest allows."},
+      {"edge_contact", &S::edge_contact, "", 0, 0, "Keeps points along edges out of the bones, not vertices only."},
+      {"predictor", &S::predictor, "", 0, 0,
+       "Carries the free vertices with the bones before the solver relaxes them."},
+      {"hinge_limit", &S::hinge_limit, "", 0, 10,
+       "Largest motion that one projection of a hinge may cause, as a share of its edge; 0 sets no limit."},
+      {"slack_uptake", &S::slack_uptake, "", 0, 0,
+       "A muscle whose ends approach each other shortens its fibers evenly and thickens instead of folding."},
+  };
+  return table;
+}
+
+template <>
+std::span<const Setting<DistanceFieldSettings>> setting_table() {
+  using S = DistanceFieldSettings;
+  static const Setting<S> table[] = {
+      {"cell_size", &S::cell_size, "m", 1e-5, 1, "Edge of the grid's cells; used where resolution is 0."},
+      {"resolution", &S::resolution, "", 0, 1024, "Cells along each axis; 0 takes cell_size instead."},
+      {"domain_margin", &S::domain_margin, "m", 0, 1, "Width of the grid around the bone's bounding box."},
+      {"domain_factor", &S::domain_factor, "", 1, 10, "The bounding box is scaled by this about its center first."},
+  };
+  return table;
+}
+
+template <>
+std::span<const Setting<Sequence>> setting_table() {
+  using S = Sequence;
+  static const Setting<S> table[] = {
+      {"ramp_frames", &S::ramp_frames, "", 0, 100000,
+       "Frames from the capture pose to the motion's first pose; 0 takes as many as steps of 1 degree need."},
+      {"hold_frames", &S::hold_frames, "", 0, 100000, "Frames that repeat the motion's last pose."},
+      {"return_to_capture", &S::return_to_capture, "", 0, 0, "Ends with a ramp back to the capture pose."},
+  };
+  return table;
+}
+
+}  // namespace gracilis
