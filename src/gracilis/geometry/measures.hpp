@@ -8,8 +8,8 @@ namespace gracilis {
 /// Twice the area times the outward unit normal of face `face`: (b - a) × (c - a).
 Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners);
 
-/// Signed volume enclosed by a closed surface, m³, positive when oriented outwards: the sum of a·(b × c) / 6 over all faces
-/// (divergence theorem), taken about the first vertex to keep digits.
+/// Signed volume enclosed by a closed surface, m³, positive when oriented outwards: the sum of a·(b × c) / 6 over all
+/// faces (divergence theorem), taken about the first vertex to keep digits.
 Real enclosed_volume(const Points& vertices, const Eigen::Matrix3Xi& faces);
 
 /// Area of the surface, m².

@@ -54,11 +54,13 @@ NearestTriangle::NearestTriangle(const TriangleMesh& mesh) : tree_(std::make_uni
   rtcSetSceneFlags(tree_->scene, RTC_SCENE_FLAG_ROBUST);
 
   RTCGeometry geometry = rtcNewGeometry(tree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               3 * sizeof(float), static_cast<std::size_t>(mesh.vertex_count())));
+  auto* vertices =
+      static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                  3 * sizeof(float), static_cast<std::size_t>(mesh.vertex_count())));
   Eigen::Map<Eigen::Matrix3Xf>(vertices, 3, mesh.vertex_count()) = mesh.vertices.cast<float>();
   auto* faces = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                               3 * sizeof(unsigned), static_cast<std::size_t>(mesh.face_count())));
+                                                               3 * sizeof(unsigned),
+                                                               static_cast<std::size_t>(mesh.face_count())));
   Eigen::Map<Eigen::Matrix<unsigned, 3, Eigen::Dynamic>>(faces, 3, mesh.face_count()) = mesh.faces.cast<unsigned>();
   rtcSetGeometryPointQueryFunction(geometry, consider_triangle);
   rtcCommitGeometry(geometry);

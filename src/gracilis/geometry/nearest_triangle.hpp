@@ -10,14 +10,14 @@ namespace gracilis {
 
 /// The point of a surface nearest to a query point.
 struct NearestPoint {
-  Index face = -1;                     ///< -1: nothing within the distance asked for
-  Vec3 barycentric = Vec3::Zero();     ///< of `point` in the face; zeros tell edges and corners
+  Index face = -1;                  ///< -1: nothing within the distance asked for
+  Vec3 barycentric = Vec3::Zero();  ///< of `point` in the face; zeros tell edges and corners
   Vec3 point = Vec3::Zero();
   Real distance = std::numeric_limits<Real>::infinity();
 };
 
-/// Answers nearest-point queries on a fixed surface (Embree's bounding volume hierarchy; distances in double precision).
-/// Queries may run at the same time. Precondition: at least one face, all coordinates finite.
+/// Answers nearest-point queries on a fixed surface (Embree's bounding volume hierarchy; distances in double
+/// precision). Queries may run at the same time. Precondition: at least one face, all coordinates finite.
 class NearestTriangle {
  public:
   explicit NearestTriangle(const TriangleMesh& mesh);

@@ -38,8 +38,10 @@ VertexStars stars_of(const std::vector<MeshEdge>& edges, Index vertex_count) {
   stars.neighbors.resize(static_cast<std::size_t>(stars.offsets.back()));
   std::vector<Index> next(stars.offsets.begin(), stars.offsets.end() - 1);
   // Smaller neighbors first, then larger: edges are ordered by (a, b), so each star comes out ascending.
-  for (const MeshEdge& edge : edges) stars.neighbors[static_cast<std::size_t>(next[static_cast<std::size_t>(edge.b)]++)] = edge.a;
-  for (const MeshEdge& edge : edges) stars.neighbors[static_cast<std::size_t>(next[static_cast<std::size_t>(edge.a)]++)] = edge.b;
+  for (const MeshEdge& edge : edges)
+    stars.neighbors[static_cast<std::size_t>(next[static_cast<std::size_t>(edge.b)]++)] = edge.a;
+  for (const MeshEdge& edge : edges)
+    stars.neighbors[static_cast<std::size_t>(next[static_cast<std::size_t>(edge.a)]++)] = edge.b;
   return stars;
 }
 

@@ -1,0 +1,82 @@
+#include <gracilis/geometry/harmonic_field.hpp>
+
+#include <gracilis/geometry/measures.hpp>
+
+#include <Eigen/SparseCholesky>
+
+#include <algorithm>
+
+namespace gracilis {
+
+static constexpr Real shortest_edge = 1e-9;
+
+/// Numbers the free vertices that a fixed vertex can reach; all others get -1.
+static std::vector<Index> number_unknowns(const MeshTopology& topology, const std::vector<Index>& fixed,
+                                          Index& unknown_count) {
+  const VertexStars& stars = topology.stars;
+  std::vector<Index> numbers(stars.offsets.size() - 1, -1), front = fixed;
+  std::vector<char> seen(numbers.size(), 0);
+  for (Index v : fixed) seen[static_cast<std::size_t>(v)] = 1;
+  unknown_count = 0;
+  while (!front.empty()) {
+    const auto v = static_cast<std::size_t>(front.back());
+    front.pop_back();
+    for (Index i = stars.offsets[v]; i < stars.offsets[v + 1]; ++i) {
+      const Index neighbor = stars.neighbors[static_cast<std::size_t>(i)];
+      if (seen[static_cast<std::size_t>(neighbor)]) continue;
+      seen[static_cast<std::size_t>(neighbor)] = 1;
+      numbers[static_cast<std::size_t>(neighbor)] = unknown_count++;
+      front.push_back(neighbor);
+    }
+  }
+  return numbers;
+}
+
+Eigen::MatrixXd harmonic_fields(const Points& vertices, const MeshTopology& topology, const std::vector<Index>& fixed,
+                                const Eigen::MatrixXd& fixed_values) {
+  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(vertices.cols(), fixed_values.cols());
+  for (std::size_t i = 0; i < fixed.size(); ++i) fields.row(fixed[i]) = fixed_values.row(static_cast<Index>(i));
+
+  Index unknown_count = 0;
+  const std::vector<Index> numbers = number_unknowns(topology, fixed, unknown_count);
+  if (unknown_count == 0) return fields;
+
+  std::vector<Eigen::Triplet<Real>> entries;
+  Eigen::MatrixXd right_side = Eigen::MatrixXd::Zero(unknown_count, fixed_values.cols());
+  for (const MeshEdge& edge : topology.edges) {
+    const Real weight = 1 / std::max((vertices.col(edge.a) - vertices.col(edge.b)).norm(), shortest_edge);
+    for (const auto& [vertex, other] : {std::pair{edge.a, edge.b}, std::pair{edge.b, edge.a}}) {
+      const Index row = numbers[static_cast<std::size_t>(vertex)], column = numbers[static_cast<std::size_t>(other)];
+      if (row < 0) continue;
+      entries.emplace_back(row, row, weight);
+      if (column >= 0) {
+        entries.emplace_back(row, column, -weight);
+      } else {
+        right_side.row(row) += weight * fields.row(other);
+      }
+    }
+  }
+  Eigen::SparseMatrix<Real> laplacian(unknown_count, unknown_count);
+  laplacian.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization(laplacian);
+  const Eigen::MatrixXd solution = factorization.solve(right_side);
+  for (Index v = 0; v < vertices.cols(); ++v)
+    if (numbers[static_cast<std::size_t>(v)] >= 0) fields.row(v) = solution.row(numbers[static_cast<std::size_t>(v)]);
+  return fields;
+}
+
+Points face_gradients(const Points& vertices, const Eigen::Matrix3Xi& faces, const Eigen::VectorXd& field) {
+  Points gradients = Points::Zero(3, faces.cols());
+  for (Index face = 0; face < faces.cols(); ++face) {
+    const Vec3 normal = area_vector(vertices, faces.col(face));  // twice the area long
+    const Real length2 = normal.squaredNorm();
+    if (!(length2 > 0)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 opposite = vertices.col(faces((k + 2) % 3, face)) - vertices.col(faces((k + 1) % 3, face));
+      gradients.col(face) += field[faces(k, face)] * normal.cross(opposite) / length2;
+    }
+  }
+  return gradients;
+}
+
+}  // namespace gracilis

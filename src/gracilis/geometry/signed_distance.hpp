@@ -1,0 +1,40 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/geometry/nearest_triangle.hpp>
+#include <gracilis/geometry/winding_number.hpp>
+
+#include <optional>
+
+namespace gracilis {
+
+/// Exact distance to a surface, negative inside. On closed, consistently oriented surfaces the sign is that of the
+/// angle-weighted pseudonormal at the nearest point (Bærentzen and Aanæs 2005); on others, which have holes, the point
+/// is inside where the generalized winding number exceeds 1/2.
+class SignedDistance {
+ public:
+  /// Precondition: at least one face, finite coordinates, oriented outwards.
+  explicit SignedDistance(const TriangleMesh& mesh);
+
+  struct Answer {
+    Real distance = std::numeric_limits<Real>::infinity();  ///< m, negative inside
+    NearestPoint nearest;
+  };
+
+  /// Answers with +infinity and face -1 when the surface is farther than `reach`.
+  Answer query(const Vec3& p, Real reach = std::numeric_limits<Real>::infinity()) const;
+
+  bool closed() const { return !winding_; }
+
+ private:
+  Vec3 pseudonormal(const NearestPoint& nearest) const;
+
+  Eigen::Matrix3Xi faces_;
+  NearestTriangle nearest_triangle_;
+  std::optional<WindingNumber> winding_;  ///< only for surfaces that are not closed
+  Points face_normals_;                   ///< unit
+  Points vertex_normals_;                 ///< angle-weighted
+  Points edge_normals_;                   ///< column 3 f + k: edge k → k+1 of face f
+};
+
+}  // namespace gracilis

@@ -1,0 +1,128 @@
+#include <gracilis/geometry/distance_field.hpp>
+#include <gracilis/geometry/signed_distance.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace gracilis {
+
+namespace {
+
+Points random_points(int count, Real half_width) {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<Real> uniform(-half_width, half_width);
+  Points points(3, count);
+  for (Index i = 0; i < count; ++i) points.col(i) = Vec3(uniform(generator), uniform(generator), uniform(generator));
+  return points;
+}
+
+Real box_distance(const Vec3& p, Real half) {
+  const Vec3 q = p.cwiseAbs() - Vec3::Constant(half);
+  return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0);
+}
+
+}  // namespace
+
+TEST(SignedDistance, of_a_box_is_exact_inside_outside_and_beside_edges_and_corners) {
+  const SignedDistance surface(shapes::box(Vec3::Constant(-0.05), Vec3::Constant(0.05)));
+  ASSERT_TRUE(surface.closed());
+  const Points points = random_points(2000, 0.1);
+  for (Index i = 0; i < points.cols(); ++i)
+    EXPECT_NEAR(surface.query(points.col(i)).distance, box_distance(points.col(i), 0.05), 1e-12);
+}
+
+TEST(SignedDistance, beyond_its_reach_answers_with_infinity) {
+  const SignedDistance surface(shapes::sphere(Vec3::Zero(), 0.05, 2));
+  EXPECT_EQ(surface.query({0.2, 0, 0}, 0.1).nearest.face, -1);
+  EXPECT_GT(surface.query({0.2, 0, 0}, 0.1).distance, 1e9);
+}
+
+TEST(SignedDistance, of_a_sphere_with_a_hole_still_tells_inside_from_outside) {
+  TriangleMesh mesh = shapes::sphere(Vec3::Zero(), 0.05, 3);
+  mesh.faces = mesh.faces.rightCols(mesh.face_count() - 12).eval();
+  const SignedDistance surface(mesh);
+  ASSERT_FALSE(surface.closed());
+  const Points points = random_points(2000, 0.08);
+  int inside = 0;
+  for (Index i = 0; i < points.cols(); ++i) {
+    const Vec3 p = points.col(i);
+    if (std::abs(p.norm() - 0.05) < 0.01) continue;
+    EXPECT_EQ(surface.query(p).distance < 0, p.norm() < 0.05) << p.transpose();
+    inside += p.norm() < 0.05;
+  }
+  EXPECT_GT(inside, 20);
+}
+
+TEST(DistanceField, of_a_sphere_and_its_gradient_agree_with_the_closed_form) {
+  const TriangleMesh mesh = shapes::sphere({0.01, -0.02, 0.03}, 0.04, 5);
+  const DistanceField field = build_distance_field(mesh, domain_by_cell_size(mesh, 0.002, 0.02));
+  const Points points = random_points(3000, 0.05).colwise() + Vec3(0.01, -0.02, 0.03);
+  Eigen::VectorXd distances;
+  Points gradients;
+  sample(field, points, distances, &gradients);
+  for (Index i = 0; i < points.cols(); ++i) {
+    const Vec3 radial = points.col(i) - Vec3(0.01, -0.02, 0.03);
+    if (radial.norm() < 0.015 || radial.norm() > 0.055) continue;
+    EXPECT_NEAR(distances[i], radial.norm() - 0.04, 1e-4);
+    // A difference over one cell h of a field with curvature 1/r errs by at most h / 2r.
+    EXPECT_NEAR(gradients.col(i).dot(radial.normalized()), 1, 0.002 / (2 * radial.norm()));
+  }
+}
+
+TEST(DistanceField, has_the_right_sign_far_from_the_surface_where_values_are_interpolated) {
+  const TriangleMesh mesh = shapes::box(Vec3::Constant(-0.06), Vec3::Constant(0.06));
+  const DistanceField field = build_distance_field(mesh, domain_by_cell_size(mesh, 0.002, 0.05));
+  const Points points = random_points(5000, 0.1);
+  for (Index i = 0; i < points.cols(); ++i) {
+    const Real exact = box_distance(points.col(i), 0.06);
+    const FieldSample answer = sample(field, Eigen::Vector3f(points.col(i).cast<float>()));
+    EXPECT_NEAR(answer.distance, exact, 0.004);
+    if (std::abs(exact) > 5e-4) {
+      EXPECT_EQ(answer.distance < 0, exact < 0);
+    }
+  }
+}
+
+TEST(DistanceField, gradient_is_the_derivative_of_the_sampled_distance) {
+  const TriangleMesh mesh = shapes::sphere(Vec3::Zero(), 0.04, 3);
+  const DistanceField field = build_distance_field(mesh, domain_by_cell_size(mesh, 0.004, 0.02));
+  const Points points = random_points(500, 0.04);
+  int compared = 0;
+  for (Index i = 0; i < points.cols(); ++i) {
+    // Keep the stencil within one cell, where the interpolant is smooth.
+    const Vec3 cell = (points.col(i) - field.origin).cwiseQuotient(field.cell_size);
+    const Vec3 t = cell - cell.array().floor().matrix();
+    if (t.minCoeff() < 0.2 || t.maxCoeff() > 0.8) continue;
+    const Eigen::Vector3f p = points.col(i).cast<float>();
+    const float h = 4e-4f;
+    for (int axis = 0; axis < 3; ++axis) {
+      Eigen::Vector3f step = Eigen::Vector3f::Zero();
+      step[axis] = h;
+      const float difference =
+          (sample(field, Eigen::Vector3f(p + step)).distance - sample(field, Eigen::Vector3f(p - step)).distance) /
+          (2 * h);
+      EXPECT_NEAR(sample(field, p).gradient[axis], difference, 2e-3);
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 100);
+}
+
+TEST(DistanceField, by_resolution_has_that_many_cells_over_the_scaled_box) {
+  const TriangleMesh mesh = shapes::box(Vec3(0, 0, 0), Vec3(0.1, 0.2, 0.4));
+  const DistanceField field = build_distance_field(mesh, domain_by_resolution(mesh, 16, 1.5));
+  EXPECT_EQ(field.nodes[0], 17);
+  EXPECT_NEAR(field.cell_size.z(), 0.4 * 1.5 / 16, 1e-12);
+  EXPECT_NEAR(field.origin.x(), -0.025, 1e-12);
+}
+
+TEST(DistanceField, outside_of_its_grid_answers_with_infinity) {
+  const TriangleMesh mesh = shapes::sphere(Vec3::Zero(), 0.04, 2);
+  const DistanceField field = build_distance_field(mesh, domain_by_cell_size(mesh, 0.004, 0.01));
+  EXPECT_EQ(sample(field, Eigen::Vector3f(1, 0, 0)).distance, std::numeric_limits<float>::infinity());
+}
+
+}  // namespace gracilis

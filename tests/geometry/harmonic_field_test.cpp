@@ -1,0 +1,58 @@
+#include <gracilis/geometry/harmonic_field.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+namespace gracilis {
+
+TEST(HarmonicField, on_an_open_tube_between_its_ends_grows_linearly_along_the_axis) {
+  TriangleMesh tube = shapes::cylinder(0.02, 0.1, 24, 20);
+  tube.faces = tube.faces.leftCols(2 * 24 * 20).eval();  // without the caps
+  const MeshTopology topology = build_topology(tube.faces, tube.vertex_count());
+  std::vector<Index> fixed;
+  for (Index v = 0; v < 24; ++v) fixed.push_back(v);
+  for (Index v = 24 * 20; v < 24 * 21; ++v) fixed.push_back(v);
+  Eigen::MatrixXd values(48, 1);
+  values << Eigen::VectorXd::Zero(24), Eigen::VectorXd::Ones(24);
+  const Eigen::MatrixXd field = harmonic_fields(tube.vertices, topology, fixed, values);
+  for (Index v = 0; v < 24 * 21; ++v) EXPECT_NEAR(field(v, 0), tube.vertices(2, v) / 0.1, 1e-9);
+
+  const Points gradients = face_gradients(tube.vertices, tube.faces, field.col(0));
+  for (Index f = 0; f < tube.face_count(); ++f) EXPECT_NEAR((gradients.col(f) - Vec3(0, 0, 10)).norm(), 0, 1e-6);
+}
+
+TEST(HarmonicField, stays_between_its_fixed_values_and_sums_to_one_over_bodies) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.05, 4);
+  const MeshTopology topology = build_topology(ball.faces, ball.vertex_count());
+  Eigen::MatrixXd values(3, 2);
+  values << 1, 0, 0, 1, 1, 0;
+  const Eigen::MatrixXd fields = harmonic_fields(ball.vertices, topology, {0, 1, 2}, values);
+  EXPECT_GE(fields.minCoeff(), 0);
+  EXPECT_LE(fields.maxCoeff(), 1);
+  for (Index v = 0; v < ball.vertex_count(); ++v) EXPECT_NEAR(fields.row(v).sum(), 1, 1e-9);
+}
+
+TEST(HarmonicField, leaves_a_part_that_no_fixed_vertex_reaches_at_zero) {
+  TriangleMesh two = shapes::box(Vec3::Zero(), Vec3::Ones());
+  const TriangleMesh other = shapes::box(Vec3::Constant(2), Vec3::Constant(3));
+  two.vertices.conservativeResize(3, 16);
+  two.vertices.rightCols(8) = other.vertices;
+  two.faces.conservativeResize(3, 24);
+  two.faces.rightCols(12) = other.faces.array() + 8;
+  const MeshTopology topology = build_topology(two.faces, 16);
+  const Eigen::MatrixXd field = harmonic_fields(two.vertices, topology, {0}, Eigen::MatrixXd::Constant(1, 1, 3.0));
+  for (Index v = 0; v < 8; ++v) EXPECT_NEAR(field(v, 0), 3, 1e-9);
+  for (Index v = 8; v < 16; ++v) EXPECT_EQ(field(v, 0), 0);
+}
+
+TEST(FaceGradients, of_a_linear_field_is_its_slope_along_each_face_and_zero_on_degenerate_ones) {
+  const TriangleMesh mesh = shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {2, 0, 0}}, {{0, 1, 2}, {0, 1, 3}});
+  Eigen::VectorXd field(4);
+  for (Index v = 0; v < 4; ++v) field[v] = 3 * mesh.vertices(0, v) - mesh.vertices(1, v);
+  const Points gradients = face_gradients(mesh.vertices, mesh.faces, field);
+  EXPECT_NEAR((gradients.col(0) - Vec3(3, -1, 0)).norm(), 0, 1e-12);
+  EXPECT_EQ(gradients.col(1), Vec3::Zero());
+}
+
+}  // namespace gracilis

@@ -1,0 +1,56 @@
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/topology.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gracilis {
+
+TEST(Topology, a_closed_surface_of_genus_0_obeys_euler_and_has_two_sides_everywhere) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 1, 3);
+  const MeshTopology topology = build_topology(ball.faces, ball.vertex_count());
+  EXPECT_EQ(ball.vertex_count() - static_cast<Index>(topology.edges.size()) + ball.face_count(), 2);
+  for (const MeshEdge& edge : topology.edges) {
+    ASSERT_GE(edge.left, 0);
+    ASSERT_GE(edge.right, 0);
+    EXPECT_NE(edge.left_apex, edge.right_apex);
+  }
+  EXPECT_TRUE(is_closed(ball.faces));
+}
+
+TEST(Topology, an_open_edge_has_one_side_only) {
+  const TriangleMesh triangle = shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const MeshTopology topology = build_topology(triangle.faces, 3);
+  ASSERT_EQ(topology.edges.size(), 3u);
+  for (const MeshEdge& edge : topology.edges) EXPECT_EQ((edge.left < 0) + (edge.right < 0), 1);
+  EXPECT_FALSE(is_closed(triangle.faces));
+}
+
+TEST(Topology, a_surface_with_a_flipped_triangle_is_not_closed) {
+  TriangleMesh box = shapes::box(Vec3::Zero(), Vec3::Ones());
+  ASSERT_TRUE(is_closed(box.faces));
+  std::swap(box.faces(0, 5), box.faces(1, 5));
+  EXPECT_FALSE(is_closed(box.faces));
+}
+
+TEST(Topology, breadth_first_order_is_a_permutation) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 1, 3);
+  const MeshTopology topology = build_topology(ball.faces, ball.vertex_count());
+  std::vector<Index> sorted = breadth_first_order(topology.stars);
+  std::sort(sorted.begin(), sorted.end());
+  ASSERT_EQ(static_cast<Index>(sorted.size()), ball.vertex_count());
+  for (Index v = 0; v < ball.vertex_count(); ++v) ASSERT_EQ(sorted[static_cast<std::size_t>(v)], v);
+}
+
+TEST(Measures, volume_and_area_of_a_box_wherever_it_stands) {
+  const Vec3 shift(100, -50, 20);
+  const TriangleMesh box = shapes::box(shift, shift + Vec3(1, 2, 3));
+  EXPECT_NEAR(enclosed_volume(box.vertices, box.faces), 6, 1e-9);
+  EXPECT_NEAR(surface_area(box.vertices, box.faces), 22, 1e-9);
+  EXPECT_NEAR(vertex_areas(box.vertices, box.faces).sum(), 22, 1e-9);
+}
+
+}  // namespace gracilis
