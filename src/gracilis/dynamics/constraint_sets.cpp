@@ -1,0 +1,116 @@
+#include <gracilis/dynamics/constraint_sets.hpp>
+
+#include <gracilis/dynamics/coloring.hpp>
+
+#include <algorithm>
+#include <cassert>
+
+namespace gracilis {
+
+namespace {
+
+struct Layout {
+  std::vector<ColorRange> colors;
+  std::vector<Index> slot;
+  Index size = 0;
+};
+
+/// Constraints of one color side by side, in an order that follows memory, each color padded to whole groups.
+Layout lay_out(const ConstraintGraph& graph) {
+  Layout layout;
+  const std::vector<Index> colors = color_constraints(graph);
+  const Index color_count = colors.empty() ? 0 : *std::max_element(colors.begin(), colors.end()) + 1;
+  std::vector<std::vector<Index>> members(static_cast<std::size_t>(color_count));
+  for (std::size_t c = 0; c < colors.size(); ++c)
+    members[static_cast<std::size_t>(colors[c])].push_back(static_cast<Index>(c));
+  layout.slot.resize(colors.size());
+  for (auto& color : members) {
+    std::stable_sort(color.begin(), color.end(), [&](Index l, Index r) {
+      return graph.particles[static_cast<std::size_t>(l * graph.arity)] <
+             graph.particles[static_cast<std::size_t>(r * graph.arity)];
+    });
+    const Index begin = layout.size;
+    for (std::size_t i = 0; i < color.size(); ++i)
+      layout.slot[static_cast<std::size_t>(color[i])] = begin + static_cast<Index>(i);
+    layout.size = begin + (static_cast<Index>(color.size()) + group_width - 1) / group_width * group_width;
+    layout.colors.push_back({begin, layout.size});
+  }
+  return layout;
+}
+
+}  // namespace
+
+DistanceSet build_distance_set(const std::vector<DistanceConstraint>& constraints, Index particle_count) {
+  ConstraintGraph graph{2, particle_count, {}};
+  for (const DistanceConstraint& c : constraints) graph.particles.insert(graph.particles.end(), {c.a, c.b});
+  Layout layout = lay_out(graph);
+  DistanceSet set;
+  const auto size = static_cast<std::size_t>(layout.size);
+  set.a.assign(size, particle_count);
+  set.b.assign(size, particle_count);
+  set.rest_length.assign(size, 0);
+  set.compliance.assign(size, 0);
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const auto at = static_cast<std::size_t>(layout.slot[i]);
+    set.a[at] = constraints[i].a;
+    set.b[at] = constraints[i].b;
+    set.rest_length[at] = static_cast<float>(constraints[i].rest_length);
+    set.compliance[at] = static_cast<float>(constraints[i].compliance);
+  }
+  set.colors = std::move(layout.colors);
+  set.slot = std::move(layout.slot);
+  set.count = static_cast<Index>(constraints.size());
+  return set;
+}
+
+HingeSet build_hinge_set(const std::vector<HingeConstraint>& constraints, Index particle_count) {
+  ConstraintGraph graph{4, particle_count, {}};
+  for (const HingeConstraint& c : constraints)
+    graph.particles.insert(graph.particles.end(), c.particles.begin(), c.particles.end());
+  Layout layout = lay_out(graph);
+  HingeSet set;
+  const auto size = static_cast<std::size_t>(layout.size);
+  for (auto& column : set.particles) column.assign(size, particle_count);
+  set.rest_angle.assign(size, 0);
+  set.compliance.assign(size, 0);
+  set.edge_length.assign(size, 0);
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    const auto at = static_cast<std::size_t>(layout.slot[i]);
+    for (std::size_t k = 0; k < 4; ++k) set.particles[k][at] = constraints[i].particles[k];
+    set.rest_angle[at] = static_cast<float>(constraints[i].rest_angle);
+    set.compliance[at] = static_cast<float>(constraints[i].compliance);
+    set.edge_length[at] = static_cast<float>(constraints[i].edge_length);
+  }
+  set.colors = std::move(layout.colors);
+  set.slot = std::move(layout.slot);
+  set.count = static_cast<Index>(constraints.size());
+  return set;
+}
+
+VolumeSet build_volume_set(const Eigen::Matrix3Xi& faces, Index particle_count, Real target, Real compliance) {
+  // Each face at v says: after neighbor `from` comes neighbor `to`. Chaining these gives the ring.
+  struct Step {
+    Index from, to;
+  };
+  std::vector<std::vector<Step>> steps(static_cast<std::size_t>(particle_count));
+  for (Index f = 0; f < faces.cols(); ++f)
+    for (int k = 0; k < 3; ++k)
+      steps[static_cast<std::size_t>(faces(k, f))].push_back({faces((k + 1) % 3, f), faces((k + 2) % 3, f)});
+  VolumeSet set;
+  set.target = target;
+  set.compliance = compliance;
+  set.ring_offsets.push_back(0);
+  for (const auto& star : steps) {
+    Index next = star.empty() ? -1 : star.front().from;
+    for (std::size_t i = 0; i < star.size(); ++i) {
+      set.ring.push_back(next);
+      const auto step = std::find_if(star.begin(), star.end(), [&](const Step& s) { return s.from == next; });
+      assert(step != star.end() && "the surface is not closed");
+      next = step->to;
+    }
+    set.ring_offsets.push_back(static_cast<Index>(set.ring.size()));
+  }
+  return set;
+}
+
+}  // namespace gracilis

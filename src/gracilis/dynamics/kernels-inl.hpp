@@ -1,0 +1,175 @@
+// Constraint kernels: pure functions of a few points, for any number type. Included once per instruction set, hence the
+// guard that flips with each of Highway's passes; a plain include (tests) uses the baseline.
+
+#if defined(GRACILIS_KERNELS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef GRACILIS_KERNELS_INL
+#undef GRACILIS_KERNELS_INL
+#else
+#define GRACILIS_KERNELS_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+
+HWY_BEFORE_NAMESPACE();
+namespace gracilis::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// The operations kernels need, for a vector of lanes ...
+template <class D>
+struct Lanes {
+  using V = hn::Vec<D>;
+  static HWY_INLINE V number(double x) { return hn::Set(D(), static_cast<float>(x)); }
+  static HWY_INLINE V sqrt(V x) { return hn::Sqrt(x); }
+  static HWY_INLINE V abs(V x) { return hn::Abs(x); }
+  static HWY_INLINE V min(V x, V y) { return hn::Min(x, y); }
+  static HWY_INLINE V max(V x, V y) { return hn::Max(x, y); }
+  static HWY_INLINE V fma(V x, V y, V z) { return hn::MulAdd(x, y, z); }
+  static HWY_INLINE V copy_sign(V x, V sign) { return hn::CopySign(x, sign); }
+  /// x < y ? a : b
+  static HWY_INLINE V if_less(V x, V y, V a, V b) { return hn::IfThenElse(hn::Lt(x, y), a, b); }
+};
+
+/// ... and for one number, so that tests can ask for double precision.
+struct Scalar {
+  using V = double;
+  static V number(double x) { return x; }
+  static V sqrt(V x) { return std::sqrt(x); }
+  static V abs(V x) { return std::abs(x); }
+  static V min(V x, V y) { return std::min(x, y); }
+  static V max(V x, V y) { return std::max(x, y); }
+  static V fma(V x, V y, V z) { return x * y + z; }
+  static V copy_sign(V x, V sign) { return std::copysign(x, sign); }
+  static V if_less(V x, V y, V a, V b) { return x < y ? a : b; }
+};
+
+template <class V>
+struct Vector3 {
+  V x, y, z;
+};
+template <class V>
+HWY_INLINE Vector3<V> operator+(const Vector3<V>& a, const Vector3<V>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class V>
+HWY_INLINE Vector3<V> operator-(const Vector3<V>& a, const Vector3<V>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class V>
+HWY_INLINE Vector3<V> scaled(V s, const Vector3<V>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class Math, class V = typename Math::V>
+HWY_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
+  return Math::fma(a.x, b.x, Math::fma(a.y, b.y, a.z * b.z));
+}
+template <class V>
+HWY_INLINE Vector3<V> cross(const Vector3<V>& a, const Vector3<V>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// Angle of the vector (x, y), rad in [-π, π], 0 for the zero vector. The arctangent on [0, 1] is the polynomial 4.4.49
+/// of Abramowitz and Stegun (1964), error at most 2e-8.
+template <class Math, class V = typename Math::V>
+HWY_INLINE V atan2(V y, V x) {
+  const V zero = Math::number(0), half_turn = Math::number(3.14159265358979323846),
+          quarter = Math::number(1.57079632679489661923);
+  const V ax = Math::abs(x), ay = Math::abs(y);
+  const V t = Math::min(ax, ay) / Math::max(Math::max(ax, ay), Math::number(1e-37));
+  const V s = t * t;
+  V p = Math::number(0.0028662257);
+  p = Math::fma(p, s, Math::number(-0.0161657367));
+  p = Math::fma(p, s, Math::number(0.0429096138));
+  p = Math::fma(p, s, Math::number(-0.0752896400));
+  p = Math::fma(p, s, Math::number(0.1065626393));
+  p = Math::fma(p, s, Math::number(-0.1420889944));
+  p = Math::fma(p, s, Math::number(0.1999355085));
+  p = Math::fma(p, s, Math::number(-0.3333314528));
+  V angle = Math::fma(p * s, t, t);
+  angle = Math::if_less(ax, ay, quarter - angle, angle);
+  angle = Math::if_less(x, zero, half_turn - angle, angle);
+  return Math::copy_sign(angle, y);
+}
+
+/// Length of an edge and its unit direction, the gradient at b; the gradient at a is its opposite. The direction of an
+/// edge without length is zero, so that such an edge moves nothing.
+template <class V>
+struct EdgeLength {
+  V length;
+  Vector3<V> direction;
+};
+template <class Math, class V = typename Math::V>
+HWY_INLINE EdgeLength<V> edge_length(const Vector3<V>& a, const Vector3<V>& b) {
+  const Vector3<V> d = b - a;
+  const V length = Math::sqrt(dot<Math>(d, d));
+  const V tiny = Math::number(1e-12);
+  const V inverse = Math::if_less(length, tiny, Math::number(0), Math::number(1) / Math::max(length, tiny));
+  return {length, scaled(inverse, d)};
+}
+
+/// The signed angle at a hinge and its gradient at the four points; all zero where a triangle or the edge has no area.
+template <class V>
+struct HingeAngle {
+  V angle;
+  Vector3<V> g0, g1, g2, g3;
+  V valid;  ///< 1, or 0 where the hinge is degenerate
+};
+
+/// Shares the apex gradients g2 and g3 among the edge's ends so that the gradient moves neither position nor direction.
+template <class Math, class V = typename Math::V>
+HWY_INLINE void balance_edge_ends(const Vector3<V>& e, const Vector3<V>& a, const Vector3<V>& b, V inverse_length2,
+                                  HingeAngle<V>& hinge) {
+  const V ta = dot<Math>(a, e) * inverse_length2, tb = dot<Math>(b, e) * inverse_length2;
+  const V one = Math::number(1), zero = Math::number(0);
+  hinge.g0 = scaled(ta - one, hinge.g2) + scaled(tb - one, hinge.g3);
+  hinge.g1 = scaled(zero - ta, hinge.g2) + scaled(zero - tb, hinge.g3);
+}
+
+/// θ = atan2((n1 × n2)·e/|e|, n1·n2) with e = x1 - x0, n1 = e × (x2 - x0), n2 = (x3 - x0) × e: 0 when flat, defined up
+/// to ±π (Bridson, Marino, Fedkiw 2003; gradients by differentiation).
+template <class Math, class V = typename Math::V>
+HWY_INLINE HingeAngle<V> hinge_angle(const Vector3<V>& x0, const Vector3<V>& x1, const Vector3<V>& x2,
+                                     const Vector3<V>& x3) {
+  const Vector3<V> e = x1 - x0, a = x2 - x0, b = x3 - x0;
+  const Vector3<V> n1 = cross(e, a), n2 = cross(b, e);
+  const V length2 = dot<Math>(e, e), n1_squared = dot<Math>(n1, n1), n2_squared = dot<Math>(n2, n2);
+  // A triangle thinner than a ten-thousandth of its edge has no usable normal.
+  const V zero = Math::number(0), one = Math::number(1),
+          floor = Math::number(1e-8) * length2 * length2 + Math::number(1e-30);
+  const V smaller = Math::min(n1_squared, n2_squared);
+  HingeAngle<V> hinge;
+  hinge.valid = Math::if_less(smaller, floor, zero, one);
+  const V length = Math::sqrt(length2);
+  const V inverse_length2 = hinge.valid / Math::max(length2, Math::number(1e-30));
+  hinge.angle = hinge.valid * atan2<Math>(dot<Math>(cross(n1, n2), e) * length * inverse_length2, dot<Math>(n1, n2));
+  hinge.g2 = scaled(zero - length * hinge.valid / Math::max(n1_squared, floor), n1);
+  hinge.g3 = scaled(zero - length * hinge.valid / Math::max(n2_squared, floor), n2);
+  balance_edge_ends<Math>(e, a, b, inverse_length2, hinge);
+  return hinge;
+}
+
+/// The published variant: θ = arccos(n1·n2) of unit normals, without sign; its gradient has the factor 1/√(1 -
+/// (n1·n2)²) that is lost near flat and folded hinges, which are therefore skipped (Müller et al. 2007, appendix A).
+template <class Math, class V = typename Math::V>
+HWY_INLINE HingeAngle<V> hinge_angle_arccos(const Vector3<V>& x0, const Vector3<V>& x1, const Vector3<V>& x2,
+                                            const Vector3<V>& x3) {
+  HingeAngle<V> hinge = hinge_angle<Math>(x0, x1, x2, x3);
+  const V zero = Math::number(0);
+  const V cosine_lost = Math::number(1e-3);  // below this angle float's 1 - cos θ has no digits left
+  const V unsigned_angle = Math::abs(hinge.angle);
+  const V distance_to_flat = Math::min(unsigned_angle, Math::number(3.14159265358979323846) - unsigned_angle);
+  hinge.valid = Math::if_less(distance_to_flat, cosine_lost, zero, hinge.valid);
+  const V sign = Math::copy_sign(hinge.valid, hinge.angle);
+  hinge.angle = unsigned_angle;
+  hinge.g0 = scaled(sign, hinge.g0), hinge.g1 = scaled(sign, hinge.g1);
+  hinge.g2 = scaled(sign, hinge.g2), hinge.g3 = scaled(sign, hinge.g3);
+  return hinge;
+}
+
+}  // namespace gracilis::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,15 @@
+#include <gracilis/dynamics/particles.hpp>
+
+namespace gracilis {
+
+Particles make_particles(const Points& positions, const Eigen::VectorXd& inverse_masses) {
+  Particles particles;
+  particles.xyzw.assign(4 * (static_cast<std::size_t>(positions.cols()) + 1), 0);
+  for (Index i = 0; i < positions.cols(); ++i) {
+    particles.position(i) = positions.col(i).cast<float>();
+    particles.at(i)[3] = static_cast<float>(inverse_masses[i]);
+  }
+  return particles;
+}
+
+}  // namespace gracilis

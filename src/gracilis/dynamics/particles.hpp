@@ -1,0 +1,26 @@
+#pragma once
+
+#include <gracilis/core/aligned.hpp>
+#include <gracilis/core/types.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// Particles as the solver sees them: x, y, z (m, relative to a nearby origin so that float keeps its digits) and the
+/// inverse mass (1/kg, 0 for fixed ones) side by side. One idle particle more than counted pads the constraint tables.
+struct Particles {
+  AlignedVector<float> xyzw;  ///< 4 (n + 1)
+
+  Index count() const { return static_cast<Index>(xyzw.size() / 4) - 1; }
+  float* at(Index i) { return xyzw.data() + 4 * static_cast<std::size_t>(i); }
+  const float* at(Index i) const { return xyzw.data() + 4 * static_cast<std::size_t>(i); }
+  Eigen::Map<Eigen::Vector3f> position(Index i) { return Eigen::Map<Eigen::Vector3f>(at(i)); }
+  Eigen::Map<const Eigen::Vector3f> position(Index i) const { return Eigen::Map<const Eigen::Vector3f>(at(i)); }
+  float inverse_mass(Index i) const { return at(i)[3]; }
+};
+
+/// Particles at `positions` (m, relative to the chosen origin) with `inverse_masses` (1/kg).
+Particles make_particles(const Points& positions, const Eigen::VectorXd& inverse_masses);
+
+}  // namespace gracilis

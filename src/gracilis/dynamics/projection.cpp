@@ -1,0 +1,177 @@
+#include <gracilis/dynamics/projection.hpp>
+
+#include <cstring>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "gracilis/dynamics/projection.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as Highway asks.
+#include <gracilis/dynamics/kernels-inl.hpp>
+
+HWY_BEFORE_NAMESPACE();
+namespace gracilis::HWY_NAMESPACE {
+
+using D = hn::CappedTag<float, group_width>;
+using V = hn::Vec<D>;
+using Math = Lanes<D>;
+using Point = Vector3<V>;
+
+struct LoadedParticles {
+  Point x;
+  V w;
+};
+
+/// Positions and inverse masses of one particle per lane.
+HWY_INLINE LoadedParticles load_particles(const float* xyzw, const Index* indices) {
+  HWY_ALIGN float lanes[4 * group_width];
+  for (std::size_t lane = 0; lane < hn::Lanes(D()); ++lane)
+    std::memcpy(lanes + 4 * lane, xyzw + 4 * static_cast<std::size_t>(indices[lane]), 4 * sizeof(float));
+  LoadedParticles loaded;
+  hn::LoadInterleaved4(D(), lanes, loaded.x.x, loaded.x.y, loaded.x.z, loaded.w);
+  return loaded;
+}
+
+HWY_INLINE void store_particles(float* xyzw, const Index* indices, const Point& x, V w) {
+  HWY_ALIGN float lanes[4 * group_width];
+  hn::StoreInterleaved4(x.x, x.y, x.z, w, D(), lanes);
+  for (std::size_t lane = 0; lane < hn::Lanes(D()); ++lane)
+    std::memcpy(xyzw + 4 * static_cast<std::size_t>(indices[lane]), lanes + 4 * lane, 4 * sizeof(float));
+}
+
+/// ∇C·(x - xⁿ) of one particle.
+HWY_INLINE V motion_along(const Point& gradient, const Point& x, const float* start, const Index* indices) {
+  return dot<Math>(gradient, x - load_particles(start, indices).x);
+}
+
+ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, const float* target_length, float* lambda,
+                                   const Particles& start, Particles& particles,
+                                   const ProjectionParameters& parameters) {
+  const D d;
+  const float inverse_dt2 = 1 / (parameters.time_step * parameters.time_step);
+  const bool dissipative = parameters.rayleigh_beta > 0;
+  const V tiny = hn::Set(d, 1e-30f), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  ProjectionCounts counts;
+  for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
+    const auto at = static_cast<std::size_t>(slot);
+    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
+    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
+    const EdgeLength<V> edge = edge_length<Math>(a.x, b.x);
+    const V c = edge.length - hn::LoadU(d, target_length + at);
+    const V alpha = hn::LoadU(d, set.compliance.data() + at) * hn::Set(d, inverse_dt2);
+    const V multiplier = hn::LoadU(d, lambda + at);
+    V weight = a.w + b.w;
+    V numerator = c + alpha * multiplier;
+    if (dissipative) {
+      const V gamma = alpha * hn::Set(d, parameters.time_step * parameters.rayleigh_beta);
+      numerator = numerator + gamma * (motion_along(edge.direction, b.x, start.xyzw.data(), ib) -
+                                       motion_along(edge.direction, a.x, start.xyzw.data(), ia));
+      weight = weight * (one + gamma);
+    }
+    // Between two fixed particles, and in padding, nothing moves.
+    const V step = hn::IfThenElse(hn::Gt(a.w + b.w, zero), (zero - numerator) / hn::Max(weight + alpha, tiny), zero);
+    counts.skipped +=
+        static_cast<Index>(hn::CountTrue(d, hn::And(hn::Lt(edge.length, hn::Set(d, 1e-12f)), hn::Gt(a.w + b.w, zero))));
+    hn::StoreU(multiplier + step, d, lambda + at);
+    store_particles(particles.xyzw.data(), ia, a.x - scaled(a.w * step, edge.direction), a.w);
+    store_particles(particles.xyzw.data(), ib, b.x + scaled(b.w * step, edge.direction), b.w);
+  }
+  return counts;
+}
+
+/// The difference of two angles, brought into [-π, π].
+HWY_INLINE V wrapped(V angle) {
+  const D d;
+  const V turn = hn::Set(d, 6.28318530717958647692f), half = hn::Set(d, 3.14159265358979323846f);
+  angle = hn::IfThenElse(hn::Gt(angle, half), angle - turn, angle);
+  return hn::IfThenElse(hn::Lt(angle, hn::Neg(half)), angle + turn, angle);
+}
+
+template <bool arccos>
+ProjectionCounts project_hinge_range(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,
+                                     Particles& particles, const ProjectionParameters& parameters) {
+  const D d;
+  const float inverse_dt2 = 1 / (parameters.time_step * parameters.time_step);
+  const bool dissipative = parameters.rayleigh_beta > 0, limiting = parameters.hinge_limit > 0;
+  const V tiny = hn::Set(d, 1e-30f), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  ProjectionCounts counts;
+  float* xyzw = particles.xyzw.data();
+  for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
+    const auto at = static_cast<std::size_t>(slot);
+    const Index* index[4];
+    for (std::size_t k = 0; k < 4; ++k) index[k] = set.particles[k].data() + at;
+    const LoadedParticles p0 = load_particles(xyzw, index[0]), p1 = load_particles(xyzw, index[1]),
+                          p2 = load_particles(xyzw, index[2]), p3 = load_particles(xyzw, index[3]);
+    const HingeAngle<V> hinge =
+        arccos ? hinge_angle_arccos<Math>(p0.x, p1.x, p2.x, p3.x) : hinge_angle<Math>(p0.x, p1.x, p2.x, p3.x);
+    const V rest = hn::LoadU(d, set.rest_angle.data() + at);
+    const V c = arccos ? hinge.angle - rest : wrapped(hinge.angle - rest);
+    const V alpha = hn::LoadU(d, set.compliance.data() + at) * hn::Set(d, inverse_dt2);
+    const V multiplier = hn::LoadU(d, lambda + at);
+    const V g0 = dot<Math>(hinge.g0, hinge.g0), g1 = dot<Math>(hinge.g1, hinge.g1), g2 = dot<Math>(hinge.g2, hinge.g2),
+            g3 = dot<Math>(hinge.g3, hinge.g3);
+    V weight = hn::MulAdd(p0.w, g0, hn::MulAdd(p1.w, g1, hn::MulAdd(p2.w, g2, p3.w * g3)));
+    const auto movable = hn::And(hn::Gt(weight, zero), hn::Gt(hinge.valid, zero));
+    V numerator = c + alpha * multiplier;
+    if (dissipative) {
+      const V gamma = alpha * hn::Set(d, parameters.time_step * parameters.rayleigh_beta);
+      const float* from = start.xyzw.data();
+      numerator = numerator +
+                  gamma * (motion_along(hinge.g0, p0.x, from, index[0]) + motion_along(hinge.g1, p1.x, from, index[1]) +
+                           motion_along(hinge.g2, p2.x, from, index[2]) + motion_along(hinge.g3, p3.x, from, index[3]));
+      weight = weight * (one + gamma);
+    }
+    V step = hn::IfThenElse(movable, (zero - numerator) / hn::Max(weight + alpha, tiny), zero);
+    if (limiting) {
+      const V reach2 =
+          hn::Max(hn::Max(p0.w * p0.w * g0, p1.w * p1.w * g1), hn::Max(p2.w * p2.w * g2, p3.w * p3.w * g3));
+      const V motion = hn::Abs(step) * hn::Sqrt(reach2);
+      const V limit = hn::LoadU(d, set.edge_length.data() + at) * hn::Set(d, parameters.hinge_limit);
+      const auto beyond = hn::Gt(motion, limit);
+      counts.limited += static_cast<Index>(hn::CountTrue(d, beyond));
+      step = hn::IfThenElse(beyond, step * (limit / hn::Max(motion, tiny)), step);
+    }
+    const V moving_weight = hn::Max(hn::Max(p0.w, p1.w), hn::Max(p2.w, p3.w));
+    counts.skipped +=
+        static_cast<Index>(hn::CountTrue(d, hn::And(hn::Gt(moving_weight, zero), hn::Not(hn::Gt(hinge.valid, zero)))));
+    hn::StoreU(multiplier + step, d, lambda + at);
+    store_particles(xyzw, index[0], p0.x + scaled(p0.w * step, hinge.g0), p0.w);
+    store_particles(xyzw, index[1], p1.x + scaled(p1.w * step, hinge.g1), p1.w);
+    store_particles(xyzw, index[2], p2.x + scaled(p2.w * step, hinge.g2), p2.w);
+    store_particles(xyzw, index[3], p3.x + scaled(p3.w * step, hinge.g3), p3.w);
+  }
+  return counts;
+}
+
+ProjectionCounts project_hinges(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,
+                                Particles& particles, const ProjectionParameters& parameters) {
+  return parameters.arccos_hinges ? project_hinge_range<true>(set, range, lambda, start, particles, parameters)
+                                  : project_hinge_range<false>(set, range, lambda, start, particles, parameters);
+}
+
+const char* instruction_set() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace gracilis::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gracilis {
+
+HWY_EXPORT(project_distances);
+HWY_EXPORT(project_hinges);
+HWY_EXPORT(instruction_set);
+
+ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, const float* target_length, float* lambda,
+                                   const Particles& start, Particles& particles,
+                                   const ProjectionParameters& parameters) {
+  return HWY_DYNAMIC_DISPATCH(project_distances)(set, range, target_length, lambda, start, particles, parameters);
+}
+
+ProjectionCounts project_hinges(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,
+                                Particles& particles, const ProjectionParameters& parameters) {
+  return HWY_DYNAMIC_DISPATCH(project_hinges)(set, range, lambda, start, particles, parameters);
+}
+
+const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(instruction_set)(); }
+
+}  // namespace gracilis
+#endif

@@ -1,0 +1,146 @@
+#include <gracilis/dynamics/solver.hpp>
+
+#include <gracilis/core/parallel.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+
+namespace gracilis {
+
+namespace {
+
+/// Slots per task: large enough to outweigh a task's start, small enough to share a color among cores.
+constexpr Index slots_per_task = 2048;
+/// Iterations between two looks at what is near the bones, and how near counts (m). A particle would have to cross the
+/// reach within these iterations to be missed; the last iteration looks again anyway.
+constexpr int contact_refresh = 8;
+constexpr float contact_reach = 0.006f;
+
+template <class Project>
+void project_colors(const std::vector<ColorRange>& colors, SolveReport& report, const Project& project) {
+  std::atomic<Index> limited = 0, skipped = 0;
+  for (const ColorRange& color : colors)
+    parallel_for(color.end - color.begin, slots_per_task, [&](Index begin, Index end) {
+      const ProjectionCounts counts = project(ColorRange{color.begin + begin, color.begin + end});
+      limited += counts.limited;
+      skipped += counts.skipped;
+    });
+  report.limited_hinges += limited;
+  report.skipped_constraints += skipped;
+}
+
+void project_contacts(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state,
+                      SolveReport& report) {
+  report.contacts = 0;
+  for (std::size_t i = 0; i < system.contacts.size(); ++i)
+    report.contacts +=
+        project_edge_contacts(system.contacts[i], system.distances, placements[i], state.near[i], state.particles);
+  for (std::size_t i = 0; i < system.contacts.size(); ++i)
+    report.contacts += project_particle_contacts(system.contacts[i], placements[i], state.near[i], state.particles);
+}
+
+float largest_motion(const Particles& from, const Particles& to) {
+  float largest2 = 0;
+  for (Index i = 0; i < to.count(); ++i)
+    largest2 = std::max(largest2, (to.position(i) - from.position(i)).squaredNorm());
+  return std::sqrt(largest2);
+}
+
+}  // namespace
+
+const char* name_of(ConstraintKind kind) {
+  switch (kind) {
+    case ConstraintKind::none:
+      return "none";
+    case ConstraintKind::distance:
+      return "distance";
+    case ConstraintKind::dihedral:
+      return "dihedral";
+    case ConstraintKind::volume:
+      return "volume";
+    case ConstraintKind::bone_contact:
+      return "bone contact";
+  }
+  return "?";
+}
+
+SurfaceState make_state(const SurfaceSystem& system) {
+  SurfaceState state;
+  state.particles = system.rest;
+  state.start = system.rest;
+  state.velocities.assign(3 * static_cast<std::size_t>(system.rest.count()), 0);
+  state.target_length = system.distances.rest_length;
+  state.distance_lambda.assign(system.distances.a.size(), 0);
+  state.hinge_lambda.assign(system.hinges.rest_angle.size(), 0);
+  state.volume = system.volume.target;
+  state.near.resize(system.contacts.size());
+  return state;
+}
+
+void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,
+                  const SolveSettings& settings, SurfaceState& state, SolveReport& report) {
+  switch (kind) {
+    case ConstraintKind::none:
+      break;
+    case ConstraintKind::distance:
+      project_colors(system.distances.colors, report, [&](ColorRange range) {
+        return project_distances(system.distances, range, state.target_length.data(), state.distance_lambda.data(),
+                                 state.start, state.particles, settings.projection);
+      });
+      break;
+    case ConstraintKind::dihedral:
+      project_colors(system.hinges.colors, report, [&](ColorRange range) {
+        return project_hinges(system.hinges, range, state.hinge_lambda.data(), state.start, state.particles,
+                              settings.projection);
+      });
+      break;
+    case ConstraintKind::volume:
+      state.volume = project_volume(system.volume, settings.time_step, settings.pressure, state.volume_lambda,
+                                    state.volume_gradients, state.particles);
+      break;
+    case ConstraintKind::bone_contact:
+      project_contacts(system, placements, state, report);
+      break;
+  }
+}
+
+void refresh_contacts(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state) {
+  for (std::size_t i = 0; i < system.contacts.size(); ++i)
+    find_near(system.contacts[i], system.distances, placements[i], state.particles, contact_reach, state.near[i]);
+}
+
+SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,
+                          const SolveSettings& settings, SurfaceState& state) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  std::fill(state.distance_lambda.begin(), state.distance_lambda.end(), 0.0f);
+  std::fill(state.hinge_lambda.begin(), state.hinge_lambda.end(), 0.0f);
+  state.volume_lambda = 0;
+
+  SolveReport report;
+  Particles before;
+  bool last = settings.iterations <= 0;
+  while (!last) {
+    if (settings.stop_displacement > 0) before = state.particles;
+    const double elapsed = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+    last = report.iterations + 1 >= settings.iterations ||
+           (settings.stop_milliseconds > 0 && elapsed > settings.stop_milliseconds);
+    if (report.iterations % contact_refresh == 0 && !last) refresh_contacts(system, placements, state);
+    for (ConstraintKind kind : {ConstraintKind::distance, ConstraintKind::dihedral, ConstraintKind::volume})
+      project_kind(kind, system, placements, settings, state, report);
+    if (last) refresh_contacts(system, placements, state);
+    project_kind(ConstraintKind::bone_contact, system, placements, settings, state, report);
+    ++report.iterations;
+    if (settings.stop_displacement > 0 && largest_motion(before, state.particles) < settings.stop_displacement)
+      last = true;
+  }
+  return report;
+}
+
+bool is_finite(const Particles& particles) {
+  return std::all_of(particles.xyzw.begin(), particles.xyzw.end(), [](float value) { return std::isfinite(value); });
+}
+
+}  // namespace gracilis

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <gracilis/dynamics/constraint_sets.hpp>
+#include <gracilis/dynamics/field_contact.hpp>
+#include <gracilis/dynamics/particles.hpp>
+#include <gracilis/dynamics/projection.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// A deformable surface as the solver needs it; never changes after preparation.
+struct SurfaceSystem {
+  Particles rest;  ///< positions in the capture pose, inverse masses
+  DistanceSet distances;
+  HingeSet hinges;
+  VolumeSet volume;
+  std::vector<FieldContactSet> contacts;
+};
+
+/// What changes from step to step. A copy is a checkpoint.
+struct SurfaceState {
+  Particles particles;
+  Particles start;                     ///< where the substep began
+  AlignedVector<float> velocities;     ///< 3 n, m/s; dynamic mode only
+  AlignedVector<float> target_length;  ///< m, per distance slot
+  AlignedVector<float> distance_lambda, hinge_lambda;
+  double volume_lambda = 0;
+  double volume = 0;                      ///< m³, before the last volume projection
+  AlignedVector<float> volume_gradients;  ///< workspace
+  std::vector<NearField> near;            ///< per contact set; workspace
+};
+
+/// How one substep is solved.
+struct SolveSettings {
+  int iterations = 30;
+  double time_step = 1.0 / 60;      ///< s
+  ProjectionParameters projection;  ///< its time step is that of distances and hinges
+  double pressure = 1;              ///< target volume over the volume at rest
+  float stop_displacement = 0;      ///< m; stop early when no particle moved further in an iteration; 0: never
+  double stop_milliseconds = 0;     ///< stop early after this time; 0: never
+};
+
+/// Kinds of constraints, in the order of projection.
+enum class ConstraintKind { none, distance, dihedral, volume, bone_contact };
+const char* name_of(ConstraintKind kind);
+
+struct SolveReport {
+  int iterations = 0;
+  Index contacts = 0;        ///< touching in the last iteration
+  Index limited_hinges = 0;  ///< sums over all iterations
+  Index skipped_constraints = 0;
+};
+
+/// A state at rest.
+SurfaceState make_state(const SurfaceSystem& system);
+
+/// One projection of all constraints of a kind. The solver's loop is made of these; benchmarks and tests call them
+/// alone.
+void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,
+                  const SolveSettings& settings, SurfaceState& state, SolveReport& report);
+
+/// Lists again what is near each obstacle.
+void refresh_contacts(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state);
+
+/// Resets the multipliers and iterates: distances, hinges, volume, bone contact (XPBD; Macklin, Müller, Chentanez
+/// 2016). The state's particles are the prediction on entry and the solution on return. Free particles with a fixed
+/// neighborhood, coinciding ends and flat triangles are survived; they are counted as skipped.
+SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,
+                          const SolveSettings& settings, SurfaceState& state);
+
+/// True when every coordinate is finite.
+bool is_finite(const Particles& particles);
+
+}  // namespace gracilis
