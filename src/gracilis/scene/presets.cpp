@@ -24,6 +24,7 @@ static Preset thesis_2024() {
   xpbd.volume_compliance = 0;
   xpbd.pressure = 1;
   xpbd.bone_margin = 0.001;
+  xpbd.bone_rest_gap = false;
   xpbd.edge_contact = false;
   xpbd.predictor = false;
   xpbd.hinge_limit = 0;

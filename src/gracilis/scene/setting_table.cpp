@@ -40,6 +40,8 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "Compliance of the enclosed volume; 0 keeps it exactly."},
       {"pressure", &S::pressure, "", 0.01, 100, "Volume aimed at, as a multiple of the volume at rest."},
       {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Gap kept between muscle and bone where the gap at rest allows."},
+      {"bone_rest_gap", &S::bone_rest_gap, "", 0, 0,
+       "Where a point is closer than the margin in the capture pose, keeps that gap, so that the rest stays at rest."},
       {"edge_contact", &S::edge_contact, "", 0, 0, "Keeps points along edges out of the bones, not vertices only."},
       {"predictor", &S::predictor, "", 0, 0,
        "Carries the free vertices with the bones before the solver relaxes them."},

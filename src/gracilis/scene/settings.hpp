@@ -39,6 +39,7 @@ struct XpbdSettings {
 
   // Bone contact
   Real bone_margin = 0.0003;                     ///< m, kept between muscle and bone where the gap at rest allows
+  bool bone_rest_gap = true;                     ///< where the gap at rest is smaller than the margin, keep that gap instead
   bool edge_contact = true;                      ///< keep points along edges out of bones, not vertices only
 
   // What this project adds to the published method

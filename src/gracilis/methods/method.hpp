@@ -1,0 +1,43 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/scene/frame.hpp>
+#include <gracilis/scene/pose.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// What happened to one muscle in one frame.
+struct MuscleReport {
+  int iterations = 0;
+  Real largest_correction = 0;    ///< m, farthest that the solver moved a vertex from where it was predicted
+  Index contacts = 0;             ///< points touching a bone at the end
+  Index limited_hinges = 0;       ///< hinge projections held back, over all iterations
+  Index skipped_constraints = 0;  ///< projections without a usable gradient, over all iterations
+  Real milliseconds = 0;
+};
+
+struct StepReport {
+  std::vector<MuscleReport> muscles;  ///< in the scene's order
+};
+
+/// A way to deform muscles, prepared for one scene. The problem it solves: given where every body is, where are the
+/// surfaces of the muscles? At the capture pose the answer is the input itself. Rigid motion of all bodies moves the
+/// answer rigidly; the answer is finite, or QualityError is thrown; it has the same bits for any number of threads.
+class DeformationMethod {
+ public:
+  virtual ~DeformationMethod() = default;
+
+  /// Back to the capture pose: frame 0.
+  virtual void reset() = 0;
+  /// To the next pose. Throws QualityError that names muscle and constraint when a coordinate stops being finite; the
+  /// state is then that before the call.
+  virtual StepReport advance(const Pose& pose) = 0;
+  /// The present shapes, into frame.muscles.
+  virtual void write(Frame& frame) const = 0;
+  /// Continues from a recorded frame and the one before it, as if this method had made them.
+  virtual void restore(const Frame& before, const Frame& last) = 0;
+};
+
+}  // namespace gracilis

@@ -1,0 +1,239 @@
+#include <gracilis/methods/xpbd/preparation.hpp>
+
+#include <gracilis/dynamics/hinge.hpp>
+#include <gracilis/geometry/harmonic_field.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/topology.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis::xpbd {
+
+namespace {
+
+/// Below this share of its stiffness an edge along the fibers would carry nothing and its compliance no finite number.
+constexpr Real smallest_anisotropy = 1e-6;
+constexpr Real smallest_mass_share = 1e-3;
+
+/// The muscle's surface and attachments in particle numbers.
+struct Renumbered {
+  TriangleMesh surface;
+  std::vector<Attachment> attachments;
+  std::vector<Index> order;
+};
+
+Renumbered renumber(const Muscle& muscle) {
+  const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
+  Renumbered result;
+  result.order = breadth_first_order(topology.stars);
+  std::vector<Index> particle_of(result.order.size());
+  result.surface.vertices.resize(3, muscle.surface.vertex_count());
+  for (std::size_t p = 0; p < result.order.size(); ++p) {
+    particle_of[static_cast<std::size_t>(result.order[p])] = static_cast<Index>(p);
+    result.surface.vertices.col(static_cast<Index>(p)) = muscle.surface.vertices.col(result.order[p]);
+  }
+  result.surface.faces =
+      muscle.surface.faces.unaryExpr([&](Index v) { return particle_of[static_cast<std::size_t>(v)]; });
+  result.attachments = muscle.attachments;
+  for (Attachment& attachment : result.attachments)
+    for (Index& v : attachment.vertices) v = particle_of[static_cast<std::size_t>(v)];
+  return result;
+}
+
+/// Mass of each vertex by its share of the surface, over all: density times volume.
+Eigen::VectorXd inverse_masses(const TriangleMesh& surface, const XpbdSettings& settings,
+                               const std::vector<Index>& fixed_body) {
+  Eigen::VectorXd masses = Eigen::VectorXd::Ones(surface.vertex_count());
+  if (!settings.unit_masses) {
+    const Eigen::VectorXd areas = vertex_areas(surface.vertices, surface.faces);
+    // A vertex among slivers would weigh next to nothing and fly.
+    const Eigen::VectorXd shares = areas.cwiseMax(smallest_mass_share * areas.mean());
+    masses = settings.density * enclosed_volume(surface.vertices, surface.faces) / shares.sum() * shares;
+  }
+  Eigen::VectorXd inverse = masses.cwiseInverse();
+  for (Index p = 0; p < inverse.size(); ++p)
+    if (fixed_body[static_cast<std::size_t>(p)] >= 0) inverse[p] = 0;
+  return inverse;
+}
+
+/// The fiber direction at an edge: the mean over its two triangles.
+Vec3 direction_at(const MeshEdge& edge, const Points& directions) {
+  Vec3 sum = Vec3::Zero();
+  if (edge.left >= 0) sum += directions.col(edge.left);
+  if (edge.right >= 0) sum += directions.col(edge.right);
+  const Real length = sum.norm();
+  return length > 0 ? Vec3(sum / length) : Vec3(Vec3::Zero());
+}
+
+/// The published anisotropy: edges along the fibers are softer by 1 - |u·v| (Cervenka and Kohout 2020).
+Real anisotropy(Real cosine, const XpbdSettings& settings) {
+  if (!settings.fiber_anisotropy) return 1;
+  return std::max({1 - std::abs(cosine), settings.anisotropy_floor, smallest_anisotropy});
+}
+
+void build_edges(const Renumbered& muscle, const MeshTopology& topology, const Points& directions,
+                 PreparedMuscle& prepared) {
+  const Points& x = muscle.surface.vertices;
+  std::vector<DistanceConstraint> constraints;
+  std::vector<Real> cosines;
+  for (const MeshEdge& edge : topology.edges) {
+    const Vec3 along = x.col(edge.b) - x.col(edge.a);
+    const Real length = along.norm();
+    const Real cosine = length > 0 ? direction_at(edge, directions).dot(along) / length : 0;
+    const Real stiffness = prepared.settings.distance_stiffness * anisotropy(cosine, prepared.settings);
+    constraints.push_back({edge.a, edge.b, length, 1 / stiffness});
+    cosines.push_back(cosine);
+  }
+  prepared.system.distances = build_distance_set(constraints, muscle.surface.vertex_count());
+  prepared.fiber_cosine2.assign(prepared.system.distances.a.size(), 0);
+  for (std::size_t i = 0; i < cosines.size(); ++i)
+    prepared.fiber_cosine2[static_cast<std::size_t>(prepared.system.distances.slot[i])] =
+        static_cast<float>(cosines[i] * cosines[i]);
+}
+
+/// Stiffness of one hinge: the setting, scaled by 3 l²/A so that bending does not depend on how finely the surface is
+/// triangulated (Grinspun et al. 2003).
+Real hinge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshEdge& edge,
+                     const XpbdSettings& settings) {
+  if (!settings.dihedral_shape_scaling) return settings.dihedral_stiffness;
+  const Real area = (area_vector(x, faces.col(edge.left)).norm() + area_vector(x, faces.col(edge.right)).norm()) / 2;
+  const Real length2 = (x.col(edge.b) - x.col(edge.a)).squaredNorm();
+  return area > 0 ? settings.dihedral_stiffness * std::min(3 * length2 / area, Real{1e3}) : settings.dihedral_stiffness;
+}
+
+void build_hinges(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
+  const Points& x = muscle.surface.vertices;
+  std::vector<HingeConstraint> constraints;
+  for (const MeshEdge& edge : topology.edges) {
+    if (edge.left < 0 || edge.right < 0) continue;
+    HingeConstraint hinge;
+    hinge.particles = {edge.a, edge.b, edge.left_apex, edge.right_apex};
+    hinge.rest_angle = dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex));
+    if (prepared.settings.dihedral_formula == DihedralFormula::arccos) hinge.rest_angle = std::abs(hinge.rest_angle);
+    hinge.compliance = 1 / hinge_stiffness(x, muscle.surface.faces, edge, prepared.settings);
+    hinge.edge_length = (x.col(edge.b) - x.col(edge.a)).norm();
+    constraints.push_back(hinge);
+  }
+  prepared.system.hinges = build_hinge_set(constraints, muscle.surface.vertex_count());
+}
+
+/// Which share of each carrier's motion every particle follows before the solver relaxes.
+void build_predictor(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
+  std::vector<Index> fixed;
+  for (Index p = 0; p < muscle.surface.vertex_count(); ++p) {
+    const Index body = prepared.fixed_body[static_cast<std::size_t>(p)];
+    if (body < 0) continue;
+    fixed.push_back(p);
+    if (std::find(prepared.carriers.begin(), prepared.carriers.end(), body) == prepared.carriers.end())
+      prepared.carriers.push_back(body);
+  }
+  std::sort(prepared.carriers.begin(), prepared.carriers.end());
+  Eigen::MatrixXd values =
+      Eigen::MatrixXd::Zero(static_cast<Index>(fixed.size()), static_cast<Index>(prepared.carriers.size()));
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    const Index body = prepared.fixed_body[static_cast<std::size_t>(fixed[i])];
+    const auto carrier =
+        std::find(prepared.carriers.begin(), prepared.carriers.end(), body) - prepared.carriers.begin();
+    values(static_cast<Index>(i), static_cast<Index>(carrier)) = 1;
+  }
+  prepared.carrier_shares = harmonic_fields(muscle.surface.vertices, topology, fixed, values).transpose().cast<float>();
+}
+
+void build_ends(const Renumbered& muscle, PreparedMuscle& prepared) {
+  for (const Attachment& attachment : muscle.attachments) {
+    AttachedEnd& end = attachment.end == AttachmentEnd::origin ? prepared.origin_end : prepared.insertion_end;
+    for (Index v : attachment.vertices) end.vertices.emplace_back(v, attachment.body);
+  }
+  if (prepared.origin_end.empty() || prepared.insertion_end.empty()) return;
+  const auto center = [&](const AttachedEnd& end) {
+    Vec3 sum = Vec3::Zero();
+    for (const auto& [particle, body] : end.vertices) sum += prepared.rest.col(particle);
+    return Vec3(sum / static_cast<Real>(end.vertices.size()));
+  };
+  prepared.rest_span = (center(prepared.insertion_end) - center(prepared.origin_end)).norm();
+}
+
+/// The gap a point must keep: the margin, or less where it is already closer in the capture pose.
+float allowed_gap(const DistanceField& field, const Vec3& p, Real margin, bool tolerate_rest) {
+  const float rest =
+      tolerate_rest ? sample(field, Eigen::Vector3f(p.cast<float>())).distance : static_cast<float>(margin);
+  return std::min(static_cast<float>(margin), rest);
+}
+
+void build_contacts(const Scene& scene, const std::vector<DistanceField>& fields, PreparedMuscle& prepared) {
+  const XpbdSettings& settings = prepared.settings;
+  for (std::size_t bone = 0; bone < scene.bones.size(); ++bone) {
+    FieldContactSet contact;
+    contact.field = &fields[bone];
+    for (Index p = 0; p < prepared.rest.cols(); ++p)
+      contact.particle_gap.push_back(
+          allowed_gap(fields[bone], prepared.rest.col(p), settings.bone_margin, settings.bone_rest_gap));
+    if (settings.edge_contact) {
+      const DistanceSet& edges = prepared.system.distances;
+      for (std::size_t slot = 0; slot < edges.a.size(); ++slot) {
+        const bool padding = edges.a[slot] >= prepared.rest.cols();
+        const Vec3 middle =
+            padding ? prepared.origin : Vec3((prepared.rest.col(edges.a[slot]) + prepared.rest.col(edges.b[slot])) / 2);
+        contact.edge_gap.push_back(
+            padding ? 0 : allowed_gap(fields[bone], middle, settings.bone_margin, settings.bone_rest_gap));
+      }
+    }
+    prepared.system.contacts.push_back(std::move(contact));
+    prepared.contact_bodies.push_back(scene.bones[bone].body);
+  }
+}
+
+}  // namespace
+
+Points fiber_directions(const Points& vertices, const Eigen::Matrix3Xi& faces, const MeshTopology& topology,
+                        const std::vector<Attachment>& attachments) {
+  std::vector<Index> fixed;
+  std::vector<Real> values;
+  bool has_origin = false, has_insertion = false;
+  for (const Attachment& attachment : attachments) {
+    const bool is_insertion = attachment.end == AttachmentEnd::insertion;
+    (is_insertion ? has_insertion : has_origin) = true;
+    for (Index v : attachment.vertices) fixed.push_back(v), values.push_back(is_insertion ? 1 : 0);
+  }
+  Points directions = Points::Zero(3, faces.cols());
+  if (!has_origin || !has_insertion) return directions;
+  const Eigen::Map<const Eigen::VectorXd> given(values.data(), static_cast<Index>(values.size()));
+  const Eigen::VectorXd coordinate = harmonic_fields(vertices, topology, fixed, given).col(0);
+  directions = face_gradients(vertices, faces, coordinate);
+  for (Index f = 0; f < directions.cols(); ++f) {
+    const Real length = directions.col(f).norm();
+    // Inside an attachment the coordinate is constant and the gradient only rounding.
+    directions.col(f) = length > 1e-6 ? Vec3(directions.col(f) / length) : Vec3(Vec3::Zero());
+  }
+  return directions;
+}
+
+PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+  PreparedMuscle prepared;
+  prepared.name = muscle.name;
+  prepared.settings = muscle.xpbd;
+  Renumbered renumbered = renumber(muscle);
+  prepared.order = renumbered.order;
+  prepared.rest = renumbered.surface.vertices;
+  prepared.origin = prepared.rest.rowwise().mean();
+  prepared.fixed_body.assign(renumbered.order.size(), -1);
+  for (const Attachment& attachment : renumbered.attachments)
+    for (Index v : attachment.vertices) prepared.fixed_body[static_cast<std::size_t>(v)] = attachment.body;
+
+  const MeshTopology topology = build_topology(renumbered.surface.faces, renumbered.surface.vertex_count());
+  const Points directions = fiber_directions(prepared.rest, renumbered.surface.faces, topology, renumbered.attachments);
+  prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin,
+                                        inverse_masses(renumbered.surface, prepared.settings, prepared.fixed_body));
+  build_edges(renumbered, topology, directions, prepared);
+  build_hinges(renumbered, topology, prepared);
+  prepared.system.volume =
+      build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
+                       enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
+  build_predictor(renumbered, topology, prepared);
+  build_ends(renumbered, prepared);
+  build_contacts(scene, fields, prepared);
+  return prepared;
+}
+
+}  // namespace gracilis::xpbd

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <gracilis/geometry/distance_field.hpp>
+#include <gracilis/methods/method.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace gracilis {
+
+/// Extended position based dynamics on muscle surfaces (Havlíček 2024, with the additions that docs/architecture.md
+/// lists). `fields` has one distance field per bone. Precondition: the scene is valid.
+std::unique_ptr<DeformationMethod> make_xpbd_method(const Scene& scene, std::vector<DistanceField> fields);
+
+/// The distance field of one bone by the scene's settings.
+DistanceField build_bone_field(const Bone& bone, const DistanceFieldSettings& settings);
+
+}  // namespace gracilis

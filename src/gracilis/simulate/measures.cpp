@@ -1,0 +1,160 @@
+#include <gracilis/simulate/measures.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/hinge.hpp>
+#include <gracilis/geometry/measures.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace gracilis {
+
+namespace {
+
+constexpr Real attachment_zone = 0.015;  ///< m
+
+/// Distance of every vertex to the nearest attached one.
+std::vector<Real> distance_to_attachments(const Muscle& muscle, const std::vector<char>& fixed) {
+  std::vector<Real> distances(fixed.size(), std::numeric_limits<Real>::infinity());
+  const Points& x = muscle.surface.vertices;
+  parallel_for(static_cast<Index>(x.cols()), 256, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v)
+      for (Index w = 0; w < x.cols(); ++w)
+        if (fixed[static_cast<std::size_t>(w)])
+          distances[static_cast<std::size_t>(v)] =
+              std::min(distances[static_cast<std::size_t>(v)], (x.col(v) - x.col(w)).squaredNorm());
+  });
+  for (Real& distance : distances) distance = std::sqrt(distance);
+  return distances;
+}
+
+Real depth_in(const SignedDistance& bone, const Eigen::AlignedBox3d& box, const Vec3& p) {
+  if (!box.contains(p)) return 0;
+  return std::max(-bone.query(p).distance, Real{0});
+}
+
+std::string millimetres(const char* what, Real metres, Real limit) {
+  char text[120];
+  std::snprintf(text, sizeof text, "%s %.3f mm beyond rest (limit %.1f mm)", what, metres * 1e3, limit * 1e3);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> missed_gates(const MuscleMeasures& measures, const QualityGates& gates) {
+  std::vector<std::string> missed;
+  char text[120];
+  if (!measures.finite) missed.push_back("a vertex position is not finite");
+  if (std::abs(measures.volume_ratio - 1) > gates.volume) {
+    std::snprintf(text, sizeof text, "volume %.2f %% of rest (limit 100 ± %.1f %%)", measures.volume_ratio * 100,
+                  gates.volume * 100);
+    missed.push_back(text);
+  }
+  if (measures.vertex_depth_beyond_rest > gates.vertex_depth)
+    missed.push_back(millimetres("a vertex in a bone", measures.vertex_depth_beyond_rest, gates.vertex_depth));
+  if (measures.midpoint_depth_beyond_rest > gates.midpoint_depth)
+    missed.push_back(
+        millimetres("an edge's midpoint in a bone", measures.midpoint_depth_beyond_rest, gates.midpoint_depth));
+  if (measures.edge_ratio_max_free > gates.free_edge_ratio) {
+    std::snprintf(text, sizeof text, "an edge far from attachments stretched %.1f times (limit %.1f)",
+                  measures.edge_ratio_max_free, gates.free_edge_ratio);
+    missed.push_back(text);
+  }
+  return missed;
+}
+
+Measurer::Measurer(const Scene& scene) : scene_(scene) {
+  for (const Bone& bone : scene.bones) {
+    bones_.emplace_back(bone.surface);
+    bone_boxes_.emplace_back(bone.surface.vertices.rowwise().minCoeff(), bone.surface.vertices.rowwise().maxCoeff());
+  }
+  for (const Muscle& muscle : scene.muscles) muscles_.push_back(rest_of(muscle));
+}
+
+Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
+  const Points& x = muscle.surface.vertices;
+  MuscleRest rest;
+  rest.edges = build_topology(muscle.surface.faces, muscle.surface.vertex_count()).edges;
+  rest.volume = enclosed_volume(x, muscle.surface.faces);
+  rest.fixed.assign(static_cast<std::size_t>(x.cols()), 0);
+  for (const Attachment& attachment : muscle.attachments)
+    for (Index v : attachment.vertices) rest.fixed[static_cast<std::size_t>(v)] = 1;
+  const std::vector<Real> to_attachment = distance_to_attachments(muscle, rest.fixed);
+  for (const MeshEdge& edge : rest.edges) {
+    rest.lengths.push_back((x.col(edge.a) - x.col(edge.b)).norm());
+    const bool hinge = edge.left >= 0 && edge.right >= 0;
+    rest.angles.push_back(
+        hinge ? dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex)) : 0);
+    rest.far_edge.push_back(std::min(to_attachment[static_cast<std::size_t>(edge.a)],
+                                     to_attachment[static_cast<std::size_t>(edge.b)]) > attachment_zone);
+  }
+  const auto bone_count = static_cast<Index>(bones_.size());
+  rest.vertex_depth.resize(bone_count, x.cols());
+  rest.midpoint_depth.resize(bone_count, static_cast<Index>(rest.edges.size()));
+  for (Index b = 0; b < bone_count; ++b) {
+    const auto at = static_cast<std::size_t>(b);
+    for (Index v = 0; v < x.cols(); ++v) rest.vertex_depth(b, v) = depth_in(bones_[at], bone_boxes_[at], x.col(v));
+    for (std::size_t e = 0; e < rest.edges.size(); ++e)
+      rest.midpoint_depth(b, static_cast<Index>(e)) =
+          depth_in(bones_[at], bone_boxes_[at], (x.col(rest.edges[e].a) + x.col(rest.edges[e].b)) / 2);
+  }
+  return rest;
+}
+
+void Measurer::measure_depths(const MuscleRest& rest, const Points& points, const Pose& pose,
+                              MuscleMeasures& measures) const {
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
+    const RigidTransform to_capture = pose.bodies[static_cast<std::size_t>(scene_.bones[b].body)].inverse();
+    const Points local = (to_capture.linear() * points).colwise() + to_capture.translation();
+    for (Index v = 0; v < local.cols(); ++v) {
+      if (rest.fixed[static_cast<std::size_t>(v)]) continue;
+      const Real depth = depth_in(bones_[b], bone_boxes_[b], local.col(v));
+      measures.vertex_depth = std::max(measures.vertex_depth, depth);
+      measures.vertex_depth_beyond_rest =
+          std::max(measures.vertex_depth_beyond_rest, depth - rest.vertex_depth(static_cast<Index>(b), v));
+    }
+    for (std::size_t e = 0; e < rest.edges.size(); ++e) {
+      const MeshEdge& edge = rest.edges[e];
+      if (rest.fixed[static_cast<std::size_t>(edge.a)] && rest.fixed[static_cast<std::size_t>(edge.b)]) continue;
+      const Real depth = depth_in(bones_[b], bone_boxes_[b], (local.col(edge.a) + local.col(edge.b)) / 2);
+      measures.midpoint_depth_beyond_rest =
+          std::max(measures.midpoint_depth_beyond_rest,
+                   depth - rest.midpoint_depth(static_cast<Index>(b), static_cast<Index>(e)));
+    }
+  }
+}
+
+std::vector<MuscleMeasures> Measurer::measure(const Frame& frame) const {
+  std::vector<MuscleMeasures> all(muscles_.size());
+  parallel_for(static_cast<Index>(muscles_.size()), 1, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const auto m = static_cast<std::size_t>(i);
+      const MuscleRest& rest = muscles_[m];
+      const Points& x = frame.muscles[m].points;
+      MuscleMeasures& measures = all[m];
+      measures.finite = x.allFinite();
+      if (!measures.finite) continue;
+      measures.volume_ratio = enclosed_volume(x, scene_.muscles[m].surface.faces) / rest.volume;
+      Real ratio_sum = 0, change_sum = 0;
+      for (std::size_t e = 0; e < rest.edges.size(); ++e) {
+        const MeshEdge& edge = rest.edges[e];
+        const Real ratio = rest.lengths[e] > 0 ? (x.col(edge.a) - x.col(edge.b)).norm() / rest.lengths[e] : 1;
+        ratio_sum += ratio;
+        measures.edge_ratio_max = std::max(measures.edge_ratio_max, ratio);
+        if (rest.far_edge[e]) measures.edge_ratio_max_free = std::max(measures.edge_ratio_max_free, ratio);
+        const Real angle = dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex));
+        const Real change = std::abs(std::remainder(angle - rest.angles[e], 2 * pi));
+        change_sum += change;
+        measures.dihedral_change_max = std::max(measures.dihedral_change_max, change);
+        measures.hinges_over_90 += change > pi / 2;
+      }
+      measures.edge_ratio_mean = ratio_sum / static_cast<Real>(rest.edges.size());
+      measures.dihedral_change_mean = change_sum / static_cast<Real>(rest.edges.size());
+      measure_depths(rest, x, frame.pose, measures);
+    }
+  });
+  return all;
+}
+
+}  // namespace gracilis

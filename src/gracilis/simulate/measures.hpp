@@ -1,0 +1,65 @@
+#pragma once
+
+#include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/geometry/topology.hpp>
+#include <gracilis/scene/frame.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// How good one muscle's shape is, against the capture pose; the measures of the field's literature (Cervenka and
+/// Kohout 2020) and exact depths in the bones.
+struct MuscleMeasures {
+  Real volume_ratio = 1;
+  Real edge_ratio_mean = 1;  ///< mean of length over length at rest
+  Real edge_ratio_max = 1;
+  Real edge_ratio_max_free = 1;   ///< over edges farther from attachments than 15 mm at rest
+  Real dihedral_change_mean = 0;  ///< rad, mean of |θ - θ_rest|
+  Real dihedral_change_max = 0;
+  Index hinges_over_90 = 0;             ///< hinges turned by more than 90 degrees
+  Real vertex_depth = 0;                ///< m, deepest free vertex in a bone
+  Real vertex_depth_beyond_rest = 0;    ///< m, deepest beyond that vertex's depth in that bone at rest
+  Real midpoint_depth_beyond_rest = 0;  ///< m, the same for midpoints of edges with a free end
+  bool finite = true;
+};
+
+/// The bars that a frame must meet; `gracilis run` warns where they are missed.
+struct QualityGates {
+  Real volume = 0.005;         ///< |volume ratio - 1|
+  Real vertex_depth = 1e-4;    ///< m beyond rest
+  Real midpoint_depth = 5e-4;  ///< m beyond rest
+  Real free_edge_ratio = 3;
+};
+
+/// The gates that a muscle misses, in words; empty when it meets all.
+std::vector<std::string> missed_gates(const MuscleMeasures& measures, const QualityGates& gates);
+
+/// Measures frames of one scene. Shares no code with the solver: exact nearest triangles instead of grids, double
+/// precision.
+class Measurer {
+ public:
+  explicit Measurer(const Scene& scene);
+  std::vector<MuscleMeasures> measure(const Frame& frame) const;
+
+ private:
+  struct MuscleRest {
+    std::vector<MeshEdge> edges;
+    std::vector<Real> lengths, angles;
+    std::vector<char> far_edge;  ///< farther from attachments than 15 mm
+    std::vector<char> fixed;     ///< per vertex
+    Real volume = 0;
+    Eigen::MatrixXd vertex_depth, midpoint_depth;  ///< bones × vertices (edges), m, 0 outside
+  };
+
+  MuscleRest rest_of(const Muscle& muscle) const;
+  void measure_depths(const MuscleRest& rest, const Points& points, const Pose& pose, MuscleMeasures& measures) const;
+
+  const Scene& scene_;
+  std::vector<SignedDistance> bones_;
+  std::vector<Eigen::AlignedBox3d> bone_boxes_;
+  std::vector<MuscleRest> muscles_;
+};
+
+}  // namespace gracilis

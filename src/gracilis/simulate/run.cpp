@@ -1,0 +1,47 @@
+#include <gracilis/simulate/run.hpp>
+
+#include <gracilis/core/errors.hpp>
+
+namespace gracilis {
+
+Frame capture_frame(const Scene& scene, const Pose& pose) {
+  Frame frame;
+  frame.pose = pose;
+  for (const Muscle& muscle : scene.muscles) frame.muscles.push_back({muscle.surface.vertices});
+  return frame;
+}
+
+RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
+                 const ResumePoint* resume, const std::atomic<bool>& stop,
+                 const std::function<void(const FrameRecord&)>& record) {
+  const Measurer measurer(scene);
+  int next = 0;
+  method.reset();
+  if (resume) {
+    method.restore(resume->before, resume->last);
+    next = resume->last.number + 1;
+  }
+  for (; next < static_cast<int>(poses.size()); ++next) {
+    if (stop) return RunEnd::interrupted;
+    FrameRecord now;
+    const Pose& pose = poses[static_cast<std::size_t>(next)];
+    if (next == 0) {
+      now.frame = capture_frame(scene, pose);
+      now.report.muscles.resize(scene.muscles.size());
+    } else {
+      try {
+        now.report = method.advance(pose);
+      } catch (const QualityError& error) {
+        throw QualityError("frame " + std::to_string(next) + ": " + error.what());
+      }
+      now.frame.pose = pose;
+      method.write(now.frame);
+    }
+    now.frame.number = next;
+    now.measures = measurer.measure(now.frame);
+    record(now);
+  }
+  return RunEnd::complete;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gracilis/methods/method.hpp>
+#include <gracilis/scene/frame.hpp>
+#include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/measures.hpp>
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+namespace gracilis {
+
+/// Everything that one frame of a run says.
+struct FrameRecord {
+  Frame frame;
+  StepReport report;                     ///< empty muscles in frame 0
+  std::vector<MuscleMeasures> measures;  ///< in the scene's order
+};
+
+/// Where an interrupted run goes on: its last two recorded frames.
+struct ResumePoint {
+  Frame before, last;
+};
+
+enum class RunEnd { complete, interrupted };
+
+/// Runs `method` through `poses` (pose 0 is the capture pose) and hands each frame to `record`, frame 0 with the input
+/// surfaces unchanged. Looks at `stop` between frames. With `resume`, starts after its last frame. Throws QualityError,
+/// naming the frame, when a coordinate stops being finite; all frames before it have been recorded then.
+RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
+                 const ResumePoint* resume, const std::atomic<bool>& stop,
+                 const std::function<void(const FrameRecord&)>& record);
+
+/// Frame 0: the input surfaces at the capture pose.
+Frame capture_frame(const Scene& scene, const Pose& pose);
+
+}  // namespace gracilis
