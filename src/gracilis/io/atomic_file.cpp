@@ -19,7 +19,8 @@ static void fail(const fs::path& path, const std::string& what) {
 
 /// A name of its own per process, so that two runs never write to the same temporary.
 static fs::path temporary_beside(const fs::path& path) {
-  return path.parent_path() / ("." + path.stem().string() + "." + std::to_string(::getpid()) + path.extension().string());
+  return path.parent_path() /
+         ("." + path.stem().string() + "." + std::to_string(::getpid()) + path.extension().string());
 }
 
 static void sync_to_disk(const fs::path& path) {

@@ -1,0 +1,42 @@
+#include <gracilis/io/input_file.hpp>
+
+#include <gracilis/core/errors.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+void require_readable_file(const fs::path& path) {
+  const auto fail = [&](const std::string& what, const std::string& remedy) {
+    throw InputError({path.string(), "", what, remedy});
+  };
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (status.type() == fs::file_type::not_found) fail("does not exist", "check the path and the data root");
+  if (status.type() == fs::file_type::directory) fail("is a folder where a file is needed", "name a file in it");
+  if (error || status.type() != fs::file_type::regular) fail("is not a file that can be read", "check the path");
+  if (!std::ifstream(path)) fail(std::string("cannot be opened: ") + std::strerror(errno), "check its permissions");
+  if (fs::file_size(path, error) == 0) fail("is empty", "export it again");
+}
+
+std::string read_text(const fs::path& path) {
+  require_readable_file(path);
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::string lower_case_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+}  // namespace gracilis

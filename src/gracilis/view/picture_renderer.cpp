@@ -1,0 +1,174 @@
+#include <gracilis/view/picture_renderer.hpp>
+
+#include <gracilis/io/vtk_mesh.hpp>
+
+#include <vtkActor.h>
+#include <vtkActor2D.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkLight.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty.h>
+#include <vtkProperty2D.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+
+namespace gracilis {
+
+/// Area-weighted averages of the normals around each vertex: smooth shading.
+static vtkSmartPointer<vtkFloatArray> vertex_normals(const TriangleMesh& mesh) {
+  Points normals = Points::Zero(3, mesh.vertices.cols());
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    const Eigen::Vector3i face = mesh.faces.col(f);
+    const Vec3 a = mesh.vertices.col(face[0]);
+    const Vec3 normal = (mesh.vertices.col(face[1]) - a).cross(mesh.vertices.col(face[2]) - a);
+    for (const int vertex : face) normals.col(vertex) += normal;
+  }
+  const auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetName("Normals");
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(normals.cols());
+  Eigen::Map<Eigen::Matrix3Xf>(array->GetPointer(0), 3, normals.cols()) = normals.colwise().normalized().cast<float>();
+  return array;
+}
+
+static void add_surface(const PaintedSurface& surface, vtkRenderer& renderer) {
+  const vtkSmartPointer<vtkPolyData> mesh = to_vtk(surface.mesh.vertices, surface.mesh.faces);
+  mesh->GetPointData()->SetNormals(vertex_normals(surface.mesh));
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(mesh);
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  vtkProperty* property = actor->GetProperty();
+  property->SetColor(surface.color.x(), surface.color.y(), surface.color.z());
+  property->SetOpacity(surface.opacity);
+  property->SetAmbient(0.2);
+  property->SetDiffuse(0.85);
+  property->SetSpecular(0.18);
+  property->SetSpecularPower(18);
+  renderer.AddActor(actor);
+}
+
+/// Three lights fixed to the camera: key from the upper left, weaker fill from the right, rim from behind and above.
+static void add_lights(vtkRenderer& renderer) {
+  struct CameraLight {
+    double x, y, z, intensity;
+  };
+  for (const CameraLight& setup : {CameraLight{-0.7, 0.8, 1.0, 0.85}, {1.0, -0.1, 0.8, 0.38}, {0.3, 1.0, -0.6, 0.3}}) {
+    vtkNew<vtkLight> light;
+    light->SetLightTypeToCameraLight();
+    light->SetPosition(setup.x, setup.y, setup.z);
+    light->SetFocalPoint(0, 0, 0);
+    light->SetIntensity(setup.intensity);
+    renderer.AddLight(light);
+  }
+}
+
+static void place_camera(const CameraView& view, Real half_height, vtkRenderer& renderer) {
+  vtkCamera* camera = renderer.GetActiveCamera();
+  const Vec3 position = view.center - view.looking * (10 * half_height);
+  camera->ParallelProjectionOn();
+  camera->SetPosition(position.x(), position.y(), position.z());
+  camera->SetFocalPoint(view.center.x(), view.center.y(), view.center.z());
+  camera->SetViewUp(view.up.x(), view.up.y(), view.up.z());
+  camera->SetParallelScale(half_height);
+  renderer.ResetCameraClippingRange();
+}
+
+static vtkSmartPointer<vtkRenderer> renderer_in(const Rectangle& part, const Picture& picture,
+                                                const PictureLayout& layout, vtkRenderWindow& window) {
+  const auto renderer = vtkSmartPointer<vtkRenderer>::New();
+  renderer->SetViewport(Real(part.x) / layout.width, Real(part.y) / layout.height,
+                        Real(part.x + part.width) / layout.width, Real(part.y + part.height) / layout.height);
+  renderer->SetBackground(picture.background.x(), picture.background.y(), picture.background.z());
+  renderer->AutomaticLightCreationOff();
+  window.AddRenderer(renderer);
+  return renderer;
+}
+
+static vtkSmartPointer<vtkTextActor> text_actor(const std::string& text, int pixels, bool bold) {
+  const auto actor = vtkSmartPointer<vtkTextActor>::New();
+  actor->SetInput(text.c_str());
+  vtkTextProperty* property = actor->GetTextProperty();
+  property->SetFontFamilyToArial();
+  property->SetFontSize(pixels);
+  property->SetBold(bold);
+  property->SetColor(0.13, 0.13, 0.13);
+  property->SetVerticalJustificationToCentered();
+  return actor;
+}
+
+static void add_centered_text(const std::string& text, int pixels, bool bold, const Rectangle& part, int scale,
+                              vtkRenderer& renderer) {
+  const vtkSmartPointer<vtkTextActor> actor = text_actor(text, pixels * scale, bold);
+  actor->GetTextProperty()->SetJustificationToCentered();
+  actor->SetPosition(part.width * scale / 2.0, part.height * scale / 2.0);
+  renderer.AddActor2D(actor);
+}
+
+static void add_swatch(const Color& color, int x, int y, int size, vtkRenderer& renderer) {
+  Points corners(3, 4);
+  corners << x, x + size, x + size, x, y, y, y + size, y + size, 0, 0, 0, 0;
+  Eigen::Matrix3Xi faces(3, 2);
+  faces << 0, 0, 1, 2, 2, 3;
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(to_vtk(corners, faces));
+  vtkNew<vtkActor2D> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
+  renderer.AddActor2D(actor);
+}
+
+/// Swatch and name of every entry, in cells of equal width.
+static void add_legend(const PictureLayout& layout, int scale, vtkRenderer& renderer) {
+  const int count = static_cast<int>(layout.legend_entries.size());
+  const int cell = layout.legend.width / count;
+  const int middle = layout.legend.height / 2;
+  const std::size_t longest =
+      std::max_element(layout.legend_entries.begin(), layout.legend_entries.end(), [](const auto& a, const auto& b) {
+        return a.first.size() < b.first.size();
+      })->first.size();
+  const int font = std::clamp(static_cast<int>((cell - 40) / (0.6 * static_cast<double>(longest))), 8, 20);
+  for (int i = 0; i < count; ++i) {
+    const auto& [name, color] = layout.legend_entries[static_cast<std::size_t>(i)];
+    const int x = i * cell + 12;
+    add_swatch(color, x * scale, (middle - font / 2) * scale, font * scale, renderer);
+    const vtkSmartPointer<vtkTextActor> text = text_actor(name, font * scale, false);
+    text->SetPosition((x + font + 8) * scale, middle * scale);
+    renderer.AddActor2D(text);
+  }
+}
+
+void add_renderers(const Picture& picture, const PictureLayout& layout, int scale, vtkRenderWindow& window) {
+  for (std::size_t i = 0; i < picture.panels.size(); ++i) {
+    const Panel& panel = picture.panels[i];
+    const vtkSmartPointer<vtkRenderer> renderer = renderer_in(layout.panels[i], picture, layout, window);
+    if (std::any_of(panel.surfaces.begin(), panel.surfaces.end(), [](const auto& s) { return s.opacity < 1; })) {
+      renderer->SetUseDepthPeeling(true);
+      renderer->SetMaximumNumberOfPeels(8);
+    }
+    for (const PaintedSurface& surface : panel.surfaces) add_surface(surface, *renderer);
+    add_lights(*renderer);
+    place_camera(layout.cameras[i], layout.half_height, *renderer);
+    if (layout.captions[i].height == 0) continue;
+    const auto caption = renderer_in(layout.captions[i], picture, layout, window);
+    add_centered_text(panel.caption, 24, false, layout.captions[i], scale, *caption);
+  }
+  if (layout.title.height > 0) {
+    add_centered_text(picture.title, 30, true, layout.title, scale,
+                      *renderer_in(layout.title, picture, layout, window));
+  }
+  if (layout.legend.height > 0) add_legend(layout, scale, *renderer_in(layout.legend, picture, layout, window));
+}
+
+}  // namespace gracilis

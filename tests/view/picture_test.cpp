@@ -1,0 +1,118 @@
+#include <gracilis/core/errors.hpp>
+#include <gracilis/view/picture.hpp>
+#include <gracilis/view/picture_layout.hpp>
+
+#include <gtest/gtest.h>
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
+#include <filesystem>
+
+using namespace gracilis;
+
+namespace {
+
+/// A cube with edges of length 1 around `center`.
+TriangleMesh cube(const Vec3& center) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, 8);
+  for (int i = 0; i < 8; ++i)
+    mesh.vertices.col(i) = center + Vec3(i & 1, (i >> 1) & 1, (i >> 2) & 1) - Vec3::Constant(0.5);
+  mesh.faces.resize(3, 12);
+  mesh.faces << 0, 0, 4, 4, 0, 0, 2, 2, 0, 0, 1, 1,  //
+      2, 3, 5, 7, 1, 5, 6, 7, 4, 6, 3, 7,            //
+      3, 1, 7, 6, 5, 4, 7, 3, 6, 2, 7, 5;
+  return mesh;
+}
+
+Picture two_panels() {
+  Picture picture;
+  picture.panel_width = 200;
+  picture.panel_height = 120;
+  const PaintedSurface red{"a", cube(Vec3::Zero()), Color(0.8, 0.1, 0.1)};
+  const PaintedSurface blue{"b", cube(Vec3::Zero()), Color(0.1, 0.1, 0.8)};
+  picture.panels = {{"", {red}}, {"", {blue}}};
+  return picture;
+}
+
+Vec3 pixel(vtkImageData& image, int x, int y) {
+  return {image.GetScalarComponentAsDouble(x, y, 0, 0), image.GetScalarComponentAsDouble(x, y, 0, 1),
+          image.GetScalarComponentAsDouble(x, y, 0, 2)};
+}
+
+}  // namespace
+
+TEST(Picture, panels_stand_side_by_side_above_the_legend) {
+  const PictureLayout layout = lay_out(two_panels());
+  EXPECT_EQ(layout.width, 400);
+  EXPECT_EQ(layout.height, 120 + layout.legend.height);
+  EXPECT_EQ(layout.panels[0].x, 0);
+  EXPECT_EQ(layout.panels[1].x, 200);
+  ASSERT_EQ(layout.legend_entries.size(), 2u);
+  EXPECT_EQ(layout.legend_entries[1].first, "b");
+}
+
+TEST(Picture, panels_that_look_the_same_way_share_one_camera_that_sees_everything) {
+  Picture picture = two_panels();
+  picture.panels[1].surfaces[0].mesh = cube(Vec3(4, 0, 0));
+  const PictureLayout layout = lay_out(picture);
+  EXPECT_TRUE(layout.cameras[0].center.isApprox(Vec3(2, 0, 0)));
+  EXPECT_TRUE(layout.cameras[1].center.isApprox(Vec3(2, 0, 0)));
+  EXPECT_GE(layout.half_height * 200 / 120, 2.5);
+}
+
+TEST(Picture, what_cannot_be_seen_is_a_configuration_error) {
+  EXPECT_THROW(lay_out(Picture{}), ConfigurationError);
+  Picture no_points = two_panels();
+  for (Panel& panel : no_points.panels) panel.surfaces.clear();
+  EXPECT_THROW(lay_out(no_points), ConfigurationError);
+  Picture bad_camera = two_panels();
+  bad_camera.panels[0].up = bad_camera.panels[0].looking;
+  EXPECT_THROW(lay_out(bad_camera), ConfigurationError);
+  Picture not_finite = two_panels();
+  not_finite.panels[0].surfaces[0].mesh.vertices(0, 0) = std::numeric_limits<Real>::quiet_NaN();
+  EXPECT_THROW(lay_out(not_finite), ConfigurationError);
+}
+
+TEST(Picture, surfaces_appear_in_their_colors_on_the_background) {
+  const std::filesystem::path path = testing::TempDir() + "surfaces_appear.png";
+  try {
+    render_picture(two_panels(), path);
+  } catch (const Error& error) {
+    ASSERT_EQ(error.code(), ExitCode::unsupported) << error.what();
+    GTEST_SKIP() << error.what();
+  }
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkImageData& image = *reader->GetOutput();
+  const PictureLayout layout = lay_out(two_panels());
+  ASSERT_EQ(image.GetDimensions()[0], layout.width);
+  ASSERT_EQ(image.GetDimensions()[1], layout.height);
+  const int middle = layout.panels[0].y + 60;
+  EXPECT_GT(pixel(image, 100, middle).x(), 2 * pixel(image, 100, middle).z());
+  EXPECT_GT(pixel(image, 300, middle).z(), 2 * pixel(image, 300, middle).x());
+  EXPECT_EQ(pixel(image, 5, layout.height - 5), Vec3(255, 255, 255));
+  std::filesystem::remove(path);
+}
+
+TEST(Picture, a_folder_that_cannot_be_written_is_named) {
+  try {
+    render_picture(two_panels(), "/proc/no_such_folder/picture.png");
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    if (error.code() == ExitCode::unsupported) GTEST_SKIP() << error.what();
+    EXPECT_NE(std::string(error.what()).find("/proc/no_such_folder/picture.png"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Palette, neighboring_muscle_colors_differ_in_lightness) {
+  const auto lightness = [](const Color& c) { return Vec3(0.2126, 0.7152, 0.0722).dot(c); };
+  for (const Palette palette : {Palette::flesh, Palette::okabe_ito}) {
+    for (Index i = 0; i + 1 < 6; ++i) {
+      EXPECT_GT(std::abs(lightness(muscle_color(i, palette)) - lightness(muscle_color(i + 1, palette))), 0.05) << i;
+    }
+  }
+}
