@@ -1,0 +1,50 @@
+#include <gracilis/anatomy/attachments.hpp>
+#include <gracilis/anatomy/scene_warnings.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis {
+
+/// At most one digit after the point.
+static std::string rounded(Real value) {
+  std::string text = std::to_string(std::round(value * 10) / 10);
+  text.resize(text.find('.') + 2);
+  return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
+}
+
+static void warn_about_range(const Motion& motion, const JointAxis& axis, std::vector<std::string>& warnings) {
+  const auto column = std::find(motion.coordinates.begin(), motion.coordinates.end(), axis.coordinate);
+  if (column == motion.coordinates.end() || motion.times.empty()) return;
+  const auto values = motion.values.col(column - motion.coordinates.begin());
+  // A millionth of a degree beyond the range is rounding.
+  const Real tolerance = radians(1e-6);
+  if (values.minCoeff() >= axis.range_min - tolerance && values.maxCoeff() <= axis.range_max + tolerance) return;
+  warnings.push_back("the motion takes " + axis.coordinate + " from " + rounded(degrees(values.minCoeff())) + " to " +
+                     rounded(degrees(values.maxCoeff())) + " degrees, beyond the model's range of " +
+                     rounded(degrees(axis.range_min)) + " to " + rounded(degrees(axis.range_max)) +
+                     "; it is followed as it is");
+}
+
+static void warn_about_size(const Muscle& muscle, const Attachment& attachment, std::vector<std::string>& warnings) {
+  const std::string who = "attachment '" + attachment.name + "' of " + muscle.name;
+  if (static_cast<Index>(attachment.vertices.size()) < handful) {
+    warnings.push_back(who + " is held by a handful of vertices (" + std::to_string(attachment.vertices.size()) + ")");
+    return;
+  }
+  const AttachmentArea area = attachment_area(muscle.surface, attachment.vertices);
+  if (!area.sliver()) return;
+  warnings.push_back(who + " is a sliver: " + rounded(area.length * 1e3) + " mm long and " + rounded(area.width * 1e3) +
+                     " mm wide on average");
+}
+
+std::vector<std::string> warnings_about(const Scene& scene) {
+  std::vector<std::string> warnings;
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes) warn_about_range(scene.motion, axis, warnings);
+  for (const Muscle& muscle : scene.muscles)
+    for (const Attachment& attachment : muscle.attachments) warn_about_size(muscle, attachment, warnings);
+  return warnings;
+}
+
+}  // namespace gracilis

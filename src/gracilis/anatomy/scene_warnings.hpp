@@ -1,0 +1,14 @@
+#pragma once
+
+#include <gracilis/scene/scene.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// What a user should know about a scene that is fit for a run, one line each: a motion that leaves a joint's range (it
+/// is never clamped), attachments of a handful of vertices, long and thin ones. Requires that `validate` finds nothing.
+std::vector<std::string> warnings_about(const Scene& scene);
+
+}  // namespace gracilis

@@ -1,0 +1,291 @@
+#include <gracilis/io/scene_description.hpp>
+#include <gracilis/io/scene_layers.hpp>
+#include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/toml_reader.hpp>
+#include <gracilis/scene/presets.hpp>
+
+#include <algorithm>
+#include <map>
+
+namespace gracilis {
+
+static Real unit_of(TomlReader& table, const std::string& key) {
+  const std::string unit = table.text(key).value_or("m");
+  if (unit == "m") return 1;
+  if (unit == "cm") return 0.01;
+  if (unit == "mm") return 0.001;
+  table.add_problem(key, "'" + key + "' must be \"m\", \"cm\" or \"mm\"");
+  return 1;
+}
+
+static NamedFile named_file(TomlReader& table, const std::string& path) {
+  return {path, unit_of(table, "unit"), table.place()};
+}
+
+static BoneDescription read_bone(TomlReader table) {
+  BoneDescription bone;
+  bone.name = table.required_text("name");
+  bone.body = table.text("body").value_or(bone.name);
+  bone.file = named_file(table, table.required_text("file"));
+  bone.place = table.place();
+  table.reject_unknown_keys();
+  return bone;
+}
+
+static JointAxis read_axis(TomlReader table) {
+  JointAxis axis;
+  axis.coordinate = table.required_text("coordinate");
+  const std::optional<Vec3> direction = table.required_vector("axis");
+  if (direction && direction->norm() < 1e-9)
+    table.add_problem("axis", "the axis has no length");
+  else if (direction)
+    axis.axis = direction->normalized();
+  axis.capture_value = radians(table.number("capture_deg", {-360, 360, "degrees"}).value_or(0));
+  if (const std::optional<Eigen::Vector2d> range = table.pair("range_deg")) {
+    axis.range_min = radians((*range)(0));
+    axis.range_max = radians((*range)(1));
+    if (axis.range_min > axis.range_max) table.add_problem("range_deg", "the range ends before it begins");
+  }
+  table.reject_unknown_keys();
+  return axis;
+}
+
+static JointDescription read_joint(TomlReader table) {
+  JointDescription result;
+  Joint& joint = result.joint;
+  joint.name = table.required_text("name");
+  result.parent = table.required_text("parent");
+  result.child = table.required_text("child");
+  result.place = table.place();
+  const Vec3 center = table.required_vector("center").value_or(Vec3::Zero()) * unit_of(table, "center_unit");
+  const Vec3 angles = table.vector("orientation_xyz_rad").value_or(Vec3::Zero());
+  joint.frame = Eigen::Translation3d(center) * Eigen::AngleAxisd(angles.x(), Vec3::UnitX()) *
+                Eigen::AngleAxisd(angles.y(), Vec3::UnitY()) * Eigen::AngleAxisd(angles.z(), Vec3::UnitZ());
+  for (TomlReader& axis : table.tables("axes")) joint.axes.push_back(read_axis(std::move(axis)));
+  table.reject_unknown_keys();
+  return result;
+}
+
+static Real millimetres(TomlReader& table, const std::string& key) {
+  return table.number(key, {0, 1000, "mm"}).value_or(0) / 1000;
+}
+
+static AttachmentDescription read_attachment(TomlReader table) {
+  AttachmentDescription result;
+  result.place = table.place();
+  result.name = table.required_text("name");
+  const std::string end = table.required_text("end");
+  if (end == "insertion")
+    result.end = AttachmentEnd::insertion;
+  else if (end != "origin" && !end.empty())
+    table.add_problem("end", "'end' must be \"origin\" or \"insertion\"");
+  const std::string line = table.text("line").value_or("cloud");
+  if (line == "open")
+    result.line = LineKind::open;
+  else if (line == "closed")
+    result.line = LineKind::closed;
+  else if (line != "cloud")
+    table.add_problem("line", "'line' must be \"cloud\", \"open\" or \"closed\"");
+  result.body = table.text("body").value_or("");
+  result.bones = table.texts("bone");
+  result.clouds = table.texts("cloud");
+  if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3))
+    result.points = {rows->transpose() / 1000};
+  result.bone_distance = millimetres(table, "bone_distance_mm");
+  result.landmark_distance = millimetres(table, "landmark_distance_mm");
+  result.vertices = table.indices("vertices");
+  result.guessed = table.flag("guessed").value_or(false);
+  table.reject_unknown_keys();
+
+  // Which of the four ways is meant follows from the keys; they must fit together.
+  const bool landmarks = !result.clouds.empty() || !result.points.empty();
+  const bool listed = !result.vertices.empty();
+  const auto complain = [&](const std::string& what, const std::string& remedy) {
+    Problem problem = result.place;
+    problem.what = "attachment '" + result.name + "' " + what;
+    problem.remedy = remedy;
+    table.add_problem(problem);
+  };
+  if (result.bones.empty() && result.body.empty()) complain("is fixed to nothing", "give 'bone' or 'body'");
+  if (listed && (landmarks || result.bone_distance > 0 || result.landmark_distance > 0)) {
+    complain("lists its vertices and also asks for distances", "keep one of the two");
+  } else if (!listed && !landmarks && result.bones.empty()) {
+    complain("does not say which vertices it takes", "give 'cloud', 'points_mm', 'bone' or 'vertices'");
+  } else if (!listed && !result.bones.empty() && result.bone_distance == 0) {
+    complain("needs the key 'bone_distance_mm'", "the distance to the bone within which vertices are taken");
+  } else if (landmarks && result.landmark_distance == 0) {
+    complain("needs the key 'landmark_distance_mm'", "the distance to the landmarks within which vertices are taken");
+  } else if (!landmarks && result.landmark_distance > 0) {
+    complain("gives a distance to landmarks but no landmarks", "give 'cloud' or 'points_mm'");
+  }
+  return result;
+}
+
+static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& global) {
+  MuscleDescription muscle;
+  muscle.place = table.place();
+  muscle.name = table.required_text("name");
+  muscle.file = named_file(table, table.required_text("file"));
+  muscle.xpbd = global;
+  if (std::optional<TomlReader> settings = table.table("settings")) {
+    settings->read_settings(muscle.xpbd);
+    settings->reject_unknown_keys();
+  }
+  for (TomlReader& attachment : table.tables("attachments")) {
+    muscle.attachments.push_back(read_attachment(std::move(attachment)));
+  }
+  table.reject_unknown_keys();
+  return muscle;
+}
+
+static MotionDescription read_motion(TomlReader table) {
+  MotionDescription motion;
+  motion.place = table.place();
+  if (const std::optional<std::string> file = table.text("file")) motion.file = {*file, 1, table.place()};
+  motion.coordinates = table.texts("coordinates");
+  const Index columns = static_cast<Index>(motion.coordinates.size());
+  const bool keyed = table.has("key_poses_deg");
+  if (keyed && !motion.file.path.empty()) {
+    table.add_problem("key_poses_deg", "the motion is given twice, by 'file' and by 'key_poses_deg'",
+                      "keep one of the two");
+  } else if (keyed && columns == 0) {
+    table.add_problem("key_poses_deg", "'key_poses_deg' needs the key 'coordinates'", "the names of its columns");
+  } else if (!keyed && motion.file.path.empty()) {
+    table.add_problem("file", "[motion] needs the key 'file' or the key 'key_poses_deg'");
+  }
+  if (keyed && columns > 0) {
+    motion.key_poses = table.rows("key_poses_deg", columns).value_or(Eigen::MatrixXd(0, columns)) * (pi / 180);
+  }
+  motion.step = radians(table.number("step_deg", {0.001, 360, "degrees"}).value_or(1));
+  motion.time_step = table.number("time_step", {1e-6, 1000, "s"}).value_or(1.0 / 60);
+  table.reject_unknown_keys();
+  return motion;
+}
+
+// ---- References between elements
+
+template <class Description>
+static void reject_duplicates(const std::vector<Description>& list, const std::string& kind,
+                              std::vector<Problem>& problems) {
+  std::map<std::string, Problem> first;
+  for (const Description& element : list) {
+    const auto [found, inserted] = first.emplace(element.name, element.place);
+    if (inserted || element.name.empty()) continue;
+    Problem problem = element.place;
+    problem.what = kind + " '" + element.name + "' stands twice";
+    problem.remedy = "the first one is at " + found->second.file + ":" + found->second.where;
+    problems.push_back(problem);
+  }
+}
+
+static void require_known(const std::string& name, const std::vector<std::string>& known, const std::string& kind,
+                          const Problem& place, std::vector<Problem>& problems) {
+  if (name.empty() || std::find(known.begin(), known.end(), name) != known.end()) return;
+  Problem problem = place;
+  problem.what = "there is no " + kind + " '" + name + "'";
+  problem.remedy = suggestion(name, known);
+  problems.push_back(problem);
+}
+
+static void check_references(const SceneDescription& scene, std::vector<Problem>& problems) {
+  std::vector<std::string> bones, bodies, coordinates;
+  for (const BoneDescription& bone : scene.bones) {
+    bones.push_back(bone.name);
+    if (std::find(bodies.begin(), bodies.end(), bone.body) == bodies.end()) bodies.push_back(bone.body);
+  }
+  // A body without a bone is known by the joint that moves it or that it carries; a misspelled one then hangs on
+  // nothing, which the scene's validation finds.
+  for (const JointDescription& joint : scene.joints) {
+    bodies.push_back(joint.parent);
+    bodies.push_back(joint.child);
+    for (const JointAxis& axis : joint.joint.axes) coordinates.push_back(axis.coordinate);
+  }
+  for (const MuscleDescription& muscle : scene.muscles) {
+    reject_duplicates(muscle.attachments, "attachment", problems);
+    for (const AttachmentDescription& attachment : muscle.attachments) {
+      for (const std::string& bone : attachment.bones) require_known(bone, bones, "bone", attachment.place, problems);
+      require_known(attachment.body, bodies, "body", attachment.place, problems);
+      if (!attachment.clouds.empty() && scene.landmarks.path.empty()) {
+        Problem problem = attachment.place;
+        problem.what = "attachment '" + attachment.name + "' names a cloud but the scene names no landmark file";
+        problem.remedy = "add [landmarks] with 'file' and 'unit'";
+        problems.push_back(problem);
+      }
+    }
+  }
+  for (const std::string& coordinate : scene.motion.coordinates) {
+    require_known(coordinate, coordinates, "coordinate", scene.motion.place, problems);
+  }
+  reject_duplicates(scene.bones, "bone", problems);
+  reject_duplicates(scene.muscles, "muscle", problems);
+}
+
+static void keep_only(std::vector<MuscleDescription>& muscles, const std::vector<std::string>& only, Problem place,
+                      std::vector<Problem>& problems) {
+  if (only.empty()) return;
+  std::vector<std::string> names;
+  for (const MuscleDescription& muscle : muscles) names.push_back(muscle.name);
+  for (const std::string& name : only) require_known(name, names, "muscle", place, problems);
+  std::erase_if(muscles, [&](const MuscleDescription& muscle) {
+    return std::find(only.begin(), only.end(), muscle.name) == only.end();
+  });
+}
+
+static void start_from_preset(TomlReader& top, SceneDescription& scene, XpbdSettings& global) {
+  scene.preset = top.text("preset").value_or(std::string(presets().front().name));
+  std::vector<std::string> names;
+  for (const Preset& preset : presets()) names.emplace_back(preset.name);
+  if (const Preset* preset = find_preset(scene.preset)) {
+    global = preset->xpbd;
+    scene.distance_fields = preset->distance_fields;
+  } else {
+    top.add_problem("preset", "there is no preset '" + scene.preset + "'", suggestion(scene.preset, names));
+  }
+}
+
+template <class Settings>
+static void read_section(TomlReader& top, const std::string& key, Settings& settings) {
+  std::optional<TomlReader> section = top.table(key);
+  if (!section) return;
+  section->read_settings(settings);
+  section->reject_unknown_keys();
+}
+
+SceneDescription read_scene_description(const std::filesystem::path& path, const std::vector<std::string>& set,
+                                        const std::vector<std::string>& only) {
+  const SceneLayers layers = load_scene_layers(path, set);
+  std::vector<Problem> problems;
+  TomlReader top(layers.table, "the scene file", problems);
+  SceneDescription scene;
+  scene.files = layers.files;
+  scene.notes = layers.notes;
+
+  if (!top.has("schema")) {
+    problems.push_back({path.string(), "", "the scene file does not say which schema it follows", "add: schema = 1"});
+  } else if (top.number("schema").value_or(0) != 1) {
+    top.add_problem("schema", "only schema 1 is known to this version");
+  }
+  scene.name = top.text("name").value_or(path.stem().string());
+  XpbdSettings global;
+  start_from_preset(top, scene, global);
+  read_section(top, "settings", global);
+  read_section(top, "distance_field", scene.distance_fields);
+  read_section(top, "sequence", scene.sequence);
+  if (std::optional<TomlReader> landmarks = top.table("landmarks")) {
+    scene.landmarks = named_file(*landmarks, landmarks->required_text("file"));
+    landmarks->reject_unknown_keys();
+  }
+  for (TomlReader& bone : top.tables("bones")) scene.bones.push_back(read_bone(std::move(bone)));
+  for (TomlReader& joint : top.tables("joints")) scene.joints.push_back(read_joint(std::move(joint)));
+  for (TomlReader& muscle : top.tables("muscles")) scene.muscles.push_back(read_muscle(std::move(muscle), global));
+  if (std::optional<TomlReader> motion = top.table("motion")) scene.motion = read_motion(std::move(*motion));
+  check_references(scene, problems);
+  const Problem only_place = top.has("only") ? place_of(*top.find("only")) : Problem{};
+  keep_only(scene.muscles, top.texts("only"), only_place, problems);
+  keep_only(scene.muscles, only, {"--only", "", "", ""}, problems);
+  top.reject_unknown_keys();
+  if (!problems.empty()) throw ConfigurationError(problems);
+  return scene;
+}
+
+}  // namespace gracilis

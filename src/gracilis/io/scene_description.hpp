@@ -1,0 +1,86 @@
+#pragma once
+
+#include <gracilis/anatomy/attachments.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// What a scene file says, as plain values in SI units, before any other file is read. `place` is where in the scene
+/// file an element stands, for messages about it.
+namespace gracilis {
+
+/// A file that the scene names, as written there, with the length of its unit in m.
+struct NamedFile {
+  std::string path;
+  Real unit = 1;
+  Problem place;
+};
+
+struct BoneDescription {
+  std::string name, body;
+  NamedFile file;
+  Problem place;
+};
+
+struct AttachmentDescription {
+  std::string name;
+  AttachmentEnd end = AttachmentEnd::origin;
+  std::string body;                 ///< empty: that of the bones
+  std::vector<std::string> bones;   ///< surfaces to measure the distance from
+  std::vector<std::string> clouds;  ///< names in the landmark file
+  std::vector<Points> points;       ///< landmarks written in the scene file itself
+  LineKind line = LineKind::cloud;
+  Real bone_distance = 0;
+  Real landmark_distance = 0;
+  std::vector<Index> vertices;
+  bool guessed = false;
+  Problem place;
+};
+
+struct MuscleDescription {
+  std::string name;
+  NamedFile file;
+  XpbdSettings xpbd;
+  std::vector<AttachmentDescription> attachments;
+  Problem place;
+};
+
+struct JointDescription {
+  std::string parent, child;
+  Joint joint;
+  Problem place;
+};
+
+/// Either a table file or key poses with equal steps between them.
+struct MotionDescription {
+  NamedFile file;
+  std::vector<std::string> coordinates;
+  Eigen::MatrixXd key_poses;  ///< rows × coordinates, rad
+  Real step = 0;              ///< rad, largest change of a coordinate per frame
+  Real time_step = 0;         ///< s
+  Problem place;
+};
+
+struct SceneDescription {
+  std::string name, preset;
+  std::vector<BoneDescription> bones;
+  std::vector<JointDescription> joints;
+  std::vector<MuscleDescription> muscles;
+  MotionDescription motion;
+  Sequence sequence;
+  DistanceFieldSettings distance_fields;
+  NamedFile landmarks;
+  std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
+  std::vector<std::string> notes;
+};
+
+/// Reads a scene file, all that it includes, and the command line's settings (see scene_layers.hpp); keeps only the
+/// muscles in `only`, or all when it is empty. Throws ConfigurationError with every problem found: unknown keys, wrong
+/// types, values out of range, duplicates, references to bones and bodies that are not there.
+SceneDescription read_scene_description(const std::filesystem::path& path, const std::vector<std::string>& set,
+                                        const std::vector<std::string>& only);
+
+}  // namespace gracilis

@@ -1,0 +1,187 @@
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/scene_inputs.hpp>
+#include <gracilis/io/scene_layers.hpp>
+#include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/toml_reader.hpp>
+
+#include <algorithm>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+static void insert_moved(toml::table& table, const toml::key& key, toml::node& node) {
+  table.erase(key.str());
+  // Moving keeps the place that the node came from; copying loses it.
+  node.visit([&](auto& value) { table.insert(key, std::move(value)); });
+}
+
+static std::string name_of(const toml::node& element) {
+  const toml::table* table = element.as_table();
+  return table ? (*table)["name"].value_or(std::string()) : std::string();
+}
+
+static bool is_named_list(const toml::node& node) {
+  const toml::array* array = node.as_array();
+  return array && std::all_of(array->begin(), array->end(), [](const toml::node& e) { return !name_of(e).empty(); });
+}
+
+static void lay_over(toml::table& lower, toml::table& upper);
+
+static void lay_list_over(toml::array& lower, toml::array& upper) {
+  for (toml::node& element : upper) {
+    const auto same = std::find_if(lower.begin(), lower.end(),
+                                   [&](const toml::node& other) { return name_of(other) == name_of(element); });
+    if (same != lower.end()) {
+      lay_over(*same->as_table(), *element.as_table());
+    } else {
+      lower.push_back(std::move(*element.as_table()));
+    }
+  }
+}
+
+static void lay_over(toml::table& lower, toml::table& upper) {
+  for (auto&& [key, node] : upper) {
+    toml::node* below = lower.get(key.str());
+    if (below && below->is_table() && node.is_table() && key.str() != "motion") {
+      lay_over(*below->as_table(), *node.as_table());
+    } else if (below && is_named_list(*below) && is_named_list(node)) {
+      lay_list_over(*below->as_array(), *node.as_array());
+    } else {
+      insert_moved(lower, key, node);
+    }
+  }
+}
+
+static bool erase_settings(toml::table& table) {
+  bool erased = table.erase("settings");
+  erased |= table.erase("distance_field");
+  if (toml::array* muscles = table["muscles"].as_array()) {
+    for (toml::node& muscle : *muscles) {
+      if (toml::table* entries = muscle.as_table()) erased |= entries->erase("settings");
+    }
+  }
+  return erased;
+}
+
+static void add_layer(SceneLayers& layers, toml::table& upper) {
+  const std::string preset = upper["preset"].value_or(std::string());
+  if (!preset.empty() && layers.table["preset"].value_or(std::string("physical")) != preset &&
+      erase_settings(layers.table)) {
+    layers.notes.push_back("the preset '" + preset + "' sets aside the settings that were chosen for another one");
+  }
+  lay_over(layers.table, upper);
+}
+
+static toml::table parse(const std::string& text, const std::string& source) {
+  try {
+    return toml::parse(text, source);
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    throw ConfigurationError(
+        {source, std::to_string(at.line) + ":" + std::to_string(at.column), std::string(error.description()), ""});
+  }
+}
+
+/// The file's own table with those it includes below it.
+static void add_file(SceneLayers& layers, const fs::path& path, std::vector<fs::path>& open) {
+  const fs::path canonical = fs::weakly_canonical(path);
+  if (std::find(open.begin(), open.end(), canonical) != open.end()) {
+    throw ConfigurationError({path.string(), "", "includes itself, by way of '" + open.back().string() + "'", ""});
+  }
+  toml::table table = parse(read_scene_text(path), path.string());
+  layers.files.push_back(path);
+  open.push_back(canonical);
+
+  std::vector<Problem> problems;
+  const std::vector<std::string> included = TomlReader(table, "the scene file", problems).texts("include");
+  if (!problems.empty()) throw ConfigurationError(problems);
+  table.erase("include");
+  for (const std::string& file : included) add_file(layers, path.parent_path() / file, open);
+  add_layer(layers, table);
+  open.pop_back();
+}
+
+/// A value from the command line; a bare word is a text.
+static toml::table parse_value(const std::string& value, const std::string& source) {
+  const bool word = !value.empty() && std::all_of(value.begin(), value.end(), [](unsigned char c) {
+    return std::isalnum(c) || c == '_' || c == '-' || c == '.';
+  });
+  try {
+    return toml::parse("value = " + value, source);
+  } catch (const toml::parse_error&) {
+    if (word) return toml::parse("value = \"" + value + "\"", source);
+    throw ConfigurationError({source, "", "the value cannot be read",
+                              "write a number, true, false, a word, or three numbers as [0, 0, -9.81]"});
+  }
+}
+
+static std::vector<std::string> muscle_names(toml::table& table) {
+  std::vector<std::string> names;
+  if (const toml::array* muscles = table["muscles"].as_array()) {
+    for (const toml::node& muscle : *muscles) names.push_back(name_of(muscle));
+  }
+  return names;
+}
+
+/// key=value as a layer of its own.
+static toml::table layer_of(const std::string& setting, const std::vector<std::string>& muscles) {
+  const std::string source = "--set " + setting;
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw ConfigurationError({source, "", "is not of the form key=value", "for example --set iterations=50"});
+  }
+  std::string key = setting.substr(0, equals);
+  toml::table value = parse_value(setting.substr(equals + 1), source);
+  toml::table layer;
+  if (key == "preset") {
+    insert_moved(layer, toml::key("preset"), *value.get("value"));
+    return layer;
+  }
+
+  const std::size_t dot = key.rfind('.');
+  const std::string owner = dot == std::string::npos ? "settings" : key.substr(0, dot);
+  if (dot != std::string::npos) key = key.substr(dot + 1);
+  toml::table entries;
+  insert_moved(entries, toml::key(key), *value.get("value"));
+  if (owner == "settings" || owner == "distance_field" || owner == "sequence") {
+    layer.insert(owner, std::move(entries));
+    return layer;
+  }
+  if (std::find(muscles.begin(), muscles.end(), owner) == muscles.end()) {
+    std::vector<std::string> owners = muscles;
+    owners.insert(owners.end(), {"settings", "distance_field", "sequence"});
+    throw ConfigurationError({source, "", "the scene has no muscle '" + owner + "'", suggestion(owner, owners)});
+  }
+  toml::table muscle;
+  muscle.insert("name", owner);
+  muscle.insert("settings", std::move(entries));
+  toml::array list;
+  list.push_back(std::move(muscle));
+  layer.insert("muscles", std::move(list));
+  return layer;
+}
+
+SceneLayers load_scene_layers(const fs::path& path, const std::vector<std::string>& set) {
+  SceneLayers layers;
+  std::vector<fs::path> open;
+  add_file(layers, path, open);
+
+  // The preset first: it sets aside what lies below it, but nothing that the command line says itself.
+  std::vector<std::string> ordered = set;
+  std::stable_partition(ordered.begin(), ordered.end(), [](const std::string& s) { return s.starts_with("preset="); });
+  std::vector<Problem> problems;
+  const std::vector<std::string> muscles = muscle_names(layers.table);
+  for (const std::string& setting : ordered) {
+    try {
+      toml::table layer = layer_of(setting, muscles);
+      add_layer(layers, layer);
+    } catch (const ConfigurationError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+  if (!problems.empty()) throw ConfigurationError(problems);
+  return layers;
+}
+
+}  // namespace gracilis

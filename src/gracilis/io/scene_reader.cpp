@@ -1,0 +1,265 @@
+#include <gracilis/anatomy/scene_warnings.hpp>
+#include <gracilis/io/data_root.hpp>
+#include <gracilis/io/scene_description.hpp>
+#include <gracilis/io/scene_inputs.hpp>
+#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/suggestions.hpp>
+#include <gracilis/scene/validate.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// One scene on its way from its description to its values; collects the problems of each phase.
+class SceneBuilder {
+ public:
+  SceneBuilder(const SceneDescription& description, fs::path data_root)
+      : description_(description), data_root_(std::move(data_root)) {}
+
+  LoadedScene build() {
+    result_.preset = description_.preset;
+    result_.inputs = description_.files;
+    result_.warnings = description_.notes;
+    result_.scene.name = description_.name;
+    result_.scene.sequence = description_.sequence;
+    result_.scene.distance_fields = description_.distance_fields;
+    place_bodies();
+    stop_at<ConfigurationError>();
+    read_files();
+    stop_at<InputError>();
+    for (std::size_t i = 0; i < description_.muscles.size(); ++i) attach(i);
+    stop_at<ConfigurationError>();
+    std::vector<Problem> invalid = validate(result_.scene);
+    for (Problem& problem : invalid) problem.file = description_.files.front().string();
+    if (!invalid.empty()) throw ConfigurationError(std::move(invalid));
+    for (std::string& warning : warnings_about(result_.scene)) result_.warnings.push_back(std::move(warning));
+    return std::move(result_);
+  }
+
+ private:
+  template <class Kind>
+  void stop_at() {
+    if (!problems_.empty()) throw Kind(std::move(problems_));
+  }
+
+  void add_problem(Problem place, const std::string& what, const std::string& remedy = "") {
+    place.what = what;
+    place.remedy = remedy;
+    problems_.push_back(std::move(place));
+  }
+
+  // ---- Bodies and joints
+
+  Index body_index(const std::string& name) {
+    std::vector<std::string>& bodies = result_.scene.bodies;
+    const auto found = std::find(bodies.begin(), bodies.end(), name);
+    if (found != bodies.end()) return static_cast<Index>(found - bodies.begin());
+    bodies.push_back(name);
+    return static_cast<Index>(bodies.size()) - 1;
+  }
+
+  /// Bodies in the order of the joints, the one that no joint moves first; joints parents before children.
+  void place_bodies() {
+    std::vector<const JointDescription*> waiting;
+    for (const JointDescription& joint : description_.joints) waiting.push_back(&joint);
+    const auto moved = [&](const std::string& body) {
+      return std::any_of(waiting.begin(), waiting.end(), [&](const JointDescription* j) { return j->child == body; });
+    };
+    for (const JointDescription& joint : description_.joints) {
+      if (!moved(joint.parent)) body_index(joint.parent);
+    }
+    while (!waiting.empty()) {
+      const auto next = std::find_if(waiting.begin(), waiting.end(),
+                                     [&](const JointDescription* joint) { return !moved(joint->parent); });
+      if (next == waiting.end()) {
+        add_problem(
+            waiting.front()->place,
+            "joint '" + waiting.front()->joint.name + "' moves its own parent '" + waiting.front()->parent + "'",
+            "joints must not form a circle");
+        return;
+      }
+      Joint joint = (*next)->joint;
+      joint.parent_body = body_index((*next)->parent);
+      joint.child_body = body_index((*next)->child);
+      result_.scene.joints.push_back(std::move(joint));
+      waiting.erase(next);
+    }
+    for (const BoneDescription& bone : description_.bones) body_index(bone.body);
+  }
+
+  // ---- Files
+
+  /// The file beside the scene or in the data root; adds a problem when it is in neither.
+  fs::path find(const NamedFile& file) {
+    std::error_code ignored;
+    const fs::path path(file.path);
+    const fs::path beside = fs::path(file.place.file).parent_path() / path;
+    fs::path found;
+    if (fs::exists(beside, ignored))
+      found = beside;
+    else if (path.is_relative() && !data_root_.empty() && fs::exists(data_root_ / path, ignored))
+      found = data_root_ / path;
+    if (!found.empty()) {
+      found = found.lexically_normal();
+      if (std::find(result_.inputs.begin(), result_.inputs.end(), found) == result_.inputs.end()) {
+        result_.inputs.push_back(found);
+      }
+      return found;
+    }
+    std::string remedy = "looked for '" + beside.lexically_normal().string() + "'";
+    if (path.is_relative()) {
+      remedy += data_root_.empty() ? "; there is no data root: give --data DIR or set GRACILIS_DATA"
+                                   : " and '" + (data_root_ / path).lexically_normal().string() + "'";
+    }
+    add_problem(file.place, "the file '" + file.path + "' does not exist", remedy);
+    return {};
+  }
+
+  /// Reads a named file by `read`, or adds what is wrong with it.
+  template <class Read>
+  void read(const NamedFile& file, Read&& reading) {
+    const fs::path path = find(file);
+    if (path.empty()) return;
+    try {
+      reading(path);
+    } catch (const InputError& error) {
+      problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+    }
+  }
+
+  void read_files() {
+    for (const BoneDescription& bone : description_.bones) {
+      result_.scene.bones.push_back({bone.name, body_index(bone.body), {}});
+      read(bone.file, [&](const fs::path& path) {
+        result_.scene.bones.back().surface = read_scene_surface(path, bone.file.unit);
+      });
+    }
+    for (const MuscleDescription& muscle : description_.muscles) {
+      result_.scene.muscles.push_back({muscle.name, {}, {}, muscle.xpbd});
+      read(muscle.file, [&](const fs::path& path) {
+        result_.scene.muscles.back().surface = read_scene_surface(path, muscle.file.unit);
+      });
+    }
+    if (!description_.landmarks.path.empty()) {
+      read(description_.landmarks,
+           [&](const fs::path& path) { landmarks_ = read_scene_landmarks(path, description_.landmarks.unit); });
+    }
+    read_motion();
+  }
+
+  void read_motion() {
+    const MotionDescription& description = description_.motion;
+    if (!description.file.path.empty()) {
+      read(description.file, [&](const fs::path& path) { result_.scene.motion = read_scene_motion(path); });
+    } else if (description.key_poses.rows() > 0) {
+      result_.scene.motion = between_key_poses(description);
+      result_.scene.motion.name = description_.name;
+    }
+  }
+
+  /// Equal steps from key pose to key pose, none larger than asked for.
+  static Motion between_key_poses(const MotionDescription& description) {
+    const Eigen::MatrixXd& keys = description.key_poses;
+    std::vector<Eigen::RowVectorXd> rows = {keys.row(0)};
+    for (Index key = 1; key < keys.rows(); ++key) {
+      const Eigen::RowVectorXd change = keys.row(key) - keys.row(key - 1);
+      const int steps =
+          std::max(1, static_cast<int>(std::ceil(change.cwiseAbs().maxCoeff() / description.step - 1e-9)));
+      for (int step = 1; step < steps; ++step) rows.push_back(keys.row(key - 1) + change * (Real(step) / steps));
+      rows.push_back(keys.row(key));
+    }
+    Motion motion;
+    motion.coordinates = description.coordinates;
+    motion.values.resize(rows.size(), keys.cols());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      motion.values.row(i) = rows[i];
+      motion.times.push_back(Real(i) * description.time_step);
+    }
+    return motion;
+  }
+
+  // ---- Attachments
+
+  const NearestTriangle& tree_of(Index bone) {
+    const auto [found, inserted] = trees_.try_emplace(bone, nullptr);
+    if (inserted) found->second = std::make_unique<NearestTriangle>(result_.scene.bones[bone].surface);
+    return *found->second;
+  }
+
+  Index bone_index(const std::string& name) const {
+    const auto& bones = result_.scene.bones;
+    return static_cast<Index>(
+        std::find_if(bones.begin(), bones.end(), [&](const Bone& bone) { return bone.name == name; }) - bones.begin());
+  }
+
+  std::vector<LandmarkSet> landmarks_of(const AttachmentDescription& attachment) {
+    std::vector<LandmarkSet> sets;
+    std::vector<std::string> known;
+    for (const auto& [name, points] : landmarks_) known.push_back(name);
+    for (const std::string& cloud : attachment.clouds) {
+      const auto found = landmarks_.find(cloud);
+      if (found != landmarks_.end())
+        sets.push_back({found->second, attachment.line});
+      else
+        add_problem(attachment.place, "the landmark file has no cloud '" + cloud + "'", suggestion(cloud, known));
+    }
+    for (const Points& points : attachment.points) sets.push_back({points, attachment.line});
+    return sets;
+  }
+
+  AttachmentRule rule_of(const AttachmentDescription& attachment) {
+    if (!attachment.vertices.empty()) return ListedVertices{attachment.vertices};
+    std::vector<LandmarkSet> landmarks = landmarks_of(attachment);
+    if (attachment.clouds.empty() && attachment.points.empty()) return NearBone{attachment.bone_distance};
+    if (attachment.bones.empty()) return NearPoints{std::move(landmarks), attachment.landmark_distance};
+    return NearLandmarks{std::move(landmarks), attachment.bone_distance, attachment.landmark_distance};
+  }
+
+  void attach(std::size_t index) {
+    Muscle& muscle = result_.scene.muscles[index];
+    for (const AttachmentDescription& description : description_.muscles[index].attachments) {
+      Attachment attachment{description.name, description.end, 0, {}, description.guessed};
+      std::vector<const NearestTriangle*> trees;
+      std::string body = description.body;
+      for (const std::string& bone : description.bones) {
+        trees.push_back(&tree_of(bone_index(bone)));
+        const std::string& of_bone = result_.scene.bodies[result_.scene.bones[bone_index(bone)].body];
+        if (body.empty()) body = of_bone;
+        if (description.body.empty() && body != of_bone) {
+          add_problem(description.place,
+                      "the bones of attachment '" + description.name + "' belong to different bodies",
+                      "split it, or say with 'body' to which one it is fixed");
+        }
+      }
+      attachment.body = body_index(body);
+      const AttachmentRule rule = rule_of(description);
+      attachment.vertices = select_vertices(muscle.surface, trees, rule);
+      if (attachment.vertices.empty()) {
+        add_problem(description.place, "attachment '" + description.name + "' of " + muscle.name + " holds no vertex",
+                    "give larger distances, or check the units and that the muscle reaches there");
+      }
+      muscle.attachments.push_back(std::move(attachment));
+    }
+  }
+
+  const SceneDescription& description_;
+  fs::path data_root_;
+  LoadedScene result_;
+  std::vector<Problem> problems_;
+  std::map<std::string, Points> landmarks_;
+  std::map<Index, std::unique_ptr<NearestTriangle>> trees_;
+};
+
+}  // namespace
+
+LoadedScene read_scene(const fs::path& path, const SceneOptions& options) {
+  const SceneDescription description = read_scene_description(path, options.set, options.only);
+  return SceneBuilder(description, find_data_root(path, options.data)).build();
+}
+
+}  // namespace gracilis

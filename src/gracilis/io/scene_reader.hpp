@@ -1,0 +1,32 @@
+#pragma once
+
+#include <gracilis/scene/scene.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// What the command line says about a scene.
+struct SceneOptions {
+  std::filesystem::path data;     ///< --data; empty: GRACILIS_DATA, or shared/data above the scene file
+  std::vector<std::string> set;   ///< --set key=value
+  std::vector<std::string> only;  ///< --only: names of the muscles to keep; empty: all
+};
+
+/// A scene with what is worth telling about how it came to be.
+struct LoadedScene {
+  Scene scene;
+  std::string preset;                         ///< the preset that its settings started from
+  std::vector<std::filesystem::path> inputs;  ///< every file that was read, the scene file first
+  std::vector<std::string> warnings;          ///< one line each
+};
+
+/// Reads a scene file and all that it names: meshes, landmarks, motion. Paths in it are relative to the file that names
+/// them or to the data root (data_root.hpp). docs: `gracilis print-config` writes a complete scene file with every key
+/// explained. Throws ConfigurationError when the scene is wrong and InputError when a file is; both list all problems
+/// of their kind.
+LoadedScene read_scene(const std::filesystem::path& path, const SceneOptions& options = {});
+
+}  // namespace gracilis

@@ -1,0 +1,47 @@
+#include <gracilis/io/suggestions.hpp>
+
+#include <algorithm>
+
+namespace gracilis {
+
+int edit_distance(std::string_view a, std::string_view b) {
+  // Three rows of the table of distances between beginnings of a and b.
+  std::vector<int> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = static_cast<int>(j);
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    next[0] = static_cast<int>(i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      next[j] = std::min({row[j] + 1, next[j - 1] + 1, row[j - 1] + (a[i - 1] != b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        next[j] = std::min(next[j], before[j - 2] + 1);
+    }
+    std::swap(before, row);
+    std::swap(row, next);
+  }
+  return row[b.size()];
+}
+
+std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
+  int nearest = std::max<int>(2, static_cast<int>(word.size() / 3)) + 1;
+  std::string result;
+  for (const std::string& candidate : candidates) {
+    const int distance = edit_distance(word, candidate);
+    // A word of three letters is not a misspelling of any other word of three letters.
+    if (distance >= nearest || distance >= static_cast<int>(std::max(word.size(), candidate.size()))) continue;
+    nearest = distance;
+    result = candidate;
+  }
+  return result;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_word(word, candidates);
+  if (!nearest.empty()) return "did you mean '" + nearest + "'?";
+  if (candidates.empty()) return "none is known here";
+  std::string text = "known are";
+  for (const std::string& candidate : candidates)
+    text += (&candidate == &candidates.front() ? " '" : ", '") + candidate + "'";
+  return text;
+}
+
+}  // namespace gracilis

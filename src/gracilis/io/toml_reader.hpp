@@ -1,0 +1,86 @@
+#pragma once
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/types.hpp>
+#include <gracilis/scene/setting_table.hpp>
+
+#include <toml++/toml.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// The place of a node in its file, with nothing said about it yet.
+Problem place_of(const toml::node& node);
+
+/// Bounds of a number, both allowed, with the unit to show.
+struct NumberRange {
+  Real minimum = -std::numeric_limits<Real>::max();
+  Real maximum = std::numeric_limits<Real>::max();
+  std::string unit = "";
+};
+
+/// Reads one table of a scene file. Each access makes its key a known one and adds a problem, with line and column,
+/// where the value is not what was asked for; at the end `reject_unknown_keys` finds the keys that nobody asked for.
+/// Nothing is thrown: an access whose value is missing or wrong returns nothing. The table must outlive the reader.
+class TomlReader {
+ public:
+  /// `title` says in messages what the table is, as in "[[bones]]".
+  TomlReader(const toml::table& table, std::string title, std::vector<Problem>& problems)
+      : table_(&table), title_(std::move(title)), problems_(&problems) {}
+
+  const toml::node* find(const std::string& key);  ///< null when the key is missing
+  bool has(const std::string& key) { return find(key) != nullptr; }
+
+  std::optional<std::string> text(const std::string& key);
+  std::optional<bool> flag(const std::string& key);
+  std::optional<Real> number(const std::string& key, const NumberRange& range = {});
+  std::optional<Vec3> vector(const std::string& key);
+  std::optional<Eigen::Vector2d> pair(const std::string& key);
+  std::optional<Eigen::MatrixXd> rows(const std::string& key, Index columns);  ///< array of arrays of numbers
+  std::vector<std::string> texts(const std::string& key);                      ///< one string or an array of them
+  std::vector<Index> indices(const std::string& key);                          ///< array of integers, not negative
+  std::optional<TomlReader> table(const std::string& key);
+  std::vector<TomlReader> tables(const std::string& key);  ///< [[key]]
+
+  /// As above, and adds a problem when the key is missing; then the result is empty.
+  std::string required_text(const std::string& key);
+  std::optional<Real> required_number(const std::string& key, const NumberRange& range = {});
+  std::optional<Vec3> required_vector(const std::string& key);
+
+  /// Reads every setting of the struct that stands in the table.
+  template <class Settings>
+  void read_settings(Settings& settings) {
+    for (const Setting<Settings>& setting : setting_table<Settings>()) {
+      const std::string key(setting.key);
+      const toml::node* node = find(key);
+      if (!node) continue;
+      const std::optional<SettingValue> value = setting_value(*node);
+      const std::string message = value ? assign(settings, setting, *value) : "must be " + expectation(setting);
+      if (!message.empty()) add_problem(*node, "'" + key + "' " + message, "");
+    }
+  }
+
+  void add_problem(const std::string& key, const std::string& what, const std::string& remedy = "");
+  void add_problem(const toml::node& node, const std::string& what, const std::string& remedy);
+  void add_problem(Problem problem) { problems_->push_back(std::move(problem)); }
+  void reject_unknown_keys();
+
+  Problem place() const { return place_of(*table_); }
+  const std::string& title() const { return title_; }
+
+ private:
+  static std::optional<SettingValue> setting_value(const toml::node& node);
+  std::nullopt_t wrong_type(const toml::node& node, const std::string& key, const std::string& expected);
+  void missing(const std::string& key);
+
+  const toml::table* table_;
+  std::string title_;
+  std::vector<Problem>* problems_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace gracilis

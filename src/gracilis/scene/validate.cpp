@@ -1,0 +1,213 @@
+#include <gracilis/scene/setting_table.hpp>
+#include <gracilis/scene/validate.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace gracilis {
+namespace {
+
+/// Collects problems of one scene.
+struct Validation {
+  const Scene& scene;
+  std::vector<Problem> problems;
+
+  void add(const std::string& where, const std::string& what, const std::string& remedy = "") {
+    problems.push_back({"", where, what, remedy});
+  }
+
+  bool is_body(Index body) const { return body >= 0 && body < static_cast<Index>(scene.bodies.size()); }
+  std::string body_name(Index body) const {
+    return is_body(body) ? scene.bodies[body] : "number " + std::to_string(body);
+  }
+
+  void check_body(const std::string& where, Index body) {
+    if (!is_body(body)) add(where, "refers to body number " + std::to_string(body) + ", which does not exist");
+  }
+
+  template <class Elements>
+  void check_names(const Elements& elements, const std::string& kind) {
+    std::set<std::string> seen;
+    for (const auto& element : elements) {
+      const std::string where = kind + " '" + element.name + "'";
+      if (!seen.insert(element.name).second) add(where, "the name stands twice");
+      const bool fit = !element.name.empty() && element.name[0] != '.' &&
+                       std::all_of(element.name.begin(), element.name.end(),
+                                   [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; });
+      if (!fit) add(where, "the name is not fit for a file's name", "use letters, digits, '_', '-' and '.'");
+    }
+  }
+
+  void check_surface(const std::string& where, const TriangleMesh& surface) {
+    if (surface.face_count() == 0) add(where, "the surface has no triangles");
+    for (Index i = 0; i < surface.vertex_count(); ++i) {
+      if (surface.vertices.col(i).allFinite()) continue;
+      add(where, "vertex " + std::to_string(i) + " is not finite");
+      break;
+    }
+    for (Index i = 0; i < surface.face_count(); ++i) {
+      const auto corners = surface.faces.col(i);
+      if (corners.minCoeff() >= 0 && corners.maxCoeff() < surface.vertex_count()) continue;
+      add(where, "triangle " + std::to_string(i) + " refers to a vertex that does not exist");
+      break;
+    }
+  }
+
+  template <class Settings>
+  void check_settings(const std::string& where, const Settings& settings) {
+    for (const Setting<Settings>& setting : setting_table<Settings>()) {
+      Settings copy = settings;
+      const std::string message = assign(copy, setting, value_of(settings, setting));
+      if (!message.empty()) add(where, "'" + std::string(setting.key) + "' " + message);
+    }
+  }
+
+  void check_bones() {
+    for (const Bone& bone : scene.bones) {
+      const std::string where = "bone '" + bone.name + "'";
+      check_body(where, bone.body);
+      check_surface(where, bone.surface);
+    }
+  }
+
+  void check_axis(const std::string& where, const JointAxis& axis, std::set<std::string>& coordinates) {
+    if (axis.coordinate.empty()) add(where, "an axis has no coordinate");
+    if (!coordinates.insert(axis.coordinate).second)
+      add(where, "the coordinate '" + axis.coordinate + "' stands twice");
+    if (axis.axis.norm() < 1e-9) {
+      add(where, "the axis of '" + axis.coordinate + "' has no length");
+    } else if (!(std::abs(axis.axis.norm() - 1) < 1e-9)) {
+      add(where, "the axis of '" + axis.coordinate + "' is not a unit vector");
+    }
+    if (!std::isfinite(axis.capture_value)) add(where, "the capture value of '" + axis.coordinate + "' is not finite");
+    if (!(axis.range_min <= axis.range_max)) add(where, "the range of '" + axis.coordinate + "' ends before it begins");
+  }
+
+  void check_joints() {
+    std::set<std::string> coordinates;
+    std::set<Index> placed = {0};
+    std::set<Index> children;
+    for (const Joint& joint : scene.joints) {
+      const std::string where = "joint '" + joint.name + "'";
+      check_body(where, joint.parent_body);
+      check_body(where, joint.child_body);
+      if (!joint.frame.matrix().allFinite()) add(where, "its frame is not finite");
+      if (joint.child_body == 0) {
+        add(where, "moves the body '" + body_name(0) + "', which is fixed in the world");
+      } else if (!children.insert(joint.child_body).second) {
+        add(where, "the body '" + body_name(joint.child_body) + "' is moved by another joint already");
+      } else if (!placed.count(joint.parent_body) && is_body(joint.parent_body)) {
+        add(where, "its parent '" + body_name(joint.parent_body) + "' does not hang on a joint before it",
+            "joints stand parents before children, and their chain starts at '" + body_name(0) + "'");
+      }
+      placed.insert(joint.child_body);
+      for (const JointAxis& axis : joint.axes) check_axis(where, axis, coordinates);
+    }
+    for (Index body = 1; body < static_cast<Index>(scene.bodies.size()); ++body) {
+      if (children.count(body)) continue;
+      add("body '" + body_name(body) + "'", "no joint says how it moves against '" + body_name(0) + "'",
+          "add a joint, or fix what belongs to it to '" + body_name(0) + "'");
+    }
+  }
+
+  void check_attachment(const std::string& where, const Muscle& muscle, const Attachment& attachment,
+                        std::map<Index, const Attachment*>& owners) {
+    check_body(where, attachment.body);
+    if (attachment.vertices.empty()) {
+      add(where, "holds no vertex of the muscle", "give larger distances, or check units and names");
+      return;
+    }
+    const auto& vertices = attachment.vertices;
+    if (std::adjacent_find(vertices.begin(), vertices.end(), std::greater_equal<>()) != vertices.end()) {
+      add(where, "its vertices do not ascend");
+    }
+    const auto [least, greatest] = std::minmax_element(vertices.begin(), vertices.end());
+    if (*least < 0 || *greatest >= muscle.surface.vertex_count()) {
+      add(where, "vertex " + std::to_string(*least < 0 ? *least : *greatest) + " does not exist",
+          "the surface has vertices 0 to " + std::to_string(muscle.surface.vertex_count() - 1));
+      return;
+    }
+    Index shared = 0;
+    const Attachment* other = nullptr;
+    for (Index vertex : vertices) {
+      const auto [found, inserted] = owners.emplace(vertex, &attachment);
+      if (inserted || found->second->body == attachment.body) continue;
+      ++shared;
+      other = found->second;
+    }
+    if (other) {
+      add(where,
+          std::to_string(shared) + " of its vertices are fixed to '" + body_name(other->body) +
+              "' by the attachment '" + other->name + "' and cannot move with '" + body_name(attachment.body) + "' too",
+          "give smaller distances");
+    }
+  }
+
+  void check_muscles() {
+    if (scene.muscles.empty()) add("", "the scene has no muscles", "add [[muscles]]");
+    for (const Muscle& muscle : scene.muscles) {
+      const std::string where = "muscle '" + muscle.name + "'";
+      check_surface(where, muscle.surface);
+      check_settings(where, muscle.xpbd);
+      std::map<Index, const Attachment*> owners;
+      for (const Attachment& attachment : muscle.attachments) {
+        check_attachment(where + ", attachment '" + attachment.name + "'", muscle, attachment, owners);
+      }
+      for (AttachmentEnd end : {AttachmentEnd::origin, AttachmentEnd::insertion}) {
+        const bool found = std::any_of(muscle.attachments.begin(), muscle.attachments.end(),
+                                       [&](const Attachment& a) { return a.end == end; });
+        if (!found)
+          add(where, end == AttachmentEnd::origin ? "it has no origin" : "it has no insertion", "add an attachment");
+      }
+    }
+  }
+
+  void check_motion() {
+    const Motion& motion = scene.motion;
+    const std::string where = "motion '" + motion.name + "'";
+    std::set<std::string> known, named;
+    for (const Joint& joint : scene.joints)
+      for (const JointAxis& axis : joint.axes) known.insert(axis.coordinate);
+    for (const std::string& coordinate : motion.coordinates) {
+      if (!known.count(coordinate)) add(where, "no joint has the coordinate '" + coordinate + "'");
+      if (!named.insert(coordinate).second) add(where, "the coordinate '" + coordinate + "' stands twice");
+    }
+    if (motion.values.rows() != static_cast<Index>(motion.times.size()) ||
+        (motion.values.rows() > 0 && motion.values.cols() != static_cast<Index>(motion.coordinates.size()))) {
+      add(where, "its table has " + std::to_string(motion.values.rows()) + " rows and " +
+                     std::to_string(motion.values.cols()) + " columns, but there are " +
+                     std::to_string(motion.times.size()) + " times and " + std::to_string(motion.coordinates.size()) +
+                     " coordinates");
+      return;
+    }
+    for (std::size_t row = 0; row < motion.times.size(); ++row) {
+      if (!std::isfinite(motion.times[row]) || !motion.values.row(row).allFinite()) {
+        add(where, "row " + std::to_string(row) + " is not finite");
+        return;
+      }
+      if (row == 0 || motion.times[row] > motion.times[row - 1]) continue;
+      add(where, "the time does not increase at row " + std::to_string(row));
+      return;
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<Problem> validate(const Scene& scene) {
+  Validation validation{scene, {}};
+  if (scene.bodies.empty()) validation.add("", "the scene has no bodies", "add [[bones]]");
+  validation.check_names(scene.bones, "bone");
+  validation.check_names(scene.muscles, "muscle");
+  validation.check_bones();
+  validation.check_joints();
+  validation.check_muscles();
+  validation.check_motion();
+  validation.check_settings("distance_field", scene.distance_fields);
+  validation.check_settings("sequence", scene.sequence);
+  return validation.problems;
+}
+
+}  // namespace gracilis
