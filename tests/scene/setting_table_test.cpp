@@ -22,6 +22,22 @@ void every_entry_is_complete() {
   }
 }
 
+/// Stands for a value of any type.
+struct Any {
+  template <class T>
+  operator T() const;
+};
+
+/// How many members an aggregate has: as many as it accepts initializers.
+template <class Aggregate, class... Initializers>
+constexpr std::size_t member_count() {
+  if constexpr (requires { Aggregate{Initializers{}..., Any{}}; }) {
+    return member_count<Aggregate, Initializers..., Any>();
+  } else {
+    return sizeof...(Initializers);
+  }
+}
+
 std::string assign_text(XpbdSettings& settings, std::string_view key, SettingValue value) {
   return assign(settings, *find_setting<XpbdSettings>(key), value);
 }
@@ -35,13 +51,9 @@ TEST(SettingTable, every_entry_has_a_key_of_its_own_a_meaning_and_a_default_with
 }
 
 TEST(SettingTable, no_member_of_the_structs_is_forgotten) {
-  // A new member changes the size of its struct: add it to the table, then here.
-  EXPECT_EQ(setting_table<XpbdSettings>().size(), 25u);
-  EXPECT_EQ(setting_table<DistanceFieldSettings>().size(), 4u);
-  EXPECT_EQ(setting_table<Sequence>().size(), 3u);
-  EXPECT_EQ(sizeof(DistanceFieldSettings), 32u);
-  EXPECT_EQ(sizeof(Sequence), 12u);
-  EXPECT_EQ(sizeof(XpbdSettings), 192u);
+  EXPECT_EQ(setting_table<XpbdSettings>().size(), member_count<XpbdSettings>());
+  EXPECT_EQ(setting_table<DistanceFieldSettings>().size(), member_count<DistanceFieldSettings>());
+  EXPECT_EQ(setting_table<Sequence>().size(), member_count<Sequence>());
 }
 
 TEST(SettingTable, a_value_of_the_right_kind_within_its_range_is_assigned) {
