@@ -1,0 +1,139 @@
+#include <gracilis/geometry/implicit_surface_spline.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+#include <memory>
+
+namespace gracilis {
+
+namespace {
+
+constexpr Real smallest_radius = 0.0005;
+
+ThickPoint blend(const std::array<Real, 4>& weights, const std::array<const ThickPoint*, 4>& points) {
+  ThickPoint result;
+  for (int i = 0; i < 4; ++i) {
+    result.point += weights[i] * points[i]->point;
+    result.radius += weights[i] * points[i]->radius;
+  }
+  result.radius = std::max(result.radius, smallest_radius);
+  return result;
+}
+
+std::array<Real, 4> catmull_rom_weights(Real t) {
+  return {t * (-1 + t * (2 - t)) / 2, (2 + t * t * (-5 + 3 * t)) / 2, t * (1 + t * (4 - 3 * t)) / 2, t * t * (t - 1) / 2};
+}
+
+/// Barycentric coordinates of the point of triangle abc that is closest to p.
+Vec3 closest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const Real g11 = ab.squaredNorm(), g12 = ab.dot(ac), g22 = ac.squaredNorm();
+  const Real r1 = ab.dot(ap), r2 = ac.dot(ap);
+  const Real determinant = g11 * g22 - g12 * g12;
+  if (determinant > 1e-12 * g11 * g22) {
+    const Real v = (g22 * r1 - g12 * r2) / determinant, w = (g11 * r2 - g12 * r1) / determinant;
+    if (v >= 0 && w >= 0 && v + w <= 1) return {1 - v - w, v, w};
+  }
+  // Outside (or no area): the closest of the three edges.
+  const auto on_edge = [&p](const Vec3& from, const Vec3& to) {
+    const Vec3 edge = to - from;
+    const Real length2 = edge.squaredNorm();
+    return length2 > 0 ? std::clamp((p - from).dot(edge) / length2, 0.0, 1.0) : 0.0;
+  };
+  const Real s = on_edge(a, b), t = on_edge(b, c), u = on_edge(c, a);
+  const std::array<Vec3, 3> candidates = {Vec3(1 - s, s, 0), Vec3(0, 1 - t, t), Vec3(u, 0, 1 - u)};
+  const auto distance2 = [&](const Vec3& l) { return (p - l[0] * a - l[1] * b - l[2] * c).squaredNorm(); };
+  return *std::min_element(candidates.begin(), candidates.end(),
+                           [&](const Vec3& l, const Vec3& m) { return distance2(l) < distance2(m); });
+}
+
+}  // namespace
+
+std::vector<ThickPoint> spline_through(const std::vector<ThickPoint>& points, int pieces) {
+  assert(!points.empty() && pieces >= 1);
+  if (points.size() == 1) return points;
+  const auto beyond = [](const ThickPoint& end, const ThickPoint& next) {
+    return ThickPoint{2 * end.point - next.point, 2 * end.radius - next.radius};
+  };
+  const ThickPoint before = beyond(points[0], points[1]);
+  const ThickPoint after = beyond(points.back(), points[points.size() - 2]);
+
+  std::vector<ThickPoint> result;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const std::array<const ThickPoint*, 4> around = {i == 0 ? &before : &points[i - 1], &points[i], &points[i + 1],
+                                                     i + 2 < points.size() ? &points[i + 2] : &after};
+    for (int k = 0; k < pieces; ++k) result.push_back(blend(catmull_rom_weights(Real(k) / pieces), around));
+  }
+  result.push_back(points.back());
+  return result;
+}
+
+ThickSheet::ThickSheet(const ThickNet& net, int pieces) {
+  assert(net.rows >= 2 && net.columns >= 2 && static_cast<int>(net.points.size()) == net.rows * net.columns);
+  // Splines along each row first, then down through the results.
+  std::vector<std::vector<ThickPoint>> cut_rows;
+  for (int row = 0; row < net.rows; ++row) {
+    const auto first = net.points.begin() + row * net.columns;
+    cut_rows.push_back(spline_through({first, first + net.columns}, pieces));
+  }
+  columns_ = static_cast<int>(cut_rows[0].size());
+  rows_ = (net.rows - 1) * pieces + 1;
+  points_.resize(static_cast<std::size_t>(rows_) * columns_);
+  for (int column = 0; column < columns_; ++column) {
+    std::vector<ThickPoint> down;
+    for (const auto& row : cut_rows) down.push_back(row[column]);
+    down = spline_through(down, pieces);
+    for (int row = 0; row < rows_; ++row) points_[row * columns_ + column] = down[row];
+  }
+
+  for (const ThickPoint& p : points_) {
+    bounds_.extend(p.point - Vec3::Constant(p.radius));
+    bounds_.extend(p.point + Vec3::Constant(p.radius));
+  }
+  for (int row = 0; row + 1 < rows_; ++row) {
+    for (int column = 0; column + 1 < columns_; ++column) {
+      const int a = row * columns_ + column;
+      Quad quad{{a, a + 1, a + columns_, a + columns_ + 1}, Vec3::Zero(), 0};
+      for (int corner : quad.corners) quad.center += points_[corner].point / 4;
+      for (int corner : quad.corners)
+        quad.reach = std::max(quad.reach, (points_[corner].point - quad.center).norm() + points_[corner].radius);
+      quads_.push_back(quad);
+    }
+  }
+}
+
+ThickSheet::Nearest ThickSheet::nearest(const Vec3& point) const {
+  Nearest best;
+  best.distance = std::numeric_limits<Real>::max();
+  for (const Quad& quad : quads_) {
+    if ((point - quad.center).norm() - quad.reach >= best.distance) continue;
+    for (int half = 0; half < 2; ++half) {
+      const std::array<int, 3> corners = {quad.corners[half == 0 ? 0 : 2], quad.corners[1], quad.corners[half == 0 ? 2 : 3]};
+      const ThickPoint &a = points_[corners[0]], &b = points_[corners[1]], &c = points_[corners[2]];
+      const Vec3 l = closest_in_triangle(point, a.point, b.point, c.point);
+      const Vec3 offset = point - l[0] * a.point - l[1] * b.point - l[2] * c.point;
+      const Real distance = offset.norm() - l[0] * a.radius - l[1] * b.radius - l[2] * c.radius;
+      if (distance >= best.distance) continue;
+      best = {distance, 0, 0};
+      for (int i = 0; i < 3; ++i) {
+        best.along += l[i] * (corners[i] / columns_) / (rows_ - 1);
+        best.across += l[i] * (corners[i] % columns_) / (columns_ - 1);
+      }
+    }
+  }
+  return best;
+}
+
+ImplicitSolid thick_sheet(const ThickNet& net) {
+  auto sheet = std::make_shared<const ThickSheet>(net);
+  const Eigen::AlignedBox3d bounds = sheet->bounds();
+  return {[sheet, bounds](const Vec3& point) {
+            const Real to_bounds = bounds.exteriorDistance(point);
+            return to_bounds > far_distance ? to_bounds : sheet->nearest(point).distance;
+          },
+          bounds};
+}
+
+}  // namespace gracilis

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gracilis/geometry/implicit_surface.hpp>
+
+#include <array>
+#include <vector>
+
+namespace gracilis {
+
+/// The Catmull-Rom spline through `points`, cut into `pieces` per interval; ends as straight as the first and last interval.
+/// Radii are interpolated alike but kept positive. (Catmull and Rom 1974, uniform parametrization.)
+std::vector<ThickPoint> spline_through(const std::vector<ThickPoint>& points, int pieces);
+
+/// A net of control points: `columns` curves side by side, each of `rows` points. Point (row, column) is
+/// points[row * columns + column].
+struct ThickNet {
+  int rows = 0;
+  int columns = 0;
+  std::vector<ThickPoint> points;
+};
+
+/// A surface patch given a thickness: the balls swept over the surface that the Catmull-Rom splines along rows and columns span.
+class ThickSheet {
+ public:
+  /// Prepares queries; `net` has at least 2 rows and 2 columns. Each interval is cut into `pieces`.
+  explicit ThickSheet(const ThickNet& net, int pieces = 4);
+
+  struct Nearest {
+    Real distance = 0;  ///< m, negative inside
+    Real along = 0;     ///< 0 at the first row, 1 at the last
+    Real across = 0;    ///< 0 at the first column, 1 at the last
+  };
+  Nearest nearest(const Vec3& point) const;
+  const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+
+ private:
+  /// Two triangles (a b c, c b d) of the cut sheet with a ball that contains them and their thickness.
+  struct Quad {
+    std::array<int, 4> corners;
+    Vec3 center;
+    Real reach = 0;
+  };
+  std::vector<ThickPoint> points_;
+  std::vector<Quad> quads_;
+  int rows_ = 0;
+  int columns_ = 0;
+  Eigen::AlignedBox3d bounds_;
+};
+
+/// The sheet as a solid.
+ImplicitSolid thick_sheet(const ThickNet& net);
+
+}  // namespace gracilis
