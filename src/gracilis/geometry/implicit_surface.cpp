@@ -32,7 +32,8 @@ Eigen::AlignedBox3d box_of(const std::vector<ThickPoint>& points) {
 }  // namespace
 
 ImplicitSolid ball(const Vec3& center, Real radius) {
-  return {[=](const Vec3& point) { return (point - center).norm() - radius; }, box_around(center, Vec3::Constant(radius))};
+  return {[=](const Vec3& point) { return (point - center).norm() - radius; },
+          box_around(center, Vec3::Constant(radius))};
 }
 
 ImplicitSolid ellipsoid(const Vec3& center, const Vec3& radii) {
@@ -82,7 +83,8 @@ ImplicitSolid smooth_union(std::vector<ImplicitSolid> solids, Real blend) {
     Real value = std::numeric_limits<Real>::max();
     for (const ImplicitSolid& solid : solids) {
       // What is further than the blend from the best so far changes nothing: its bounds alone tell.
-      if (solid.bounds.exteriorDistance(point) < value + blend) value = smooth_minimum(value, solid.distance(point), blend);
+      if (solid.bounds.exteriorDistance(point) < value + blend)
+        value = smooth_minimum(value, solid.distance(point), blend);
     }
     return value;
   });

@@ -8,8 +8,8 @@
 namespace gracilis {
 
 /// A solid described by a function that is negative inside, positive outside and grows about as fast as distance does.
-/// Far from the solid (beyond `far_distance`) the function may answer with a smaller positive number than the distance, never
-/// with a larger one, so that composed solids stay cheap to evaluate.
+/// Far from the solid (beyond `far_distance`) the function may answer with a smaller positive number than the distance,
+/// never with a larger one, so that composed solids stay cheap to evaluate.
 struct ImplicitSolid {
   std::function<Real(const Vec3& point)> distance;  ///< m
   Eigen::AlignedBox3d bounds;                       ///< contains the solid
@@ -27,7 +27,8 @@ struct ThickPoint {
 /// The ball around `center`.
 ImplicitSolid ball(const Vec3& center, Real radius);
 
-/// The ellipsoid with half axes `radii` along the world's axes; distance scaled to first order (exact on the surface only).
+/// The ellipsoid with half axes `radii` along the world's axes; distance scaled to first order (exact on the surface
+/// only).
 ImplicitSolid ellipsoid(const Vec3& center, const Vec3& radii);
 
 /// All points p with (p - point)·normal <= 0, within `bounds`.
@@ -36,8 +37,8 @@ ImplicitSolid half_space(const Vec3& point, const Vec3& normal, const Eigen::Ali
 /// The balls swept along the Catmull-Rom spline through `points` (at least one), their radii interpolated alike.
 ImplicitSolid thick_curve(const std::vector<ThickPoint>& points);
 
-/// Smaller of a and b, rounded where they differ by less than `blend`; lies at most blend/4 below the smaller one. A polynomial
-/// smooth minimum: quadratic in the blend zone, continuous first derivative.
+/// Smaller of a and b, rounded where they differ by less than `blend`; lies at most blend/4 below the smaller one. A
+/// polynomial smooth minimum: quadratic in the blend zone, continuous first derivative.
 Real smooth_minimum(Real a, Real b, Real blend);
 inline Real smooth_maximum(Real a, Real b, Real blend) { return -smooth_minimum(-a, -b, blend); }
 

@@ -1,4 +1,5 @@
 #include <gracilis/geometry/implicit_surface_spline.hpp>
+#include <gracilis/geometry/point_triangle.hpp>
 
 #include <algorithm>
 #include <array>
@@ -23,30 +24,8 @@ ThickPoint blend(const std::array<Real, 4>& weights, const std::array<const Thic
 }
 
 std::array<Real, 4> catmull_rom_weights(Real t) {
-  return {t * (-1 + t * (2 - t)) / 2, (2 + t * t * (-5 + 3 * t)) / 2, t * (1 + t * (4 - 3 * t)) / 2, t * t * (t - 1) / 2};
-}
-
-/// Barycentric coordinates of the point of triangle abc that is closest to p.
-Vec3 closest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const Real g11 = ab.squaredNorm(), g12 = ab.dot(ac), g22 = ac.squaredNorm();
-  const Real r1 = ab.dot(ap), r2 = ac.dot(ap);
-  const Real determinant = g11 * g22 - g12 * g12;
-  if (determinant > 1e-12 * g11 * g22) {
-    const Real v = (g22 * r1 - g12 * r2) / determinant, w = (g11 * r2 - g12 * r1) / determinant;
-    if (v >= 0 && w >= 0 && v + w <= 1) return {1 - v - w, v, w};
-  }
-  // Outside (or no area): the closest of the three edges.
-  const auto on_edge = [&p](const Vec3& from, const Vec3& to) {
-    const Vec3 edge = to - from;
-    const Real length2 = edge.squaredNorm();
-    return length2 > 0 ? std::clamp((p - from).dot(edge) / length2, 0.0, 1.0) : 0.0;
-  };
-  const Real s = on_edge(a, b), t = on_edge(b, c), u = on_edge(c, a);
-  const std::array<Vec3, 3> candidates = {Vec3(1 - s, s, 0), Vec3(0, 1 - t, t), Vec3(u, 0, 1 - u)};
-  const auto distance2 = [&](const Vec3& l) { return (p - l[0] * a - l[1] * b - l[2] * c).squaredNorm(); };
-  return *std::min_element(candidates.begin(), candidates.end(),
-                           [&](const Vec3& l, const Vec3& m) { return distance2(l) < distance2(m); });
+  return {t * (-1 + t * (2 - t)) / 2, (2 + t * t * (-5 + 3 * t)) / 2, t * (1 + t * (4 - 3 * t)) / 2,
+          t * t * (t - 1) / 2};
 }
 
 }  // namespace
@@ -110,9 +89,10 @@ ThickSheet::Nearest ThickSheet::nearest(const Vec3& point) const {
   for (const Quad& quad : quads_) {
     if ((point - quad.center).norm() - quad.reach >= best.distance) continue;
     for (int half = 0; half < 2; ++half) {
-      const std::array<int, 3> corners = {quad.corners[half == 0 ? 0 : 2], quad.corners[1], quad.corners[half == 0 ? 2 : 3]};
+      const std::array<int, 3> corners = {quad.corners[half == 0 ? 0 : 2], quad.corners[1],
+                                          quad.corners[half == 0 ? 2 : 3]};
       const ThickPoint &a = points_[corners[0]], &b = points_[corners[1]], &c = points_[corners[2]];
-      const Vec3 l = closest_in_triangle(point, a.point, b.point, c.point);
+      const Vec3 l = nearest_barycentric(point, a.point, b.point, c.point);
       const Vec3 offset = point - l[0] * a.point - l[1] * b.point - l[2] * c.point;
       const Real distance = offset.norm() - l[0] * a.radius - l[1] * b.radius - l[2] * c.radius;
       if (distance >= best.distance) continue;

@@ -7,8 +7,8 @@
 
 namespace gracilis {
 
-/// The Catmull-Rom spline through `points`, cut into `pieces` per interval; ends as straight as the first and last interval.
-/// Radii are interpolated alike but kept positive. (Catmull and Rom 1974, uniform parametrization.)
+/// The Catmull-Rom spline through `points`, cut into `pieces` per interval; ends as straight as the first and last
+/// interval. Radii are interpolated alike but kept positive. (Catmull and Rom 1974, uniform parametrization.)
 std::vector<ThickPoint> spline_through(const std::vector<ThickPoint>& points, int pieces);
 
 /// A net of control points: `columns` curves side by side, each of `rows` points. Point (row, column) is
@@ -19,7 +19,8 @@ struct ThickNet {
   std::vector<ThickPoint> points;
 };
 
-/// A surface patch given a thickness: the balls swept over the surface that the Catmull-Rom splines along rows and columns span.
+/// A surface patch given a thickness: the balls swept over the surface that the Catmull-Rom splines along rows and
+/// columns span.
 class ThickSheet {
  public:
   /// Prepares queries; `net` has at least 2 rows and 2 columns. Each interval is cut into `pieces`.

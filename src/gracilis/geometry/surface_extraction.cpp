@@ -19,24 +19,26 @@ void sample_block(const ImplicitSolid& solid, const Eigen::Vector3i& first, Samp
   const Eigen::Vector3i last = (first + Eigen::Vector3i::Constant(block)).cwiseMin(grid.nodes);
   const Vec3 low = grid.origin + grid.step * first.cast<Real>();
   const Vec3 high = grid.origin + grid.step * (last - Eigen::Vector3i::Ones()).cast<Real>();
-  // One step more than the block, because cells reach to the next block's first nodes; the factor allows for blends, where the
-  // function may grow faster than distance.
-  const Real reach = 1.3 * ((high - low).norm() / 2 + std::sqrt(3.0) * grid.step);
+  const Real half = (high - low).norm() / 2;
   const Real center = solid.distance((low + high) / 2);
-  const bool uniform = std::abs(center) > reach;
+  // One step more than the block, because cells reach to the next block's first nodes; the factor allows for blends,
+  // where the function may grow faster than distance.
+  const bool uniform = std::abs(center) > 1.3 * (half + std::sqrt(3.0) * grid.step);
   for (Index k = first.z(); k < last.z(); ++k)
     for (Index j = first.y(); j < last.y(); ++j)
       for (Index i = first.x(); i < last.x(); ++i) {
         const Index node = (k * grid.nodes.y() + j) * grid.nodes.x() + i;
-        grid.values[node] = uniform ? center - std::copysign(reach, center) * 0.5 : solid.distance(grid.node(node));
+        grid.values[node] = uniform ? center - std::copysign(half, center) : solid.distance(grid.node(node));
       }
 }
 
-/// Builds the surface: one vertex per crossed edge of the tetrahedra, found again through the edge's lower node and direction.
+/// Builds the surface: one vertex per crossed edge of the tetrahedra, found again through the edge's lower node and
+/// direction.
 class Extractor {
  public:
   explicit Extractor(const SampledSolid& solid)
-      : solid_(solid), stride_{1, solid.nodes.x(), solid.nodes.x() * solid.nodes.y()},
+      : solid_(solid),
+        stride_{1, solid.nodes.x(), solid.nodes.x() * solid.nodes.y()},
         vertex_on_edge_(static_cast<std::size_t>(7) * solid.node_count(), -1) {}
 
   TriangleMesh run() {
@@ -56,7 +58,8 @@ class Extractor {
     int inside_count = 0;
     for (int bits = 0; bits < 8; ++bits) inside_count += inside(corner + offset(bits));
     if (inside_count == 0 || inside_count == 8) return;
-    // Each of the six paths from corner 0 to corner 7 along the axes spans a tetrahedron; odd permutations are left-handed.
+    // Each of the six paths from corner 0 to corner 7 along the axes spans a tetrahedron; odd permutations are
+    // left-handed.
     static constexpr std::array<std::array<int, 2>, 6> paths = {{{1, 3}, {2, 6}, {4, 5}, {2, 3}, {1, 5}, {4, 6}}};
     for (int path = 0; path < 6; ++path) {
       std::array<int, 4> corners = {0, paths[path][0], paths[path][1], 7};
@@ -136,7 +139,8 @@ SampledSolid sample(const ImplicitSolid& solid, Real step) {
   const Eigen::Vector3i blocks = (grid.nodes.array() + block - 1) / block;
   parallel_for(blocks.prod(), 16, [&](Index begin, Index end) {
     for (Index b = begin; b < end; ++b)
-      sample_block(solid, block * Eigen::Vector3i(b % blocks.x(), b / blocks.x() % blocks.y(), b / (blocks.x() * blocks.y())),
+      sample_block(solid,
+                   block * Eigen::Vector3i(b % blocks.x(), b / blocks.x() % blocks.y(), b / (blocks.x() * blocks.y())),
                    grid);
   });
   return grid;

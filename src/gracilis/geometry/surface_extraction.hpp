@@ -11,24 +11,25 @@ namespace gracilis {
 /// Values at the nodes of a regular grid; node (i, j, k) lies at origin + step (i, j, k), value (k * ny + j) * nx + i.
 struct SampledSolid {
   Vec3 origin = Vec3::Zero();
-  Real step = 0;                                 ///< m
+  Real step = 0;                                    ///< m
   Eigen::Vector3i nodes = Eigen::Vector3i::Zero();  ///< per axis
-  std::vector<Real> values;                      ///< m, negative inside
+  std::vector<Real> values;                         ///< m, negative inside
 
   Index node_count() const { return nodes.prod(); }
   Vec3 node(Index index) const;
 };
 
-/// Lays a grid over the solid's bounds plus a margin of two steps and evaluates the solid near its surface (over all threads, the
-/// same bits for any number of them). Nodes further away keep the sign and a smaller magnitude. Precondition: step > 0.
+/// Lays a grid over the solid's bounds plus a margin of two steps and evaluates the solid near its surface (over all
+/// threads, the same bits for any number of them). Nodes further away keep the sign and a smaller magnitude.
+/// Precondition: step > 0.
 SampledSolid sample(const ImplicitSolid& solid, Real step);
 
 /// Trilinear value at `point`, and its gradient when asked; beyond the grid that of the nearest point on its border.
 Real interpolate(const SampledSolid& solid, const Vec3& point, Vec3* gradient = nullptr);
 
-/// The surface where the interpolated value is 0, by marching tetrahedra (six per cell, Kuhn's division; Doi and Koide 1991):
-/// closed, manifold, oriented outwards, but with uneven triangles; remesh() evens them. Where the values have the same sign on
-/// the whole grid the mesh is empty. Precondition: values on the grid's border are positive.
+/// The surface where the interpolated value is 0, by marching tetrahedra (six per cell, Kuhn's division; Doi and Koide
+/// 1991): closed, manifold, oriented outwards, but with uneven triangles; remesh() evens them. Where the values have
+/// the same sign on the whole grid the mesh is empty. Precondition: values on the grid's border are positive.
 TriangleMesh extract_surface(const SampledSolid& solid);
 
 /// The connected part of `mesh` with the most faces, its vertices renumbered in their old order.
@@ -37,9 +38,9 @@ TriangleMesh largest_component(const TriangleMesh& mesh);
 /// Moves every vertex along the gradient onto the surface of `solid`; at most one grid step.
 void project_to_surface(TriangleMesh& mesh, const SampledSolid& solid);
 
-/// Makes all edges about `edge_length` long and triangles near equilateral by splitting, collapsing and flipping edges and by
-/// moving vertices within the surface of `solid` (Botsch and Kobbelt 2004). The mesh stays closed, manifold, oriented, and of its genus.
-/// Precondition: `mesh` is closed, manifold and lies near the surface of `solid`.
+/// Makes all edges about `edge_length` long and triangles near equilateral by splitting, collapsing and flipping edges
+/// and by moving vertices within the surface of `solid` (Botsch and Kobbelt 2004). The mesh stays closed, manifold,
+/// oriented, and of its genus. Precondition: `mesh` is closed, manifold and lies near the surface of `solid`.
 TriangleMesh remesh(const TriangleMesh& mesh, const SampledSolid& solid, Real edge_length);
 
 /// The solid's surface as a mesh with edges about `edge_length` long: sample, extract, largest component, remesh.

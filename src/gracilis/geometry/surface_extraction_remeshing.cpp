@@ -16,7 +16,8 @@ class EditableMesh {
  public:
   explicit EditableMesh(const TriangleMesh& mesh) {
     for (Index v = 0; v < mesh.vertex_count(); ++v) points_.push_back(mesh.vertices.col(v));
-    for (Index f = 0; f < mesh.face_count(); ++f) faces_.push_back({mesh.faces(0, f), mesh.faces(1, f), mesh.faces(2, f)});
+    for (Index f = 0; f < mesh.face_count(); ++f)
+      faces_.push_back({mesh.faces(0, f), mesh.faces(1, f), mesh.faces(2, f)});
     list_stars();
   }
 
@@ -71,9 +72,8 @@ class EditableMesh {
   }
 
   bool adjacent(Index a, Index b) const {
-    return std::any_of(stars_[a].begin(), stars_[a].end(), [&](Index f) {
-      return std::find(faces_[f].begin(), faces_[f].end(), b) != faces_[f].end();
-    });
+    return std::any_of(stars_[a].begin(), stars_[a].end(),
+                       [&](Index f) { return std::find(faces_[f].begin(), faces_[f].end(), b) != faces_[f].end(); });
   }
 
   Vec3 area_normal(const Face& face) const {
@@ -239,7 +239,8 @@ void EditableMesh::smooth() {
 }  // namespace
 
 TriangleMesh remesh(const TriangleMesh& mesh, const SampledSolid& solid, Real edge_length) {
-  // The usual bounds: an edge longer than 4/3 halves into pieces nearer to the target, one shorter than 4/5 is better gone.
+  // The usual bounds: an edge longer than 4/3 halves into pieces nearer to the target, one shorter than 4/5 is better
+  // gone.
   const Real longest = edge_length * 4 / 3, shortest = edge_length * 4 / 5;
   TriangleMesh result = mesh;
   constexpr int rounds = 8;

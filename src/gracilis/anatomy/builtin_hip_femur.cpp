@@ -1,0 +1,56 @@
+#include <gracilis/anatomy/builtin_hip_bones.hpp>
+
+namespace gracilis::builtin_hip_shapes {
+
+namespace {
+
+/// Head, neck, trochanters and the crest between them. The neck leaves the shaft at about 127 degrees with about 12
+/// degrees of anteversion.
+ImplicitSolid proximal_end() {
+  const ImplicitSolid neck = thick_curve({thick(-1, -4, 6, 17.5), thick(-3, -13, 17, 14.5), thick(-5, -23, 28, 14.5),
+                                          thick(-6, -35, 38, 17.5), thick(-4, -52, 40, 17)});
+  const ImplicitSolid greater_trochanter = smooth_union(
+      {thick_curve({thick(-3, -46, 45, 15), thick(-9, -30, 49, 14), thick(-15, -16, 51, 11), thick(-20, -5, 49, 8)}),
+       thick_curve({thick(-20, -5, 48, 7), thick(-26, -1, 43, 5)}),
+       thick_curve({thick(2, -36, 50, 12), thick(0, -22, 52, 10)})},
+      0.008);
+  const ImplicitSolid lesser_trochanter =
+      thick_curve({thick(-4, -58, 30, 12), thick(-14, -60, 21, 8.5), thick(-20, -60, 15, 6)});
+  const ImplicitSolid crest = thick_curve({thick(-25, -8, 46, 5), thick(-24, -30, 38, 5), thick(-20, -50, 24, 5)});
+  const ImplicitSolid rounded = smooth_union({neck, greater_trochanter, lesser_trochanter, crest}, 0.009);
+  return smooth_union({ball(Vec3::Zero(), head_radius), rounded}, 0.005);
+}
+
+/// A shaft bowed forward, with the gluteal tuberosity and the linea aspera along its back.
+ImplicitSolid shaft() {
+  const ImplicitSolid tube =
+      thick_curve({thick(-4, -50, 39, 17), thick(0, -80, 37, 15.2), thick(6, -120, 34, 14), thick(11, -165, 30, 13.6),
+                   thick(13, -211, 26, 13.6), thick(11, -260, 21, 13.9), thick(6, -310, 14, 15.5),
+                   thick(0, -350, 8, 19), thick(-3, -376, 3, 22)});
+  const ImplicitSolid gluteal_tuberosity =
+      thick_curve({thick(-10, -60, 47, 6), thick(-10, -85, 44, 5), thick(-6, -115, 38, 4)});
+  const ImplicitSolid linea_aspera =
+      thick_curve({thick(-8, -80, 31, 3.5), thick(-6, -115, 33, 3.5), thick(-1, -165, 29, 3.5), thick(1, -211, 25, 3.5),
+                   thick(-1, -260, 20, 3.5), thick(-6, -300, 15, 3)});
+  return smooth_union({tube, gluteal_tuberosity, linea_aspera}, 0.006);
+}
+
+/// Two condyles with their epicondyles, the notch between them and the groove in which the patella glides.
+ImplicitSolid distal_end() {
+  std::vector<ImplicitSolid> parts;
+  for (int side : {-1, 1}) {  // medial, lateral
+    parts.push_back(thick_curve(
+        {thick(12, -398, side * 20.0, 18), thick(-2, -404, side * 23.0, 20), thick(-15, -398, side * 24.0, 19)}));
+    parts.push_back(thick_curve({thick(-4, -378, side * 16.0, 17), thick(-4, -392, side * 33.0, 9)}));
+  }
+  parts.push_back(thick_curve({thick(-3, -376, 3, 21), thick(6, -388, 0, 20)}));
+  const ImplicitSolid notch = thick_curve({thick(-12, -424, 0, 11), thick(-28, -404, 0, 11), thick(-40, -380, 0, 12)});
+  const ImplicitSolid groove = thick_curve({thick(42, -376, 2, 13), thick(40, -400, 2, 13), thick(24, -432, 0, 13)});
+  return smooth_difference(smooth_difference(smooth_union(parts, 0.012), notch, 0.006), groove, 0.010);
+}
+
+}  // namespace
+
+ImplicitSolid right_femur() { return smooth_union({proximal_end(), shaft(), distal_end()}, 0.008); }
+
+}  // namespace gracilis::builtin_hip_shapes
