@@ -1,6 +1,5 @@
 #pragma once
 
-#include <gracilis/geometry/triangle_mesh.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <filesystem>
@@ -9,12 +8,6 @@
 
 /// The files that a scene names, as the scene reader takes them.
 namespace gracilis {
-
-/// A whole text file. Throws InputError.
-std::string read_scene_text(const std::filesystem::path& path);
-
-/// A surface; `unit` is the length of the file's unit in m. Throws InputError.
-TriangleMesh read_scene_surface(const std::filesystem::path& path, Real unit);
 
 /// Landmark clouds by name, each in the order of its rows. Throws InputError.
 std::map<std::string, Points> read_scene_landmarks(const std::filesystem::path& path, Real unit);

@@ -1,5 +1,5 @@
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/scene_inputs.hpp>
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/scene_layers.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/toml_reader.hpp>
@@ -89,7 +89,7 @@ static void add_file(SceneLayers& layers, const fs::path& path, std::vector<fs::
   if (std::find(open.begin(), open.end(), canonical) != open.end()) {
     throw ConfigurationError({path.string(), "", "includes itself, by way of '" + open.back().string() + "'", ""});
   }
-  toml::table table = parse(read_scene_text(path), path.string());
+  toml::table table = parse(read_text(path), path.string());
   layers.files.push_back(path);
   open.push_back(canonical);
 

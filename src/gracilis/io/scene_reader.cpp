@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/io/data_root.hpp>
+#include <gracilis/io/mesh_reader.hpp>
 #include <gracilis/io/scene_description.hpp>
 #include <gracilis/io/scene_inputs.hpp>
 #include <gracilis/io/scene_reader.hpp>
@@ -135,15 +136,13 @@ class SceneBuilder {
   void read_files() {
     for (const BoneDescription& bone : description_.bones) {
       result_.scene.bones.push_back({bone.name, body_index(bone.body), {}});
-      read(bone.file, [&](const fs::path& path) {
-        result_.scene.bones.back().surface = read_scene_surface(path, bone.file.unit);
-      });
+      read(bone.file,
+           [&](const fs::path& path) { result_.scene.bones.back().surface = read_mesh(path, bone.file.unit); });
     }
     for (const MuscleDescription& muscle : description_.muscles) {
       result_.scene.muscles.push_back({muscle.name, {}, {}, muscle.xpbd});
-      read(muscle.file, [&](const fs::path& path) {
-        result_.scene.muscles.back().surface = read_scene_surface(path, muscle.file.unit);
-      });
+      read(muscle.file,
+           [&](const fs::path& path) { result_.scene.muscles.back().surface = read_mesh(path, muscle.file.unit); });
     }
     if (!description_.landmarks.path.empty()) {
       read(description_.landmarks,
