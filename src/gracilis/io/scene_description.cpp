@@ -284,6 +284,7 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   keep_only(scene.muscles, top.texts("only"), only_place, problems);
   keep_only(scene.muscles, only, {"--only", "", "", ""}, problems);
   top.reject_unknown_keys();
+  sort_by_place(problems);
   if (!problems.empty()) throw ConfigurationError(problems);
   return scene;
 }

@@ -31,6 +31,14 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
     nearest = distance;
     result = candidate;
   }
+  if (!result.empty()) return result;
+
+  // Or the only one that begins with the word.
+  for (const std::string& candidate : candidates) {
+    if (word.size() < 3 || !candidate.starts_with(word)) continue;
+    if (!result.empty()) return "";
+    result = candidate;
+  }
   return result;
 }
 

@@ -11,7 +11,7 @@ namespace gracilis {
 int edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate nearest to `word`, or "" when none is near enough to be what was meant: at most a third of the word's
-/// letters may differ, and always two. The first of equally near ones.
+/// letters may differ, and always two; or it is the only one that begins with the word. The first of equally near ones.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "did you mean 'iterations'?", or where nothing is near "known are 'a', 'b', 'c'"; for the remedy of a Problem.

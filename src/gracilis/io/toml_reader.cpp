@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <tuple>
 
 namespace gracilis {
 
@@ -15,6 +17,16 @@ Problem place_of(const toml::node& node) {
     problem.where = std::to_string(region.begin.line) + ":" + std::to_string(region.begin.column);
   }
   return problem;
+}
+
+void sort_by_place(std::vector<Problem>& problems) {
+  const auto key = [](const Problem& problem) {
+    int line = 0, column = 0;
+    std::sscanf(problem.where.c_str(), "%d:%d", &line, &column);
+    return std::make_tuple(problem.file, line, column);
+  };
+  std::stable_sort(problems.begin(), problems.end(),
+                   [&](const Problem& a, const Problem& b) { return key(a) < key(b); });
 }
 
 void TomlReader::add_problem(const toml::node& node, const std::string& what, const std::string& remedy) {

@@ -16,6 +16,9 @@ namespace gracilis {
 /// The place of a node in its file, with nothing said about it yet.
 Problem place_of(const toml::node& node);
 
+/// Problems of one file together, in the order of lines and columns.
+void sort_by_place(std::vector<Problem>& problems);
+
 /// Bounds of a number, both allowed, with the unit to show.
 struct NumberRange {
   Real minimum = -std::numeric_limits<Real>::max();

@@ -1,0 +1,143 @@
+#include <gracilis/io/scene_template.hpp>
+#include <gracilis/scene/presets.hpp>
+#include <gracilis/scene/setting_table.hpp>
+
+namespace gracilis {
+
+/// One line of comment and one of value for each setting; values are those of the default preset.
+template <class Settings>
+static std::string section(const std::string& title) {
+  std::string text = "[" + title + "]\n";
+  const Settings defaults;
+  for (const Setting<Settings>& setting : setting_table<Settings>()) {
+    text += "# " + std::string(setting.meaning) + "\n# " + expectation(setting) + "\n";
+    text += std::string(setting.key) + " = " + to_text(value_of(defaults, setting)) + "\n\n";
+  }
+  return text;
+}
+
+static std::string preset_section() {
+  std::string text = "# The settings to start from:\n";
+  for (const Preset& preset : presets()) {
+    text += "#   \"" + std::string(preset.name) + "\": " + std::string(preset.meaning) + "\n";
+  }
+  return text + "# A preset sets aside the settings of included files. Settings below replace the preset's.\n" +
+         "preset = \"" + std::string(presets().front().name) + "\"\n\n";
+}
+
+static constexpr const char* head =
+    R"(# A scene for Gracilis. Keys may come in any order; those that say "optional" may be left out.
+# Files are looked for beside this one, then in the data folder (--data, GRACILIS_DATA, or shared/data next to the scene's
+# folder or above it). Units of files and keys are named; all else is metres, kilograms, seconds.
+schema = 1
+
+# Optional: appears in the run's manifest; default: the file's name.
+name = "example"
+
+# Optional: other scene files, relative to this one, on which this one builds. Tables merge key by key, lists of tables
+# (bones, muscles, ...) by their names; what stands here wins. [motion] is replaced as a whole.
+# include = ["base.toml"]
+
+# Optional: keep these muscles only.
+# only = ["gluteus_maximus_r"]
+
+)";
+
+static constexpr const char* elements =
+    R"(# Optional: a table with the columns cloud, index, x_mm, y_mm, z_mm (rows of a cloud in their order), for attachments.
+[landmarks]
+file = "landmarks.csv"
+unit = "mm" # "m" (default), "cm" or "mm"
+
+# Rigid surfaces, in the pose in which everything was captured, all in one frame. Formats: .ply .stl .obj .vtk .vtp
+[[bones]]
+name = "hip_bone_r"
+body = "pelvis" # the body it belongs to; default: its own name
+file = "hip_bone_r.ply"
+unit = "mm" # "m" (default), "cm" or "mm"
+
+[[bones]]
+name = "femur_r"
+file = "femur_r.ply"
+unit = "mm"
+
+# What moves. Exactly one body is the child of no joint: it is fixed in the world.
+[[joints]]
+name = "hip_r"
+parent = "pelvis"
+child = "femur_r"
+center = [0.143478, 0.243439, -0.43267]
+center_unit = "m"                    # "m" (default), "cm" or "mm"
+orientation_xyz_rad = [0.0, 0.0, 0.0] # optional: the joint's frame, body-fixed X, Y, Z angles as in OpenSim models
+
+# Rotations in their order, each about an axis fixed in the frame left by the ones before.
+[[joints.axes]]
+coordinate = "hip_flexion_r"
+axis = [0, 0, 1]
+capture_deg = 0.0     # optional: the coordinate's value when the surfaces were captured; default 0
+range_deg = [-30, 120] # optional: leaving it is warned about, never clamped; default -180 to 180
+
+[[muscles]]
+name = "gluteus_maximus_r"
+file = "gluteus_maximus_r.ply"
+unit = "mm"
+
+# Optional: any key of [settings] below, for this muscle alone. Also wins over --set KEY=VALUE; --set MUSCLE.KEY=VALUE wins
+# over it.
+[muscles.settings]
+distance_stiffness = 2000.0
+
+# At least one origin and one insertion. Which vertices are held follows from the keys given, in one of four ways:
+# 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.
+[[muscles.attachments]]
+name = "ilium"
+end = "origin"      # "origin" or "insertion"
+bone = "hip_bone_r" # one name or several, ["hip_bone_r", "sacrum"]; the vertices move with its body
+cloud = "ilium"     # names of clouds in the landmark file; or points_mm = [[x, y, z], ...]
+line = "closed"     # "cloud" (default): separate points; "open": a line through them; "closed": an outline and its inside
+bone_distance_mm = 4
+landmark_distance_mm = 12
+
+# 2. 'body' and landmarks, where the bone is not in the scene: within landmark_distance_mm of them.
+[[muscles.attachments]]
+name = "vertebrae"
+end = "origin"
+body = "pelvis"
+points_mm = [[140.0, 230.0, -300.0]]
+landmark_distance_mm = 12
+guessed = true # optional: not measured; marked so in the run's manifest
+
+# 3. 'vertices': exactly these, counted from 0 in the file's order.
+[[muscles.attachments]]
+name = "linea_aspera"
+end = "insertion"
+body = "femur_r"
+vertices = [10, 11, 12]
+
+# 4. 'bone' alone: within bone_distance_mm of it.
+[[muscles.attachments]]
+name = "trochanter"
+end = "insertion"
+bone = "femur_r"
+bone_distance_mm = 3
+
+# Optional: without a motion a run is frame 0, the capture pose, alone.
+[motion]
+# Either an OpenSim table (.mot, .sto), whose columns are matched to the joints' coordinates by name:
+# file = "flexion.mot"
+# or key poses with equal steps between them:
+coordinates = ["hip_flexion_r"]
+key_poses_deg = [[0], [90]] # one row per pose, one column per coordinate; coordinates not named keep their capture value
+step_deg = 1                # largest change of a coordinate per frame; default 1
+time_step = 0.016666666666666666 # s between frames; default 1/60
+
+)";
+
+std::string scene_template() {
+  return head + preset_section() + elements +
+         "# How a run goes from the capture pose into the motion and out of it.\n" + section<Sequence>("sequence") +
+         "# Distance fields of all bones.\n" + section<DistanceFieldSettings>("distance_field") +
+         "# The XPBD method, for all muscles.\n" + section<XpbdSettings>("settings");
+}
+
+}  // namespace gracilis

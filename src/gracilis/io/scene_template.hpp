@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+
+namespace gracilis {
+
+/// A complete scene file in TOML that explains every key it may have; each setting stands with its unit, range and
+/// default. It reads back without a problem as far as the files go that it names as examples.
+std::string scene_template();
+
+}  // namespace gracilis

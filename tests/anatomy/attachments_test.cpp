@@ -1,0 +1,127 @@
+#include <gracilis/anatomy/attachments.hpp>
+
+#include "shapes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gracilis {
+namespace {
+
+/// A sheet of n × n vertices, 1 mm apart, at height z; vertex i + n j at (i, j) mm.
+TriangleMesh sheet(Index n, Real z) {
+  std::vector<Vec3> vertices;
+  std::vector<Eigen::Vector3i> faces;
+  for (Index j = 0; j < n; ++j)
+    for (Index i = 0; i < n; ++i) vertices.emplace_back(0.001 * i, 0.001 * j, z);
+  for (Index j = 0; j + 1 < n; ++j) {
+    for (Index i = 0; i + 1 < n; ++i) {
+      const Index a = i + n * j;
+      faces.push_back({a, a + 1, a + n});
+      faces.push_back({a + 1, a + n + 1, a + n});
+    }
+  }
+  return shapes::mesh_of(vertices, faces);
+}
+
+Points points_mm(const std::vector<Vec3>& points) {
+  Points result(3, static_cast<Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) result.col(static_cast<Index>(i)) = points[i] / 1000;
+  return result;
+}
+
+/// A muscle's sheet 1 mm above a bone whose upper side is z = 0.
+class Attachments : public testing::Test {
+ protected:
+  std::vector<Index> select(const AttachmentRule& rule) const {
+    const NearestTriangle* trees[] = {&tree};
+    return select_vertices(muscle, trees, rule);
+  }
+
+  const TriangleMesh muscle = sheet(11, 0.001);
+  const TriangleMesh bone = shapes::box(Vec3(-0.02, -0.02, -0.01), Vec3(0.005, 0.03, 0));
+  const NearestTriangle tree{bone};
+};
+
+}  // namespace
+
+TEST_F(Attachments, near_the_bone_is_what_lies_above_it) {
+  const std::vector<Index> vertices = select(NearBone{0.0011});
+  EXPECT_EQ(vertices.size(), 6u * 11u) << "columns x = 0 ... 5 mm";
+  EXPECT_TRUE(std::is_sorted(vertices.begin(), vertices.end()));
+  EXPECT_TRUE(select(NearBone{0.0009}).empty());
+}
+
+TEST_F(Attachments, an_open_line_takes_what_lies_along_it_and_a_cloud_only_what_lies_at_its_points) {
+  const Points ends = points_mm({{1, 0, 0}, {1, 10, 0}});
+  const auto taken = [&](LineKind kind) { return select(NearLandmarks{{{ends, kind}}, 0.002, 0.0011}); };
+  EXPECT_EQ(taken(LineKind::open).size(), 11u);
+  EXPECT_THAT(taken(LineKind::cloud), testing::ElementsAre(1, 1 + 110));
+}
+
+TEST_F(Attachments, a_closed_outline_takes_its_inside_too) {
+  const Points square = points_mm({{0.5, 0.5, 0}, {4.5, 0.5, 0}, {4.5, 8.5, 0}, {0.5, 8.5, 0}});
+  // Nothing lies within 0.1 mm of the outline itself, which is 1 mm below the muscle.
+  EXPECT_EQ(select(NearLandmarks{{{square, LineKind::closed}}, 0.002, 0.0001}).size(), 4u * 8u);
+  EXPECT_TRUE(select(NearLandmarks{{{square, LineKind::open}}, 0.002, 0.0001}).empty());
+}
+
+TEST_F(Attachments, landmarks_away_from_the_bone_take_nothing_unless_no_bone_is_asked_for) {
+  const Points far = points_mm({{9, 5, 0}});
+  EXPECT_TRUE(select(NearLandmarks{{{far, LineKind::cloud}}, 0.002, 0.002}).empty());
+  EXPECT_EQ(select(NearPoints{{{far, LineKind::cloud}}, 0.0011}).size(), 1u);
+}
+
+TEST_F(Attachments, listed_vertices_are_sorted_and_taken_once) {
+  EXPECT_THAT(select(ListedVertices{{7, 3, 7}}), testing::ElementsAre(3, 7));
+}
+
+TEST_F(Attachments, the_nearest_of_several_bones_counts) {
+  const TriangleMesh other = shapes::box(Vec3(0.008, -0.02, -0.01), Vec3(0.03, 0.03, 0));
+  const NearestTriangle other_tree(other);
+  const NearestTriangle* trees[] = {&tree, &other_tree};
+  EXPECT_EQ(select_vertices(muscle, trees, NearBone{0.0011}).size(), (6u + 3u) * 11u);
+}
+
+TEST(Outlines, an_outline_of_fewer_than_three_points_has_no_inside) {
+  EXPECT_FALSE(inside_outline(points_mm({{0, 0, 0}, {1, 0, 0}}), Vec3::Zero(), 1));
+  EXPECT_FALSE(inside_outline(Points(3, 0), Vec3::Zero(), 1));
+}
+
+TEST(Outlines, the_inside_of_a_concave_outline_leaves_out_its_bay) {
+  const Points u = points_mm({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {6, 9, 0}, {6, 3, 0}, {3, 3, 0}, {3, 9, 0}, {0, 9, 0}});
+  EXPECT_TRUE(inside_outline(u, Vec3(0.0015, 0.006, 0), 0.001));
+  EXPECT_TRUE(inside_outline(u, Vec3(0.0045, 0.0015, 0.0009), 0.001));
+  EXPECT_FALSE(inside_outline(u, Vec3(0.0045, 0.006, 0), 0.001));
+  EXPECT_FALSE(inside_outline(u, Vec3(0.0015, 0.006, 0.0011), 0.001)) << "too far from the outline's plane";
+}
+
+TEST(Outlines, the_distance_to_a_line_with_a_repeated_point_is_finite) {
+  const LandmarkSet line{points_mm({{0, 0, 0}, {0, 0, 0}, {4, 0, 0}}), LineKind::open};
+  EXPECT_NEAR(distance_to(line, Vec3(0.002, 0.003, 0)), 0.003, 1e-15);
+  EXPECT_NEAR(distance_to({points_mm({{0, 0, 0}}), LineKind::closed}, Vec3(0.002, 0, 0)), 0.002, 1e-15);
+}
+
+TEST(AttachmentAreas, inner_vertices_of_a_sheet_own_a_cell_each) {
+  const TriangleMesh mesh = sheet(5, 0);
+  EXPECT_NEAR(attachment_area(mesh, std::vector<Index>{12}).area, 1e-6, 1e-12);
+  std::vector<Index> all(25);
+  for (Index i = 0; i < 25; ++i) all[static_cast<std::size_t>(i)] = i;
+  const AttachmentArea area = attachment_area(mesh, all);
+  EXPECT_NEAR(area.area, 16e-6, 1e-12);
+  EXPECT_FALSE(area.sliver());
+}
+
+TEST(AttachmentAreas, a_row_of_vertices_is_a_sliver) {
+  const TriangleMesh mesh = sheet(31, 0);
+  std::vector<Index> row;
+  for (Index i = 0; i < 31; ++i) row.push_back(31 * 15 + i);
+  const AttachmentArea area = attachment_area(mesh, row);
+  EXPECT_NEAR(area.length, 0.030, 1e-12);
+  EXPECT_TRUE(area.sliver());
+  EXPECT_EQ(attachment_area(mesh, {}).area, 0);
+}
+
+}  // namespace gracilis
