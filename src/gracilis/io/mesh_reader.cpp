@@ -2,141 +2,122 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/mesh_reader_obj.hpp>
+#include <gracilis/io/mesh_reader_ply.hpp>
+#include <gracilis/io/mesh_reader_vtk.hpp>
 #include <gracilis/io/vtk_messages.hpp>
 
 #include <fmt/format.h>
 
 #include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
 #include <vtkNew.h>
-#include <vtkOBJReader.h>
-#include <vtkPLYReader.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataReader.h>
 #include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
-#include <vtkTriangleFilter.h>
 #include <vtkXMLPolyDataReader.h>
 
-#include <array>
-#include <limits>
+#include <cstring>
 #include <new>
+#include <string>
 
 namespace gracilis {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] static void fail(const fs::path& path, const std::string& where, const std::string& what,
+[[noreturn]] static void fail(const fs::path& path, const std::string& what,
                               const std::string& remedy = "export the surface again") {
-  throw InputError({path.string(), where, what, remedy});
+  throw InputError({path.string(), "", what, remedy});
 }
 
+/// VTK believes any file that is no text to be a binary .stl and takes from it what it can; a whole one has 84 bytes
+/// and 50 for each triangle it announces.
+static void require_whole_stl(const fs::path& path) {
+  const std::string bytes = read_text(path);
+  const bool text = bytes.starts_with("solid") && bytes.find("facet") != std::string::npos;
+  std::uint32_t triangles = 0;
+  if (bytes.size() >= 84) std::memcpy(&triangles, bytes.data() + 80, sizeof triangles);
+  const std::size_t expected = 84 + 50 * std::size_t{triangles};
+  if (text && bytes.size() != expected && bytes.find("endsolid") == std::string::npos)
+    fail(path, "ends before 'endsolid'");
+  if (text || bytes.size() == expected) return;
+  if (bytes.size() < 84 || bytes.starts_with("solid")) fail(path, "is neither a text nor a binary .stl file");
+  fail(path,
+       fmt::format("announces {} triangles, which takes {} bytes, but has {}", triangles, expected, bytes.size()));
+}
+
+/// VTK takes cells' offsets from the file as they are; offsets that run backwards would lead outside its arrays.
+static bool has_ascending_offsets(vtkCellArray& cells) {
+  vtkIdType total = 0;
+  for (vtkIdType i = 0; i < cells.GetNumberOfCells(); ++i) {
+    const vtkIdType size = cells.GetCellSize(i);
+    total += size;
+    if (size < 0 || total > cells.GetNumberOfConnectivityIds()) return false;
+  }
+  return total == cells.GetNumberOfConnectivityIds();
+}
+
+static void add_cells(vtkCellArray& cells, bool strips, PolygonMesh& mesh) {
+  for (vtkIdType i = 0; i < cells.GetNumberOfCells(); ++i) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    cells.GetCellAtId(i, size, corners);
+    if (strips) {
+      mesh.add_strip({corners, corners + size});
+    } else {
+      mesh.corners.insert(mesh.corners.end(), corners, corners + size);
+      mesh.end_polygon();
+    }
+  }
+}
+
+static PolygonMesh to_polygons(vtkPolyData& data) {
+  PolygonMesh mesh;
+  mesh.coordinates.resize(3 * static_cast<std::size_t>(data.GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < data.GetNumberOfPoints(); ++i) data.GetPoint(i, mesh.coordinates.data() + 3 * i);
+  add_cells(*data.GetPolys(), false, mesh);
+  add_cells(*data.GetStrips(), true, mesh);
+  mesh.lines = static_cast<std::size_t>(data.GetNumberOfLines());
+  return mesh;
+}
+
+/// Runs a reader of VTK; its complaints become an InputError.
 template <typename Reader>
-static vtkSmartPointer<vtkPolyData> output_of(const fs::path& path) {
+static PolygonMesh read_with_vtk(const fs::path& path) {
+  VtkMessages messages;
   vtkNew<Reader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
-  return reader->GetOutput();
+  if (messages.has_errors()) fail(path, "is damaged or not of its kind: " + messages.first_error());
+  vtkPolyData& data = *reader->GetOutput();
+  if (!has_ascending_offsets(*data.GetPolys()) || !has_ascending_offsets(*data.GetStrips())) {
+    fail(path, "has faces whose offsets do not ascend");
+  }
+  return to_polygons(data);
 }
 
-/// Runs the reader for the file's extension; every complaint of VTK becomes an InputError.
-static vtkSmartPointer<vtkPolyData> read_with_vtk(const fs::path& path) {
+static PolygonMesh read_polygons(const fs::path& path) {
   const std::string extension = lower_case_extension(path);
-  VtkMessages messages;
-  vtkSmartPointer<vtkPolyData> data;
-  try {
-    if (extension == ".ply") {
-      data = output_of<vtkPLYReader>(path);
-    } else if (extension == ".stl") {
-      data = output_of<vtkSTLReader>(path);
-    } else if (extension == ".obj") {
-      data = output_of<vtkOBJReader>(path);
-    } else if (extension == ".vtk") {
-      data = output_of<vtkPolyDataReader>(path);
-    } else if (extension == ".vtp") {
-      data = output_of<vtkXMLPolyDataReader>(path);
-    } else {
-      fail(path, "", fmt::format("'{}' is not a mesh format that can be read", extension),
-           "use .ply, .stl, .obj, .vtk or .vtp");
-    }
-  } catch (const std::bad_alloc&) {
-    fail(path, "", "announces more data than memory can hold: the file is damaged");
-  } catch (const std::length_error&) {
-    fail(path, "", "announces more data than memory can hold: the file is damaged");
+  if (extension == ".ply") return read_ply(path);
+  if (extension == ".obj") return read_obj(path);
+  if (extension == ".vtk") return read_legacy_vtk(path);
+  if (extension == ".vtp") return read_with_vtk<vtkXMLPolyDataReader>(path);
+  if (extension == ".stl") {
+    require_whole_stl(path);
+    return read_with_vtk<vtkSTLReader>(path);
   }
-  if (messages.has_errors()) fail(path, "", "is damaged or not of its kind: " + messages.first_error());
-  if (!data || !data->GetPoints() || data->GetNumberOfPoints() == 0) {
-    fail(path, "", "holds no vertices" + (messages.first_warning().empty() ? "" : ": " + messages.first_warning()));
-  }
-  return data;
-}
-
-/// Indices beyond the vertices would make VTK's own filters read foreign memory: found before anything else runs.
-static void require_valid_indices(const fs::path& path, vtkPolyData& data) {
-  const vtkIdType point_count = data.GetNumberOfPoints();
-  for (vtkCellArray* cells : {data.GetPolys(), data.GetStrips()}) {
-    const auto cell = vtk::TakeSmartPointer(cells->NewIterator());
-    for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell()) {
-      vtkIdType size = 0;
-      const vtkIdType* corners = nullptr;
-      cell->GetCurrentCell(size, corners);
-      for (vtkIdType i = 0; i < size; ++i) {
-        if (corners[i] >= 0 && corners[i] < point_count) continue;
-        fail(path, fmt::format("face {}", cell->GetCurrentCellId()),
-             fmt::format("names vertex {}, but the vertices go from 0 to {}", corners[i], point_count - 1));
-      }
-    }
-  }
-}
-
-static bool only_triangles(vtkPolyData& data) {
-  return data.GetStrips()->GetNumberOfCells() == 0 && data.GetPolys()->IsHomogeneous() == 3;
-}
-
-static vtkSmartPointer<vtkPolyData> triangulated(vtkPolyData& data) {
-  if (only_triangles(data)) return &data;
-  vtkNew<vtkTriangleFilter> filter;
-  filter->SetInputData(&data);
-  filter->PassLinesOff();
-  filter->PassVertsOff();
-  filter->Update();
-  return filter->GetOutput();
-}
-
-static TriangleMesh to_mesh(vtkPolyData& data, Real unit) {
-  TriangleMesh mesh;
-  mesh.vertices.resize(3, data.GetNumberOfPoints());
-  for (vtkIdType i = 0; i < data.GetNumberOfPoints(); ++i) {
-    data.GetPoint(i, mesh.vertices.col(i).data());
-    mesh.vertices.col(i) *= unit;
-  }
-  vtkCellArray* triangles = data.GetPolys();
-  mesh.faces.resize(3, triangles->GetNumberOfCells());
-  for (vtkIdType i = 0; i < triangles->GetNumberOfCells(); ++i) {
-    vtkIdType size = 0;
-    const vtkIdType* corners = nullptr;
-    triangles->GetCellAtId(i, size, corners);
-    for (int k = 0; k < 3; ++k) mesh.faces(k, i) = static_cast<Index>(corners[k]);
-  }
-  return mesh;
+  fail(path, fmt::format("'{}' is not a mesh format that can be read", extension),
+       "use .ply, .stl, .obj, .vtk or .vtp");
 }
 
 TriangleMesh read_mesh(const fs::path& path, Real unit) {
   require_readable_file(path);
-  const vtkSmartPointer<vtkPolyData> data = read_with_vtk(path);
-  require_valid_indices(path, *data);
-  VtkMessages messages;  // a polygon that cannot be cut is left out; the inspection then sees the hole
-  const vtkSmartPointer<vtkPolyData> triangles = triangulated(*data);
-  if (triangles->GetNumberOfPolys() == 0) {
-    fail(path, "", data->GetNumberOfLines() > 0 ? "holds lines but no surface" : "holds vertices but no triangle",
-         "export a triangle surface");
+  try {
+    return triangulated(read_polygons(path), unit, path);
+  } catch (const std::bad_alloc&) {
+    fail(path, "announces more data than memory can hold: the file is damaged");
+  } catch (const std::length_error&) {
+    fail(path, "announces more data than memory can hold: the file is damaged");
   }
-  if (triangles->GetNumberOfPoints() > std::numeric_limits<Index>::max() / 3 ||
-      triangles->GetNumberOfPolys() > std::numeric_limits<Index>::max() / 3) {
-    fail(path, "", "has too many vertices or triangles", "decimate the surface");
-  }
-  return to_mesh(*triangles, unit);
 }
 
 }  // namespace gracilis

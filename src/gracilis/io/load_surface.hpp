@@ -1,0 +1,35 @@
+#pragma once
+
+#include <gracilis/geometry/mesh_inspection.hpp>
+#include <gracilis/geometry/triangle_mesh.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// What a surface is read for; decides what is tolerated in it.
+enum class SurfaceRole {
+  muscle,  ///< must be closed, manifold and in one piece
+  bone     ///< may be open, non-manifold and in several pieces, with a warning: OpenSim's own bones are
+};
+
+/// A surface ready for use, and what there is to say about it.
+struct LoadedMesh {
+  TriangleMesh mesh;                  ///< m; exactly the file's when nothing had to be repaired
+  MeshReport report;                  ///< of `mesh`
+  std::vector<std::string> repairs;   ///< one sentence each, beginning with the file's path
+  std::vector<std::string> warnings;  ///< the same
+};
+
+/// Reads, inspects and repairs a surface; `unit` is the length of the file's unit in m. Pieces of a muscle with less
+/// than 1 % of its area are dropped as crumbs. Throws InputError listing all that cannot be repaired or tolerated in
+/// this role, each with file, element and remedy; also when the bounding box shows that `unit` is wrong (a diagonal
+/// above 5 m or below 5 mm).
+LoadedMesh load_surface(const std::filesystem::path& path, Real unit, SurfaceRole role);
+
+/// The same checks for a surface already in memory, whatever its origin; `name` stands for the file in messages.
+LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, const std::string& name);
+
+}  // namespace gracilis

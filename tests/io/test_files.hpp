@@ -1,0 +1,59 @@
+#pragma once
+
+#include <gracilis/core/errors.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+
+namespace gracilis {
+
+/// A folder of its own for one test, gone afterwards.
+class TestFolder {
+ public:
+  TestFolder() {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    path_ = std::filesystem::path(testing::TempDir()) / (std::string(test->test_suite_name()) + "." + test->name());
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~TestFolder() { std::filesystem::remove_all(path_); }
+  TestFolder(const TestFolder&) = delete;
+  TestFolder& operator=(const TestFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path write(const std::string& name, const std::string& content) const {
+    std::ofstream(path_ / name, std::ios::binary) << content;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Where the real data is: GRACILIS_DATA, else ../shared/data beside the checkout.
+inline std::filesystem::path data_root() {
+  if (const char* root = std::getenv("GRACILIS_DATA")) return root;
+  return std::filesystem::path(GRACILIS_SOURCE_DIR) / ".." / "shared" / "data";
+}
+
+inline std::string message_of_input_error(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.code(), ExitCode::unreadable_input);
+    return error.what();
+  }
+  ADD_FAILURE() << "no InputError";
+  return "";
+}
+
+}  // namespace gracilis
+
+/// Skips the test where the real data is not at hand.
+#define GRACILIS_NEEDS_DATA(file) \
+  if (!std::filesystem::exists(gracilis::data_root() / (file))) GTEST_SKIP() << "no " << gracilis::data_root() / (file)
