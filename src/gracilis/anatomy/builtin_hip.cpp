@@ -15,7 +15,7 @@ namespace {
 using namespace builtin_hip_shapes;
 
 constexpr Index pelvis_body = 0, femur_body = 1;
-constexpr Real attachment_reach = 0.0035;  ///< m; what is closer to the bone grows on it
+constexpr Real attachment_reach = 0.0038;  ///< m; what is closer to the bone grows on it
 
 TriangleMesh mirrored_in_z(TriangleMesh mesh, Real plane_z) {
   mesh.vertices.row(2) = (2 * plane_z - mesh.vertices.row(2).array()).matrix();
@@ -37,9 +37,8 @@ Skeleton make_skeleton() {
     skeleton.bones.push_back({name, body, remesh(largest_component(extract_surface(sampled)), sampled, edge)});
     skeleton.solids.push_back(as_solid(std::move(sampled)));
   };
-  const ImplicitSolid hip_bone = right_hip_bone();
-  add("hip_bone_r", pelvis_body, hip_bone);
-  add("sacrum", pelvis_body, sacrum(hip_bone));
+  add("hip_bone_r", pelvis_body, right_hip_bone());
+  add("sacrum", pelvis_body, sacrum(skeleton.solids[0]));
   add("femur_r", femur_body, right_femur());
   skeleton.bones.push_back({"hip_bone_l", pelvis_body, mirrored_in_z(skeleton.bones[0].surface, median_plane)});
   skeleton.solids.push_back(mirrored_in_z(skeleton.solids[0], median_plane));

@@ -9,24 +9,25 @@ namespace {
 ImplicitSolid proximal_end() {
   const ImplicitSolid neck = thick_curve({thick(-1, -4, 6, 17.5), thick(-3, -13, 17, 14.5), thick(-5, -23, 28, 14.5),
                                           thick(-6, -35, 38, 17.5), thick(-4, -52, 40, 17)});
-  const ImplicitSolid greater_trochanter = smooth_union(
-      {thick_curve({thick(-3, -46, 45, 15), thick(-9, -30, 49, 14), thick(-15, -16, 51, 11), thick(-20, -5, 49, 8)}),
-       thick_curve({thick(-20, -5, 48, 7), thick(-26, -1, 43, 5)}),
-       thick_curve({thick(2, -36, 50, 12), thick(0, -22, 52, 10)})},
-      0.008);
+  const ImplicitSolid greater_trochanter =
+      smooth_union({thick_curve({thick(-3, -48, 44, 16), thick(-7, -32, 47, 15.5), thick(-12, -20, 48, 13),
+                                 thick(-16, -11, 46, 10)}),
+                    thick_curve({thick(-17, -10, 46, 9), thick(-25, -6, 42, 6)}),
+                    thick_curve({thick(3, -40, 48, 13), thick(3, -26, 51, 10.5)}),
+                    thick_curve({thick(-16, -42, 44, 12), thick(-21, -24, 46, 10.5)})},
+                   0.010);
   const ImplicitSolid lesser_trochanter =
-      thick_curve({thick(-4, -58, 30, 12), thick(-14, -60, 21, 8.5), thick(-20, -60, 15, 6)});
-  const ImplicitSolid crest = thick_curve({thick(-25, -8, 46, 5), thick(-24, -30, 38, 5), thick(-20, -50, 24, 5)});
+      thick_curve({thick(-4, -58, 31, 13), thick(-12, -60, 24, 9.5), thick(-18, -60, 17, 7)});
+  const ImplicitSolid crest = thick_curve({thick(-24, -10, 45, 6), thick(-22, -32, 38, 6), thick(-18, -50, 27, 6)});
   const ImplicitSolid rounded = smooth_union({neck, greater_trochanter, lesser_trochanter, crest}, 0.009);
   return smooth_union({ball(Vec3::Zero(), head_radius), rounded}, 0.005);
 }
 
 /// A shaft bowed forward, with the gluteal tuberosity and the linea aspera along its back.
 ImplicitSolid shaft() {
-  const ImplicitSolid tube =
-      thick_curve({thick(-4, -50, 39, 17), thick(0, -80, 37, 15.2), thick(6, -120, 34, 14), thick(11, -165, 30, 13.6),
-                   thick(13, -211, 26, 13.6), thick(11, -260, 21, 13.9), thick(6, -310, 14, 15.5),
-                   thick(0, -350, 8, 19), thick(-3, -376, 3, 22)});
+  const ImplicitSolid tube = thick_curve({thick(-4, -50, 39, 17), thick(-1, -80, 37, 15.2), thick(4, -120, 34, 14),
+                                          thick(9, -165, 30, 13.6), thick(11, -211, 26, 13.6), thick(9, -260, 21, 13.9),
+                                          thick(4, -310, 14, 15.5), thick(-1, -350, 8, 19), thick(-4, -376, 3, 22)});
   const ImplicitSolid gluteal_tuberosity =
       thick_curve({thick(-10, -60, 47, 6), thick(-10, -85, 44, 5), thick(-6, -115, 38, 4)});
   const ImplicitSolid linea_aspera =

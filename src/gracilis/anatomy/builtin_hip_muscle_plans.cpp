@@ -12,133 +12,73 @@ constexpr Real height = 1.71, mass = 71.8;
 
 // Nets read from origin (first row) to insertion (last row); columns in the order that each comment names.
 
+// clang-format off
+
 /// Columns from the front of the ilium to its back; beneath gluteus medius.
 MusclePlan gluteus_minimus() {
-  return {"gluteus_minimus_r",
-          {4,
-           5,
-           {
-               thick(38, 66, 37, 4),  thick(24, 74, 32, 4),  thick(6, 78, 19, 4),   thick(-14, 76, 6, 4),
-               thick(-31, 66, -7, 4), thick(30, 44, 35, 7),  thick(18, 48, 32, 8),  thick(4, 50, 25, 8),
-               thick(-12, 50, 16, 8), thick(-24, 46, 6, 6),  thick(16, 20, 44, 7),  thick(9, 23, 42, 8),
-               thick(-1, 25, 38, 8),  thick(-10, 25, 32, 7), thick(-18, 24, 28, 6), thick(8, -16, 60, 4),
-               thick(4, -11, 60, 4),  thick(-2, -7, 59, 4),  thick(-7, -3, 57, 4),  thick(-12, 0, 54, 4),
-           }},
-          0,
-          1800,
-          0.55,
-          0.85};
+  return {"gluteus_minimus_r", {4, 5, {
+      thick(40, 66, 36, 6), thick(25, 76, 31, 6), thick(6, 80, 16, 6), thick(-14, 80, 2, 6), thick(-32, 68, -10, 6),
+      thick(31, 44, 33, 8), thick(18, 48, 31, 9), thick(4, 50, 23, 9), thick(-12, 50, 14, 8), thick(-24, 46, 4, 7),
+      thick(17, 16, 43, 7), thick(9, 18, 42, 8), thick(-1, 20, 39, 8), thick(-10, 20, 34, 7), thick(-18, 20, 29, 6),
+      thick(9, -22, 58, 6), thick(4, -16, 58, 6), thick(-2, -11, 57, 6), thick(-8, -6, 55, 6), thick(-13, -2, 52, 5),
+  }}, 0, 1800, 0.0035, 0.55, 0.8};
 }
 
 /// Columns from the front of the ilium to its back.
 MusclePlan gluteus_medius() {
-  return {"gluteus_medius_r",
-          {4,
-           5,
-           {
-               thick(52, 80, 49, 5),    thick(34, 110, 52, 6),  thick(4, 130, 30, 6),  thick(-28, 134, 4, 6),
-               thick(-50, 112, -16, 5), thick(42, 56, 54, 9),   thick(25, 76, 52, 11), thick(2, 86, 38, 13),
-               thick(-22, 86, 20, 12),  thick(-40, 74, 4, 8),   thick(20, 24, 62, 8),  thick(10, 30, 62, 10),
-               thick(-6, 32, 56, 11),   thick(-20, 32, 46, 10), thick(-31, 32, 34, 7), thick(0, -28, 68, 4),
-               thick(-7, -20, 69, 5),   thick(-15, -12, 67, 5), thick(-23, -6, 63, 5), thick(-29, -1, 57, 4),
-           }},
-          0,
-          2200,
-          0.5,
-          0.85};
+  return {"gluteus_medius_r", {4, 5, {
+      thick(53, 82, 47, 7), thick(36, 108, 51, 8), thick(6, 130, 30, 8), thick(-26, 136, 2, 8), thick(-48, 116, -18, 7),
+      thick(42, 56, 53, 9), thick(26, 76, 52, 11), thick(4, 86, 38, 13), thick(-21, 86, 20, 12), thick(-39, 74, 4, 9),
+      thick(21, 22, 62, 8), thick(10, 28, 63, 10), thick(-6, 30, 57, 11), thick(-20, 30, 47, 10), thick(-31, 30, 36, 8),
+      thick(3, -34, 62, 6), thick(-6, -26, 63, 7), thick(-14, -18, 62, 7), thick(-22, -12, 58, 7), thick(-29, -6, 53, 6),
+  }}, 0, 2200, 0.005, 0.5, 0.8};
 }
 
 /// Columns from the upper to the lower fibers.
 MusclePlan gluteus_maximus() {
-  return {"gluteus_maximus_r",
-          {5,
-           5,
-           {
-               thick(-50, 132, -18, 6), thick(-66, 112, -34, 7),  thick(-82, 78, -52, 7),   thick(-92, 40, -66, 7),
-               thick(-84, 4, -74, 6),   thick(-58, 88, 10, 12),   thick(-80, 62, -12, 15),  thick(-95, 30, -32, 17),
-               thick(-101, 0, -48, 16), thick(-93, -30, -60, 10), thick(-60, 40, 38, 13),   thick(-79, 12, 20, 17),
-               thick(-91, -18, 2, 19),  thick(-94, -46, -16, 17), thick(-86, -68, -32, 10), thick(-48, -8, 60, 12),
-               thick(-60, -34, 52, 16), thick(-66, -60, 40, 17),  thick(-66, -88, 24, 15),  thick(-60, -106, 10, 9),
-               thick(-22, -44, 62, 5),  thick(-18, -66, 58, 6),   thick(-14, -92, 53, 6),   thick(-9, -118, 47, 6),
-               thick(-3, -144, 43, 5),
-           }},
-          0,
-          3000,
-          0.25,
-          0.8};
+  return {"gluteus_maximus_r", {5, 5, {
+      thick(-50, 132, -22, 8), thick(-66, 112, -39, 9), thick(-80, 78, -56, 9), thick(-86, 40, -68, 9), thick(-80, 6, -77, 8),
+      thick(-50, 94, 14, 13), thick(-76, 66, -10, 15), thick(-92, 32, -32, 17), thick(-98, 0, -50, 16), thick(-90, -30, -62, 11),
+      thick(-48, 42, 46, 15), thick(-74, 14, 24, 17), thick(-87, -18, 4, 18), thick(-91, -48, -16, 17), thick(-84, -70, -32, 12),
+      thick(-36, -12, 65, 13), thick(-51, -38, 56, 15), thick(-58, -64, 43, 17), thick(-59, -91, 27, 15), thick(-54, -109, 15, 11),
+      thick(-18, -48, 62, 9), thick(-13, -70, 55, 8), thick(-9, -95, 50, 8), thick(-4, -121, 45, 8), thick(0, -146, 41, 7),
+  }}, 0, 3000, 0.0055, 0.3, 0.75};
 }
 
 /// Columns from the lateral to the medial fibers.
 MusclePlan iliacus() {
-  return {"iliacus_r",
-          {6,
-           4,
-           {
-               thick(52, 88, 35, 4),  thick(28, 118, 30, 5), thick(-4, 134, 4, 5),  thick(-22, 118, -12, 4),
-               thick(53, 66, 25, 7),  thick(34, 86, 20, 9),  thick(12, 94, -2, 9),  thick(-2, 86, -16, 6),
-               thick(50, 44, 14, 7),  thick(43, 50, 6, 9),   thick(32, 54, -8, 9),  thick(22, 50, -18, 6),
-               thick(44, 10, 11, 7),  thick(45, 9, 3, 9),    thick(44, 8, -6, 9),   thick(41, 8, -14, 7),
-               thick(27, -32, 16, 7), thick(27, -32, 10, 8), thick(25, -33, 3, 8),  thick(21, -34, -3, 7),
-               thick(2, -66, 19, 4),  thick(-5, -65, 13, 5), thick(-12, -63, 8, 5), thick(-19, -61, 6, 4),
-           }},
-          0,
-          2000,
-          0.5,
-          0.8};
+  return {"iliacus_r", {6, 4, {
+      thick(56, 88, 39, 6), thick(32, 122, 35, 7), thick(0, 138, 10, 7), thick(-25, 128, -12, 6),
+      thick(55, 67, 27, 8), thick(35, 88, 20, 9), thick(11, 98, -3, 9), thick(-9, 92, -20, 7),
+      thick(51, 44, 14, 8), thick(43, 50, 6, 9), thick(32, 54, -8, 9), thick(22, 50, -19, 7),
+      thick(44, 10, 11, 8), thick(45, 9, 3, 9), thick(44, 8, -6, 9), thick(41, 8, -14, 7),
+      thick(26, -32, 17, 7), thick(26, -33, 10, 8), thick(23, -34, 3, 8), thick(19, -35, -2, 7),
+      thick(2, -70, 22, 6), thick(-5, -69, 17, 7), thick(-11, -67, 13, 7), thick(-17, -64, 10, 6),
+  }}, 0, 2000, 0.0045, 0.5, 0.8};
 }
 
 /// Columns from the upper to the lower fibers.
 MusclePlan adductor_brevis() {
-  return {"adductor_brevis_r",
-          {4,
-           3,
-           {
-               thick(37, -33, -62, 4),
-               thick(29, -43, -66, 5),
-               thick(19, -51, -65, 4),
-               thick(24, -50, -40, 8),
-               thick(18, -64, -44, 11),
-               thick(9, -76, -46, 9),
-               thick(8, -68, -8, 9),
-               thick(4, -88, -12, 11),
-               thick(0, -110, -14, 9),
-               thick(-7, -82, 22, 4),
-               thick(-3, -110, 22, 5),
-               thick(2, -142, 20, 4),
-           }},
-          0,
-          1500,
-          0.25,
-          0.8};
+  return {"adductor_brevis_r", {4, 3, {
+      thick(38, -33, -61, 6), thick(30, -43, -64, 7), thick(20, -51, -65, 6),
+      thick(24, -52, -40, 9), thick(18, -65, -44, 11), thick(9, -77, -46, 9),
+      thick(8, -70, -8, 9), thick(4, -90, -12, 11), thick(0, -112, -14, 9),
+      thick(-4, -82, 24, 6), thick(-2, -110, 24, 6), thick(2, -142, 22, 6),
+  }}, 0, 1500, 0.0035, 0.25, 0.75};
 }
 
 /// Columns from the upper to the lower fibers.
 MusclePlan adductor_longus() {
-  return {"adductor_longus_r",
-          {5,
-           3,
-           {
-               thick(51, -22, -64, 4),
-               thick(50, -28, -69, 4),
-               thick(46, -34, -73, 4),
-               thick(46, -62, -44, 9),
-               thick(43, -74, -52, 11),
-               thick(38, -86, -58, 9),
-               thick(33, -110, -16, 10),
-               thick(30, -126, -23, 12),
-               thick(25, -142, -29, 10),
-               thick(19, -146, 6, 8),
-               thick(16, -174, 0, 9),
-               thick(12, -202, -6, 7),
-               thick(6, -168, 17, 4),
-               thick(5, -210, 13, 4),
-               thick(4, -250, 9, 4),
-           }},
-          0,
-          1800,
-          0.2,
-          0.8};
+  return {"adductor_longus_r", {5, 3, {
+      thick(50, -19, -61, 7), thick(48, -27, -68, 7), thick(43, -36, -73, 7),
+      thick(47, -60, -46, 9), thick(44, -74, -53, 11), thick(39, -87, -59, 9),
+      thick(33, -110, -16, 10), thick(30, -126, -23, 12), thick(25, -142, -29, 10),
+      thick(18, -146, 6, 8), thick(15, -174, 0, 9), thick(12, -202, -6, 8),
+      thick(5, -168, 19, 6), thick(5, -210, 15, 6), thick(4, -250, 11, 6),
+  }}, 0, 1800, 0.0035, 0.2, 0.75};
 }
+
+// clang-format on
 
 }  // namespace
 

@@ -6,26 +6,57 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace gracilis::builtin_hip_shapes {
 
 namespace {
 
-constexpr Real grid_step = 0.002;
-constexpr Real rounding = 0.004;  ///< of the rims where a muscle meets what it is cut by
-constexpr Real thinnest = -0.006, thickest = 0.010;
+constexpr Real grid_step = 0.0025;
+constexpr Real rounding = 0.006;  ///< of the rims where a muscle meets what it is cut by
+constexpr Real thinnest = -0.006, thickest = 0.006;
+
+/// Replaces every value by the mean of the 2 reach + 1 nodes around it along one axis; beyond the border the last value
+/// counts on.
+void average_along(std::vector<Real>& values, const Eigen::Vector3i& nodes, int axis, int reach) {
+  const Index stride = axis == 0 ? 1 : axis == 1 ? nodes.x() : nodes.x() * nodes.y();
+  const Index length = nodes[axis], lines = nodes.prod() / length;
+  parallel_for(lines, 256, [&](Index begin, Index end) {
+    std::vector<Real> line(length);
+    for (Index l = begin; l < end; ++l) {
+      // The first node of line l: lines are counted in the order of their first nodes.
+      Real* const first = values.data() + (l / stride) * stride * length + l % stride;
+      for (Index i = 0; i < length; ++i) line[i] = first[i * stride];
+      const auto at = [&](Index i) { return line[std::clamp(i, 0, length - 1)]; };
+      Real sum = 0;
+      for (Index i = -reach; i <= reach; ++i) sum += at(i);
+      for (Index i = 0; i < length; ++i) {
+        first[i * stride] = sum / (2 * reach + 1);
+        sum += at(i + reach + 1) - at(i - reach);
+      }
+    }
+  });
+}
 
 /// The two fields that make a muscle, on one grid: its own sheet, and how deep a node lies in the obstacles'
 /// surroundings.
 struct MuscleFields {
   SampledSolid body;
   std::vector<Real> blocked;
+  int averaging_passes = 0;
 
-  /// The muscle with its sheet thickened by `swelling`.
+  /// The muscle with its sheet thickened by `swelling`. Averaging leaves flat places alone but takes away what is
+  /// thinner than about 5 mm, such as the feather edges between bone and sheet, and rounds rims; then obstacles are cut
+  /// away once more.
   SampledSolid shape(Real swelling) const {
     SampledSolid result = body;
     for (std::size_t i = 0; i < blocked.size(); ++i)
       result.values[i] = smooth_maximum(body.values[i] - swelling, blocked[i], rounding);
+    for (int pass = 0; pass < averaging_passes; ++pass)
+      for (int axis = 0; axis < 3; ++axis) average_along(result.values, result.nodes, axis, 1);
+    for (std::size_t i = 0; i < blocked.size(); ++i)
+      result.values[i] = smooth_maximum(result.values[i], blocked[i], rounding / 4);
     return result;
   }
 };
@@ -35,7 +66,9 @@ MuscleFields sample_fields(const MusclePlan& plan, const std::vector<Obstacle>& 
   // Room for swelling.
   sheet.bounds.extend(sheet.bounds.max() + Vec3::Constant(thickest));
   sheet.bounds.extend(sheet.bounds.min() - Vec3::Constant(thickest));
-  MuscleFields fields{sample(sheet, grid_step), {}};
+  // A mean of three nodes has the variance 2/3 step².
+  const int passes = static_cast<int>(std::lround(1.5 * std::pow(plan.roundness / grid_step, 2)));
+  MuscleFields fields{sample(sheet, grid_step), {}, passes};
   fields.blocked.assign(fields.body.values.size(), -far_distance);
   parallel_for(fields.body.node_count(), 2048, [&](Index begin, Index end) {
     for (Index node = begin; node < end; ++node) {
@@ -52,18 +85,24 @@ MuscleFields sample_fields(const MusclePlan& plan, const std::vector<Obstacle>& 
   return fields;
 }
 
-/// Volume inside, each node counting for its cell with a ramp one step wide across the surface.
+/// Volume inside; each node counts for its cell, with a ramp one step wide across the surface.
 Real approximate_volume(const SampledSolid& shape) {
   Real cells = 0;
   for (Real value : shape.values) cells += std::clamp(0.5 - value / shape.step, 0.0, 1.0);
   return cells * std::pow(shape.step, 3);
 }
 
+/// The swelling that gives the volume to within one percent, by false position kept inside the bracket.
 Real swelling_for(const MuscleFields& fields, Real volume) {
   Real low = thinnest, high = thickest;
-  for (int i = 0; i < 12; ++i) {
-    const Real middle = (low + high) / 2;
-    (approximate_volume(fields.shape(middle)) < volume ? low : high) = middle;
+  Real missing_low = approximate_volume(fields.shape(low)) - volume,
+       missing_high = approximate_volume(fields.shape(high)) - volume;
+  for (int i = 0; i < 8; ++i) {
+    const Real share = std::clamp(missing_low / (missing_low - missing_high), 0.1, 0.9);
+    const Real middle = low + share * (high - low), missing = approximate_volume(fields.shape(middle)) - volume;
+    if (std::abs(missing) < 0.01 * volume) return middle;
+    (missing < 0 ? low : high) = middle;
+    (missing < 0 ? missing_low : missing_high) = missing;
   }
   return (low + high) / 2;
 }

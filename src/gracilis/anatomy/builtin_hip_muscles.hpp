@@ -17,6 +17,7 @@ struct MusclePlan {
   ThickNet net;
   Real volume = 0;          ///< m³
   Index faces = 2000;       ///< about how many triangles
+  Real roundness = 0.0035;  ///< m, standard deviation of the averaging that rounds rims and takes away thin edges
   Real origin_until = 0;    ///< share of the way from origin to insertion up to which it may be attached to the pelvis
   Real insertion_from = 1;  ///< and from which on to the femur
 };

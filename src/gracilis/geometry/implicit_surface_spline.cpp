@@ -6,6 +6,7 @@
 #include <cassert>
 #include <limits>
 #include <memory>
+#include <utility>
 
 namespace gracilis {
 
@@ -71,23 +72,33 @@ ThickSheet::ThickSheet(const ThickNet& net, int pieces) {
     bounds_.extend(p.point - Vec3::Constant(p.radius));
     bounds_.extend(p.point + Vec3::Constant(p.radius));
   }
-  for (int row = 0; row + 1 < rows_; ++row) {
-    for (int column = 0; column + 1 < columns_; ++column) {
-      const int a = row * columns_ + column;
-      Quad quad{{a, a + 1, a + columns_, a + columns_ + 1}, Vec3::Zero(), 0};
-      for (int corner : quad.corners) quad.center += points_[corner].point / 4;
-      for (int corner : quad.corners)
-        quad.reach = std::max(quad.reach, (points_[corner].point - quad.center).norm() + points_[corner].radius);
-      quads_.push_back(quad);
+  for (int patch_row = 0; patch_row + 1 < rows_; patch_row += pieces)
+    for (int patch_column = 0; patch_column + 1 < columns_; patch_column += pieces) {
+      Patch patch;
+      std::vector<int> all;
+      for (int row = patch_row; row < patch_row + pieces; ++row)
+        for (int column = patch_column; column < patch_column + pieces; ++column) {
+          const int a = row * columns_ + column;
+          const std::array<int, 4> corners = {a, a + 1, a + columns_, a + columns_ + 1};
+          patch.quads.push_back({corners, reach_of({corners.begin(), corners.end()})});
+          all.insert(all.end(), corners.begin(), corners.end());
+        }
+      patch.reach = reach_of(all);
+      patches_.push_back(std::move(patch));
     }
-  }
 }
 
-ThickSheet::Nearest ThickSheet::nearest(const Vec3& point) const {
-  Nearest best;
-  best.distance = std::numeric_limits<Real>::max();
-  for (const Quad& quad : quads_) {
-    if ((point - quad.center).norm() - quad.reach >= best.distance) continue;
+ThickSheet::Reach ThickSheet::reach_of(const std::vector<int>& points) const {
+  Reach reach;
+  for (int p : points) reach.center += points_[p].point / static_cast<Real>(points.size());
+  for (int p : points)
+    reach.radius = std::max(reach.radius, (points_[p].point - reach.center).norm() + points_[p].radius);
+  return reach;
+}
+
+void ThickSheet::search(const Patch& patch, const Vec3& point, Nearest& best) const {
+  for (const Quad& quad : patch.quads) {
+    if (quad.reach.least_distance(point) >= best.distance) continue;
     for (int half = 0; half < 2; ++half) {
       const std::array<int, 3> corners = {quad.corners[half == 0 ? 0 : 2], quad.corners[1],
                                           quad.corners[half == 0 ? 2 : 3]};
@@ -103,6 +114,21 @@ ThickSheet::Nearest ThickSheet::nearest(const Vec3& point) const {
       }
     }
   }
+}
+
+ThickSheet::Nearest ThickSheet::nearest(const Vec3& point) const {
+  // The patch that could be nearest goes first, so that most others need not be looked into.
+  const Patch* first = nullptr;
+  Real least = std::numeric_limits<Real>::max();
+  for (const Patch& patch : patches_) {
+    const Real bound = patch.reach.least_distance(point);
+    if (bound < least) first = &patch, least = bound;
+  }
+  Nearest best;
+  best.distance = std::numeric_limits<Real>::max();
+  search(*first, point, best);
+  for (const Patch& patch : patches_)
+    if (&patch != first && patch.reach.least_distance(point) < best.distance) search(patch, point, best);
   return best;
 }
 

@@ -35,14 +35,27 @@ class ThickSheet {
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
  private:
-  /// Two triangles (a b c, c b d) of the cut sheet with a ball that contains them and their thickness.
+  /// A ball that contains a part of the sheet with its thickness.
+  struct Reach {
+    Vec3 center = Vec3::Zero();
+    Real radius = 0;
+    Real least_distance(const Vec3& point) const { return (point - center).norm() - radius; }
+  };
+  /// Two triangles (a b c, c b d) of the cut sheet.
   struct Quad {
     std::array<int, 4> corners;
-    Vec3 center;
-    Real reach = 0;
+    Reach reach;
   };
+  /// The quads of one interval of the net: what is too far as a whole is skipped as a whole.
+  struct Patch {
+    std::vector<Quad> quads;
+    Reach reach;
+  };
+  Reach reach_of(const std::vector<int>& points) const;
+  void search(const Patch& patch, const Vec3& point, Nearest& best) const;
+
   std::vector<ThickPoint> points_;
-  std::vector<Quad> quads_;
+  std::vector<Patch> patches_;
   int rows_ = 0;
   int columns_ = 0;
   Eigen::AlignedBox3d bounds_;
