@@ -1,1 +1,29 @@
-int main() { return 0; }
+#include "command.hpp"
+#include "console.hpp"
+#include "exit_handling.hpp"
+#include "print_config_command.hpp"
+
+#include <gracilis/core/errors.hpp>
+
+#include <iostream>
+
+/// Exit codes: see ExitCode in core/errors.hpp.
+int main(int count, char** arguments) {
+  using namespace gracilis;
+  set_up_logging();
+
+  CLI::App program("Gracilis: bones, muscle surfaces and a motion become deforming, contracting muscles.", "gracilis");
+  program.set_version_flag("--version", "gracilis " GRACILIS_VERSION);
+  program.require_subcommand(1);
+  Command chosen;
+  add_print_config_command(program, chosen);
+  try {
+    program.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    // Help and version are no errors; everything else is a usage error, whatever CLI11's own code for it.
+    const bool asked_for = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+    program.exit(error, std::cout, std::cerr);
+    return static_cast<int>(asked_for ? ExitCode::done : ExitCode::usage);
+  }
+  return run_guarded(chosen);
+}

@@ -1,6 +1,6 @@
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/io/data_root.hpp>
-#include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/load_surface.hpp>
 #include <gracilis/io/scene_description.hpp>
 #include <gracilis/io/scene_inputs.hpp>
 #include <gracilis/io/scene_reader.hpp>
@@ -133,17 +133,40 @@ class SceneBuilder {
     }
   }
 
+  /// A surface that is fit for its role; what had to be repaired becomes a warning. Tells whether anything had to.
+  bool read_surface(const NamedFile& file, SurfaceRole role, TriangleMesh& surface) {
+    bool repaired = false;
+    read(file, [&](const fs::path& path) {
+      LoadedMesh loaded = load_surface(path, file.unit, role);
+      surface = std::move(loaded.mesh);
+      repaired = !loaded.repairs.empty();
+      for (const auto* lines : {&loaded.repairs, &loaded.warnings}) {
+        result_.warnings.insert(result_.warnings.end(), lines->begin(), lines->end());
+      }
+    });
+    return repaired;
+  }
+
+  void read_muscle(const MuscleDescription& description) {
+    Muscle& muscle = result_.scene.muscles.emplace_back();
+    muscle.name = description.name;
+    muscle.xpbd = description.xpbd;
+    if (!read_surface(description.file, SurfaceRole::muscle, muscle.surface)) return;
+    for (const AttachmentDescription& attachment : description.attachments) {
+      if (attachment.vertices.empty()) continue;
+      add_problem(attachment.place,
+                  "attachment '" + attachment.name + "' of " + muscle.name +
+                      " lists vertices, but the surface had to be repaired, which may have renumbered them",
+                  "write the repaired surface to a file of its own, or describe the attachment by distances");
+    }
+  }
+
   void read_files() {
     for (const BoneDescription& bone : description_.bones) {
       result_.scene.bones.push_back({bone.name, body_index(bone.body), {}});
-      read(bone.file,
-           [&](const fs::path& path) { result_.scene.bones.back().surface = read_mesh(path, bone.file.unit); });
+      read_surface(bone.file, SurfaceRole::bone, result_.scene.bones.back().surface);
     }
-    for (const MuscleDescription& muscle : description_.muscles) {
-      result_.scene.muscles.push_back({muscle.name, {}, {}, muscle.xpbd});
-      read(muscle.file,
-           [&](const fs::path& path) { result_.scene.muscles.back().surface = read_mesh(path, muscle.file.unit); });
-    }
+    for (const MuscleDescription& muscle : description_.muscles) read_muscle(muscle);
     if (!description_.landmarks.path.empty()) {
       read(description_.landmarks,
            [&](const fs::path& path) { landmarks_ = read_scene_landmarks(path, description_.landmarks.unit); });

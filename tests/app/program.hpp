@@ -1,0 +1,42 @@
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+namespace gracilis {
+
+/// What a run of the program left behind.
+struct ProgramResult {
+  int exit_code = -1;
+  std::string out;  ///< stdout
+  std::string err;  ///< stderr
+};
+
+inline std::string read_all(std::FILE* pipe) {
+  std::string text;
+  char buffer[4096];
+  while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, pipe)) text.append(buffer, count);
+  return text;
+}
+
+/// Runs the program with these arguments, as a shell would read them; `environment` goes before it.
+inline ProgramResult run_program(const std::string& arguments, const std::string& environment = "") {
+  char errors[] = "/tmp/gracilis_stderr_XXXXXX";
+  const int descriptor = mkstemp(errors);
+  const std::string command = environment + " " + GRACILIS_PROGRAM + " " + arguments + " 2>" + errors;
+  ProgramResult result;
+  std::FILE* pipe = popen(command.c_str(), "r");
+  result.out = read_all(pipe);
+  const int status = pclose(pipe);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  std::FILE* file = fdopen(descriptor, "r");
+  result.err = read_all(file);
+  std::fclose(file);
+  std::remove(errors);
+  return result;
+}
+
+}  // namespace gracilis
