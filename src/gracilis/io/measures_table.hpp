@@ -1,0 +1,23 @@
+#pragma once
+
+#include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/run.hpp>
+
+#include <filesystem>
+#include <string>
+
+namespace gracilis {
+
+/// The first line of measures.csv: columns with their units.
+std::string measures_header(const Scene& scene);
+
+/// One line per muscle of the frame.
+std::string measures_rows(const Scene& scene, const FrameRecord& record);
+
+/// Adds lines at the end of the file and flushes them; creates it with `header` where it is missing. Throws InputError.
+void append_measures(const std::filesystem::path& path, const std::string& header, const std::string& rows);
+
+/// Drops all rows from frame `first_dropped` on. Does nothing when there is no file.
+void truncate_measures(const std::filesystem::path& path, int first_dropped);
+
+}  // namespace gracilis

@@ -1,0 +1,48 @@
+#include <gracilis/io/mesh_writer.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/vtk_mesh.hpp>
+#include <gracilis/io/vtk_messages.hpp>
+
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
+
+namespace gracilis {
+
+static void add_scalars(const VertexScalars& scalars, vtkPolyData& mesh) {
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(scalars.name.c_str());
+  array->SetNumberOfValues(scalars.values.size());
+  std::copy(scalars.values.data(), scalars.values.data() + scalars.values.size(), array->GetPointer(0));
+  mesh.GetPointData()->AddArray(array);
+}
+
+void write_surface(const std::filesystem::path& path, const Points& points, const Eigen::Matrix3Xi& faces,
+                   const std::vector<VertexScalars>& scalars) {
+  const vtkSmartPointer<vtkPolyData> mesh = to_vtk(points, faces);
+  for (const VertexScalars& each : scalars) add_scalars(each, *mesh);
+  write_file_atomically(path, [&](const std::filesystem::path& temporary) {
+    VtkMessages messages;
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetFileName(temporary.c_str());
+    writer->SetInputData(mesh);
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToLZ4();
+    writer->SetIdTypeToInt32();
+    const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
+    if (written && !messages.has_errors()) return;
+    const std::string reason = writer->GetErrorCode() != vtkErrorCode::NoError
+                                   ? vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())
+                                   : messages.first_error();
+    throw InputError({path.string(), "", "cannot be written: " + reason,
+                      "check the folder's permissions and the free space of the disk"});
+  });
+}
+
+}  // namespace gracilis

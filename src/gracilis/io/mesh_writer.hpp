@@ -1,0 +1,23 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// One number per vertex, under a name that ParaView shows.
+struct VertexScalars {
+  std::string name;
+  Eigen::VectorXd values;
+};
+
+/// Writes a surface as .vtp (appended, LZ4; double points, 32-bit indices), whole or not at all. What is read back has
+/// the same bits. Points in m, 3 × n; faces 3 × m; scalars n each. May be called from several threads for different
+/// files. Throws InputError with the path and the reason when the file cannot be written.
+void write_surface(const std::filesystem::path& path, const Points& points, const Eigen::Matrix3Xi& faces,
+                   const std::vector<VertexScalars>& scalars = {});
+
+}  // namespace gracilis

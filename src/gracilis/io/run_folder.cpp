@@ -1,0 +1,163 @@
+#include <gracilis/io/run_folder.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/measures_table.hpp>
+#include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh_writer.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+fs::path frame_file(const fs::path& folder, const std::string& name, int number) {
+  return folder / "frames" / fmt::format("{}_{:04}.vtp", name, number);
+}
+
+static std::vector<std::string> surface_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Muscle& muscle : scene.muscles) names.push_back(muscle.name);
+  for (const Bone& bone : scene.bones) names.push_back(bone.name);
+  return names;
+}
+
+int count_frames(const fs::path& folder, const Scene& scene) {
+  const std::vector<std::string> names = surface_names(scene);
+  const auto complete = [&](int number) {
+    return std::all_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return fs::exists(frame_file(folder, name, number)); });
+  };
+  int count = 0;
+  while (!names.empty() && complete(count)) ++count;
+  return count;
+}
+
+Frame read_frame(const fs::path& folder, const Scene& scene, int number, const Pose& pose) {
+  Frame frame;
+  frame.number = number;
+  frame.pose = pose;
+  for (const Muscle& muscle : scene.muscles) {
+    const fs::path path = frame_file(folder, muscle.name, number);
+    const TriangleMesh mesh = read_mesh(path, 1);
+    if (mesh.vertex_count() != muscle.surface.vertex_count()) {
+      throw InputError({path.string(), "",
+                        fmt::format("has {} vertices, but {} has {}", mesh.vertex_count(), muscle.name,
+                                    muscle.surface.vertex_count()),
+                        "resume with the scene that the run was started with"});
+    }
+    frame.muscles.push_back({mesh.vertices});
+  }
+  return frame;
+}
+
+static void create_folders(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder / "frames", error);
+  if (error || !fs::is_directory(folder / "frames")) {
+    throw InputError(
+        {folder.string(), "", "cannot be created: " + error.message(), "choose another folder with --out"});
+  }
+}
+
+/// Removes what a run leaves behind from frame `first` on, and nothing else.
+static void remove_frames_from(const fs::path& folder, int first) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "frames")) {
+    const std::string stem = entry.path().stem().string();
+    const std::size_t underscore = stem.rfind('_');
+    if (entry.path().extension() != ".vtp" || underscore == std::string::npos) continue;
+    const std::string digits = stem.substr(underscore + 1);
+    const bool is_number = digits.size() >= 4 && digits.find_first_not_of("0123456789") == std::string::npos;
+    if (is_number && std::stol(digits) >= first) fs::remove(entry.path());
+  }
+}
+
+RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing)
+    : folder_(std::move(folder)), scene_(scene), poses_(poses), opened_(std::chrono::steady_clock::now()) {
+  const bool has_run = fs::exists(folder_ / "run.json") || fs::exists(folder_ / "run.pvd");
+  if (has_run && existing == ExistingRun::refuse) {
+    throw ConfigurationError(
+        {folder_.string(), "", "holds a run already", "resume it, replace it, or choose another folder"});
+  }
+  create_folders(folder_);
+  if (existing == ExistingRun::resume) {
+    frame_count_ = std::min(count_frames(folder_, scene), static_cast<int>(poses.size()));
+    if (frame_count_ >= 2) {
+      const auto pose = [&](int number) { return poses[static_cast<std::size_t>(number)]; };
+      resume_point_ = ResumePoint{read_frame(folder_, scene, frame_count_ - 2, pose(frame_count_ - 2)),
+                                  read_frame(folder_, scene, frame_count_ - 1, pose(frame_count_ - 1))};
+    } else {
+      frame_count_ = 0;
+    }
+  }
+  remove_frames_from(folder_, frame_count_);
+  truncate_measures(folder_ / "measures.csv", frame_count_);
+  if (frame_count_ == 0) fs::remove(folder_ / "measures.csv");
+  write_index();
+}
+
+RunFolder::~RunFolder() {
+  try {
+    finish();
+  } catch (const std::exception&) {
+    // A destructor must not throw; whoever wants to know calls finish().
+  }
+}
+
+void RunFolder::write_frame(const FrameRecord& record) {
+  const Frame& frame = record.frame;
+  const auto muscle_count = static_cast<Index>(scene_.muscles.size());
+  const auto bone_count = static_cast<Index>(scene_.bones.size());
+  parallel_for(muscle_count + bone_count, 1, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      if (i < muscle_count) {
+        const Muscle& muscle = scene_.muscles[static_cast<std::size_t>(i)];
+        write_surface(frame_file(folder_, muscle.name, frame.number), frame.muscles[static_cast<std::size_t>(i)].points,
+                      muscle.surface.faces);
+      } else {
+        const Bone& bone = scene_.bones[static_cast<std::size_t>(i - muscle_count)];
+        const RigidTransform& motion = frame.pose.bodies[static_cast<std::size_t>(bone.body)];
+        // Frame 0 is the input itself; arithmetic with the identity could turn a -0 into a 0.
+        write_surface(frame_file(folder_, bone.name, frame.number),
+                      frame.number == 0 ? bone.surface.vertices : Points(motion * bone.surface.vertices),
+                      bone.surface.faces);
+      }
+    }
+  });
+  append_measures(folder_ / "measures.csv", measures_header(scene_), measures_rows(scene_, record));
+  frame_count_ = frame.number + 1;
+  if (std::chrono::steady_clock::now() - indexed_ > std::chrono::seconds(1)) write_index();
+}
+
+void RunFolder::write_manifest(RunManifest manifest) const {
+  manifest.frames = frame_count_;
+  manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - opened_).count();
+  gracilis::write_manifest(folder_ / "run.json", manifest);
+}
+
+void RunFolder::finish() {
+  if (indexed_frames_ != frame_count_) write_index();
+}
+
+void RunFolder::write_index() {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  const std::vector<std::string> names = surface_names(scene_);
+  for (int number = 0; number < frame_count_; ++number) {
+    for (std::size_t part = 0; part < names.size(); ++part) {
+      text += fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+                          poses_[static_cast<std::size_t>(number)].time, part, names[part],
+                          frame_file("", names[part], number).generic_string());
+    }
+  }
+  write_text_atomically(folder_ / "run.pvd", text + "  </Collection>\n</VTKFile>\n");
+  indexed_frames_ = frame_count_;
+  indexed_ = std::chrono::steady_clock::now();
+}
+
+}  // namespace gracilis

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <gracilis/io/run_manifest.hpp>
+#include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/run.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// What to do with a run that is in the folder already.
+enum class ExistingRun { refuse, replace, resume };
+
+/// The folder that a run leaves behind:
+///
+///   run.json                       see run_manifest.hpp
+///   run.pvd                        opens the animation in ParaView; always names frames that are there only
+///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits
+///   measures.csv                   one row per frame and muscle; the units stand in the names of the columns
+///
+/// An interrupted run is readable: files appear whole, rows are flushed frame by frame, run.pvd follows every second.
+class RunFolder {
+ public:
+  /// Creates the folder. `poses` are those of all frames to come (their times and coordinates). With `resume`, what
+  /// comes after the last frame that is there for every surface is dropped. Throws ConfigurationError when there is a
+  /// run already and `existing` says refuse; InputError when the folder cannot be written. Scene and poses must outlive
+  /// this.
+  RunFolder(std::filesystem::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing);
+  /// Writes run.pvd if it is behind; failures are lost here, call finish() to see them.
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  /// Where to go on; empty unless this was opened to resume and has two frames at least.
+  const std::optional<ResumePoint>& resume_point() const { return resume_point_; }
+
+  /// Writes all surfaces of a frame and its measures. Frames come in order, from 0 or from the one after the resume
+  /// point.
+  void write_frame(const FrameRecord& record);
+  /// Writes run.json with the number of frames on disk and the seconds since this was opened.
+  void write_manifest(RunManifest manifest) const;
+  /// Writes run.pvd.
+  void finish();
+
+  const std::filesystem::path& path() const { return folder_; }
+  int frame_count() const { return frame_count_; }
+
+ private:
+  void write_index();
+
+  std::filesystem::path folder_;
+  const Scene& scene_;
+  const std::vector<Pose>& poses_;
+  int frame_count_ = 0;  ///< frames 0 ... frame_count_ - 1 are on disk
+  int indexed_frames_ = 0;
+  std::optional<ResumePoint> resume_point_;
+  std::chrono::steady_clock::time_point opened_, indexed_;
+};
+
+/// RUN/frames/<name>_<number as four digits>.vtp
+std::filesystem::path frame_file(const std::filesystem::path& folder, const std::string& name, int number);
+
+/// How many frames, counted from 0, are there for every muscle and bone of the scene.
+int count_frames(const std::filesystem::path& folder, const Scene& scene);
+
+/// The muscles' shapes as recorded. Throws InputError when a file is missing, damaged or of another surface.
+Frame read_frame(const std::filesystem::path& folder, const Scene& scene, int number, const Pose& pose);
+
+}  // namespace gracilis

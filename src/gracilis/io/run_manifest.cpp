@@ -1,0 +1,53 @@
+#include <gracilis/io/run_manifest.hpp>
+
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/content_hash.hpp>
+
+#include <embree3/rtcore_config.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <oneapi/tbb/version.h>
+#include <vtkVersion.h>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <thread>
+
+namespace gracilis {
+
+static nlohmann::ordered_json library_versions() {
+  return {{"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"oneTBB", fmt::format("{}.{}", TBB_VERSION_MAJOR, TBB_VERSION_MINOR)},
+          {"Embree", RTC_VERSION_STRING},
+          {"VTK", vtkVersion::GetVTKVersion()},
+          {"compiler", __VERSION__}};
+}
+
+void write_manifest(const std::filesystem::path& path, const RunManifest& manifest) {
+  nlohmann::ordered_json inputs = nlohmann::json::array();
+  for (const std::filesystem::path& input : manifest.inputs) {
+    inputs.push_back({{"file", input.string()}, {"sha256", content_hash(input)}});
+  }
+  const nlohmann::ordered_json json = {
+      {"gracilis", manifest.version},
+      {"status", manifest.status},
+      {"scene", manifest.scene},
+      {"preset", manifest.preset},
+      {"command", manifest.command},
+      {"written", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+      {"seed", nullptr},  // nothing in a run is random
+      {"frames", manifest.frames},
+      {"seconds", manifest.seconds},
+      {"threads", manifest.threads},
+      {"processors", std::thread::hardware_concurrency()},
+      {"guessed", manifest.guessed},
+      {"warnings", manifest.warnings},
+      {"inputs", inputs},
+      {"libraries", library_versions()},
+      {"settings", manifest.settings}};
+  // Names of files need not be UTF-8; what is not is replaced, so that the manifest always is.
+  write_text_atomically(path, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace gracilis

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// What run.json says about a run, beside the versions of the libraries, the time and the machine.
+struct RunManifest {
+  std::string version;                        ///< of Gracilis
+  std::string scene;                          ///< the scene's name
+  std::string preset;                         ///< that the settings started from
+  std::vector<std::string> command;           ///< the command line, word by word
+  std::string settings;                       ///< every setting as resolved, as TOML
+  std::vector<std::filesystem::path> inputs;  ///< each is listed with its SHA-256
+  std::vector<std::string> guessed;           ///< what was guessed rather than measured, e.g. "psoas_r origin"
+  std::vector<std::string> warnings;
+  std::string status = "running";  ///< running, complete, interrupted, or "failed: why"
+  int threads = 1;
+  int frames = 0;      ///< on disk
+  double seconds = 0;  ///< spent on them
+};
+
+/// Writes `path` (RUN/run.json), whole or not at all.
+void write_manifest(const std::filesystem::path& path, const RunManifest& manifest);
+
+}  // namespace gracilis

@@ -1,0 +1,230 @@
+#include <gracilis/io/content_hash.hpp>
+#include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh_writer.hpp>
+#include <gracilis/io/run_folder.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <io/test_files.hpp>
+#include <nlohmann/json.hpp>
+
+#include <sys/resource.h>
+
+#include <csignal>
+#include <sstream>
+
+using namespace gracilis;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+namespace {
+
+TriangleMesh tetrahedron(const Vec3& offset) {
+  TriangleMesh mesh;
+  mesh.vertices.resize(3, 4);
+  mesh.vertices << 0, 0.1, 0, 0, 0, 0, 1.0 / 3, 0, 0, 0, 0, 0.1;
+  mesh.vertices.colwise() += offset;
+  mesh.faces.resize(3, 4);
+  mesh.faces << 0, 0, 1, 2, 2, 1, 2, 0, 1, 3, 3, 3;
+  return mesh;
+}
+
+/// One muscle and one bone, which turns about z.
+struct TinyRun {
+  Scene scene;
+  std::vector<Pose> poses;
+
+  TinyRun() {
+    scene.name = "tiny";
+    scene.bodies = {"ground", "leg"};
+    scene.bones = {{"femur_r", 1, tetrahedron(Vec3(1, 0, 0))}};
+    scene.muscles.resize(1);
+    scene.muscles[0].name = "gluteus_maximus_r";
+    scene.muscles[0].surface = tetrahedron(Vec3::Zero());
+    Joint hip;
+    hip.axes.resize(1);
+    hip.axes[0].coordinate = "hip_flexion_r";
+    scene.joints = {hip};
+    for (int i = 0; i < 5; ++i) {
+      const RigidTransform turn(Eigen::AngleAxisd(0.5 * i, Vec3::UnitZ()));
+      poses.push_back({0.1 * i, {radians(10 * i)}, {RigidTransform::Identity(), turn}});
+    }
+  }
+
+  FrameRecord record(int number) const {
+    FrameRecord result;
+    result.frame.number = number;
+    result.frame.pose = poses[static_cast<std::size_t>(number)];
+    result.frame.muscles = {{scene.muscles[0].surface.vertices * (1 + 0.1 * number)}};
+    result.measures.resize(1);
+    result.measures[0].volume_ratio = 1 + 0.001 * number;
+    return result;
+  }
+};
+
+std::string content(const fs::path& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+long count_of(const std::string& text, const std::string& part) {
+  long count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST(MeshWriter, what_is_read_back_has_the_same_bits) {
+  const TestFolder folder;
+  const TriangleMesh mesh = tetrahedron(Vec3(1e-3, 1.0 / 7, -1e9));
+  write_surface(folder.path() / "a.vtp", mesh.vertices, mesh.faces, {{"depth", Eigen::VectorXd::Ones(4)}});
+  const TriangleMesh read = read_mesh(folder.path() / "a.vtp", 1);
+  EXPECT_TRUE((read.vertices.array() == mesh.vertices.array()).all());
+  EXPECT_TRUE((read.faces.array() == mesh.faces.array()).all());
+  EXPECT_THAT(content(folder.path() / "a.vtp"), HasSubstr("Name=\"depth\""));
+}
+
+TEST(MeshWriter, a_folder_that_is_not_there_is_one_clear_error) {
+  const TriangleMesh mesh = tetrahedron(Vec3::Zero());
+  testing::internal::CaptureStderr();
+  const std::string text = message_of_input_error([&] { write_surface("/no/such/a.vtp", mesh.vertices, mesh.faces); });
+  EXPECT_THAT(text, HasSubstr("/no/such/a.vtp: cannot be written"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(MeshWriter, a_full_disk_is_one_clear_error_and_leaves_the_old_file) {
+  const TestFolder folder;
+  const fs::path path = folder.write("a.vtp", "as it was");
+  Points points = Points::Random(3, 20000);
+  Eigen::Matrix3Xi faces = Eigen::Matrix3Xi::Zero(3, 1);
+  // A limit on the size of files fails like a disk without space.
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 10000;
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string text = message_of_input_error([&] { write_surface(path, points, faces); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_THAT(text, HasSubstr("a.vtp: cannot be written"));
+  EXPECT_EQ(content(path), "as it was");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+TEST(RunFolder, frame_0_is_the_input_and_bones_move_with_their_body) {
+  const TestFolder folder;
+  const TinyRun run;
+  RunFolder out(folder.path() / "run", run.scene, run.poses, ExistingRun::refuse);
+  for (int i = 0; i < 3; ++i) out.write_frame(run.record(i));
+  out.finish();
+  const auto points = [&](const char* name, int number) {
+    return read_mesh(frame_file(out.path(), name, number), 1).vertices;
+  };
+  EXPECT_TRUE((points("gluteus_maximus_r", 0).array() == run.scene.muscles[0].surface.vertices.array()).all());
+  EXPECT_TRUE((points("femur_r", 0).array() == run.scene.bones[0].surface.vertices.array()).all());
+  EXPECT_TRUE(points("femur_r", 2).isApprox(run.poses[2].bodies[1] * run.scene.bones[0].surface.vertices, 1e-15));
+  EXPECT_EQ(count_frames(out.path(), run.scene), 3);
+}
+
+TEST(RunFolder, measures_have_a_row_per_frame_and_muscle_under_named_columns) {
+  const TestFolder folder;
+  const TinyRun run;
+  RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
+  out.write_frame(run.record(0));
+  out.write_frame(run.record(1));
+  std::istringstream lines(content(folder.path() / "measures.csv"));  // before finish: flushed frame by frame
+  std::string header, row0, row1, more;
+  std::getline(lines, header);
+  std::getline(lines, row0);
+  std::getline(lines, row1);
+  EXPECT_FALSE(std::getline(lines, more));
+  EXPECT_THAT(header, testing::StartsWith("frame,time_s,hip_flexion_r_deg,muscle,volume_ratio"));
+  EXPECT_THAT(row1, testing::StartsWith("1,0.100000,10.0000,gluteus_maximus_r,1.001000,"));
+  EXPECT_EQ(count_of(header, ","), count_of(row1, ","));
+}
+
+TEST(RunFolder, the_index_names_only_files_that_are_there) {
+  const TestFolder folder;
+  const TinyRun run;
+  RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
+  out.write_frame(run.record(0));
+  out.write_frame(run.record(1));
+  EXPECT_THAT(content(folder.path() / "run.pvd"), HasSubstr("</VTKFile>"));
+  out.finish();
+  const std::string index = content(folder.path() / "run.pvd");
+  EXPECT_EQ(count_of(index, "<DataSet"), 4);
+  EXPECT_THAT(index, HasSubstr("timestep=\"0.1\""));
+  EXPECT_THAT(index, HasSubstr("file=\"frames/femur_r_0001.vtp\""));
+}
+
+TEST(RunFolder, a_run_that_is_there_already_is_refused_or_replaced) {
+  const TestFolder folder;
+  const TinyRun run;
+  {
+    RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
+    for (int i = 0; i < 4; ++i) out.write_frame(run.record(i));
+  }
+  folder.write("notes.txt", "mine");
+  EXPECT_THROW(RunFolder(folder.path(), run.scene, run.poses, ExistingRun::refuse), ConfigurationError);
+  RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::replace);
+  out.write_frame(run.record(0));
+  EXPECT_EQ(count_frames(folder.path(), run.scene), 1);
+  EXPECT_FALSE(fs::exists(frame_file(folder.path(), "femur_r", 3)));
+  EXPECT_EQ(count_of(content(folder.path() / "measures.csv"), "\n"), 2);
+  EXPECT_TRUE(fs::exists(folder.path() / "notes.txt"));
+}
+
+TEST(RunFolder, an_interrupted_run_goes_on_after_its_last_whole_frame) {
+  const TestFolder folder;
+  const TinyRun run;
+  {
+    RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
+    for (int i = 0; i < 4; ++i) out.write_frame(run.record(i));
+  }
+  fs::remove(frame_file(folder.path(), "femur_r", 3));  // interrupted while frame 3 was being written
+  RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::resume);
+  ASSERT_TRUE(out.resume_point());
+  EXPECT_EQ(out.resume_point()->before.number, 1);
+  EXPECT_EQ(out.resume_point()->last.number, 2);
+  EXPECT_TRUE(
+      (out.resume_point()->last.muscles[0].points.array() == run.record(2).frame.muscles[0].points.array()).all());
+  EXPECT_FALSE(fs::exists(frame_file(folder.path(), "gluteus_maximus_r", 3)));
+  out.write_frame(run.record(3));
+  EXPECT_EQ(count_of(content(folder.path() / "measures.csv"), "\n"), 5);
+}
+
+TEST(RunFolder, resuming_another_scene_is_an_error) {
+  const TestFolder folder;
+  TinyRun run;
+  {
+    RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
+    for (int i = 0; i < 2; ++i) out.write_frame(run.record(i));
+  }
+  run.scene.muscles[0].surface.vertices = Points::Zero(3, 7);
+  EXPECT_THAT(message_of_input_error([&] { RunFolder(folder.path(), run.scene, run.poses, ExistingRun::resume); }),
+              HasSubstr("has 4 vertices, but gluteus_maximus_r has 7"));
+}
+
+TEST(RunFolder, the_manifest_hashes_every_input) {
+  const TestFolder folder;
+  const TinyRun run;
+  RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
+  out.write_frame(run.record(0));
+  RunManifest manifest;
+  manifest.status = "complete";
+  manifest.inputs = {folder.write("a.txt", "abc")};
+  out.write_manifest(manifest);
+  const auto json = nlohmann::json::parse(content(folder.path() / "run.json"));
+  EXPECT_EQ(json["inputs"][0]["sha256"], "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(json["frames"], 1);
+  EXPECT_EQ(json["status"], "complete");
+  EXPECT_TRUE(json["libraries"].contains("VTK"));
+}
+
+TEST(RunFolder, a_folder_that_cannot_be_made_is_named) {
+  const TinyRun run;
+  EXPECT_THAT(message_of_input_error([&] { RunFolder("/proc/run", run.scene, run.poses, ExistingRun::replace); }),
+              HasSubstr("/proc/run: cannot be created"));
+}
