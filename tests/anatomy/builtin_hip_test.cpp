@@ -116,7 +116,7 @@ TEST(BuiltinHip, muscles_keep_clear_of_bones_at_rest) {
   for (const Bone& b : hip().bones) {
     const SignedDistance distance(b.surface);
     for (const Muscle& m : hip().muscles) {
-      EXPECT_GT(least_distance(m.surface, distance), 0.0005) << m.name << " and " << b.name;
+      EXPECT_GT(least_distance(m.surface, distance), 0.0008) << m.name << " and " << b.name;
       const SignedDistance to_muscle(m.surface);
       for (Index v = 0; v < b.surface.vertex_count(); ++v)
         ASSERT_GT(to_muscle.query(b.surface.vertices.col(v), 0.02).distance, 0.0005) << m.name << " and " << b.name;
@@ -129,7 +129,7 @@ TEST(BuiltinHip, muscles_keep_clear_of_each_other_at_rest) {
     const SignedDistance distance(a.surface);
     for (const Muscle& b : hip().muscles)
       if (&a != &b) {
-        EXPECT_GT(least_distance(b.surface, distance), 0.0005) << b.name << " and " << a.name;
+        EXPECT_GT(least_distance(b.surface, distance), 0.001) << b.name << " and " << a.name;
       }
   }
 }
@@ -148,7 +148,7 @@ TEST(BuiltinHip, attachments_are_areas_on_their_bones) {
         const Vec3 p = m.surface.vertices.col(v);
         const Real gap =
             a.body == 0 ? std::min(hip_bone.query(p).distance, sacrum.query(p).distance) : femur.query(p).distance;
-        EXPECT_LT(gap, 0.004) << m.name << " " << a.name;
+        EXPECT_LT(gap, 0.0043) << m.name << " " << a.name;
       }
       EXPECT_TRUE(std::is_sorted(a.vertices.begin(), a.vertices.end()));
       EXPECT_GE(a.vertices.size(), 12u) << m.name << " " << a.name;

@@ -15,7 +15,7 @@ namespace {
 using namespace builtin_hip_shapes;
 
 constexpr Index pelvis_body = 0, femur_body = 1;
-constexpr Real attachment_reach = 0.0038;  ///< m; what is closer to the bone grows on it
+constexpr Real attachment_reach = 0.0042;  ///< m; what is closer to the bone grows on it
 
 TriangleMesh mirrored_in_z(TriangleMesh mesh, Real plane_z) {
   mesh.vertices.row(2) = (2 * plane_z - mesh.vertices.row(2).array()).matrix();

@@ -9,7 +9,7 @@ struct BuiltinHipOptions {
   Real last_flexion = radians(90);  ///< rad; the motion flexes from 0 to here
   Real flexion_step = radians(1);   ///< rad per frame
   Real time_step = 1.0 / 60;        ///< s between frames
-  Real bone_gap = 0.0015;           ///< m, between every muscle and every bone at rest
+  Real bone_gap = 0.0018;           ///< m, between every muscle and every bone at rest
   Real muscle_gap = 0.0015;         ///< m, between any two muscles at rest
 };
 

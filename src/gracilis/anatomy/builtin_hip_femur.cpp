@@ -40,14 +40,15 @@ ImplicitSolid shaft() {
 ImplicitSolid distal_end() {
   std::vector<ImplicitSolid> parts;
   for (int side : {-1, 1}) {  // medial, lateral
-    parts.push_back(thick_curve(
-        {thick(12, -398, side * 20.0, 18), thick(-2, -404, side * 23.0, 20), thick(-15, -398, side * 24.0, 19)}));
-    parts.push_back(thick_curve({thick(-4, -378, side * 16.0, 17), thick(-4, -392, side * 33.0, 9)}));
+    parts.push_back(thick_curve({thick(9, -382, side * 15.0, 14), thick(8, -400, side * 19.0, 17),
+                                 thick(-10, -404, side * 23.0, 19.5), thick(-24, -399, side * 24.0, 18),
+                                 thick(-30, -389, side * 23.0, 15)}));
+    parts.push_back(thick_curve({thick(-6, -378, side * 15.0, 15), thick(-6, -393, side * 34.0, 8.5)}));
   }
-  parts.push_back(thick_curve({thick(-3, -376, 3, 21), thick(6, -388, 0, 20)}));
-  const ImplicitSolid notch = thick_curve({thick(-12, -424, 0, 11), thick(-28, -404, 0, 11), thick(-40, -380, 0, 12)});
-  const ImplicitSolid groove = thick_curve({thick(42, -376, 2, 13), thick(40, -400, 2, 13), thick(24, -432, 0, 13)});
-  return smooth_difference(smooth_difference(smooth_union(parts, 0.012), notch, 0.006), groove, 0.010);
+  parts.push_back(thick_curve({thick(-3, -374, 3, 20), thick(4, -390, 0, 17)}));
+  const ImplicitSolid notch = thick_curve({thick(-6, -429, 0, 10), thick(-24, -412, 0, 12), thick(-44, -388, 0, 14)});
+  const ImplicitSolid groove = thick_curve({thick(43, -372, 2, 12), thick(41, -398, 1, 13), thick(24, -434, 0, 13)});
+  return smooth_difference(smooth_difference(smooth_union(parts, 0.009), notch, 0.005), groove, 0.010);
 }
 
 }  // namespace
