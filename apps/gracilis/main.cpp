@@ -1,21 +1,28 @@
 #include "command.hpp"
 #include "console.hpp"
+#include "demo_command.hpp"
 #include "exit_handling.hpp"
 #include "print_config_command.hpp"
+#include "run_command.hpp"
 
 #include <gracilis/core/errors.hpp>
 
 #include <iostream>
+#include <string>
+#include <vector>
 
 /// Exit codes: see ExitCode in core/errors.hpp.
 int main(int count, char** arguments) {
   using namespace gracilis;
   set_up_logging();
+  const std::vector<std::string> words(arguments, arguments + count);
 
   CLI::App program("Gracilis: bones, muscle surfaces and a motion become deforming, contracting muscles.", "gracilis");
   program.set_version_flag("--version", "gracilis " GRACILIS_VERSION);
   program.require_subcommand(1);
   Command chosen;
+  add_demo_command(program, words, chosen);
+  add_run_command(program, words, chosen);
   add_print_config_command(program, chosen);
   try {
     program.parse(count, arguments);

@@ -140,4 +140,19 @@ std::string scene_template() {
          "# The XPBD method, for all muscles.\n" + section<XpbdSettings>("settings");
 }
 
+template <class Settings>
+static std::string values(const std::string& title, const Settings& settings) {
+  std::string text = title + "\n";
+  for (const auto& [key, value] : list_settings(settings)) text += key + " = " + to_text(value) + "\n";
+  return text;
+}
+
+std::string settings_text(const Scene& scene) {
+  std::string text = values("[sequence]", scene.sequence) + values("[distance_field]", scene.distance_fields);
+  for (const Muscle& muscle : scene.muscles) {
+    text += "[[muscles]]\nname = \"" + muscle.name + "\"\n" + values("[muscles.settings]", muscle.xpbd);
+  }
+  return text;
+}
+
 }  // namespace gracilis

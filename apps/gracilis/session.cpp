@@ -1,0 +1,194 @@
+#include "session.hpp"
+
+#include "console.hpp"
+#include "exit_handling.hpp"
+
+#include <gracilis/anatomy/attachments.hpp>
+#include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/io/run_folder.hpp>
+#include <gracilis/io/scene_template.hpp>
+#include <gracilis/methods/xpbd/xpbd_method.hpp>
+#include <gracilis/simulate/run.hpp>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace gracilis {
+namespace {
+
+/// What became of the quality gates and of constraints that could not do their work, summed over frames.
+struct Summary {
+  struct PerMuscle {
+    int frames_missed = 0;
+    int first_missed = 0;
+    std::string first_reason;
+    long limited = 0, skipped = 0;
+  };
+  std::vector<PerMuscle> muscles;
+
+  void add(const FrameRecord& record) {
+    muscles.resize(record.measures.size());
+    for (std::size_t i = 0; i < muscles.size(); ++i) {
+      const std::vector<std::string> missed = missed_gates(record.measures[i], QualityGates{});
+      if (!missed.empty() && muscles[i].frames_missed++ == 0) {
+        muscles[i].first_missed = record.frame.number;
+        muscles[i].first_reason = fmt::format("{}", fmt::join(missed, "; "));
+      }
+      if (i < record.report.muscles.size()) {
+        muscles[i].limited += record.report.muscles[i].limited_hinges;
+        muscles[i].skipped += record.report.muscles[i].skipped_constraints;
+      }
+    }
+  }
+
+  bool all_gates_met() const {
+    return std::all_of(muscles.begin(), muscles.end(), [](const PerMuscle& m) { return m.frames_missed == 0; });
+  }
+};
+
+class Session {
+ public:
+  Session(const LoadedScene& loaded, const SessionOptions& options)
+      : loaded_(loaded),
+        options_(options),
+        poses_(pose_sequence(loaded.scene)),
+        threads_(options.threads),
+        folder_(out_folder(), loaded.scene, poses_, existing()) {}
+
+  int run() {
+    describe_scene();
+    const auto method = make_xpbd_method(loaded_.scene, bone_fields());
+    write_manifest("running");
+    const ResumePoint* resume = folder_.resume_point() ? &*folder_.resume_point() : nullptr;
+    if (resume) spdlog::info("going on after frame {}", resume->last.number);
+    RunEnd end = RunEnd::complete;
+    const int last = static_cast<int>(poses_.size()) - 1;
+    Progress progress(resume ? resume->last.number : 0, last);
+    try {
+      end = run_scene(loaded_.scene, poses_, *method, resume, stop_requested(), [&](const FrameRecord& record) {
+        folder_.write_frame(record);
+        summary_.add(record);
+        progress.show(record.frame.number);
+      });
+    } catch (const QualityError& error) {
+      progress.clear();
+      summarize();
+      folder_.finish();
+      write_manifest(std::string("failed: ") + error.what());
+      throw;
+    }
+    progress.clear();
+    summarize();
+    folder_.finish();
+    write_manifest(end == RunEnd::complete ? "complete" : "interrupted");
+    return close(end);
+  }
+
+ private:
+  std::filesystem::path out_folder() const {
+    return options_.out.empty() ? std::filesystem::path("runs") / loaded_.scene.name : options_.out;
+  }
+
+  ExistingRun existing() const {
+    return options_.resume ? ExistingRun::resume : options_.force ? ExistingRun::replace : ExistingRun::refuse;
+  }
+
+  void warn(std::string text) {
+    spdlog::warn("{}", text);
+    warnings_.push_back(std::move(text));
+  }
+
+  void describe_scene() {
+    const Scene& scene = loaded_.scene;
+    spdlog::info("scene {}: {} bones, {} muscles, {} frames, preset {}", scene.name, scene.bones.size(),
+                 scene.muscles.size(), poses_.size(), loaded_.preset);
+    for (const Muscle& muscle : scene.muscles) {
+      spdlog::info("{}: {} triangles", muscle.name, muscle.surface.face_count());
+      for (const Attachment& attachment : muscle.attachments) {
+        const AttachmentArea area = attachment_area(muscle.surface, attachment.vertices);
+        spdlog::info("  {} '{}' on {}: {} vertices, {:.1f} cm²{}",
+                     attachment.end == AttachmentEnd::origin ? "origin" : "insertion", attachment.name,
+                     scene.bodies[static_cast<std::size_t>(attachment.body)], attachment.vertices.size(),
+                     area.area * 1e4, attachment.guessed ? ", guessed" : "");
+        if (attachment.guessed) guessed_.push_back(muscle.name + " " + attachment.name);
+      }
+    }
+    for (const std::string& warning : loaded_.warnings) warn(warning);
+  }
+
+  std::vector<DistanceField> bone_fields() const {
+    std::vector<DistanceField> fields;
+    for (const Bone& bone : loaded_.scene.bones) {
+      spdlog::info("distance field of {}", bone.name);
+      fields.push_back(build_bone_field(bone, loaded_.scene.distance_fields));
+    }
+    return fields;
+  }
+
+  /// Says per muscle what was missed, limited or skipped over the whole run.
+  void summarize() {
+    for (std::size_t i = 0; i < summary_.muscles.size(); ++i) {
+      const Summary::PerMuscle& muscle = summary_.muscles[i];
+      const std::string& name = loaded_.scene.muscles[i].name;
+      if (muscle.limited + muscle.skipped > 0) {
+        spdlog::info("{}: {} hinge projections limited, {} constraint projections skipped", name, muscle.limited,
+                     muscle.skipped);
+      }
+      if (muscle.frames_missed == 0) continue;
+      warn(fmt::format("{} misses quality gates in {} frames, first in frame {}: {}", name, muscle.frames_missed,
+                       muscle.first_missed, muscle.first_reason));
+    }
+  }
+
+  void write_manifest(const std::string& status) const {
+    RunManifest manifest;
+    manifest.version = GRACILIS_VERSION;
+    manifest.scene = loaded_.scene.name;
+    manifest.preset = loaded_.preset;
+    manifest.command = options_.command;
+    manifest.settings = settings_text(loaded_.scene);
+    manifest.inputs = loaded_.inputs;
+    manifest.guessed = guessed_;
+    manifest.warnings = warnings_;
+    manifest.status = status;
+    manifest.threads = thread_count();
+    folder_.write_manifest(manifest);
+  }
+
+  int close(RunEnd end) const {
+    if (end == RunEnd::interrupted) {
+      spdlog::warn("stopped after frame {}; --resume goes on from there", folder_.frame_count() - 1);
+      return static_cast<int>(ExitCode::interrupted);
+    }
+    fmt::print("{}\n", folder_.path().string());
+    return static_cast<int>(options_.strict && !summary_.all_gates_met() ? ExitCode::quality : ExitCode::done);
+  }
+
+  const LoadedScene& loaded_;
+  const SessionOptions& options_;
+  std::vector<Pose> poses_;
+  ThreadLimit threads_;
+  RunFolder folder_;
+  Summary summary_;
+  std::vector<std::string> warnings_, guessed_;
+};
+
+}  // namespace
+
+void add_session_options(CLI::App& command, SessionOptions& options) {
+  command.add_option("--out", options.out, "Run folder to write (default: runs/NAME of the scene)");
+  command.add_option("--threads", options.threads, "Threads to use; 0 takes all. Results do not depend on it")
+      ->check(CLI::Range(0, 1024));
+  CLI::Option* resume =
+      command.add_flag("--resume", options.resume, "Go on where the run in the folder was interrupted");
+  command.add_flag("--force", options.force, "Replace the run that is in the folder")->excludes(resume);
+  command.add_flag("--strict", options.strict, "Exit with code 5 when a frame misses a quality gate");
+}
+
+int run_session(const LoadedScene& loaded, const SessionOptions& options) { return Session(loaded, options).run(); }
+
+}  // namespace gracilis
