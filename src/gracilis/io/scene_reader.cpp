@@ -177,7 +177,8 @@ class SceneBuilder {
   void read_motion() {
     const MotionDescription& description = description_.motion;
     if (!description.file.path.empty()) {
-      read(description.file, [&](const fs::path& path) { result_.scene.motion = read_scene_motion(path); });
+      read(description.file,
+           [&](const fs::path& path) { result_.scene.motion = read_scene_motion(path, result_.warnings); });
     } else if (description.key_poses.rows() > 0) {
       result_.scene.motion = between_key_poses(description);
       result_.scene.motion.name = description_.name;

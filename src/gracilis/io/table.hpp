@@ -1,0 +1,37 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// A table over time as OpenSim's .mot and .sto files hold it, in the file's own units.
+struct Table {
+  std::string name;
+  std::vector<std::string> columns;   ///< without the time
+  std::vector<Real> times;            ///< s, increasing, one per row
+  Eigen::MatrixXd values;             ///< rows × columns
+  bool in_degrees = false;            ///< of columns that are angles
+  std::vector<std::string> warnings;  ///< what was wrong with the file but could be survived; one sentence each
+};
+
+/// Reads a .mot, .sto or .csv: headers as OpenSim up to 3 writes them (name, version=, nRows=, nColumns=, inDegrees=),
+/// as SIMM does (name, datacolumns, datarows, range), as OpenSim 4 does (DataType=, OpenSimVersion=), or none at all;
+/// columns between tabs, spaces or commas, in any order. Survived with a warning: wrong row and column counts, a
+/// missing inDegrees (radians; degrees under a SIMM header). Survived in silence: blank lines, separators at the ends
+/// of lines, \r\n, a byte order mark. Throws InputError with file and line: no header end, no column "time", columns of
+/// the same name, rows of a wrong length, cells that are not finite numbers, times that do not increase, no rows.
+Table read_table(const std::filesystem::path& path);
+
+/// Writes a table with the header that OpenSim 4 reads (version 1, inDegrees), whole or not at all.
+void write_sto(const std::filesystem::path& path, const Table& table);
+
+/// The coordinates of a motion in rad. Translations (names that end in _tx, _ty, _tz or Translation) and speeds are
+/// left out; OpenSim's state names (/jointset/hip_r/hip_flexion_r/value) are cut to the coordinate.
+Motion motion_from_table(const Table& table);
+
+}  // namespace gracilis

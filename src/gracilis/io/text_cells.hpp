@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gracilis {
+
+/// A line's cells: between commas where there is one, else between tabs, else between spaces; trimmed, and unquoted.
+/// Empty cells at the end are dropped.
+std::vector<std::string_view> cells_of(std::string_view line);
+
+/// Cells between any white space or commas.
+std::vector<std::string_view> words_of(std::string_view line);
+
+/// Without white space at either end.
+std::string_view trimmed(std::string_view text);
+
+}  // namespace gracilis
