@@ -33,7 +33,7 @@ struct Picture {
   std::vector<Panel> panels;  ///< at least one
   int columns = 0;            ///< panels per row; 0: all in one row
   int panel_width = 720;      ///< pixels
-  int panel_height = 960;     ///< pixels
+  int panel_height = 0;       ///< pixels; 0: as what is seen needs at this width
   Color background = Color::Ones();
 };
 

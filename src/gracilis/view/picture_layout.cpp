@@ -47,19 +47,20 @@ static CameraView camera_of(const Panel& panel) {
   return camera;
 }
 
-static void place_cameras(const Picture& picture, PictureLayout& layout) {
-  const Real aspect = Real(layout.panels[0].width) / layout.panels[0].height;
+/// Points the cameras; returns half the width and height that the panel seeing most needs, m.
+static Eigen::Vector2d place_cameras(const Picture& picture, PictureLayout& layout) {
+  Eigen::Vector2d needed = Eigen::Vector2d::Zero();
   for (const Panel& panel : picture.panels) {
     CameraView camera = camera_of(panel);
     const Extent extent = extent_seen_by(camera, picture);
     require(extent.low.allFinite() && extent.high.allFinite(), "there is nothing to see");
     const Vec3 middle = (extent.low + extent.high) / 2;
-    const Vec3 half = (extent.high - extent.low) / 2;
     camera.center = camera.right * middle.x() + camera.up * middle.y() + camera.looking * middle.z();
-    layout.half_height = std::max({layout.half_height, half.y() * border, half.x() * border / aspect});
+    needed = needed.cwiseMax(((extent.high - extent.low) / 2 * border).head<2>());
     layout.cameras.push_back(camera);
   }
-  require(layout.half_height > 0, "there is nothing to see: all points coincide");
+  require(needed.maxCoeff() > 0, "there is nothing to see: all points coincide");
+  return needed;
 }
 
 static std::vector<std::pair<std::string, Color>> legend_of(const Picture& picture) {
@@ -76,16 +77,20 @@ static std::vector<std::pair<std::string, Color>> legend_of(const Picture& pictu
 
 PictureLayout lay_out(const Picture& picture) {
   require(!picture.panels.empty(), "a picture needs at least one panel");
-  require(picture.panel_width > 0 && picture.panel_height > 0, "a panel needs a width and a height");
+  require(picture.panel_width > 0 && picture.panel_height >= 0, "a panel needs a width and a height");
   const int count = static_cast<int>(picture.panels.size());
   const int columns = picture.columns > 0 ? std::min(picture.columns, count) : count;
   const int rows = (count + columns - 1) / columns;
   const bool captions =
       std::any_of(picture.panels.begin(), picture.panels.end(), [](const Panel& p) { return !p.caption.empty(); });
   const int caption_height = captions ? strip_height : 0;
-  const int row_height = picture.panel_height + caption_height;
 
   PictureLayout layout;
+  const Eigen::Vector2d needed = place_cameras(picture, layout);
+  const int fitting_height = static_cast<int>(picture.panel_width * std::clamp(needed.y() / needed.x(), 0.5, 2.0));
+  const int panel_height = picture.panel_height > 0 ? picture.panel_height : fitting_height;
+  layout.half_height = std::max(needed.y(), needed.x() * panel_height / picture.panel_width);
+  const int row_height = panel_height + caption_height;
   layout.legend_entries = legend_of(picture);
   layout.width = columns * picture.panel_width;
   layout.legend = {0, 0, layout.width, layout.legend_entries.empty() ? 0 : strip_height};
@@ -95,9 +100,8 @@ PictureLayout lay_out(const Picture& picture) {
     const int x = (i % columns) * picture.panel_width;
     const int y = layout.legend.height + (rows - 1 - i / columns) * row_height;
     layout.captions.push_back({x, y, picture.panel_width, caption_height});
-    layout.panels.push_back({x, y + caption_height, picture.panel_width, picture.panel_height});
+    layout.panels.push_back({x, y + caption_height, picture.panel_width, panel_height});
   }
-  place_cameras(picture, layout);
   return layout;
 }
 
