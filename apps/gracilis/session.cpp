@@ -60,6 +60,7 @@ class Session {
         folder_(out_folder(), loaded.scene, poses_, existing()) {}
 
   int run() {
+    stop_requested();  // from here on a signal ends the run after its present frame
     describe_scene();
     const auto method = make_xpbd_method(loaded_.scene, bone_fields());
     write_manifest("running");

@@ -22,11 +22,11 @@ inline std::string read_all(std::FILE* pipe) {
   return text;
 }
 
-/// Runs the program with these arguments, as a shell would read them; `environment` goes before it.
-inline ProgramResult run_program(const std::string& arguments, const std::string& environment = "") {
+/// Runs the program with these arguments, as a shell would read them.
+inline ProgramResult run_program(const std::string& arguments) {
   char errors[] = "/tmp/gracilis_stderr_XXXXXX";
   const int descriptor = mkstemp(errors);
-  const std::string command = environment + " " + GRACILIS_PROGRAM + " " + arguments + " 2>" + errors;
+  const std::string command = std::string(GRACILIS_PROGRAM) + " " + arguments + " 2>" + errors;
   ProgramResult result;
   std::FILE* pipe = popen(command.c_str(), "r");
   result.out = read_all(pipe);
