@@ -122,6 +122,37 @@ TEST_F(SceneReader, points_without_a_bone_make_an_attachment) {
   EXPECT_THAT(read(text).scene.muscles[0].attachments[0].vertices, ElementsAre(4));
 }
 
+TEST_F(SceneReader, a_motion_file_is_matched_by_name_and_followed_row_by_row) {
+  folder.write("walk.mot",
+               "walk\nversion=1\nnRows=3\nnColumns=4\ninDegrees=yes\nendheader\n"
+               "time\tpelvis_tilt\tflexion\tpelvis_tx\n0\t1\t5\t0\n0.5\t1\t6\t0\n1\t1\t7\t0\n");
+  const std::string by_keys = "coordinates = [\"flexion\"]\nkey_poses_deg = [[0], [10]]";
+  const Motion motion = read(with(good_scene(), by_keys, "file = \"walk.mot\"")).scene.motion;
+  EXPECT_THAT(motion.coordinates, ElementsAre("flexion"));
+  ASSERT_EQ(motion.times.size(), 3u);
+  EXPECT_NEAR(degrees(motion.values(2, 0)), 7, 1e-12);
+  EXPECT_EQ(motion.times[1], 0.5);
+}
+
+TEST_F(SceneReader, a_motion_file_without_any_of_the_scenes_coordinates_is_the_wrong_file) {
+  folder.write("walk.mot", "walk\nversion=1\nnRows=1\nnColumns=2\ninDegrees=yes\nendheader\ntime\tknee\n0\t1\n");
+  const std::string by_keys = "coordinates = [\"flexion\"]\nkey_poses_deg = [[0], [10]]";
+  EXPECT_THAT(problems(with(good_scene(), by_keys, "file = \"walk.mot\"")),
+              HasSubstr("walk.mot: none of its columns is a coordinate of the scene (known are 'flexion')"));
+  EXPECT_EQ(code, ExitCode::unreadable_input);
+  EXPECT_THAT(problems(with(good_scene(), by_keys, "file = \"walk.mot\"\ncoordinates = [\"flexion\"]")),
+              HasSubstr("walk.mot: has no column 'flexion'"));
+}
+
+TEST_F(SceneReader, a_motion_given_twice_or_not_at_all_is_an_error) {
+  const std::string keys = "key_poses_deg = [[0], [10]]\n";
+  EXPECT_THAT(problems(with(good_scene(), keys, keys + "file = \"a.mot\"\n")), HasSubstr("the motion is given twice"));
+  EXPECT_THAT(problems(with(good_scene(), keys, "")),
+              HasSubstr("[motion] needs the key 'file' or the key 'key_poses_deg'"));
+  EXPECT_THAT(problems(with(good_scene(), "coordinates = [\"flexion\"]\n", "")),
+              HasSubstr("'key_poses_deg' needs the key 'coordinates'"));
+}
+
 // ---- Settings, presets, overrides
 
 TEST_F(SceneReader, settings_are_global_and_overridden_per_muscle) {

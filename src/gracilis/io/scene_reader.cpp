@@ -1,14 +1,18 @@
+#include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/io/data_root.hpp>
+#include <gracilis/io/landmarks.hpp>
 #include <gracilis/io/load_surface.hpp>
 #include <gracilis/io/scene_description.hpp>
-#include <gracilis/io/scene_inputs.hpp>
 #include <gracilis/io/scene_reader.hpp>
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/table.hpp>
+#include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/validate.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <map>
+#include <memory>
 
 namespace gracilis {
 
@@ -169,41 +173,44 @@ class SceneBuilder {
     for (const MuscleDescription& muscle : description_.muscles) read_muscle(muscle);
     if (!description_.landmarks.path.empty()) {
       read(description_.landmarks,
-           [&](const fs::path& path) { landmarks_ = read_scene_landmarks(path, description_.landmarks.unit); });
+           [&](const fs::path& path) { landmarks_ = read_landmarks(path, description_.landmarks.unit); });
     }
     read_motion();
   }
 
   void read_motion() {
     const MotionDescription& description = description_.motion;
+    Motion& motion = result_.scene.motion;
     if (!description.file.path.empty()) {
-      read(description.file,
-           [&](const fs::path& path) { result_.scene.motion = read_scene_motion(path, result_.warnings); });
+      read(description.file, [&](const fs::path& path) {
+        const Table table = read_table(path);
+        result_.warnings.insert(result_.warnings.end(), table.warnings.begin(), table.warnings.end());
+        motion = motion_from_table(table);
+        match_coordinates(path.string());
+      });
     } else if (description.key_poses.rows() > 0) {
-      result_.scene.motion = between_key_poses(description);
-      result_.scene.motion.name = description_.name;
+      motion = motion_through(description.coordinates, description.key_poses, description.step, description.time_step);
+      motion.name = description_.name;
     }
   }
 
-  /// Equal steps from key pose to key pose, none larger than asked for.
-  static Motion between_key_poses(const MotionDescription& description) {
-    const Eigen::MatrixXd& keys = description.key_poses;
-    std::vector<Eigen::RowVectorXd> rows = {keys.row(0)};
-    for (Index key = 1; key < keys.rows(); ++key) {
-      const Eigen::RowVectorXd change = keys.row(key) - keys.row(key - 1);
-      const int steps =
-          std::max(1, static_cast<int>(std::ceil(change.cwiseAbs().maxCoeff() / description.step - 1e-9)));
-      for (int step = 1; step < steps; ++step) rows.push_back(keys.row(key - 1) + change * (Real(step) / steps));
-      rows.push_back(keys.row(key));
+  /// A motion's file usually tells of more joints than the scene has; one that tells of none of them is the wrong file.
+  void match_coordinates(const std::string& file) {
+    std::vector<std::string> known = coordinate_names(result_.scene);
+    if (!description_.motion.coordinates.empty()) known = description_.motion.coordinates;
+    const std::vector<std::string> dropped = drop_unknown_coordinates(result_.scene.motion, known);
+    for (const std::string& coordinate : known) {
+      const auto& found = result_.scene.motion.coordinates;
+      if (std::find(found.begin(), found.end(), coordinate) != found.end()) continue;
+      if (description_.motion.coordinates.empty()) {
+        result_.warnings.push_back(file + ": has no column '" + coordinate + "'; it keeps its capture value");
+      } else {
+        add_problem({file, "", "", ""}, "has no column '" + coordinate + "'", suggestion(coordinate, dropped));
+      }
     }
-    Motion motion;
-    motion.coordinates = description.coordinates;
-    motion.values.resize(rows.size(), keys.cols());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      motion.values.row(i) = rows[i];
-      motion.times.push_back(Real(i) * description.time_step);
+    if (result_.scene.motion.coordinates.empty()) {
+      add_problem({file, "", "", ""}, "none of its columns is a coordinate of the scene", suggestion("", known));
     }
-    return motion;
   }
 
   // ---- Attachments
@@ -223,13 +230,14 @@ class SceneBuilder {
   std::vector<LandmarkSet> landmarks_of(const AttachmentDescription& attachment) {
     std::vector<LandmarkSet> sets;
     std::vector<std::string> known;
-    for (const auto& [name, points] : landmarks_) known.push_back(name);
-    for (const std::string& cloud : attachment.clouds) {
-      const auto found = landmarks_.find(cloud);
-      if (found != landmarks_.end())
-        sets.push_back({found->second, attachment.line});
-      else
-        add_problem(attachment.place, "the landmark file has no cloud '" + cloud + "'", suggestion(cloud, known));
+    for (const LandmarkCloud& cloud : landmarks_) known.push_back(cloud.name);
+    for (const std::string& name : attachment.clouds) {
+      const auto found = std::find(known.begin(), known.end(), name);
+      if (found != known.end()) {
+        sets.push_back({landmarks_[static_cast<std::size_t>(found - known.begin())].points, attachment.line});
+      } else {
+        add_problem(attachment.place, "the landmark file has no cloud '" + name + "'", suggestion(name, known));
+      }
     }
     for (const Points& points : attachment.points) sets.push_back({points, attachment.line});
     return sets;
@@ -274,7 +282,7 @@ class SceneBuilder {
   fs::path data_root_;
   LoadedScene result_;
   std::vector<Problem> problems_;
-  std::map<std::string, Points> landmarks_;
+  std::vector<LandmarkCloud> landmarks_;
   std::map<Index, std::unique_ptr<NearestTriangle>> trees_;
 };
 

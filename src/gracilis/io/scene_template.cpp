@@ -123,7 +123,8 @@ bone_distance_mm = 3
 
 # Optional: without a motion a run is frame 0, the capture pose, alone.
 [motion]
-# Either an OpenSim table (.mot, .sto), whose columns are matched to the joints' coordinates by name:
+# Either an OpenSim table (.mot, .sto), whose columns are matched to the joints' coordinates by name; with 'coordinates',
+# these columns only:
 # file = "flexion.mot"
 # or key poses with equal steps between them:
 coordinates = ["hip_flexion_r"]

@@ -1,0 +1,37 @@
+#include <gracilis/scene/motion.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gracilis {
+
+using testing::ElementsAre;
+
+TEST(Motion, key_poses_are_met_exactly_with_equal_steps_between_them) {
+  const Eigen::MatrixXd keys = (Eigen::MatrixXd(3, 2) << 0, 0, 1, 0.5, 1, 0.75).finished();
+  const Motion motion = motion_through({"a", "b"}, keys, 0.25, 0.1);
+  ASSERT_EQ(motion.times.size(), 1u + 4u + 1u);
+  EXPECT_EQ(motion.values.row(0), keys.row(0));
+  EXPECT_EQ(motion.values.row(4), keys.row(1));
+  EXPECT_EQ(motion.values.row(5), keys.row(2));
+  EXPECT_NEAR(motion.values(1, 1), 0.125, 1e-15);
+  EXPECT_NEAR(motion.times[5], 0.5, 1e-15);
+}
+
+TEST(Motion, a_single_key_pose_is_a_single_row_and_none_is_none) {
+  EXPECT_EQ(motion_through({"a"}, Eigen::MatrixXd::Constant(1, 1, 2), 0.1, 1).times.size(), 1u);
+  EXPECT_EQ(motion_through({"a"}, Eigen::MatrixXd(0, 1), 0.1, 1).times.size(), 0u);
+}
+
+TEST(Motion, key_poses_that_repeat_are_rows_that_repeat) {
+  EXPECT_EQ(motion_through({"a"}, Eigen::MatrixXd::Constant(3, 1, 2), 0.1, 1).times.size(), 3u);
+}
+
+TEST(Motion, unknown_coordinates_are_dropped_and_named) {
+  Motion motion{"m", {"x", "a", "y", "b"}, {0}, Eigen::RowVector4d(1, 2, 3, 4)};
+  EXPECT_THAT(drop_unknown_coordinates(motion, {"b", "a"}), ElementsAre("x", "y"));
+  EXPECT_THAT(motion.coordinates, ElementsAre("a", "b"));
+  EXPECT_EQ(motion.values, Eigen::RowVector2d(2, 4));
+}
+
+}  // namespace gracilis
