@@ -7,10 +7,12 @@
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/run_folder.hpp>
 #include <gracilis/io/scene_template.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 #include <gracilis/simulate/run.hpp>
+#include <gracilis/view/preview.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -77,15 +79,11 @@ class Session {
       });
     } catch (const QualityError& error) {
       progress.clear();
-      summarize();
-      folder_.finish();
-      write_manifest(std::string("failed: ") + error.what());
+      finish(std::string("failed: ") + error.what());
       throw;
     }
     progress.clear();
-    summarize();
-    folder_.finish();
-    write_manifest(end == RunEnd::complete ? "complete" : "interrupted");
+    finish(end == RunEnd::complete ? "complete" : "interrupted");
     return close(end);
   }
 
@@ -125,7 +123,7 @@ class Session {
     std::vector<DistanceField> fields;
     for (const Bone& bone : loaded_.scene.bones) {
       spdlog::info("distance field of {}", bone.name);
-      fields.push_back(build_bone_field(bone, loaded_.scene.distance_fields));
+      fields.push_back(cached_bone_field(bone, loaded_.scene.distance_fields, default_cache_folder()));
     }
     return fields;
   }
@@ -158,6 +156,18 @@ class Session {
     manifest.status = status;
     manifest.threads = thread_count();
     folder_.write_manifest(manifest);
+  }
+
+  void finish(const std::string& status) {
+    summarize();
+    folder_.finish();
+    try {
+      write_preview(folder_.path(), loaded_.scene, poses_);
+    } catch (const Error& error) {
+      // A run is complete without its picture, as on a machine that offers no OpenGL.
+      warn(std::string("no preview: ") + error.what());
+    }
+    write_manifest(status);
   }
 
   int close(RunEnd end) const {

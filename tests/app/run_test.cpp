@@ -15,6 +15,8 @@ using testing::HasSubstr;
 
 class RunCommand : public testing::Test {
  protected:
+  RunCommand() { setenv("XDG_CACHE_HOME", folder.path("cache").c_str(), 1); }
+
   ProgramResult run(const std::string& scene, const std::string& more = "") const {
     return run_program("run " + folder.write("scene.toml", scene).string() + " --out " + out() + " " + more);
   }

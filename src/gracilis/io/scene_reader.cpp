@@ -290,7 +290,11 @@ class SceneBuilder {
 
 LoadedScene read_scene(const fs::path& path, const SceneOptions& options) {
   const SceneDescription description = read_scene_description(path, options.set, options.only);
-  return SceneBuilder(description, find_data_root(path, options.data)).build();
+  fs::path data_root;
+  for (const fs::path& file : description.files) {
+    if (data_root.empty()) data_root = find_data_root(file, options.data);
+  }
+  return SceneBuilder(description, data_root).build();
 }
 
 }  // namespace gracilis

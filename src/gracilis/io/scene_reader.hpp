@@ -10,7 +10,7 @@ namespace gracilis {
 
 /// What the command line says about a scene.
 struct SceneOptions {
-  std::filesystem::path data;     ///< --data; empty: GRACILIS_DATA, or shared/data above the scene file
+  std::filesystem::path data;  ///< --data; empty: as find_data_root says, from the scene file or else from its includes
   std::vector<std::string> set;   ///< --set key=value
   std::vector<std::string> only;  ///< --only: names of the muscles to keep; empty: all
 };

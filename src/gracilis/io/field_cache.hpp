@@ -1,0 +1,19 @@
+#pragma once
+
+#include <gracilis/geometry/distance_field.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <filesystem>
+
+namespace gracilis {
+
+/// $XDG_CACHE_HOME/gracilis, or ~/.cache/gracilis; empty where neither variable is set.
+std::filesystem::path default_cache_folder();
+
+/// The distance field of a bone, read from `folder` when it was built before from the same surface with the same
+/// settings (by the hash of their bytes), otherwise built by `build_bone_field` and kept there. A folder that cannot be
+/// written or a damaged file costs only the time to build. An empty folder keeps nothing.
+DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& settings,
+                                const std::filesystem::path& folder);
+
+}  // namespace gracilis
