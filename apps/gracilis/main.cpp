@@ -2,6 +2,7 @@
 #include "console.hpp"
 #include "demo_command.hpp"
 #include "exit_handling.hpp"
+#include "inspect_command.hpp"
 #include "print_config_command.hpp"
 #include "run_command.hpp"
 
@@ -24,6 +25,7 @@ int main(int count, char** arguments) {
   add_demo_command(program, words, chosen);
   add_run_command(program, words, chosen);
   add_print_config_command(program, chosen);
+  add_inspect_command(program, chosen);
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
