@@ -97,6 +97,7 @@ std::vector<Muscle> make_muscles(const Skeleton& skeleton, const BuiltinHipOptio
     obstacles.push_back({as_solid(std::move(shaped.shape)), options.muscle_gap});
     Muscle muscle;
     muscle.name = plan.name;
+    muscle.xpbd.iterations = plan.iterations;
     muscle.attachments = attach(plan, shaped.surface, skeleton.bones, nearest);
     muscle.surface = std::move(shaped.surface);
     muscles.push_back(std::move(muscle));

@@ -37,12 +37,12 @@ MusclePlan gluteus_medius() {
 /// Columns from the upper to the lower fibers.
 MusclePlan gluteus_maximus() {
   return {"gluteus_maximus_r", {5, 5, {
-      thick(-50, 132, -22, 8), thick(-66, 112, -39, 9), thick(-80, 78, -56, 9), thick(-86, 40, -68, 9), thick(-80, 6, -77, 8),
-      thick(-50, 94, 14, 13), thick(-76, 66, -10, 15), thick(-92, 32, -32, 17), thick(-98, 0, -50, 16), thick(-90, -30, -62, 11),
-      thick(-48, 42, 46, 15), thick(-74, 14, 24, 17), thick(-87, -18, 4, 18), thick(-91, -48, -16, 17), thick(-84, -70, -32, 12),
-      thick(-36, -12, 65, 13), thick(-51, -38, 56, 15), thick(-58, -64, 43, 17), thick(-59, -91, 27, 15), thick(-54, -109, 15, 11),
-      thick(-18, -48, 62, 9), thick(-13, -70, 55, 8), thick(-9, -95, 50, 8), thick(-4, -121, 45, 8), thick(0, -146, 41, 7),
-  }}, 0, 3000, 0.0055, 0.3, 0.75};
+      thick(-50, 132, -22, 8), thick(-66, 112, -39, 9), thick(-80, 78, -56, 9), thick(-86, 40, -68, 9), thick(-82, 14, -76, 9),
+      thick(-50, 94, 14, 13), thick(-76, 66, -10, 15), thick(-92, 32, -32, 17), thick(-98, 0, -50, 16), thick(-93, -24, -60, 13),
+      thick(-48, 42, 46, 15), thick(-74, 14, 24, 17), thick(-87, -18, 4, 18), thick(-91, -48, -16, 17), thick(-87, -63, -31, 14),
+      thick(-36, -12, 65, 13), thick(-51, -38, 56, 15), thick(-58, -64, 43, 17), thick(-59, -91, 27, 15), thick(-56, -104, 14, 12),
+      thick(-18, -48, 62, 9), thick(-13, -70, 55, 8), thick(-9, -95, 50, 8), thick(-4, -116, 46, 8), thick(0, -138, 42, 8),
+  }}, 0, 3000, 0.0055, 0.3, 0.75, 45};  // flexion presses it onto the ischial tuberosity
 }
 
 /// Columns from the lateral to the medial fibers.

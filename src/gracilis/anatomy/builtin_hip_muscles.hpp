@@ -20,6 +20,7 @@ struct MusclePlan {
   Real roundness = 0.0035;  ///< m, standard deviation of the averaging that rounds rims and takes away thin edges
   Real origin_until = 0;    ///< share of the way from origin to insertion up to which it may be attached to the pelvis
   Real insertion_from = 1;  ///< and from which on to the femur
+  int iterations = 30;      ///< of the solver, per frame; more where the muscle is pressed hard against bone
 };
 
 /// The plans in the order in which the muscles are made: deep ones first, the others make room for them.
