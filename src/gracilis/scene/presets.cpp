@@ -15,6 +15,7 @@ static Preset thesis_2024() {
   xpbd.gravity = Vec3::Zero();
   xpbd.rayleigh_beta = 0.01;
   xpbd.unit_masses = true;
+  xpbd.distance_shape_scaling = false;
   xpbd.distance_stiffness = 1e2;
   xpbd.fiber_anisotropy = true;
   xpbd.anisotropy_floor = 0;

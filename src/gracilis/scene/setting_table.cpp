@@ -26,6 +26,8 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"density", &S::density, "kg/m³", 1, 1e5, "Density of muscle; ignored with unit masses."},
       {"distance_stiffness", &S::distance_stiffness, "N/m", 0, 1e18,
        "Stiffness of the surface's edges against stretch."},
+      {"distance_shape_scaling", &S::distance_shape_scaling, "", 0, 0,
+       "Scales each edge's stiffness by A/l² (l its length, A its two triangles), which makes it independent of the mesh."},
       {"fiber_anisotropy", &S::fiber_anisotropy, "", 0, 0,
        "Scales each edge's stiffness by 1 - |u·v|, u along the edge and v along the fibers."},
       {"anisotropy_floor", &S::anisotropy_floor, "", 0, 1, "Smallest factor that the anisotropy may reach."},

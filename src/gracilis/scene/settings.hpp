@@ -28,7 +28,8 @@ struct XpbdSettings {
   // Material
   bool unit_masses = false;                      ///< every vertex weighs 1 kg, as published
   Real density = 1060;                           ///< kg/m³
-  Real distance_stiffness = 2000;                ///< N/m
+  Real distance_stiffness = 10;                  ///< N/m
+  bool distance_shape_scaling = true;            ///< scale per edge by A/l²
   bool fiber_anisotropy = true;                  ///< scale the distance stiffness by 1 - |u·v|
   Real anisotropy_floor = 0.1;                   ///< smallest factor the anisotropy may reach
   Real dihedral_stiffness = 1e-3;                ///< N·m

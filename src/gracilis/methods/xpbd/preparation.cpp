@@ -15,6 +15,8 @@ namespace {
 /// Below this share of its stiffness an edge along the fibers would carry nothing and its compliance no finite number.
 constexpr Real smallest_anisotropy = 1e-6;
 constexpr Real smallest_mass_share = 1e-3;
+/// Slivers and needles scale a stiffness by no more than this.
+constexpr Real largest_shape = 1e3;
 
 /// The muscle's surface and attachments in particle numbers.
 struct Renumbered {
@@ -72,6 +74,24 @@ Real anisotropy(Real cosine, const XpbdSettings& settings) {
   return std::max({1 - std::abs(cosine), settings.anisotropy_floor, smallest_anisotropy});
 }
 
+/// Area of the triangles at an edge, m².
+Real area_at(const MeshEdge& edge, const Points& x, const Eigen::Matrix3Xi& faces) {
+  Real area = 0;
+  for (Index face : {edge.left, edge.right})
+    if (face >= 0) area += area_vector(x, faces.col(face)).norm() / 2;
+  return area;
+}
+
+/// Stiffness of one edge: the setting, scaled by A/l² (1 between equilateral triangles) so that a sheet strains alike
+/// however it is triangulated and a short edge does not take the stretch of its long neighbors (Van Gelder 1998).
+Real edge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshEdge& edge,
+                    const XpbdSettings& settings) {
+  const Real length2 = (x.col(edge.b) - x.col(edge.a)).squaredNorm(), equilateral = std::sqrt(Real{3}) / 2;
+  if (!settings.distance_shape_scaling || !(length2 > 0)) return settings.distance_stiffness;
+  const Real shape = area_at(edge, x, faces) / length2 / equilateral;
+  return settings.distance_stiffness * std::clamp(shape, 1 / largest_shape, largest_shape);
+}
+
 void build_edges(const Renumbered& muscle, const MeshTopology& topology, const Points& directions,
                  PreparedMuscle& prepared) {
   const Points& x = muscle.surface.vertices;
@@ -81,7 +101,8 @@ void build_edges(const Renumbered& muscle, const MeshTopology& topology, const P
     const Vec3 along = x.col(edge.b) - x.col(edge.a);
     const Real length = along.norm();
     const Real cosine = length > 0 ? direction_at(edge, directions).dot(along) / length : 0;
-    const Real stiffness = prepared.settings.distance_stiffness * anisotropy(cosine, prepared.settings);
+    const Real stiffness =
+        edge_stiffness(x, muscle.surface.faces, edge, prepared.settings) * anisotropy(cosine, prepared.settings);
     constraints.push_back({edge.a, edge.b, length, 1 / stiffness});
     cosines.push_back(cosine);
   }
@@ -97,9 +118,8 @@ void build_edges(const Renumbered& muscle, const MeshTopology& topology, const P
 Real hinge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshEdge& edge,
                      const XpbdSettings& settings) {
   if (!settings.dihedral_shape_scaling) return settings.dihedral_stiffness;
-  const Real area = (area_vector(x, faces.col(edge.left)).norm() + area_vector(x, faces.col(edge.right)).norm()) / 2;
-  const Real length2 = (x.col(edge.b) - x.col(edge.a)).squaredNorm();
-  return area > 0 ? settings.dihedral_stiffness * std::min(3 * length2 / area, Real{1e3}) : settings.dihedral_stiffness;
+  const Real area = area_at(edge, x, faces), length2 = (x.col(edge.b) - x.col(edge.a)).squaredNorm();
+  return settings.dihedral_stiffness * (area > 0 ? std::min(3 * length2 / area, largest_shape) : largest_shape);
 }
 
 void build_hinges(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
