@@ -78,6 +78,28 @@ ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, con
   return counts;
 }
 
+Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles) {
+  const D d;
+  Index limited = 0;
+  for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
+    const auto at = static_cast<std::size_t>(slot);
+    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
+    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
+    const Point along = b.x - a.x;
+    const V longest = hn::Set(d, limit) * hn::LoadU(d, set.rest_length.data() + at);
+    const V weight = a.w + b.w, length2 = dot<Math>(along, along);
+    const auto beyond = hn::And(hn::Gt(length2, longest * longest), hn::Gt(weight, hn::Zero(d)));
+    if (hn::AllFalse(d, beyond)) continue;
+    limited += static_cast<Index>(hn::CountTrue(d, beyond));
+    const V length = hn::Sqrt(length2);
+    // The share of the edge that each end gives up, per inverse mass.
+    const V share = hn::IfThenElseZero(beyond, (length - longest) / hn::Max(length * weight, hn::Set(d, 1e-30f)));
+    store_particles(particles.xyzw.data(), ia, a.x + scaled(a.w * share, along), a.w);
+    store_particles(particles.xyzw.data(), ib, b.x - scaled(b.w * share, along), b.w);
+  }
+  return limited;
+}
+
 /// The difference of two angles, brought into [-π, π].
 HWY_INLINE V wrapped(V angle) {
   const D d;
@@ -157,6 +179,7 @@ HWY_AFTER_NAMESPACE();
 namespace gracilis {
 
 HWY_EXPORT(project_distances);
+HWY_EXPORT(limit_stretch);
 HWY_EXPORT(project_hinges);
 HWY_EXPORT(instruction_set);
 
@@ -164,6 +187,10 @@ ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, con
                                    const Particles& start, Particles& particles,
                                    const ProjectionParameters& parameters) {
   return HWY_DYNAMIC_DISPATCH(project_distances)(set, range, target_length, lambda, start, particles, parameters);
+}
+
+Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles) {
+  return HWY_DYNAMIC_DISPATCH(limit_stretch)(set, range, limit, particles);
 }
 
 ProjectionCounts project_hinges(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,

@@ -29,7 +29,11 @@ ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, con
                                    const Particles& start, Particles& particles,
                                    const ProjectionParameters& parameters);
 
-/// The same for hinges; `lambda` in N·m s².
+/// Shortens edges that are longer than `limit` times their rest length to that length, without compliance and without a
+/// multiplier: C = limit · length_rest - |x_b - x_a| >= 0. Returns how many were limited.
+Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles);
+
+/// Projects hinges of slots [begin, end), which belong to one color; `lambda` in N·m s².
 ProjectionCounts project_hinges(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,
                                 Particles& particles, const ProjectionParameters& parameters);
 

@@ -41,6 +41,15 @@ void project_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
     report.contacts += project_particle_contacts(system.contacts[i], placements[i], state.near[i], state.particles);
 }
 
+void limit_edges(const SurfaceSystem& system, float limit, SurfaceState& state, SolveReport& report) {
+  std::atomic<Index> limited = 0;
+  for (const ColorRange& color : system.distances.colors)
+    parallel_for(color.end - color.begin, slots_per_task, [&](Index begin, Index end) {
+      limited += limit_stretch(system.distances, {color.begin + begin, color.begin + end}, limit, state.particles);
+    });
+  report.limited_edges += limited;
+}
+
 float largest_motion(const Particles& from, const Particles& to) {
   float largest2 = 0;
   for (Index i = 0; i < to.count(); ++i)
@@ -60,6 +69,8 @@ const char* name_of(ConstraintKind kind) {
       return "dihedral";
     case ConstraintKind::volume:
       return "volume";
+    case ConstraintKind::stretch_limit:
+      return "stretch limit";
     case ConstraintKind::bone_contact:
       return "bone contact";
   }
@@ -100,6 +111,9 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
       state.volume = project_volume(system.volume, settings.time_step, settings.pressure, state.volume_lambda,
                                     state.volume_gradients, state.particles);
       break;
+    case ConstraintKind::stretch_limit:
+      if (settings.stretch_limit > 0) limit_edges(system, settings.stretch_limit, state, report);
+      break;
     case ConstraintKind::bone_contact:
       project_contacts(system, placements, state, report);
       break;
@@ -128,10 +142,10 @@ SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPl
     last = report.iterations + 1 >= settings.iterations ||
            (settings.stop_milliseconds > 0 && elapsed > settings.stop_milliseconds);
     if (report.iterations % contact_refresh == 0 && !last) refresh_contacts(system, placements, state);
-    for (ConstraintKind kind : {ConstraintKind::distance, ConstraintKind::dihedral, ConstraintKind::volume})
+    for (ConstraintKind kind : projection_order) {
+      if (kind == ConstraintKind::bone_contact && last) refresh_contacts(system, placements, state);
       project_kind(kind, system, placements, settings, state, report);
-    if (last) refresh_contacts(system, placements, state);
-    project_kind(ConstraintKind::bone_contact, system, placements, settings, state, report);
+    }
     ++report.iterations;
     if (settings.stop_displacement > 0 && largest_motion(before, state.particles) < settings.stop_displacement)
       last = true;

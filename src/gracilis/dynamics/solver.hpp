@@ -5,6 +5,7 @@
 #include <gracilis/dynamics/particles.hpp>
 #include <gracilis/dynamics/projection.hpp>
 
+#include <array>
 #include <vector>
 
 namespace gracilis {
@@ -37,18 +38,25 @@ struct SolveSettings {
   double time_step = 1.0 / 60;      ///< s
   ProjectionParameters projection;  ///< its time step is that of distances and hinges
   double pressure = 1;              ///< target volume over the volume at rest
+  float stretch_limit = 0;          ///< longest an edge may be, over its length at rest; 0: none
   float stop_displacement = 0;      ///< m; stop early when no particle moved further in an iteration; 0: never
   double stop_milliseconds = 0;     ///< stop early after this time; 0: never
 };
 
-/// Kinds of constraints, in the order of projection.
-enum class ConstraintKind { none, distance, dihedral, volume, bone_contact };
+/// Kinds of constraints.
+enum class ConstraintKind { none, distance, dihedral, volume, stretch_limit, bone_contact };
+
+/// The kinds in the order in which an iteration projects them; contact last, so that nothing pushes back into a bone.
+inline constexpr std::array projection_order = {ConstraintKind::distance, ConstraintKind::dihedral,
+                                                ConstraintKind::volume, ConstraintKind::stretch_limit,
+                                                ConstraintKind::bone_contact};
 const char* name_of(ConstraintKind kind);
 
 struct SolveReport {
   int iterations = 0;
   Index contacts = 0;        ///< touching in the last iteration
   Index limited_hinges = 0;  ///< sums over all iterations
+  Index limited_edges = 0;
   Index skipped_constraints = 0;
 };
 

@@ -14,6 +14,7 @@ struct MuscleReport {
   Real largest_correction = 0;    ///< m, farthest that the solver moved a vertex from where it was predicted
   Index contacts = 0;             ///< points touching a bone at the end
   Index limited_hinges = 0;       ///< hinge projections held back, over all iterations
+  Index limited_edges = 0;        ///< edges held at the stretch limit, over all iterations
   Index skipped_constraints = 0;  ///< projections without a usable gradient, over all iterations
   Real milliseconds = 0;
 };

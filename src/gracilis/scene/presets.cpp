@@ -29,6 +29,7 @@ static Preset thesis_2024() {
   xpbd.edge_contact = false;
   xpbd.predictor = false;
   xpbd.hinge_limit = 0;
+  xpbd.stretch_limit = 0;
   xpbd.slack_uptake = false;
   preset.distance_fields.resolution = 128;
   preset.distance_fields.domain_margin = 0;

@@ -49,6 +49,8 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "Carries the free vertices with the bones before the solver relaxes them."},
       {"hinge_limit", &S::hinge_limit, "", 0, 10,
        "Largest motion that one projection of a hinge may cause, as a share of its edge; 0 sets no limit."},
+      {"stretch_limit", &S::stretch_limit, "", 0, 1000,
+       "Longest an edge may become as a multiple of its length at rest; 0 sets no limit."},
       {"slack_uptake", &S::slack_uptake, "", 0, 0,
        "A muscle whose ends approach each other shortens its fibers evenly and thickens instead of folding."},
   };

@@ -28,11 +28,11 @@ struct XpbdSettings {
   // Material
   bool unit_masses = false;                      ///< every vertex weighs 1 kg, as published
   Real density = 1060;                           ///< kg/m³
-  Real distance_stiffness = 10;                  ///< N/m
+  Real distance_stiffness = 5;                   ///< N/m
   bool distance_shape_scaling = true;            ///< scale per edge by A/l²
   bool fiber_anisotropy = true;                  ///< scale the distance stiffness by 1 - |u·v|
   Real anisotropy_floor = 0.1;                   ///< smallest factor the anisotropy may reach
-  Real dihedral_stiffness = 1e-3;                ///< N·m
+  Real dihedral_stiffness = 1e-6;                ///< N·m
   bool dihedral_shape_scaling = true;            ///< scale per hinge by 3 l²/A
   DihedralFormula dihedral_formula = DihedralFormula::atan2;
   Real volume_compliance = 0;                    ///< m³·m³/J
@@ -46,6 +46,7 @@ struct XpbdSettings {
   // What this project adds to the published method
   bool predictor = true;                         ///< carry free vertices with the bones before solving
   Real hinge_limit = 0.05;                       ///< largest motion by one hinge projection, as a share of its edge; 0: off
+  Real stretch_limit = 2.5;                      ///< longest an edge may become, over its length at rest; 0: no limit
   bool slack_uptake = true;                      ///< a muscle whose ends approach shortens its fibers evenly and thickens
 };
 

@@ -29,9 +29,11 @@ std::vector<Real> distance_to_attachments(const Muscle& muscle, const std::vecto
   return distances;
 }
 
-Real depth_in(const SignedDistance& bone, const Eigen::AlignedBox3d& box, const Vec3& p) {
-  if (!box.contains(p)) return 0;
-  return std::max(-bone.query(p).distance, Real{0});
+Points midpoints(const std::vector<MeshEdge>& edges, const Points& x) {
+  Points middles(3, static_cast<Index>(edges.size()));
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    middles.col(static_cast<Index>(e)) = (x.col(edges[e].a) + x.col(edges[e].b)) / 2;
+  return middles;
 }
 
 std::string millimetres(const char* what, Real metres, Real limit) {
@@ -65,11 +67,9 @@ std::vector<std::string> missed_gates(const MuscleMeasures& measures, const Qual
 }
 
 Measurer::Measurer(const Scene& scene) : scene_(scene) {
-  for (const Bone& bone : scene.bones) {
-    bones_.emplace_back(bone.surface);
-    bone_boxes_.emplace_back(bone.surface.vertices.rowwise().minCoeff(), bone.surface.vertices.rowwise().maxCoeff());
-  }
+  for (const Bone& bone : scene.bones) bones_.emplace_back(bone.surface);
   for (const Muscle& muscle : scene.muscles) muscles_.push_back(rest_of(muscle));
+  last_.assign(muscles_.size(), std::vector<LastSeen>(2 * bones_.size()));
 }
 
 Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
@@ -89,43 +89,60 @@ Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
     rest.far_edge.push_back(std::min(to_attachment[static_cast<std::size_t>(edge.a)],
                                      to_attachment[static_cast<std::size_t>(edge.b)]) > attachment_zone);
   }
-  const auto bone_count = static_cast<Index>(bones_.size());
-  rest.vertex_depth.resize(bone_count, x.cols());
-  rest.midpoint_depth.resize(bone_count, static_cast<Index>(rest.edges.size()));
-  for (Index b = 0; b < bone_count; ++b) {
-    const auto at = static_cast<std::size_t>(b);
-    for (Index v = 0; v < x.cols(); ++v) rest.vertex_depth(b, v) = depth_in(bones_[at], bone_boxes_[at], x.col(v));
-    for (std::size_t e = 0; e < rest.edges.size(); ++e)
-      rest.midpoint_depth(b, static_cast<Index>(e)) =
-          depth_in(bones_[at], bone_boxes_[at], (x.col(rest.edges[e].a) + x.col(rest.edges[e].b)) / 2);
+  const Points middles = midpoints(rest.edges, x);
+  rest.vertex_depth.resize(x.cols(), static_cast<Index>(bones_.size()));
+  rest.midpoint_depth.resize(middles.cols(), static_cast<Index>(bones_.size()));
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
+    LastSeen nothing;
+    rest.vertex_depth.col(static_cast<Index>(b)) = depths_in(b, x, nothing);
+    rest.midpoint_depth.col(static_cast<Index>(b)) = depths_in(b, middles, nothing);
   }
   return rest;
 }
 
+/// Depth of each point (bone's frame) in a bone, m, 0 outside. The distance to a surface changes by no more than the
+/// point moves, so a point is asked for again only once it has used up its last clearance.
+Eigen::VectorXd Measurer::depths_in(std::size_t bone, const Points& points, LastSeen& last) const {
+  if (last.points.cols() != points.cols()) {
+    last.points = points;
+    last.clearances = Eigen::VectorXd::Zero(points.cols());
+  }
+  Eigen::VectorXd depths = Eigen::VectorXd::Zero(points.cols());
+  for (Index i = 0; i < points.cols(); ++i) {
+    if ((points.col(i) - last.points.col(i)).norm() < last.clearances[i]) continue;
+    const Real distance = bones_[bone].query(points.col(i)).distance;
+    last.points.col(i) = points.col(i);
+    last.clearances[i] = std::max(distance, Real{0});
+    depths[i] = std::max(-distance, Real{0});
+  }
+  return depths;
+}
+
 void Measurer::measure_depths(const MuscleRest& rest, const Points& points, const Pose& pose,
-                              MuscleMeasures& measures) const {
+                              std::vector<LastSeen>& last, MuscleMeasures& measures) const {
   for (std::size_t b = 0; b < bones_.size(); ++b) {
+    const auto column = static_cast<Index>(b);
     const RigidTransform to_capture = pose.bodies[static_cast<std::size_t>(scene_.bones[b].body)].inverse();
     const Points local = (to_capture.linear() * points).colwise() + to_capture.translation();
+    const Eigen::VectorXd vertex_depths = depths_in(b, local, last[2 * b]);
     for (Index v = 0; v < local.cols(); ++v) {
       if (rest.fixed[static_cast<std::size_t>(v)]) continue;
-      const Real depth = depth_in(bones_[b], bone_boxes_[b], local.col(v));
-      measures.vertex_depth = std::max(measures.vertex_depth, depth);
+      measures.vertex_depth = std::max(measures.vertex_depth, vertex_depths[v]);
       measures.vertex_depth_beyond_rest =
-          std::max(measures.vertex_depth_beyond_rest, depth - rest.vertex_depth(static_cast<Index>(b), v));
+          std::max(measures.vertex_depth_beyond_rest, vertex_depths[v] - rest.vertex_depth(v, column));
     }
+    const Eigen::VectorXd midpoint_depths = depths_in(b, midpoints(rest.edges, local), last[2 * b + 1]);
     for (std::size_t e = 0; e < rest.edges.size(); ++e) {
       const MeshEdge& edge = rest.edges[e];
       if (rest.fixed[static_cast<std::size_t>(edge.a)] && rest.fixed[static_cast<std::size_t>(edge.b)]) continue;
-      const Real depth = depth_in(bones_[b], bone_boxes_[b], (local.col(edge.a) + local.col(edge.b)) / 2);
+      const auto row = static_cast<Index>(e);
       measures.midpoint_depth_beyond_rest =
-          std::max(measures.midpoint_depth_beyond_rest,
-                   depth - rest.midpoint_depth(static_cast<Index>(b), static_cast<Index>(e)));
+          std::max(measures.midpoint_depth_beyond_rest, midpoint_depths[row] - rest.midpoint_depth(row, column));
     }
   }
 }
 
-std::vector<MuscleMeasures> Measurer::measure(const Frame& frame) const {
+std::vector<MuscleMeasures> Measurer::measure(const Frame& frame) {
   std::vector<MuscleMeasures> all(muscles_.size());
   parallel_for(static_cast<Index>(muscles_.size()), 1, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
@@ -151,7 +168,7 @@ std::vector<MuscleMeasures> Measurer::measure(const Frame& frame) const {
       }
       measures.edge_ratio_mean = ratio_sum / static_cast<Real>(rest.edges.size());
       measures.dihedral_change_mean = change_sum / static_cast<Real>(rest.edges.size());
-      measure_depths(rest, x, frame.pose, measures);
+      measure_depths(rest, x, frame.pose, last_[m], measures);
     }
   });
   return all;

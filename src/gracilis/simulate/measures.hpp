@@ -41,7 +41,8 @@ std::vector<std::string> missed_gates(const MuscleMeasures& measures, const Qual
 class Measurer {
  public:
   explicit Measurer(const Scene& scene);
-  std::vector<MuscleMeasures> measure(const Frame& frame) const;
+  /// Measures one frame. Remembers where points were last measured, so frames in order are cheap.
+  std::vector<MuscleMeasures> measure(const Frame& frame);
 
  private:
   struct MuscleRest {
@@ -50,16 +51,25 @@ class Measurer {
     std::vector<char> far_edge;  ///< farther from attachments than 15 mm
     std::vector<char> fixed;     ///< per vertex
     Real volume = 0;
-    Eigen::MatrixXd vertex_depth, midpoint_depth;  ///< bones × vertices (edges), m, 0 outside
+    Eigen::MatrixXd vertex_depth, midpoint_depth;  ///< vertices (edges) × bones, m, 0 outside
+  };
+
+  /// Where a point was, in the bone's frame, and how far from the bone: until it has moved that far it cannot be
+  /// inside.
+  struct LastSeen {
+    Points points;
+    Eigen::VectorXd clearances;  ///< m
   };
 
   MuscleRest rest_of(const Muscle& muscle) const;
-  void measure_depths(const MuscleRest& rest, const Points& points, const Pose& pose, MuscleMeasures& measures) const;
+  Eigen::VectorXd depths_in(std::size_t bone, const Points& points, LastSeen& last) const;
+  void measure_depths(const MuscleRest& rest, const Points& points, const Pose& pose, std::vector<LastSeen>& last,
+                      MuscleMeasures& measures) const;
 
   const Scene& scene_;
   std::vector<SignedDistance> bones_;
-  std::vector<Eigen::AlignedBox3d> bone_boxes_;
   std::vector<MuscleRest> muscles_;
+  std::vector<std::vector<LastSeen>> last_;  ///< per muscle: of vertices, then of midpoints, per bone
 };
 
 }  // namespace gracilis

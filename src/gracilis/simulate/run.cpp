@@ -14,7 +14,7 @@ Frame capture_frame(const Scene& scene, const Pose& pose) {
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
                  const std::function<void(const FrameRecord&)>& record) {
-  const Measurer measurer(scene);
+  Measurer measurer(scene);
   int next = 0;
   method.reset();
   if (resume) {

@@ -28,6 +28,7 @@ static SolveSettings solve_settings(const XpbdSettings& settings) {
   solve.projection.hinge_limit = static_cast<float>(settings.hinge_limit);
   solve.projection.arccos_hinges = settings.dihedral_formula == DihedralFormula::arccos;
   solve.pressure = settings.pressure;
+  solve.stretch_limit = static_cast<float>(settings.stretch_limit);
   solve.stop_displacement = static_cast<float>(settings.stop_displacement);
   solve.stop_milliseconds = settings.stop_milliseconds / settings.substeps;
   return solve;
@@ -119,6 +120,7 @@ static MuscleReport advance_muscle(const PreparedMuscle& muscle, const Pose& bef
     report.iterations += solved.iterations;
     report.contacts = solved.contacts;
     report.limited_hinges += solved.limited_hinges;
+    report.limited_edges += solved.limited_edges;
     report.skipped_constraints += solved.skipped_constraints;
     report.largest_correction = std::max(report.largest_correction, farthest(predicted.particles, state.particles));
     reached = pose;
