@@ -1,11 +1,19 @@
 #include <gracilis/io/load_surface.hpp>
 #include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh_writer.hpp>
+#include <gracilis/io/vtk_mesh.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <io/test_files.hpp>
 
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataWriter.h>
+
 #include <cstring>
+#include <random>
+#include <sstream>
 
 using namespace gracilis;
 using testing::HasSubstr;
@@ -130,6 +138,63 @@ TEST(MeshReader, version_5_of_the_legacy_format_is_read) {
   EXPECT_TRUE(inspect_mesh(mesh).is_closed());
 }
 
+TEST(MeshReader, every_storage_that_vtk_writes_is_read_from_a_vtp) {
+  const TestFolder folder;
+  // Large enough for several compressed blocks.
+  const Points points = Points::Random(3, 5000);
+  Eigen::Matrix3Xi faces(3, 4000);
+  for (Index i = 0; i < faces.size(); ++i) faces(i % 3, i / 3) = (i * 7) % 5000;
+  for (int variant = 0; variant < 3 * 4 * 2 * 2; ++variant) {
+    vtkNew<vtkXMLPolyDataWriter> writer;
+    writer->SetInputData(to_vtk(points, faces));
+    writer->SetDataMode(variant % 3);  // ascii, binary, appended
+    writer->SetCompressorType(variant / 3 % 4);
+    writer->SetEncodeAppendedData(variant / 12 % 2);
+    variant / 24 % 2 ? writer->SetHeaderTypeToUInt64() : writer->SetHeaderTypeToUInt32();
+    if (variant % 2) writer->SetIdTypeToInt32();
+    if (variant % 5 == 0) writer->SetByteOrderToBigEndian();
+    writer->SetBlockSize(9000);
+    writer->SetFileName((folder.path() / "a.vtp").c_str());
+    ASSERT_EQ(writer->Write(), 1);
+    const TriangleMesh mesh = read_mesh(folder.path() / "a.vtp", 1);
+    ASSERT_EQ(mesh.vertex_count(), 5000) << variant;
+    EXPECT_TRUE((mesh.faces.array() == faces.array()).all()) << variant;
+    EXPECT_TRUE(mesh.vertices.isApprox(points, 1e-7)) << variant;
+  }
+}
+
+/// No change of a file's bytes may crash the reader: it reads something or throws InputError.
+TEST(MeshReader, damage_anywhere_is_survived) {
+  const TestFolder folder;
+  const TriangleMesh mesh = read_mesh(folder.write("a.ply", ply_text), 1);
+  write_surface(folder.path() / "a.vtp", mesh.vertices, mesh.faces);
+  std::ostringstream vtp;
+  vtp << std::ifstream(folder.path() / "a.vtp").rdbuf();
+  std::mt19937 random(1);
+  int refused = 0;
+  for (const auto& [name, content] : {std::pair<std::string, std::string>{"d.ply", ply_text},
+                                      {"d.ply", binary_ply(false)},
+                                      {"d.stl", text_stl()},
+                                      {"d.stl", binary_stl()},
+                                      {"d.obj", obj_text},
+                                      {"d.vtk", vtk_text},
+                                      {"d.vtp", vtp_text},
+                                      {"d.vtp", vtp.str()}}) {
+    for (int i = 0; i < 60; ++i) {
+      std::string damaged = content;
+      if (i % 4 == 0) damaged.resize(random() % damaged.size());
+      for (int k = 0; k < 3 && !damaged.empty(); ++k) damaged[random() % damaged.size()] = static_cast<char>(random());
+      const auto path = folder.write(name, damaged);
+      try {
+        inspect_mesh(read_mesh(path, 1));
+      } catch (const InputError&) {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(refused, 120);
+}
+
 TEST(MeshReader, a_file_that_is_not_there_or_not_a_file_is_named) {
   const TestFolder folder;
   EXPECT_THAT(message(folder.path() / "no.ply"), HasSubstr("no.ply: does not exist"));
@@ -161,7 +226,7 @@ TEST(MeshReader, damaged_files_are_refused_with_the_place) {
   EXPECT_THAT(message(folder.write("cut.vtk", vtk_text.substr(0, vtk_text.find("3 1 2 3")))), HasSubstr("cut.vtk:17"));
   EXPECT_THAT(message(folder.write("index.vtp", changed(vtp_text, "2 0 3<", "2 0 7<"))),
               HasSubstr("face 3: names vertex 7"));
-  EXPECT_THAT(message(folder.write("cut.vtp", cut(vtp_text, 100))), HasSubstr("cut.vtp: is damaged"));
+  EXPECT_THAT(message(folder.write("cut.vtp", cut(vtp_text, 100))), HasSubstr("cut.vtp:1: is damaged"));
   EXPECT_THAT(message(folder.write("cut.stl", cut(binary_stl(), 60))), HasSubstr("announces 4 triangles"));
   EXPECT_THAT(message(folder.write("cut_text.stl", cut(text_stl(), 60))), HasSubstr("ends before 'endsolid'"));
   for (const char* name : {"g.ply", "g.stl", "g.obj", "g.vtk", "g.vtp"}) {

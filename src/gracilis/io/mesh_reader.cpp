@@ -5,6 +5,7 @@
 #include <gracilis/io/mesh_reader_obj.hpp>
 #include <gracilis/io/mesh_reader_ply.hpp>
 #include <gracilis/io/mesh_reader_vtk.hpp>
+#include <gracilis/io/mesh_reader_vtp.hpp>
 #include <gracilis/io/vtk_messages.hpp>
 
 #include <fmt/format.h>
@@ -13,8 +14,6 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
-#include <vtkSmartPointer.h>
-#include <vtkXMLPolyDataReader.h>
 
 #include <cstring>
 #include <new>
@@ -45,54 +44,26 @@ static void require_whole_stl(const fs::path& path) {
        fmt::format("announces {} triangles, which takes {} bytes, but has {}", triangles, expected, bytes.size()));
 }
 
-/// VTK takes cells' offsets from the file as they are; offsets that run backwards would lead outside its arrays.
-static bool has_ascending_offsets(vtkCellArray& cells) {
-  vtkIdType total = 0;
-  for (vtkIdType i = 0; i < cells.GetNumberOfCells(); ++i) {
-    const vtkIdType size = cells.GetCellSize(i);
-    total += size;
-    if (size < 0 || total > cells.GetNumberOfConnectivityIds()) return false;
-  }
-  return total == cells.GetNumberOfConnectivityIds();
-}
-
-static void add_cells(vtkCellArray& cells, bool strips, PolygonMesh& mesh) {
-  for (vtkIdType i = 0; i < cells.GetNumberOfCells(); ++i) {
-    vtkIdType size = 0;
-    const vtkIdType* corners = nullptr;
-    cells.GetCellAtId(i, size, corners);
-    if (strips) {
-      mesh.add_strip({corners, corners + size});
-    } else {
-      mesh.corners.insert(mesh.corners.end(), corners, corners + size);
-      mesh.end_polygon();
-    }
-  }
-}
-
-static PolygonMesh to_polygons(vtkPolyData& data) {
+/// VTK's reader drops triangles whose corners coincide.
+static PolygonMesh read_stl(const fs::path& path) {
+  require_whole_stl(path);
+  VtkMessages messages;
+  vtkNew<vtkSTLReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (messages.has_errors()) fail(path, "is damaged or no .stl file: " + messages.first_error());
+  vtkPolyData& data = *reader->GetOutput();
   PolygonMesh mesh;
   mesh.coordinates.resize(3 * static_cast<std::size_t>(data.GetNumberOfPoints()));
   for (vtkIdType i = 0; i < data.GetNumberOfPoints(); ++i) data.GetPoint(i, mesh.coordinates.data() + 3 * i);
-  add_cells(*data.GetPolys(), false, mesh);
-  add_cells(*data.GetStrips(), true, mesh);
-  mesh.lines = static_cast<std::size_t>(data.GetNumberOfLines());
-  return mesh;
-}
-
-/// Runs a reader of VTK; its complaints become an InputError.
-template <typename Reader>
-static PolygonMesh read_with_vtk(const fs::path& path) {
-  VtkMessages messages;
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  if (messages.has_errors()) fail(path, "is damaged or not of its kind: " + messages.first_error());
-  vtkPolyData& data = *reader->GetOutput();
-  if (!has_ascending_offsets(*data.GetPolys()) || !has_ascending_offsets(*data.GetStrips())) {
-    fail(path, "has faces whose offsets do not ascend");
+  for (vtkIdType i = 0; i < data.GetNumberOfPolys(); ++i) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    data.GetPolys()->GetCellAtId(i, size, corners);
+    mesh.corners.insert(mesh.corners.end(), corners, corners + size);
+    mesh.end_polygon();
   }
-  return to_polygons(data);
+  return mesh;
 }
 
 static PolygonMesh read_polygons(const fs::path& path) {
@@ -100,11 +71,8 @@ static PolygonMesh read_polygons(const fs::path& path) {
   if (extension == ".ply") return read_ply(path);
   if (extension == ".obj") return read_obj(path);
   if (extension == ".vtk") return read_legacy_vtk(path);
-  if (extension == ".vtp") return read_with_vtk<vtkXMLPolyDataReader>(path);
-  if (extension == ".stl") {
-    require_whole_stl(path);
-    return read_with_vtk<vtkSTLReader>(path);
-  }
+  if (extension == ".vtp") return read_vtp(path);
+  if (extension == ".stl") return read_stl(path);
   fail(path, fmt::format("'{}' is not a mesh format that can be read", extension),
        "use .ply, .stl, .obj, .vtk or .vtp");
 }
