@@ -28,6 +28,7 @@ static Preset thesis_2024() {
   xpbd.bone_rest_gap = false;
   xpbd.edge_contact = false;
   xpbd.predictor = false;
+  xpbd.shape_recovery = 0;
   xpbd.hinge_limit = 0;
   xpbd.stretch_limit = 0;
   xpbd.slack_uptake = false;

@@ -47,6 +47,8 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"edge_contact", &S::edge_contact, "", 0, 0, "Keeps points along edges out of the bones, not vertices only."},
       {"predictor", &S::predictor, "", 0, 0,
        "Carries the free vertices with the bones before the solver relaxes them."},
+      {"shape_recovery", &S::shape_recovery, "", 0, 1,
+       "Share of its displacement from the carried rest shape that the predictor takes back in each frame."},
       {"hinge_limit", &S::hinge_limit, "", 0, 10,
        "Largest motion that one projection of a hinge may cause, as a share of its edge; 0 sets no limit."},
       {"stretch_limit", &S::stretch_limit, "", 0, 1000,

@@ -21,17 +21,21 @@ void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& pa
   }
 }
 
-void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, Particles& particles) {
-  // Motions about the particles' origin, so that the float positions can be moved directly.
-  std::vector<RigidTransform> motions;
+/// The carriers' transforms from the capture pose, about the particles' origin.
+static std::vector<RigidTransform> carrier_transforms(const PreparedMuscle& muscle, const Pose& pose) {
   const Eigen::Translation3d to_world(muscle.origin);
-  for (Index body : muscle.carriers) {
-    const auto b = static_cast<std::size_t>(body);
-    motions.push_back(to_world.inverse() * (now.bodies[b] * before.bodies[b].inverse()) * to_world);
-  }
-  if (motions.empty()) return;
-  parallel_for(particles.count(), 1024, [&](Index begin, Index end) {
-    std::vector<Real> weights(motions.size());
+  std::vector<RigidTransform> transforms;
+  for (Index body : muscle.carriers)
+    transforms.push_back(to_world.inverse() * pose.bodies[static_cast<std::size_t>(body)] * to_world);
+  return transforms;
+}
+
+void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, Particles& particles) {
+  const std::vector<RigidTransform> from = carrier_transforms(muscle, before), to = carrier_transforms(muscle, now);
+  const Real kept = 1 - muscle.settings.shape_recovery;
+  if (from.empty()) return;
+  parallel_for(particles.count(), 512, [&](Index begin, Index end) {
+    std::vector<Real> weights(from.size());
     for (Index p = begin; p < end; ++p) {
       if (muscle.fixed_body[static_cast<std::size_t>(p)] >= 0) continue;
       Real sum = 0;
@@ -39,7 +43,9 @@ void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& no
         sum += weights[i] = static_cast<Real>(muscle.carrier_shares(static_cast<Index>(i), p));
       if (!(sum > 0)) continue;
       for (Real& weight : weights) weight /= sum;
-      particles.position(p) = (blend(motions, weights) * particles.position(p).cast<Real>()).cast<float>();
+      const Vec3 rest = muscle.rest.col(p) - muscle.origin;
+      const Vec3 displaced = blend(from, weights).inverse() * particles.position(p).cast<Real>();
+      particles.position(p) = (blend(to, weights) * Vec3(rest + kept * (displaced - rest))).cast<float>();
     }
   });
 }

@@ -9,8 +9,9 @@ namespace gracilis::xpbd {
 /// Attached particles go where their bodies are: T_body x_rest.
 void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles);
 
-/// The predictor: every free particle takes its harmonic share of the bodies' motion from `before` to `now`, as one
-/// rigid motion blended per particle, so that the solver only has to relax.
+/// The predictor: every free particle has a frame of its own, the blend of the bodies' motions by its harmonic shares. It keeps
+/// its displacement in that frame from `before` to `now`, less the share `shape_recovery`, so that the solver only has to
+/// relax and a muscle does not remember by which way it came.
 void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, Particles& particles);
 
 /// Places each obstacle's field where its bone is now.
