@@ -1,0 +1,150 @@
+#include <gracilis/dynamics/constraint_sets.hpp>
+#include <gracilis/geometry/topology.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace gracilis {
+namespace {
+
+const TriangleMesh& ball() {
+  static const TriangleMesh mesh = shapes::sphere(Vec3::Zero(), 0.05, 2);
+  return mesh;
+}
+
+std::vector<DistanceConstraint> distances() {
+  std::vector<DistanceConstraint> result;
+  for (const MeshEdge& e : build_topology(ball().faces, ball().vertex_count()).edges)
+    result.push_back({e.a, e.b, 0.001 * static_cast<Real>(result.size() + 1), 0.5 * static_cast<Real>(result.size())});
+  return result;
+}
+
+std::vector<HingeConstraint> hinges() {
+  std::vector<HingeConstraint> result;
+  for (const MeshEdge& e : build_topology(ball().faces, ball().vertex_count()).edges) {
+    const auto number = static_cast<Real>(result.size() + 1);
+    result.push_back({{e.a, e.b, e.left_apex, e.right_apex}, 0.01 * number, 0.5 * number, 0.002 * number});
+  }
+  return result;
+}
+
+template <class Set>
+void expect_whole_groups_that_follow_each_other(const Set& set, std::size_t size) {
+  Index end = 0;
+  for (const ColorRange& color : set.colors) {
+    EXPECT_EQ(color.begin, end);
+    EXPECT_GT(color.end, color.begin);
+    EXPECT_EQ(color.end % group_width, 0);
+    end = color.end;
+  }
+  EXPECT_EQ(static_cast<std::size_t>(end), size);
+}
+
+template <class Set>
+std::set<Index> used_slots(const Set& set) {
+  const std::set<Index> slots(set.slot.begin(), set.slot.end());
+  EXPECT_EQ(slots.size(), set.slot.size()) << "two constraints went to one slot";
+  return slots;
+}
+
+}  // namespace
+
+TEST(DistanceSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers) {
+  const std::vector<DistanceConstraint> input = distances();
+  const DistanceSet set = build_distance_set(input, ball().vertex_count());
+  EXPECT_EQ(set.count, static_cast<Index>(input.size()));
+  expect_whole_groups_that_follow_each_other(set, set.a.size());
+  ASSERT_EQ(used_slots(set).size(), input.size());
+  for (std::size_t i = 0; i < input.size(); ++i) {
+    const auto at = static_cast<std::size_t>(set.slot[i]);
+    EXPECT_EQ(set.a[at], input[i].a);
+    EXPECT_EQ(set.b[at], input[i].b);
+    EXPECT_EQ(set.rest_length[at], static_cast<float>(input[i].rest_length));
+    EXPECT_EQ(set.compliance[at], static_cast<float>(input[i].compliance));
+  }
+}
+
+TEST(DistanceSet, pads_with_the_idle_particle) {
+  const DistanceSet set = build_distance_set(distances(), ball().vertex_count());
+  const std::set<Index> used = used_slots(set);
+  Index padding = 0;
+  for (std::size_t at = 0; at < set.a.size(); ++at) {
+    if (used.contains(static_cast<Index>(at))) continue;
+    ++padding;
+    EXPECT_EQ(set.a[at], ball().vertex_count());
+    EXPECT_EQ(set.b[at], ball().vertex_count());
+    EXPECT_EQ(set.rest_length[at], 0);
+  }
+  EXPECT_GT(padding, 0);
+}
+
+TEST(DistanceSet, no_particle_but_the_idle_one_stands_twice_in_a_color) {
+  const DistanceSet set = build_distance_set(distances(), ball().vertex_count());
+  for (const ColorRange& color : set.colors) {
+    std::set<Index> seen;
+    for (Index slot = color.begin; slot < color.end; ++slot)
+      for (Index p : {set.a[static_cast<std::size_t>(slot)], set.b[static_cast<std::size_t>(slot)]})
+        if (p != ball().vertex_count()) {
+          EXPECT_TRUE(seen.insert(p).second);
+        }
+  }
+}
+
+TEST(HingeSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers) {
+  const std::vector<HingeConstraint> input = hinges();
+  const HingeSet set = build_hinge_set(input, ball().vertex_count());
+  EXPECT_EQ(set.count, static_cast<Index>(input.size()));
+  expect_whole_groups_that_follow_each_other(set, set.rest_angle.size());
+  const std::set<Index> used = used_slots(set);
+  ASSERT_EQ(used.size(), input.size());
+  for (std::size_t i = 0; i < input.size(); ++i) {
+    const auto at = static_cast<std::size_t>(set.slot[i]);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(set.particles[k][at], input[i].particles[k]);
+    EXPECT_EQ(set.rest_angle[at], static_cast<float>(input[i].rest_angle));
+    EXPECT_EQ(set.compliance[at], static_cast<float>(input[i].compliance));
+    EXPECT_EQ(set.edge_length[at], static_cast<float>(input[i].edge_length));
+  }
+  for (std::size_t at = 0; at < set.rest_angle.size(); ++at)
+    for (std::size_t k = 0; k < 4; ++k)
+      if (!used.contains(static_cast<Index>(at))) {
+        EXPECT_EQ(set.particles[k][at], ball().vertex_count());
+      }
+}
+
+TEST(ConstraintSets, of_nothing_are_empty) {
+  const DistanceSet distance = build_distance_set({}, 5);
+  EXPECT_TRUE(distance.a.empty());
+  EXPECT_TRUE(distance.colors.empty());
+  const HingeSet hinge = build_hinge_set({}, 5);
+  EXPECT_TRUE(hinge.rest_angle.empty());
+  EXPECT_TRUE(hinge.colors.empty());
+}
+
+TEST(VolumeSet, rings_hold_every_neighbor_once_and_turn_with_the_faces) {
+  const VolumeSet set = build_volume_set(ball().faces, ball().vertex_count(), 1, 0);
+  const VertexStars stars = build_topology(ball().faces, ball().vertex_count()).stars;
+  std::set<std::array<Index, 3>> corners;  // of every face, each corner first once
+  for (Index f = 0; f < ball().face_count(); ++f)
+    for (int k = 0; k < 3; ++k)
+      corners.insert({ball().faces(k, f), ball().faces((k + 1) % 3, f), ball().faces((k + 2) % 3, f)});
+  ASSERT_EQ(set.ring_offsets.size(), static_cast<std::size_t>(ball().vertex_count()) + 1);
+  for (std::size_t v = 0; v + 1 < set.ring_offsets.size(); ++v) {
+    const std::vector<Index> ring(set.ring.begin() + set.ring_offsets[v], set.ring.begin() + set.ring_offsets[v + 1]);
+    const std::set<Index> expected(stars.neighbors.begin() + stars.offsets[v],
+                                   stars.neighbors.begin() + stars.offsets[v + 1]);
+    EXPECT_EQ(std::set<Index>(ring.begin(), ring.end()), expected);
+    EXPECT_EQ(ring.size(), expected.size());
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      EXPECT_TRUE(corners.contains({static_cast<Index>(v), ring[i], ring[(i + 1) % ring.size()]}));
+  }
+}
+
+TEST(VolumeSet, a_particle_without_faces_has_an_empty_ring) {
+  const VolumeSet set = build_volume_set(ball().faces, ball().vertex_count() + 1, 1, 0);
+  EXPECT_EQ(set.ring_offsets[set.ring_offsets.size() - 1], set.ring_offsets[set.ring_offsets.size() - 2]);
+}
+
+}  // namespace gracilis

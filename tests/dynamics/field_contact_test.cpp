@@ -1,0 +1,155 @@
+#include <gracilis/dynamics/field_contact.hpp>
+
+#include "systems_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+namespace gracilis {
+namespace {
+
+constexpr Real radius = 0.03;
+
+/// The exact distance to a ball about the origin.
+const DistanceField& ball() {
+  static const DistanceField field = [] {
+    DistanceField f;
+    f.nodes = {101, 101, 101};
+    f.origin = Vec3::Constant(-0.05);
+    f.cell_size = Vec3::Constant(0.001);
+    for (int k = 0; k < 101; ++k)
+      for (int j = 0; j < 101; ++j)
+        for (int i = 0; i < 101; ++i)
+          f.values.push_back(static_cast<float>((f.origin + 0.001 * Vec3(i, j, k)).norm() - radius));
+    return f;
+  }();
+  return field;
+}
+
+struct Scenario {
+  Particles particles;
+  DistanceSet distances;
+  FieldContactSet contact;
+  FieldPlacement placement;
+  NearField near;
+
+  void look() { find_near(contact, distances, placement, particles, 0.006f, near); }
+  Index push_particles() { return project_particle_contacts(contact, placement, near, particles); }
+  Index push_edges() { return project_edge_contacts(contact, distances, placement, near, particles); }
+  Real radius_of(Index i) const { return (placement.rotation * particles.position(i) + placement.translation).norm(); }
+};
+
+Scenario points_at(const std::vector<Vec3>& positions, const std::vector<Real>& inverse_masses, float gap) {
+  Scenario scenario;
+  Points x(3, static_cast<Index>(positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i) x.col(static_cast<Index>(i)) = positions[i];
+  scenario.particles =
+      make_particles(x, Eigen::Map<const Eigen::VectorXd>(inverse_masses.data(), static_cast<Index>(x.cols())));
+  scenario.contact.field = &ball();
+  scenario.contact.particle_gap.assign(positions.size(), gap);
+  return scenario;
+}
+
+/// An edge whose ends are outside of the ball and whose middle is 1 mm inside.
+Scenario edge_through_the_ball(Real inverse_mass_a, Real inverse_mass_b) {
+  Scenario scenario = points_at({{-0.012, 0.029, 0}, {0.012, 0.029, 0}}, {inverse_mass_a, inverse_mass_b}, 0);
+  scenario.distances = build_distance_set({{0, 1, 0.024, 0}}, 2);
+  scenario.contact.edge_gap.assign(scenario.distances.a.size(), 0.0005f);
+  return scenario;
+}
+
+}  // namespace
+
+TEST(FieldContact, pushes_a_particle_straight_out_to_its_gap) {
+  Scenario scenario = points_at({{0.025, 0.0125, 0.00625}, {0, 0, -0.0301}}, {1, 5}, 0.0005f);
+  scenario.look();
+  EXPECT_EQ(scenario.push_particles(), 2);
+  EXPECT_NEAR(scenario.radius_of(0), radius + 0.0005, 3e-5);
+  EXPECT_NEAR(scenario.radius_of(1), radius + 0.0005, 3e-5);
+  const Vec3 direction = scenario.particles.position(0).cast<Real>().normalized();
+  EXPECT_GT(direction.dot(Vec3(4, 2, 1).normalized()), 0.9999);
+}
+
+TEST(FieldContact, leaves_what_is_clear_of_the_gap_fixed_or_outside_of_the_field) {
+  Scenario scenario = points_at({{0.031, 0, 0}, {0.01, 0, 0}, {0.2, 0, 0}, {-0.0306, 0, 0}}, {1, 0, 1, 1}, 0.0005f);
+  const AlignedVector<float> before = scenario.particles.xyzw;
+  scenario.look();
+  EXPECT_EQ(scenario.push_particles(), 0);
+  EXPECT_EQ(scenario.particles.xyzw, before);
+}
+
+TEST(FieldContact, an_overlap_at_rest_may_stay_but_not_grow) {
+  Scenario scenario = points_at({{0.0291, 0, 0}, {0, 0.028, 0}}, {1, 1}, -0.001f);
+  scenario.look();
+  EXPECT_EQ(scenario.push_particles(), 1);
+  EXPECT_EQ(scenario.particles.position(0).x(), 0.0291f);
+  EXPECT_NEAR(scenario.radius_of(1), radius - 0.001, 1e-5);
+}
+
+TEST(FieldContact, acts_in_the_frame_of_the_moved_obstacle) {
+  Scenario scenario = points_at({{0.5, 0.2, 0.029}}, {1}, 0.0005f);
+  const Eigen::Matrix3f rotation(Eigen::AngleAxisf(1.1f, Eigen::Vector3f(1, 2, 3).normalized()));
+  scenario.placement = {rotation, -rotation * Eigen::Vector3f(0.5f, 0.2f, 0)};
+  scenario.look();
+  EXPECT_EQ(scenario.push_particles(), 1);
+  EXPECT_NEAR(scenario.radius_of(0), radius + 0.0005, 3e-5);
+  EXPECT_NEAR((scenario.particles.position(0) - Eigen::Vector3f(0.5f, 0.2f, 0.0305f)).norm(), 0, 1e-4);
+}
+
+TEST(FieldContact, at_the_middle_of_the_ball_where_no_way_out_can_be_read_nothing_breaks) {
+  Scenario scenario = points_at({{0, 0, 0}, {1e-6, 0, 0}}, {1, 1}, 0);
+  scenario.look();
+  scenario.push_particles();
+  EXPECT_TRUE(std::isfinite(scenario.radius_of(0)));
+  EXPECT_TRUE(std::isfinite(scenario.radius_of(1)));
+}
+
+TEST(FieldContact, pushes_an_edge_out_by_its_middle) {
+  Scenario scenario = edge_through_the_ball(1, 1);
+  scenario.look();
+  ASSERT_EQ(scenario.near.edges.size(), 1u);
+  EXPECT_EQ(scenario.push_edges(), 1);
+  const Eigen::Vector3f middle = (scenario.particles.position(0) + scenario.particles.position(1)) / 2;
+  EXPECT_NEAR(middle.norm(), radius + 0.0005, 3e-5);
+  EXPECT_NEAR(scenario.particles.position(0).y(), scenario.particles.position(1).y(), 1e-7);
+  EXPECT_EQ(scenario.push_particles(), 0) << "the ends were never inside";
+}
+
+TEST(FieldContact, a_fixed_end_leaves_the_whole_way_to_the_other) {
+  Scenario scenario = edge_through_the_ball(0, 3);
+  scenario.look();
+  EXPECT_EQ(scenario.push_edges(), 1);
+  EXPECT_EQ(scenario.particles.position(0).y(), 0.029f);
+  const Eigen::Vector3f middle = (scenario.particles.position(0) + scenario.particles.position(1)) / 2;
+  EXPECT_NEAR(middle.norm(), radius + 0.0005, 3e-5);
+
+  Scenario fixed = edge_through_the_ball(0, 0);
+  fixed.look();
+  EXPECT_TRUE(fixed.near.edges.empty());
+}
+
+TEST(FieldContact, without_edge_gaps_edges_are_not_tested) {
+  Scenario scenario = edge_through_the_ball(1, 1);
+  scenario.contact.edge_gap.clear();
+  scenario.look();
+  EXPECT_TRUE(scenario.near.edges.empty());
+  EXPECT_EQ(scenario.push_edges(), 0);
+}
+
+TEST(FieldContact, lists_exactly_the_movable_particles_within_reach) {
+  const TriangleMesh mesh = shapes::sphere({0.02, 0, 0}, 0.025, 4);
+  SystemOptions options;
+  options.fixed_share = 0.2;
+  const SurfaceSystem system = system_of(mesh, options);
+  FieldContactSet contact{&ball(), std::vector<float>(static_cast<std::size_t>(mesh.vertex_count()), 0.001f), {}};
+  NearField near;
+  find_near(contact, system.distances, {}, system.rest, 0.004f, near);
+  std::vector<Index> expected;
+  for (Index i = 0; i < mesh.vertex_count(); ++i)
+    if (system.rest.inverse_mass(i) > 0 && sample(ball(), Eigen::Vector3f(system.rest.position(i))).distance < 0.005f)
+      expected.push_back(i);
+  EXPECT_GT(expected.size(), 200u);
+  EXPECT_LT(expected.size(), static_cast<std::size_t>(mesh.vertex_count()) * 7 / 10);
+  EXPECT_EQ(near.particles, expected);
+}
+
+}  // namespace gracilis

@@ -1,0 +1,232 @@
+#include <gracilis/dynamics/projection.hpp>
+
+#include "reference_projection.hpp"
+#include "systems_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gracilis {
+namespace {
+
+const TriangleMesh& ball() {
+  static const TriangleMesh mesh = shapes::sphere({0.01, -0.02, 0.005}, 0.03, 3);
+  return mesh;
+}
+
+/// A shaken system with multipliers under way, some particles fixed.
+struct Scenario {
+  SurfaceSystem system;
+  SurfaceState state;
+};
+
+Scenario shaken(unsigned seed) {
+  SystemOptions options;
+  options.fixed_share = 0.1;
+  options.seed = seed;
+  Scenario scenario{system_of(ball(), options), {}};
+  scenario.state = make_state(scenario.system);
+  shake(scenario.state.start, 0.0002f, seed + 1);
+  shake(scenario.state.particles, 0.0008f, seed + 2);
+  std::mt19937 generator(seed + 3);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  for (Index slot : scenario.system.distances.slot)
+    scenario.state.distance_lambda[static_cast<std::size_t>(slot)] = 1e-6f * uniform(generator);
+  for (Index slot : scenario.system.hinges.slot)
+    scenario.state.hinge_lambda[static_cast<std::size_t>(slot)] = 1e-9f * uniform(generator);
+  return scenario;
+}
+
+Real farthest(const Points& from, const Points& to) { return (to - from).colwise().norm().maxCoeff(); }
+
+/// Largest deviation of the vectorised result from the reference, as a share of the largest motion.
+Real deviation(const Points& before, const Particles& after, const Points& expected) {
+  EXPECT_GT(farthest(before, expected), 1e-5) << "nothing moved";
+  return farthest(positions_of(after), expected) / farthest(before, expected);
+}
+
+Real lambda_deviation(const AlignedVector<float>& lambda, const std::vector<Real>& expected) {
+  Real worst = 0, scale = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    worst = std::max(worst, std::abs(static_cast<Real>(lambda[i]) - expected[i]));
+    scale = std::max(scale, std::abs(expected[i]));
+  }
+  return worst / scale;
+}
+
+std::vector<ProjectionParameters> parameter_sets() {
+  ProjectionParameters plain, dissipative, limited;
+  dissipative.rayleigh_beta = 0.5f;
+  limited.hinge_limit = 0.05f;
+  return {plain, dissipative, limited};
+}
+
+}  // namespace
+
+TEST(DistanceProjection, agrees_with_plain_double_precision) {
+  for (const ProjectionParameters& parameters : parameter_sets()) {
+    Scenario scenario = shaken(11);
+    SurfaceState& state = scenario.state;
+    for (float& target : state.target_length) target *= 0.95f;
+    const Points before = positions_of(state.particles);
+    reference::State expected = reference::state_of(state.particles, state.start, state.distance_lambda);
+    reference::project_distances(scenario.system.distances, state.target_length, expected, parameters);
+    for (const ColorRange& color : scenario.system.distances.colors)
+      project_distances(scenario.system.distances, color, state.target_length.data(), state.distance_lambda.data(),
+                        state.start, state.particles, parameters);
+    EXPECT_LT(deviation(before, state.particles, expected.x), 1e-5);
+    EXPECT_LT(lambda_deviation(state.distance_lambda, expected.lambda), 1e-5);
+  }
+}
+
+TEST(HingeProjection, agrees_with_plain_double_precision) {
+  for (const ProjectionParameters& parameters : parameter_sets()) {
+    Scenario scenario = shaken(12);
+    SurfaceState& state = scenario.state;
+    const Points before = positions_of(state.particles);
+    reference::State expected = reference::state_of(state.particles, state.start, state.hinge_lambda);
+    reference::project_hinges(scenario.system.hinges, expected, parameters);
+    for (const ColorRange& color : scenario.system.hinges.colors)
+      project_hinges(scenario.system.hinges, color, state.hinge_lambda.data(), state.start, state.particles,
+                     parameters);
+    EXPECT_LT(deviation(before, state.particles, expected.x), 1e-5);
+    EXPECT_LT(lambda_deviation(state.hinge_lambda, expected.lambda), 1e-5);
+  }
+}
+
+namespace {
+
+/// Two triangles folded by `angle` that want to be flat.
+Scenario one_hinge(Real angle, Real compliance) {
+  Points x(3, 4);
+  x.col(0) = Vec3::Zero(), x.col(1) = Vec3(0.004, 0, 0);
+  x.col(2) = Vec3(0.002, 0.003, 0), x.col(3) = Vec3(0.002, -0.003 * std::cos(angle), -0.003 * std::sin(angle));
+  Scenario scenario;
+  scenario.system.rest = make_particles(x, Eigen::VectorXd::Constant(4, 1e4));
+  scenario.system.hinges = build_hinge_set({{{0, 1, 2, 3}, 0, compliance, 0.004}}, 4);
+  scenario.state = make_state(scenario.system);
+  return scenario;
+}
+
+ProjectionCounts project_all(Scenario& scenario, const ProjectionParameters& parameters) {
+  return project_hinges(scenario.system.hinges, scenario.system.hinges.colors.at(0), scenario.state.hinge_lambda.data(),
+                        scenario.state.start, scenario.state.particles, parameters);
+}
+
+}  // namespace
+
+TEST(HingeProjection, moves_no_vertex_farther_than_the_limit_and_counts_it) {
+  ProjectionParameters parameters;
+  parameters.hinge_limit = 0.05f;
+  Scenario scenario = one_hinge(2.5, 0);
+  const Points before = positions_of(scenario.state.particles);
+  EXPECT_EQ(project_all(scenario, parameters).limited, 1);
+  EXPECT_NEAR(farthest(before, positions_of(scenario.state.particles)), 0.05 * 0.004, 1e-8);
+
+  Scenario free = one_hinge(2.5, 0);
+  parameters.hinge_limit = 0;
+  EXPECT_EQ(project_all(free, parameters).limited, 0);
+  EXPECT_GT(farthest(before, positions_of(free.state.particles)), 0.001);
+}
+
+TEST(HingeProjection, gives_back_the_multiplier_of_a_motion_held_back) {
+  ProjectionParameters parameters;
+  Scenario free = one_hinge(2.5, 0), held = one_hinge(2.5, 0);
+  const Points before = positions_of(free.state.particles);
+  project_all(free, parameters);
+  parameters.hinge_limit = 0.05f;
+  project_all(held, parameters);
+  const auto slot = static_cast<std::size_t>(free.system.hinges.slot[0]);
+  const Real motion_share =
+      farthest(before, positions_of(held.state.particles)) / farthest(before, positions_of(free.state.particles));
+  EXPECT_NEAR(held.state.hinge_lambda[slot] / free.state.hinge_lambda[slot], motion_share, 1e-5);
+}
+
+TEST(HingeProjection, near_half_a_turn_takes_the_short_way_back) {
+  Scenario scenario = one_hinge(-pi + 0.01, 0);
+  scenario.system.hinges.rest_angle[static_cast<std::size_t>(scenario.system.hinges.slot[0])] =
+      static_cast<float>(pi - 0.01);
+  const Points before = positions_of(scenario.state.particles);
+  project_all(scenario, {});
+  const Points after = positions_of(scenario.state.particles);
+  EXPECT_LT(farthest(before, after), 0.003 * 0.03);
+  EXPECT_GT(farthest(before, after), 0.003 * 0.002);
+}
+
+TEST(HingeProjection, a_flat_triangle_is_skipped_and_counted_and_moves_nothing) {
+  Scenario scenario = one_hinge(1, 0);
+  scenario.state.particles.position(2) = Eigen::Vector3f(0.002f, 0, 0);
+  const AlignedVector<float> before = scenario.state.particles.xyzw;
+  EXPECT_EQ(project_all(scenario, {}).skipped, 1);
+  EXPECT_EQ(scenario.state.particles.xyzw, before);
+}
+
+TEST(DistanceProjection, an_edge_without_length_is_skipped_and_counted_and_moves_nothing) {
+  for (float beta : {0.0f, 0.5f}) {
+    ProjectionParameters parameters;
+    parameters.rayleigh_beta = beta;
+    Particles particles = make_particles(Points::Constant(3, 2, 0.01), Eigen::Vector2d(1, 2));
+    const DistanceSet set = build_distance_set({{0, 1, 0.005, 0.01}}, 2);
+    AlignedVector<float> lambda(set.a.size(), 0);
+    const AlignedVector<float> before = particles.xyzw;
+    const ProjectionCounts counts = project_distances(set, set.colors.at(0), set.rest_length.data(), lambda.data(),
+                                                      particles, particles, parameters);
+    EXPECT_EQ(counts.skipped, 1);
+    EXPECT_EQ(particles.xyzw, before);
+    for (float value : lambda) EXPECT_TRUE(std::isfinite(value));
+  }
+}
+
+TEST(Projection, padding_and_fixed_particles_stay_where_they_are_and_never_turn_nan) {
+  for (ProjectionParameters parameters : parameter_sets())
+    for (bool arccos : {false, true}) {
+      parameters.arccos_hinges = arccos;
+      Scenario scenario = shaken(13);
+      SurfaceState& state = scenario.state;
+      const Particles before = state.particles;
+      for (int repeat = 0; repeat < 5; ++repeat) {
+        for (const ColorRange& color : scenario.system.distances.colors) {
+          project_distances(scenario.system.distances, color, state.target_length.data(), state.distance_lambda.data(),
+                            state.start, state.particles, parameters);
+          limit_stretch(scenario.system.distances, color, 1.01f, state.particles);
+        }
+        for (const ColorRange& color : scenario.system.hinges.colors)
+          project_hinges(scenario.system.hinges, color, state.hinge_lambda.data(), state.start, state.particles,
+                         parameters);
+      }
+      EXPECT_TRUE(is_finite(state.particles));
+      for (int k = 0; k < 4; ++k) EXPECT_EQ(state.particles.at(state.particles.count())[k], 0);
+      for (const AlignedVector<float>* lambdas : {&state.distance_lambda, &state.hinge_lambda})
+        for (float lambda : *lambdas) EXPECT_TRUE(std::isfinite(lambda));
+      Index fixed = 0;
+      for (Index i = 0; i < before.count(); ++i) {
+        EXPECT_EQ(state.particles.inverse_mass(i), before.inverse_mass(i));
+        if (before.inverse_mass(i) > 0) continue;
+        ++fixed;
+        EXPECT_EQ(state.particles.position(i), before.position(i));
+      }
+      EXPECT_GT(fixed, 10);
+    }
+}
+
+TEST(StretchLimit, shortens_what_is_too_long_to_the_limit_and_leaves_the_rest) {
+  Points x(3, 6);
+  for (Index i = 0; i < 6; ++i) x.col(i) = Vec3(0, 0.01 * i, 0);
+  x.col(1).x() = 0.03, x.col(3).x() = 0.019, x.col(5).x() = 0.05;
+  x.col(1).y() = x.col(0).y(), x.col(3).y() = x.col(2).y(), x.col(5).y() = x.col(4).y();
+  Eigen::VectorXd inverse_masses(6);
+  inverse_masses << 1, 3, 1, 1, 0, 2;
+  Particles particles = make_particles(x, inverse_masses);
+  const DistanceSet set = build_distance_set({{0, 1, 0.01, 0}, {2, 3, 0.01, 0}, {4, 5, 0.01, 0}}, 6);
+  ASSERT_EQ(set.colors.size(), 1u);
+  EXPECT_EQ(limit_stretch(set, set.colors[0], 2, particles), 2);
+  EXPECT_NEAR((particles.position(1) - particles.position(0)).norm(), 0.02, 1e-8);
+  EXPECT_NEAR(particles.position(0).x(), 0.01 / 4, 1e-8);  // the lighter end gives three times as much
+  EXPECT_NEAR((particles.position(5) - particles.position(4)).norm(), 0.02, 1e-8);
+  EXPECT_EQ(particles.position(4).x(), 0);
+  EXPECT_EQ(particles.position(3).x(), 0.019f);
+  EXPECT_EQ(limit_stretch(set, set.colors[0], 2.001f, particles), 0);
+}
+
+}  // namespace gracilis

@@ -1,0 +1,134 @@
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/solver.hpp>
+
+#include <state_hash.hpp>
+
+#include "systems_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace gracilis {
+namespace {
+
+/// A soft ball, large enough to be cut into many tasks, pressed into a hard one.
+struct Pressed {
+  DistanceField obstacle;
+  SurfaceSystem system;
+};
+
+const Pressed& pressed() {
+  static const Pressed scene = [] {
+    Pressed p;
+    const TriangleMesh hard = shapes::sphere(Vec3::Zero(), 0.02, 4);
+    p.obstacle = build_distance_field(hard, domain_by_cell_size(hard, 0.001, 0.012));
+    const TriangleMesh soft = shapes::sphere({0, 0, 0.045}, 0.03, 6);
+    p.system = system_of(soft);
+    FieldContactSet contact;
+    contact.field = &p.obstacle;
+    contact.particle_gap.assign(static_cast<std::size_t>(soft.vertex_count()), 0.0003f);
+    contact.edge_gap.assign(p.system.distances.a.size(), 0.0003f);
+    p.system.contacts.push_back(std::move(contact));
+    return p;
+  }();
+  return scene;
+}
+
+SolveSettings usual(int iterations) {
+  SolveSettings settings;
+  settings.iterations = iterations;
+  settings.projection.hinge_limit = 0.05f;
+  settings.stretch_limit = 1.5f;
+  return settings;
+}
+
+}  // namespace
+
+TEST(Solver, gives_the_same_bits_for_any_number_of_threads) {
+  std::vector<std::uint64_t> hashes;
+  for (int threads : {1, 2, 64}) {
+    const ThreadLimit limit(threads);
+    SurfaceState state = make_state(pressed().system);
+    shake(state.particles, 0.0003f, 9);
+    const SolveReport report = solve_substep(pressed().system, {FieldPlacement{}}, usual(10), state);
+    EXPECT_GT(report.contacts, 50);
+    std::uint64_t hash = hash_of(state.particles.xyzw);
+    hash = hash_of(state.distance_lambda, hash);
+    hash = hash_of(state.hinge_lambda, hash);
+    hash = hash_bytes(&state.volume_lambda, sizeof state.volume_lambda, hash);
+    hashes.push_back(hash);
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(Solver, at_rest_stays_at_rest) {
+  SurfaceSystem system = pressed().system;
+  system.contacts.clear();
+  SurfaceState state = make_state(system);
+  for (int i = 0; i < 5; ++i) solve_substep(system, {}, usual(30), state);
+  EXPECT_LT((positions_of(state.particles) - positions_of(system.rest)).colwise().norm().maxCoeff(), 1e-6);
+}
+
+TEST(Solver, ends_outside_of_the_obstacle_with_its_volume) {
+  SurfaceState state = make_state(pressed().system);
+  solve_substep(pressed().system, {FieldPlacement{}}, usual(60), state);
+  for (Index i = 0; i < state.particles.count(); ++i) EXPECT_GT(state.particles.position(i).norm(), 0.02f);
+  EXPECT_NEAR(state.volume / pressed().system.volume.target, 1, 0.005);
+}
+
+TEST(Solver, stops_early_when_nothing_moves_any_more) {
+  SurfaceSystem system = pressed().system;
+  system.contacts.clear();
+  SurfaceState state = make_state(system);
+  SolveSettings settings = usual(50);
+  settings.stop_displacement = 1e-6f;
+  EXPECT_LT(solve_substep(system, {}, settings, state).iterations, 3);
+  shake(state.particles, 0.0003f, 2);
+  EXPECT_GT(solve_substep(system, {}, settings, state).iterations, 3);
+}
+
+TEST(Solver, stops_early_when_its_time_is_over_but_solves_once) {
+  SurfaceState state = make_state(pressed().system);
+  SolveSettings settings = usual(100000);
+  settings.stop_milliseconds = 1e-6;
+  EXPECT_EQ(solve_substep(pressed().system, {FieldPlacement{}}, settings, state).iterations, 1);
+}
+
+TEST(Solver, survives_coinciding_ends_and_counts_them) {
+  SurfaceSystem system = system_of(shapes::sphere(Vec3::Zero(), 0.03, 3));
+  SurfaceState state = make_state(system);
+  const Index a = system.distances.a.at(0), b = system.distances.b.at(0);
+  state.particles.position(b) = state.particles.position(a);
+  const SolveReport report = solve_substep(system, {}, usual(1), state);
+  EXPECT_GE(report.skipped_constraints, 1);
+  EXPECT_TRUE(is_finite(state.particles));
+}
+
+TEST(Solver, everything_on_one_point_stays_finite) {
+  SurfaceSystem system = system_of(shapes::sphere(Vec3::Zero(), 0.03, 3));
+  SurfaceState state = make_state(system);
+  for (Index i = 0; i < state.particles.count(); ++i) state.particles.position(i).setZero();
+  const SolveReport report = solve_substep(system, {}, usual(5), state);
+  EXPECT_TRUE(is_finite(state.particles));
+  EXPECT_GE(report.skipped_constraints, system.distances.count + system.hinges.count);
+}
+
+TEST(Solver, knows_a_coordinate_that_is_not_finite) {
+  SurfaceState state = make_state(pressed().system);
+  EXPECT_TRUE(is_finite(state.particles));
+  state.particles.position(7).y() = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(is_finite(state.particles));
+  state.particles.position(7).y() = std::numeric_limits<float>::infinity();
+  EXPECT_FALSE(is_finite(state.particles));
+}
+
+TEST(Solver, names_every_kind_of_constraint_by_a_name_of_its_own) {
+  std::vector<std::string> names;
+  for (ConstraintKind kind : projection_order) names.push_back(name_of(kind));
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());
+}
+
+}  // namespace gracilis

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <gracilis/dynamics/hinge.hpp>
+#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/topology.hpp>
+
+#include <shapes.hpp>
+
+#include <random>
+
+namespace gracilis {
+
+/// How a closed surface becomes a system to solve.
+struct SystemOptions {
+  Real distance_stiffness = 50;  ///< N/m
+  Real hinge_stiffness = 1e-5;   ///< N·m
+  Real smallest_mass = 0.5e-4;   ///< kg; masses are drawn between this and three times this
+  Real fixed_share = 0;          ///< of the particles
+  unsigned seed = 5;
+};
+
+/// Edges, hinges and volume of `mesh` with random masses.
+inline SurfaceSystem system_of(const TriangleMesh& mesh, const SystemOptions& options = {}) {
+  std::mt19937 generator(options.seed);
+  std::uniform_real_distribution<Real> uniform(0, 1);
+  const Points& x = mesh.vertices;
+  Eigen::VectorXd inverse_masses(mesh.vertex_count());
+  for (Real& w : inverse_masses) {
+    const bool fixed = uniform(generator) < options.fixed_share;
+    w = fixed ? 0 : 1 / (options.smallest_mass * (1 + 2 * uniform(generator)));
+  }
+  std::vector<DistanceConstraint> distances;
+  std::vector<HingeConstraint> hinges;
+  for (const MeshEdge& e : build_topology(mesh.faces, mesh.vertex_count()).edges) {
+    const Real length = (x.col(e.a) - x.col(e.b)).norm();
+    distances.push_back({e.a, e.b, length, 1 / options.distance_stiffness});
+    const Real angle = dihedral_angle(x.col(e.a), x.col(e.b), x.col(e.left_apex), x.col(e.right_apex));
+    hinges.push_back({{e.a, e.b, e.left_apex, e.right_apex}, angle, 1 / options.hinge_stiffness, length});
+  }
+  SurfaceSystem system;
+  system.rest = make_particles(x, inverse_masses);
+  system.distances = build_distance_set(distances, mesh.vertex_count());
+  system.hinges = build_hinge_set(hinges, mesh.vertex_count());
+  system.volume = build_volume_set(mesh.faces, mesh.vertex_count(), enclosed_volume(x, mesh.faces), 0);
+  return system;
+}
+
+/// Moves every particle that can move by up to `amount` (m) along each axis.
+inline void shake(Particles& particles, float amount, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<float> uniform(-amount, amount);
+  for (Index i = 0; i < particles.count(); ++i) {
+    const Eigen::Vector3f by(uniform(generator), uniform(generator), uniform(generator));
+    if (particles.inverse_mass(i) > 0) particles.position(i) += by;
+  }
+}
+
+inline Points positions_of(const Particles& particles) {
+  Points points(3, particles.count());
+  for (Index i = 0; i < particles.count(); ++i) points.col(i) = particles.position(i).cast<Real>();
+  return points;
+}
+
+}  // namespace gracilis
