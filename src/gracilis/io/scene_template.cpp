@@ -85,7 +85,7 @@ unit = "mm"
 # Optional: any key of [settings] below, for this muscle alone. Also wins over --set KEY=VALUE; --set MUSCLE.KEY=VALUE wins
 # over it.
 [muscles.settings]
-distance_stiffness = 2000.0
+distance_stiffness = 5.0
 
 # At least one origin and one insertion. Which vertices are held follows from the keys given, in one of four ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.

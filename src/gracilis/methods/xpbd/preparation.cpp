@@ -15,6 +15,8 @@ namespace {
 /// Below this share of its stiffness an edge along the fibers would carry nothing and its compliance no finite number.
 constexpr Real smallest_anisotropy = 1e-6;
 constexpr Real smallest_mass_share = 1e-3;
+/// Share of its depth in a bone at rest that a point gives back.
+constexpr Real overlap_given_back = 0.05;
 /// Slivers and needles scale a stiffness by no more than this.
 constexpr Real largest_shape = 1e3;
 
@@ -174,11 +176,13 @@ void build_ends(const Renumbered& muscle, PreparedMuscle& prepared) {
   prepared.rest_span = (center(prepared.insertion_end) - center(prepared.origin_end)).norm();
 }
 
-/// The gap a point must keep: the margin, or less where it is already closer in the capture pose.
-float allowed_gap(const DistanceField& field, const Vec3& p, Real margin, bool tolerate_rest) {
-  const float rest =
-      tolerate_rest ? sample(field, Eigen::Vector3f(p.cast<float>())).distance : static_cast<float>(margin);
-  return std::min(static_cast<float>(margin), rest);
+/// The gap a point must keep: the margin, or the gap in the capture pose where that is less. Of an overlap in the
+/// capture pose a part must be given back, so that where the grid's error differs from place to place it cannot grow.
+float allowed_gap(const DistanceField& field, const Vec3& p, const XpbdSettings& settings) {
+  const auto margin = static_cast<float>(settings.bone_margin);
+  if (!settings.bone_rest_gap) return margin;
+  const float rest = sample(field, Eigen::Vector3f(p.cast<float>())).distance;
+  return std::min(margin, rest < 0 ? rest * static_cast<float>(1 - overlap_given_back) : rest);
 }
 
 void build_contacts(const Scene& scene, const std::vector<DistanceField>& fields, PreparedMuscle& prepared) {
@@ -187,16 +191,14 @@ void build_contacts(const Scene& scene, const std::vector<DistanceField>& fields
     FieldContactSet contact;
     contact.field = &fields[bone];
     for (Index p = 0; p < prepared.rest.cols(); ++p)
-      contact.particle_gap.push_back(
-          allowed_gap(fields[bone], prepared.rest.col(p), settings.bone_margin, settings.bone_rest_gap));
+      contact.particle_gap.push_back(allowed_gap(fields[bone], prepared.rest.col(p), settings));
     if (settings.edge_contact) {
       const DistanceSet& edges = prepared.system.distances;
       for (std::size_t slot = 0; slot < edges.a.size(); ++slot) {
         const bool padding = edges.a[slot] >= prepared.rest.cols();
         const Vec3 middle =
             padding ? prepared.origin : Vec3((prepared.rest.col(edges.a[slot]) + prepared.rest.col(edges.b[slot])) / 2);
-        contact.edge_gap.push_back(
-            padding ? 0 : allowed_gap(fields[bone], middle, settings.bone_margin, settings.bone_rest_gap));
+        contact.edge_gap.push_back(padding ? 0 : allowed_gap(fields[bone], middle, settings));
       }
     }
     prepared.system.contacts.push_back(std::move(contact));
