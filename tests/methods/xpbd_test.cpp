@@ -1,0 +1,162 @@
+#include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/methods/xpbd/motion.hpp>
+#include <gracilis/methods/xpbd/preparation.hpp>
+#include <gracilis/simulate/measures.hpp>
+
+#include <scenes_for_tests.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gracilis {
+namespace {
+
+/// Flexes the tube to a right angle, degree by degree, and holds it there.
+struct Held {
+  Scene scene;
+  std::vector<MuscleMeasures> measures;  ///< of every frame
+  StepReport last;
+};
+
+Held held_at_a_right_angle(const XpbdSettings& settings) {
+  Held held{tube_scene(settings), {}, {}};
+  Measurer measurer(held.scene);
+  const auto method = xpbd_on_tube(held.scene);
+  for (int frame = 1; frame <= 120; ++frame) {
+    const Pose pose = flexed(held.scene, radians(std::min(frame, 90)));
+    held.last = method->advance(pose);
+    held.measures.push_back(measurer.measure(frame_of(*method, pose, frame)).at(0));
+  }
+  return held;
+}
+
+}  // namespace
+
+TEST(Xpbd, a_muscle_held_at_a_right_angle_keeps_its_volume_and_stays_out_of_the_bones) {
+  const Held held = held_at_a_right_angle({});
+  for (std::size_t frame = 0; frame < held.measures.size(); ++frame) {
+    EXPECT_NEAR(held.measures[frame].volume_ratio, 1, 0.005) << "frame " << frame + 1;
+    EXPECT_LE(held.measures[frame].vertex_depth, 1e-4) << "frame " << frame + 1;
+    EXPECT_LE(held.measures[frame].midpoint_depth_beyond_rest, 5e-4) << "frame " << frame + 1;
+    EXPECT_TRUE(held.measures[frame].finite);
+  }
+  EXPECT_GT(held.last.muscles[0].contacts, 0) << "the muscle never met a bone";
+  EXPECT_GT(held.measures.back().edge_ratio_mean, 1.05) << "the muscle was never stretched";
+}
+
+TEST(Xpbd, returns_to_its_lengths_when_the_joint_returns) {
+  const Scene scene = tube_scene();
+  Measurer measurer(scene);
+  const auto method = xpbd_on_tube(scene);
+  for (int degree = 1; degree <= 90; ++degree) method->advance(flexed(scene, radians(degree)));
+  for (int degree = 89; degree >= 0; --degree) method->advance(flexed(scene, radians(degree)));
+  const MuscleMeasures end = measurer.measure(frame_of(*method, flexed(scene, 0), 0)).at(0);
+  EXPECT_NEAR(end.edge_ratio_mean, 1, 0.005);
+}
+
+TEST(Xpbd, stops_a_frame_early_when_nothing_moves) {
+  XpbdSettings settings;
+  settings.stop_displacement = 1e-5;
+  const Scene scene = tube_scene(settings);
+  const auto method = xpbd_on_tube(scene);
+  EXPECT_LT(method->advance(flexed(scene, 0)).muscles[0].iterations, 3);
+}
+
+TEST(Xpbd, in_dynamic_mode_gravity_pulls_and_attachments_hold) {
+  XpbdSettings settings;
+  settings.time_mode = TimeMode::dynamic;
+  settings.gravity = Vec3(9.81, 0, 0);
+  const Scene scene = tube_scene(settings);
+  const auto method = xpbd_on_tube(scene);
+  for (int i = 0; i < 60; ++i) method->advance(flexed(scene, 0));
+  const Frame frame = frame_of(*method, flexed(scene, 0), 0);
+  const Points& rest = scene.muscles[0].surface.vertices;
+  Real sag = 0;
+  for (Index v = 0; v < rest.cols(); ++v)
+    if (std::abs(rest(2, v)) < 0.01) sag = std::max(sag, frame.muscles[0].points(0, v) - rest(0, v));
+  EXPECT_GT(sag, 1e-4);
+  for (Index v : scene.muscles[0].attachments[0].vertices)
+    EXPECT_LT((frame.muscles[0].points.col(v) - rest.col(v)).norm(), 1e-8);
+}
+
+TEST(XpbdPreparation, masses_sum_to_density_times_volume_and_attached_ones_cannot_move) {
+  Scene scene = tube_scene();
+  const Muscle& muscle = scene.muscles[0];
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, muscle, tube_fields());
+  const Eigen::VectorXd areas = vertex_areas(muscle.surface.vertices, muscle.surface.faces);
+  const Real mass = 1060 * enclosed_volume(muscle.surface.vertices, muscle.surface.faces);
+  Index fixed = 0;
+  for (Index p = 0; p < prepared.system.rest.count(); ++p) {
+    const Real w = prepared.system.rest.inverse_mass(p);
+    const Index v = prepared.order[static_cast<std::size_t>(p)];
+    EXPECT_EQ(w == 0, prepared.fixed_body[static_cast<std::size_t>(p)] >= 0);
+    fixed += w == 0;
+    if (w > 0) {
+      EXPECT_NEAR(1 / w, mass * areas[v] / areas.sum(), 1e-4 * mass / static_cast<Real>(areas.size()));
+    }
+  }
+  EXPECT_EQ(static_cast<std::size_t>(fixed),
+            muscle.attachments[0].vertices.size() + muscle.attachments[1].vertices.size());
+}
+
+TEST(XpbdPreparation, carrier_shares_sum_to_one_and_are_whole_at_attachments) {
+  const Scene scene = tube_scene();
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  ASSERT_EQ(prepared.carriers, (std::vector<Index>{0, 1}));
+  for (Index p = 0; p < prepared.rest.cols(); ++p) {
+    EXPECT_NEAR(prepared.carrier_shares.col(p).sum(), 1, 1e-5);
+    EXPECT_GE(prepared.carrier_shares.col(p).minCoeff(), -1e-5);
+    const Index body = prepared.fixed_body[static_cast<std::size_t>(p)];
+    if (body >= 0) {
+      EXPECT_NEAR(prepared.carrier_shares(body, p), 1, 1e-6);
+    }
+  }
+}
+
+TEST(XpbdPreparation, fibers_run_from_origin_to_insertion) {
+  const Scene scene = tube_scene();
+  const Muscle& muscle = scene.muscles[0];
+  const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
+  const Points directions =
+      xpbd::fiber_directions(muscle.surface.vertices, muscle.surface.faces, topology, muscle.attachments);
+  Index free = 0;
+  for (Index f = 0; f < directions.cols(); ++f) {
+    Vec3 middle = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) middle += muscle.surface.vertices.col(muscle.surface.faces(k, f)) / 3;
+    if (std::abs(middle.z()) > 0.065) continue;
+    ++free;
+    EXPECT_GT(directions.col(f).dot(-Vec3::UnitZ()), 0.99);
+  }
+  EXPECT_GT(free, 500);
+}
+
+TEST(XpbdMotion, a_muscle_whose_ends_approach_gets_shorter_fibers_and_a_thicker_belly) {
+  Scene scene = tube_scene();
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  Pose closer = flexed(scene, 0);
+  closer.bodies[1].translation().z() += 0.2 * prepared.rest_span;
+  AlignedVector<float> target(prepared.system.distances.a.size(), 0);
+  xpbd::set_target_lengths(prepared, closer, target);
+  Index along = 0, across = 0;
+  for (std::size_t slot = 0; slot < target.size(); ++slot) {
+    if (prepared.system.distances.a[slot] >= prepared.rest.cols()) continue;
+    const float ratio = target[slot] / prepared.system.distances.rest_length[slot];
+    if (prepared.fiber_cosine2[slot] > 0.9999f) {
+      EXPECT_NEAR(ratio, 0.8, 1e-3);
+      ++along;
+    }
+    if (prepared.fiber_cosine2[slot] < 1e-6f) {
+      EXPECT_NEAR(ratio, 1 / std::sqrt(0.8), 1e-3);
+      ++across;
+    }
+  }
+  EXPECT_GT(along, 300);
+  EXPECT_GT(across, 300);
+  Pose farther = flexed(scene, 0);
+  farther.bodies[1].translation().z() -= 0.01;
+  xpbd::set_target_lengths(prepared, farther, target);
+  EXPECT_EQ(target, prepared.system.distances.rest_length);
+}
+
+}  // namespace gracilis

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/geometry/distance_field.hpp>
+#include <gracilis/methods/xpbd/xpbd_method.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <shapes.hpp>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+/// A small joint that solves in milliseconds.
+namespace gracilis {
+
+/// Two box bones in line, a hinge between them, and a tube of muscle along their front that is attached to both:
+///
+///            ┌────┐▒
+///   upper    │    │▒
+///            │    │▒   muscle, 160 mm long, 0.5 mm clear of the bones
+///            └────┘▒
+///            ×     ▒   hinge about y
+///            ┌────┐▒
+///   lower    │    │▒
+///            │    │▒
+///            └────┘▒
+///
+/// Flexion swings the lower bone back, so that the muscle is drawn around the edges of both bones.
+inline Scene tube_scene(const XpbdSettings& settings = {}) {
+  Scene scene;
+  scene.name = "tube";
+  scene.bodies = {"upper", "lower"};
+  scene.bones = {{"upper", 0, shapes::box({-0.015, -0.03, 0.005}, {0.015, 0.03, 0.1})},
+                 {"lower", 1, shapes::box({-0.015, -0.03, -0.1}, {0.015, 0.03, -0.005})}};
+  scene.joints = {{"hinge", 0, 1, RigidTransform::Identity(), {{"flexion", Vec3::UnitY(), 0, 0, radians(120)}}}};
+  scene.joints[0].frame = Eigen::Translation3d(-0.015, 0, 0) * RigidTransform::Identity();
+  Muscle muscle;
+  muscle.name = "tube";
+  muscle.surface = shapes::cylinder(0.01, 0.16, 20, 40);
+  muscle.surface.vertices.colwise() += Vec3(0.0255, 0, -0.08);
+  Attachment origin{"upper end", AttachmentEnd::origin, 0, {}, false};
+  Attachment insertion{"lower end", AttachmentEnd::insertion, 1, {}, false};
+  for (Index v = 0; v < muscle.surface.vertex_count(); ++v) {
+    const Real z = muscle.surface.vertices(2, v);
+    if (z > 0.07) origin.vertices.push_back(v);
+    if (z < -0.07) insertion.vertices.push_back(v);
+  }
+  muscle.attachments = {origin, insertion};
+  muscle.xpbd = settings;
+  scene.muscles = {muscle};
+  return scene;
+}
+
+inline Pose flexed(const Scene& scene, Real angle) { return pose_at(scene, std::vector<Real>{angle}); }
+
+/// The fields of the two bones, built once.
+inline const std::vector<DistanceField>& tube_fields() {
+  static const std::vector<DistanceField> fields = [] {
+    const Scene scene = tube_scene();
+    std::vector<DistanceField> built;
+    for (const Bone& bone : scene.bones) built.push_back(build_bone_field(bone, scene.distance_fields));
+    return built;
+  }();
+  return fields;
+}
+
+inline std::unique_ptr<DeformationMethod> xpbd_on_tube(const Scene& scene) {
+  return make_xpbd_method(scene, tube_fields());
+}
+
+inline Frame frame_of(const DeformationMethod& method, const Pose& pose, int number) {
+  Frame frame;
+  frame.number = number;
+  frame.pose = pose;
+  method.write(frame);
+  return frame;
+}
+
+inline Real farthest(const Frame& one, const Frame& other) {
+  Real largest = 0;
+  for (std::size_t m = 0; m < one.muscles.size(); ++m)
+    largest = std::max(largest, (one.muscles[m].points - other.muscles[m].points).colwise().norm().maxCoeff());
+  return largest;
+}
+
+}  // namespace gracilis
