@@ -1,0 +1,152 @@
+#include <gracilis/core/errors.hpp>
+#include <gracilis/simulate/run.hpp>
+
+#include <scenes_for_tests.hpp>
+#include <state_hash.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gracilis {
+namespace {
+
+/// Moves the muscle by 1 mm per frame, and breaks when told to.
+class Stepping final : public DeformationMethod {
+ public:
+  explicit Stepping(const Scene& scene, int breaks_at = -1)
+      : rest_(scene.muscles[0].surface.vertices), breaks_at_(breaks_at) {}
+
+  void reset() override { ++resets, steps_ = 0; }
+  StepReport advance(const Pose&) override {
+    if (steps_ + 1 == breaks_at_) throw QualityError("muscle tube: a vertex position is not finite");
+    ++steps_;
+    return {{MuscleReport{}}};
+  }
+  void write(Frame& frame) const override { frame.muscles = {{rest_.colwise() + Vec3(0.001 * steps_, 0, 0)}}; }
+  void restore(const Frame&, const Frame& last) override { steps_ = last.number; }
+
+  int resets = 0;
+
+ private:
+  Points rest_;
+  int breaks_at_, steps_ = 0;
+};
+
+std::vector<Pose> poses_of(const Scene& scene, int count) {
+  std::vector<Pose> poses;
+  for (int i = 0; i < count; ++i) poses.push_back(flexed(scene, radians(2 * i)));
+  return poses;
+}
+
+struct Recorder {
+  std::vector<FrameRecord> records;
+  std::function<void(const FrameRecord&)> function() {
+    return [this](const FrameRecord& record) { records.push_back(record); };
+  }
+  std::vector<int> numbers() const {
+    std::vector<int> all;
+    for (const FrameRecord& record : records) all.push_back(record.frame.number);
+    return all;
+  }
+};
+
+const std::atomic<bool> never = false;
+
+}  // namespace
+
+TEST(RunScene, frame_0_is_the_input_bit_by_bit) {
+  const Scene scene = tube_scene();
+  const auto method = xpbd_on_tube(scene);
+  Recorder recorder;
+  EXPECT_EQ(run_scene(scene, poses_of(scene, 2), *method, nullptr, never, recorder.function()), RunEnd::complete);
+  ASSERT_EQ(recorder.numbers(), (std::vector<int>{0, 1}));
+  EXPECT_EQ(hash_of(recorder.records[0].frame.muscles[0].points), hash_of(scene.muscles[0].surface.vertices));
+  EXPECT_EQ(recorder.records[0].measures.at(0).volume_ratio, 1);
+  ASSERT_EQ(recorder.records[0].report.muscles.size(), 1u);
+  EXPECT_EQ(recorder.records[0].report.muscles[0].iterations, 0);
+}
+
+TEST(RunScene, hands_over_every_frame_with_its_pose_and_measures) {
+  const Scene scene = tube_scene();
+  Stepping method(scene);
+  Recorder recorder;
+  const std::vector<Pose> poses = poses_of(scene, 5);
+  run_scene(scene, poses, method, nullptr, never, recorder.function());
+  ASSERT_EQ(recorder.numbers(), (std::vector<int>{0, 1, 2, 3, 4}));
+  for (std::size_t i = 0; i < 5; ++i) {
+    const FrameRecord& record = recorder.records[i];
+    EXPECT_TRUE(record.frame.pose.bodies[1].isApprox(poses[i].bodies[1], 0));
+    EXPECT_NEAR(record.frame.muscles[0].points(0, 0) - scene.muscles[0].surface.vertices(0, 0),
+                0.001 * static_cast<Real>(i), 1e-15);
+    ASSERT_EQ(record.measures.size(), 1u);
+    EXPECT_NEAR(record.measures[0].volume_ratio, 1, 1e-12);
+  }
+}
+
+TEST(RunScene, starts_over_from_the_capture_pose_each_time) {
+  const Scene scene = tube_scene();
+  Stepping method(scene);
+  Recorder first, second;
+  run_scene(scene, poses_of(scene, 3), method, nullptr, never, first.function());
+  run_scene(scene, poses_of(scene, 3), method, nullptr, never, second.function());
+  EXPECT_EQ(method.resets, 2);
+  EXPECT_EQ(hash_of(first.records[2].frame.muscles[0].points), hash_of(second.records[2].frame.muscles[0].points));
+}
+
+TEST(RunScene, stops_between_frames_when_asked_to) {
+  const Scene scene = tube_scene();
+  Stepping method(scene);
+  std::atomic<bool> stop = false;
+  int frames = 0;
+  const RunEnd end = run_scene(scene, poses_of(scene, 9), method, nullptr, stop, [&](const FrameRecord&) {
+    if (++frames == 3) stop = true;
+  });
+  EXPECT_EQ(end, RunEnd::interrupted);
+  EXPECT_EQ(frames, 3);
+}
+
+TEST(RunScene, resumed_gives_the_frames_an_uninterrupted_run_gives) {
+  const Scene scene = tube_scene();
+  const std::vector<Pose> poses = poses_of(scene, 8);
+  Recorder whole, rest;
+  run_scene(scene, poses, *xpbd_on_tube(scene), nullptr, never, whole.function());
+  const ResumePoint resume{whole.records[3].frame, whole.records[4].frame};
+  run_scene(scene, poses, *xpbd_on_tube(scene), &resume, never, rest.function());
+  ASSERT_EQ(rest.numbers(), (std::vector<int>{5, 6, 7}));
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(hash_of(rest.records[i].frame.muscles[0].points), hash_of(whole.records[5 + i].frame.muscles[0].points));
+}
+
+TEST(RunScene, resumed_after_the_last_frame_has_nothing_to_do) {
+  const Scene scene = tube_scene();
+  const std::vector<Pose> poses = poses_of(scene, 3);
+  Recorder whole, rest;
+  Stepping method(scene);
+  run_scene(scene, poses, method, nullptr, never, whole.function());
+  const ResumePoint resume{whole.records[1].frame, whole.records[2].frame};
+  EXPECT_EQ(run_scene(scene, poses, method, &resume, never, rest.function()), RunEnd::complete);
+  EXPECT_TRUE(rest.records.empty());
+}
+
+TEST(RunScene, an_error_names_the_frame_and_comes_after_all_good_frames) {
+  const Scene scene = tube_scene();
+  Stepping method(scene, 3);
+  Recorder recorder;
+  try {
+    run_scene(scene, poses_of(scene, 6), method, nullptr, never, recorder.function());
+    FAIL() << "no error";
+  } catch (const QualityError& error) {
+    EXPECT_THAT(error.what(), testing::StartsWith("frame 3: muscle tube"));
+  }
+  EXPECT_EQ(recorder.numbers(), (std::vector<int>{0, 1, 2}));
+}
+
+TEST(RunScene, without_poses_does_nothing) {
+  const Scene scene = tube_scene();
+  Stepping method(scene);
+  Recorder recorder;
+  EXPECT_EQ(run_scene(scene, {}, method, nullptr, never, recorder.function()), RunEnd::complete);
+  EXPECT_TRUE(recorder.records.empty());
+}
+
+}  // namespace gracilis
