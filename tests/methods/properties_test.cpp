@@ -90,7 +90,8 @@ TEST_P(Method, rigid_motion_of_all_bodies_moves_the_result_rigidly) {
   const auto other = GetParam().make(scene);
   other->advance(moved(by, at(0)));
   method->advance(at(0));
-  for (int degree = 1; degree <= 40; ++degree) {
+  // Further on the symmetric tube buckles, and rounding decides to which side.
+  for (int degree = 1; degree <= 25; ++degree) {
     method->advance(at(radians(degree)));
     other->advance(moved(by, at(radians(degree))));
   }
