@@ -39,7 +39,7 @@ struct XpbdSettings {
   Real pressure = 1;                             ///< target volume as a multiple of the volume at rest
 
   // Bone contact
-  Real bone_margin = 0.0003;                     ///< m, kept between muscle and bone where the gap at rest allows
+  Real bone_margin = 0.0005;                     ///< m, kept between muscle and bone where the gap at rest allows
   bool bone_rest_gap = true;                     ///< where the gap at rest is smaller than the margin, keep that gap instead
   bool edge_contact = true;                      ///< keep points along edges out of bones, not vertices only
 
