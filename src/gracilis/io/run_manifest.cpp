@@ -1,11 +1,13 @@
 #include <gracilis/io/run_manifest.hpp>
 
+#include <gracilis/dynamics/projection.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
 
 #include <embree3/rtcore_config.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <hwy/highway.h>
 #include <oneapi/tbb/version.h>
 #include <vtkVersion.h>
 #include <Eigen/Core>
@@ -20,6 +22,7 @@ static nlohmann::ordered_json library_versions() {
   return {{"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
           {"oneTBB", fmt::format("{}.{}", TBB_VERSION_MAJOR, TBB_VERSION_MINOR)},
           {"Embree", RTC_VERSION_STRING},
+          {"Highway", fmt::format("{}.{}", HWY_MAJOR, HWY_MINOR)},
           {"VTK", vtkVersion::GetVTKVersion()},
           {"compiler", __VERSION__}};
 }
@@ -40,6 +43,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"frames", manifest.frames},
       {"seconds", manifest.seconds},
       {"threads", manifest.threads},
+      {"instruction_set", instruction_set()},  // results differ in the last bits between sets
       {"processors", std::thread::hardware_concurrency()},
       {"guessed", manifest.guessed},
       {"warnings", manifest.warnings},
