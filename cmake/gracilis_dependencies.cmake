@@ -11,8 +11,9 @@ gracilis_find(Eigen3 libeigen3-dev)
 gracilis_find(TBB libtbb-dev)
 gracilis_find(embree libembree-dev)
 gracilis_find(hwy libhwy-dev CONFIG)
-gracilis_find(VTK libvtk9-dev COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore IOCore IOGeometry IOLegacy
-              IOPLY IOXML IOImage RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation FiltersSources)
+set(GRACILIS_VTK_COMPONENTS CommonCore CommonDataModel CommonExecutionModel FiltersCore IOCore IOGeometry IOLegacy IOPLY
+    IOXML IOImage RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation FiltersSources)
+gracilis_find(VTK libvtk9-dev COMPONENTS ${GRACILIS_VTK_COMPONENTS})
 gracilis_find(tomlplusplus libtomlplusplus-dev)
 gracilis_find(CLI11 libcli11-dev)
 gracilis_find(spdlog libspdlog-dev)

@@ -1,0 +1,102 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+/// Who may include whom: only what stands further down, and what stands in the same folder. Folders of the same rank do
+/// not know each other.
+namespace {
+
+const std::map<std::string, int> ranks = {{"core", 0},    {"geometry", 1}, {"dynamics", 2}, {"scene", 2},
+                                          {"anatomy", 3}, {"methods", 4},  {"simulate", 5}, {"io", 6},
+                                          {"view", 7},    {"apps", 8}};
+
+/// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
+const std::vector<std::string> toolkit_libraries = {"vtk",  "fmt/",     "spdlog/", "toml++/", "nlohmann/",
+                                                    "CLI/", "openssl/", "EGL/",    "pugixml"};
+
+/// Folder names of a path such as "methods/xpbd/motion.hpp", without the file.
+std::vector<std::string> folders_of(const std::string& path) {
+  std::vector<std::string> folders;
+  for (const auto& part : std::filesystem::path(path).parent_path()) folders.push_back(part.string());
+  return folders;
+}
+
+/// Empty when file `from` (relative to src/gracilis) may include `<included>`; otherwise why not.
+std::string objection(const std::string& from, const std::string& included) {
+  const std::vector<std::string> own = folders_of(from);
+  const int rank = ranks.at(own.at(0));
+  if (!included.starts_with("gracilis/")) {
+    const bool of_toolkit = std::any_of(toolkit_libraries.begin(), toolkit_libraries.end(),
+                                        [&](const std::string& start) { return included.starts_with(start); });
+    return of_toolkit && rank < ranks.at("io") ? "a library of the toolkit" : "";
+  }
+  const std::vector<std::string> other = folders_of(included.substr(std::string("gracilis/").size()));
+  if (other.empty() || !ranks.contains(other[0])) return "a folder without a rank";
+  if (own[0] != other[0]) return ranks.at(other[0]) < rank ? "" : "a folder that is not further down";
+  // Methods are siblings: each knows itself and what stands in methods/ for all of them.
+  const bool other_method = own[0] == "methods" && other.size() > 1 && (own.size() < 2 || own[1] != other[1]);
+  return other_method ? "another method" : "";
+}
+
+struct Include {
+  std::string from, included;
+};
+
+std::vector<Include> includes_below(const std::filesystem::path& root, const std::string& prefix) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
+    std::ifstream file(entry.path());
+    std::smatch match;
+    for (std::string line; std::getline(file, line);)
+      if (std::regex_search(line, match, pattern))
+        includes.push_back({prefix + entry.path().lexically_relative(root).generic_string(), match[1]});
+  }
+  return includes;
+}
+
+const std::filesystem::path source = std::filesystem::path(GRACILIS_SOURCE_DIR) / "src/gracilis";
+
+TEST(Includes, go_down_only) {
+  std::vector<Include> includes = includes_below(source, "");
+  const std::vector<Include> of_programs = includes_below(std::filesystem::path(GRACILIS_SOURCE_DIR) / "apps", "apps/");
+  includes.insert(includes.end(), of_programs.begin(), of_programs.end());
+  ASSERT_GT(includes.size(), 500u);
+  for (const auto& [from, included] : includes)
+    EXPECT_EQ(objection(from, included), "") << from << " includes <" << included << ">";
+}
+
+TEST(Includes, every_folder_has_a_rank) {
+  for (const auto& entry : std::filesystem::directory_iterator(source))
+    EXPECT_TRUE(ranks.contains(entry.path().filename().string())) << entry.path();
+}
+
+TEST(Includes, upward_and_sideways_ones_would_be_found) {
+  EXPECT_NE(objection("core/parallel.cpp", "gracilis/geometry/topology.hpp"), "");
+  EXPECT_NE(objection("dynamics/solver.hpp", "gracilis/scene/pose.hpp"), "");
+  EXPECT_NE(objection("scene/scene.hpp", "gracilis/dynamics/solver.hpp"), "");
+  EXPECT_NE(objection("simulate/run.cpp", "gracilis/io/run_folder.hpp"), "");
+  EXPECT_NE(objection("io/run_folder.cpp", "gracilis/view/preview.hpp"), "");
+  EXPECT_NE(objection("methods/xpbd/motion.cpp", "gracilis/methods/rbf/kernel.hpp"), "");
+  EXPECT_NE(objection("methods/method.hpp", "gracilis/methods/xpbd/motion.hpp"), "");
+  EXPECT_NE(objection("geometry/measures.cpp", "vtkPolyData.h"), "");
+  EXPECT_NE(objection("geometry/measures.cpp", "gracilis/elsewhere/file.hpp"), "");
+}
+
+TEST(Includes, downward_ones_are_welcome) {
+  EXPECT_EQ(objection("methods/xpbd/motion.cpp", "gracilis/methods/method.hpp"), "");
+  EXPECT_EQ(objection("methods/xpbd/motion.cpp", "gracilis/methods/xpbd/motion.hpp"), "");
+  EXPECT_EQ(objection("view/preview.cpp", "gracilis/io/mesh_reader.hpp"), "");
+  EXPECT_EQ(objection("io/mesh_writer.cpp", "vtkPolyData.h"), "");
+}
+
+}  // namespace
