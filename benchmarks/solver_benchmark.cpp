@@ -1,0 +1,128 @@
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/methods/xpbd/motion.hpp>
+#include <gracilis/methods/xpbd/preparation.hpp>
+
+#include <state_hash.hpp>
+
+#include "benchmark_hip.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+/// Milliseconds per inner iteration of each muscle, whole and by kind of constraint, at 45 degrees of flexion.
+namespace gracilis {
+namespace {
+
+constexpr Real middle = radians(45);
+
+/// A muscle half way through flexion, in the middle of a solve: neither at rest nor converged.
+struct UnderWay {
+  xpbd::PreparedMuscle muscle;
+  std::vector<FieldPlacement> placements;
+  SolveSettings settings;
+  SurfaceState state;
+};
+
+UnderWay under_way(const Muscle& muscle) {
+  const BenchmarkHip& hip = benchmark_hip();
+  UnderWay u{xpbd::prepare_muscle(hip.scene, muscle, hip.fields), {}, {}, {}};
+  u.settings.iterations = muscle.xpbd.iterations;
+  u.settings.time_step = muscle.xpbd.time_step;
+  u.settings.projection.time_step = static_cast<float>(muscle.xpbd.time_step);
+  u.settings.projection.hinge_limit = static_cast<float>(muscle.xpbd.hinge_limit);
+  u.settings.stretch_limit = static_cast<float>(muscle.xpbd.stretch_limit);
+  u.state = make_state(u.muscle.system);
+  constexpr int frames = 45;
+  Pose before = hip.flexed(0);
+  for (int frame = 0; frame <= frames; ++frame) {
+    const Pose pose = hip.flexed(middle * frame / frames);
+    xpbd::carry_free(u.muscle, before, pose, u.state.particles);
+    xpbd::move_attached(u.muscle, pose, u.state.particles);
+    xpbd::set_target_lengths(u.muscle, pose, u.state.target_length);
+    u.state.start = u.state.particles;
+    u.placements = xpbd::place_fields(u.muscle, pose);
+    SolveSettings settings = u.settings;
+    if (frame == frames) settings.iterations = 3;
+    solve_substep(u.muscle.system, u.placements, settings, u.state);
+    before = pose;
+  }
+  refresh_contacts(u.muscle.system, u.placements, u.state);
+  return u;
+}
+
+const UnderWay& prepared(std::size_t muscle) {
+  static std::vector<std::unique_ptr<UnderWay>> all(benchmark_hip().scene.muscles.size());
+  if (!all[muscle]) all[muscle] = std::make_unique<UnderWay>(under_way(benchmark_hip().scene.muscles[muscle]));
+  return *all[muscle];
+}
+
+/// Iterations that every timing repeats from the same state, so that each does the same work and ends in the same bits.
+constexpr int repeats = 10;
+
+void iterate(benchmark::State& timer, std::size_t index, std::optional<ConstraintKind> kind, int threads) {
+  const UnderWay& begin = prepared(index);
+  const ThreadLimit limit(threads);
+  SurfaceState state = begin.state;
+  SolveReport report;
+  for (auto _ : timer) {
+    state = begin.state;
+    report = {};
+    const auto started = std::chrono::steady_clock::now();
+    for (int i = 0; i < repeats; ++i) {
+      if (kind) {
+        project_kind(*kind, begin.muscle.system, begin.placements, begin.settings, state, report);
+      } else {
+        for (ConstraintKind each : projection_order)
+          project_kind(each, begin.muscle.system, begin.placements, begin.settings, state, report);
+      }
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+    timer.SetIterationTime(elapsed.count() / repeats);
+  }
+  char hash[32];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(hash_of(state.particles.xyzw)));
+  timer.SetLabel(hash);
+  timer.counters["triangles"] = static_cast<double>(benchmark_hip().scene.muscles[index].surface.face_count());
+  if (!kind || *kind == ConstraintKind::bone_contact) timer.counters["contacts"] = report.contacts;
+}
+
+/// What happens once every few iterations beside them: listing what is near the bones.
+void refresh(benchmark::State& timer, std::size_t index, int threads) {
+  const UnderWay& begin = prepared(index);
+  const ThreadLimit limit(threads);
+  SurfaceState state = begin.state;
+  for (auto _ : timer) {
+    const auto started = std::chrono::steady_clock::now();
+    refresh_contacts(begin.muscle.system, begin.placements, state);
+    timer.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count());
+  }
+  std::uint64_t hash = hash_seed;
+  for (const NearField& near : state.near) hash = hash_of(near.edges, hash_of(near.particles, hash));
+  char text[32];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  timer.SetLabel(text);
+}
+
+void add(const std::string& name, const std::function<void(benchmark::State&)>& body) {
+  benchmark::RegisterBenchmark(name.c_str(), body)->UseManualTime()->Unit(benchmark::kMillisecond);
+}
+
+const bool registered = [] {
+  const std::vector<Muscle>& muscles = benchmark_hip().scene.muscles;
+  for (std::size_t m = 0; m < muscles.size(); ++m)
+    for (int threads : {1, 2}) {
+      const std::string end = "/threads:" + std::to_string(threads);
+      const std::string begin = "iteration/" + muscles[m].name + "/";
+      add(begin + "all" + end, [=](benchmark::State& timer) { iterate(timer, m, std::nullopt, threads); });
+      for (ConstraintKind kind : projection_order)
+        add(begin + name_of(kind) + end, [=](benchmark::State& timer) { iterate(timer, m, kind, threads); });
+      add("list_contacts/" + muscles[m].name + end, [=](benchmark::State& timer) { refresh(timer, m, threads); });
+    }
+  return true;
+}();
+
+}  // namespace
+}  // namespace gracilis

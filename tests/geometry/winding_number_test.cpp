@@ -1,0 +1,76 @@
+#include <gracilis/geometry/winding_number.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace gracilis {
+namespace {
+
+/// Without any tree: the sum over all triangles.
+Real exact(const TriangleMesh& mesh, const Vec3& p) {
+  Real sum = 0;
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    sum += solid_angle_share(p, mesh.vertices.col(mesh.faces(0, f)), mesh.vertices.col(mesh.faces(1, f)),
+                             mesh.vertices.col(mesh.faces(2, f)));
+  return sum;
+}
+
+std::vector<Vec3> random_points(int count, Real half_width) {
+  std::mt19937 generator(6);
+  std::uniform_real_distribution<Real> uniform(-half_width, half_width);
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) points.emplace_back(uniform(generator), uniform(generator), uniform(generator));
+  return points;
+}
+
+TriangleMesh without_faces(TriangleMesh mesh, Index count) {
+  mesh.faces = mesh.faces.rightCols(mesh.face_count() - count).eval();
+  return mesh;
+}
+
+}  // namespace
+
+TEST(WindingNumber, is_one_inside_and_zero_outside_of_a_closed_surface) {
+  const WindingNumber winding(shapes::sphere(Vec3::Zero(), 0.05, 4));
+  int inside = 0;
+  for (const Vec3& p : random_points(1000, 0.08)) {
+    if (std::abs(p.norm() - 0.05) < 0.001) continue;
+    EXPECT_NEAR(winding.query(p), p.norm() < 0.05 ? 1 : 0, 0.02);
+    inside += p.norm() < 0.05;
+  }
+  EXPECT_GT(inside, 50);
+}
+
+TEST(WindingNumber, errs_by_less_than_a_fiftieth_on_surfaces_with_holes) {
+  const TriangleMesh mesh = without_faces(shapes::sphere(Vec3::Zero(), 0.05, 4), 300);
+  const WindingNumber winding(mesh);
+  Real between = 0;
+  for (const Vec3& p : random_points(1000, 0.12)) {
+    const Real expected = exact(mesh, p);
+    EXPECT_NEAR(winding.query(p), expected, 0.02);
+    between = std::max(between, std::min(expected, 1 - expected));
+  }
+  EXPECT_GT(between, 0.1) << "the hole was never seen";
+}
+
+TEST(WindingNumber, of_a_surface_turned_inside_out_is_negative) {
+  TriangleMesh mesh = shapes::box(Vec3::Constant(-1), Vec3::Constant(1));
+  mesh.faces.row(0).swap(mesh.faces.row(1));
+  EXPECT_NEAR(WindingNumber(mesh).query(Vec3(0.1, 0.2, 0.3)), -1, 0.02);
+}
+
+TEST(SolidAngle, of_an_octant_is_an_eighth) {
+  EXPECT_NEAR(std::abs(solid_angle_share(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ())), 0.125, 1e-14);
+  EXPECT_NEAR(solid_angle_share(Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()),
+              -solid_angle_share(Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), Vec3::UnitZ()), 1e-14);
+}
+
+TEST(SolidAngle, of_a_degenerate_triangle_or_from_its_corner_is_finite) {
+  EXPECT_NEAR(solid_angle_share(Vec3::UnitZ(), Vec3::UnitX(), Vec3::UnitX(), Vec3::UnitY()), 0, 1e-14);
+  EXPECT_TRUE(std::isfinite(solid_angle_share(Vec3::UnitX(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ())));
+}
+
+}  // namespace gracilis
