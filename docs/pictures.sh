@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the pictures in docs/pictures: docs/pictures.sh. demo.png is the preview of ./demo.sh, scaled by nobody.
+# Makes the pictures in docs/pictures: demo.png is the preview of ./demo.sh, as it is.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -35,13 +35,11 @@ build_jobs() {
 
 # build PRESET [TARGET...]: configures where necessary and builds. Configuring again finds new packages and files.
 build() {
-  local preset=$1
+  local preset=$1 output
   shift
-  cmake --preset "$preset" >"/tmp/gracilis_configure.$$" 2>&1 || {
-    cat "/tmp/gracilis_configure.$$" >&2
-    rm -f "/tmp/gracilis_configure.$$"
+  output=$(cmake --preset "$preset" 2>&1) || {
+    echo "$output" >&2
     exit 1
   }
-  rm -f "/tmp/gracilis_configure.$$"
   cmake --build --preset "$preset" --parallel "$(build_jobs)" ${1:+--target "$@"}
 }
