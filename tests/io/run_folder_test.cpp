@@ -55,7 +55,8 @@ struct TinyRun {
     FrameRecord result;
     result.frame.number = number;
     result.frame.pose = poses[static_cast<std::size_t>(number)];
-    result.frame.muscles = {{scene.muscles[0].surface.vertices * (1 + 0.1 * number)}};
+    result.frame.muscles.resize(1);
+    result.frame.muscles[0].points = scene.muscles[0].surface.vertices * (1 + 0.1 * number);
     result.measures.resize(1);
     result.measures[0].volume_ratio = 1 + 0.001 * number;
     return result;
@@ -193,6 +194,20 @@ TEST(RunFolder, an_interrupted_run_goes_on_after_its_last_whole_frame) {
   EXPECT_FALSE(fs::exists(frame_file(folder.path(), "gluteus_maximus_r", 3)));
   out.write_frame(run.record(3));
   EXPECT_EQ(count_of(content(folder.path() / "measures.csv"), "\n"), 5);
+}
+
+TEST(RunFolder, velocities_are_kept_where_there_are_any) {
+  const TestFolder folder;
+  const TinyRun run;
+  RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
+  FrameRecord moving = run.record(1);
+  moving.frame.muscles[0].velocities = Points::Random(3, 4) / 3;
+  out.write_frame(run.record(0));
+  out.write_frame(moving);
+  EXPECT_EQ(read_frame(folder.path(), run.scene, 0, run.poses[0]).muscles[0].velocities.cols(), 0);
+  const Points read = read_frame(folder.path(), run.scene, 1, run.poses[1]).muscles[0].velocities;
+  ASSERT_EQ(read.cols(), 4);
+  EXPECT_TRUE((read.array() == moving.frame.muscles[0].velocities.array()).all());
 }
 
 TEST(RunFolder, resuming_another_scene_is_an_error) {

@@ -29,6 +29,18 @@ class VtpReader {
     return std::move(mesh_);
   }
 
+  Points read_vectors(const std::string& name) {
+    parse();
+    const pugi::xml_node array = root_.child("PolyData")
+                                     .child("Piece")
+                                     .child("PointData")
+                                     .find_child_by_attribute("DataArray", "Name", name.c_str());
+    if (!array) return Points(3, 0);
+    const std::vector<double> values = numbers(array, name);
+    if (values.size() % 3 != 0) fail("does not hold three numbers for each point", "array " + name);
+    return Eigen::Map<const Points>(values.data(), 3, static_cast<Index>(values.size() / 3));
+  }
+
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& where = "") const {
     throw InputError({storage_.path.string(), where, what, "export the surface again"});
@@ -156,5 +168,9 @@ class VtpReader {
 }  // namespace
 
 PolygonMesh read_vtp(const std::filesystem::path& path) { return VtpReader(path).read(); }
+
+Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name) {
+  return VtpReader(path).read_vectors(name);
+}
 
 }  // namespace gracilis

@@ -8,4 +8,8 @@ namespace gracilis {
 /// number of pieces. VTK's own reader crashes on damaged block sizes, hence this one.
 PolygonMesh read_vtp(const std::filesystem::path& path);
 
+/// The point data `name` of a .vtp of one piece, 3 × n; 3 × 0 when the file has no such array. Throws InputError as
+/// above and when the numbers are not threes.
+Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name);
+
 }  // namespace gracilis

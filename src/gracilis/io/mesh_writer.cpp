@@ -14,18 +14,19 @@
 
 namespace gracilis {
 
-static void add_scalars(const VertexScalars& scalars, vtkPolyData& mesh) {
+static void add_array(const VertexArray& values, vtkPolyData& mesh) {
   vtkNew<vtkDoubleArray> array;
-  array->SetName(scalars.name.c_str());
-  array->SetNumberOfValues(scalars.values.size());
-  std::copy(scalars.values.data(), scalars.values.data() + scalars.values.size(), array->GetPointer(0));
+  array->SetName(values.name.c_str());
+  array->SetNumberOfComponents(values.components);
+  array->SetNumberOfTuples(values.values.size() / values.components);
+  std::copy(values.values.data(), values.values.data() + values.values.size(), array->GetPointer(0));
   mesh.GetPointData()->AddArray(array);
 }
 
 void write_surface(const std::filesystem::path& path, const Points& points, const Eigen::Matrix3Xi& faces,
-                   const std::vector<VertexScalars>& scalars) {
+                   const std::vector<VertexArray>& arrays) {
   const vtkSmartPointer<vtkPolyData> mesh = to_vtk(points, faces);
-  for (const VertexScalars& each : scalars) add_scalars(each, *mesh);
+  for (const VertexArray& each : arrays) add_array(each, *mesh);
   write_file_atomically(path, [&](const std::filesystem::path& temporary) {
     VtkMessages messages;
     vtkNew<vtkXMLPolyDataWriter> writer;

@@ -5,6 +5,7 @@
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/measures_table.hpp>
 #include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh_writer.hpp>
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@
 namespace gracilis {
 
 namespace fs = std::filesystem;
+
+static constexpr const char* velocity_name = "velocity";
 
 fs::path frame_file(const fs::path& folder, const std::string& name, int number) {
   return folder / "frames" / fmt::format("{}_{:04}.vtp", name, number);
@@ -52,9 +55,15 @@ Frame read_frame(const fs::path& folder, const Scene& scene, int number, const P
                                     muscle.surface.vertex_count()),
                         "resume with the scene that the run was started with"});
     }
-    frame.muscles.push_back({mesh.vertices});
+    frame.muscles.push_back({mesh.vertices, read_vtp_vectors(path, velocity_name)});
   }
   return frame;
+}
+
+/// What a run resumes with in dynamic mode, and ParaView's glyphs show.
+static std::vector<VertexArray> velocity_array(const MuscleShape& shape) {
+  if (shape.velocities.cols() == 0) return {};
+  return {{velocity_name, shape.velocities.reshaped(), 3}};
 }
 
 static void create_folders(const fs::path& folder) {
@@ -118,8 +127,9 @@ void RunFolder::write_frame(const FrameRecord& record) {
     for (Index i = begin; i < end; ++i) {
       if (i < muscle_count) {
         const Muscle& muscle = scene_.muscles[static_cast<std::size_t>(i)];
-        write_surface(frame_file(folder_, muscle.name, frame.number), frame.muscles[static_cast<std::size_t>(i)].points,
-                      muscle.surface.faces);
+        const MuscleShape& shape = frame.muscles[static_cast<std::size_t>(i)];
+        write_surface(frame_file(folder_, muscle.name, frame.number), shape.points, muscle.surface.faces,
+                      velocity_array(shape));
       } else {
         const Bone& bone = scene_.bones[static_cast<std::size_t>(i - muscle_count)];
         const RigidTransform& motion = frame.pose.bodies[static_cast<std::size_t>(bone.body)];

@@ -10,6 +10,8 @@ namespace gracilis {
 /// One muscle's shape at one instant.
 struct MuscleShape {
   Points points;  ///< 3 × n, m, the muscle's surface vertices in the scene's order
+  /// 3 × n, m/s: what a method carries into the next frame, beyond the motion of the bones; empty where it carries none.
+  Points velocities = Points(3, 0);
 };
 
 /// Everything a method reports for one instant.

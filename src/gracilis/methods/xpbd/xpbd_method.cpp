@@ -34,11 +34,15 @@ static SolveSettings solve_settings(const XpbdSettings& settings) {
   return solve;
 }
 
+static Eigen::Map<Eigen::Vector3f> velocity_of(SurfaceState& state, Index p) {
+  return Eigen::Map<Eigen::Vector3f>(state.velocities.data() + 3 * static_cast<std::size_t>(p));
+}
+
 /// x += dt v + dt² g, v the damped velocity (dynamic mode).
 static void coast(const XpbdSettings& settings, float time_step, SurfaceState& state) {
   for (Index p = 0; p < state.particles.count(); ++p) {
     if (!(state.particles.inverse_mass(p) > 0)) continue;
-    Eigen::Map<Eigen::Vector3f> velocity(state.velocities.data() + 3 * static_cast<std::size_t>(p));
+    Eigen::Map<Eigen::Vector3f> velocity = velocity_of(state, p);
     velocity = static_cast<float>(settings.damping) * velocity + time_step * settings.gravity.cast<float>();
     state.particles.position(p) += time_step * velocity;
   }
@@ -46,8 +50,16 @@ static void coast(const XpbdSettings& settings, float time_step, SurfaceState& s
 
 static void take_velocities(float time_step, SurfaceState& state) {
   for (Index p = 0; p < state.particles.count(); ++p)
-    Eigen::Map<Eigen::Vector3f>(state.velocities.data() + 3 * static_cast<std::size_t>(p)) =
-        (state.particles.position(p) - state.start.position(p)) / time_step;
+    velocity_of(state, p) = (state.particles.position(p) - state.start.position(p)) / time_step;
+}
+
+/// Into the scene's order; nothing in quasi-static mode, which carries no velocity.
+static void write_velocities(const PreparedMuscle& muscle, const SurfaceState& state, Points& velocities) {
+  const bool carried = muscle.settings.time_mode == TimeMode::dynamic;
+  velocities.resize(3, carried ? muscle.rest.cols() : 0);
+  for (Index p = 0; p < velocities.cols(); ++p)
+    velocities.col(muscle.order[static_cast<std::size_t>(p)]) =
+        Eigen::Map<const Eigen::Vector3f>(state.velocities.data() + 3 * static_cast<std::size_t>(p)).cast<Real>();
 }
 
 static Real farthest(const Particles& from, const Particles& to) {
@@ -182,6 +194,7 @@ class XpbdMethod final : public DeformationMethod {
       for (Index p = 0; p < muscle.rest.cols(); ++p)
         points.col(muscle.order[static_cast<std::size_t>(p)]) =
             states_[m].particles.position(p).cast<Real>() + muscle.origin;
+      write_velocities(muscle, states_[m], frame.muscles[m].velocities);
     }
   }
 
@@ -196,8 +209,15 @@ class XpbdMethod final : public DeformationMethod {
       };
       place(before, state.start);
       place(last, state.particles);
-      if (muscle.settings.predictor) carry_free(muscle, before.pose, last.pose, state.start);
-      take_velocities(static_cast<float>(muscle.settings.time_step), state);
+      if (last.muscles[m].velocities.cols() == muscle.rest.cols()) {
+        for (Index p = 0; p < muscle.rest.cols(); ++p)
+          velocity_of(state, p) =
+              last.muscles[m].velocities.col(muscle.order[static_cast<std::size_t>(p)]).cast<float>();
+      } else {
+        // The mean over the frame is all that two shapes can tell.
+        if (muscle.settings.predictor) carry_free(muscle, before.pose, last.pose, state.start);
+        take_velocities(static_cast<float>(muscle.settings.time_step), state);
+      }
       states_[m] = std::move(state);
     }
     pose_ = last.pose;
