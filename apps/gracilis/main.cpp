@@ -2,6 +2,7 @@
 #include "console.hpp"
 #include "demo_command.hpp"
 #include "exit_handling.hpp"
+#include "fibers_command.hpp"
 #include "inspect_command.hpp"
 #include "print_config_command.hpp"
 #include "run_command.hpp"
@@ -24,6 +25,7 @@ int main(int count, char** arguments) {
   Command chosen;
   add_demo_command(program, words, chosen);
   add_run_command(program, words, chosen);
+  add_fibers_command(program, chosen);
   add_print_config_command(program, chosen);
   add_inspect_command(program, chosen);
   try {

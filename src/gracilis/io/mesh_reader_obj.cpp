@@ -42,7 +42,7 @@ PolygonMesh read_obj(const std::filesystem::path& path) {
       }
       mesh.end_polygon();
     } else if (keyword == "l") {
-      ++mesh.lines;
+      mesh.lines.emplace_back();
     }
   }
   return mesh;

@@ -137,7 +137,7 @@ PolygonMesh read_legacy_vtk(const std::filesystem::path& path) {
     } else if (keyword == "triangle_strips") {
       for (const std::vector<std::int64_t>& cell : read_cells(encoding, reader)) mesh.add_strip(cell);
     } else if (keyword == "lines") {
-      mesh.lines += read_cells(encoding, reader).size();
+      for (std::vector<std::int64_t>& cell : read_cells(encoding, reader)) mesh.lines.push_back(std::move(cell));
     } else if (keyword == "vertices") {
       read_cells(encoding, reader);
     } else if (keyword == "field") {

@@ -153,7 +153,8 @@ class VtpReader {
     });
     read_cells(piece.child("Strips"), count("NumberOfStrips"), first_vertex,
                [&](const std::vector<std::int64_t>& cell) { mesh_.add_strip(cell); });
-    mesh_.lines += count("NumberOfLines");
+    read_cells(piece.child("Lines"), count("NumberOfLines"), first_vertex,
+               [&](const std::vector<std::int64_t>& cell) { mesh_.lines.push_back(cell); });
   }
 
   std::string text_;

@@ -62,7 +62,7 @@ TriangleMesh triangulated(const PolygonMesh& polygons, Real unit, const std::fil
   const std::size_t limit = std::numeric_limits<Index>::max() / 3;
   if (polygons.coordinates.empty()) fail("holds no vertices", "export the surface again");
   if (polygons.ends.empty()) {
-    fail(polygons.lines > 0 ? "holds lines but no surface" : "holds vertices but no faces",
+    fail(!polygons.lines.empty() ? "holds lines but no surface" : "holds vertices but no faces",
          "export a triangle surface");
   }
   if (polygons.coordinates.size() / 3 > limit || polygons.corners.size() > limit) {

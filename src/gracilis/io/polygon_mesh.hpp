@@ -10,10 +10,10 @@ namespace gracilis {
 
 /// A surface as files hold it: polygons of any size, indices not yet checked.
 struct PolygonMesh {
-  std::vector<double> coordinates;    ///< x y z x y z ...
-  std::vector<std::int64_t> corners;  ///< of all polygons, one after the other
-  std::vector<std::size_t> ends;      ///< per polygon: where its corners end
-  std::size_t lines = 0;              ///< polylines left out
+  std::vector<double> coordinates;               ///< x y z x y z ...
+  std::vector<std::int64_t> corners;             ///< of all polygons, one after the other
+  std::vector<std::size_t> ends;                 ///< per polygon: where its corners end
+  std::vector<std::vector<std::int64_t>> lines;  ///< the points of each polyline; no part of the surface
 
   /// Ends the polygon whose corners were just added.
   void end_polygon() { ends.push_back(corners.size()); }

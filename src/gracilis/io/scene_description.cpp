@@ -121,12 +121,27 @@ static AttachmentDescription read_attachment(TomlReader table) {
   return result;
 }
 
-static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& global) {
+static void read_fibers(TomlReader table, MuscleDescription& muscle) {
+  table.read_settings(muscle.fibers);
+  if (const std::optional<std::string> file = table.text("file")) muscle.fiber_file = named_file(table, *file);
+  const std::string kind = table.text("lines").value_or("inner");
+  muscle.superficial_fibers = kind == "superficial";
+  if (kind != "inner" && kind != "superficial") {
+    table.add_problem("lines", "'lines' must be \"inner\" or \"superficial\"");
+  } else if (table.has("lines") && muscle.fiber_file.path.empty()) {
+    table.add_problem("lines", "'lines' says what the key 'file' holds, which is missing");
+  }
+  table.reject_unknown_keys();
+}
+
+static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& global, const FiberSettings& fibers) {
   MuscleDescription muscle;
   muscle.place = table.place();
   muscle.name = table.required_text("name");
   muscle.file = named_file(table, table.required_text("file"));
   muscle.xpbd = global;
+  muscle.fibers = fibers;
+  if (std::optional<TomlReader> own = table.table("fibers")) read_fibers(std::move(*own), muscle);
   if (std::optional<TomlReader> settings = table.table("settings")) {
     settings->read_settings(muscle.xpbd);
     settings->reject_unknown_keys();
@@ -271,13 +286,16 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   read_section(top, "settings", global);
   read_section(top, "distance_field", scene.distance_fields);
   read_section(top, "sequence", scene.sequence);
+  FiberSettings fibers;
+  read_section(top, "fibers", fibers);
   if (std::optional<TomlReader> landmarks = top.table("landmarks")) {
     scene.landmarks = named_file(*landmarks, landmarks->required_text("file"));
     landmarks->reject_unknown_keys();
   }
   for (TomlReader& bone : top.tables("bones")) scene.bones.push_back(read_bone(std::move(bone)));
   for (TomlReader& joint : top.tables("joints")) scene.joints.push_back(read_joint(std::move(joint)));
-  for (TomlReader& muscle : top.tables("muscles")) scene.muscles.push_back(read_muscle(std::move(muscle), global));
+  for (TomlReader& muscle : top.tables("muscles"))
+    scene.muscles.push_back(read_muscle(std::move(muscle), global, fibers));
   if (std::optional<TomlReader> motion = top.table("motion")) scene.motion = read_motion(std::move(*motion));
   check_references(scene, problems);
   const Problem only_place = top.has("only") ? place_of(*top.find("only")) : Problem{};

@@ -44,6 +44,9 @@ struct MuscleDescription {
   std::string name;
   NamedFile file;
   XpbdSettings xpbd;
+  FiberSettings fibers;
+  NamedFile fiber_file;             ///< empty path: none
+  bool superficial_fibers = false;  ///< the file's lines lie on the surface
   std::vector<AttachmentDescription> attachments;
   Problem place;
 };

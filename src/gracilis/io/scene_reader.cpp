@@ -3,6 +3,7 @@
 #include <gracilis/io/data_root.hpp>
 #include <gracilis/io/landmarks.hpp>
 #include <gracilis/io/load_surface.hpp>
+#include <gracilis/io/polyline_file.hpp>
 #include <gracilis/io/scene_description.hpp>
 #include <gracilis/io/scene_reader.hpp>
 #include <gracilis/io/suggestions.hpp>
@@ -155,6 +156,13 @@ class SceneBuilder {
     Muscle& muscle = result_.scene.muscles.emplace_back();
     muscle.name = description.name;
     muscle.xpbd = description.xpbd;
+    muscle.fibers = description.fibers;
+    if (!description.fiber_file.path.empty()) {
+      read(description.fiber_file, [&](const fs::path& path) {
+        muscle.given_fibers = read_polylines(path, description.fiber_file.unit);
+        muscle.given_are_superficial = description.superficial_fibers;
+      });
+    }
     if (!read_surface(description.file, SurfaceRole::muscle, muscle.surface)) return;
     for (const AttachmentDescription& attachment : description.attachments) {
       if (attachment.vertices.empty()) continue;

@@ -87,6 +87,12 @@ unit = "mm"
 [muscles.settings]
 distance_stiffness = 5.0
 
+# Optional: any key of [fibers] below, for this muscle alone; and
+# file = "fibers.vtp"     # lines to use instead (.vtk or .vtp), with unit = "m" (default), "cm" or "mm"
+# lines = "superficial"   # "inner" (default): they are the fibers; "superficial": they lie on the surface, fill it in
+[muscles.fibers]
+count = 100
+
 # At least one origin and one insertion. Which vertices are held follows from the keys given, in one of four ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.
 [[muscles.attachments]]
@@ -138,7 +144,8 @@ std::string scene_template() {
   return head + preset_section() + elements +
          "# How a run goes from the capture pose into the motion and out of it.\n" + section<Sequence>("sequence") +
          "# Distance fields of all bones.\n" + section<DistanceFieldSettings>("distance_field") +
-         "# The XPBD method, for all muscles.\n" + section<XpbdSettings>("settings");
+         "# Fibers inside all muscles.\n" + section<FiberSettings>("fibers") + "# The XPBD method, for all muscles.\n" +
+         section<XpbdSettings>("settings");
 }
 
 template <class Settings>
@@ -151,7 +158,8 @@ static std::string values(const std::string& title, const Settings& settings) {
 std::string settings_text(const Scene& scene) {
   std::string text = values("[sequence]", scene.sequence) + values("[distance_field]", scene.distance_fields);
   for (const Muscle& muscle : scene.muscles) {
-    text += "[[muscles]]\nname = \"" + muscle.name + "\"\n" + values("[muscles.settings]", muscle.xpbd);
+    text += "[[muscles]]\nname = \"" + muscle.name + "\"\n" + values("[muscles.settings]", muscle.xpbd) +
+            values("[muscles.fibers]", muscle.fibers);
   }
   return text;
 }

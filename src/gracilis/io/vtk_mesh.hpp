@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
+#include <gracilis/geometry/polylines.hpp>
 
 #include <vtkSmartPointer.h>
 
@@ -10,5 +11,8 @@ namespace gracilis {
 
 /// The arrays as VTK's mesh type: double points, 32-bit triangle indices. Copies.
 vtkSmartPointer<vtkPolyData> to_vtk(const Points& points, const Eigen::Matrix3Xi& faces);
+
+/// The same for lines.
+vtkSmartPointer<vtkPolyData> to_vtk(const Polylines& lines);
 
 }  // namespace gracilis

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
+#include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/scene/fiber_settings.hpp>
 #include <gracilis/scene/settings.hpp>
 
 #include <string>
@@ -18,10 +20,10 @@ struct Bone {
 
 /// One rotation of a joint, about an axis fixed in the frame left by the rotations before it.
 struct JointAxis {
-  std::string coordinate;              ///< OpenSim's name, e.g. hip_flexion_r
-  Vec3 axis = Vec3::UnitZ();           ///< unit, in the joint's frame
-  Real capture_value = 0;              ///< rad, at which the meshes were captured
-  Real range_min = -pi;                ///< rad; a motion may leave the range, with a warning
+  std::string coordinate;     ///< OpenSim's name, e.g. hip_flexion_r
+  Vec3 axis = Vec3::UnitZ();  ///< unit, in the joint's frame
+  Real capture_value = 0;     ///< rad, at which the meshes were captured
+  Real range_min = -pi;       ///< rad; a motion may leave the range, with a warning
   Real range_max = pi;
 };
 
@@ -51,6 +53,10 @@ struct Muscle {
   TriangleMesh surface;  ///< closed, oriented outwards
   std::vector<Attachment> attachments;
   XpbdSettings xpbd;
+  FiberSettings fibers;
+  Polylines given_fibers;  ///< from outside; where there are any, none are made from the template
+  bool given_are_superficial =
+      false;  ///< given_fibers lie on the surface and are to be filled in, not used as they are
 };
 
 /// Coordinate values over time; a row is a pose. Coordinates not named keep their capture value.
@@ -63,8 +69,8 @@ struct Motion {
 
 /// How a run goes from the capture pose (frame 0) into the motion and out of it.
 struct Sequence {
-  int ramp_frames = 0;         ///< between the capture pose and the motion's first pose; 0: as many as 1 degree each needs
-  int hold_frames = 0;         ///< the motion's last pose repeated
+  int ramp_frames = 0;  ///< between the capture pose and the motion's first pose; 0: as many as 1 degree each needs
+  int hold_frames = 0;  ///< the motion's last pose repeated
   bool return_to_capture = false;  ///< ramp back to the capture pose at the end
 };
 
@@ -73,7 +79,7 @@ struct Scene {
   std::string name;
   std::vector<std::string> bodies;  ///< names; bodies[0] is fixed in the world
   std::vector<Bone> bones;
-  std::vector<Joint> joints;        ///< parents before children
+  std::vector<Joint> joints;  ///< parents before children
   std::vector<Muscle> muscles;
   Motion motion;
   Sequence sequence;

@@ -27,7 +27,8 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"distance_stiffness", &S::distance_stiffness, "N/m", 0, 1e18,
        "Stiffness of the surface's edges against stretch."},
       {"distance_shape_scaling", &S::distance_shape_scaling, "", 0, 0,
-       "Scales each edge's stiffness by A/l² (l its length, A its two triangles), which makes it independent of the mesh."},
+       "Scales each edge's stiffness by A/l² (l its length, A its two triangles), which makes it independent of the "
+       "mesh."},
       {"fiber_anisotropy", &S::fiber_anisotropy, "", 0, 0,
        "Scales each edge's stiffness by 1 - |u·v|, u along the edge and v along the fibers."},
       {"anisotropy_floor", &S::anisotropy_floor, "", 0, 1, "Smallest factor that the anisotropy may reach."},
@@ -67,6 +68,25 @@ std::span<const Setting<DistanceFieldSettings>> setting_table() {
       {"resolution", &S::resolution, "", 0, 1024, "Cells along each axis; 0 takes cell_size instead."},
       {"domain_margin", &S::domain_margin, "m", 0, 1, "Width of the grid around the bone's bounding box."},
       {"domain_factor", &S::domain_factor, "", 1, 10, "The bounding box is scaled by this about its center first."},
+  };
+  return table;
+}
+
+template <>
+std::span<const Setting<FiberSettings>> setting_table() {
+  using S = FiberSettings;
+  static const Setting<S> table[] = {
+      {"count", &S::count, "", 0, 100000, "Fibers inside the muscle; 0 makes none."},
+      {"segments", &S::segments, "", 1, 10000, "Pieces of each fiber."},
+      {"shape", &S::shape, "", 0, 0,
+       "How fibers run from origin to insertion: side by side, at an angle, in arcs, or drawn together at the "
+       "insertion."},
+      {"pennation", &S::pennation, "rad", -1.2, 1.2, "Angle of pennate fibers to the muscle's axis."},
+      {"curvature", &S::curvature, "", -0.5, 0.5,
+       "Largest deflection of curved fibers, as a share of the muscle's width."},
+      {"convergence", &S::convergence, "", 0, 1,
+       "How far a fan draws together at the insertion: 0 not at all, 1 to a point."},
+      {"smoothing", &S::smoothing, "", 0, 10000, "Rounds of smoothing; the fibers' ends stay in place."},
   };
   return table;
 }

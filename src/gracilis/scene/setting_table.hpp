@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/scene/fiber_settings.hpp>
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/scene/settings.hpp>
 
@@ -10,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-/// What users may set, said once: key, unit, range and meaning of each member of XpbdSettings, DistanceFieldSettings
-/// and Sequence. Scene files, `--set`, `print-config` and the manifest of a run all read these tables. The default is
-/// the member's initializer.
+/// What users may set, said once: key, unit, range and meaning of each member of XpbdSettings, DistanceFieldSettings,
+/// FiberSettings and Sequence. Scene files, `--set`, `print-config` and the manifest of a run all read these tables.
+/// The default is the member's initializer.
 namespace gracilis {
 
 /// A setting's value outside its struct; choices such as a TimeMode are strings.
@@ -22,7 +23,7 @@ using SettingValue = std::variant<bool, int, Real, Vec3, std::string>;
 template <class Settings>
 struct Setting {
   using Member = std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*,
-                              TimeMode Settings::*, DihedralFormula Settings::*>;
+                              TimeMode Settings::*, DihedralFormula Settings::*, FiberTemplate Settings::*>;
   std::string_view key;
   Member member;
   std::string_view unit;  ///< empty for numbers without one and for switches
@@ -31,13 +32,15 @@ struct Setting {
   std::string_view meaning;  ///< one sentence
 };
 
-/// The table of one struct, in the order in which it is shown. Defined for the three structs named above.
+/// The table of one struct, in the order in which it is shown. Defined for the structs named above.
 template <class Settings>
 std::span<const Setting<Settings>> setting_table();
 template <>
 std::span<const Setting<XpbdSettings>> setting_table();
 template <>
 std::span<const Setting<DistanceFieldSettings>> setting_table();
+template <>
+std::span<const Setting<FiberSettings>> setting_table();
 template <>
 std::span<const Setting<Sequence>> setting_table();
 

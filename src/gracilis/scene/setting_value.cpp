@@ -9,6 +9,9 @@ namespace gracilis {
 // The names of choices, in the order of their enumerations.
 static constexpr std::array<std::string_view, 2> choices_of(TimeMode) { return {"quasi_static", "dynamic"}; }
 static constexpr std::array<std::string_view, 2> choices_of(DihedralFormula) { return {"atan2", "arccos"}; }
+static constexpr std::array<std::string_view, 4> choices_of(FiberTemplate) {
+  return {"parallel", "pennate", "curved", "fan"};
+}
 
 template <class T>
 constexpr bool is_choice = std::is_enum_v<T>;
@@ -122,12 +125,15 @@ std::string assign(Settings& settings, const Setting<Settings>& setting, const S
 
 template SettingValue value_of(const XpbdSettings&, const Setting<XpbdSettings>&);
 template SettingValue value_of(const DistanceFieldSettings&, const Setting<DistanceFieldSettings>&);
+template SettingValue value_of(const FiberSettings&, const Setting<FiberSettings>&);
 template SettingValue value_of(const Sequence&, const Setting<Sequence>&);
 template std::string expectation(const Setting<XpbdSettings>&);
 template std::string expectation(const Setting<DistanceFieldSettings>&);
+template std::string expectation(const Setting<FiberSettings>&);
 template std::string expectation(const Setting<Sequence>&);
 template std::string assign(XpbdSettings&, const Setting<XpbdSettings>&, const SettingValue&);
 template std::string assign(DistanceFieldSettings&, const Setting<DistanceFieldSettings>&, const SettingValue&);
+template std::string assign(FiberSettings&, const Setting<FiberSettings>&, const SettingValue&);
 template std::string assign(Sequence&, const Setting<Sequence>&, const SettingValue&);
 
 }  // namespace gracilis

@@ -151,6 +151,8 @@ struct Validation {
       const std::string where = "muscle '" + muscle.name + "'";
       check_surface(where, muscle.surface);
       check_settings(where, muscle.xpbd);
+      check_settings(where, muscle.fibers);
+      if (!muscle.given_fibers.points.allFinite()) add(where, "a point of its fibers is not finite");
       std::map<Index, const Attachment*> owners;
       for (const Attachment& attachment : muscle.attachments) {
         check_attachment(where + ", attachment '" + attachment.name + "'", muscle, attachment, owners);

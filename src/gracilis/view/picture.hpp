@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
+#include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 #include <gracilis/view/palette.hpp>
 
@@ -19,10 +20,18 @@ struct PaintedSurface {
   bool framed = true;  ///< false: the picture makes no room for it and may cut it off
 };
 
+/// Lines of a picture, such as fibers; never in the legend, and no room is made for them.
+struct PaintedLines {
+  Polylines lines;
+  Color color = Color::Zero();
+  int width = 2;  ///< pixels
+};
+
 /// One view of some surfaces, with a caption below it.
 struct Panel {
   std::string caption;
   std::vector<PaintedSurface> surfaces;
+  std::vector<PaintedLines> lines = {};
   Vec3 looking = Vec3::UnitY();  ///< direction in which the camera looks, world frame
   Vec3 up = Vec3::UnitZ();       ///< points up in the picture; not parallel to `looking`
 };

@@ -59,6 +59,18 @@ static void add_surface(const PaintedSurface& surface, vtkRenderer& renderer) {
   renderer.AddActor(actor);
 }
 
+static void add_lines(const PaintedLines& lines, int scale, vtkRenderer& renderer) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(to_vtk(lines.lines));
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(lines.color.x(), lines.color.y(), lines.color.z());
+  actor->GetProperty()->SetLineWidth(static_cast<float>(lines.width * scale));
+  actor->GetProperty()->LightingOff();
+  renderer.AddActor(actor);
+}
+
 /// Three lights fixed to the camera: key from the upper left, weaker fill from the right, rim from behind and above.
 static void add_lights(vtkRenderer& renderer) {
   struct CameraLight {
@@ -158,6 +170,7 @@ void add_renderers(const Picture& picture, const PictureLayout& layout, int scal
       renderer->SetMaximumNumberOfPeels(8);
     }
     for (const PaintedSurface& surface : panel.surfaces) add_surface(surface, *renderer);
+    for (const PaintedLines& lines : panel.lines) add_lines(lines, scale, *renderer);
     add_lights(*renderer);
     place_camera(layout.cameras[i], layout.half_height, *renderer);
     if (layout.captions[i].height == 0) continue;

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <gracilis/io/scene_reader.hpp>
+
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+
+namespace gracilis {
+
+/// Adds SCENE, --data, --set and --only to a command that reads a scene file.
+void add_scene_options(CLI::App& command, std::filesystem::path& file, SceneOptions& options);
+
+}  // namespace gracilis

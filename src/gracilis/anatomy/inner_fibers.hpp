@@ -1,0 +1,32 @@
+#pragma once
+
+#include <gracilis/geometry/polylines.hpp>
+#include <gracilis/geometry/section_map.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// A muscle cut into cross-sections from origin to insertion, on which a template of fibers can be mapped.
+struct Sections {
+  std::vector<SectionMap> maps;
+  std::vector<Real> shares;  ///< per section: its share of the way from origin to insertion, in (0, 1), ascending
+  Real slenderness = 1;      ///< length over width along the first axis of the unit square
+  int left_out = 0;          ///< levels whose contour is not one closed line around the muscle
+};
+
+/// Cuts a muscle along isocontours of the harmonic field that is 0 on its origin and 1 on its insertion (template
+/// decomposition, Kohout and Kukačka 2014). The levels have equal areas of surface between them. A consistent angular
+/// parameter runs around all contours: each begins where its points come nearest to those of the contour before. Levels
+/// with a second contour longer than a quarter of the first, such as between two heads, are left out.
+Sections cut_into_sections(const Muscle& muscle, int levels = 32);
+
+/// The fibers of a muscle by template decomposition: `muscle.fibers.count` lines of `muscle.fibers.segments` pieces.
+/// Each starts in the origin, passes its template's point in every section, ends in the insertion, and stays inside.
+/// The ends spread evenly over the attachments; which fiber goes to which is the assignment with the least sum of
+/// squared distances. Smoothed with their ends in place. Deterministic for any number of threads. Requires an origin
+/// and an insertion; empty when the count is 0.
+Polylines inner_fibers(const Muscle& muscle);
+
+}  // namespace gracilis

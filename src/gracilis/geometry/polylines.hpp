@@ -1,0 +1,42 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// Open lines through points, one after the other: line i has the points offsets[i] ... offsets[i + 1] - 1.
+struct Polylines {
+  Points points;                     ///< 3 × n, m
+  std::vector<Index> offsets = {0};  ///< one more than there are lines
+
+  Index count() const { return static_cast<Index>(offsets.size()) - 1; }
+  Index begin(Index line) const { return offsets[static_cast<std::size_t>(line)]; }
+  Index end(Index line) const { return offsets[static_cast<std::size_t>(line) + 1]; }
+  Index size(Index line) const { return end(line) - begin(line); }
+  /// The points of one line, 3 × its size.
+  Points line(Index line) const { return points.middleCols(begin(line), size(line)); }
+  void append(const Points& line);
+};
+
+/// All lines in one, in their order.
+Polylines join(const std::vector<Points>& lines);
+
+/// Sum of the lengths of a line's segments, m.
+Real polyline_length(const Points& line);
+
+/// The length of every line, m.
+std::vector<Real> polyline_lengths(const Polylines& lines);
+
+/// A line of `segments` pieces between points at equal distances along the given one; first and last stay. A single
+/// point is repeated. Preconditions: at least one point, segments > 0.
+Points resampled(const Points& line, Index segments);
+
+/// A centripetal Catmull-Rom spline through the points (Yuksel et al. 2011), `pieces` points per span and the last
+/// one: it passes through every given point, is continuously differentiable, and has neither loops nor cusps between
+/// two of them. Coinciding neighbors are merged. The ends are those given. Preconditions: at least one point, pieces >
+/// 0.
+Points centripetal_spline(const Points& knots, Index pieces);
+
+}  // namespace gracilis

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+namespace gracilis {
+
+/// How fibers run through the unit cube that is mapped into a muscle; its third axis leads from origin to insertion.
+enum class FiberTemplate {
+  parallel,  ///< straight along the cube
+  pennate,   ///< straight, at an angle to the cube's axis
+  curved,    ///< arcs that bulge to one side
+  fan        ///< converge towards the insertion
+};
+
+/// The fibers of one muscle. Defaults, units and ranges: setting_table<FiberSettings>().
+struct FiberSettings {
+  int count = 100;    ///< fibers; 0: none
+  int segments = 15;  ///< of each fiber
+  FiberTemplate shape = FiberTemplate::parallel;
+  Real pennation = 0.26;   ///< rad, angle of the pennate template to the muscle's axis
+  Real curvature = 0.2;    ///< largest deflection of the curved template, as a share of the muscle's width
+  Real convergence = 0.5;  ///< how far the fan template draws together at the insertion, 0: not, 1: to a point
+  int smoothing = 30;      ///< rounds of smoothing
+};
+
+}  // namespace gracilis
