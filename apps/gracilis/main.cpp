@@ -4,6 +4,7 @@
 #include "exit_handling.hpp"
 #include "fibers_command.hpp"
 #include "inspect_command.hpp"
+#include "prepare_command.hpp"
 #include "print_config_command.hpp"
 #include "run_command.hpp"
 
@@ -28,6 +29,7 @@ int main(int count, char** arguments) {
   add_fibers_command(program, chosen);
   add_print_config_command(program, chosen);
   add_inspect_command(program, chosen);
+  add_prepare_command(program, chosen);
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {

@@ -16,7 +16,7 @@ namespace {
 
 const std::map<std::string, int> ranks = {{"core", 0},    {"geometry", 1}, {"dynamics", 2}, {"scene", 2},
                                           {"anatomy", 3}, {"methods", 4},  {"simulate", 5}, {"io", 6},
-                                          {"view", 7},    {"apps", 8}};
+                                          {"prepare", 6}, {"view", 7},     {"apps", 8}};
 
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
 const std::vector<std::string> toolkit_libraries = {"vtk",  "fmt/",     "spdlog/", "toml++/", "nlohmann/",
@@ -33,6 +33,7 @@ std::vector<std::string> folders_of(const std::string& path) {
 std::string objection(const std::string& from, const std::string& included) {
   const std::vector<std::string> own = folders_of(from);
   const int rank = ranks.at(own.at(0));
+  if (included.starts_with("CGAL/")) return own[0] == "prepare" ? "" : "CGAL, which is for 'prepare' alone";
   if (!included.starts_with("gracilis/")) {
     const bool of_toolkit = std::any_of(toolkit_libraries.begin(), toolkit_libraries.end(),
                                         [&](const std::string& start) { return included.starts_with(start); });
@@ -89,6 +90,7 @@ TEST(Includes, upward_and_sideways_ones_would_be_found) {
   EXPECT_NE(objection("methods/xpbd/motion.cpp", "gracilis/methods/rbf/kernel.hpp"), "");
   EXPECT_NE(objection("methods/method.hpp", "gracilis/methods/xpbd/motion.hpp"), "");
   EXPECT_NE(objection("geometry/measures.cpp", "vtkPolyData.h"), "");
+  EXPECT_NE(objection("geometry/measures.cpp", "CGAL/Surface_mesh.h"), "");
   EXPECT_NE(objection("geometry/measures.cpp", "gracilis/elsewhere/file.hpp"), "");
 }
 

@@ -288,6 +288,7 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   read_section(top, "sequence", scene.sequence);
   FiberSettings fibers;
   read_section(top, "fibers", fibers);
+  if (top.has("prepare")) read_section(top, "prepare", scene.prepare.emplace());
   if (std::optional<TomlReader> landmarks = top.table("landmarks")) {
     scene.landmarks = named_file(*landmarks, landmarks->required_text("file"));
     landmarks->reject_unknown_keys();

@@ -5,6 +5,7 @@
 #include <gracilis/scene/scene.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,7 @@ struct SceneDescription {
   MotionDescription motion;
   Sequence sequence;
   DistanceFieldSettings distance_fields;
+  std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
   NamedFile landmarks;
   std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
   std::vector<std::string> notes;

@@ -144,13 +144,14 @@ static toml::table layer_of(const std::string& setting, const std::vector<std::s
   if (dot != std::string::npos) key = key.substr(dot + 1);
   toml::table entries;
   insert_moved(entries, toml::key(key), *value.get("value"));
-  if (owner == "settings" || owner == "distance_field" || owner == "sequence" || owner == "fibers") {
+  if (owner == "settings" || owner == "distance_field" || owner == "sequence" || owner == "fibers" ||
+      owner == "prepare") {
     layer.insert(owner, std::move(entries));
     return layer;
   }
   if (std::find(muscles.begin(), muscles.end(), owner) == muscles.end()) {
     std::vector<std::string> owners = muscles;
-    owners.insert(owners.end(), {"settings", "distance_field", "sequence", "fibers"});
+    owners.insert(owners.end(), {"settings", "distance_field", "sequence", "fibers", "prepare"});
     throw ConfigurationError({source, "", "the scene has no muscle '" + owner + "'", suggestion(owner, owners)});
   }
   toml::table muscle;

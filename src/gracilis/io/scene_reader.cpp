@@ -1,9 +1,12 @@
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/io/data_root.hpp>
+#include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/landmarks.hpp>
 #include <gracilis/io/load_surface.hpp>
+#include <gracilis/io/mesh_reader.hpp>
 #include <gracilis/io/polyline_file.hpp>
+#include <gracilis/io/prepared_cache.hpp>
 #include <gracilis/io/scene_description.hpp>
 #include <gracilis/io/scene_reader.hpp>
 #include <gracilis/io/suggestions.hpp>
@@ -24,8 +27,8 @@ namespace {
 /// One scene on its way from its description to its values; collects the problems of each phase.
 class SceneBuilder {
  public:
-  SceneBuilder(const SceneDescription& description, fs::path data_root)
-      : description_(description), data_root_(std::move(data_root)) {}
+  SceneBuilder(const SceneDescription& description, fs::path data_root, const SceneOptions& options)
+      : description_(description), data_root_(std::move(data_root)), options_(options) {}
 
   LoadedScene build() {
     result_.preset = description_.preset;
@@ -38,6 +41,7 @@ class SceneBuilder {
     stop_at<ConfigurationError>();
     read_files();
     stop_at<InputError>();
+    if (description_.prepare) prepare_muscles();
     for (std::size_t i = 0; i < description_.muscles.size(); ++i) attach(i);
     stop_at<ConfigurationError>();
     std::vector<Problem> invalid = validate(result_.scene);
@@ -45,6 +49,16 @@ class SceneBuilder {
     if (!invalid.empty()) throw ConfigurationError(std::move(invalid));
     for (std::string& warning : warnings_about(result_.scene)) result_.warnings.push_back(std::move(warning));
     return std::move(result_);
+  }
+
+  SceneSurfaces build_surfaces() {
+    raw_muscles_ = true;
+    place_bodies();
+    stop_at<ConfigurationError>();
+    read_files();
+    stop_at<InputError>();
+    auto [muscles, bones] = named_surfaces();
+    return {description_.name, std::move(muscles), std::move(bones), description_.prepare.value_or(PrepareSettings{})};
   }
 
  private:
@@ -163,6 +177,10 @@ class SceneBuilder {
         muscle.given_are_superficial = description.superficial_fibers;
       });
     }
+    if (description_.prepare || raw_muscles_) {
+      read(description.file, [&](const fs::path& path) { muscle.surface = read_mesh(path, description.file.unit); });
+      return;
+    }
     if (!read_surface(description.file, SurfaceRole::muscle, muscle.surface)) return;
     for (const AttachmentDescription& attachment : description.attachments) {
       if (attachment.vertices.empty()) continue;
@@ -171,6 +189,32 @@ class SceneBuilder {
                       " lists vertices, but the surface had to be repaired, which may have renumbered them",
                   "write the repaired surface to a file of its own, or describe the attachment by distances");
     }
+  }
+
+  std::pair<std::vector<NamedSurface>, std::vector<NamedSurface>> named_surfaces() const {
+    std::vector<NamedSurface> muscles, bones;
+    for (const Muscle& muscle : result_.scene.muscles) muscles.push_back({muscle.name, muscle.surface});
+    for (const Bone& bone : result_.scene.bones) bones.push_back({bone.name, bone.surface});
+    return {std::move(muscles), std::move(bones)};
+  }
+
+  /// Puts prepared surfaces in the place of those that were read.
+  void prepare_muscles() {
+    for (const MuscleDescription& description : description_.muscles)
+      for (const AttachmentDescription& attachment : description.attachments)
+        if (!attachment.vertices.empty())
+          add_problem(attachment.place,
+                      "attachment '" + attachment.name + "' lists vertices, which preparation renumbers",
+                      "describe the attachment by distances");
+    stop_at<ConfigurationError>();
+    Scene& scene = result_.scene;
+    const auto [muscles, bones] = named_surfaces();
+    const auto say = options_.say ? options_.say : [](const std::string&) {};
+    std::vector<TriangleMesh> prepared =
+        cached_preparation(muscles, bones, *description_.prepare, options_.prepare, say, default_cache_folder());
+    for (std::size_t m = 0; m < scene.muscles.size(); ++m)
+      scene.muscles[m].surface =
+          check_surface(prepared[m], 1, SurfaceRole::muscle, "prepared " + scene.muscles[m].name).mesh;
   }
 
   void read_files() {
@@ -288,6 +332,8 @@ class SceneBuilder {
 
   const SceneDescription& description_;
   fs::path data_root_;
+  const SceneOptions& options_;
+  bool raw_muscles_ = false;
   LoadedScene result_;
   std::vector<Problem> problems_;
   std::vector<LandmarkCloud> landmarks_;
@@ -296,13 +342,21 @@ class SceneBuilder {
 
 }  // namespace
 
+static fs::path data_root_of(const SceneDescription& description, const SceneOptions& options) {
+  fs::path data_root;
+  for (const fs::path& file : description.files)
+    if (data_root.empty()) data_root = find_data_root(file, options.data);
+  return data_root;
+}
+
 LoadedScene read_scene(const fs::path& path, const SceneOptions& options) {
   const SceneDescription description = read_scene_description(path, options.set, options.only);
-  fs::path data_root;
-  for (const fs::path& file : description.files) {
-    if (data_root.empty()) data_root = find_data_root(file, options.data);
-  }
-  return SceneBuilder(description, data_root).build();
+  return SceneBuilder(description, data_root_of(description, options), options).build();
+}
+
+SceneSurfaces read_scene_surfaces(const fs::path& path, const SceneOptions& options) {
+  const SceneDescription description = read_scene_description(path, options.set, options.only);
+  return SceneBuilder(description, data_root_of(description, options), options).build_surfaces();
 }
 
 }  // namespace gracilis

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <gracilis/scene/preparation.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,8 @@ struct SceneOptions {
   std::filesystem::path data;  ///< --data; empty: as find_data_root says, from the scene file or else from its includes
   std::vector<std::string> set;   ///< --set key=value
   std::vector<std::string> only;  ///< --only: names of the muscles to keep; empty: all
+  PrepareFunction prepare = {};   ///< for scenes with [prepare]; empty: only what is in the cache can be had
+  std::function<void(const std::string&)> say = {};  ///< told what takes long; may be empty
 };
 
 /// A scene with what is worth telling about how it came to be.
@@ -28,5 +32,16 @@ struct LoadedScene {
 /// explained. Throws ConfigurationError when the scene is wrong and InputError when a file is; both list all problems
 /// of their kind.
 LoadedScene read_scene(const std::filesystem::path& path, const SceneOptions& options = {});
+
+/// What `gracilis prepare` works on.
+struct SceneSurfaces {
+  std::string name;  ///< of the scene
+  std::vector<NamedSurface> muscles, bones;
+  PrepareSettings settings;  ///< from [prepare], defaults without it
+};
+
+/// Reads the surfaces alone that a scene names: muscles as they are in their files, bones as read_scene has them.
+/// Throws as read_scene does.
+SceneSurfaces read_scene_surfaces(const std::filesystem::path& path, const SceneOptions& options = {});
 
 }  // namespace gracilis

@@ -103,4 +103,17 @@ std::span<const Setting<Sequence>> setting_table() {
   return table;
 }
 
+template <>
+std::span<const Setting<PrepareSettings>> setting_table() {
+  using S = PrepareSettings;
+  static const Setting<S> table[] = {
+      {"edge_length", &S::edge_length, "m", 0, 0.1, "Edge length of the new triangles; 0 keeps the triangles."},
+      {"remeshing_rounds", &S::remeshing_rounds, "", 1, 100,
+       "Rounds of splitting, collapsing, flipping and smoothing edges."},
+      {"muscle_gap", &S::muscle_gap, "m", 0, 0.01, "Gap that is made between two muscles where they are closer."},
+      {"bone_gap", &S::bone_gap, "m", 0, 0.01, "Gap that is made between a muscle and a bone where they are closer."},
+  };
+  return table;
+}
+
 }  // namespace gracilis

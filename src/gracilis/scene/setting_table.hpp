@@ -12,8 +12,8 @@
 #include <vector>
 
 /// What users may set, said once: key, unit, range and meaning of each member of XpbdSettings, DistanceFieldSettings,
-/// FiberSettings and Sequence. Scene files, `--set`, `print-config` and the manifest of a run all read these tables.
-/// The default is the member's initializer.
+/// FiberSettings, PrepareSettings and Sequence. Scene files, `--set`, `print-config` and the manifest of a run all read
+/// these tables. The default is the member's initializer.
 namespace gracilis {
 
 /// A setting's value outside its struct; choices such as a TimeMode are strings.
@@ -43,6 +43,8 @@ template <>
 std::span<const Setting<FiberSettings>> setting_table();
 template <>
 std::span<const Setting<Sequence>> setting_table();
+template <>
+std::span<const Setting<PrepareSettings>> setting_table();
 
 /// The table's entry with this key, or null.
 template <class Settings>

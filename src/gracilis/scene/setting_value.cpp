@@ -127,13 +127,16 @@ template SettingValue value_of(const XpbdSettings&, const Setting<XpbdSettings>&
 template SettingValue value_of(const DistanceFieldSettings&, const Setting<DistanceFieldSettings>&);
 template SettingValue value_of(const FiberSettings&, const Setting<FiberSettings>&);
 template SettingValue value_of(const Sequence&, const Setting<Sequence>&);
+template SettingValue value_of(const PrepareSettings&, const Setting<PrepareSettings>&);
 template std::string expectation(const Setting<XpbdSettings>&);
 template std::string expectation(const Setting<DistanceFieldSettings>&);
 template std::string expectation(const Setting<FiberSettings>&);
 template std::string expectation(const Setting<Sequence>&);
+template std::string expectation(const Setting<PrepareSettings>&);
 template std::string assign(XpbdSettings&, const Setting<XpbdSettings>&, const SettingValue&);
 template std::string assign(DistanceFieldSettings&, const Setting<DistanceFieldSettings>&, const SettingValue&);
 template std::string assign(FiberSettings&, const Setting<FiberSettings>&, const SettingValue&);
 template std::string assign(Sequence&, const Setting<Sequence>&, const SettingValue&);
+template std::string assign(PrepareSettings&, const Setting<PrepareSettings>&, const SettingValue&);
 
 }  // namespace gracilis

@@ -59,4 +59,12 @@ struct DistanceFieldSettings {
   Real domain_factor = 1;       ///< bounding box scaled by this factor about its center, as published
 };
 
+/// Settings of the optional preparation of a scene's muscles before anything else is done with them.
+struct PrepareSettings {
+  Real edge_length = 0.003;     ///< m, of the new triangles; 0 keeps the triangles
+  int remeshing_rounds = 10;    ///< of splitting, collapsing, flipping and smoothing
+  Real muscle_gap = 0.0003;     ///< m, kept between two muscles
+  Real bone_gap = 0.0003;       ///< m, kept between a muscle and a bone
+};
+
 }  // namespace gracilis

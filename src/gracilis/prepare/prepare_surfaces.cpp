@@ -1,0 +1,152 @@
+#include <gracilis/prepare/prepare_surfaces.hpp>
+
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/nearest_triangle.hpp>
+#include <gracilis/geometry/topology.hpp>
+#include <gracilis/prepare/cgal.hpp>
+#include <gracilis/prepare/separation.hpp>
+#include <gracilis/prepare/surface_repair.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+namespace gracilis {
+namespace {
+
+using Say = std::function<void(const std::string&)>;
+
+/// Mean edge near the length asked for and none far from it: remeshing again would only blur the surface.
+bool has_edges_about(const TriangleMesh& mesh, Real length) {
+  Real sum = 0, shortest = length, longest = length;
+  const MeshTopology topology = build_topology(mesh.faces, mesh.vertex_count());
+  for (const MeshEdge& edge : topology.edges) {
+    const Real l = (mesh.vertices.col(edge.a) - mesh.vertices.col(edge.b)).norm();
+    sum += l, shortest = std::min(shortest, l), longest = std::max(longest, l);
+  }
+  const Real mean = sum / static_cast<Real>(topology.edges.size());
+  return std::abs(mean / length - 1) < 0.15 && shortest > 0.2 * length && longest < 2.5 * length;
+}
+
+/// Largest and mean distance from the vertices and face centers of one surface to another.
+struct SurfaceDistance {
+  Real largest = 0, mean = 0;
+};
+
+SurfaceDistance distance_from_to(const TriangleMesh& from, const TriangleMesh& to) {
+  const NearestTriangle nearest(to);
+  SurfaceDistance result;
+  Index count = 0;
+  const auto add = [&](const Vec3& p) {
+    const Real distance = nearest.query(p).distance;
+    result.largest = std::max(result.largest, distance);
+    result.mean += distance;
+    ++count;
+  };
+  for (Index v = 0; v < from.vertex_count(); ++v) add(from.vertices.col(v));
+  for (Index f = 0; f < from.face_count(); ++f)
+    add((from.vertices.col(from.faces(0, f)) + from.vertices.col(from.faces(1, f)) +
+         from.vertices.col(from.faces(2, f))) /
+        3);
+  result.mean /= count;
+  return result;
+}
+
+/// Pairs of intersecting triangles by pairs of surfaces; muscles come first, pairs of two bones are left out.
+using Crossings = std::map<std::pair<Index, Index>, Index>;
+
+Crossings count_crossings(const std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones) {
+  std::vector<const TriangleMesh*> all;
+  for (const TriangleMesh& mesh : muscles) all.push_back(&mesh);
+  for (const TriangleMesh& mesh : bones) all.push_back(&mesh);
+  Crossings crossings;
+  for (const FacePair& pair : intersecting_faces(all))
+    if (pair.mesh_a < static_cast<Index>(muscles.size())) ++crossings[{pair.mesh_a, pair.mesh_b}];
+  return crossings;
+}
+
+std::vector<TriangleMesh> meshes_of(const std::vector<NamedSurface>& surfaces) {
+  std::vector<TriangleMesh> meshes;
+  for (const NamedSurface& surface : surfaces) meshes.push_back(surface.mesh);
+  return meshes;
+}
+
+void remesh_where_needed(std::vector<TriangleMesh>& muscles, const PrepareSettings& settings) {
+  for (TriangleMesh& mesh : muscles)
+    if (settings.edge_length > 0 && !has_edges_about(mesh, settings.edge_length))
+      mesh = remesh_isotropic(mesh, settings.edge_length, settings.remeshing_rounds);
+}
+
+void report_displacements(const std::vector<TriangleMesh>& before, const std::vector<TriangleMesh>& after,
+                          PreparationReport& report) {
+  for (std::size_t m = 0; m < before.size(); ++m) {
+    PreparedMuscleReport& muscle = report.muscles[m];
+    const Eigen::VectorXd moved = (after[m].vertices - before[m].vertices).colwise().norm();
+    muscle.vertices_moved = static_cast<Index>((moved.array() > 1e-6).count());
+    muscle.max_displacement = moved.maxCoeff();
+    muscle.mean_displacement =
+        muscle.vertices_moved > 0 ? (moved.array() > 1e-6).select(moved, 0).sum() / muscle.vertices_moved : 0;
+  }
+}
+
+std::string name_of(Index surface, const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones) {
+  const auto s = static_cast<std::size_t>(surface);
+  return s < muscles.size() ? muscles[s].name : bones[s - muscles.size()].name;
+}
+
+}  // namespace
+
+PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
+                                  const PrepareSettings& settings, const Say& say) {
+  PreparedSurfaces result;
+  PreparationReport& report = result.report;
+  const std::vector<TriangleMesh> obstacles = meshes_of(bones);
+  const Crossings before = count_crossings(meshes_of(muscles), obstacles);
+  for (const NamedSurface& muscle : muscles) {
+    say("repairing " + muscle.name);
+    FixedSurface fixed = fix_surface(muscle.mesh, muscle.name);
+    report.muscles.push_back({.name = muscle.name, .repairs = fixed.repairs});
+    result.muscles.push_back(std::move(fixed.mesh));
+  }
+  const std::vector<TriangleMesh> repaired = result.muscles;
+  const SeparationSettings apart{.muscle_gap = settings.muscle_gap, .bone_gap = settings.bone_gap};
+  say("remeshing " + std::to_string(muscles.size()) + (muscles.size() == 1 ? " muscle" : " muscles"));
+  remesh_where_needed(result.muscles, settings);
+  const std::vector<TriangleMesh> remeshed = result.muscles;
+  say("pulling overlaps apart");
+  SeparationResult separated = separate(result.muscles, obstacles, apart);
+  report.largest_shortfall = separated.shortfall;
+  report_displacements(remeshed, result.muscles, report);
+
+  say("measuring");
+  const Crossings after = count_crossings(result.muscles, obstacles);
+  for (std::size_t m = 0; m < muscles.size(); ++m) {
+    PreparedMuscleReport& muscle = report.muscles[m];
+    const TriangleMesh& mesh = result.muscles[m];
+    muscle.faces_before = muscles[m].mesh.face_count();
+    muscle.faces_after = mesh.face_count();
+    muscle.volume_before = enclosed_volume(repaired[m].vertices, repaired[m].faces);
+    muscle.volume_after = enclosed_volume(mesh.vertices, mesh.faces);
+    const SurfaceDistance there = distance_from_to(mesh, repaired[m]), back = distance_from_to(repaired[m], mesh);
+    muscle.hausdorff = std::max(there.largest, back.largest);
+    muscle.mean_distance = there.mean;
+  }
+  Crossings all = before;
+  all.insert(after.begin(), after.end());
+  for (const auto& [pair, ignored] : all) {
+    const auto count = [&](const Crossings& crossings) {
+      const auto found = crossings.find(pair);
+      return found == crossings.end() ? 0 : found->second;
+    };
+    if (pair.first == pair.second) {
+      report.muscles[static_cast<std::size_t>(pair.first)].self_intersections_before = count(before);
+      report.muscles[static_cast<std::size_t>(pair.first)].self_intersections_after = count(after);
+    } else {
+      report.pairs.push_back(
+          {name_of(pair.first, muscles, bones), name_of(pair.second, muscles, bones), count(before), count(after)});
+    }
+  }
+  return result;
+}
+
+}  // namespace gracilis

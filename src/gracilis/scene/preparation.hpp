@@ -1,0 +1,58 @@
+#pragma once
+
+#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/scene/settings.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+/// What passes between a scene and whoever prepares its surfaces for it. The work itself is an optional component, so
+/// it is handed in as a function.
+namespace gracilis {
+
+struct NamedSurface {
+  std::string name;
+  TriangleMesh mesh;
+};
+
+/// What happened to one muscle.
+struct PreparedMuscleReport {
+  std::string name;
+  std::vector<std::string> repairs;  ///< one clause each
+  Index faces_before = 0, faces_after = 0;
+  Index vertices_moved = 0;                  ///< by separation, more than 1 µm
+  Real mean_displacement = 0;                ///< m, of the moved vertices, by separation
+  Real max_displacement = 0;                 ///< m, by separation
+  Real volume_before = 0, volume_after = 0;  ///< m³
+  Real hausdorff = 0;      ///< m, largest distance between the input's surface and the result, both ways
+  Real mean_distance = 0;  ///< m, from the result to the input's surface
+  Index self_intersections_before = 0, self_intersections_after = 0;  ///< pairs of triangles
+};
+
+/// Two surfaces that met at rest, or still do.
+struct PreparedPairReport {
+  std::string a, b;
+  Index intersections_before = 0, intersections_after = 0;  ///< pairs of triangles
+};
+
+struct PreparationReport {
+  std::vector<PreparedMuscleReport> muscles;
+  std::vector<PreparedPairReport> pairs;  ///< those with intersections before or after
+  Real largest_shortfall = 0;             ///< m by which the worst gap is missed in the end
+};
+
+struct PreparedSurfaces {
+  std::vector<TriangleMesh> muscles;  ///< in the order given
+  PreparationReport report;
+};
+
+/// Changes whenever the same input gives another result, so that what older versions made is not taken for it.
+inline constexpr int preparation_version = 1;
+
+/// Prepares muscles that lie among bones, which stay as they are; says on `say` what it does.
+using PrepareFunction = std::function<PreparedSurfaces(
+    const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones, const PrepareSettings& settings,
+    const std::function<void(const std::string&)>& say)>;
+
+}  // namespace gracilis
