@@ -1,4 +1,3 @@
-#include "prepare_command.hpp"
 #include "run_command.hpp"
 #include "scene_options.hpp"
 #include "session.hpp"
@@ -19,8 +18,6 @@ void add_run_command(CLI::App& program, const std::vector<std::string>& words, C
   add_session_options(*command, options->session);
   options->session.command = words;
   command->callback([&chosen, options] {
-    options->scene.prepare = scene_preparation();
-    options->scene.say = log_lines;
     chosen = [options] { return run_session(read_scene(options->file, options->scene), options->session); };
   });
 }
