@@ -34,15 +34,23 @@ Held held_at_a_right_angle(const XpbdSettings& settings) {
 }  // namespace
 
 TEST(Xpbd, a_muscle_held_at_a_right_angle_keeps_its_volume_and_stays_out_of_the_bones) {
-  const Held held = held_at_a_right_angle({});
-  for (std::size_t frame = 0; frame < held.measures.size(); ++frame) {
-    EXPECT_NEAR(held.measures[frame].volume_ratio, 1, 0.005) << "frame " << frame + 1;
-    EXPECT_LE(held.measures[frame].vertex_depth, 1e-4) << "frame " << frame + 1;
-    EXPECT_LE(held.measures[frame].midpoint_depth_beyond_rest, 5e-4) << "frame " << frame + 1;
-    EXPECT_TRUE(held.measures[frame].finite);
+  // Without slack uptake the tube is pulled tight over the bones; with it, it keeps to its arc around them.
+  for (const bool slack_uptake : {false, true}) {
+    SCOPED_TRACE(slack_uptake ? "with slack uptake" : "without slack uptake");
+    XpbdSettings settings;
+    settings.slack_uptake = slack_uptake;
+    const Held held = held_at_a_right_angle(settings);
+    for (std::size_t frame = 0; frame < held.measures.size(); ++frame) {
+      EXPECT_NEAR(held.measures[frame].volume_ratio, 1, 0.005) << "frame " << frame + 1;
+      EXPECT_LE(held.measures[frame].vertex_depth, 1e-4) << "frame " << frame + 1;
+      EXPECT_LE(held.measures[frame].midpoint_depth_beyond_rest, 5e-4) << "frame " << frame + 1;
+      EXPECT_TRUE(held.measures[frame].finite);
+    }
+    EXPECT_GT(held.measures.back().edge_ratio_mean, 1.05) << "the muscle was never stretched";
+    if (!slack_uptake) {
+      EXPECT_GT(held.last.muscles[0].contacts, 0) << "the muscle never met a bone";
+    }
   }
-  EXPECT_GT(held.last.muscles[0].contacts, 0) << "the muscle never met a bone";
-  EXPECT_GT(held.measures.back().edge_ratio_mean, 1.05) << "the muscle was never stretched";
 }
 
 TEST(Xpbd, returns_to_its_lengths_when_the_joint_returns) {
@@ -131,32 +139,128 @@ TEST(XpbdPreparation, fibers_run_from_origin_to_insertion) {
   EXPECT_GT(free, 500);
 }
 
-TEST(XpbdMotion, a_muscle_whose_ends_approach_gets_shorter_fibers_and_a_thicker_belly) {
-  Scene scene = tube_scene();
-  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
-  Pose closer = flexed(scene, 0);
-  closer.bodies[1].translation().z() += 0.2 * prepared.rest_span;
-  AlignedVector<float> target(prepared.system.distances.a.size(), 0);
-  xpbd::set_target_lengths(prepared, closer, target);
-  Index along = 0, across = 0;
+namespace {
+
+/// What an edge aims at over its length at rest, with the middle between its ends at rest.
+struct Aim {
+  Vec3 middle, along;  ///< m; unit
+  Real ratio;
+};
+
+std::vector<Aim> aims(const xpbd::PreparedMuscle& prepared, const Pose& pose) {
+  const DistanceSet& edges = prepared.system.distances;
+  AlignedVector<float> target(edges.a.size(), 0);
+  xpbd::set_target_lengths(prepared, pose, target);
+  std::vector<Aim> all;
   for (std::size_t slot = 0; slot < target.size(); ++slot) {
-    if (prepared.system.distances.a[slot] >= prepared.rest.cols()) continue;
-    const float ratio = target[slot] / prepared.system.distances.rest_length[slot];
-    if (prepared.fiber_cosine2[slot] > 0.9999f) {
-      EXPECT_NEAR(ratio, 0.8, 1e-3);
+    if (edges.a[slot] >= prepared.rest.cols()) continue;
+    const Vec3 a = prepared.rest.col(edges.a[slot]), b = prepared.rest.col(edges.b[slot]);
+    all.push_back({(a + b) / 2, (b - a).normalized(), static_cast<Real>(target[slot] / edges.rest_length[slot])});
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST(XpbdMotion, a_muscle_bent_about_its_middle_aims_at_a_shorter_front_and_a_longer_back) {
+  Scene scene = tube_scene();
+  const Real axis = 0.0255, free_length = 0.144;  // of the tube; between the rings that are attached
+  scene.joints[0].frame = Eigen::Translation3d(axis, 0, 0) * RigidTransform::Identity();
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  const Real angle = radians(60);
+  // Half way the blend of two rotations turns by 4 tan(φ/4) per share, and the shares are linear along a tube.
+  const Real turn = 4 * std::tan(angle / 4) / free_length;
+  Index along = 0;
+  Real shortest = 1, longest = 1;
+  for (const Aim& aim : aims(prepared, flexed(scene, angle))) {
+    if (std::abs(aim.middle.z()) > 0.003 || std::abs(aim.along.z()) < 0.9999) continue;
+    const Real x = aim.middle.x() - axis;
+    EXPECT_NEAR(aim.ratio, std::hypot(1 + turn * x, turn * aim.middle.z()), 5e-4) << "at " << x;
+    shortest = std::min(shortest, aim.ratio), longest = std::max(longest, aim.ratio);
+    ++along;
+  }
+  EXPECT_GE(along, 20);
+  EXPECT_LT(shortest, 0.93);
+  EXPECT_GT(longest, 1.07);
+}
+
+TEST(XpbdMotion, a_muscle_whose_ends_approach_aims_at_shorter_fibers_down_to_a_limit) {
+  const Scene scene = tube_scene();
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  for (const Real share : {0.8, 0.5, 0.2}) {
+    Pose closer = flexed(scene, 0);
+    closer.bodies[1].translation().z() += (1 - share) * 0.144;
+    Index along = 0, across = 0;
+    for (const Aim& aim : aims(prepared, closer)) {
+      if (std::abs(aim.middle.z()) > 0.07) continue;
+      if (std::abs(aim.along.z()) > 0.9999) {
+        EXPECT_NEAR(aim.ratio, std::max(share, 0.4), 1e-3);
+        ++along;
+      }
+      if (std::abs(aim.along.z()) < 1e-6) {
+        EXPECT_NEAR(aim.ratio, 1, 1e-3);
+        ++across;
+      }
+    }
+    EXPECT_GT(along, 300);
+    EXPECT_GT(across, 300);
+  }
+}
+
+TEST(XpbdMotion, a_stretched_muscle_aims_at_a_longer_and_thinner_shape_of_its_own_volume) {
+  const Scene scene = tube_scene();
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  Pose farther = flexed(scene, 0);
+  farther.bodies[1].translation().z() -= 0.5 * 0.144;
+  const Points& rest = prepared.rest;
+  const Real volume =
+      enclosed_volume(xpbd::carried_rest(prepared, farther), prepared.faces) / enclosed_volume(rest, prepared.faces);
+  EXPECT_NEAR(volume, 1 + 0.5 * 0.144 / 0.16, 1e-6);
+  Index along = 0, across = 0;
+  for (const Aim& aim : aims(prepared, farther)) {
+    if (std::abs(aim.middle.z()) > 0.07) continue;
+    if (std::abs(aim.along.z()) > 0.9999) {
+      EXPECT_NEAR(aim.ratio, 1.5 / std::cbrt(volume), 1e-3);
       ++along;
     }
-    if (prepared.fiber_cosine2[slot] < 1e-6f) {
-      EXPECT_NEAR(ratio, 1 / std::sqrt(0.8), 1e-3);
+    if (std::abs(aim.along.z()) < 1e-6) {
+      EXPECT_NEAR(aim.ratio, 1 / std::cbrt(volume), 1e-3);
       ++across;
     }
   }
   EXPECT_GT(along, 300);
   EXPECT_GT(across, 300);
+}
+
+TEST(XpbdMotion, no_edge_aims_beyond_the_stretch_limit) {
+  XpbdSettings settings;
+  settings.stretch_limit = 1.25;
+  const Scene scene = tube_scene(settings);
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
   Pose farther = flexed(scene, 0);
-  farther.bodies[1].translation().z() -= 0.01;
-  xpbd::set_target_lengths(prepared, farther, target);
-  EXPECT_EQ(target, prepared.system.distances.rest_length);
+  farther.bodies[1].translation().z() -= 0.144;
+  Real longest = 0;
+  for (const Aim& aim : aims(prepared, farther)) longest = std::max(longest, aim.ratio);
+  EXPECT_NEAR(longest, 1.25, 1e-5);
+}
+
+TEST(XpbdMotion, edges_aim_at_their_lengths_at_rest_in_the_capture_pose_and_when_all_bodies_move_alike) {
+  const Scene scene = tube_scene();
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  Pose pose = flexed(scene, 0);
+  const RigidTransform moved = Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(2, Vec3(1, 2, 2) / 3);
+  for (const RigidTransform& by : {RigidTransform::Identity(), moved}) {
+    for (RigidTransform& body : pose.bodies) body = by;
+    for (const Aim& aim : aims(prepared, pose)) EXPECT_NEAR(aim.ratio, 1, 3e-7);
+  }
+}
+
+TEST(XpbdMotion, without_slack_uptake_edges_aim_at_their_lengths_at_rest) {
+  XpbdSettings settings;
+  settings.slack_uptake = false;
+  const Scene scene = tube_scene(settings);
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  for (const Aim& aim : aims(prepared, flexed(scene, radians(60)))) EXPECT_EQ(aim.ratio, 1);
 }
 
 }  // namespace gracilis

@@ -55,7 +55,8 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"stretch_limit", &S::stretch_limit, "", 0, 1000,
        "Longest an edge may become as a multiple of its length at rest; 0 sets no limit."},
       {"slack_uptake", &S::slack_uptake, "", 0, 0,
-       "A muscle whose ends approach each other shortens its fibers evenly and thickens instead of folding."},
+       "Edges aim at the lengths they have on the surface carried with the bones, so that a muscle shortens and lengthens "
+       "where the motion asks for it instead of folding."},
   };
   return table;
 }

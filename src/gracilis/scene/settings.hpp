@@ -48,7 +48,7 @@ struct XpbdSettings {
   Real shape_recovery = 0.03;                    ///< share of its displacement that a vertex gives up per frame
   Real hinge_limit = 0.05;                       ///< largest motion by one hinge projection, as a share of its edge; 0: off
   Real stretch_limit = 2.5;                      ///< longest an edge may become, over its length at rest; 0: no limit
-  bool slack_uptake = true;                      ///< a muscle whose ends approach shortens its fibers evenly and thickens
+  bool slack_uptake = true;                      ///< edges aim at their lengths on the carried surface, so that nothing folds
 };
 
 /// Settings of the distance fields of all bones.

@@ -1,16 +1,18 @@
 #include <gracilis/methods/xpbd/motion.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/rigid_blend.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gracilis::xpbd {
 
-/// A span shorter than this share of its rest is taken for this share: no fiber shortens further (Gordon, Huxley,
-/// Julian 1966 put the end of active shortening near half of the optimal length).
-static constexpr Real shortest_span = 0.4;
+/// No edge aims at less than this share of its length at rest: no fiber shortens further (Gordon, Huxley, Julian 1966
+/// put the end of active shortening near half of the optimal length).
+static constexpr Real shortest_share = 0.4;
 
 void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles) {
   for (Index p = 0; p < particles.count(); ++p) {
@@ -30,24 +32,41 @@ static std::vector<RigidTransform> carrier_transforms(const PreparedMuscle& musc
   return transforms;
 }
 
+/// One particle's shares of the carriers' motion into `shares`, brought to the sum 1. False where nothing carries it.
+static bool shares_of(const PreparedMuscle& muscle, Index particle, std::vector<Real>& shares) {
+  Real sum = 0;
+  for (std::size_t i = 0; i < shares.size(); ++i)
+    sum += shares[i] = static_cast<Real>(muscle.carrier_shares(static_cast<Index>(i), particle));
+  if (!(sum > 0)) return false;
+  for (Real& share : shares) share /= sum;
+  return true;
+}
+
 void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, Particles& particles) {
   const std::vector<RigidTransform> from = carrier_transforms(muscle, before), to = carrier_transforms(muscle, now);
   const Real kept = 1 - muscle.settings.shape_recovery;
   if (from.empty()) return;
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
-    std::vector<Real> weights(from.size());
+    std::vector<Real> shares(from.size());
     for (Index p = begin; p < end; ++p) {
-      if (muscle.fixed_body[static_cast<std::size_t>(p)] >= 0) continue;
-      Real sum = 0;
-      for (std::size_t i = 0; i < weights.size(); ++i)
-        sum += weights[i] = static_cast<Real>(muscle.carrier_shares(static_cast<Index>(i), p));
-      if (!(sum > 0)) continue;
-      for (Real& weight : weights) weight /= sum;
+      if (muscle.fixed_body[static_cast<std::size_t>(p)] >= 0 || !shares_of(muscle, p, shares)) continue;
       const Vec3 rest = muscle.rest.col(p) - muscle.origin;
-      const Vec3 displaced = blend(from, weights).inverse() * particles.position(p).cast<Real>();
-      particles.position(p) = (blend(to, weights) * Vec3(rest + kept * (displaced - rest))).cast<float>();
+      const Vec3 displaced = blend(from, shares).inverse() * particles.position(p).cast<Real>();
+      particles.position(p) = (blend(to, shares) * Vec3(rest + kept * (displaced - rest))).cast<float>();
     }
   });
+}
+
+Points carried_rest(const PreparedMuscle& muscle, const Pose& pose) {
+  const std::vector<RigidTransform> transforms = carrier_transforms(muscle, pose);
+  Points carried = muscle.rest.colwise() - muscle.origin;
+  if (transforms.empty()) return carried;
+  parallel_for(static_cast<Index>(carried.cols()), 512, [&](Index begin, Index end) {
+    std::vector<Real> shares(transforms.size());
+    for (Index p = begin; p < end; ++p)
+      if (shares_of(muscle, p, shares)) carried.col(p) = blend(transforms, shares) * Vec3(carried.col(p));
+  });
+  return carried;
 }
 
 std::vector<FieldPlacement> place_fields(const PreparedMuscle& muscle, const Pose& pose) {
@@ -60,29 +79,28 @@ std::vector<FieldPlacement> place_fields(const PreparedMuscle& muscle, const Pos
   return placements;
 }
 
-static Vec3 center_of(const AttachedEnd& end, const PreparedMuscle& muscle, const Pose& pose) {
-  Vec3 sum = Vec3::Zero();
-  for (const auto& [particle, body] : end.vertices)
-    sum += pose.bodies[static_cast<std::size_t>(body)] * muscle.rest.col(particle);
-  return sum / static_cast<Real>(end.vertices.size());
-}
-
 void set_target_lengths(const PreparedMuscle& muscle, const Pose& pose, AlignedVector<float>& target_length) {
-  const AlignedVector<float>& rest = muscle.system.distances.rest_length;
-  const bool has_two_ends = muscle.rest_span > 0;
-  const Real span =
-      has_two_ends ? (center_of(muscle.insertion_end, muscle, pose) - center_of(muscle.origin_end, muscle, pose)).norm()
-                   : 0;
-  const Real ratio = has_two_ends ? std::clamp(span / muscle.rest_span, shortest_span, Real{1}) : 1;
-  if (!muscle.settings.slack_uptake || ratio == 1) {
-    std::copy(rest.begin(), rest.end(), target_length.begin());
+  const DistanceSet& edges = muscle.system.distances;
+  if (!muscle.settings.slack_uptake || muscle.carriers.size() < 2) {
+    std::copy(edges.rest_length.begin(), edges.rest_length.end(), target_length.begin());
     return;
   }
-  const auto along = static_cast<float>(ratio * ratio), across = static_cast<float>(1 / ratio);
-  for (std::size_t slot = 0; slot < rest.size(); ++slot) {
-    const float cosine2 = muscle.fiber_cosine2[slot];
-    target_length[slot] = rest[slot] * std::sqrt(cosine2 * along + (1 - cosine2) * across);
-  }
+  Points carried = carried_rest(muscle, pose);
+  const Real swollen = enclosed_volume(carried, muscle.faces) / muscle.system.volume.target;
+  if (swollen > 1) carried /= std::cbrt(swollen);
+  const Real longest =
+      muscle.settings.stretch_limit > 0 ? muscle.settings.stretch_limit : std::numeric_limits<Real>::infinity();
+  parallel_for(static_cast<Index>(edges.a.size()), 4096, [&](Index begin, Index end) {
+    for (auto slot = static_cast<std::size_t>(begin); slot < static_cast<std::size_t>(end); ++slot) {
+      const Index a = edges.a[slot], b = edges.b[slot];
+      target_length[slot] = edges.rest_length[slot];
+      if (a >= carried.cols() || b >= carried.cols()) continue;  // padding
+      const Real rest = (muscle.rest.col(b) - muscle.rest.col(a)).norm();
+      if (!(rest > 0)) continue;
+      const Real ratio = (carried.col(b) - carried.col(a)).norm() / rest;
+      target_length[slot] *= static_cast<float>(std::clamp(ratio, shortest_share, longest));
+    }
+  });
 }
 
 }  // namespace gracilis::xpbd

@@ -98,7 +98,6 @@ void build_edges(const Renumbered& muscle, const MeshTopology& topology, const P
                  PreparedMuscle& prepared) {
   const Points& x = muscle.surface.vertices;
   std::vector<DistanceConstraint> constraints;
-  std::vector<Real> cosines;
   for (const MeshEdge& edge : topology.edges) {
     const Vec3 along = x.col(edge.b) - x.col(edge.a);
     const Real length = along.norm();
@@ -106,13 +105,8 @@ void build_edges(const Renumbered& muscle, const MeshTopology& topology, const P
     const Real stiffness =
         edge_stiffness(x, muscle.surface.faces, edge, prepared.settings) * anisotropy(cosine, prepared.settings);
     constraints.push_back({edge.a, edge.b, length, 1 / stiffness});
-    cosines.push_back(cosine);
   }
   prepared.system.distances = build_distance_set(constraints, muscle.surface.vertex_count());
-  prepared.fiber_cosine2.assign(prepared.system.distances.a.size(), 0);
-  for (std::size_t i = 0; i < cosines.size(); ++i)
-    prepared.fiber_cosine2[static_cast<std::size_t>(prepared.system.distances.slot[i])] =
-        static_cast<float>(cosines[i] * cosines[i]);
 }
 
 /// Stiffness of one hinge: the setting, scaled by 3 l²/A so that bending does not depend on how finely the surface is
@@ -160,20 +154,6 @@ void build_predictor(const Renumbered& muscle, const MeshTopology& topology, Pre
     values(static_cast<Index>(i), static_cast<Index>(carrier)) = 1;
   }
   prepared.carrier_shares = harmonic_fields(muscle.surface.vertices, topology, fixed, values).transpose().cast<float>();
-}
-
-void build_ends(const Renumbered& muscle, PreparedMuscle& prepared) {
-  for (const Attachment& attachment : muscle.attachments) {
-    AttachedEnd& end = attachment.end == AttachmentEnd::origin ? prepared.origin_end : prepared.insertion_end;
-    for (Index v : attachment.vertices) end.vertices.emplace_back(v, attachment.body);
-  }
-  if (prepared.origin_end.empty() || prepared.insertion_end.empty()) return;
-  const auto center = [&](const AttachedEnd& end) {
-    Vec3 sum = Vec3::Zero();
-    for (const auto& [particle, body] : end.vertices) sum += prepared.rest.col(particle);
-    return Vec3(sum / static_cast<Real>(end.vertices.size()));
-  };
-  prepared.rest_span = (center(prepared.insertion_end) - center(prepared.origin_end)).norm();
 }
 
 /// The gap a point must keep: the margin, or the gap in the capture pose where that is less. Of an overlap in the
@@ -238,6 +218,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   Renumbered renumbered = renumber(muscle);
   prepared.order = renumbered.order;
   prepared.rest = renumbered.surface.vertices;
+  prepared.faces = renumbered.surface.faces;
   prepared.origin = prepared.rest.rowwise().mean();
   prepared.fixed_body.assign(renumbered.order.size(), -1);
   for (const Attachment& attachment : renumbered.attachments)
@@ -253,7 +234,6 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
       build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
                        enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
   build_predictor(renumbered, topology, prepared);
-  build_ends(renumbered, prepared);
   build_contacts(scene, fields, prepared);
   return prepared;
 }

@@ -9,12 +9,6 @@
 
 namespace gracilis::xpbd {
 
-/// Vertices that follow one body, and their center.
-struct AttachedEnd {
-  std::vector<std::pair<Index, Index>> vertices;  ///< particle, body
-  bool empty() const { return vertices.empty(); }
-};
-
 /// A muscle prepared for the solver; constant during a run. Particles are renumbered breadth-first, so that neighbors
 /// on the surface are neighbors in memory: `order[particle]` is the scene's vertex.
 struct PreparedMuscle {
@@ -23,14 +17,12 @@ struct PreparedMuscle {
   SurfaceSystem system;
   Vec3 origin = Vec3::Zero();  ///< world position of the particles' coordinate origin, m
   std::vector<Index> order;
-  Points rest;                     ///< world, in particle order, m
-  std::vector<Index> fixed_body;   ///< per particle: the body it is attached to, or -1
-  std::vector<Index> carriers;     ///< bodies with attachments on this muscle
-  Eigen::MatrixXf carrier_shares;  ///< carriers × particles: harmonic shares of their motion, columns sum to 1
-  AttachedEnd origin_end, insertion_end;
-  Real rest_span = 0;                  ///< m between the centers of the two ends at rest; 0 without two ends
-  AlignedVector<float> fiber_cosine2;  ///< per distance slot: squared cosine to the fiber direction
-  std::vector<Index> contact_bodies;   ///< per contact set: the body of its bone
+  Points rest;                        ///< world, in particle order, m
+  Eigen::Matrix3Xi faces;             ///< of particles
+  std::vector<Index> fixed_body;      ///< per particle: the body it is attached to, or -1
+  std::vector<Index> carriers;        ///< bodies with attachments on this muscle
+  Eigen::MatrixXf carrier_shares;     ///< carriers × particles: harmonic shares of their motion, columns sum to 1
+  std::vector<Index> contact_bodies;  ///< per contact set: the body of its bone
 };
 
 /// Builds tables, masses, predictor shares and contact gaps of a muscle. `fields` has one distance field per bone of
