@@ -11,6 +11,7 @@ namespace gracilis {
 
 static void apply_preset(const Preset& preset, Scene& scene) {
   scene.distance_fields = preset.distance_fields;
+  scene.contact = preset.contact;
   for (Muscle& muscle : scene.muscles) muscle.xpbd = preset.xpbd;
 }
 

@@ -71,6 +71,8 @@ const char* name_of(ConstraintKind kind) {
       return "volume";
     case ConstraintKind::stretch_limit:
       return "stretch limit";
+    case ConstraintKind::muscle_contact:
+      return "muscle contact";
     case ConstraintKind::bone_contact:
       return "bone contact";
   }
@@ -94,6 +96,7 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
                   const SolveSettings& settings, SurfaceState& state, SolveReport& report) {
   switch (kind) {
     case ConstraintKind::none:
+    case ConstraintKind::muscle_contact:  // is no one surface's
       break;
     case ConstraintKind::distance:
       project_colors(system.distances.colors, report, [&](ColorRange range) {
@@ -125,32 +128,103 @@ void refresh_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
     find_near(system.contacts[i], system.distances, placements[i], state.particles, contact_reach, state.near[i]);
 }
 
-SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,
-                          const SolveSettings& settings, SurfaceState& state) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point begin = Clock::now();
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+/// Where one surface stands in its iterations.
+struct Progress {
+  bool last = false, done = false;
+  Particles before;
+};
+
+void reset_multipliers(SurfaceState& state) {
   std::fill(state.distance_lambda.begin(), state.distance_lambda.end(), 0.0f);
   std::fill(state.hinge_lambda.begin(), state.hinge_lambda.end(), 0.0f);
   state.volume_lambda = 0;
+}
 
-  SolveReport report;
-  Particles before;
-  bool last = settings.iterations <= 0;
-  while (!last) {
-    if (settings.stop_displacement > 0) before = state.particles;
-    const double elapsed = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-    last = report.iterations + 1 >= settings.iterations ||
-           (settings.stop_milliseconds > 0 && elapsed > settings.stop_milliseconds);
-    if (report.iterations % contact_refresh == 0 && !last) refresh_contacts(system, placements, state);
-    for (ConstraintKind kind : projection_order) {
-      if (kind == ConstraintKind::bone_contact && last) refresh_contacts(system, placements, state);
-      project_kind(kind, system, placements, settings, state, report);
-    }
-    ++report.iterations;
-    if (settings.stop_displacement > 0 && largest_motion(before, state.particles) < settings.stop_displacement)
-      last = true;
+/// All of an iteration up to contact.
+void begin_iteration(SurfaceSolve& surface, Progress& progress, double elapsed,
+                     const std::function<void(ConstraintKind)>& told) {
+  const SolveSettings& settings = surface.settings;
+  const int iteration = surface.report.iterations;
+  if (settings.stop_displacement > 0) progress.before = surface.state->particles;
+  progress.last =
+      iteration + 1 >= settings.iterations || (settings.stop_milliseconds > 0 && elapsed > settings.stop_milliseconds);
+  if (iteration % contact_refresh == 0 && !progress.last)
+    refresh_contacts(*surface.system, *surface.placements, *surface.state);
+  for (ConstraintKind kind : projection_order) {
+    if (kind == ConstraintKind::bone_contact) continue;
+    project_kind(kind, *surface.system, *surface.placements, settings, *surface.state, surface.report);
+    told(kind);
   }
-  return report;
+}
+
+void end_iteration(SurfaceSolve& surface, Progress& progress, const std::function<void(ConstraintKind)>& told) {
+  const SolveSettings& settings = surface.settings;
+  if (progress.last) refresh_contacts(*surface.system, *surface.placements, *surface.state);
+  project_kind(ConstraintKind::bone_contact, *surface.system, *surface.placements, settings, *surface.state,
+               surface.report);
+  told(ConstraintKind::bone_contact);
+  ++surface.report.iterations;
+  progress.done =
+      progress.last || (settings.stop_displacement > 0 &&
+                        largest_motion(progress.before, surface.state->particles) < settings.stop_displacement);
+}
+
+}  // namespace
+
+void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch) {
+  const Clock::time_point begin = Clock::now();
+  std::vector<Progress> progress(surfaces.size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    reset_multipliers(*surfaces[i].state);
+    surfaces[i].report = {};
+    progress[i].done = surfaces[i].settings.iterations <= 0;
+  }
+  const auto for_active = [&](const auto& act) {
+    parallel_for(static_cast<Index>(surfaces.size()), 1, [&](Index from, Index to) {
+      for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
+        if (progress[i].done) continue;
+        const Clock::time_point started = Clock::now();
+        act(surfaces[i], progress[i], [&, i](ConstraintKind kind) {
+          if (watch) watch(i, kind);
+        });
+        surfaces[i].report.milliseconds += milliseconds_since(started);
+      }
+    });
+  };
+  const auto is_done = [](const Progress& each) { return each.done; };
+  for (int iteration = 0; !std::all_of(progress.begin(), progress.end(), is_done); ++iteration) {
+    const double elapsed = milliseconds_since(begin);
+    for_active([&](SurfaceSolve& surface, Progress& each, const std::function<void(ConstraintKind)>& told) {
+      begin_iteration(surface, each, elapsed, told);
+    });
+    if (coupling.project) {
+      const Clock::time_point started = Clock::now();
+      const bool ending =
+          std::all_of(progress.begin(), progress.end(), [](const Progress& each) { return each.last || each.done; });
+      if (iteration % contact_refresh == 0 || ending) coupling.refresh();
+      coupling.project();
+      for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        if (watch) watch(i, ConstraintKind::muscle_contact);
+        surfaces[i].report.milliseconds += milliseconds_since(started) / static_cast<double>(surfaces.size());
+      }
+    }
+    for_active(end_iteration);
+  }
+}
+
+SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,
+                          const SolveSettings& settings, SurfaceState& state) {
+  std::vector<SurfaceSolve> alone = {{&system, &placements, settings, &state, {}}};
+  solve_together(alone, {});
+  return alone.front().report;
 }
 
 bool is_finite(const Particles& particles) {

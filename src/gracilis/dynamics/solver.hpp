@@ -6,6 +6,7 @@
 #include <gracilis/dynamics/projection.hpp>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace gracilis {
@@ -44,9 +45,10 @@ struct SolveSettings {
 };
 
 /// Kinds of constraints.
-enum class ConstraintKind { none, distance, dihedral, volume, stretch_limit, bone_contact };
+enum class ConstraintKind { none, distance, dihedral, volume, stretch_limit, muscle_contact, bone_contact };
 
-/// The kinds in the order in which an iteration projects them; contact last, so that nothing pushes back into a bone.
+/// The kinds that one surface alone has, in the order in which an iteration projects them; contact last, so that
+/// nothing pushes back into a bone. Contact between surfaces comes right before.
 inline constexpr std::array projection_order = {ConstraintKind::distance, ConstraintKind::dihedral,
                                                 ConstraintKind::volume, ConstraintKind::stretch_limit,
                                                 ConstraintKind::bone_contact};
@@ -58,6 +60,7 @@ struct SolveReport {
   Index limited_hinges = 0;  ///< sums over all iterations
   Index limited_edges = 0;
   Index skipped_constraints = 0;
+  double milliseconds = 0;
 };
 
 /// A state at rest.
@@ -71,9 +74,31 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
 /// Lists again what is near each obstacle.
 void refresh_contacts(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state);
 
-/// Resets the multipliers and iterates: distances, hinges, volume, bone contact (XPBD; Macklin, Müller, Chentanez
-/// 2016). The state's particles are the prediction on entry and the solution on return. Free particles with a fixed
-/// neighborhood, coinciding ends and flat triangles are survived; they are counted as skipped.
+/// One surface's part in a solve. The state's particles are the prediction on entry and the solution on return.
+struct SurfaceSolve {
+  const SurfaceSystem* system = nullptr;
+  const std::vector<FieldPlacement>* placements = nullptr;
+  SolveSettings settings;
+  SurfaceState* state = nullptr;
+  SolveReport report;
+};
+
+/// What acts between surfaces in each iteration; empty functions: nothing.
+struct Coupling {
+  std::function<void()> refresh;   ///< looks again at what is near what
+  std::function<Index()> project;  ///< returns how many contacts pushed
+};
+
+/// Told after each projection of a kind on a surface.
+using SolveWatch = std::function<void(std::size_t surface, ConstraintKind kind)>;
+
+/// Resets the multipliers and iterates over all surfaces in step: distances, hinges, volume, stretch limit, contact
+/// between surfaces, bone contact (XPBD; Macklin, Müller, Chentanez 2016). Free particles with a fixed neighborhood,
+/// coinciding ends and flat triangles are survived; they are counted as skipped. Surfaces that stop early wait for the
+/// others.
+void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch = {});
+
+/// The same for one surface alone.
 SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,
                           const SolveSettings& settings, SurfaceState& state);
 

@@ -3,6 +3,7 @@
 #include <gracilis/core/types.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
+#include <functional>
 #include <limits>
 #include <memory>
 
@@ -16,8 +17,8 @@ struct NearestPoint {
   Real distance = std::numeric_limits<Real>::infinity();
 };
 
-/// Answers nearest-point queries on a fixed surface (Embree's bounding volume hierarchy; distances in double
-/// precision). Queries may run at the same time. Precondition: at least one face, all coordinates finite.
+/// Answers nearest-point queries on a surface (Embree's bounding volume hierarchy; distances in double precision).
+/// Queries may run at the same time. Precondition: at least one face, all coordinates finite.
 class NearestTriangle {
  public:
   explicit NearestTriangle(const TriangleMesh& mesh);
@@ -27,6 +28,12 @@ class NearestTriangle {
 
   /// The nearest point within `reach`, or face -1.
   NearestPoint query(const Vec3& p, Real reach = std::numeric_limits<Real>::infinity()) const;
+  /// The same among the faces that `accepts` takes.
+  NearestPoint query(const Vec3& p, Real reach, const std::function<bool(Index face)>& accepts) const;
+
+  /// The surface has moved to `vertices`, as many as before; its hierarchy keeps its shape and takes new boxes. No
+  /// query may run meanwhile.
+  void refit(const Points& vertices);
 
  private:
   struct Tree;

@@ -253,6 +253,7 @@ static void start_from_preset(TomlReader& top, SceneDescription& scene, XpbdSett
   if (const Preset* preset = find_preset(scene.preset)) {
     global = preset->xpbd;
     scene.distance_fields = preset->distance_fields;
+    scene.contact = preset->contact;
   } else {
     top.add_problem("preset", "there is no preset '" + scene.preset + "'", suggestion(scene.preset, names));
   }
@@ -285,6 +286,7 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   start_from_preset(top, scene, global);
   read_section(top, "settings", global);
   read_section(top, "distance_field", scene.distance_fields);
+  read_section(top, "contact", scene.contact);
   read_section(top, "sequence", scene.sequence);
   FiberSettings fibers;
   read_section(top, "fibers", fibers);

@@ -77,6 +77,7 @@ struct SceneDescription {
   Sequence sequence;
   DistanceFieldSettings distance_fields;
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
+  ContactSettings contact;
   NamedFile landmarks;
   std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
   std::vector<std::string> notes;

@@ -56,6 +56,7 @@ static void lay_over(toml::table& lower, toml::table& upper) {
 static bool erase_settings(toml::table& table) {
   bool erased = table.erase("settings");
   erased |= table.erase("distance_field");
+  erased |= table.erase("contact");
   if (toml::array* muscles = table["muscles"].as_array()) {
     for (toml::node& muscle : *muscles) {
       if (toml::table* entries = muscle.as_table()) erased |= entries->erase("settings");
@@ -144,14 +145,14 @@ static toml::table layer_of(const std::string& setting, const std::vector<std::s
   if (dot != std::string::npos) key = key.substr(dot + 1);
   toml::table entries;
   insert_moved(entries, toml::key(key), *value.get("value"));
-  if (owner == "settings" || owner == "distance_field" || owner == "sequence" || owner == "fibers" ||
-      owner == "prepare") {
+  if (owner == "settings" || owner == "distance_field" || owner == "contact" || owner == "sequence" ||
+      owner == "fibers" || owner == "prepare") {
     layer.insert(owner, std::move(entries));
     return layer;
   }
   if (std::find(muscles.begin(), muscles.end(), owner) == muscles.end()) {
     std::vector<std::string> owners = muscles;
-    owners.insert(owners.end(), {"settings", "distance_field", "sequence", "fibers", "prepare"});
+    owners.insert(owners.end(), {"settings", "distance_field", "contact", "sequence", "fibers", "prepare"});
     throw ConfigurationError({source, "", "the scene has no muscle '" + owner + "'", suggestion(owner, owners)});
   }
   toml::table muscle;

@@ -37,6 +37,7 @@ class SceneBuilder {
     result_.scene.name = description_.name;
     result_.scene.sequence = description_.sequence;
     result_.scene.distance_fields = description_.distance_fields;
+    result_.scene.contact = description_.contact;
     place_bodies();
     stop_at<ConfigurationError>();
     read_files();

@@ -144,8 +144,8 @@ std::string scene_template() {
   return head + preset_section() + elements +
          "# How a run goes from the capture pose into the motion and out of it.\n" + section<Sequence>("sequence") +
          "# Distance fields of all bones.\n" + section<DistanceFieldSettings>("distance_field") +
-         "# Fibers inside all muscles.\n" + section<FiberSettings>("fibers") + "# The XPBD method, for all muscles.\n" +
-         section<XpbdSettings>("settings");
+         "# Contact between muscles.\n" + section<ContactSettings>("contact") + "# Fibers inside all muscles.\n" +
+         section<FiberSettings>("fibers") + "# The XPBD method, for all muscles.\n" + section<XpbdSettings>("settings");
 }
 
 template <class Settings>
@@ -156,7 +156,8 @@ static std::string values(const std::string& title, const Settings& settings) {
 }
 
 std::string settings_text(const Scene& scene) {
-  std::string text = values("[sequence]", scene.sequence) + values("[distance_field]", scene.distance_fields);
+  std::string text = values("[sequence]", scene.sequence) + values("[distance_field]", scene.distance_fields) +
+                     values("[contact]", scene.contact);
   for (const Muscle& muscle : scene.muscles) {
     text += "[[muscles]]\nname = \"" + muscle.name + "\"\n" + values("[muscles.settings]", muscle.xpbd) +
             values("[muscles.fibers]", muscle.fibers);

@@ -35,12 +35,13 @@ static Preset thesis_2024() {
   preset.distance_fields.resolution = 128;
   preset.distance_fields.domain_margin = 0;
   preset.distance_fields.domain_factor = 1.5;
+  preset.contact.muscle = MuscleContact::none;
   return preset;
 }
 
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
-      {"physical", "real masses and units, and what this project added for stability", {}, {}}, thesis_2024()};
+      {"physical", "real masses and units, and what this project added for stability", {}, {}, {}}, thesis_2024()};
   return all;
 }
 

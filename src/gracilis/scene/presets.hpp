@@ -14,6 +14,7 @@ struct Preset {
   std::string_view meaning;  ///< one sentence
   XpbdSettings xpbd;
   DistanceFieldSettings distance_fields;
+  ContactSettings contact;
 };
 
 /// `physical`, the default: real masses and units. `thesis-2024`: the published setting of the method, with everything

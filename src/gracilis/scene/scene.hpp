@@ -84,6 +84,7 @@ struct Scene {
   Motion motion;
   Sequence sequence;
   DistanceFieldSettings distance_fields;
+  ContactSettings contact;
 };
 
 }  // namespace gracilis

@@ -105,6 +105,23 @@ std::span<const Setting<Sequence>> setting_table() {
 }
 
 template <>
+std::span<const Setting<ContactSettings>> setting_table() {
+  using S = ContactSettings;
+  static const Setting<S> table[] = {
+      {"muscle", &S::muscle, "", 0, 0,
+       "How muscles keep out of each other: 'surface' by nearest triangles and crossing edges, 'virtual-edges' as "
+       "published, 'none' not at all."},
+      {"self", &S::self, "", 0, 0, "A muscle keeps out of itself; with 'surface' only."},
+      {"margin", &S::margin, "m", 0, 0.1, "Gap kept between muscles where the gap at rest allows."},
+      {"reach", &S::reach, "m", 0, 0.1, "Farthest that another muscle is looked for, once per step."},
+      {"friction", &S::friction, "", 0, 10, "Coulomb's coefficient of friction between muscles."},
+      {"cohesion", &S::cohesion, "m", 0, 0.1,
+       "Farthest that parts of muscles which touch in the capture pose may part; 0 lets them."},
+  };
+  return table;
+}
+
+template <>
 std::span<const Setting<PrepareSettings>> setting_table() {
   using S = PrepareSettings;
   static const Setting<S> table[] = {

@@ -12,8 +12,8 @@
 #include <vector>
 
 /// What users may set, said once: key, unit, range and meaning of each member of XpbdSettings, DistanceFieldSettings,
-/// FiberSettings, PrepareSettings and Sequence. Scene files, `--set`, `print-config` and the manifest of a run all read
-/// these tables. The default is the member's initializer.
+/// FiberSettings, ContactSettings, PrepareSettings and Sequence. Scene files, `--set`, `print-config` and the manifest
+/// of a run all read these tables. The default is the member's initializer.
 namespace gracilis {
 
 /// A setting's value outside its struct; choices such as a TimeMode are strings.
@@ -22,8 +22,9 @@ using SettingValue = std::variant<bool, int, Real, Vec3, std::string>;
 /// A member of Settings that users may set.
 template <class Settings>
 struct Setting {
-  using Member = std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*,
-                              TimeMode Settings::*, DihedralFormula Settings::*, FiberTemplate Settings::*>;
+  using Member =
+      std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*, TimeMode Settings::*,
+                   DihedralFormula Settings::*, FiberTemplate Settings::*, MuscleContact Settings::*>;
   std::string_view key;
   Member member;
   std::string_view unit;  ///< empty for numbers without one and for switches
@@ -45,6 +46,8 @@ template <>
 std::span<const Setting<Sequence>> setting_table();
 template <>
 std::span<const Setting<PrepareSettings>> setting_table();
+template <>
+std::span<const Setting<ContactSettings>> setting_table();
 
 /// The table's entry with this key, or null.
 template <class Settings>

@@ -12,6 +12,9 @@ static constexpr std::array<std::string_view, 2> choices_of(DihedralFormula) { r
 static constexpr std::array<std::string_view, 4> choices_of(FiberTemplate) {
   return {"parallel", "pennate", "curved", "fan"};
 }
+static constexpr std::array<std::string_view, 3> choices_of(MuscleContact) {
+  return {"none", "surface", "virtual-edges"};
+}
 
 template <class T>
 constexpr bool is_choice = std::is_enum_v<T>;
@@ -128,15 +131,18 @@ template SettingValue value_of(const DistanceFieldSettings&, const Setting<Dista
 template SettingValue value_of(const FiberSettings&, const Setting<FiberSettings>&);
 template SettingValue value_of(const Sequence&, const Setting<Sequence>&);
 template SettingValue value_of(const PrepareSettings&, const Setting<PrepareSettings>&);
+template SettingValue value_of(const ContactSettings&, const Setting<ContactSettings>&);
 template std::string expectation(const Setting<XpbdSettings>&);
 template std::string expectation(const Setting<DistanceFieldSettings>&);
 template std::string expectation(const Setting<FiberSettings>&);
 template std::string expectation(const Setting<Sequence>&);
 template std::string expectation(const Setting<PrepareSettings>&);
+template std::string expectation(const Setting<ContactSettings>&);
 template std::string assign(XpbdSettings&, const Setting<XpbdSettings>&, const SettingValue&);
 template std::string assign(DistanceFieldSettings&, const Setting<DistanceFieldSettings>&, const SettingValue&);
 template std::string assign(FiberSettings&, const Setting<FiberSettings>&, const SettingValue&);
 template std::string assign(Sequence&, const Setting<Sequence>&, const SettingValue&);
 template std::string assign(PrepareSettings&, const Setting<PrepareSettings>&, const SettingValue&);
+template std::string assign(ContactSettings&, const Setting<ContactSettings>&, const SettingValue&);
 
 }  // namespace gracilis

@@ -51,6 +51,20 @@ struct XpbdSettings {
   bool slack_uptake = true;                      ///< edges aim at their lengths on the carried surface, so that nothing folds
 };
 
+/// How muscles keep out of each other: not at all, point against surface and edge against edge, or as published by pairs
+/// of vertices.
+enum class MuscleContact { none, surface, virtual_edges };
+
+/// Settings of contact between muscles and of a muscle with itself, for all muscles of a scene.
+struct ContactSettings {
+  MuscleContact muscle = MuscleContact::surface;
+  bool self = true;           ///< a muscle keeps out of itself; surface contact only
+  Real margin = 0.0003;       ///< m, kept between muscles where the gap at rest allows
+  Real reach = 0.006;         ///< m, farthest that another muscle is looked for
+  Real friction = 0;          ///< Coulomb's coefficient
+  Real cohesion = 0;          ///< m, farthest that what touches at rest may part; 0: as it likes
+};
+
 /// Settings of the distance fields of all bones.
 struct DistanceFieldSettings {
   Real cell_size = 0.001;       ///< m; used where resolution is 0

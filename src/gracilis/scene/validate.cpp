@@ -208,6 +208,7 @@ std::vector<Problem> validate(const Scene& scene) {
   validation.check_muscles();
   validation.check_motion();
   validation.check_settings("distance_field", scene.distance_fields);
+  validation.check_settings("contact", scene.contact);
   validation.check_settings("sequence", scene.sequence);
   return validation.problems;
 }

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/dynamics/particles.hpp>
+
+#include <array>
+#include <vector>
+
+namespace gracilis {
+
+/// A surface as others meet it: constant. Faces and edges are numbered like in the input.
+struct ContactSurface {
+  struct Edge {
+    std::array<Index, 2> ends;   ///< particles
+    std::array<Index, 2> faces;  ///< -1 where there is none
+  };
+
+  Eigen::Matrix3Xi faces;   ///< particles, counter-clockwise seen from outside
+  Eigen::Matrix3Xi across;  ///< face behind the side opposite to each corner; -1: none
+  Eigen::Matrix3Xi sides;   ///< edge opposite to each corner
+  std::vector<Edge> edges;
+  std::vector<Index> fan_offsets, fan;  ///< faces around each particle
+};
+
+/// Tables of a triangle list over `particle_count` particles.
+ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index particle_count);
+
+/// Unit normals at the particles, sums of the faces' normals weighted by their angles there (Bærentzen and Aanæs 2005);
+/// zero where all faces are flat.
+void particle_normals(const ContactSurface& surface, const Particles& particles, Eigen::Matrix3Xf& normals);
+
+/// Where a point stands against a triangle: the nearest point of the triangle, and the signed distance to it along
+/// `normal`, positive outside.
+struct PointGap {
+  Eigen::Vector3f barycentric;
+  Eigen::Vector3f normal;
+  float distance = 0;
+};
+
+/// The gap between p and the face. Over the inside of the face the normal is the face's own; over its sides and corners
+/// it points from the nearest point to p, outward by `normals` at the corners. Zero normal where nothing tells a
+/// direction.
+PointGap point_gap(const Eigen::Vector3f& p, const ContactSurface& surface, Index face, const Particles& particles,
+                   const Eigen::Matrix3Xf& normals);
+
+/// Where two edges stand against each other.
+struct EdgeGap {
+  float s = 0, t = 0;      ///< parameters of the nearest points on the first and second edge
+  Eigen::Vector3f normal;  ///< from the second to the first
+  float distance = 0;      ///< along `normal`; negative when they have passed through each other
+  bool crossing = false;   ///< the nearest points lie inside of both edges, and the normal is well defined
+};
+
+/// The gap between edges (a0, a1) and (b0, b1) along their common perpendicular, which is turned to `outward`, from the
+/// second's surface to the first's. Not `crossing` when they are parallel, when one passes the other's end, or when the
+/// perpendicular lies nearly across `outward`.
+EdgeGap edge_gap(const Eigen::Vector3f& a0, const Eigen::Vector3f& a1, const Eigen::Vector3f& b0,
+                 const Eigen::Vector3f& b1, const Eigen::Vector3f& outward);
+
+/// From `face` to neighbors as long as they come nearer to p: the nearest face, or one nearest among those around it.
+Index walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face, const Particles& particles);
+
+}  // namespace gracilis

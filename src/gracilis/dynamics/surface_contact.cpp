@@ -1,0 +1,184 @@
+#include <gracilis/dynamics/surface_contact.hpp>
+
+#include <gracilis/core/parallel.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace gracilis {
+
+namespace {
+
+/// Where a contact stands and what it moves: up to two particles of one side against up to three of the other.
+struct Contact {
+  std::array<Index, 2> probe{-1, -1};
+  std::array<float, 2> probe_weight{};
+  std::array<Index, 3> target{-1, -1, -1};
+  std::array<float, 3> target_weight{};
+  Eigen::Vector3f normal;
+  float distance = 0, gap = 0;
+  bool bound = false;  ///< both touched at rest: cohesion holds them
+};
+
+/// One side of a pair, seen from the other.
+struct Sides {
+  const ContactSurface& target_surface;
+  const Eigen::Matrix3Xf& target_normals;
+  const std::vector<float>& probe_gap;
+  const std::vector<char>&probe_touches, &target_touches;
+  Eigen::Vector3f shift;  ///< from the probe's coordinates to the target's
+  bool is_self = false;
+};
+
+Sides toward_second(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state) {
+  const auto second = static_cast<std::size_t>(pair.second);
+  return {crowd.surfaces[second], state.normals[second], pair.first_gap,
+          pair.first_touches,     pair.second_touches,   pair.shift,
+          pair.is_self()};
+}
+
+Sides toward_first(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state) {
+  const auto first = static_cast<std::size_t>(pair.first);
+  return {crowd.surfaces[first], state.normals[first], pair.second_gap, pair.second_touches,
+          pair.first_touches,    -pair.shift,          pair.is_self()};
+}
+
+Contact contact_of(const PointTouch& touch, const Sides& sides, const Particles& probe, const Particles& target) {
+  const auto p = static_cast<std::size_t>(touch.particle);
+  const PointGap gap = point_gap(probe.position(touch.particle) + sides.shift, sides.target_surface, touch.face, target,
+                                 sides.target_normals);
+  Contact contact;
+  contact.probe[0] = touch.particle;
+  contact.probe_weight[0] = 1;
+  contact.bound = sides.probe_touches[p];
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const Index particle = sides.target_surface.faces(static_cast<Index>(corner), touch.face);
+    const auto at = static_cast<std::size_t>(particle);
+    contact.target[corner] = particle;
+    contact.target_weight[corner] = gap.barycentric[static_cast<Index>(corner)];
+    contact.bound = contact.bound && sides.target_touches[at];
+  }
+  contact.normal = touch.side * gap.normal;
+  contact.distance = touch.side * gap.distance;
+  contact.gap = sides.probe_gap[p];
+  return contact;
+}
+
+/// Takes back a share of the tangential motion since the step began, as much as the push allows (Coulomb).
+Eigen::Vector3f friction_of(const Contact& contact, float friction, float push, const Eigen::Vector3f& moved) {
+  const Eigen::Vector3f tangential = moved - contact.normal.dot(moved) * contact.normal;
+  const float length = tangential.norm();
+  return length > 0 ? Eigen::Vector3f(-tangential * std::min(1.0f, friction * push / length))
+                    : Eigen::Vector3f(Eigen::Vector3f::Zero());
+}
+
+/// Moves both sides until the gap is kept. True when it had to.
+bool project(const Contact& contact, const SurfaceContactSettings& settings, const Particles& probe_start,
+             const Particles& target_start, Particles& probe, Particles& target) {
+  float wanted = contact.gap - contact.distance;
+  const bool parted = contact.bound && settings.cohesion > 0 && contact.distance > settings.cohesion;
+  if (parted) wanted = settings.cohesion - contact.distance;
+  if (!(wanted > 0) && !parted) return false;
+  float weight = 0;
+  Eigen::Vector3f moved = Eigen::Vector3f::Zero();
+  const auto add = [&](Index particle, float share, const Particles& now, const Particles& start, float sign) {
+    if (particle < 0) return;
+    weight += share * share * now.inverse_mass(particle);
+    if (settings.friction > 0) moved += sign * share * (now.position(particle) - start.position(particle));
+  };
+  for (std::size_t i = 0; i < 2; ++i) add(contact.probe[i], contact.probe_weight[i], probe, probe_start, 1);
+  for (std::size_t i = 0; i < 3; ++i) add(contact.target[i], contact.target_weight[i], target, target_start, -1);
+  if (!(weight > 0)) return false;
+  Eigen::Vector3f push = wanted * contact.normal;
+  if (settings.friction > 0 && !parted) push += friction_of(contact, settings.friction, wanted, moved);
+  push /= weight;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Index p = contact.probe[i];
+    if (p >= 0) probe.position(p) += probe.inverse_mass(p) * contact.probe_weight[i] * push;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index p = contact.target[i];
+    if (p >= 0) target.position(p) -= target.inverse_mass(p) * contact.target_weight[i] * push;
+  }
+  return true;
+}
+
+Index project_points(const std::vector<PointTouch>& touches, const Sides& sides, const SurfaceContactSettings& settings,
+                     const Particles& probe_start, const Particles& target_start, Particles& probe, Particles& target) {
+  Index count = 0;
+  for (const PointTouch& touch : touches)
+    count += project(contact_of(touch, sides, probe, target), settings, probe_start, target_start, probe, target);
+  return count;
+}
+
+Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state,
+                    const std::vector<EdgeTouch>& touches, const std::vector<const Particles*>& start,
+                    const std::vector<Particles*>& particles) {
+  const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+  Index count = 0;
+  for (const EdgeTouch& touch : touches) {
+    const auto& first = crowd.surfaces[a].edges[static_cast<std::size_t>(touch.first)].ends;
+    const auto& second = crowd.surfaces[b].edges[static_cast<std::size_t>(touch.second)].ends;
+    const Eigen::Vector3f outward = state.normals[b].col(second[0]) + state.normals[b].col(second[1]) -
+                                    state.normals[a].col(first[0]) - state.normals[a].col(first[1]);
+    const EdgeGap gap =
+        edge_gap(particles[a]->position(first[0]) + pair.shift, particles[a]->position(first[1]) + pair.shift,
+                 particles[b]->position(second[0]), particles[b]->position(second[1]), outward);
+    if (!gap.crossing) continue;
+    const auto between = [](const std::vector<float>& gaps, const std::array<Index, 2>& ends, float t) {
+      return (1 - t) * gaps[static_cast<std::size_t>(ends[0])] + t * gaps[static_cast<std::size_t>(ends[1])];
+    };
+    Contact contact;
+    contact.probe = first;
+    contact.probe_weight = {1 - gap.s, gap.s};
+    contact.target = {second[0], second[1], -1};
+    contact.target_weight = {1 - gap.t, gap.t, 0};
+    contact.normal = gap.normal;
+    contact.distance = gap.distance;
+    contact.gap = std::min(between(pair.first_gap, first, gap.s), between(pair.second_gap, second, gap.t));
+    count += project(contact, crowd.settings, *start[a], *start[b], *particles[a], *particles[b]);
+  }
+  return count;
+}
+
+}  // namespace
+
+void arrange_rounds(SurfaceCrowd& crowd) {
+  crowd.rounds.clear();
+  std::vector<std::vector<char>> taken;
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+    const auto a = static_cast<std::size_t>(crowd.pairs[i].first), b = static_cast<std::size_t>(crowd.pairs[i].second);
+    std::size_t round = 0;
+    while (round < taken.size() && (taken[round][a] || taken[round][b])) ++round;
+    if (round == taken.size()) {
+      taken.emplace_back(crowd.surfaces.size(), 0);
+      crowd.rounds.emplace_back();
+    }
+    taken[round][a] = taken[round][b] = 1;
+    crowd.rounds[round].push_back(static_cast<Index>(i));
+  }
+}
+
+Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
+                      const std::vector<Particles*>& particles) {
+  std::atomic<Index> count = 0;
+  for (const std::vector<Index>& round : crowd.rounds)
+    parallel_for(static_cast<Index>(round.size()), 1, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; ++i) {
+        const auto number = static_cast<std::size_t>(round[static_cast<std::size_t>(i)]);
+        const SurfacePair& pair = crowd.pairs[number];
+        const PairTouches& touches = state.touches[number];
+        const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+        Index pushed = project_edges(crowd, pair, state, touches.edges, start, particles);
+        pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, *start[a],
+                                 *start[b], *particles[a], *particles[b]);
+        pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, *start[b],
+                                 *start[a], *particles[b], *particles[a]);
+        count += pushed;
+      }
+    });
+  return count;
+}
+
+}  // namespace gracilis

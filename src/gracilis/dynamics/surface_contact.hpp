@@ -1,0 +1,79 @@
+#pragma once
+
+#include <gracilis/dynamics/contact_surface.hpp>
+#include <gracilis/geometry/nearest_triangle.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// How surfaces meet.
+struct SurfaceContactSettings {
+  float reach = 0.006f;       ///< m, farthest that one is looked for from the other, once per step
+  float self_reach = 0.002f;  ///< m, the same within one surface
+  float friction = 0;         ///< largest tangential motion taken back, as a share of the push
+  float cohesion = 0;         ///< m, farthest that particles which touch at rest may part; 0: as they like
+};
+
+/// Two surfaces that must not pass through each other, or one with itself. A particle keeps its gap to the other
+/// surface: the margin, or what there was at rest where that is less, negative where the data overlap.
+struct SurfacePair {
+  Index first = 0, second = 0;                      ///< equal: self-contact
+  Eigen::Vector3f shift = Eigen::Vector3f::Zero();  ///< from the first's coordinates to the second's, m
+  std::vector<float> first_gap, second_gap;         ///< m, per particle
+  std::vector<char> first_touches, second_touches;  ///< which particles touch the other at rest; for cohesion
+  bool is_self() const { return first == second; }
+};
+
+/// The whole crowd; constant. Self-contact needs the shape at rest, to tell what belongs together: `rest` and its
+/// normals per surface.
+struct SurfaceCrowd {
+  std::vector<ContactSurface> surfaces;
+  std::vector<Eigen::Matrix3Xf> rest, rest_normals;
+  std::vector<float> neighborhood;  ///< m, per surface: parts nearer than this at rest do not meet each other
+  std::vector<SurfacePair> pairs;
+  std::vector<std::vector<Index>> rounds;  ///< pairs without a surface in common, which may be projected together
+  SurfaceContactSettings settings;
+};
+
+/// A particle of one surface near a face of the other. `side` is -1 where a sheet meets its own back from inside.
+struct PointTouch {
+  Index particle = 0, face = 0;
+  float side = 1;
+};
+struct EdgeTouch {
+  Index first = 0, second = 0;
+};
+
+/// What is near what; workspace of one step.
+struct PairTouches {
+  std::vector<PointTouch> near_second, near_first;  ///< found once per step, walked since: particles of the first
+                                                    ///< near the second and the other way
+  std::vector<PointTouch> on_second, on_first;      ///< of these, what every iteration projects
+  std::vector<EdgeTouch> edges;
+};
+struct CrowdState {
+  std::vector<NearestTriangle> trees;
+  std::vector<Eigen::Matrix3Xf> normals;
+  std::vector<PairTouches> touches;  ///< one per pair
+};
+
+/// Groups the pairs into rounds. Call it once all pairs are there.
+void arrange_rounds(SurfaceCrowd& crowd);
+
+/// A state for surfaces at rest.
+CrowdState make_crowd_state(const SurfaceCrowd& crowd);
+
+/// Finds what is near what, from nothing but where the particles are: once per step, after the prediction.
+void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state);
+
+/// Follows what was found to where it is now and lists what the next iterations have to project.
+void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state);
+
+/// Projects all listed contacts: points against faces, then edges against edges, without compliance, each side moving
+/// by its inverse masses so that momentum is kept. `start` are the particles where the step began, for friction.
+/// Returns how many pushed.
+Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
+                      const std::vector<Particles*>& particles);
+
+}  // namespace gracilis

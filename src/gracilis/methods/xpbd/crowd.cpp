@@ -1,0 +1,95 @@
+#include <gracilis/methods/xpbd/crowd.hpp>
+
+#include <algorithm>
+
+namespace gracilis::xpbd {
+
+namespace {
+
+/// Share of its depth in another muscle at rest that a point gives back, as in bones.
+constexpr float overlap_given_back = 0.05f;
+/// A sheet may become this share of its thickness at rest.
+constexpr float thinnest_sheet = 0.25f;
+/// What is nearer than this at rest touches, m.
+constexpr float touching = 0.001f;
+/// Mean edges around a place that belong to it and do not meet it.
+constexpr float neighborhood_edges = 4;
+
+float mean_edge(const SurfaceSystem& system) {
+  double sum = 0;
+  for (Index slot : system.distances.slot) sum += system.distances.rest_length[static_cast<std::size_t>(slot)];
+  return system.distances.count > 0 ? static_cast<float>(sum / system.distances.count) : 0;
+}
+
+void add_surface(const PreparedMuscle& muscle, SurfaceCrowd& crowd) {
+  const Particles& rest = muscle.system.rest;
+  crowd.surfaces.push_back(build_contact_surface(muscle.faces, rest.count()));
+  Eigen::Matrix3Xf points(3, rest.count()), normals;
+  for (Index p = 0; p < rest.count(); ++p) points.col(p) = rest.position(p);
+  particle_normals(crowd.surfaces.back(), rest, normals);
+  crowd.rest.push_back(std::move(points));
+  crowd.rest_normals.push_back(std::move(normals));
+  crowd.neighborhood.push_back(neighborhood_edges * mean_edge(muscle.system));
+}
+
+SurfacePair pair_of(Index first, Index second, const std::vector<PreparedMuscle>& muscles, float margin) {
+  const PreparedMuscle &a = muscles[static_cast<std::size_t>(first)], &b = muscles[static_cast<std::size_t>(second)];
+  SurfacePair pair;
+  pair.first = first, pair.second = second;
+  pair.shift = (a.origin - b.origin).cast<float>();
+  const auto first_count = static_cast<std::size_t>(a.rest.cols()),
+             second_count = static_cast<std::size_t>(b.rest.cols());
+  pair.first_gap.assign(first_count, margin), pair.second_gap.assign(second_count, margin);
+  pair.first_touches.assign(first_count, 0), pair.second_touches.assign(second_count, 0);
+  return pair;
+}
+
+/// Lowers the margin to what there is at rest.
+void measure_gaps(const std::vector<PointTouch>& near, const Particles& probe, const Eigen::Vector3f& shift,
+                  const ContactSurface& surface, const Particles& target, const Eigen::Matrix3Xf& normals,
+                  std::vector<float>& gaps, std::vector<char>& touches) {
+  for (const PointTouch& touch : near) {
+    const float rest =
+        touch.side * point_gap(probe.position(touch.particle) + shift, surface, touch.face, target, normals).distance;
+    float& gap = gaps[static_cast<std::size_t>(touch.particle)];
+    const float kept = rest < 0 ? rest * (1 - overlap_given_back) : touch.side < 0 ? rest * thinnest_sheet : rest;
+    gap = std::min(gap, kept);
+    touches[static_cast<std::size_t>(touch.particle)] = rest < touching;
+  }
+}
+
+}  // namespace
+
+SurfaceCrowd prepare_crowd(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
+  SurfaceCrowd crowd;
+  if (settings.muscle != MuscleContact::surface) return crowd;
+  const auto margin = static_cast<float>(settings.margin);
+  crowd.settings.reach = static_cast<float>(settings.reach);
+  crowd.settings.friction = static_cast<float>(settings.friction);
+  crowd.settings.cohesion = static_cast<float>(settings.cohesion);
+  const auto count = static_cast<Index>(muscles.size());
+  std::vector<const Particles*> rest;
+  for (const PreparedMuscle& muscle : muscles) {
+    add_surface(muscle, crowd);
+    rest.push_back(&muscle.system.rest);
+  }
+  for (Index first = 0; first < count; ++first)
+    for (Index second = settings.self ? first : first + 1; second < count; ++second)
+      crowd.pairs.push_back(pair_of(first, second, muscles, margin));
+  arrange_rounds(crowd);
+
+  CrowdState state = make_crowd_state(crowd);
+  find_touches(crowd, rest, state);
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+    SurfacePair& pair = crowd.pairs[i];
+    const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+    measure_gaps(state.touches[i].near_second, *rest[a], pair.shift, crowd.surfaces[b], *rest[b], state.normals[b],
+                 pair.first_gap, pair.first_touches);
+    measure_gaps(state.touches[i].near_first, *rest[b], -pair.shift, crowd.surfaces[a], *rest[a], state.normals[a],
+                 pair.second_gap, pair.second_touches);
+    if (pair.is_self()) pair.second_gap = pair.first_gap;
+  }
+  return crowd;
+}
+
+}  // namespace gracilis::xpbd

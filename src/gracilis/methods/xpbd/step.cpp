@@ -1,0 +1,179 @@
+#include <gracilis/methods/xpbd/step.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/methods/xpbd/motion.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace gracilis::xpbd {
+
+void take_velocities(float time_step, SurfaceState& state) {
+  for (Index p = 0; p < state.particles.count(); ++p)
+    velocity_of(state, p) = (state.particles.position(p) - state.start.position(p)) / time_step;
+}
+
+namespace {
+
+SolveSettings solve_settings(const XpbdSettings& settings, int substeps) {
+  SolveSettings solve;
+  solve.iterations = settings.iterations;
+  solve.time_step = settings.time_step / substeps;
+  solve.projection.time_step =
+      static_cast<float>(settings.constraint_time_step > 0 ? settings.constraint_time_step : solve.time_step);
+  solve.projection.rayleigh_beta = static_cast<float>(settings.rayleigh_beta);
+  solve.projection.hinge_limit = static_cast<float>(settings.hinge_limit);
+  solve.projection.arccos_hinges = settings.dihedral_formula == DihedralFormula::arccos;
+  solve.pressure = settings.pressure;
+  solve.stretch_limit = static_cast<float>(settings.stretch_limit);
+  solve.stop_displacement = static_cast<float>(settings.stop_displacement);
+  solve.stop_milliseconds = settings.stop_milliseconds / substeps;
+  return solve;
+}
+
+/// x += dt v + dt² g, v the damped velocity (dynamic mode).
+void coast(const XpbdSettings& settings, float time_step, SurfaceState& state) {
+  for (Index p = 0; p < state.particles.count(); ++p) {
+    if (!(state.particles.inverse_mass(p) > 0)) continue;
+    Eigen::Map<Eigen::Vector3f> velocity = velocity_of(state, p);
+    velocity = static_cast<float>(settings.damping) * velocity + time_step * settings.gravity.cast<float>();
+    state.particles.position(p) += time_step * velocity;
+  }
+}
+
+Real farthest(const Particles& from, const Particles& to) {
+  float largest2 = 0;
+  for (Index p = 0; p < to.count(); ++p)
+    largest2 = std::max(largest2, (to.position(p) - from.position(p)).squaredNorm());
+  return static_cast<Real>(std::sqrt(largest2));
+}
+
+/// Where the bodies are `share` of the way from one pose to the next, for substeps.
+Pose pose_between(const Pose& before, const Pose& now, Real share) {
+  if (share >= 1) return now;
+  Pose pose = now;
+  for (std::size_t b = 0; b < pose.bodies.size(); ++b) {
+    const Eigen::Quaterniond from(before.bodies[b].linear()), to(now.bodies[b].linear());
+    pose.bodies[b].linear() = from.slerp(share, to).toRotationMatrix();
+    pose.bodies[b].translation() = (1 - share) * before.bodies[b].translation() + share * now.bodies[b].translation();
+  }
+  return pose;
+}
+
+/// Moves the state to `pose` as far as bones and inertia alone tell.
+void predict(const PreparedMuscle& muscle, const Pose& before, const Pose& pose, float time_step, SurfaceState& state) {
+  const XpbdSettings& settings = muscle.settings;
+  state.start = state.particles;
+  if (settings.predictor) carry_free(muscle, before, pose, state.particles);
+  // Velocities are relative to the carried motion, so the predictor adds no momentum of its own.
+  if (settings.predictor) state.start = state.particles;
+  if (settings.time_mode == TimeMode::dynamic) coast(settings, time_step, state);
+  move_attached(muscle, pose, state.particles);
+  move_attached(muscle, pose, state.start);
+  set_target_lengths(muscle, pose, state.target_length);
+}
+
+/// Calls act(i) for each of the steps, possibly at the same time.
+template <class Act>
+void for_each_step(const std::vector<MuscleStep>& steps, const Act& act) {
+  parallel_for(static_cast<Index>(steps.size()), 1, [&](Index begin, Index end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) act(i);
+  });
+}
+
+/// What acts between the muscles of a crowd.
+Coupling couple(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& state) {
+  if (crowd.pairs.empty()) return {};
+  std::vector<Particles*> particles;
+  std::vector<const Particles*> seen, start;
+  for (const MuscleStep& step : steps) {
+    particles.push_back(&step.state->particles);
+    seen.push_back(&step.state->particles);
+    start.push_back(&step.state->start);
+  }
+  find_touches(crowd, seen, state);
+  return {[&crowd, &state, seen] { follow_touches(crowd, seen, state); },
+          [&crowd, &state, start, particles] { return project_touches(crowd, state, start, particles); }};
+}
+
+/// The first thing after which a coordinate was not finite.
+struct Failure {
+  std::size_t muscle = 0;
+  ConstraintKind kind = ConstraintKind::none;
+};
+
+/// Solves again from the prediction and watches.
+Failure find_failure(std::vector<SurfaceSolve>& solves, const std::vector<Particles>& predicted,
+                     const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& crowd_state) {
+  for (std::size_t i = 0; i < steps.size(); ++i) steps[i].state->particles = predicted[i];
+  std::vector<std::optional<ConstraintKind>> first(steps.size());
+  solve_together(solves, couple(steps, crowd, crowd_state), [&](std::size_t i, ConstraintKind kind) {
+    if (!first[i] && !is_finite(steps[i].state->particles)) first[i] = kind;
+  });
+  for (std::size_t i = 0; i < first.size(); ++i)
+    if (first[i]) return {i, *first[i]};
+  return {};
+}
+
+[[noreturn]] void throw_failure(const std::vector<MuscleStep>& steps, const Failure& failure) {
+  const std::string muscle = "muscle " + steps[failure.muscle].muscle->name;
+  throw QualityError(muscle + ": a vertex position is not finite after the " + name_of(failure.kind) +
+                     " constraint; soften the material or raise `iterations`");
+}
+
+void add_to(MuscleReport& report, const SolveReport& solved, Real correction) {
+  report.iterations += solved.iterations;
+  report.contacts = solved.contacts;
+  report.limited_hinges += solved.limited_hinges;
+  report.limited_edges += solved.limited_edges;
+  report.skipped_constraints += solved.skipped_constraints;
+  report.largest_correction = std::max(report.largest_correction, correction);
+  report.milliseconds += solved.milliseconds;
+}
+
+void advance_substep(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& crowd_state,
+                     int substeps, const Pose& before, const Pose& now) {
+  std::vector<SurfaceSolve> solves(steps.size());
+  std::vector<std::vector<FieldPlacement>> placements(steps.size());
+  std::vector<Particles> predicted(steps.size());
+  for_each_step(steps, [&](std::size_t i) {
+    const PreparedMuscle& muscle = *steps[i].muscle;
+    SurfaceState& state = *steps[i].state;
+    solves[i] = {&muscle.system, &placements[i], solve_settings(muscle.settings, substeps), &state, {}};
+    placements[i] = place_fields(muscle, now);
+    predict(muscle, before, now, static_cast<float>(solves[i].settings.time_step), state);
+    predicted[i] = state.particles;
+  });
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    if (!is_finite(predicted[i]))
+      throw QualityError("muscle " + steps[i].muscle->name +
+                         ": a vertex position is not finite before the solver; check the pose and the velocities");
+  solve_together(solves, couple(steps, crowd, crowd_state));
+  const auto is_lost = [](const MuscleStep& step) { return !is_finite(step.state->particles); };
+  if (std::any_of(steps.begin(), steps.end(), is_lost))
+    throw_failure(steps, find_failure(solves, predicted, steps, crowd, crowd_state));
+  for_each_step(steps, [&](std::size_t i) {
+    SurfaceState& state = *steps[i].state;
+    if (steps[i].muscle->settings.time_mode == TimeMode::dynamic)
+      take_velocities(static_cast<float>(solves[i].settings.time_step), state);
+    add_to(*steps[i].report, solves[i].report, farthest(predicted[i], state.particles));
+  });
+}
+
+}  // namespace
+
+void advance_together(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& crowd_state,
+                      const Pose& before, const Pose& now) {
+  int substeps = 1;
+  for (const MuscleStep& step : steps) substeps = std::max(substeps, step.muscle->settings.substeps);
+  Pose reached = before;
+  for (int substep = 1; substep <= substeps; ++substep) {
+    const Pose pose = pose_between(before, now, static_cast<Real>(substep) / substeps);
+    advance_substep(steps, crowd, crowd_state, substeps, reached, pose);
+    reached = pose;
+  }
+}
+
+}  // namespace gracilis::xpbd

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <gracilis/dynamics/surface_contact.hpp>
+#include <gracilis/methods/method.hpp>
+#include <gracilis/methods/xpbd/preparation.hpp>
+#include <gracilis/scene/pose.hpp>
+
+#include <vector>
+
+namespace gracilis::xpbd {
+
+/// One of the muscles that are advanced in step.
+struct MuscleStep {
+  const PreparedMuscle* muscle = nullptr;
+  SurfaceState* state = nullptr;
+  MuscleReport* report = nullptr;
+};
+
+/// Moves the muscles from one pose to the next, in as many substeps as the most demanding of them asks for. `crowd`
+/// says how they meet, its surfaces in the order of `steps`; without pairs they do not. Throws QualityError that names
+/// the muscle and the kind of constraint after which a coordinate is not finite; the states are then of no use.
+void advance_together(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& crowd_state,
+                      const Pose& before, const Pose& now);
+
+/// v = (x - x_start) / time step, for all particles.
+void take_velocities(float time_step, SurfaceState& state);
+
+/// The velocity of a particle, m/s.
+inline Eigen::Map<Eigen::Vector3f> velocity_of(SurfaceState& state, Index particle) {
+  return Eigen::Map<Eigen::Vector3f>(state.velocities.data() + 3 * static_cast<std::size_t>(particle));
+}
+
+}  // namespace gracilis::xpbd
