@@ -12,6 +12,15 @@ namespace gracilis::contact_check {
 
 static constexpr Real deep = 0.2e-3;  // m
 
+static std::vector<Index> with_an_end_inside(const Edges& edges, const Eigen::VectorXd& depths) {
+  std::vector<Index> inside;
+  for (Index e = 0; e < static_cast<Index>(edges.size()); ++e) {
+    const IndexPair& ends = edges[static_cast<std::size_t>(e)];
+    if (depths[ends[0]] > 0 || depths[ends[1]] > 0) inside.push_back(e);
+  }
+  return inside;
+}
+
 Judge::Judge(std::vector<JudgedMuscle> muscles, std::vector<JudgedBone> bones)
     : muscles_(std::move(muscles)), bones_(std::move(bones)), rest_(muscles_.size()) {
   for (Index a = 0; a < static_cast<Index>(muscles_.size()); ++a)
@@ -24,8 +33,13 @@ Judge::Judge(std::vector<JudgedMuscle> muscles, std::vector<JudgedBone> bones)
     for (const Hinge& hinge : rest.hinges) rest.angles.push_back(hinge_angle(hinge, mesh.vertices));
     rest.volume = enclosed_volume(mesh.vertices, mesh.faces);
     rest.self_pairs = static_cast<Index>(self_intersecting_faces(mesh).size());
-    for (const JudgedBone& bone : bones_)
+    for (const JudgedBone& bone : bones_) {
       rest.bone_edges.push_back(crossing_edges(mesh.vertices, rest.edges, bone.rest));
+      rest.forgiven_edges.push_back(with_an_end_inside(rest.edges, depths_inside(mesh.vertices, bone.rest)));
+      std::vector<Index>& forgiven = rest.forgiven_edges.back();
+      forgiven.insert(forgiven.end(), rest.bone_edges.back().begin(), rest.bone_edges.back().end());
+      std::sort(forgiven.begin(), forgiven.end());
+    }
     for (const JudgedMuscle& other : muscles_) {
       rest.depths.push_back(&other == &muscles_[m] ? Eigen::VectorXd::Zero(mesh.vertex_count()).eval()
                                                    : depths_inside(mesh.vertices, other.rest));
@@ -114,7 +128,7 @@ MuscleVerdict Judge::judge_muscle(std::size_t muscle, const TriangleMesh& now,
   for (std::size_t b = 0; b < bones.size(); ++b) {
     const std::vector<Index> crossing = crossing_edges(now.vertices, rest.edges, bones[b]);
     std::vector<Index> fresh;
-    std::set_difference(crossing.begin(), crossing.end(), rest.bone_edges[b].begin(), rest.bone_edges[b].end(),
+    std::set_difference(crossing.begin(), crossing.end(), rest.forgiven_edges[b].begin(), rest.forgiven_edges[b].end(),
                         std::back_inserter(fresh));
     std::erase_if(fresh, [&](Index edge) { return free_ends(edge) == 0; });
     const auto count = static_cast<Index>(fresh.size());

@@ -37,9 +37,9 @@ struct PairVerdict {
 /// One muscle in one frame.
 struct MuscleVerdict {
   Index self_pairs = 0, self_pairs_rest = 0;
-  Vec3 self_at = Vec3::Zero();      ///< mean of the faces
-  Index bone_edges = 0;             ///< edges with a free end that cross a bone and did not cross it at rest
-  Index bone_edges_unattached = 0;  ///< those of them with two free ends
+  Vec3 self_at = Vec3::Zero();  ///< mean of the faces
+  Index bone_edges = 0;         ///< edges with a free end that cross a bone they neither crossed nor entered at rest
+  Index bone_edges_unattached = 0;                    ///< those of them with two free ends
   Index bone_edges_all = 0, bone_edges_all_rest = 0;  ///< with a free end, whether they crossed at rest or not
   std::string bone;                                   ///< the bone with most of bone_edges
   Vec3 bone_at = Vec3::Zero();                        ///< mean of bone_edges' middles
@@ -76,8 +76,9 @@ class Judge {
     std::vector<Real> angles;
     Real volume = 0;
     Index self_pairs = 0;
-    std::vector<std::vector<Index>> bone_edges;  ///< per bone, ascending
-    std::vector<Eigen::VectorXd> depths;         ///< per other muscle: each vertex's depth in it
+    std::vector<std::vector<Index>> bone_edges;      ///< per bone, ascending
+    std::vector<std::vector<Index>> forgiven_edges;  ///< per bone: those that cross it and those with an end in it
+    std::vector<Eigen::VectorXd> depths;             ///< per other muscle: each vertex's depth in it
   };
   struct PairRest {
     Index first = 0, second = 0, face_pairs = 0;
