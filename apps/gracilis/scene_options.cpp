@@ -12,9 +12,8 @@ void add_scene_options(CLI::App& command, std::filesystem::path& file, SceneOpti
   command
       .add_option("--set", options.set,
                   "KEY=VALUE, MUSCLE.KEY=VALUE, preset=NAME, distance_field.KEY=VALUE, sequence.KEY=VALUE, "
-                  "fibers.KEY=VALUE or prepare.KEY=VALUE; may be repeated. A key for all muscles leaves those alone "
-                  "that the file gives one "
-                  "of their own")
+                  "motion.KEY=VALUE (motion.step_deg=0.25), fibers.KEY=VALUE or prepare.KEY=VALUE; may be repeated. A "
+                  "key for all muscles leaves those alone that the file gives one of their own")
       ->allow_extra_args(false);
   command.add_option("--only", options.only, "Keep these muscles only; names separated by commas")
       ->delimiter(',')

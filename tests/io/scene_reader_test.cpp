@@ -178,6 +178,13 @@ TEST_F(SceneReader, the_command_line_sets_globally_and_per_muscle) {
   EXPECT_EQ(loaded.scene.sequence.hold_frames, 3);
 }
 
+TEST_F(SceneReader, the_command_line_sets_one_key_of_the_motion) {
+  const Motion motion = read(good_scene(), {"", {"motion.step_deg=2.5"}, {}}).scene.motion;
+  ASSERT_EQ(motion.times.size(), 5u);
+  EXPECT_NEAR(motion.values(1, 0), radians(2.5), 1e-12);
+  EXPECT_NEAR(motion.values(4, 0), radians(10), 1e-12);
+}
+
 TEST_F(SceneReader, a_preset_from_the_command_line_sets_aside_the_files_settings_and_says_so) {
   const LoadedScene loaded =
       read(good_scene() + "[settings]\niterations = 5\n", {"", {"density=999", "preset=thesis-2024"}, {}});

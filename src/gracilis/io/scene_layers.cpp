@@ -146,13 +146,13 @@ static toml::table layer_of(const std::string& setting, const std::vector<std::s
   toml::table entries;
   insert_moved(entries, toml::key(key), *value.get("value"));
   if (owner == "settings" || owner == "distance_field" || owner == "contact" || owner == "sequence" ||
-      owner == "fibers" || owner == "prepare") {
+      owner == "fibers" || owner == "prepare" || owner == "motion") {
     layer.insert(owner, std::move(entries));
     return layer;
   }
   if (std::find(muscles.begin(), muscles.end(), owner) == muscles.end()) {
     std::vector<std::string> owners = muscles;
-    owners.insert(owners.end(), {"settings", "distance_field", "contact", "sequence", "fibers", "prepare"});
+    owners.insert(owners.end(), {"settings", "distance_field", "contact", "sequence", "fibers", "prepare", "motion"});
     throw ConfigurationError({source, "", "the scene has no muscle '" + owner + "'", suggestion(owner, owners)});
   }
   toml::table muscle;
@@ -177,7 +177,13 @@ SceneLayers load_scene_layers(const fs::path& path, const std::vector<std::strin
   for (const std::string& setting : ordered) {
     try {
       toml::table layer = layer_of(setting, muscles);
-      add_layer(layers, layer);
+      toml::table* motion = layers.table["motion"].as_table();
+      // A file that gives a motion gives all of it; the command line changes one key.
+      if (motion && layer.contains("motion")) {
+        lay_over(*motion, *layer["motion"].as_table());
+      } else {
+        add_layer(layers, layer);
+      }
     } catch (const ConfigurationError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
