@@ -68,23 +68,34 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
   return surface;
 }
 
+static Eigen::Vector3f normal_at(Index particle, const ContactSurface& surface, const Particles& particles) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  const auto at = static_cast<std::size_t>(particle);
+  for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i) {
+    const Index face = surface.fan[static_cast<std::size_t>(i)];
+    const std::size_t corner = surface.faces(0, face) == particle ? 0 : surface.faces(1, face) == particle ? 1 : 2;
+    const Corners x = corners_of(surface, face, particles);
+    const Eigen::Vector3f along = x[(corner + 1) % 3] - x[corner], back = x[(corner + 2) % 3] - x[corner];
+    const Eigen::Vector3f normal = along.cross(back);
+    const float length = normal.norm();
+    if (length > 0) sum += rough_angle(length, along.dot(back)) / length * normal;
+  }
+  return sum.stableNormalized();
+}
+
 void particle_normals(const ContactSurface& surface, const Particles& particles, Eigen::Matrix3Xf& normals) {
   normals.resize(3, particles.count());
   parallel_for(particles.count(), chunk, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) {
-      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-      const auto at = static_cast<std::size_t>(p);
-      for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i) {
-        const Index face = surface.fan[static_cast<std::size_t>(i)];
-        const int corner = surface.faces(0, face) == p ? 0 : surface.faces(1, face) == p ? 1 : 2;
-        const Corners x = corners_of(surface, face, particles);
-        const auto c = static_cast<std::size_t>(corner);
-        const Eigen::Vector3f along = x[(c + 1) % 3] - x[c], back = x[(c + 2) % 3] - x[c];
-        const Eigen::Vector3f normal = along.cross(back);
-        const float length = normal.norm();
-        if (length > 0) sum += rough_angle(length, along.dot(back)) / length * normal;
-      }
-      normals.col(p) = sum.stableNormalized();
+    for (Index p = begin; p < end; ++p) normals.col(p) = normal_at(p, surface, particles);
+  });
+}
+
+void particle_normals(const ContactSurface& surface, const Particles& particles, const std::vector<Index>& listed,
+                      Eigen::Matrix3Xf& normals) {
+  parallel_for(static_cast<Index>(listed.size()), chunk, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const Index p = listed[static_cast<std::size_t>(i)];
+      normals.col(p) = normal_at(p, surface, particles);
     }
   });
 }

@@ -28,6 +28,9 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
 /// Unit normals at the particles, sums of the faces' normals weighted by their angles there (Bærentzen and Aanæs 2005);
 /// zero where all faces are flat.
 void particle_normals(const ContactSurface& surface, const Particles& particles, Eigen::Matrix3Xf& normals);
+/// The same for the particles listed; the others keep what they have.
+void particle_normals(const ContactSurface& surface, const Particles& particles, const std::vector<Index>& listed,
+                      Eigen::Matrix3Xf& normals);
 
 /// Where a point stands against a triangle: the nearest point of the triangle, and the signed distance to it along
 /// `normal`, positive outside.

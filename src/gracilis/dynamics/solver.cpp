@@ -17,6 +17,8 @@ constexpr Index slots_per_task = 2048;
 /// reach within these iterations to be missed; the last iteration looks again anyway.
 constexpr int contact_refresh = 8;
 constexpr float contact_reach = 0.006f;
+/// The same between two looks at what is near between surfaces, which walk and list with reserve.
+constexpr int coupling_refresh = 15;
 
 template <class Project>
 void project_colors(const std::vector<ColorRange>& colors, SolveReport& report, const Project& project) {
@@ -209,7 +211,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       const Clock::time_point started = Clock::now();
       const bool ending =
           std::all_of(progress.begin(), progress.end(), [](const Progress& each) { return each.last || each.done; });
-      if (iteration % contact_refresh == 0 || ending) coupling.refresh();
+      if (iteration % coupling_refresh == 0 || ending) coupling.refresh();
       coupling.project();
       for (std::size_t i = 0; i < surfaces.size(); ++i) {
         if (watch) watch(i, ConstraintKind::muscle_contact);

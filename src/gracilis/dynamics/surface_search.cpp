@@ -157,6 +157,31 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
   for (const std::vector<EdgeTouch>& part : parts) found.insert(found.end(), part.begin(), part.end());
 }
 
+/// Normals where surfaces are near each other; elsewhere those of the step's beginning do.
+void refresh_normals(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
+  std::vector<std::vector<char>> wanted(crowd.surfaces.size());
+  for (std::size_t s = 0; s < wanted.size(); ++s) wanted[s].assign(static_cast<std::size_t>(particles[s]->count()), 0);
+  const auto want = [&](const std::vector<PointTouch>& near, std::size_t probe, std::size_t target) {
+    for (const PointTouch& touch : near) {
+      wanted[probe][static_cast<std::size_t>(touch.particle)] = 1;
+      for (Index corner : crowd.surfaces[target].faces.col(touch.face))
+        wanted[target][static_cast<std::size_t>(corner)] = 1;
+    }
+  };
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+    const auto a = static_cast<std::size_t>(crowd.pairs[i].first), b = static_cast<std::size_t>(crowd.pairs[i].second);
+    want(state.touches[i].near_second, a, b);
+    want(state.touches[i].near_first, b, a);
+  }
+  std::vector<Index> listed;
+  for (std::size_t s = 0; s < wanted.size(); ++s) {
+    listed.clear();
+    for (std::size_t p = 0; p < wanted[s].size(); ++p)
+      if (wanted[s][p]) listed.push_back(static_cast<Index>(p));
+    particle_normals(crowd.surfaces[s], *particles[s], listed, state.normals[s]);
+  }
+}
+
 }  // namespace
 
 CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
@@ -195,8 +220,7 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
 }
 
 void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
-  for (std::size_t s = 0; s < crowd.surfaces.size(); ++s)
-    particle_normals(crowd.surfaces[s], *particles[s], state.normals[s]);
+  refresh_normals(crowd, particles, state);
   // Cohesion also looks at what has parted.
   const float within = listed_within + (crowd.settings.cohesion > 0 ? crowd.settings.reach : 0);
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
