@@ -4,6 +4,7 @@
 
 #include <gracilis/anatomy/fiber_containment.hpp>
 #include <gracilis/anatomy/muscle_fibers.hpp>
+#include <gracilis/anatomy/surface_fibers.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/polyline_file.hpp>
@@ -44,6 +45,29 @@ static void describe(const Muscle& muscle, const Polylines& fibers, const FiberM
       1e3 * inside.farthest);
 }
 
+/// Writes the fibers carried onto the surface, and says how well they cover it.
+static void write_surface_fibers(const Muscle& muscle, const Polylines& fibers, const std::filesystem::path& out) {
+  if (fibers.count() == 0) return;
+  for (const SurfacePaths kind : {SurfacePaths::along_fibers, SurfacePaths::nearest_joined}) {
+    const SurfaceFibers found = surface_fibers(muscle, fibers, kind);
+    const std::size_t edges = found.segments.size() + static_cast<std::size_t>(found.rejected);
+    const bool published = kind == SurfacePaths::nearest_joined;
+    fmt::print(
+        "  on the surface, {}: {} segments, {:.1f} % rejected as more than 60° off, {:.0f} % of the surface covered\n",
+        published ? "nearest vertices joined" : "along the fibers", found.segments.size(),
+        100.0 * found.rejected / std::max<std::size_t>(edges, 1), 100 * found.coverage);
+    if (published) continue;
+    std::vector<Points> lines;
+    LineScalars shared{"fibers", {}};
+    for (const FiberSegment& segment : found.segments) {
+      lines.emplace_back(3, 2);
+      lines.back() << muscle.surface.vertices.col(segment.a), muscle.surface.vertices.col(segment.b);
+      shared.values.push_back(segment.fibers);
+    }
+    write_polylines(out / (muscle.name + "_surface_fibers.vtp"), join(lines), {shared});
+  }
+}
+
 static void draw(const Scene& scene, const std::vector<Polylines>& fibers, const std::filesystem::path& out) {
   try {
     render_picture(all_fibers_picture(scene, fibers), out / "fibers.png");
@@ -70,6 +94,7 @@ static int write_fibers(const LoadedScene& loaded, const std::filesystem::path& 
                     {{"length_m", measures.lengths},
                      {"origin_pennation_deg", in_degrees(measures.origin_pennation)},
                      {"insertion_pennation_deg", in_degrees(measures.insertion_pennation)}});
+    write_surface_fibers(muscle, fibers.back(), out);
   }
   draw(loaded.scene, fibers, out);
   return static_cast<int>(ExitCode::done);

@@ -1,3 +1,4 @@
+#include "activations_command.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "demo_command.hpp"
@@ -6,6 +7,7 @@
 #include "inspect_command.hpp"
 #include "prepare_command.hpp"
 #include "print_config_command.hpp"
+#include "rom_command.hpp"
 #include "run_command.hpp"
 
 #include <gracilis/core/errors.hpp>
@@ -26,7 +28,9 @@ int main(int count, char** arguments) {
   Command chosen;
   add_demo_command(program, words, chosen);
   add_run_command(program, words, chosen);
+  add_rom_command(program, words, chosen);
   add_fibers_command(program, chosen);
+  add_activations_command(program, chosen);
   add_print_config_command(program, chosen);
   add_inspect_command(program, chosen);
   add_prepare_command(program, chosen);

@@ -3,6 +3,7 @@
 #include "console.hpp"
 #include "exit_handling.hpp"
 
+#include <gracilis/anatomy/activation.hpp>
 #include <gracilis/anatomy/attachments.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
@@ -13,6 +14,7 @@
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 #include <gracilis/simulate/run.hpp>
 #include <gracilis/view/preview.hpp>
+#include <gracilis/view/run_charts.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -57,13 +59,15 @@ class Session {
   Session(const LoadedScene& loaded, const SessionOptions& options)
       : loaded_(loaded),
         options_(options),
-        poses_(pose_sequence(loaded.scene)),
+        poses_(activated_poses(loaded.scene)),
         threads_(options.threads),
         folder_(out_folder(), loaded.scene, poses_, existing()) {}
 
   int run() {
     stop_requested();  // from here on a signal ends the run after its present frame
     describe_scene();
+    spdlog::info("fibers");
+    const FiberTracker tracker(loaded_.scene);
     const auto method = make_xpbd_method(loaded_.scene, bone_fields());
     write_manifest("running");
     const ResumePoint* resume = folder_.resume_point() ? &*folder_.resume_point() : nullptr;
@@ -72,11 +76,14 @@ class Session {
     const int last = static_cast<int>(poses_.size()) - 1;
     Progress progress(resume ? resume->last.number : 0, last);
     try {
-      end = run_scene(loaded_.scene, poses_, *method, resume, stop_requested(), [&](const FrameRecord& record) {
-        folder_.write_frame(record);
-        summary_.add(record);
-        progress.show(record.frame.number);
-      });
+      end = run_scene(
+          loaded_.scene, poses_, *method, resume, stop_requested(),
+          [&](const FrameRecord& record) {
+            folder_.write_frame(record);
+            summary_.add(record);
+            progress.show(record.frame.number);
+          },
+          &tracker);
     } catch (const QualityError& error) {
       progress.clear();
       finish(std::string("failed: ") + error.what());
@@ -88,6 +95,12 @@ class Session {
   }
 
  private:
+  static std::vector<Pose> activated_poses(const Scene& scene) {
+    std::vector<Pose> poses = pose_sequence(scene);
+    set_activations(scene, poses);
+    return poses;
+  }
+
   std::filesystem::path out_folder() const {
     return options_.out.empty() ? std::filesystem::path("runs") / loaded_.scene.name : options_.out;
   }
@@ -161,6 +174,7 @@ class Session {
   void finish(const std::string& status) {
     summarize();
     folder_.finish();
+    write_run_charts(folder_.path(), loaded_.scene);
     try {
       write_preview(folder_.path(), loaded_.scene, poses_);
     } catch (const Error& error) {

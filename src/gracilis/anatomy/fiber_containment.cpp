@@ -33,10 +33,17 @@ void move_inside(const TriangleMesh& surface, const SignedDistance& distance, Re
 void smooth_inside(const TriangleMesh& surface, const SignedDistance& distance, Real depth, int rounds, Points& line) {
   const Eigen::Index inner = line.cols() - 2;
   if (inner <= 0) return;
+  // How far each point may move before it could leave the inside: the surface is asked only once that is used up.
+  Eigen::RowVectorXd leeway = Eigen::RowVectorXd::Zero(inner);
   Points middle = line.middleCols(1, inner);
   for (int round = 0; round < rounds; ++round) {
     middle = (line.leftCols(inner) + line.rightCols(inner)) / 4 + line.middleCols(1, inner) / 2;
-    move_inside(surface, distance, depth, middle);
+    leeway -= (middle - line.middleCols(1, inner)).colwise().norm();
+    for (Eigen::Index i = 0; i < inner; ++i) {
+      if (leeway[i] > 0) continue;
+      middle.col(i) = moved_inside(surface, distance, depth, middle.col(i));
+      leeway[i] = -distance.query(middle.col(i)).distance - depth;
+    }
     line.middleCols(1, inner) = middle;
   }
 }

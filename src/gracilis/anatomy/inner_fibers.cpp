@@ -21,7 +21,7 @@ constexpr Index working_segments = 60;  ///< while fibers are smoothed, whatever
 constexpr Real depth = 1e-4;            ///< m below the surface at least
 constexpr Real end_depth = 1e-5;        ///< m, of the ends
 
-Eigen::VectorXd origin_to_insertion(const Muscle& muscle, const MeshTopology& topology) {
+Eigen::VectorXd field_on(const Muscle& muscle, const MeshTopology& topology) {
   std::vector<Index> fixed;
   std::vector<Real> values;
   for (const Attachment& attachment : muscle.attachments)
@@ -73,7 +73,7 @@ Points aligned(const Points& loop, const Points& before) {
 
 /// Contours that go around the muscle as one closed line, resampled.
 std::vector<Points> single_contours(const Muscle& muscle, const MeshTopology& topology, const Eigen::VectorXd& field,
-                                    int levels, int& left_out) {
+                                    int levels, std::vector<Real>& kept, int& left_out) {
   std::vector<Points> contours;
   for (const Real level : levels_of_equal_area(muscle, field, levels)) {
     const std::vector<Points> loops = isocontours(muscle.surface, topology, field, level);
@@ -81,6 +81,7 @@ std::vector<Points> single_contours(const Muscle& muscle, const MeshTopology& to
       ++left_out;
     } else {
       contours.push_back(resampled_loop(loops[0], loop_points));
+      kept.push_back(level);
     }
   }
   return contours;
@@ -88,11 +89,16 @@ std::vector<Points> single_contours(const Muscle& muscle, const MeshTopology& to
 
 }  // namespace
 
+Eigen::VectorXd origin_to_insertion(const Muscle& muscle) {
+  return field_on(muscle, build_topology(muscle.surface.faces, muscle.surface.vertex_count()));
+}
+
 Sections cut_into_sections(const Muscle& muscle, int levels) {
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   Sections sections;
+  std::vector<Real> field_levels;
   std::vector<Points> contours =
-      single_contours(muscle, topology, origin_to_insertion(muscle, topology), levels, sections.left_out);
+      single_contours(muscle, topology, field_on(muscle, topology), levels, field_levels, sections.left_out);
   if (contours.empty()) return sections;
 
   // The middle contour decides where the corners lie; the angular parameter spreads from it to both ends.
@@ -103,13 +109,15 @@ Sections cut_into_sections(const Muscle& muscle, int levels) {
   const SquareCorners corners = square_corners(contours[middle], aspect);
 
   std::vector<Vec3> centers = {attachment_center(muscle, AttachmentEnd::origin)};
-  for (const Points& contour : contours) {
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    const Points& contour = contours[i];
     std::optional<SectionMap> map = SectionMap::build(contour, corners);
     if (!map) {
       ++sections.left_out;
       continue;
     }
     sections.maps.push_back(std::move(*map));
+    sections.levels.push_back(field_levels[i]);
     centers.emplace_back(contour.rowwise().mean());
   }
   centers.push_back(attachment_center(muscle, AttachmentEnd::insertion));
@@ -134,7 +142,7 @@ std::vector<Index> assign_ends(const Points& from, const Points& ends) {
 }
 
 /// Per fiber its points in all sections, then the two ends put before and after.
-std::vector<Points> knots_of_fibers(const Muscle& muscle, const Sections& sections) {
+std::vector<Points> knots_of_fibers(const Muscle& muscle, const Sections& sections, const FiberCourse& course) {
   const Index count = muscle.fibers.count;
   const auto inner = static_cast<Index>(sections.maps.size());
   const std::vector<Eigen::Vector2d> starts = spread_over_square(count);
@@ -142,8 +150,7 @@ std::vector<Points> knots_of_fibers(const Muscle& muscle, const Sections& sectio
   parallel_for(count, 4, [&](Index begin, Index end) {
     for (Index f = begin; f < end; ++f)
       for (Index k = 0; k < inner; ++k) {
-        const Eigen::Vector2d at = template_point(muscle.fibers, starts[static_cast<std::size_t>(f)],
-                                                  sections.shares[static_cast<std::size_t>(k)], sections.slenderness);
+        const Eigen::Vector2d at = course(starts[static_cast<std::size_t>(f)], static_cast<std::size_t>(k));
         knots[static_cast<std::size_t>(f)].col(k + 1) = sections.maps[static_cast<std::size_t>(k)].at(at.x(), at.y());
       }
   });
@@ -170,7 +177,14 @@ std::vector<Points> knots_of_fibers(const Muscle& muscle, const Sections& sectio
 
 Polylines inner_fibers(const Muscle& muscle) {
   if (muscle.fibers.count == 0) return {};
-  std::vector<Points> lines = knots_of_fibers(muscle, cut_into_sections(muscle));
+  const Sections sections = cut_into_sections(muscle);
+  return fibers_through(muscle, sections, [&](const Eigen::Vector2d& start, std::size_t section) {
+    return template_point(muscle.fibers, start, sections.shares[section], sections.slenderness);
+  });
+}
+
+Polylines fibers_through(const Muscle& muscle, const Sections& sections, const FiberCourse& course) {
+  std::vector<Points> lines = knots_of_fibers(muscle, sections, course);
   const SignedDistance distance(muscle.surface);
   parallel_for(static_cast<Index>(lines.size()), 1, [&](Index begin, Index end) {
     for (Index f = begin; f < end; ++f) {

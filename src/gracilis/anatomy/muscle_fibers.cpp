@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/attachment_samples.hpp>
 #include <gracilis/anatomy/inner_fibers.hpp>
+#include <gracilis/anatomy/superficial_fibers.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,7 @@ static Polylines prepared(const Polylines& given, const Muscle& muscle) {
 Polylines fibers_of(const Muscle& muscle) {
   if (muscle.fibers.count == 0) return {};
   if (muscle.given_fibers.count() == 0) return inner_fibers(muscle);
+  if (muscle.given_are_superficial) return filled_between(muscle, muscle.given_fibers);
   return prepared(muscle.given_fibers, muscle);
 }
 

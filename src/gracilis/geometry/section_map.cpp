@@ -171,6 +171,12 @@ std::optional<SectionMap> SectionMap::build(const Points& loop, const SquareCorn
   return map;
 }
 
+Vec2 SectionMap::nearest(const Vec3& p) const {
+  Index vertex = 0;
+  (points_.colwise() - p).colwise().squaredNorm().minCoeff(&vertex);
+  return square_.col(vertex);
+}
+
 Vec3 SectionMap::at(Real a, Real b) const {
   // The triangle in which (a, b) lies deepest: rounding may put it a trifle outside of all.
   const Vec2 p(a, b);

@@ -28,6 +28,9 @@ class SectionMap {
   /// The point of the film at (a, b) in the unit square, m.
   Vec3 at(Real a, Real b) const;
 
+  /// Where in the unit square the point of the film lies that is nearest to p (its nearest vertex).
+  Eigen::Vector2d nearest(const Vec3& p) const;
+
  private:
   Eigen::Matrix3Xi triangles_;
   PlanePoints square_;  ///< per vertex: where it lies in the unit square

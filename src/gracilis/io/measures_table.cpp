@@ -22,16 +22,23 @@ std::string measures_header(const Scene& scene) {
          ",muscle,volume_ratio,edge_ratio_mean,edge_ratio_max,edge_ratio_max_free,dihedral_change_mean_deg,"
          "dihedral_change_max_deg,hinges_over_90,vertex_depth_mm,vertex_depth_beyond_rest_mm,"
          "midpoint_depth_beyond_rest_mm,iterations,largest_correction_mm,contacts,limited_hinges,skipped_constraints,"
-         "milliseconds\n";
+         "milliseconds,activation,fiber_strain_mean,cross_section_cm2,physiological_cross_section_cm2\n";
 }
 
 static std::string row_end(const MuscleMeasures& m, const MuscleReport& r) {
-  return fmt::format(",{:.6f},{:.6f},{:.4f},{:.4f},{:.3f},{:.3f},{},{:.4f},{:.4f},{:.4f},{},{:.4f},{},{},{},{:.3f}\n",
+  return fmt::format(",{:.6f},{:.6f},{:.4f},{:.4f},{:.3f},{:.3f},{},{:.4f},{:.4f},{:.4f},{},{:.4f},{},{},{},{:.3f}",
                      m.volume_ratio, m.edge_ratio_mean, m.edge_ratio_max, m.edge_ratio_max_free,
                      degrees(m.dihedral_change_mean), degrees(m.dihedral_change_max), m.hinges_over_90,
                      1000 * m.vertex_depth, 1000 * m.vertex_depth_beyond_rest, 1000 * m.midpoint_depth_beyond_rest,
                      r.iterations, 1000 * r.largest_correction, r.contacts, r.limited_hinges, r.skipped_constraints,
                      r.milliseconds);
+}
+
+/// Activation and fibers; empty cells where a muscle has no fibers.
+static std::string fiber_cells(Real activation, const MuscleFibers& fibers) {
+  if (fibers.lengths.empty()) return fmt::format(",{:.4f},,,", activation);
+  return fmt::format(",{:.4f},{:.6f},{:.4f},{:.4f}", activation, fibers.mean_strain, 1e4 * fibers.cross_section,
+                     1e4 * fibers.physiological_cross_section);
 }
 
 std::string measures_rows(const Scene& scene, const FrameRecord& record) {
@@ -41,7 +48,10 @@ std::string measures_rows(const Scene& scene, const FrameRecord& record) {
   for (std::size_t i = 0; i < scene.muscles.size(); ++i) {
     const MuscleMeasures measures = i < record.measures.size() ? record.measures[i] : MuscleMeasures{};
     const MuscleReport report = i < record.report.muscles.size() ? record.report.muscles[i] : MuscleReport{};
-    rows += begin + "," + scene.muscles[i].name + row_end(measures, report);
+    const MuscleFibers fibers = i < record.fibers.size() ? record.fibers[i] : MuscleFibers{};
+    const std::vector<Real>& activations = record.frame.pose.activations;
+    rows += begin + "," + scene.muscles[i].name + row_end(measures, report) +
+            fiber_cells(i < activations.size() ? activations[i] : 0, fibers) + "\n";
   }
   return rows;
 }

@@ -3,10 +3,12 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/fiber_table.hpp>
 #include <gracilis/io/measures_table.hpp>
 #include <gracilis/io/mesh_reader.hpp>
 #include <gracilis/io/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh_writer.hpp>
+#include <gracilis/io/polyline_file.hpp>
 
 #include <fmt/format.h>
 
@@ -75,9 +77,10 @@ static void create_folders(const fs::path& folder) {
   }
 }
 
-/// Removes what a run leaves behind from frame `first` on, and nothing else.
+/// Removes what a run leaves behind in one of its folders from frame `first` on, and nothing else.
 static void remove_frames_from(const fs::path& folder, int first) {
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "frames")) {
+  if (!fs::exists(folder)) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string();
     const std::size_t underscore = stem.rfind('_');
     if (entry.path().extension() != ".vtp" || underscore == std::string::npos) continue;
@@ -105,9 +108,14 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
       frame_count_ = 0;
     }
   }
-  remove_frames_from(folder_, frame_count_);
+  remove_frames_from(folder_ / "frames", frame_count_);
+  remove_frames_from(folder_ / "fibers", frame_count_);
   truncate_measures(folder_ / "measures.csv", frame_count_);
-  if (frame_count_ == 0) fs::remove(folder_ / "measures.csv");
+  truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_);
+  if (frame_count_ == 0) {
+    fs::remove(folder_ / "measures.csv");
+    fs::remove(folder_ / "fiber_lengths.sto");
+  }
   write_index();
 }
 
@@ -141,8 +149,26 @@ void RunFolder::write_frame(const FrameRecord& record) {
     }
   });
   append_measures(folder_ / "measures.csv", measures_header(scene_), measures_rows(scene_, record));
+  write_fibers(record);
   frame_count_ = frame.number + 1;
   if (std::chrono::steady_clock::now() - indexed_ > std::chrono::seconds(1)) write_index();
+}
+
+void RunFolder::write_fibers(const FrameRecord& record) {
+  const auto muscles = static_cast<Index>(record.fibers.size());
+  if (std::all_of(record.fibers.begin(), record.fibers.end(), [](const auto& m) { return m.lengths.empty(); })) return;
+  fs::create_directories(folder_ / "fibers");
+  parallel_for(muscles, 1, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const MuscleFibers& fibers = record.fibers[static_cast<std::size_t>(i)];
+      if (fibers.lengths.empty()) continue;
+      write_polylines(fiber_file(folder_, scene_.muscles[static_cast<std::size_t>(i)].name, record.frame.number),
+                      fibers.lines, {{"length_m", fibers.lengths}});
+    }
+  });
+  append_measures(folder_ / "fiber_lengths.sto",
+                  fiber_lengths_head(scene_, record.fibers, static_cast<int>(poses_.size())),
+                  fiber_lengths_row(record.frame.pose, record.fibers));
 }
 
 void RunFolder::write_manifest(RunManifest manifest) const {
@@ -153,6 +179,10 @@ void RunFolder::write_manifest(RunManifest manifest) const {
 
 void RunFolder::finish() {
   if (indexed_frames_ != frame_count_) write_index();
+  // Until now the head announced all rows to come.
+  if (frame_count_ < static_cast<int>(poses_.size())) {
+    truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_);
+  }
 }
 
 void RunFolder::write_index() {

@@ -21,6 +21,8 @@ enum class ExistingRun { refuse, replace, resume };
 ///   run.pvd                        opens the animation in ParaView; always names frames that are there only
 ///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits
 ///   measures.csv                   one row per frame and muscle; the units stand in the names of the columns
+///   fiber_lengths.sto              one row per frame, see fiber_table.hpp
+///   fibers/<muscle>_0000.vtp       one per frame and muscle with fibers, m
 ///
 /// An interrupted run is readable: files appear whole, rows are flushed frame by frame, run.pvd follows every second.
 class RunFolder {
@@ -51,6 +53,7 @@ class RunFolder {
 
  private:
   void write_index();
+  void write_fibers(const FrameRecord& record);
 
   std::filesystem::path folder_;
   const Scene& scene_;

@@ -177,6 +177,49 @@ static MotionDescription read_motion(TomlReader table) {
   return motion;
 }
 
+static ActivationDescription read_activation(TomlReader table) {
+  ActivationDescription activation;
+  activation.place = table.place();
+  activation.muscles = table.texts("muscle");
+  if (activation.muscles.empty() && !table.has("muscle")) table.required_text("muscle");
+  activation.value = table.number("value", {0, 1});
+  if (const std::optional<std::string> file = table.text("file")) {
+    activation.file = {*file, 1, table.place()};
+    activation.column = table.text("column").value_or("");
+  }
+  activation.coordinate = table.text("coordinate").value_or("");
+  if (std::optional<Eigen::MatrixXd> rows = table.rows("points_deg", 2)) {
+    activation.points = std::move(*rows);
+    for (Index i = 1; i < activation.points.rows(); ++i)
+      if (!(activation.points(i, 0) > activation.points(i - 1, 0)))
+        table.add_problem("points_deg", "the angles of 'points_deg' do not increase");
+    activation.points.col(0) *= radians(1);
+  }
+  const bool curve = activation.points.rows() > 0 && !activation.coordinate.empty();
+  const int ways = activation.value.has_value() + !activation.file.path.empty() + curve;
+  if (ways != 1 || table.has("points_deg") != table.has("coordinate")) {
+    Problem problem = table.place();
+    problem.what = "an activation is given in exactly one way";
+    problem.remedy = "give 'value', or 'file', or 'coordinate' with 'points_deg'";
+    table.add_problem(problem);
+  }
+  table.reject_unknown_keys();
+  return activation;
+}
+
+static ControlUnitDescription read_control_unit(TomlReader table) {
+  ControlUnitDescription unit;
+  unit.place = table.place();
+  unit.name = table.required_text("name");
+  unit.joint = table.required_text("joint");
+  unit.samples = {table.required_text("samples"), 1, table.place()};
+  unit.coordinates = table.texts("coordinates");
+  unit.muscles = table.texts("muscles");
+  unit.falloff = table.number("falloff", {0, 1e9, "1/deg²"}).value_or(0);
+  table.reject_unknown_keys();
+  return unit;
+}
+
 // ---- References between elements
 
 template <class Description>
@@ -230,6 +273,21 @@ static void check_references(const SceneDescription& scene, std::vector<Problem>
   }
   for (const std::string& coordinate : scene.motion.coordinates) {
     require_known(coordinate, coordinates, "coordinate", scene.motion.place, problems);
+  }
+  // All muscles of the scene count, also those that --only leaves out.
+  std::vector<std::string> muscles, joints;
+  for (const MuscleDescription& muscle : scene.muscles) muscles.push_back(muscle.name);
+  for (const JointDescription& joint : scene.joints) joints.push_back(joint.joint.name);
+  for (const ActivationDescription& activation : scene.activations) {
+    for (const std::string& name : activation.muscles)
+      require_known(name, muscles, "muscle", activation.place, problems);
+    require_known(activation.coordinate, coordinates, "coordinate", activation.place, problems);
+  }
+  for (const ControlUnitDescription& unit : scene.control_units) {
+    require_known(unit.joint, joints, "joint", unit.place, problems);
+    for (const std::string& name : unit.muscles) require_known(name, muscles, "muscle", unit.place, problems);
+    for (const std::string& name : unit.coordinates)
+      require_known(name, coordinates, "coordinate", unit.place, problems);
   }
   reject_duplicates(scene.bones, "bone", problems);
   reject_duplicates(scene.muscles, "muscle", problems);
@@ -300,6 +358,9 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   for (TomlReader& muscle : top.tables("muscles"))
     scene.muscles.push_back(read_muscle(std::move(muscle), global, fibers));
   if (std::optional<TomlReader> motion = top.table("motion")) scene.motion = read_motion(std::move(*motion));
+  for (TomlReader& each : top.tables("activations")) scene.activations.push_back(read_activation(std::move(each)));
+  for (TomlReader& unit : top.tables("joint_control_units"))
+    scene.control_units.push_back(read_control_unit(std::move(unit)));
   check_references(scene, problems);
   const Problem only_place = top.has("only") ? place_of(*top.find("only")) : Problem{};
   keep_only(scene.muscles, top.texts("only"), only_place, problems);

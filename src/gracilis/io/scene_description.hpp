@@ -68,12 +68,34 @@ struct MotionDescription {
   Problem place;
 };
 
+/// One muscle's activation: a constant, a column of a table, or a function of a coordinate.
+struct ActivationDescription {
+  std::vector<std::string> muscles;
+  std::optional<Real> value;
+  NamedFile file;
+  std::string column;
+  std::string coordinate;
+  Eigen::MatrixXd points;  ///< rows: rad, activation
+  Problem place;
+};
+
+/// A joint control unit whose samples stand in a file.
+struct ControlUnitDescription {
+  std::string name, joint;
+  NamedFile samples;
+  std::vector<std::string> coordinates, muscles;  ///< empty: the joint's, and all that the samples know
+  Real falloff = 0;
+  Problem place;
+};
+
 struct SceneDescription {
   std::string name, preset;
   std::vector<BoneDescription> bones;
   std::vector<JointDescription> joints;
   std::vector<MuscleDescription> muscles;
   MotionDescription motion;
+  std::vector<ActivationDescription> activations;
+  std::vector<ControlUnitDescription> control_units;
   Sequence sequence;
   DistanceFieldSettings distance_fields;
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]

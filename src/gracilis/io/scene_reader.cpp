@@ -1,3 +1,4 @@
+#include <gracilis/anatomy/activation.hpp>
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/io/data_root.hpp>
@@ -229,6 +230,8 @@ class SceneBuilder {
            [&](const fs::path& path) { landmarks_ = read_landmarks(path, description_.landmarks.unit); });
     }
     read_motion();
+    for (const ActivationDescription& activation : description_.activations) activate(activation);
+    for (const ControlUnitDescription& unit : description_.control_units) add_control_unit(unit);
   }
 
   void read_motion() {
@@ -264,6 +267,68 @@ class SceneBuilder {
     if (result_.scene.motion.coordinates.empty()) {
       add_problem({file, "", "", ""}, "none of its columns is a coordinate of the scene", suggestion("", known));
     }
+  }
+
+  // ---- Activation
+
+  void activate(const ActivationDescription& description) {
+    ActivationPlan& plan = result_.scene.activation;
+    const std::vector<std::string> coordinates = coordinate_names(result_.scene);
+    for (const std::string& muscle : description.muscles) {
+      if (description.value) {
+        plan.signals.push_back({muscle, {0}, {*description.value}});
+      } else if (!description.coordinate.empty()) {
+        const auto found = std::find(coordinates.begin(), coordinates.end(), description.coordinate);
+        plan.functions.push_back(
+            {muscle, along_coordinate(static_cast<std::size_t>(found - coordinates.begin()), description.points)});
+      } else {
+        read(description.file, [&](const fs::path& path) {
+          const Table table = read_table(path);
+          const std::string& name = description.column.empty() ? muscle : description.column;
+          const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+          if (found == table.columns.end()) {
+            add_problem({path.string(), "", "", ""}, "has no column '" + name + "'", suggestion(name, table.columns));
+            return;
+          }
+          const Eigen::VectorXd values = table.values.col(found - table.columns.begin());
+          plan.signals.push_back({muscle, table.times, {values.begin(), values.end()}});
+        });
+      }
+    }
+  }
+
+  void add_control_unit(const ControlUnitDescription& description) {
+    JointControlUnit unit{description.name,   description.joint, description.coordinates, description.muscles, {}, {},
+                          description.falloff};
+    if (unit.coordinates.empty()) {
+      for (const Joint& joint : result_.scene.joints)
+        if (joint.name == unit.joint)
+          for (const JointAxis& axis : joint.axes) unit.coordinates.push_back(axis.coordinate);
+    }
+    read(description.samples, [&](const fs::path& path) {
+      const Table table = read_table(path);
+      if (unit.muscles.empty()) {
+        for (const Muscle& muscle : result_.scene.muscles)
+          if (std::find(table.columns.begin(), table.columns.end(), muscle.name) != table.columns.end())
+            unit.muscles.push_back(muscle.name);
+      }
+      const auto columns = [&](const std::vector<std::string>& names, Real factor) {
+        Eigen::MatrixXd values(table.values.rows(), static_cast<Index>(names.size()));
+        for (std::size_t i = 0; i < names.size(); ++i) {
+          const auto found = std::find(table.columns.begin(), table.columns.end(), names[i]);
+          if (found == table.columns.end()) {
+            add_problem({path.string(), "", "", ""}, "has no column '" + names[i] + "'",
+                        suggestion(names[i], table.columns));
+          } else {
+            values.col(static_cast<Index>(i)) = factor * table.values.col(found - table.columns.begin());
+          }
+        }
+        return values;
+      };
+      unit.angles = columns(unit.coordinates, table.in_degrees ? radians(1) : 1);
+      unit.activations = columns(unit.muscles, 1);
+      result_.scene.activation.units.push_back(unit);
+    });
   }
 
   // ---- Attachments

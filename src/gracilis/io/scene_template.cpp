@@ -127,6 +127,22 @@ end = "insertion"
 bone = "femur_r"
 bone_distance_mm = 3
 
+# Optional: how active muscles are, 0 to 1, in one way for each; those not named are relaxed.
+# 1. A constant:
+[[activations]]
+muscle = "gluteus_maximus_r" # one name or several
+value = 0.3
+# 2. A column of a table over time; default: the one with the muscle's name.   file = "activation.sto", column = "glut_max1_r"
+# 3. A function of a coordinate, linear between points:   coordinate = "hip_flexion_r", points_deg = [[0, 0.1], [90, 0.6]]
+# 4. A joint control unit: what went with the nearest of sampled poses ('gracilis activations join' makes the samples).
+# [[joint_control_units]]
+# name = "hip"
+# joint = "hip_r"
+# samples = "samples.sto"
+# coordinates = ["hip_flexion_r"] # optional: that tell samples apart; default: all of the joint
+# muscles = ["iliacus_r"]         # optional: that it governs; default: all that the samples know
+# falloff = 0.02                  # optional: F in exp(-F d²), 1/deg²; default: from the samples' spacing
+
 # Optional: without a motion a run is frame 0, the capture pose, alone.
 [motion]
 # Either an OpenSim table (.mot, .sto), whose columns are matched to the joints' coordinates by name; with 'coordinates',

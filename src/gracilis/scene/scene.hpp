@@ -3,6 +3,7 @@
 #include <gracilis/core/types.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/scene/activation.hpp>
 #include <gracilis/scene/fiber_settings.hpp>
 #include <gracilis/scene/settings.hpp>
 
@@ -53,7 +54,7 @@ struct Muscle {
   TriangleMesh surface;  ///< closed, oriented outwards
   std::vector<Attachment> attachments;
   XpbdSettings xpbd;
-  FiberSettings fibers;
+  FiberSettings fibers = {};
   Polylines given_fibers;  ///< from outside; where there are any, none are made from the template
   bool given_are_superficial =
       false;  ///< given_fibers lie on the surface and are to be filled in, not used as they are
@@ -85,6 +86,7 @@ struct Scene {
   Sequence sequence;
   DistanceFieldSettings distance_fields;
   ContactSettings contact;
+  ActivationPlan activation = {};
 };
 
 }  // namespace gracilis

@@ -166,6 +166,47 @@ struct Validation {
     }
   }
 
+  void check_activation() {
+    std::set<std::string> driven, muscles, coordinates;
+    for (const Muscle& muscle : scene.muscles) muscles.insert(muscle.name);
+    for (const Joint& joint : scene.joints)
+      for (const JointAxis& axis : joint.axes) coordinates.insert(axis.coordinate);
+    const auto drive = [&](const std::string& where, const std::string& muscle) {
+      if (muscles.count(muscle) && !driven.insert(muscle).second)
+        add(where, "the muscle '" + muscle + "' is activated in another way already", "keep one of them");
+    };
+    for (const ActivationSignal& signal : scene.activation.signals) {
+      const std::string where = "activation of '" + signal.muscle + "'";
+      drive(where, signal.muscle);
+      if (signal.times.empty() || signal.times.size() != signal.values.size()) {
+        add(where, "it has " + std::to_string(signal.times.size()) + " times and " +
+                       std::to_string(signal.values.size()) + " values");
+      }
+      if (std::adjacent_find(signal.times.begin(), signal.times.end(), std::greater_equal<>()) != signal.times.end())
+        add(where, "its times do not increase");
+      const auto finite = [](Real value) { return std::isfinite(value); };
+      if (!std::all_of(signal.values.begin(), signal.values.end(), finite)) add(where, "a value is not finite");
+    }
+    for (const ActivationOfPose& function : scene.activation.functions) {
+      drive("activation of '" + function.muscle + "'", function.muscle);
+      if (!function.value) add("activation of '" + function.muscle + "'", "it has no function");
+    }
+    for (const JointControlUnit& unit : scene.activation.units) {
+      const std::string where = "joint control unit '" + unit.name + "'";
+      for (const std::string& muscle : unit.muscles) drive(where, muscle);
+      for (const std::string& coordinate : unit.coordinates)
+        if (!coordinates.count(coordinate)) add(where, "no joint has the coordinate '" + coordinate + "'");
+      if (std::none_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& j) { return j.name == unit.joint; }))
+        add(where, "there is no joint '" + unit.joint + "'");
+      const bool fits = unit.angles.rows() > 0 && unit.angles.rows() == unit.activations.rows() &&
+                        unit.angles.cols() == static_cast<Index>(unit.coordinates.size()) &&
+                        unit.activations.cols() == static_cast<Index>(unit.muscles.size());
+      if (!fits) add(where, "its samples do not fit its coordinates and muscles");
+      if (!unit.angles.allFinite() || !unit.activations.allFinite()) add(where, "a sample is not finite");
+      if (!(unit.falloff >= 0)) add(where, "its falloff is negative");
+    }
+  }
+
   void check_motion() {
     const Motion& motion = scene.motion;
     const std::string where = "motion '" + motion.name + "'";
@@ -206,6 +247,7 @@ std::vector<Problem> validate(const Scene& scene) {
   validation.check_bones();
   validation.check_joints();
   validation.check_muscles();
+  validation.check_activation();
   validation.check_motion();
   validation.check_settings("distance_field", scene.distance_fields);
   validation.check_settings("contact", scene.contact);

@@ -13,7 +13,7 @@ Frame capture_frame(const Scene& scene, const Pose& pose) {
 
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
-                 const std::function<void(const FrameRecord&)>& record) {
+                 const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker) {
   Measurer measurer(scene);
   int next = 0;
   method.reset();
@@ -39,6 +39,7 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
     }
     now.frame.number = next;
     now.measures = measurer.measure(now.frame);
+    if (tracker) now.fibers = tracker->follow(now.frame);
     record(now);
   }
   return RunEnd::complete;

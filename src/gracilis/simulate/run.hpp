@@ -3,6 +3,7 @@
 #include <gracilis/methods/method.hpp>
 #include <gracilis/scene/frame.hpp>
 #include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/fiber_tracker.hpp>
 #include <gracilis/simulate/measures.hpp>
 
 #include <atomic>
@@ -16,6 +17,7 @@ struct FrameRecord {
   Frame frame;
   StepReport report;                     ///< empty muscles in frame 0
   std::vector<MuscleMeasures> measures;  ///< in the scene's order
+  std::vector<MuscleFibers> fibers = {};  ///< in the scene's order; empty where fibers are not followed
 };
 
 /// Where an interrupted run goes on: its last two recorded frames.
@@ -27,10 +29,11 @@ enum class RunEnd { complete, interrupted };
 
 /// Runs `method` through `poses` (pose 0 is the capture pose) and hands each frame to `record`, frame 0 with the input
 /// surfaces unchanged. Looks at `stop` between frames. With `resume`, starts after its last frame. Throws QualityError,
-/// naming the frame, when a coordinate stops being finite; all frames before it have been recorded then.
+/// naming the frame, when a coordinate stops being finite; all frames before it have been recorded then. With
+/// `tracker`, fibers are followed.
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
-                 const std::function<void(const FrameRecord&)>& record);
+                 const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker = nullptr);
 
 /// Frame 0: the input surfaces at the capture pose.
 Frame capture_frame(const Scene& scene, const Pose& pose);

@@ -1,0 +1,152 @@
+#include "rom_command.hpp"
+
+#include "scene_options.hpp"
+#include "session.hpp"
+
+#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/table.hpp>
+#include <gracilis/io/value_reader.hpp>
+#include <gracilis/scene/motion.hpp>
+#include <gracilis/simulate/moment_arms.hpp>
+#include <gracilis/view/run_charts.hpp>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace gracilis {
+
+namespace {
+
+/// What --coord says: a coordinate that goes from one angle to another, or stays at one. Degrees.
+struct CoordinateRange {
+  std::string name;
+  Real from = 0, to = 0, step = 0;
+
+  bool moves() const { return step != 0; }
+};
+
+CoordinateRange parse_range(const std::string& text) {
+  const auto wrong = [&](const std::string& what) {
+    return ConfigurationError(
+        {"--coord", "", "'" + text + "' " + what, "write NAME=FROM:TO:STEP or NAME=ANGLE, degrees"});
+  };
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) throw wrong("names no coordinate");
+  std::vector<Real> numbers;
+  for (std::size_t begin = equals + 1; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(':', begin), text.size());
+    double value = 0;
+    if (!parse_number(std::string_view(text).substr(begin, end - begin), value) || !std::isfinite(value))
+      throw wrong("holds something that is no number");
+    numbers.push_back(value);
+    begin = end + 1;
+  }
+  CoordinateRange range{text.substr(0, equals), numbers[0], numbers[0], 0};
+  if (numbers.size() == 1) return range;
+  if (numbers.size() != 3) throw wrong("has " + std::to_string(numbers.size()) + " numbers");
+  range.to = numbers[1];
+  range.step = numbers[2];
+  if (!(range.step > 0) || range.from == range.to) throw wrong("goes nowhere");
+  return range;
+}
+
+/// The scene's motion becomes: from the range's begin to its end; coordinates that are not named keep their capture
+/// value. Returns the coordinate that moves.
+CoordinateRange set_motion(const std::vector<std::string>& texts, Scene& scene) {
+  const std::vector<std::string> known = coordinate_names(scene);
+  std::vector<std::string> names;
+  Eigen::MatrixXd keys(2, static_cast<Index>(texts.size()));
+  CoordinateRange moving;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const CoordinateRange range = parse_range(texts[i]);
+    if (std::find(known.begin(), known.end(), range.name) == known.end()) {
+      throw ConfigurationError(
+          {"--coord", "", "there is no coordinate '" + range.name + "'", suggestion(range.name, known)});
+    }
+    if (std::find(names.begin(), names.end(), range.name) != names.end())
+      throw ConfigurationError({"--coord", "", "the coordinate '" + range.name + "' is given twice", ""});
+    if (range.moves() && moving.moves())
+      throw ConfigurationError({"--coord", "", "two coordinates move", "let one move and give the others one angle"});
+    if (range.moves()) moving = range;
+    names.push_back(range.name);
+    keys.col(static_cast<Index>(i)) << radians(range.from), radians(range.to);
+  }
+  if (!moving.moves())
+    throw ConfigurationError({"--coord", "", "no coordinate moves", "write one as NAME=FROM:TO:STEP"});
+  scene.motion = motion_through(names, keys, radians(moving.step), 1.0 / 60);
+  scene.motion.name = scene.name;
+  scene.sequence.hold_frames = 0;
+  scene.sequence.return_to_capture = false;
+  return moving;
+}
+
+void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const CoordinateRange& moving) {
+  Table table = read_table(folder / "fiber_lengths.sto");
+  // The rows before the range only lead there.
+  const auto rows = std::min(static_cast<Eigen::Index>(scene.motion.times.size()), table.values.rows());
+  table.values = table.values.bottomRows(rows).eval();
+  table.times.erase(table.times.begin(), table.times.end() - rows);
+  const auto coordinates = static_cast<Eigen::Index>(coordinate_names(scene).size());
+  const auto column = std::find(table.columns.begin(), table.columns.end(), moving.name) - table.columns.begin();
+  const Eigen::VectorXd angles = table.values.col(column) * radians(1);
+  const Eigen::Index lengths = table.values.cols() - coordinates;
+  table.name = "moment_arms";
+  table.values.rightCols(lengths) = moment_arms(angles, table.values.rightCols(lengths));
+  write_sto(folder / "moment_arms.sto", table);
+
+  std::vector<std::string> muscles;
+  for (const Muscle& muscle : scene.muscles) {
+    const auto found = std::find(table.columns.begin(), table.columns.end(), muscle.name);
+    if (found == table.columns.end()) continue;
+    muscles.push_back(muscle.name);
+    const Eigen::VectorXd arms = table.values.col(found - table.columns.begin());
+    fmt::print("{}: moment arm about {} {:.1f} to {:.1f} mm, largest step {:.3f} mm per degree\n", muscle.name,
+               moving.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), 1e3 * largest_step_per_degree(angles, arms));
+    write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"),
+                fiber_chart(table, moving.name, muscle.name, muscle.name + ": moment arms", "moment arm (mm)"));
+  }
+  write_chart(folder / "plots" / "moment_arms.svg",
+              muscles_chart(table, moving.name, muscles, scene.name + ": moment arms", "moment arm (mm)"));
+}
+
+}  // namespace
+
+void add_rom_command(CLI::App& program, const std::vector<std::string>& words, Command& chosen) {
+  struct Options {
+    std::filesystem::path file;
+    SceneOptions scene;
+    std::vector<std::string> coordinates;
+    SessionOptions session;
+  };
+  const auto options = std::make_shared<Options>();
+  CLI::App* command = program.add_subcommand("rom", "Run through a joint's range of motion; writes moment arms, too");
+  add_scene_options(*command, options->file, options->scene);
+  command
+      ->add_option("--coord", options->coordinates,
+                   "NAME=FROM:TO:STEP in degrees, as in hip_flexion_r=-10:60:2; NAME=ANGLE fixes another coordinate. "
+                   "May be repeated")
+      ->required()
+      ->allow_extra_args(false);
+  add_session_options(*command, options->session);
+  options->session.command = words;
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      LoadedScene loaded = read_scene(options->file, options->scene);
+      if (options->session.out.empty())
+        options->session.out = std::filesystem::path("runs") / (loaded.scene.name + "_rom");
+      const CoordinateRange moving = set_motion(options->coordinates, loaded.scene);
+      const int code = run_session(loaded, options->session);
+      if (code != static_cast<int>(ExitCode::interrupted))
+        write_moment_arms(options->session.out, loaded.scene, moving);
+      return code;
+    };
+  });
+}
+
+}  // namespace gracilis

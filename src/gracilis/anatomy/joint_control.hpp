@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/scene/activation.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace gracilis {
+
+/// A joint control unit ready for queries. The activations at joint angles q are the mean of those of the nearest
+/// samples (10, or all when there are fewer), with the weights exp(-F d²), d the distance of the angles in degrees,
+/// made to sum to 1. A sample exactly at q is returned as it is; where all weights underflow, the nearest sample is.
+class JointControl {
+ public:
+  /// Precondition: the unit has samples and as many columns as names. Of samples with the same angles the mean counts.
+  explicit JointControl(const JointControlUnit& unit);
+  ~JointControl();
+  JointControl(JointControl&&) noexcept;
+  JointControl& operator=(JointControl&&) noexcept;
+
+  /// Activations of the governed muscles, in the unit's order, at angles (rad) in the order of the unit's coordinates.
+  Eigen::VectorXd at(const Eigen::VectorXd& angles) const;
+
+  /// F, 1/deg².
+  Real falloff() const { return falloff_; }
+  Index sample_count() const;
+
+  static constexpr int neighbors = 10;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+  Real falloff_;
+};
+
+/// The falloff that suits samples (rows, degrees): 1 / (2 s²) with s the median distance of a sample to its nearest
+/// other one; 1 when there is none.
+Real falloff_for(const Eigen::MatrixXd& samples_deg);
+
+/// How well a unit interpolates: per muscle the root mean square difference between the activations of every second
+/// sample and what the unit says there when it knows the others only. Zeros when there are fewer than three samples.
+Eigen::VectorXd leave_out_error(const JointControlUnit& unit);
+
+/// The body that the unit's joint moves and the joint's center, in the capture pose.
+struct MovingBody {
+  Index body = -1;
+  Vec3 center = Vec3::Zero();
+};
+MovingBody moving_body(const Scene& scene, const JointControlUnit& unit);
+
+}  // namespace gracilis

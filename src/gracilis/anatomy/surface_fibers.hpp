@@ -1,0 +1,43 @@
+#pragma once
+
+#include <gracilis/geometry/polylines.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// How inner fibers are carried onto the surface.
+enum class SurfacePaths {
+  along_fibers,   ///< one way from the vertex nearest to each fiber's begin to that nearest to its end, at costs that
+                  ///< grow with the angle to the fiber direction and with the distance from the fiber
+  nearest_joined  ///< published: the vertices nearest to each fiber's points, joined by shortest ways
+};
+
+/// A piece of a surface fiber: an edge of the muscle's surface that may contract.
+struct FiberSegment {
+  Index a = 0, b = 0;    ///< vertices, a < b
+  Real rest_length = 0;  ///< m
+  Index fibers = 0;      ///< how many fibers run along it
+};
+
+/// Fibers on the surface, ready to become contraction constraints.
+struct SurfaceFibers {
+  std::vector<std::vector<Index>> paths;  ///< per fiber its vertices; neighbors share an edge
+  std::vector<FiberSegment> segments;     ///< each edge once, ascending; those off the fiber direction left out
+  Index rejected = 0;  ///< distinct edges of paths that lie more than `largest_angle` off the fiber direction
+  Real coverage = 0;   ///< share of the free surface's area whose vertices lie on a segment or next to one
+};
+
+/// Edges of a path farther off the fiber direction than this do not contract.
+inline constexpr Real largest_segment_angle = radians(60);
+
+/// Carries fibers onto the surface of their muscle. The fiber direction at an edge is the mean of the directions of the
+/// four inner fiber pieces nearest to its middle. Deterministic for any number of threads.
+SurfaceFibers surface_fibers(const Muscle& muscle, const Polylines& fibers,
+                             SurfacePaths paths = SurfacePaths::along_fibers);
+
+/// Fibers drawn by hand on the surface: their points' nearest vertices, joined by shortest ways; no edge is rejected.
+SurfaceFibers surface_fibers_from_lines(const Muscle& muscle, const Polylines& lines);
+
+}  // namespace gracilis

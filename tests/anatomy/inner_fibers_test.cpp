@@ -1,0 +1,193 @@
+#include <gracilis/anatomy/inner_fibers.hpp>
+
+#include <gracilis/anatomy/attachment_samples.hpp>
+#include <gracilis/anatomy/fiber_containment.hpp>
+#include <gracilis/anatomy/fiber_template.hpp>
+#include <gracilis/anatomy/muscle_fibers.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/harmonic_field.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/nearest_triangle.hpp>
+
+#include "anatomy/muscles_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gracilis {
+namespace {
+
+/// What must hold for the fibers of any muscle.
+void expect_good_fibers(const Muscle& muscle, const Polylines& fibers) {
+  ASSERT_EQ(fibers.count(), muscle.fibers.count);
+  const Containment inside = containment(SignedDistance(muscle.surface), fibers);
+  EXPECT_LE(inside.outside, 0.01 * inside.points);
+  EXPECT_LE(inside.farthest, 5e-4);
+  for (const AttachmentEnd end : {AttachmentEnd::origin, AttachmentEnd::insertion}) {
+    std::vector<char> held(static_cast<std::size_t>(muscle.surface.vertex_count()), 0);
+    for (const Attachment& attachment : muscle.attachments)
+      if (attachment.end == end)
+        for (const Index v : attachment.vertices) held[static_cast<std::size_t>(v)] = 1;
+    const NearestTriangle nearest(muscle.surface);
+    for (Index i = 0; i < fibers.count(); ++i) {
+      EXPECT_EQ(fibers.size(i), muscle.fibers.segments + 1);
+      const NearestPoint found =
+          nearest.query(fibers.points.col(end == AttachmentEnd::origin ? fibers.begin(i) : fibers.end(i) - 1));
+      EXPECT_LT(found.distance, 1e-4);
+      int attached = 0;
+      for (int k = 0; k < 3; ++k) attached += held[static_cast<std::size_t>(muscle.surface.faces(k, found.face))];
+      EXPECT_EQ(attached, 3) << "fiber " << i << " ends on a triangle that is not attached";
+    }
+  }
+}
+
+Real mean(const std::vector<Real>& values) {
+  Real sum = 0;
+  for (const Real value : values) sum += value;
+  return sum / static_cast<Real>(values.size());
+}
+
+}  // namespace
+
+TEST(InnerFibers, of_a_cylinder_are_straight_and_as_long_as_it) {
+  const Muscle muscle = tube_muscle();
+  const Polylines fibers = inner_fibers(muscle);
+  expect_good_fibers(muscle, fibers);
+  const FiberMeasures measures = measure_fibers(fibers);
+  for (std::size_t i = 0; i < measures.lengths.size(); ++i) {
+    EXPECT_NEAR(measures.lengths[i], 0.2, 0.004);
+    EXPECT_LT(measures.origin_pennation[i], radians(20));
+  }
+  EXPECT_NEAR(mean(measures.lengths), 0.2, 0.001);
+  const Real volume = enclosed_volume(muscle.surface.vertices, muscle.surface.faces);
+  EXPECT_NEAR(physiological_cross_section(volume, fibers), volume / 0.2, 0.005 * volume / 0.2);
+}
+
+TEST(InnerFibers, fill_the_cross_section_evenly) {
+  Muscle muscle = tube_muscle();
+  muscle.fibers.count = 400;
+  const Polylines fibers = inner_fibers(muscle);
+  // Half of the disk's area lies within 1/√2 of its radius; the fibers keep a little clear of the rim.
+  int within = 0;
+  for (Index i = 0; i < fibers.count(); ++i) within += fibers.line(i).col(7).head<2>().norm() < 0.015 / std::sqrt(2.0);
+  EXPECT_NEAR(within, 200, 40);
+}
+
+TEST(InnerFibers, of_a_cone_draw_together_as_it_does) {
+  const Muscle muscle = cone_muscle();
+  const Polylines fibers = inner_fibers(muscle);
+  expect_good_fibers(muscle, fibers);
+  Real before = 0, behind = 0;
+  for (Index i = 0; i < fibers.count(); ++i) {
+    const Points line = fibers.line(i);
+    before += line.col(4).head<2>().norm();
+    behind += line.col(11).head<2>().norm();
+  }
+  const auto half_width = [&](Index point) { return 1 - 2.5 * 0.2 * point / 15; };
+  EXPECT_NEAR(behind / before, half_width(11) / half_width(4), 0.06);
+}
+
+TEST(InnerFibers, of_a_bent_tube_follow_its_arcs) {
+  const Muscle muscle = bent_muscle();
+  const Polylines fibers = inner_fibers(muscle);
+  expect_good_fibers(muscle, fibers);
+  EXPECT_NEAR(mean_fiber_length(fibers), 0.2, 0.003);
+  for (Index i = 0; i < fibers.count(); ++i) {
+    // Each runs at its own distance from the center of the bend, and has that arc's length.
+    const Points line = fibers.line(i);
+    const Real distance = Vec3(line(0, 8), 0, line(2, 8)).norm();
+    EXPECT_NEAR(polyline_length(line), distance * pi / 2, 0.04 * 0.2) << "fiber " << i;
+  }
+}
+
+TEST(InnerFibers, keep_their_mean_length_when_count_or_resolution_double) {
+  for (const Muscle& shape : {tube_muscle(), cone_muscle(), bent_muscle()}) {
+    Muscle muscle = shape;
+    const Real usual = mean_fiber_length(inner_fibers(muscle));
+    muscle.fibers.count = 200;
+    EXPECT_NEAR(mean_fiber_length(inner_fibers(muscle)) / usual, 1, 0.01);
+    muscle.fibers.segments = 30;
+    EXPECT_NEAR(mean_fiber_length(inner_fibers(muscle)) / usual, 1, 0.01);
+  }
+}
+
+TEST(InnerFibers, have_the_same_bits_for_any_number_of_threads) {
+  const Muscle muscle = cone_muscle();
+  const Polylines several = inner_fibers(muscle);
+  const ThreadLimit one(1);
+  EXPECT_TRUE(inner_fibers(muscle).points == several.points);
+}
+
+TEST(InnerFibers, there_are_none_where_none_are_wanted_and_one_where_one_is) {
+  Muscle muscle = tube_muscle();
+  muscle.fibers.count = 0;
+  EXPECT_EQ(fibers_of(muscle).count(), 0);
+  muscle.fibers.count = 1;
+  muscle.fibers.segments = 1;
+  expect_good_fibers(muscle, fibers_of(muscle));
+}
+
+TEST(InnerFibers, of_other_templates_stay_inside_too) {
+  Muscle muscle = tube_muscle();
+  for (const FiberTemplate shape : {FiberTemplate::pennate, FiberTemplate::curved, FiberTemplate::fan}) {
+    muscle.fibers.shape = shape;
+    expect_good_fibers(muscle, inner_fibers(muscle));
+  }
+}
+
+TEST(FiberTemplate, points_are_spread_evenly_and_paths_do_as_their_names_say) {
+  int quarter = 0;
+  for (const Eigen::Vector2d& p : spread_over_square(1000)) quarter += p.x() < 0.5 && p.y() < 0.5;
+  EXPECT_NEAR(quarter, 250, 10);
+  FiberSettings settings;
+  const Eigen::Vector2d start(0.4, 0.3);
+  EXPECT_EQ(template_point(settings, start, 0.8, 10), start);
+  settings.shape = FiberTemplate::pennate;
+  settings.pennation = radians(5);
+  const Eigen::Vector2d along = template_point(settings, start, 0.7, 2) - template_point(settings, start, 0.3, 2);
+  EXPECT_NEAR(along.x(), 0.4 * 2 * std::tan(radians(5)), 1e-12) << "slope times slenderness";
+  EXPECT_EQ(along.y(), 0);
+  settings.shape = FiberTemplate::curved;
+  EXPECT_EQ(template_point(settings, start, 0, 2), start);
+  EXPECT_NEAR(template_point(settings, start, 0.5, 2).x(), 0.4 + settings.curvature, 1e-12);
+  settings.shape = FiberTemplate::fan;
+  settings.convergence = 1;
+  EXPECT_NEAR((template_point(settings, start, 1, 2) - Eigen::Vector2d(0.5, 0.5)).norm(), 0, 1e-12);
+}
+
+TEST(AttachmentSamples, lie_on_the_attachment_and_spread_over_it) {
+  const Muscle muscle = tube_muscle();
+  const Points samples = attachment_samples(muscle, AttachmentEnd::insertion, 100);
+  ASSERT_EQ(samples.cols(), 100);
+  int within = 0;
+  for (Index i = 0; i < 100; ++i) {
+    EXPECT_NEAR(samples(2, i), 0.2, 1e-12);
+    within += samples.col(i).head<2>().norm() < 0.015 / std::sqrt(2.0);
+  }
+  EXPECT_NEAR(within, 50, 8);
+  EXPECT_NEAR((attachment_center(muscle, AttachmentEnd::origin)).norm(), 0, 5e-4);
+}
+
+TEST(AttachmentSamples, of_two_vertices_are_repeated) {
+  Muscle muscle = tube_muscle();
+  muscle.attachments[0].vertices = {3, 20};
+  const Points samples = attachment_samples(muscle, AttachmentEnd::origin, 5);
+  ASSERT_EQ(samples.cols(), 5);
+  for (Index i = 0; i < 5; ++i)
+    EXPECT_TRUE(samples.col(i) == muscle.surface.vertices.col(3) || samples.col(i) == muscle.surface.vertices.col(20));
+}
+
+TEST(MoveInside, brings_points_below_the_surface_and_leaves_those_that_are_there) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.05, 4);
+  const SignedDistance distance(ball);
+  Points points(3, 3);
+  points.col(0) = Vec3(0.06, 0.01, 0), points.col(1) = ball.vertices.col(7), points.col(2) = Vec3(0.01, 0, 0);
+  const Vec3 deep = points.col(2);
+  move_inside(ball, distance, 1e-4, points);
+  EXPECT_NEAR(distance.query(points.col(0)).distance, -1e-4, 1e-5);
+  EXPECT_LT(distance.query(points.col(1)).distance, -1e-5);
+  EXPECT_EQ(points.col(2), deep);
+}
+
+}  // namespace gracilis

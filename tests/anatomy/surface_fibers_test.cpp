@@ -1,0 +1,132 @@
+#include <gracilis/anatomy/surface_fibers.hpp>
+
+#include <gracilis/anatomy/inner_fibers.hpp>
+#include <gracilis/anatomy/superficial_fibers.hpp>
+#include <gracilis/geometry/topology.hpp>
+
+#include "anatomy/muscles_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace gracilis {
+namespace {
+
+std::set<std::pair<Index, Index>> edges_of(const Muscle& muscle) {
+  std::set<std::pair<Index, Index>> edges;
+  for (const MeshEdge& edge : build_topology(muscle.surface.faces, muscle.surface.vertex_count()).edges)
+    edges.insert({edge.a, edge.b});
+  return edges;
+}
+
+void expect_paths_along_edges(const Muscle& muscle, const SurfaceFibers& found) {
+  const auto edges = edges_of(muscle);
+  for (const std::vector<Index>& path : found.paths) {
+    ASSERT_FALSE(path.empty());
+    for (std::size_t i = 1; i < path.size(); ++i) EXPECT_TRUE(edges.contains(std::minmax(path[i - 1], path[i])));
+  }
+  for (const FiberSegment& segment : found.segments) {
+    EXPECT_TRUE(edges.contains({segment.a, segment.b}));
+    EXPECT_NEAR(segment.rest_length,
+                (muscle.surface.vertices.col(segment.a) - muscle.surface.vertices.col(segment.b)).norm(), 1e-15);
+    EXPECT_GE(segment.fibers, 1);
+  }
+}
+
+/// Within 60 degrees of the tube's axis.
+bool along_axis(const Muscle& muscle, const FiberSegment& segment) {
+  const Vec3 edge = muscle.surface.vertices.col(segment.b) - muscle.surface.vertices.col(segment.a);
+  return std::abs(edge.z()) >= 0.49 * edge.norm();
+}
+
+}  // namespace
+
+TEST(SurfaceFibers, of_a_tube_run_along_it_from_end_to_end) {
+  const Muscle muscle = tube_muscle();
+  const Polylines fibers = inner_fibers(muscle);
+  const SurfaceFibers found = surface_fibers(muscle, fibers);
+  ASSERT_EQ(found.paths.size(), 100u);
+  expect_paths_along_edges(muscle, found);
+  for (const std::vector<Index>& path : found.paths) {
+    EXPECT_NEAR(muscle.surface.vertices(2, path.front()), 0, 1e-9);
+    EXPECT_NEAR(muscle.surface.vertices(2, path.back()), 0.2, 1e-9);
+  }
+  for (const FiberSegment& segment : found.segments) EXPECT_TRUE(along_axis(muscle, segment));
+  EXPECT_GT(found.coverage, 0.6);
+}
+
+TEST(SurfaceFibers, as_published_reject_what_runs_across) {
+  const Muscle muscle = tube_muscle();
+  const Polylines fibers = inner_fibers(muscle);
+  const SurfaceFibers published = surface_fibers(muscle, fibers, SurfacePaths::nearest_joined);
+  const SurfaceFibers better = surface_fibers(muscle, fibers);
+  expect_paths_along_edges(muscle, published);
+  for (const FiberSegment& segment : published.segments) EXPECT_TRUE(along_axis(muscle, segment));
+  const auto share = [](const SurfaceFibers& found) {
+    return static_cast<Real>(found.rejected) / static_cast<Real>(found.segments.size() + found.rejected);
+  };
+  EXPECT_LE(share(better), share(published));
+}
+
+TEST(SurfaceFibers, drawn_by_hand_join_the_nearest_vertices) {
+  const Muscle muscle = tube_muscle();
+  Points line(3, 3);
+  line << 0.0151, 0.0151, 0.0151, 0, 0, 0, 0.02, 0.1, 0.18;
+  const SurfaceFibers found = surface_fibers_from_lines(muscle, join({line}));
+  ASSERT_EQ(found.paths.size(), 1u);
+  expect_paths_along_edges(muscle, found);
+  EXPECT_EQ(found.rejected, 0);
+  Real length = 0;
+  for (const FiberSegment& segment : found.segments) length += segment.rest_length;
+  EXPECT_NEAR(length, 0.16, 1e-9) << "a straight line of edges";
+}
+
+TEST(SurfaceFibers, there_are_none_without_fibers) {
+  EXPECT_TRUE(surface_fibers(tube_muscle(), Polylines()).segments.empty());
+}
+
+TEST(FilledBetween, straight_lines_along_a_tube_gives_straight_fibers) {
+  const Muscle muscle = tube_muscle();
+  std::vector<Points> lines;
+  for (const Real angle : {0.3, 0.9, 1.5, 2.1}) {
+    Points line(3, 4);
+    for (Index i = 0; i < 4; ++i) line.col(i) = Vec3(0.015 * std::cos(angle), 0.015 * std::sin(angle), 0.01 + 0.06 * i);
+    lines.push_back(line);
+  }
+  const Polylines fibers = filled_between(muscle, join(lines));
+  ASSERT_EQ(fibers.count(), 100);
+  for (Index i = 0; i < fibers.count(); ++i) EXPECT_NEAR(polyline_length(fibers.line(i)), 0.2, 0.008);
+}
+
+TEST(FilledBetween, lines_that_run_askew_gives_fibers_that_do) {
+  const Muscle muscle = tube_muscle();
+  const auto turn_of = [&](Real twist) {
+    std::vector<Points> lines;
+    for (const Real angle : {0.8, 1.2, 1.6, 2.0, 2.4}) {
+      Points line(3, 9);
+      for (Index i = 0; i < 9; ++i) {
+        const Real z = 0.02 + 0.02 * i, at = angle + twist * (z - 0.1);
+        line.col(i) = Vec3(0.015 * std::cos(at), 0.015 * std::sin(at), z);
+      }
+      lines.push_back(line);
+    }
+    const Polylines fibers = filled_between(muscle, join(lines));
+    // How far fibers go sideways between a quarter and three quarters of their way.
+    Vec3 sideways = Vec3::Zero();
+    for (Index i = 0; i < fibers.count(); ++i)
+      sideways += (fibers.line(i).col(11) - fibers.line(i).col(4)) / fibers.count();
+    return sideways.x();
+  };
+  const Real one_way = turn_of(5), other_way = turn_of(-5);
+  EXPECT_LT(one_way, other_way - 0.001);
+}
+
+TEST(FilledBetween, no_usable_line_gives_the_parallel_template) {
+  const Muscle muscle = tube_muscle();
+  EXPECT_TRUE(filled_between(muscle, Polylines()).points == inner_fibers(muscle).points);
+}
+
+}  // namespace gracilis

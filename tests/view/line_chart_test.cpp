@@ -1,0 +1,45 @@
+#include <gracilis/view/line_chart.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace gracilis {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+static int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+  return found;
+}
+
+TEST(LineChart, draws_a_line_per_series_and_names_those_with_a_name) {
+  const LineChart chart = {
+      "a < b", "x", "y", {{"first", {0, 1}, {2, 3}}, {"second", {0, 1}, {3, 4}}, {"", {0, 1}, {1, 1}}}};
+  const std::string svg = to_svg(chart);
+  EXPECT_EQ(count(svg, "<polyline"), 3);
+  EXPECT_THAT(svg, HasSubstr("a &lt; b"));
+  EXPECT_THAT(svg, HasSubstr(">second</text>"));
+  EXPECT_TRUE(svg.ends_with("</svg>\n"));
+}
+
+TEST(LineChart, breaks_a_line_where_a_value_is_not_finite_and_draws_none_of_nothing) {
+  const Real nan = std::numeric_limits<Real>::quiet_NaN();
+  EXPECT_EQ(count(to_svg({"", "", "", {{"", {0, 1, 2, 3, 4}, {0, 1, nan, 1, 0}}}}), "<polyline"), 2);
+  const std::string empty = to_svg({"nothing", "", "", {}});
+  EXPECT_EQ(count(empty, "<polyline"), 0);
+  EXPECT_THAT(empty, Not(HasSubstr("nan")));
+}
+
+TEST(AxisTicks, are_round_numbers_within_the_range) {
+  EXPECT_THAT(axis_ticks(0, 90, 10), ElementsAre(0, 10, 20, 30, 40, 50, 60, 70, 80, 90));
+  EXPECT_THAT(axis_ticks(-0.4, 0.4, 4),
+              ElementsAre(testing::DoubleNear(-0.4, 1e-12), testing::DoubleNear(-0.2, 1e-12), 0,
+                          testing::DoubleNear(0.2, 1e-12), testing::DoubleNear(0.4, 1e-12)));
+}
+
+}  // namespace gracilis
