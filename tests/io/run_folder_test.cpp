@@ -47,7 +47,7 @@ struct TinyRun {
     scene.joints = {hip};
     for (int i = 0; i < 5; ++i) {
       const RigidTransform turn(Eigen::AngleAxisd(0.5 * i, Vec3::UnitZ()));
-      poses.push_back({0.1 * i, {radians(10 * i)}, {RigidTransform::Identity(), turn}});
+      poses.push_back({0.1 * i, {radians(10 * i)}, {RigidTransform::Identity(), turn}, {}});
     }
   }
 

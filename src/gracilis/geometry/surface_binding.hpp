@@ -12,14 +12,14 @@ namespace gracilis {
 /// A surface's vertices are x = A r + t + d: r at rest, A and t the affine map that fits best (by area), d what is
 /// left. A bound point then is A p + t + Σ w d, which is what the coordinates say, since they reproduce affine maps;
 /// but the sum may now be rounded without harm. Vertices far from a point for their distance from each other
-/// (`openness`) share one term, the sum of their weights times the mean of their d. This makes 1500 points on 10,000
-/// vertices some hundred thousand terms instead of 15 million.
+/// (`openness`) share one term: d is taken as linear over them, with the gradient that fits them best. This makes 1500
+/// points on 10,000 vertices some hundred thousand terms instead of 15 million.
 class SurfaceBinding {
  public:
   /// Binds the points (3 × k, m) to the surface at rest. Takes a millisecond per point and 10,000 vertices.
   /// `openness`: largest radius of a group of vertices over its distance that is taken as one; 0 takes every vertex on
   /// its own.
-  SurfaceBinding(const TriangleMesh& surface, const Points& points, Real openness = 0.2);
+  SurfaceBinding(const TriangleMesh& surface, const Points& points, Real openness = 0.3);
 
   /// Where the points are when the surface's vertices are at `vertices` (3 × n): 3 × k. Deterministic for any number of
   /// threads.
@@ -34,12 +34,16 @@ class SurfaceBinding {
     Index second_child;  ///< the first is the next group; 0: none
     Vec3 center;
     Real radius;
+    Vec3 mean;                       ///< of its vertices at rest
+    Eigen::Matrix3f inverse_spread;  ///< of the second moments about it; zero along directions in which it is flat
   };
   struct Term {
     Index group;
-    float weight;
+    float weight;            ///< Σ w
+    Eigen::Vector3f moment;  ///< Σ w (r - mean), m
   };
 
+  Eigen::Matrix3f inverse_spread(Index begin, Index end, const Vec3& mean) const;
   void build_groups(const TriangleMesh& surface, Index begin, Index end);
   void add_terms(const Vec3& p, const Eigen::VectorXd& weights, Real openness, std::vector<Term>& terms) const;
 
