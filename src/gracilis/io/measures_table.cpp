@@ -34,9 +34,9 @@ static std::string row_end(const MuscleMeasures& m, const MuscleReport& r) {
                      r.milliseconds);
 }
 
-/// Activation and fibers; empty cells where a muscle has no fibers.
+/// Activation and fibers; nan where a muscle has no fibers.
 static std::string fiber_cells(Real activation, const MuscleFibers& fibers) {
-  if (fibers.lengths.empty()) return fmt::format(",{:.4f},,,", activation);
+  if (fibers.lengths.empty()) return fmt::format(",{:.4f},nan,nan,nan", activation);
   return fmt::format(",{:.4f},{:.6f},{:.4f},{:.4f}", activation, fibers.mean_strain, 1e4 * fibers.cross_section,
                      1e4 * fibers.physiological_cross_section);
 }
