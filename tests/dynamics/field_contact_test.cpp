@@ -28,15 +28,21 @@ const DistanceField& ball() {
 struct Scenario {
   Particles particles;
   DistanceSet distances;
+  FaceSet faces;
   FieldContactSet contact;
   FieldPlacement placement;
   NearField near;
 
-  void look() { find_near(contact, distances, placement, particles, 0.006f, near); }
+  void look() { find_near(contact, distances, faces, placement, 0.006f, particles, near); }
   Index push_particles() { return project_particle_contacts(contact, placement, near, particles); }
   Index push_edges() { return project_edge_contacts(contact, distances, placement, near, particles); }
   Real radius_of(Index i) const { return (placement.rotation * particles.position(i) + placement.translation).norm(); }
 };
+
+void set_gap(FieldContactSet& contact, std::size_t count, float gap) {
+  contact.captured.particle.assign(count, gap);
+  contact.released.particle.assign(count, gap);
+}
 
 Scenario points_at(const std::vector<Vec3>& positions, const std::vector<Real>& inverse_masses, float gap) {
   Scenario scenario;
@@ -44,8 +50,8 @@ Scenario points_at(const std::vector<Vec3>& positions, const std::vector<Real>& 
   for (std::size_t i = 0; i < positions.size(); ++i) x.col(static_cast<Index>(i)) = positions[i];
   scenario.particles =
       make_particles(x, Eigen::Map<const Eigen::VectorXd>(inverse_masses.data(), static_cast<Index>(x.cols())));
-  scenario.contact.field = &ball();
-  scenario.contact.particle_gap.assign(positions.size(), gap);
+  scenario.contact.field = bounded(ball());
+  set_gap(scenario.contact, positions.size(), gap);
   return scenario;
 }
 
@@ -53,7 +59,9 @@ Scenario points_at(const std::vector<Vec3>& positions, const std::vector<Real>& 
 Scenario edge_through_the_ball(Real inverse_mass_a, Real inverse_mass_b) {
   Scenario scenario = points_at({{-0.012, 0.029, 0}, {0.012, 0.029, 0}}, {inverse_mass_a, inverse_mass_b}, 0);
   scenario.distances = build_distance_set({{0, 1, 0.024, 0}}, 2);
-  scenario.contact.edge_gap.assign(scenario.distances.a.size(), 0.0005f);
+  set_gap(scenario.contact, 2, 0.0005f);
+  scenario.contact.captured.edge_sag.assign(scenario.distances.a.size(), 0);
+  scenario.contact.released.edge_sag = scenario.contact.captured.edge_sag;
   return scenario;
 }
 
@@ -88,7 +96,7 @@ TEST(FieldContact, an_overlap_at_rest_may_stay_but_not_grow) {
 TEST(FieldContact, acts_in_the_frame_of_the_moved_obstacle) {
   Scenario scenario = points_at({{0.5, 0.2, 0.029}}, {1}, 0.0005f);
   const Eigen::Matrix3f rotation(Eigen::AngleAxisf(1.1f, Eigen::Vector3f(1, 2, 3).normalized()));
-  scenario.placement = {rotation, -rotation * Eigen::Vector3f(0.5f, 0.2f, 0)};
+  scenario.placement = {rotation, -rotation * Eigen::Vector3f(0.5f, 0.2f, 0), 0};
   scenario.look();
   EXPECT_EQ(scenario.push_particles(), 1);
   EXPECT_NEAR(scenario.radius_of(0), radius + 0.0005, 3e-5);
@@ -127,9 +135,71 @@ TEST(FieldContact, a_fixed_end_leaves_the_whole_way_to_the_other) {
   EXPECT_TRUE(fixed.near.edges.empty());
 }
 
+TEST(FieldContact, pushes_an_edge_out_at_its_deepest_point_wherever_that_is) {
+  for (const Real share : {0.15, 0.3, 0.5, 0.8}) {
+    // Touches the ball's top at `share` of its length, 1 mm deep.
+    const Real length = 0.03;
+    Scenario scenario = points_at({{-share * length, 0.029, 0}, {(1 - share) * length, 0.029, 0}}, {1, 1}, 0);
+    scenario.distances = build_distance_set({{0, 1, length, 0}}, 2);
+    scenario.contact.captured.edge_sag.assign(scenario.distances.a.size(), 0);
+    scenario.contact.released.edge_sag = scenario.contact.captured.edge_sag;
+    scenario.look();
+    for (int i = 0; i < 10; ++i) scenario.push_edges();
+    const Eigen::Vector3f a = scenario.particles.position(0), b = scenario.particles.position(1);
+    float nearest = 1;
+    for (int i = 0; i <= 300; ++i) nearest = std::min(nearest, (a + (b - a) * static_cast<float>(i) / 300).norm());
+    EXPECT_NEAR(nearest, radius, 5e-5) << "touching at " << share;
+  }
+}
+
+TEST(FieldContact, an_edge_may_sag_as_at_rest_until_it_is_released) {
+  Scenario scenario = edge_through_the_ball(1, 1);
+  scenario.contact.captured.edge_sag.assign(scenario.distances.a.size(), -0.0016f);
+  scenario.look();
+  EXPECT_EQ(scenario.push_edges(), 0);
+  scenario.placement.release = 1;
+  scenario.look();
+  EXPECT_EQ(scenario.push_edges(), 1);
+}
+
+TEST(FieldContact, pushes_a_face_out_where_the_obstacle_pokes_through_between_its_edges) {
+  const Real width = 0.03;
+  Points corners(3, 3);
+  for (int k = 0; k < 3; ++k)
+    corners.col(k) = Vec3(width * std::cos(2 * pi * k / 3) + 0.003, 0.029, width * std::sin(2 * pi * k / 3));
+  Scenario scenario = points_at({corners.col(0), corners.col(1), corners.col(2)}, {1, 1, 0}, 0.0005f);
+  scenario.faces = build_face_set(Eigen::Vector3i(0, 1, 2), 3);
+  scenario.contact.captured.face_sag = scenario.contact.released.face_sag = {0};
+  scenario.look();
+  ASSERT_EQ(scenario.near.faces.size(), 1u);
+  for (int i = 0; i < 10; ++i)
+    project_face_contacts(scenario.contact, scenario.faces, scenario.placement, scenario.near, scenario.particles);
+  const Eigen::Vector3f where = scenario.near.face_points[0];
+  Eigen::Vector3f deepest = Eigen::Vector3f::Zero();
+  for (int k = 0; k < 3; ++k) deepest += where[k] * scenario.particles.position(k);
+  EXPECT_NEAR(deepest.norm(), radius + 0.0005, 1e-4);
+  EXPECT_EQ(scenario.particles.position(2).y(), 0.029f) << "a fixed corner";
+}
+
+TEST(FieldContact, faces_of_one_color_share_no_particle) {
+  const TriangleMesh mesh = shapes::sphere(Vec3::Zero(), 1, 3);
+  const FaceSet set = build_face_set(mesh.faces, mesh.vertex_count());
+  EXPECT_EQ(set.count(), mesh.face_count());
+  Index covered = 0;
+  for (const ColorRange& color : set.colors) {
+    std::vector<Index> used;
+    for (Index slot = color.begin; slot < color.end; ++slot)
+      for (const auto& column : set.particles) used.push_back(column[static_cast<std::size_t>(slot)]);
+    std::sort(used.begin(), used.end());
+    EXPECT_EQ(std::adjacent_find(used.begin(), used.end()), used.end());
+    covered += color.end - color.begin;
+  }
+  EXPECT_EQ(covered, mesh.face_count());
+}
+
 TEST(FieldContact, without_edge_gaps_edges_are_not_tested) {
   Scenario scenario = edge_through_the_ball(1, 1);
-  scenario.contact.edge_gap.clear();
+  scenario.contact.captured.edge_sag.clear();
   scenario.look();
   EXPECT_TRUE(scenario.near.edges.empty());
   EXPECT_EQ(scenario.push_edges(), 0);
@@ -140,9 +210,12 @@ TEST(FieldContact, lists_exactly_the_movable_particles_within_reach) {
   SystemOptions options;
   options.fixed_share = 0.2;
   const SurfaceSystem system = system_of(mesh, options);
-  FieldContactSet contact{&ball(), std::vector<float>(static_cast<std::size_t>(mesh.vertex_count()), 0.001f), {}};
+  FieldContactSet contact;
+  contact.field = bounded(ball());
+  set_gap(contact, static_cast<std::size_t>(mesh.vertex_count()), 0.001f);
   NearField near;
-  find_near(contact, system.distances, {}, system.rest, 0.004f, near);
+  Particles particles = system.rest;
+  find_near(contact, system.distances, {}, {}, 0.004f, particles, near);
   std::vector<Index> expected;
   for (Index i = 0; i < mesh.vertex_count(); ++i)
     if (system.rest.inverse_mass(i) > 0 && sample(ball(), Eigen::Vector3f(system.rest.position(i))).distance < 0.005f)

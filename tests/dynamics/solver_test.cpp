@@ -26,9 +26,10 @@ const Pressed& pressed() {
     const TriangleMesh soft = shapes::sphere({0, 0, 0.045}, 0.03, 6);
     p.system = system_of(soft);
     FieldContactSet contact;
-    contact.field = &p.obstacle;
-    contact.particle_gap.assign(static_cast<std::size_t>(soft.vertex_count()), 0.0003f);
-    contact.edge_gap.assign(p.system.distances.a.size(), 0.0003f);
+    contact.field = bounded(p.obstacle);
+    contact.captured.particle.assign(static_cast<std::size_t>(soft.vertex_count()), 0.0003f);
+    contact.captured.edge_sag.assign(p.system.distances.a.size(), 0);
+    contact.released = contact.captured;
     p.system.contacts.push_back(std::move(contact));
     return p;
   }();

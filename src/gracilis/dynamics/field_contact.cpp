@@ -1,101 +1,123 @@
 #include <gracilis/dynamics/field_contact.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/field_contact_guard.hpp>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 
 namespace gracilis {
 
 namespace {
 
 constexpr Index chunk = 512;
-
-struct Push {
-  float depth = 0;  ///< how far below the gap; 0: not touching
-  Eigen::Vector3f direction;
-};
-
-/// How far, and in the particles' frame where to, the point must move to stand at `gap`.
-Push push_out(const FieldContactSet& set, const FieldPlacement& placement, const Eigen::Vector3f& x, float gap) {
-  const FieldSample answer = sample(*set.field, Eigen::Vector3f(placement.rotation * x + placement.translation));
-  if (!(answer.distance < gap)) return {};
-  const float slope2 = answer.gradient.squaredNorm();
-  // On the field's ridges the interpolated gradient fades; there is no way out to be read from it.
-  if (slope2 < 1e-4f) return {};
-  return {(gap - answer.distance) / std::sqrt(slope2),
-          placement.rotation.transpose() * (answer.gradient / std::sqrt(slope2))};
-}
-
-Eigen::Vector3f midpoint(const DistanceSet& distances, Index slot, const Particles& particles) {
-  const auto at = static_cast<std::size_t>(slot);
-  return (particles.position(distances.a[at]) + particles.position(distances.b[at])) / 2;
-}
+/// On the field's ridges the interpolated gradient fades; there is no way out to be read from it.
+constexpr float least_slope2 = 1e-4f;
+/// The share of an edge at a fixed end in which nothing can be pushed out without throwing the other end far away.
+constexpr float stiff_share = 0.2f;
+/// A distance exceeds its ceiling only by more than this, m.
+constexpr float rounding = 1e-7f;
+/// How the deepest point of an edge is followed: the step is the slope along the edge times this, at most a quarter of
+/// a cell.
+constexpr float follow_radius = 0.004f;
 
 }  // namespace
 
-void find_near(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
-               const Particles& particles, float reach, NearField& near) {
-  near.particles.clear();
-  near.edges.clear();
-  near.edge_colors.clear();
-  std::vector<char> is_near(static_cast<std::size_t>(particles.count()) + 1, 0);
-  parallel_for(particles.count(), chunk, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const Eigen::Vector3f q = placement.rotation * particles.position(i) + placement.translation;
-      is_near[static_cast<std::size_t>(i)] =
-          sample(*set.field, q).distance < set.particle_gap[static_cast<std::size_t>(i)] + reach;
-    }
-  });
-  for (Index i = 0; i < particles.count(); ++i)
-    if (is_near[static_cast<std::size_t>(i)] && particles.inverse_mass(i) > 0) near.particles.push_back(i);
-  if (set.edge_gap.empty()) return;
-  for (const ColorRange& color : distances.colors) {
-    const auto begin = static_cast<Index>(near.edges.size());
-    for (Index slot = color.begin; slot < color.end; ++slot) {
-      const Index a = distances.a[static_cast<std::size_t>(slot)], b = distances.b[static_cast<std::size_t>(slot)];
-      const bool movable = particles.inverse_mass(a) + particles.inverse_mass(b) > 0;
-      if (movable && (is_near[static_cast<std::size_t>(a)] || is_near[static_cast<std::size_t>(b)]))
-        near.edges.push_back(slot);
-    }
-    near.edge_colors.push_back({begin, static_cast<Index>(near.edges.size())});
-  }
-}
-
 Index project_edge_contacts(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
-                            const NearField& near, Particles& particles) {
+                            NearField& near, Particles& particles) {
   std::atomic<Index> touching = 0;
+  const float longest_step = safe_step(*set.field.field) / 2;
+  const std::vector<float>&sag = set.captured.edge_sag, &released = set.released.edge_sag;
   for (const ColorRange& color : near.edge_colors)
     parallel_for(color.end - color.begin, chunk, [&](Index begin, Index end) {
       Index count = 0;
       for (Index i = color.begin + begin; i < color.begin + end; ++i) {
-        const Index slot = near.edges[static_cast<std::size_t>(i)];
-        const Push push = push_out(set, placement, midpoint(distances, slot, particles),
-                                   set.edge_gap[static_cast<std::size_t>(slot)]);
-        if (push.depth <= 0) continue;
-        ++count;
-        const Index a = distances.a[static_cast<std::size_t>(slot)], b = distances.b[static_cast<std::size_t>(slot)];
+        const auto slot = static_cast<std::size_t>(near.edges[static_cast<std::size_t>(i)]);
+        const Index a = distances.a[slot], b = distances.b[slot];
         const float wa = particles.inverse_mass(a), wb = particles.inverse_mass(b);
-        const float scale = 2 * push.depth / (wa + wb);
-        particles.position(a) += wa * scale * push.direction;
-        particles.position(b) += wb * scale * push.direction;
+        float& t = near.edge_points[static_cast<std::size_t>(i)];
+        const float ga = near.gap[static_cast<std::size_t>(a)], gb = near.gap[static_cast<std::size_t>(b)];
+        const Eigen::Vector3f xa = particles.position(a), along = particles.position(b) - xa;
+        const FieldSample at = sample(*set.field.field, placement.to_obstacle(xa + t * along));
+        const float slope2 = at.gradient.squaredNorm();
+        if (slope2 < least_slope2) continue;
+        const Eigen::Vector3f gradient = placement.rotation.transpose() * at.gradient;
+        const float depth =
+            ga + t * (gb - ga) + sag[slot] + placement.release * (released[slot] - sag[slot]) - at.distance;
+        const float length2 = along.squaredNorm(), here = t;
+        if (length2 > 0) {
+          const float length = std::sqrt(length2), slope = (gradient.dot(along) - gb + ga) / length;
+          const float step = std::clamp(follow_radius * slope, -longest_step, longest_step) / length;
+          t = std::clamp(t - step, wa > 0 ? 0.0f : stiff_share, wb > 0 ? 1.0f : 1 - stiff_share);
+        }
+        if (!(depth > 0)) continue;
+        ++count;
+        const Eigen::Vector3f push = gradient * (depth / slope2 / (wa * (1 - here) * (1 - here) + wb * here * here));
+        particles.position(a) += wa * (1 - here) * push;
+        particles.position(b) += wb * here * push;
       }
       touching += count;
     });
   return touching;
 }
 
-Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement& placement, const NearField& near,
+Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
+                            NearField& near, Particles& particles) {
+  std::atomic<Index> touching = 0;
+  const std::vector<float>&sag = set.captured.face_sag, &released = set.released.face_sag;
+  for (const ColorRange& color : near.face_colors)
+    parallel_for(color.end - color.begin, chunk, [&](Index begin, Index end) {
+      Index count = 0;
+      for (Index i = color.begin + begin; i < color.begin + end; ++i) {
+        const auto slot = static_cast<std::size_t>(near.faces[static_cast<std::size_t>(i)]);
+        const Eigen::Vector3f where = near.face_points[static_cast<std::size_t>(i)];
+        Eigen::Vector3f x = Eigen::Vector3f::Zero();
+        float gap = sag[slot] + placement.release * (released[slot] - sag[slot]), sum = 0;
+        for (int k = 0; k < 3; ++k) {
+          const Index p = faces.particles[static_cast<std::size_t>(k)][slot];
+          x += where[k] * particles.position(p);
+          gap += where[k] * near.gap[static_cast<std::size_t>(p)];
+          sum += where[k] * where[k] * particles.inverse_mass(p);
+        }
+        const FieldSample at = sample(*set.field.field, placement.to_obstacle(x));
+        const float slope2 = at.gradient.squaredNorm();
+        if (!(at.distance < gap) || slope2 < least_slope2 || !(sum > 0)) continue;
+        ++count;
+        const Eigen::Vector3f push =
+            placement.rotation.transpose() * at.gradient * ((gap - at.distance) / slope2 / sum);
+        for (int k = 0; k < 3; ++k) {
+          const Index p = faces.particles[static_cast<std::size_t>(k)][slot];
+          particles.position(p) += particles.inverse_mass(p) * where[k] * push;
+        }
+      }
+      touching += count;
+    });
+  return touching;
+}
+
+Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
                                 Particles& particles) {
   std::atomic<Index> touching = 0;
   parallel_for(static_cast<Index>(near.particles.size()), chunk, [&](Index begin, Index end) {
     Index count = 0;
     for (Index i = begin; i < end; ++i) {
       const Index particle = near.particles[static_cast<std::size_t>(i)];
-      const Push push =
-          push_out(set, placement, particles.position(particle), set.particle_gap[static_cast<std::size_t>(particle)]);
-      if (push.depth <= 0) continue;
+      const auto p = static_cast<std::size_t>(particle);
+      const float gap = near.gap[p];
+      const Eigen::Vector3f moved = placement.to_obstacle(particles.position(particle));
+      Eigen::Vector3f q = guarded(set, near.last[p], moved, gap);
+      const FieldSample at = sample_bounded(set.field, q);
+      const float slope2 = at.gradient.squaredNorm();
+      const float ceiling = set.ceiling.empty() ? std::numeric_limits<float>::infinity() : set.ceiling[p];
+      const float wanted = at.distance < gap ? gap : at.distance > ceiling + rounding ? ceiling : at.distance;
+      const bool pushed = wanted != at.distance && slope2 > least_slope2;
+      if (pushed) q += at.gradient * ((wanted - at.distance) / slope2);
+      near.last[p] = {q, pushed ? wanted : at.distance};
+      if (q == moved) continue;
       ++count;
-      particles.position(particle) += push.depth * push.direction;
+      particles.position(particle) += placement.rotation.transpose() * (q - moved);
     }
     touching += count;
   });

@@ -2,41 +2,101 @@
 
 #include <gracilis/dynamics/constraint_sets.hpp>
 #include <gracilis/dynamics/particles.hpp>
-#include <gracilis/geometry/distance_field.hpp>
+#include <gracilis/geometry/field_path.hpp>
 
+#include <array>
 #include <vector>
 
 namespace gracilis {
 
-/// Keeps particles, and the midpoints of distance constraints, out of a rigid obstacle: C = d(x) - gap >= 0, without
-/// compliance. A gap may be negative where the data overlap at rest: the overlap may stay but not grow.
+/// What is done about particles so fast that they would pass through an obstacle.
+enum class MotionGuard {
+  none,
+  turned_direction,  ///< goes back where the direction to the surface turned by more than 135 degrees (published)
+  kept_path          ///< follows its path in the obstacle's frame and slides where the obstacle stands in the way
+};
+
+/// The gaps that points of a surface must keep from an obstacle, m. The gap in an edge or a face is that between its
+/// corners' gaps, plus its sag. Gaps may be negative where the data overlap at rest.
+struct ContactGaps {
+  std::vector<float> particle;  ///< one per particle
+  std::vector<float> edge_sag;  ///< at most 0, one per distance slot; empty: edges are not tested
+  std::vector<float> face_sag;  ///< the same per face slot
+};
+
+/// Faces so large that something can poke through between their edges.
+struct FaceSet {
+  std::array<std::vector<Index>, 3> particles;
+  std::vector<ColorRange> colors;  ///< faces of one color share no particle
+
+  Index count() const { return static_cast<Index>(particles[0].size()); }
+};
+
+FaceSet build_face_set(const Eigen::Matrix3Xi& faces, Index particle_count);
+
+/// Keeps particles, edges (those of the distance constraints) and large faces out of a rigid obstacle: C = d(x) - gap
+/// >= 0, without compliance.
 struct FieldContactSet {
-  const DistanceField* field = nullptr;  ///< in the obstacle's frame; must outlive the set
-  std::vector<float> particle_gap;       ///< m, one per particle
-  std::vector<float> edge_gap;           ///< m, one per distance slot; empty: edges are not tested
+  BoundedField field;          ///< in the obstacle's frame
+  ContactGaps captured;        ///< in the capture pose
+  ContactGaps released;        ///< once the obstacle has moved against the surface
+  std::vector<float> ceiling;  ///< m, one per particle: the largest distance it may have; empty: none
+  MotionGuard guard = MotionGuard::kept_path;
 };
 
 /// Carries the particles' frame into the obstacle's: q = rotation x + translation.
 struct FieldPlacement {
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
   Eigen::Vector3f translation = Eigen::Vector3f::Zero();
+  float release = 0;  ///< from the captured gaps (0) to the released ones (1)
+
+  Eigen::Vector3f to_obstacle(const Eigen::Vector3f& x) const { return rotation * x + translation; }
+  Eigen::Vector3f from_obstacle(const Eigen::Vector3f& q) const { return rotation.transpose() * (q - translation); }
 };
 
-/// Those close enough to the obstacle to be tested in every iteration, found anew every few.
+/// A particle in the obstacle's frame, and a lower bound of the distance there.
+struct Sighting {
+  Eigen::Vector3f place = Eigen::Vector3f::Zero();
+  float distance = 0;
+};
+
+/// What is close enough to one obstacle to be tested in every iteration, found anew every few, and what is known about
+/// every particle.
 struct NearField {
   std::vector<Index> particles;
-  std::vector<Index> edges;             ///< distance slots, grouped by color
-  std::vector<ColorRange> edge_colors;  ///< ranges in `edges`
+  std::vector<Index> edges;                  ///< distance slots, grouped by color
+  std::vector<float> edge_points;            ///< where on each edge it is deepest: 0 at a, 1 at b
+  std::vector<ColorRange> edge_colors;       ///< ranges in `edges`
+  std::vector<Index> faces;                  ///< face slots, grouped by color
+  std::vector<Eigen::Vector3f> face_points;  ///< barycentric
+  std::vector<ColorRange> face_colors;
+  std::vector<float> gap;        ///< m, per particle: the gap now; one more for the idle particle
+  std::vector<float> clearance;  ///< m, per particle: least that its distance is above its gap; idle: infinite
+  std::vector<Sighting> last;    ///< per particle: where it last was on the right side; empty: nothing is known yet
 };
 
-/// Lists what is within `reach` (m) of touching: movable particles, and edges with a movable end.
-void find_near(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
-               const Particles& particles, float reach, NearField& near);
+/// Where the particles are before obstacles and particles move: that side of the surface is theirs.
+void remember_sides(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
+                    NearField& near);
 
-/// Pushes edge midpoints, then particles, out along the field's gradient. Returns how many were touching.
+/// Brings back particles that passed through the obstacle since they were last seen (the set's guard), then lists what
+/// is within `reach` (m) of touching: movable particles, edges and faces with a movable corner.
+void find_near(const FieldContactSet& set, const DistanceSet& distances, const FaceSet& faces,
+               const FieldPlacement& placement, float reach, Particles& particles, NearField& near);
+
+/// Pushes the deepest points of edges, the deepest points of faces, and particles out along the field's gradient.
+/// Returns how many were touching. An edge's or face's deepest point is followed from iteration to iteration.
 Index project_edge_contacts(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
-                            const NearField& near, Particles& particles);
-Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement& placement, const NearField& near,
+                            NearField& near, Particles& particles);
+Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
+                            NearField& near, Particles& particles);
+Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
                                 Particles& particles);
+
+/// Particles near two obstacles or more move to where both gaps are kept: along the direction in which both distances
+/// grow, out of the gap between them; between parallel surfaces, to the middle. Call after the particles' contacts.
+/// Returns how many moved.
+Index project_squeezed(const std::vector<FieldContactSet>& sets, const std::vector<FieldPlacement>& placements,
+                       const std::vector<NearField>& near, Particles& particles);
 
 }  // namespace gracilis

@@ -40,7 +40,11 @@ void project_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
     report.contacts +=
         project_edge_contacts(system.contacts[i], system.distances, placements[i], state.near[i], state.particles);
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
+    report.contacts +=
+        project_face_contacts(system.contacts[i], system.large_faces, placements[i], state.near[i], state.particles);
+  for (std::size_t i = 0; i < system.contacts.size(); ++i)
     report.contacts += project_particle_contacts(system.contacts[i], placements[i], state.near[i], state.particles);
+  project_squeezed(system.contacts, placements, state.near, state.particles);
 }
 
 void limit_edges(const SurfaceSystem& system, float limit, SurfaceState& state, SolveReport& report) {
@@ -127,7 +131,13 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
 
 void refresh_contacts(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state) {
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
-    find_near(system.contacts[i], system.distances, placements[i], state.particles, contact_reach, state.near[i]);
+    find_near(system.contacts[i], system.distances, system.large_faces, placements[i], contact_reach, state.particles,
+              state.near[i]);
+}
+
+void remember_sides(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state) {
+  for (std::size_t i = 0; i < system.contacts.size(); ++i)
+    remember_sides(system.contacts[i], placements[i], state.particles, state.near[i]);
 }
 
 namespace {

@@ -17,6 +17,7 @@ struct SurfaceSystem {
   DistanceSet distances;
   HingeSet hinges;
   VolumeSet volume;
+  FaceSet large_faces;  ///< those that contact tests between their edges, too
   std::vector<FieldContactSet> contacts;
 };
 
@@ -73,6 +74,9 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
 
 /// Lists again what is near each obstacle.
 void refresh_contacts(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state);
+
+/// Before a substep moves obstacles or particles: on which side of each obstacle every particle is.
+void remember_sides(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state);
 
 /// One surface's part in a solve. The state's particles are the prediction on entry and the solution on return.
 struct SurfaceSolve {

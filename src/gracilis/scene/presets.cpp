@@ -27,6 +27,7 @@ static Preset thesis_2024() {
   xpbd.bone_margin = 0.001;
   xpbd.bone_rest_gap = false;
   xpbd.edge_contact = false;
+  xpbd.tunnelling = TunnellingGuard::turned_direction;
   xpbd.predictor = false;
   xpbd.shape_recovery = 0;
   xpbd.hinge_limit = 0;

@@ -45,7 +45,14 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Gap kept between muscle and bone where the gap at rest allows."},
       {"bone_rest_gap", &S::bone_rest_gap, "", 0, 0,
        "Where a point is closer than the margin in the capture pose, keeps that gap, so that the rest stays at rest."},
-      {"edge_contact", &S::edge_contact, "", 0, 0, "Keeps points along edges out of the bones, not vertices only."},
+      {"edge_contact", &S::edge_contact, "", 0, 0, "Keeps edges and large triangles out of the bones, not vertices only."},
+      {"tunnelling", &S::tunnelling, "", 0, 0,
+       "Keeps fast vertices from passing through bones: 'kept_path' limits each step along its path, 'turned_direction' is "
+       "the published test, 'none' does nothing."},
+      {"slide_on_bone", &S::slide_on_bone, "", 0, 0,
+       "Name of a bone from which the muscle does not lift off: vertices near it in the capture pose keep their distance "
+       "and slide along it; empty for none."},
+      {"slide_reach", &S::slide_reach, "m", 0, 0.1, "Vertices this near to that bone in the capture pose slide on it."},
       {"predictor", &S::predictor, "", 0, 0,
        "Carries the free vertices with the bones before the solver relaxes them."},
       {"shape_recovery", &S::shape_recovery, "", 0, 1,

@@ -16,15 +16,15 @@
 /// of a run all read these tables. The default is the member's initializer.
 namespace gracilis {
 
-/// A setting's value outside its struct; choices such as a TimeMode are strings.
+/// A setting's value outside its struct; texts, and choices such as a TimeMode, are strings.
 using SettingValue = std::variant<bool, int, Real, Vec3, std::string>;
 
 /// A member of Settings that users may set.
 template <class Settings>
 struct Setting {
-  using Member =
-      std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*, TimeMode Settings::*,
-                   DihedralFormula Settings::*, FiberTemplate Settings::*, MuscleContact Settings::*>;
+  using Member = std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*,
+                              std::string Settings::*, TimeMode Settings::*, DihedralFormula Settings::*,
+                              FiberTemplate Settings::*, MuscleContact Settings::*, TunnellingGuard Settings::*>;
   std::string_view key;
   Member member;
   std::string_view unit;  ///< empty for numbers without one and for switches

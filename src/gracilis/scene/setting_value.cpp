@@ -15,6 +15,9 @@ static constexpr std::array<std::string_view, 4> choices_of(FiberTemplate) {
 static constexpr std::array<std::string_view, 3> choices_of(MuscleContact) {
   return {"none", "surface", "virtual-edges"};
 }
+static constexpr std::array<std::string_view, 3> choices_of(TunnellingGuard) {
+  return {"none", "turned_direction", "kept_path"};
+}
 
 template <class T>
 constexpr bool is_choice = std::is_enum_v<T>;
@@ -74,6 +77,8 @@ std::string expectation(const Setting<Settings>& setting) {
           return "a number " + range + unit;
         } else if constexpr (std::is_same_v<T, Vec3>) {
           return "three numbers " + range + unit;
+        } else if constexpr (std::is_same_v<T, std::string>) {
+          return "a text in quotes";
         } else {
           std::string text = "one of";
           for (std::string_view choice : choices_of(T{}))

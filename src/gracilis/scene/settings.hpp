@@ -2,6 +2,8 @@
 
 #include <gracilis/core/types.hpp>
 
+#include <string>
+
 namespace gracilis {
 
 /// How time passes for a muscle. `quasi_static` carries no velocity from frame to frame; `dynamic` does.
@@ -9,6 +11,10 @@ enum class TimeMode { quasi_static, dynamic };
 
 /// Which angle measure the dihedral constraint uses: the stable atan2 or the published arccos.
 enum class DihedralFormula { atan2, arccos };
+
+/// What keeps fast vertices from passing through bones: nothing; the published test of the direction to the surface; or
+/// a limit on the motion in each step along its path.
+enum class TunnellingGuard { none, turned_direction, kept_path };
 
 /// Settings of the XPBD method, for one muscle. Defaults are the `physical` preset. The unit, range and meaning shown to
 /// users stand in one table, setting_table.cpp; a new setting is one line here and one there.
@@ -41,7 +47,10 @@ struct XpbdSettings {
   // Bone contact
   Real bone_margin = 0.0005;                     ///< m, kept between muscle and bone where the gap at rest allows
   bool bone_rest_gap = true;                     ///< where the gap at rest is smaller than the margin, keep that gap instead
-  bool edge_contact = true;                      ///< keep points along edges out of bones, not vertices only
+  bool edge_contact = true;                      ///< keep edges and large triangles out of bones, not vertices only
+  TunnellingGuard tunnelling = TunnellingGuard::kept_path;
+  std::string slide_on_bone;                     ///< name of a bone from which the muscle does not lift off; empty: none
+  Real slide_reach = 0.005;                      ///< m; vertices this near to it at rest keep their distance
 
   // What this project adds to the published method
   bool predictor = true;                         ///< carry free vertices with the bones before solving

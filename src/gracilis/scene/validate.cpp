@@ -145,6 +145,12 @@ struct Validation {
     }
   }
 
+  void check_slide(const std::string& where, const std::string& name) {
+    const bool known = name.empty() || std::any_of(scene.bones.begin(), scene.bones.end(),
+                                                   [&](const Bone& bone) { return bone.name == name; });
+    if (!known) add(where, "'slide_on_bone' names '" + name + "', but the scene has no such bone");
+  }
+
   void check_muscles() {
     if (scene.muscles.empty()) add("", "the scene has no muscles", "add [[muscles]]");
     for (const Muscle& muscle : scene.muscles) {
@@ -153,6 +159,7 @@ struct Validation {
       check_settings(where, muscle.xpbd);
       check_settings(where, muscle.fibers);
       if (!muscle.given_fibers.points.allFinite()) add(where, "a point of its fibers is not finite");
+      check_slide(where, muscle.xpbd.slide_on_bone);
       std::map<Index, const Attachment*> owners;
       for (const Attachment& attachment : muscle.attachments) {
         check_attachment(where + ", attachment '" + attachment.name + "'", muscle, attachment, owners);

@@ -69,12 +69,29 @@ Points carried_rest(const PreparedMuscle& muscle, const Pose& pose) {
   return carried;
 }
 
+/// A bone that turned by this against the muscle's other bones, or moved the muscle's middle by this, has moved.
+static constexpr Real moved_angle = radians(0.5), moved_distance = 0.0005;
+
+/// How far a bone has left its place against a muscle: 0 where it was in the capture pose, 1 from a small motion on.
+static Real release_of(const PreparedMuscle& muscle, const Pose& pose, Index body) {
+  const auto from_capture = [&](Index b) { return pose.bodies[static_cast<std::size_t>(b)]; };
+  Real release = 0;
+  const auto see = [&](const RigidTransform& motion) {
+    release = std::max({release, Eigen::AngleAxisd(motion.linear()).angle() / moved_angle,
+                        (motion * muscle.origin - muscle.origin).norm() / moved_distance});
+  };
+  for (Index carrier : muscle.carriers) see(from_capture(body).inverse() * from_capture(carrier));
+  if (muscle.carriers.empty()) see(from_capture(body));
+  return std::min(release, Real{1});
+}
+
 std::vector<FieldPlacement> place_fields(const PreparedMuscle& muscle, const Pose& pose) {
   std::vector<FieldPlacement> placements;
   for (Index body : muscle.contact_bodies) {
     const RigidTransform to_capture =
         pose.bodies[static_cast<std::size_t>(body)].inverse() * Eigen::Translation3d(muscle.origin);
-    placements.push_back({to_capture.linear().cast<float>(), to_capture.translation().cast<float>()});
+    placements.push_back({to_capture.linear().cast<float>(), to_capture.translation().cast<float>(),
+                          static_cast<float>(release_of(muscle, pose, body))});
   }
   return placements;
 }

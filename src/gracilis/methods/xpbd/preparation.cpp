@@ -4,9 +4,11 @@
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
+#include <gracilis/methods/xpbd/bone_gaps.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gracilis::xpbd {
 
@@ -15,8 +17,8 @@ namespace {
 /// Below this share of its stiffness an edge along the fibers would carry nothing and its compliance no finite number.
 constexpr Real smallest_anisotropy = 1e-6;
 constexpr Real smallest_mass_share = 1e-3;
-/// Share of its depth in a bone at rest that a point gives back.
-constexpr Real overlap_given_back = 0.05;
+/// A face is large when the circle in it has a radius above this many cells of the bones' fields.
+constexpr Real large_radius = 2;
 /// Slivers and needles scale a stiffness by no more than this.
 constexpr Real largest_shape = 1e3;
 
@@ -156,32 +158,26 @@ void build_predictor(const Renumbered& muscle, const MeshTopology& topology, Pre
   prepared.carrier_shares = harmonic_fields(muscle.surface.vertices, topology, fixed, values).transpose().cast<float>();
 }
 
-/// The gap a point must keep: the margin, or the gap in the capture pose where that is less. Of an overlap in the
-/// capture pose a part must be given back, so that where the grid's error differs from place to place it cannot grow.
-float allowed_gap(const DistanceField& field, const Vec3& p, const XpbdSettings& settings) {
-  const auto margin = static_cast<float>(settings.bone_margin);
-  if (!settings.bone_rest_gap) return margin;
-  const float rest = sample(field, Eigen::Vector3f(p.cast<float>())).distance;
-  return std::min(margin, rest < 0 ? rest * static_cast<float>(1 - overlap_given_back) : rest);
+/// Between the edges of these faces something as sharp as a bone can poke through.
+void build_large_faces(const Renumbered& muscle, const std::vector<DistanceField>& fields, PreparedMuscle& prepared) {
+  Real cell = std::numeric_limits<Real>::infinity();
+  for (const DistanceField& field : fields) cell = std::min(cell, field.cell_size.maxCoeff());
+  const Points& x = muscle.surface.vertices;
+  std::vector<Index> large;
+  for (Index f = 0; f < muscle.surface.face_count(); ++f) {
+    const auto corners = muscle.surface.faces.col(f);
+    Real around = 0;
+    for (int k = 0; k < 3; ++k) around += (x.col(corners[k]) - x.col(corners[(k + 1) % 3])).norm();
+    // The radius of the circle in it: twice the area (here: the area vector's length) over the circumference.
+    if (area_vector(x, corners).norm() > large_radius * cell * around) large.push_back(f);
+  }
+  prepared.system.large_faces = build_face_set(muscle.surface.faces(Eigen::all, large), muscle.surface.vertex_count());
 }
 
-void build_contacts(const Scene& scene, const std::vector<DistanceField>& fields, PreparedMuscle& prepared) {
-  const XpbdSettings& settings = prepared.settings;
+void build_contacts(const Scene& scene, const MeshTopology& topology, const std::vector<DistanceField>& fields,
+                    PreparedMuscle& prepared) {
   for (std::size_t bone = 0; bone < scene.bones.size(); ++bone) {
-    FieldContactSet contact;
-    contact.field = &fields[bone];
-    for (Index p = 0; p < prepared.rest.cols(); ++p)
-      contact.particle_gap.push_back(allowed_gap(fields[bone], prepared.rest.col(p), settings));
-    if (settings.edge_contact) {
-      const DistanceSet& edges = prepared.system.distances;
-      for (std::size_t slot = 0; slot < edges.a.size(); ++slot) {
-        const bool padding = edges.a[slot] >= prepared.rest.cols();
-        const Vec3 middle =
-            padding ? prepared.origin : Vec3((prepared.rest.col(edges.a[slot]) + prepared.rest.col(edges.b[slot])) / 2);
-        contact.edge_gap.push_back(padding ? 0 : allowed_gap(fields[bone], middle, settings));
-      }
-    }
-    prepared.system.contacts.push_back(std::move(contact));
+    prepared.system.contacts.push_back(bone_contact(prepared, topology, scene.bones[bone], fields[bone]));
     prepared.contact_bodies.push_back(scene.bones[bone].body);
   }
 }
@@ -234,7 +230,8 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
       build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
                        enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
   build_predictor(renumbered, topology, prepared);
-  build_contacts(scene, fields, prepared);
+  build_large_faces(renumbered, fields, prepared);
+  build_contacts(scene, topology, fields, prepared);
   return prepared;
 }
 

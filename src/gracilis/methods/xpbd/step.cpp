@@ -143,6 +143,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const SurfaceCrowd& c
     SurfaceState& state = *steps[i].state;
     solves[i] = {&muscle.system, &placements[i], solve_settings(muscle.settings, substeps), &state, {}};
     placements[i] = place_fields(muscle, now);
+    remember_sides(muscle.system, place_fields(muscle, before), state);
     predict(muscle, before, now, static_cast<float>(solves[i].settings.time_step), state);
     predicted[i] = state.particles;
   });

@@ -1,0 +1,192 @@
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/dynamics/field_contact.hpp>
+#include <gracilis/dynamics/field_contact_guard.hpp>
+#include <gracilis/dynamics/field_contact_points.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gracilis {
+
+namespace {
+
+constexpr Index chunk = 512;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+/// Edges and faces count as near when they may come this deep below their gap before the next listing, m.
+constexpr float element_reach = 0.002f;
+/// A field's slope may exceed 1 by rounding and interpolation.
+constexpr float steepest = 1.1f;
+/// The share of an edge at a fixed end that is not tested: pushing there would throw the other end far away.
+constexpr float stiff_share = 0.2f;
+
+/// Cosine of the turn by which the published test knows a vertex that passed through a bone.
+const float turned_cosine = static_cast<float>(std::cos(radians(135)));
+
+bool passed(const FieldContactSet& set, const Eigen::Vector3f& before, const Eigen::Vector3f& gradient_now) {
+  const Eigen::Vector3f gradient = sample(*set.field.field, before).gradient;
+  return gradient.dot(gradient_now) < turned_cosine * gradient.norm() * gradient_now.norm();
+}
+
+/// Whether the way from where it last was is so long that its end alone does not tell the side.
+bool is_fast(const FieldContactSet& set, const Sighting& last, const Eigen::Vector3f& q, float gap) {
+  const float moved = (q - last.place).norm(), safe = safe_step(*set.field.field);
+  return moved > safe && moved > 0.9f * (last.distance - gap) - 2 * safe;
+}
+
+float blended(const std::vector<float>& captured, const std::vector<float>& released, std::size_t i, float release) {
+  return captured[i] + release * (released[i] - captured[i]);
+}
+
+/// Clearance of every particle, those that are near, and where they are. A particle is asked again only once it may
+/// have used up what it was away when last seen.
+void see_particles(const FieldContactSet& set, const FieldPlacement& placement, float reach, Particles& particles,
+                   NearField& near, std::vector<char>& is_near) {
+  const auto count = static_cast<std::size_t>(particles.count());
+  const bool known = near.last.size() == count;
+  near.last.resize(count);
+  near.gap.resize(count + 1, 0);
+  near.clearance.resize(count + 1, infinity);
+  const auto cell = static_cast<float>(set.field.field->cell_size.maxCoeff());
+  parallel_for(particles.count(), chunk, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const auto p = static_cast<std::size_t>(i);
+      const float gap = blended(set.captured.particle, set.released.particle, p, placement.release);
+      const bool bound = !set.ceiling.empty() && std::isfinite(set.ceiling[p]);
+      near.gap[p] = gap;
+      Eigen::Vector3f q = placement.to_obstacle(particles.position(i));
+      if (known && !bound) {
+        const float left = near.last[p].distance - steepest * (q - near.last[p].place).norm() - cell - gap;
+        near.clearance[p] = left;
+        if (left > reach) continue;
+      }
+      const bool movable = particles.inverse_mass(i) > 0;
+      if (known && movable) {
+        const Eigen::Vector3f kept = guarded(set, near.last[p], q, gap);
+        if (kept != q) particles.position(i) = placement.from_obstacle(kept);
+        q = kept;
+      }
+      const float distance = sample_bounded(set.field, q).distance;
+      near.last[p] = {q, distance};
+      near.clearance[p] = distance - gap;
+      is_near[p] = movable && (bound || distance < gap + reach);
+    }
+  });
+}
+
+/// Whether the element can reach below its gap: distances fall by no more than what lies between a point and the
+/// corners.
+bool edge_may_touch(float clearance_a, float clearance_b, float length) {
+  return (clearance_a + clearance_b - steepest * length) / 2 < element_reach;
+}
+
+}  // namespace
+
+Eigen::Vector3f guarded(const FieldContactSet& set, const Sighting& last, const Eigen::Vector3f& q, float gap) {
+  if (set.guard == MotionGuard::kept_path && is_fast(set, last, q, gap))
+    return kept_path(set.field, last.place, q, std::min(gap, last.distance));
+  if (set.guard == MotionGuard::turned_direction && passed(set, last.place, sample(*set.field.field, q).gradient))
+    return last.place;
+  return q;
+}
+
+FaceSet build_face_set(const Eigen::Matrix3Xi& faces, Index particle_count) {
+  ConstraintGraph graph{3, particle_count, {faces.data(), faces.data() + faces.size()}};
+  const std::vector<Index> colors = color_constraints(graph);
+  FaceSet set;
+  const Index color_count = colors.empty() ? 0 : *std::max_element(colors.begin(), colors.end()) + 1;
+  for (Index color = 0; color < color_count; ++color) {
+    const Index begin = set.count();
+    for (Index f = 0; f < faces.cols(); ++f)
+      for (int k = 0; k < 3 && colors[static_cast<std::size_t>(f)] == color; ++k)
+        set.particles[static_cast<std::size_t>(k)].push_back(faces(k, f));
+    set.colors.push_back({begin, set.count()});
+  }
+  return set;
+}
+
+void remember_sides(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
+                    NearField& near) {
+  near.last.resize(static_cast<std::size_t>(particles.count()));
+  parallel_for(particles.count(), chunk, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const Eigen::Vector3f q = placement.to_obstacle(particles.position(i));
+      near.last[static_cast<std::size_t>(i)] = {q, sample_bounded(set.field, q).distance};
+    }
+  });
+}
+
+static void list_edges(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
+                       const Particles& particles, NearField& near) {
+  const auto corner = [&](Index p) {
+    return ContactCorner{placement.to_obstacle(particles.position(p)), near.gap[static_cast<std::size_t>(p)]};
+  };
+  for (const ColorRange& color : distances.colors) {
+    const auto begin = static_cast<Index>(near.edges.size());
+    for (Index slot = color.begin; slot < color.end; ++slot) {
+      const Index a = distances.a[static_cast<std::size_t>(slot)], b = distances.b[static_cast<std::size_t>(slot)];
+      const float clearances =
+          near.clearance[static_cast<std::size_t>(a)] + near.clearance[static_cast<std::size_t>(b)];
+      // Most are far away; this needs no position.
+      if (clearances > 2 * element_reach + 4 * steepest * distances.rest_length[static_cast<std::size_t>(slot)])
+        continue;
+      if (!(particles.inverse_mass(a) + particles.inverse_mass(b) > 0)) continue;
+      const float length = (particles.position(b) - particles.position(a)).norm();
+      if (edge_may_touch(clearances, 0, length)) near.edges.push_back(slot);
+    }
+    near.edge_colors.push_back({begin, static_cast<Index>(near.edges.size())});
+  }
+  near.edge_points.resize(near.edges.size());
+  parallel_for(static_cast<Index>(near.edges.size()), chunk, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const auto slot = static_cast<std::size_t>(near.edges[static_cast<std::size_t>(i)]);
+      const Index a = distances.a[slot], b = distances.b[slot];
+      near.edge_points[static_cast<std::size_t>(i)] =
+          deepest_on_edge(*set.field.field, corner(a), corner(b), particles.inverse_mass(a) > 0 ? 0 : stiff_share,
+                          particles.inverse_mass(b) > 0 ? 1 : 1 - stiff_share);
+    }
+  });
+}
+
+static void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
+                       const Particles& particles, NearField& near) {
+  for (const ColorRange& color : faces.colors) {
+    const auto first = static_cast<Index>(near.faces.size());
+    for (Index slot = color.begin; slot < color.end; ++slot) {
+      std::array<ContactCorner, 3> corners;
+      float longest2 = 0, clearance = infinity, mobility = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index p = faces.particles[k][static_cast<std::size_t>(slot)];
+        corners[k] = {placement.to_obstacle(particles.position(p)), near.gap[static_cast<std::size_t>(p)]};
+        clearance = std::min(clearance, near.clearance[static_cast<std::size_t>(p)]);
+        mobility += particles.inverse_mass(p);
+      }
+      for (std::size_t k = 0; k < 3; ++k)
+        longest2 = std::max(longest2, (corners[k].q - corners[(k + 1) % 3].q).squaredNorm());
+      // No point of a triangle is farther from its nearest corner than this share of its longest edge.
+      if (!(mobility > 0) || clearance > element_reach + 0.58f * steepest * std::sqrt(longest2)) continue;
+      near.faces.push_back(slot);
+      near.face_points.push_back(deepest_on_face(*set.field.field, corners));
+    }
+    near.face_colors.push_back({first, static_cast<Index>(near.faces.size())});
+  }
+}
+
+void find_near(const FieldContactSet& set, const DistanceSet& distances, const FaceSet& faces,
+               const FieldPlacement& placement, float reach, Particles& particles, NearField& near) {
+  near.particles.clear();
+  near.edges.clear();
+  near.edge_colors.clear();
+  near.faces.clear();
+  near.face_points.clear();
+  near.face_colors.clear();
+  std::vector<char> is_near(static_cast<std::size_t>(particles.count()), 0);
+  see_particles(set, placement, reach, particles, near, is_near);
+  for (Index i = 0; i < particles.count(); ++i)
+    if (is_near[static_cast<std::size_t>(i)]) near.particles.push_back(i);
+  if (!set.captured.edge_sag.empty()) list_edges(set, distances, placement, particles, near);
+  if (!set.captured.face_sag.empty()) list_faces(set, faces, placement, particles, near);
+}
+
+}  // namespace gracilis
