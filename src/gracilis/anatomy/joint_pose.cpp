@@ -18,19 +18,22 @@ std::vector<Real> capture_coordinates(const Scene& scene) {
   return values;
 }
 
+static RigidTransform motion_of(const JointAxis& axis, Real value) {
+  if (axis.translation) return RigidTransform(Eigen::Translation3d(value * axis.axis));
+  return RigidTransform(Eigen::AngleAxisd(value, axis.axis));
+}
+
 /// X(q) X(q_capture)⁻¹. The identity without any rounding when q is q_capture.
-static Eigen::Matrix3d rotation_since_capture(const Joint& joint, std::span<const Real> values) {
-  Eigen::Matrix3d now = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d capture = Eigen::Matrix3d::Identity();
+static RigidTransform motion_since_capture(const Joint& joint, std::span<const Real> values) {
+  RigidTransform now = RigidTransform::Identity(), capture = RigidTransform::Identity();
   bool moved = false;
   for (std::size_t i = 0; i < joint.axes.size(); ++i) {
-    const JointAxis& axis = joint.axes[i];
-    now = now * Eigen::AngleAxisd(values[i], axis.axis);
-    capture = capture * Eigen::AngleAxisd(axis.capture_value, axis.axis);
-    moved |= values[i] != axis.capture_value;
+    now = now * motion_of(joint.axes[i], values[i]);
+    capture = capture * motion_of(joint.axes[i], joint.axes[i].capture_value);
+    moved |= values[i] != joint.axes[i].capture_value;
   }
-  if (!moved) return Eigen::Matrix3d::Identity();
-  return now * capture.transpose();
+  if (!moved) return RigidTransform::Identity();
+  return now * capture.inverse();
 }
 
 Pose pose_at(const Scene& scene, std::span<const Real> coordinates) {
@@ -41,17 +44,17 @@ Pose pose_at(const Scene& scene, std::span<const Real> coordinates) {
   for (const Joint& joint : scene.joints) {
     assert(first + joint.axes.size() <= coordinates.size());
     const RigidTransform& parent = pose.bodies[joint.parent_body];
-    const Eigen::Matrix3d rotation = rotation_since_capture(joint, coordinates.subspan(first, joint.axes.size()));
+    const RigidTransform motion = motion_since_capture(joint, coordinates.subspan(first, joint.axes.size()));
     first += joint.axes.size();
     RigidTransform& child = pose.bodies[joint.child_body];
     child = parent;
-    if (rotation.isIdentity(0)) continue;
-    // P R P⁻¹ turns about the joint's center by the rotation seen from the world.
-    const Eigen::Matrix3d turned = joint.frame.linear() * rotation * joint.frame.linear().transpose();
+    if (motion.matrix().isIdentity(0)) continue;
+    // P X P⁻¹ turns about the joint's center by the rotation seen from the world, and shifts.
+    const Eigen::Matrix3d turned = joint.frame.linear() * motion.linear() * joint.frame.linear().transpose();
     const Vec3 center = joint.frame.translation();
     RigidTransform about_center = RigidTransform::Identity();
     about_center.linear() = turned;
-    about_center.translation() = center - turned * center;
+    about_center.translation() = center - turned * center + joint.frame.linear() * motion.translation();
     child = parent * about_center;
   }
   return pose;

@@ -12,16 +12,20 @@ namespace gracilis {
 /// The coordinates of all axes of all joints, in the order that Pose::coordinates uses.
 std::vector<std::string> coordinate_names(const Scene& scene);
 
-/// Their values at which the meshes were captured, rad.
+/// Their values at which the meshes were captured, rad (m for translations).
 std::vector<Real> capture_coordinates(const Scene& scene);
 
-/// Where every body is when the coordinates have these values (rad, in the order of `coordinate_names`).
+/// Where every body is when the coordinates have these values (rad, m for translations; in the order of
+/// `coordinate_names`).
 ///
 /// A body's transform carries it from its place in the capture pose: T_child = T_parent P X(q) X(q_capture)⁻¹ P⁻¹,
-/// where P is the joint's frame and X the product of its rotations in their order, each about an axis fixed in the
-/// frame left by the ones before (OpenSim's CustomJoint without translations). At the capture values every transform is
-/// the identity, to the last bit. Joints must stand parents before children, and each body must be the child of one
-/// joint at most.
+/// where P is the joint's frame and X the product of its rotations and translations in their order, each about or along
+/// an axis fixed in the frame left by the ones before. At the capture values every transform is the identity, to the
+/// last bit. Joints must stand parents before children, and each body must be the child of one joint at most.
 Pose pose_at(const Scene& scene, std::span<const Real> coordinates);
+
+/// A coordinate as people read it: degrees, or millimetres of a translation.
+inline Real shown_value(const JointAxis& axis, Real value) { return axis.translation ? 1000 * value : degrees(value); }
+inline const char* shown_unit(const JointAxis& axis) { return axis.translation ? "mm" : "deg"; }
 
 }  // namespace gracilis

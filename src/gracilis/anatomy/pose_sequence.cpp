@@ -24,13 +24,18 @@ static std::vector<Coordinates> motion_rows(const Scene& scene) {
 }
 
 /// Equal steps from one set of values to another; without the first, with the last exactly.
-static std::vector<Coordinates> ramp(const Coordinates& from, const Coordinates& to, int frames) {
+static std::vector<Coordinates> ramp(const Scene& scene, const Coordinates& from, const Coordinates& to, int frames) {
   if (from == to) return {};
   if (frames == 0) {
     Real largest = 0;
-    for (std::size_t i = 0; i < from.size(); ++i) largest = std::max(largest, std::abs(to[i] - from[i]));
-    // The tolerance keeps a change of exactly n degrees at n frames whatever the rounding.
-    frames = std::max(1, static_cast<int>(std::ceil(degrees(largest) - 1e-9)));
+    std::size_t i = 0;
+    for (const Joint& joint : scene.joints)
+      for (const JointAxis& axis : joint.axes) {
+        largest = std::max(largest, shown_value(axis, std::abs(to[i] - from[i])));
+        ++i;
+      }
+    // The tolerance keeps a change of exactly n degrees (or mm) at n frames whatever the rounding.
+    frames = std::max(1, static_cast<int>(std::ceil(largest - 1e-9)));
   }
   std::vector<Coordinates> steps(frames, to);
   for (int step = 0; step + 1 < frames; ++step) {
@@ -61,13 +66,13 @@ std::vector<Pose> pose_sequence(const Scene& scene) {
   const Real spacing = mean_spacing(times);
 
   // A motion that starts in the capture pose has that row as its frame 0.
-  const std::vector<Coordinates> into = ramp(capture, rows.front(), scene.sequence.ramp_frames);
+  const std::vector<Coordinates> into = ramp(scene, capture, rows.front(), scene.sequence.ramp_frames);
   add(capture, times.front() - spacing * Real(into.size()));
   for (std::size_t i = 0; i < into.size(); ++i) add(into[i], times.front() - spacing * Real(into.size() - 1 - i));
   for (std::size_t i = 1; i < rows.size(); ++i) add(rows[i], times[i]);
   for (int i = 0; i < scene.sequence.hold_frames; ++i) add(rows.back(), poses.back().time + spacing);
   if (scene.sequence.return_to_capture) {
-    for (const Coordinates& values : ramp(rows.back(), capture, scene.sequence.ramp_frames)) {
+    for (const Coordinates& values : ramp(scene, rows.back(), capture, scene.sequence.ramp_frames)) {
       add(values, poses.back().time + spacing);
     }
   }

@@ -1,4 +1,5 @@
 #include <gracilis/anatomy/attachments.hpp>
+#include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 
 #include <algorithm>
@@ -20,10 +21,10 @@ static void warn_about_range(const Motion& motion, const JointAxis& axis, std::v
   // A millionth of a degree beyond the range is rounding.
   const Real tolerance = radians(1e-6);
   if (values.minCoeff() >= axis.range_min - tolerance && values.maxCoeff() <= axis.range_max + tolerance) return;
-  warnings.push_back("the motion takes " + axis.coordinate + " from " + rounded(degrees(values.minCoeff())) + " to " +
-                     rounded(degrees(values.maxCoeff())) + " degrees, beyond the model's range of " +
-                     rounded(degrees(axis.range_min)) + " to " + rounded(degrees(axis.range_max)) +
-                     "; it is followed as it is");
+  warnings.push_back("the motion takes " + axis.coordinate + " from " + rounded(shown_value(axis, values.minCoeff())) +
+                     " to " + rounded(shown_value(axis, values.maxCoeff())) + (axis.translation ? " mm" : " degrees") +
+                     ", beyond the model's range of " + rounded(shown_value(axis, axis.range_min)) + " to " +
+                     rounded(shown_value(axis, axis.range_max)) + "; it is followed as it is");
 }
 
 static void warn_about_size(const Muscle& muscle, const Attachment& attachment, std::vector<std::string>& warnings) {

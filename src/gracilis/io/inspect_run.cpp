@@ -1,3 +1,4 @@
+#include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/inspect_kinds.hpp>
@@ -103,8 +104,9 @@ Json inspect_scene(const fs::path& path) {
   }
   for (const Joint& joint : scene.joints) {
     for (const JointAxis& axis : joint.axes) {
-      coordinates.push_back(
-          {{"name", axis.coordinate}, {"joint", joint.name}, {"capture_deg", degrees(axis.capture_value)}});
+      coordinates.push_back({{"name", axis.coordinate},
+                             {"joint", joint.name},
+                             {std::string("capture_") + shown_unit(axis), shown_value(axis, axis.capture_value)}});
     }
   }
   for (const Muscle& muscle : scene.muscles) {

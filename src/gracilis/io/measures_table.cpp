@@ -1,5 +1,6 @@
 #include <gracilis/io/measures_table.hpp>
 
+#include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
@@ -16,7 +17,7 @@ namespace gracilis {
 std::string measures_header(const Scene& scene) {
   std::string header = "frame,time_s";
   for (const Joint& joint : scene.joints) {
-    for (const JointAxis& axis : joint.axes) header += fmt::format(",{}_deg", axis.coordinate);
+    for (const JointAxis& axis : joint.axes) header += fmt::format(",{}_{}", axis.coordinate, shown_unit(axis));
   }
   return header +
          ",muscle,volume_ratio,edge_ratio_mean,edge_ratio_max,edge_ratio_max_free,dihedral_change_mean_deg,"
@@ -43,7 +44,10 @@ static std::string fiber_cells(Real activation, const MuscleFibers& fibers) {
 
 std::string measures_rows(const Scene& scene, const FrameRecord& record) {
   std::string begin = fmt::format("{},{:.6f}", record.frame.number, record.frame.pose.time);
-  for (const Real coordinate : record.frame.pose.coordinates) begin += fmt::format(",{:.4f}", degrees(coordinate));
+  std::size_t coordinate = 0;
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes)
+      begin += fmt::format(",{:.4f}", shown_value(axis, record.frame.pose.coordinates[coordinate++]));
   std::string rows;
   for (std::size_t i = 0; i < scene.muscles.size(); ++i) {
     const MuscleMeasures measures = i < record.measures.size() ? record.measures[i] : MuscleMeasures{};

@@ -22,11 +22,34 @@ static NamedFile named_file(TomlReader& table, const std::string& path) {
   return {path, unit_of(table, "unit"), table.place()};
 }
 
+static BoxDescription read_box(TomlReader table) {
+  const Vec3 center = table.vector("center_mm").value_or(Vec3::Zero()) / 1000;
+  const Vec3 size = table.required_vector("size_mm").value_or(Vec3::Ones()) / 1000;
+  const Vec3 cells = table.vector("cells").value_or(Vec3::Ones());
+  if (!(size.minCoeff() > 0)) table.add_problem("size_mm", "'size_mm' must be three numbers above 0");
+  if (!(cells.minCoeff() >= 1 && cells.maxCoeff() <= 1000 && cells == cells.array().round().matrix()))
+    table.add_problem("cells", "'cells' must be three integers from 1 to 1000");
+  table.reject_unknown_keys();
+  const auto count = [&](int k) { return std::clamp(static_cast<int>(cells[k]), 1, 1000); };
+  return {center - size / 2, center + size / 2, {count(0), count(1), count(2)}};
+}
+
+/// The surface of an element: a file, or a box of its own making.
+template <class Description>
+static void read_surface(TomlReader& table, Description& description) {
+  if (std::optional<TomlReader> box = table.table("box")) {
+    if (table.has("file")) table.add_problem("file", "the surface is given twice, by 'file' and by 'box'");
+    description.box = read_box(std::move(*box));
+  } else {
+    description.file = named_file(table, table.required_text("file"));
+  }
+}
+
 static BoneDescription read_bone(TomlReader table) {
   BoneDescription bone;
   bone.name = table.required_text("name");
   bone.body = table.text("body").value_or(bone.name);
-  bone.file = named_file(table, table.required_text("file"));
+  read_surface(table, bone);
   bone.place = table.place();
   table.reject_unknown_keys();
   return bone;
@@ -40,11 +63,15 @@ static JointAxis read_axis(TomlReader table) {
     table.add_problem("axis", "the axis has no length");
   else if (direction)
     axis.axis = direction->normalized();
-  axis.capture_value = radians(table.number("capture_deg", {-360, 360, "degrees"}).value_or(0));
-  if (const std::optional<Eigen::Vector2d> range = table.pair("range_deg")) {
-    axis.range_min = radians((*range)(0));
-    axis.range_max = radians((*range)(1));
-    if (axis.range_min > axis.range_max) table.add_problem("range_deg", "the range ends before it begins");
+  axis.translation = table.flag("translation").value_or(false);
+  const Real unit = axis.translation ? 0.001 : radians(1);
+  const std::string capture = axis.translation ? "capture_mm" : "capture_deg";
+  axis.capture_value = table.number(capture, {-360, 360, axis.translation ? "mm" : "degrees"}).value_or(0) * unit;
+  const std::string range_key = axis.translation ? "range_mm" : "range_deg";
+  if (const std::optional<Eigen::Vector2d> range = table.pair(range_key)) {
+    axis.range_min = (*range)(0) * unit;
+    axis.range_max = (*range)(1) * unit;
+    if (axis.range_min > axis.range_max) table.add_problem(range_key, "the range ends before it begins");
   }
   table.reject_unknown_keys();
   return axis;
@@ -138,7 +165,7 @@ static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& globa
   MuscleDescription muscle;
   muscle.place = table.place();
   muscle.name = table.required_text("name");
-  muscle.file = named_file(table, table.required_text("file"));
+  read_surface(table, muscle);
   muscle.xpbd = global;
   muscle.fibers = fibers;
   if (std::optional<TomlReader> own = table.table("fibers")) read_fibers(std::move(*own), muscle);
@@ -159,19 +186,22 @@ static MotionDescription read_motion(TomlReader table) {
   if (const std::optional<std::string> file = table.text("file")) motion.file = {*file, 1, table.place()};
   motion.coordinates = table.texts("coordinates");
   const Index columns = static_cast<Index>(motion.coordinates.size());
-  const bool keyed = table.has("key_poses_deg");
+  // All coordinates turn or all shift: key poses in degrees or in mm.
+  const bool shifts = table.has("key_poses_mm");
+  const std::string key = shifts ? "key_poses_mm" : "key_poses_deg";
+  const Real unit = shifts ? 0.001 : radians(1);
+  motion.translations = shifts;
+  const bool keyed = table.has(key);
   if (keyed && !motion.file.path.empty()) {
-    table.add_problem("key_poses_deg", "the motion is given twice, by 'file' and by 'key_poses_deg'",
-                      "keep one of the two");
+    table.add_problem(key, "the motion is given twice, by 'file' and by '" + key + "'", "keep one of the two");
   } else if (keyed && columns == 0) {
-    table.add_problem("key_poses_deg", "'key_poses_deg' needs the key 'coordinates'", "the names of its columns");
+    table.add_problem(key, "'" + key + "' needs the key 'coordinates'", "the names of its columns");
   } else if (!keyed && motion.file.path.empty()) {
     table.add_problem("file", "[motion] needs the key 'file' or the key 'key_poses_deg'");
   }
-  if (keyed && columns > 0) {
-    motion.key_poses = table.rows("key_poses_deg", columns).value_or(Eigen::MatrixXd(0, columns)) * (pi / 180);
-  }
-  motion.step = radians(table.number("step_deg", {0.001, 360, "degrees"}).value_or(1));
+  if (keyed && columns > 0) motion.key_poses = table.rows(key, columns).value_or(Eigen::MatrixXd(0, columns)) * unit;
+  const NumberRange steps = {0.001, 360, shifts ? "mm" : "degrees"};
+  motion.step = table.number(shifts ? "step_mm" : "step_deg", steps).value_or(1) * unit;
   motion.time_step = table.number("time_step", {1e-6, 1000, "s"}).value_or(1.0 / 60);
   table.reject_unknown_keys();
   return motion;
@@ -271,6 +301,17 @@ static void check_references(const SceneDescription& scene, std::vector<Problem>
       }
     }
   }
+  for (const JointDescription& joint : scene.joints)
+    for (const JointAxis& axis : joint.joint.axes) {
+      const auto& named = scene.motion.coordinates;
+      const bool moved =
+          scene.motion.key_poses.rows() > 0 && std::find(named.begin(), named.end(), axis.coordinate) != named.end();
+      if (!moved || axis.translation == scene.motion.translations) continue;
+      Problem problem = scene.motion.place;
+      problem.what = "'" + axis.coordinate + (axis.translation ? "' is a translation" : "' is a rotation");
+      problem.remedy = axis.translation ? "give 'key_poses_mm'" : "give 'key_poses_deg'";
+      problems.push_back(problem);
+    }
   for (const std::string& coordinate : scene.motion.coordinates) {
     require_known(coordinate, coordinates, "coordinate", scene.motion.place, problems);
   }

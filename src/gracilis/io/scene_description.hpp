@@ -4,6 +4,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/scene/scene.hpp>
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -20,9 +21,16 @@ struct NamedFile {
   Problem place;
 };
 
+/// A box instead of a file: surfaces for tests and demonstrations that need no data.
+struct BoxDescription {
+  Vec3 low, high;
+  std::array<int, 3> cells{1, 1, 1};
+};
+
 struct BoneDescription {
   std::string name, body;
-  NamedFile file;
+  NamedFile file;  ///< or a box
+  std::optional<BoxDescription> box;
   Problem place;
 };
 
@@ -43,7 +51,8 @@ struct AttachmentDescription {
 
 struct MuscleDescription {
   std::string name;
-  NamedFile file;
+  NamedFile file;  ///< or a box
+  std::optional<BoxDescription> box;
   XpbdSettings xpbd;
   FiberSettings fibers;
   NamedFile fiber_file;             ///< empty path: none
@@ -66,6 +75,7 @@ struct MotionDescription {
   Real step = 0;              ///< rad, largest change of a coordinate per frame
   Real time_step = 0;         ///< s
   Problem place;
+  bool translations = false;  ///< key poses are of translations
 };
 
 /// One muscle's activation: a constant, a column of a table, or a function of a coordinate.

@@ -1,6 +1,7 @@
 #include <gracilis/anatomy/activation.hpp>
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
+#include <gracilis/geometry/box_mesh.hpp>
 #include <gracilis/io/data_root.hpp>
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/landmarks.hpp>
@@ -155,7 +156,13 @@ class SceneBuilder {
   }
 
   /// A surface that is fit for its role; what had to be repaired becomes a warning. Tells whether anything had to.
-  bool read_surface(const NamedFile& file, SurfaceRole role, TriangleMesh& surface) {
+  template <class Description>
+  bool read_surface(const Description& description, SurfaceRole role, TriangleMesh& surface) {
+    if (description.box) {
+      surface = box_mesh(description.box->low, description.box->high, description.box->cells);
+      return false;
+    }
+    const NamedFile& file = description.file;
     bool repaired = false;
     read(file, [&](const fs::path& path) {
       LoadedMesh loaded = load_surface(path, file.unit, role);
@@ -179,11 +186,11 @@ class SceneBuilder {
         muscle.given_are_superficial = description.superficial_fibers;
       });
     }
-    if (description_.prepare || raw_muscles_) {
+    if ((description_.prepare || raw_muscles_) && !description.box) {
       read(description.file, [&](const fs::path& path) { muscle.surface = read_mesh(path, description.file.unit); });
       return;
     }
-    if (!read_surface(description.file, SurfaceRole::muscle, muscle.surface)) return;
+    if (!read_surface(description, SurfaceRole::muscle, muscle.surface)) return;
     for (const AttachmentDescription& attachment : description.attachments) {
       if (attachment.vertices.empty()) continue;
       add_problem(attachment.place,
@@ -222,7 +229,7 @@ class SceneBuilder {
   void read_files() {
     for (const BoneDescription& bone : description_.bones) {
       result_.scene.bones.push_back({bone.name, body_index(bone.body), {}});
-      read_surface(bone.file, SurfaceRole::bone, result_.scene.bones.back().surface);
+      read_surface(bone, SurfaceRole::bone, result_.scene.bones.back().surface);
     }
     for (const MuscleDescription& muscle : description_.muscles) read_muscle(muscle);
     if (!description_.landmarks.path.empty()) {

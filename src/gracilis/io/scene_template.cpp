@@ -60,6 +60,8 @@ unit = "mm" # "m" (default), "cm" or "mm"
 name = "femur_r"
 file = "femur_r.ply"
 unit = "mm"
+# Instead of a file, of a bone or a muscle: a box, each side cut into cells.
+# box = { size_mm = [200, 200, 10], center_mm = [0, 0, 0], cells = [1, 1, 1] }
 
 # What moves. Exactly one body is the child of no joint: it is fixed in the world.
 [[joints]]
@@ -70,7 +72,8 @@ center = [0.143478, 0.243439, -0.43267]
 center_unit = "m"                    # "m" (default), "cm" or "mm"
 orientation_xyz_rad = [0.0, 0.0, 0.0] # optional: the joint's frame, body-fixed X, Y, Z angles as in OpenSim models
 
-# Rotations in their order, each about an axis fixed in the frame left by the ones before.
+# Rotations in their order, each about an axis fixed in the frame left by the ones before; with translation = true a shift
+# along the axis, with capture_mm and range_mm.
 [[joints.axes]]
 coordinate = "hip_flexion_r"
 axis = [0, 0, 1]
@@ -93,7 +96,7 @@ distance_stiffness = 5.0
 [muscles.fibers]
 count = 100
 
-# At least one origin and one insertion. Which vertices are held follows from the keys given, in one of four ways:
+# At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of four ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.
 [[muscles.attachments]]
 name = "ilium"
@@ -151,6 +154,7 @@ value = 0.3
 # or key poses with equal steps between them:
 coordinates = ["hip_flexion_r"]
 key_poses_deg = [[0], [90]] # one row per pose, one column per coordinate; coordinates not named keep their capture value
+# (of translations: key_poses_mm and step_mm)
 step_deg = 1                # largest change of a coordinate per frame; default 1
 time_step = 0.016666666666666666 # s between frames; default 1/60
 

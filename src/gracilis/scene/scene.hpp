@@ -19,13 +19,14 @@ struct Bone {
   TriangleMesh surface;
 };
 
-/// One rotation of a joint, about an axis fixed in the frame left by the rotations before it.
+/// One rotation of a joint about, or one translation along, an axis fixed in the frame left by the axes before it.
 struct JointAxis {
   std::string coordinate;     ///< OpenSim's name, e.g. hip_flexion_r
   Vec3 axis = Vec3::UnitZ();  ///< unit, in the joint's frame
-  Real capture_value = 0;     ///< rad, at which the meshes were captured
-  Real range_min = -pi;       ///< rad; a motion may leave the range, with a warning
+  Real capture_value = 0;     ///< rad (m), at which the meshes were captured
+  Real range_min = -pi;       ///< rad (m); a motion may leave the range, with a warning
   Real range_max = pi;
+  bool translation = false;  ///< then the coordinate is in m
 };
 
 /// Moves the child body (and all that hangs on it) about a center fixed in the parent body.
@@ -65,7 +66,7 @@ struct Motion {
   std::string name;
   std::vector<std::string> coordinates;
   std::vector<Real> times;  ///< s, one per row
-  Eigen::MatrixXd values;   ///< rows × coordinates, rad
+  Eigen::MatrixXd values;   ///< rows × coordinates, rad (m for translations)
 };
 
 /// How a run goes from the capture pose (frame 0) into the motion and out of it.

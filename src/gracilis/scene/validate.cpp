@@ -164,6 +164,8 @@ struct Validation {
       for (const Attachment& attachment : muscle.attachments) {
         check_attachment(where + ", attachment '" + attachment.name + "'", muscle, attachment, owners);
       }
+      // A body that hangs on nothing is one, too; with one end only something was forgotten.
+      if (muscle.attachments.empty()) continue;
       for (AttachmentEnd end : {AttachmentEnd::origin, AttachmentEnd::insertion}) {
         const bool found = std::any_of(muscle.attachments.begin(), muscle.attachments.end(),
                                        [&](const Attachment& a) { return a.end == end; });

@@ -1,5 +1,6 @@
 #include <gracilis/view/preview.hpp>
 
+#include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/io/run_folder.hpp>
 
 #include <fmt/format.h>
@@ -109,8 +110,10 @@ static std::string caption_of(const Scene& scene, const Frame& frame) {
     for (const JointAxis& axis : joint.axes) {
       if (coordinate >= frame.pose.coordinates.size()) break;
       const Real value = frame.pose.coordinates[coordinate++];
-      if (std::abs(value - axis.capture_value) < radians(0.5) || std::abs(value) < radians(0.5)) continue;
-      caption += fmt::format("{}{} {:.0f}°", caption.empty() ? "" : ", ", axis.coordinate, degrees(value));
+      const Real shown = shown_value(axis, value);
+      if (std::abs(shown - shown_value(axis, axis.capture_value)) < 0.5 || std::abs(shown) < 0.5) continue;
+      caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", axis.coordinate, shown,
+                             axis.translation ? " mm" : "°");
     }
   }
   return caption.empty() ? fmt::format("frame {}", frame.number) : caption;
