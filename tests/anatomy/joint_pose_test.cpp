@@ -119,4 +119,26 @@ TEST(PoseSequence, the_return_ends_exactly_in_the_capture_pose) {
 
 TEST(PoseSequence, a_scene_without_motion_is_the_capture_pose_alone) { EXPECT_EQ(pose_sequence(leg()).size(), 1u); }
 
+TEST(JointPose, a_translation_shifts_along_its_axis_in_the_frame_left_by_the_axes_before) {
+  Scene scene;
+  scene.bodies = {"ground", "press"};
+  Joint joint;
+  joint.child_body = 1;
+  joint.frame = Eigen::Translation3d(0.1, 0, 0) * Eigen::AngleAxisd(radians(90), Vec3::UnitX());
+  JointAxis turn, shift;
+  turn.coordinate = "turn";
+  shift.coordinate = "shift";
+  shift.axis = Vec3::UnitX();
+  shift.capture_value = 0.005;
+  shift.translation = true;
+  joint.axes = {turn, shift};
+  scene.joints = {joint};
+  EXPECT_TRUE(pose_at(scene, std::vector<Real>{0, 0.005}).bodies[1].matrix().isIdentity(0));
+  const RigidTransform shifted = pose_at(scene, std::vector<Real>{0, 0.025}).bodies[1];
+  EXPECT_LT((shifted * Vec3(1, 2, 3) - Vec3(1.02, 2, 3)).norm(), 1e-14);
+  // A quarter turn about the joint's z, which is the world's -y, sends its x to the world's z.
+  const RigidTransform both = pose_at(scene, std::vector<Real>{radians(90), 0.025}).bodies[1];
+  EXPECT_LT((both * Vec3(0.1, 0, 0) - Vec3(0.1, 0, 0.02)).norm(), 1e-14);
+}
+
 }  // namespace gracilis

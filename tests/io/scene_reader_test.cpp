@@ -427,4 +427,37 @@ TEST(Scenes, the_scenes_of_the_cadaver_hip_are_sound) {
   }
 }
 
+TEST(SceneReader, a_box_needs_no_file_and_a_press_moves_it_in_millimetres) {
+  const SceneFolder folder;
+  const std::string text = R"(schema = 1
+[[bones]]
+name = "plate"
+body = "press"
+box = { size_mm = [20, 20, 2], center_mm = [0, 0, 10] }
+[[joints]]
+name = "press"
+parent = "ground"
+child = "press"
+center = [0, 0, 0]
+[[joints.axes]]
+coordinate = "press_tz"
+axis = [0, 0, 1]
+translation = true
+range_mm = [-5, 0]
+[[muscles]]
+name = "box"
+box = { size_mm = [10, 10, 10], cells = [2, 2, 2] }
+[motion]
+coordinates = ["press_tz"]
+)";
+  const Scene scene = read_scene(folder.write("scene.toml", text + "key_poses_mm = [[0], [-4]]\nstep_mm = 2\n")).scene;
+  EXPECT_EQ(scene.muscles[0].surface.face_count(), 48);
+  EXPECT_TRUE(scene.muscles[0].attachments.empty());
+  EXPECT_NEAR(scene.bones[0].surface.vertices.row(2).minCoeff(), 0.009, 1e-12);
+  ASSERT_EQ(scene.motion.values.rows(), 3);
+  EXPECT_NEAR(scene.motion.values(2, 0), -0.004, 1e-12);
+  EXPECT_NEAR(scene.joints[0].axes[0].range_min, -0.005, 1e-12);
+  EXPECT_THROW(read_scene(folder.write("wrong.toml", text + "key_poses_deg = [[0], [-4]]\n")), ConfigurationError);
+}
+
 }  // namespace gracilis

@@ -263,4 +263,88 @@ TEST(XpbdMotion, without_slack_uptake_edges_aim_at_their_lengths_at_rest) {
   for (const Aim& aim : aims(prepared, flexed(scene, radians(60)))) EXPECT_EQ(aim.ratio, 1);
 }
 
+namespace {
+
+/// The tube with a small bone of its own that lies up to 1 mm deep in the muscle, far from both attachments.
+Scene overlapping_scene() {
+  Scene scene = tube_scene();
+  scene.bones.push_back({"spur", 0, shapes::box({-0.01, -0.004, 0.015}, {0.0165, 0.004, 0.03})});
+  return scene;
+}
+
+std::vector<DistanceField> fields_of(const Scene& scene) {
+  std::vector<DistanceField> fields;
+  for (const Bone& bone : scene.bones) fields.push_back(build_bone_field(bone, scene.distance_fields));
+  return fields;
+}
+
+}  // namespace
+
+TEST(BoneGaps, an_overlap_at_rest_stays_in_the_capture_pose_and_ends_when_the_bone_moves) {
+  const Scene scene = overlapping_scene();
+  const std::vector<DistanceField> fields = fields_of(scene);
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], fields);
+  const FieldContactSet& contact = prepared.system.contacts[2];
+  Index inside = 0;
+  for (Index p = 0; p < prepared.rest.cols(); ++p) {
+    const float depth = sample(fields[2], Eigen::Vector3f(prepared.rest.col(p).cast<float>())).distance;
+    if (depth >= 0) continue;
+    ++inside;
+    EXPECT_NEAR(contact.captured.particle[static_cast<std::size_t>(p)], 0.95f * depth, 1e-7);
+    EXPECT_EQ(contact.released.particle[static_cast<std::size_t>(p)], 0.0005f);
+  }
+  EXPECT_GT(inside, 5);
+  EXPECT_EQ(xpbd::place_fields(prepared, flexed(scene, 0))[2].release, 0);
+  EXPECT_NEAR(xpbd::place_fields(prepared, flexed(scene, radians(0.25)))[2].release, 0.5, 1e-3);
+  EXPECT_EQ(xpbd::place_fields(prepared, flexed(scene, radians(20)))[2].release, 1);
+}
+
+TEST(BoneGaps, an_overlap_that_reaches_an_attachment_stays) {
+  Scene scene = tube_scene();
+  scene.muscles[0].surface.vertices.row(0).array() -= 0.001;  // 0.5 mm into both bones, along its whole length
+  const std::vector<DistanceField> fields = fields_of(scene);
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], fields);
+  Index kept = 0;
+  for (std::size_t p = 0; p < prepared.fixed_body.size(); ++p) {
+    if (prepared.fixed_body[p] >= 0 || prepared.system.contacts[0].captured.particle[p] >= 0) continue;
+    ++kept;
+    EXPECT_EQ(prepared.system.contacts[0].released.particle[p], prepared.system.contacts[0].captured.particle[p]);
+  }
+  EXPECT_GT(kept, 5);
+}
+
+TEST(Xpbd, overlaps_far_from_attachments_are_gone_after_the_first_degree) {
+  const Scene scene = overlapping_scene();
+  Measurer measurer(scene);
+  const auto method = make_xpbd_method(scene, fields_of(scene));
+  method->advance(flexed(scene, 0));
+  EXPECT_GT(measurer.measure(frame_of(*method, flexed(scene, 0), 1)).at(0).vertex_depth, 5e-4) << "rest stays at rest";
+  method->advance(flexed(scene, radians(1)));
+  EXPECT_LT(measurer.measure(frame_of(*method, flexed(scene, radians(1)), 2)).at(0).vertex_depth, 1e-5);
+}
+
+TEST(Xpbd, a_muscle_told_to_slide_on_a_bone_does_not_lift_off) {
+  const auto farthest_from_the_bone = [](const XpbdSettings& settings) {
+    const Scene scene = tube_scene(settings);
+    const auto method = xpbd_on_tube(scene);
+    // Drawing the bones apart stretches the muscle, turning the lower one forwards lifts it off the upper.
+    for (int degree = 1; degree <= 30; ++degree) method->advance(flexed(scene, -radians(degree)));
+    const Frame frame = frame_of(*method, flexed(scene, -radians(30)), 30);
+    Real farthest = 0;
+    for (Index v = 0; v < scene.muscles[0].surface.vertex_count(); ++v) {
+      const Eigen::Vector3f rest = scene.muscles[0].surface.vertices.col(v).cast<float>();
+      const Eigen::Vector3f now = frame.muscles[0].points.col(v).cast<float>();
+      const float before = sample(tube_fields()[0], rest).distance;
+      if (before > 0.0015f || rest.z() > 0.07f) continue;
+      farthest = std::max(farthest, static_cast<Real>(sample(tube_fields()[0], now).distance - before));
+    }
+    return farthest;
+  };
+  XpbdSettings settings;
+  EXPECT_GT(farthest_from_the_bone(settings), 1e-3) << "it never lifted off";
+  settings.slide_on_bone = "upper";
+  settings.slide_reach = 0.0015;
+  EXPECT_LT(farthest_from_the_bone(settings), 2e-4);
+}
+
 }  // namespace gracilis

@@ -112,6 +112,8 @@ TEST(Validate, attachments_must_hold_existing_vertices_for_one_body_each) {
                  "1 of its vertices are fixed to 'pelvis' by the attachment 'top'");
   EXPECT_PROBLEM(s.muscles[0].attachments[1].body = -1, "refers to body number -1");
   EXPECT_PROBLEM(s.muscles[0].attachments.pop_back(), "muscle 'muscle': it has no insertion");
+  EXPECT_PROBLEM(s.muscles[0].xpbd.slide_on_bone = "tibia",
+                 "muscle 'muscle': 'slide_on_bone' names 'tibia', but the scene has no such bone");
   EXPECT_THAT(problems_after([](Scene& s) { s.muscles[0].attachments.push_back(s.muscles[0].attachments[0]); }),
               ElementsAre())
       << "two attachments of one body may share vertices";
