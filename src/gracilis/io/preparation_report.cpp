@@ -18,6 +18,7 @@ std::string to_text(const PreparationReport& report) {
                         m.mean_displacement * mm, m.max_displacement * mm);
     text += fmt::format("  distance to the input: {:.3f} mm in the mean, {:.2f} mm at most (Hausdorff)\n",
                         m.mean_distance * mm, m.hausdorff * mm);
+    text += fmt::format("  edges sharper than 80 degrees: {}, before {}\n", m.sharp_edges_after, m.sharp_edges_before);
     text += fmt::format("  pairs of triangles that cut each other: {}, before {}\n", m.self_intersections_after,
                         m.self_intersections_before);
   }
@@ -43,6 +44,8 @@ nlohmann::ordered_json to_json(const PreparationReport& report) {
                                {"max_displacement_mm", m.max_displacement * mm},
                                {"mean_distance_mm", m.mean_distance * mm},
                                {"hausdorff_mm", m.hausdorff * mm},
+                               {"sharp_edges_before", m.sharp_edges_before},
+                               {"sharp_edges", m.sharp_edges_after},
                                {"self_intersections_before", m.self_intersections_before},
                                {"self_intersections", m.self_intersections_after}});
   }

@@ -5,10 +5,11 @@
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/separation.hpp>
+#include <gracilis/prepare/smoothing.hpp>
 #include <gracilis/prepare/surface_repair.hpp>
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
 #include <map>
 
 namespace gracilis {
@@ -16,7 +17,12 @@ namespace {
 
 using Say = std::function<void(const std::string&)>;
 
-/// Mean edge near the length asked for and none far from it: remeshing again would only blur the surface.
+constexpr Real sharpest_turn = radians(80);
+constexpr Real farthest_rounding = 0.0012;  ///< m
+constexpr int passes = 3;
+constexpr Real told_displacement = 0.0001;  ///< m; less is how triangles approximate a curved surface
+
+/// Mean edge near the length asked for, none far from it, no needles: remeshing again would only blur the surface.
 bool has_edges_about(const TriangleMesh& mesh, Real length) {
   Real sum = 0, shortest = length, longest = length;
   const MeshTopology topology = build_topology(mesh.faces, mesh.vertex_count());
@@ -25,7 +31,7 @@ bool has_edges_about(const TriangleMesh& mesh, Real length) {
     sum += l, shortest = std::min(shortest, l), longest = std::max(longest, l);
   }
   const Real mean = sum / static_cast<Real>(topology.edges.size());
-  return std::abs(mean / length - 1) < 0.15 && shortest > 0.2 * length && longest < 2.5 * length;
+  return std::abs(mean / length - 1) < 0.15 && shortest > 0.2 * length && longest < 2.2 * length;
 }
 
 /// Largest and mean distance from the vertices and face centers of one surface to another.
@@ -71,21 +77,43 @@ std::vector<TriangleMesh> meshes_of(const std::vector<NamedSurface>& surfaces) {
   return meshes;
 }
 
-void remesh_where_needed(std::vector<TriangleMesh>& muscles, const PrepareSettings& settings) {
-  for (TriangleMesh& mesh : muscles)
-    if (settings.edge_length > 0 && !has_edges_about(mesh, settings.edge_length))
-      mesh = remesh_isotropic(mesh, settings.edge_length, settings.remeshing_rounds);
+/// True when any was remeshed.
+bool remesh_where_needed(std::vector<TriangleMesh>& muscles, const PrepareSettings& settings) {
+  bool any = false;
+  for (TriangleMesh& mesh : muscles) {
+    if (settings.edge_length == 0 || has_edges_about(mesh, settings.edge_length)) continue;
+    mesh = remesh_isotropic(mesh, settings.edge_length, settings.remeshing_rounds);
+    any = true;
+  }
+  return any;
 }
 
+/// Self-intersections that rounding and pulling apart may have made.
+bool untangle(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurface>& names) {
+  bool any = false;
+  for (std::size_t m = 0; m < muscles.size(); ++m) {
+    const std::array<const TriangleMesh*, 1> one = {&muscles[m]};
+    if (intersecting_faces(one).empty()) continue;
+    muscles[m] = fix_surface(muscles[m], names[m].name).mesh;
+    any = true;
+  }
+  return any;
+}
+
+/// How far separation took the surfaces: the distance of every vertex to the surface as it was before.
 void report_displacements(const std::vector<TriangleMesh>& before, const std::vector<TriangleMesh>& after,
                           PreparationReport& report) {
   for (std::size_t m = 0; m < before.size(); ++m) {
     PreparedMuscleReport& muscle = report.muscles[m];
-    const Eigen::VectorXd moved = (after[m].vertices - before[m].vertices).colwise().norm();
-    muscle.vertices_moved = static_cast<Index>((moved.array() > 1e-6).count());
-    muscle.max_displacement = moved.maxCoeff();
-    muscle.mean_displacement =
-        muscle.vertices_moved > 0 ? (moved.array() > 1e-6).select(moved, 0).sum() / muscle.vertices_moved : 0;
+    const NearestTriangle nearest(before[m]);
+    for (Index v = 0; v < after[m].vertex_count(); ++v) {
+      const Real moved = nearest.query(after[m].vertices.col(v)).distance;
+      if (moved <= told_displacement) continue;
+      ++muscle.vertices_moved;
+      muscle.mean_displacement += moved;
+      muscle.max_displacement = std::max(muscle.max_displacement, moved);
+    }
+    if (muscle.vertices_moved > 0) muscle.mean_displacement /= muscle.vertices_moved;
   }
 }
 
@@ -110,13 +138,23 @@ PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, cons
   }
   const std::vector<TriangleMesh> repaired = result.muscles;
   const SeparationSettings apart{.muscle_gap = settings.muscle_gap, .bone_gap = settings.bone_gap};
+  for (TriangleMesh& mesh : result.muscles) smooth_surface(mesh, settings.smoothing_rounds);
   say("remeshing " + std::to_string(muscles.size()) + (muscles.size() == 1 ? " muscle" : " muscles"));
   remesh_where_needed(result.muscles, settings);
-  const std::vector<TriangleMesh> remeshed = result.muscles;
+  // Rounding once only: each further time would eat away what is as thin as its edges are long, such as tendons.
+  for (TriangleMesh& mesh : result.muscles) round_off(mesh, sharpest_turn, settings.rounding_rounds, farthest_rounding);
+  remesh_where_needed(result.muscles, settings);
+  untangle(result.muscles, muscles);
+  const std::vector<TriangleMesh> apart_from = result.muscles;
   say("pulling overlaps apart");
-  SeparationResult separated = separate(result.muscles, obstacles, apart);
-  report.largest_shortfall = separated.shortfall;
-  report_displacements(remeshed, result.muscles, report);
+  for (int pass = 1;; ++pass) {
+    report.largest_shortfall = separate(result.muscles, obstacles, apart).shortfall;
+    if (pass == passes) break;
+    // Triangles may have suffered; mending them may bring surfaces close again.
+    const bool remeshed = remesh_where_needed(result.muscles, settings);
+    if (!untangle(result.muscles, muscles) && !remeshed) break;
+  }
+  report_displacements(apart_from, result.muscles, report);
 
   say("measuring");
   const Crossings after = count_crossings(result.muscles, obstacles);
@@ -130,6 +168,8 @@ PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, cons
     const SurfaceDistance there = distance_from_to(mesh, repaired[m]), back = distance_from_to(repaired[m], mesh);
     muscle.hausdorff = std::max(there.largest, back.largest);
     muscle.mean_distance = there.mean;
+    muscle.sharp_edges_before = sharp_edge_count(repaired[m], sharpest_turn);
+    muscle.sharp_edges_after = sharp_edge_count(mesh, sharpest_turn);
   }
   Crossings all = before;
   all.insert(after.begin(), after.end());

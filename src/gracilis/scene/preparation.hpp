@@ -21,12 +21,13 @@ struct PreparedMuscleReport {
   std::string name;
   std::vector<std::string> repairs;  ///< one clause each
   Index faces_before = 0, faces_after = 0;
-  Index vertices_moved = 0;                  ///< by separation, more than 1 µm
+  Index vertices_moved = 0;                  ///< by separation, more than 0.1 mm
   Real mean_displacement = 0;                ///< m, of the moved vertices, by separation
   Real max_displacement = 0;                 ///< m, by separation
   Real volume_before = 0, volume_after = 0;  ///< m³
   Real hausdorff = 0;      ///< m, largest distance between the input's surface and the result, both ways
   Real mean_distance = 0;  ///< m, from the result to the input's surface
+  Index sharp_edges_before = 0, sharp_edges_after = 0;                ///< at which it turns by more than 80 degrees
   Index self_intersections_before = 0, self_intersections_after = 0;  ///< pairs of triangles
 };
 
@@ -48,7 +49,7 @@ struct PreparedSurfaces {
 };
 
 /// Changes whenever the same input gives another result, so that what older versions made is not taken for it.
-inline constexpr int preparation_version = 1;
+inline constexpr int preparation_version = 2;
 
 /// Prepares muscles that lie among bones, which stay as they are; says on `say` what it does.
 using PrepareFunction = std::function<PreparedSurfaces(

@@ -135,6 +135,9 @@ std::span<const Setting<PrepareSettings>> setting_table() {
       {"edge_length", &S::edge_length, "m", 0, 0.1, "Edge length of the new triangles; 0 keeps the triangles."},
       {"remeshing_rounds", &S::remeshing_rounds, "", 1, 100,
        "Rounds of splitting, collapsing, flipping and smoothing edges."},
+      {"smoothing_rounds", &S::smoothing_rounds, "", 0, 1000, "Rounds of smoothing the whole surface first."},
+      {"rounding_rounds", &S::rounding_rounds, "", 0, 1000,
+       "Rounds of smoothing spikes and rims at which the surface turns by more than 80 degrees."},
       {"muscle_gap", &S::muscle_gap, "m", 0, 0.01, "Gap that is made between two muscles where they are closer."},
       {"bone_gap", &S::bone_gap, "m", 0, 0.01, "Gap that is made between a muscle and a bone where they are closer."},
   };

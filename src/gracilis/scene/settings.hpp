@@ -86,6 +86,8 @@ struct DistanceFieldSettings {
 struct PrepareSettings {
   Real edge_length = 0.003;     ///< m, of the new triangles; 0 keeps the triangles
   int remeshing_rounds = 10;    ///< of splitting, collapsing, flipping and smoothing
+  int smoothing_rounds = 0;     ///< of the whole surface, before it is remeshed
+  int rounding_rounds = 20;     ///< of sharp rims and spikes
   Real muscle_gap = 0.0003;     ///< m, kept between two muscles
   Real bone_gap = 0.0003;       ///< m, kept between a muscle and a bone
 };
