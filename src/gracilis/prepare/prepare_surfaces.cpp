@@ -19,6 +19,7 @@ using Say = std::function<void(const std::string&)>;
 
 constexpr Real sharpest_turn = radians(80);
 constexpr Real farthest_rounding = 0.0012;  ///< m
+constexpr Real thinnest_radius = 0.6;       ///< of an edge: about four go around
 constexpr int passes = 3;
 constexpr Real told_displacement = 0.0001;  ///< m; less is how triangles approximate a curved surface
 
@@ -88,6 +89,17 @@ bool remesh_where_needed(std::vector<TriangleMesh>& muscles, const PrepareSettin
   return any;
 }
 
+/// The surface in triangles of the size asked for. What they could not follow, threads and blades, is rounded while the
+/// triangles are still half as large.
+TriangleMesh reshaped(const TriangleMesh& mesh, const PrepareSettings& settings) {
+  TriangleMesh fine = remesh_isotropic(mesh, settings.edge_length / 2, 3);
+  if (settings.rounding_rounds > 0) {
+    thicken(fine, thinnest_radius * settings.edge_length);
+    round_off(fine, sharpest_turn, settings.rounding_rounds, farthest_rounding);
+  }
+  return remesh_isotropic(fine, settings.edge_length, settings.remeshing_rounds);
+}
+
 /// Self-intersections that rounding and pulling apart may have made.
 bool untangle(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurface>& names) {
   bool any = false;
@@ -138,11 +150,12 @@ PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, cons
   }
   const std::vector<TriangleMesh> repaired = result.muscles;
   const SeparationSettings apart{.muscle_gap = settings.muscle_gap, .bone_gap = settings.bone_gap};
-  for (TriangleMesh& mesh : result.muscles) smooth_surface(mesh, settings.smoothing_rounds);
   say("remeshing " + std::to_string(muscles.size()) + (muscles.size() == 1 ? " muscle" : " muscles"));
-  remesh_where_needed(result.muscles, settings);
-  // Rounding once only: each further time would eat away what is as thin as its edges are long, such as tendons.
-  for (TriangleMesh& mesh : result.muscles) round_off(mesh, sharpest_turn, settings.rounding_rounds, farthest_rounding);
+  for (TriangleMesh& mesh : result.muscles) {
+    smooth_surface(mesh, settings.smoothing_rounds);
+    if (settings.edge_length > 0 && !has_edges_about(mesh, settings.edge_length)) mesh = reshaped(mesh, settings);
+    round_off(mesh, sharpest_turn, settings.rounding_rounds, farthest_rounding);
+  }
   remesh_where_needed(result.muscles, settings);
   untangle(result.muscles, muscles);
   const std::vector<TriangleMesh> apart_from = result.muscles;

@@ -14,6 +14,12 @@ void smooth_surface(TriangleMesh& mesh, int rounds);
 /// (m) in all. Returns the number of edges that are still as sharp.
 Index round_off(TriangleMesh& mesh, Real sharp, int rounds, Real farthest);
 
+/// Makes what is thinner than twice `radius` (m) that thick: where the largest ball that touches the surface from
+/// inside is smaller, the surface moves outwards, its surroundings fading along. Threads become cords and blades blunt,
+/// so that triangles of a given size can follow their round. No vertex moves further than `radius` in all. The surface
+/// must be closed and oriented outwards.
+void thicken(TriangleMesh& mesh, Real radius);
+
 /// Edges at which the surface turns by more than `sharp` (rad). Open edges do not count.
 Index sharp_edge_count(const TriangleMesh& mesh, Real sharp);
 
