@@ -160,12 +160,23 @@ time_step = 0.016666666666666666 # s between frames; default 1/60
 
 )";
 
+/// The section with every line a comment.
+template <class Settings>
+static std::string optional_section(const std::string& title) {
+  std::string text = section<Settings>(title), commented = "# ";
+  text.resize(text.find_last_not_of('\n') + 1);
+  for (char c : text) commented += c == '\n' ? std::string("\n# ") : std::string(1, c);
+  return commented + "\n\n";
+}
+
 std::string scene_template() {
   return head + preset_section() + elements +
          "# How a run goes from the capture pose into the motion and out of it.\n" + section<Sequence>("sequence") +
-         "# Distance fields of all bones.\n" + section<DistanceFieldSettings>("distance_field") +
-         "# Contact between muscles.\n" + section<ContactSettings>("contact") + "# Fibers inside all muscles.\n" +
-         section<FiberSettings>("fibers") + "# The XPBD method, for all muscles.\n" + section<XpbdSettings>("settings");
+         "# Optional: repairs, remeshes and pulls apart all muscles at first use; needs a program built with it.\n" +
+         optional_section<PrepareSettings>("prepare") + "# Distance fields of all bones.\n" +
+         section<DistanceFieldSettings>("distance_field") + "# Contact between muscles.\n" +
+         section<ContactSettings>("contact") + "# Fibers inside all muscles.\n" + section<FiberSettings>("fibers") +
+         "# The XPBD method, for all muscles.\n" + section<XpbdSettings>("settings");
 }
 
 template <class Settings>

@@ -19,7 +19,7 @@ struct NamedSurface {
 /// What happened to one muscle.
 struct PreparedMuscleReport {
   std::string name;
-  std::vector<std::string> repairs;  ///< one clause each
+  std::vector<std::string> repairs = {};  ///< one clause each
   Index faces_before = 0, faces_after = 0;
   Index vertices_moved = 0;                  ///< by separation, more than 0.1 mm
   Real mean_displacement = 0;                ///< m, of the moved vertices, by separation
