@@ -33,7 +33,7 @@ static std::vector<Index> number_unknowns(const MeshTopology& topology, const st
 }
 
 Eigen::MatrixXd harmonic_fields(const Points& vertices, const MeshTopology& topology, const std::vector<Index>& fixed,
-                                const Eigen::MatrixXd& fixed_values) {
+                                const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance) {
   Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(vertices.cols(), fixed_values.cols());
   for (std::size_t i = 0; i < fixed.size(); ++i) fields.row(fixed[i]) = fixed_values.row(static_cast<Index>(i));
 
@@ -43,8 +43,10 @@ Eigen::MatrixXd harmonic_fields(const Points& vertices, const MeshTopology& topo
 
   std::vector<Eigen::Triplet<Real>> entries;
   Eigen::MatrixXd right_side = Eigen::MatrixXd::Zero(unknown_count, fixed_values.cols());
-  for (const MeshEdge& edge : topology.edges) {
-    const Real weight = 1 / std::max((vertices.col(edge.a) - vertices.col(edge.b)).norm(), shortest_edge);
+  for (std::size_t e = 0; e < topology.edges.size(); ++e) {
+    const MeshEdge& edge = topology.edges[e];
+    const Real length = std::max((vertices.col(edge.a) - vertices.col(edge.b)).norm(), shortest_edge);
+    const Real weight = (conductance.empty() ? 1 : conductance[e]) / length;
     for (const auto& [vertex, other] : {std::pair{edge.a, edge.b}, std::pair{edge.b, edge.a}}) {
       const Index row = numbers[static_cast<std::size_t>(vertex)], column = numbers[static_cast<std::size_t>(other)];
       if (row < 0) continue;

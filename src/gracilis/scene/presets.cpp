@@ -29,6 +29,7 @@ static Preset thesis_2024() {
   xpbd.edge_contact = false;
   xpbd.tunnelling = TunnellingGuard::turned_direction;
   xpbd.predictor = false;
+  xpbd.tendon_length = 0;
   xpbd.shape_recovery = 0;
   xpbd.hinge_limit = 0;
   xpbd.stretch_limit = 0;

@@ -55,6 +55,9 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"slide_reach", &S::slide_reach, "m", 0, 0.1, "Vertices this near to that bone in the capture pose slide on it."},
       {"predictor", &S::predictor, "", 0, 0,
        "Carries the free vertices with the bones before the solver relaxes them."},
+      {"tendon_length", &S::tendon_length, "m", 0, 1,
+       "Distance from the attachments over which the surface is graded from tendon to belly, so that the bones' motion "
+       "stretches the belly and not the triangles beside an attachment; 0 grades nothing."},
       {"shape_recovery", &S::shape_recovery, "", 0, 1,
        "Share of its displacement from the carried rest shape that the predictor takes back in each frame."},
       {"hinge_limit", &S::hinge_limit, "", 0, 10,

@@ -5,6 +5,7 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/xpbd/bone_gaps.hpp>
+#include <gracilis/methods/xpbd/carrier_shares.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -136,26 +137,13 @@ void build_hinges(const Renumbered& muscle, const MeshTopology& topology, Prepar
   prepared.system.hinges = build_hinge_set(constraints, muscle.surface.vertex_count());
 }
 
-/// Which share of each carrier's motion every particle follows before the solver relaxes.
 void build_predictor(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
-  std::vector<Index> fixed;
-  for (Index p = 0; p < muscle.surface.vertex_count(); ++p) {
-    const Index body = prepared.fixed_body[static_cast<std::size_t>(p)];
-    if (body < 0) continue;
-    fixed.push_back(p);
-    if (std::find(prepared.carriers.begin(), prepared.carriers.end(), body) == prepared.carriers.end())
+  for (Index body : prepared.fixed_body)
+    if (body >= 0 && std::find(prepared.carriers.begin(), prepared.carriers.end(), body) == prepared.carriers.end())
       prepared.carriers.push_back(body);
-  }
   std::sort(prepared.carriers.begin(), prepared.carriers.end());
-  Eigen::MatrixXd values =
-      Eigen::MatrixXd::Zero(static_cast<Index>(fixed.size()), static_cast<Index>(prepared.carriers.size()));
-  for (std::size_t i = 0; i < fixed.size(); ++i) {
-    const Index body = prepared.fixed_body[static_cast<std::size_t>(fixed[i])];
-    const auto carrier =
-        std::find(prepared.carriers.begin(), prepared.carriers.end(), body) - prepared.carriers.begin();
-    values(static_cast<Index>(i), static_cast<Index>(carrier)) = 1;
-  }
-  prepared.carrier_shares = harmonic_fields(muscle.surface.vertices, topology, fixed, values).transpose().cast<float>();
+  prepared.carrier_shares =
+      carrier_shares(muscle.surface, topology, prepared.fixed_body, prepared.carriers, prepared.settings.tendon_length);
 }
 
 /// Between the edges of these faces something as sharp as a bone can poke through.

@@ -1,0 +1,94 @@
+#include <gracilis/geometry/edge_distance.hpp>
+#include <gracilis/geometry/harmonic_field.hpp>
+#include <gracilis/methods/xpbd/carrier_shares.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+namespace gracilis {
+namespace {
+
+/// A tube along z, held by body 0 at its upper end and by body 1 on a small patch at the lower end's side.
+struct HeldByAPatch {
+  TriangleMesh surface = shapes::cylinder(0.01, 0.16, 20, 40);
+  MeshTopology topology;
+  std::vector<Index> fixed_body, fixed;
+
+  HeldByAPatch() : topology(build_topology(surface.faces, surface.vertex_count())) {
+    surface.vertices.row(2).array() -= surface.vertices.row(2).mean();
+    for (Index v = 0; v < surface.vertex_count(); ++v) {
+      const Vec3 p = surface.vertices.col(v);
+      const Index body = p.z() > 0.07 ? 0 : p.z() < -0.05 && p.z() > -0.07 && p.x() > 0.008 ? 1 : -1;
+      fixed_body.push_back(body);
+      if (body >= 0) fixed.push_back(v);
+    }
+  }
+
+  Eigen::MatrixXf shares(Real tendon_length) const {
+    return xpbd::carrier_shares(surface, topology, fixed_body, {0, 1}, tendon_length);
+  }
+  Real steepest(const Eigen::MatrixXf& shares) const {
+    const Eigen::VectorXd share = shares.row(1).transpose().cast<Real>();
+    return face_gradients(surface.vertices, surface.faces, share).colwise().norm().maxCoeff();
+  }
+};
+
+}  // namespace
+
+TEST(CarrierShares, a_tendon_takes_the_concentration_from_a_small_attachment) {
+  const HeldByAPatch tube;
+  ASSERT_GE(tube.fixed.size(), 20u);
+  EXPECT_LT(tube.steepest(tube.shares(0.03)), 0.75 * tube.steepest(tube.shares(0)));
+}
+
+TEST(CarrierShares, stay_between_0_and_1_sum_to_1_and_are_whole_at_attachments) {
+  const HeldByAPatch tube;
+  const Eigen::MatrixXf shares = tube.shares(0.03);
+  EXPECT_GE(shares.minCoeff(), -1e-6f);
+  for (Index v = 0; v < shares.cols(); ++v) {
+    EXPECT_NEAR(shares.col(v).sum(), 1, 1e-6);
+    const Index body = tube.fixed_body[static_cast<std::size_t>(v)];
+    if (body >= 0) {
+      EXPECT_EQ(shares(body, v), 1);
+    }
+  }
+}
+
+TEST(CarrierShares, without_tendons_they_are_harmonic) {
+  const HeldByAPatch tube;
+  Eigen::MatrixXd given = Eigen::MatrixXd::Zero(static_cast<Index>(tube.fixed.size()), 1);
+  for (Index i = 0; i < given.rows(); ++i)
+    given(i, 0) = tube.fixed_body[static_cast<std::size_t>(tube.fixed[static_cast<std::size_t>(i)])] == 1;
+  const Eigen::MatrixXd field = harmonic_fields(tube.surface.vertices, tube.topology, tube.fixed, given);
+  EXPECT_LT((tube.shares(0).row(1).transpose().cast<Real>() - field.col(0)).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(CarrierShares, a_tube_held_by_whole_rings_needs_no_tendons) {
+  HeldByAPatch tube;
+  for (Index v = 0; v < tube.surface.vertex_count(); ++v) {
+    const Real z = tube.surface.vertices(2, v);
+    tube.fixed_body[static_cast<std::size_t>(v)] = z > 0.07 ? 0 : z < -0.07 ? 1 : -1;
+  }
+  EXPECT_LT((tube.shares(0.03) - tube.shares(0)).cwiseAbs().maxCoeff(), 0.02f);
+}
+
+TEST(EdgeDistance, is_the_way_along_edges_and_infinite_to_another_component) {
+  TriangleMesh two = shapes::box({0, 0, 0}, {1, 2, 3});
+  const Index count = two.vertex_count();
+  Points both(3, 2 * count);
+  both << two.vertices, two.vertices.colwise() + Vec3(10, 0, 0);
+  Eigen::Matrix3Xi faces(3, 2 * two.face_count());
+  faces << two.faces, two.faces.array() + count;
+  const Eigen::VectorXd distances = edge_distances(both, build_topology(faces, 2 * count), {0});
+  EXPECT_EQ(distances[0], 0);
+  EXPECT_DOUBLE_EQ(distances[1], 1);
+  EXPECT_DOUBLE_EQ(distances[2], 2);
+  EXPECT_DOUBLE_EQ(distances[4], 3);
+  for (Index v = 0; v < count; ++v) {
+    EXPECT_GE(distances[v], (both.col(v) - both.col(0)).norm() - 1e-12);
+    EXPECT_TRUE(std::isinf(distances[count + v]));
+  }
+}
+
+}  // namespace gracilis
