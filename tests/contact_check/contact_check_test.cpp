@@ -199,13 +199,14 @@ TEST(Judge, rest_holds_all_gates) {
 TEST(Judge, spheres_pushed_into_each_other_are_as_deep_as_they_were_pushed) {
   const SmallScene scene;
   const Verdict held = scene.held(moved(scene.one, {0.005, 0, 0}).vertices, scene.other.vertices);
-  EXPECT_GT(held[0].value, 0);
-  EXPECT_TRUE(held[0].missed);
-  EXPECT_TRUE(held[2].missed);
-  EXPECT_NEAR(held[3].value, 3, 0.05);  // mm; below the poles, the nearest facet is a little inclined
-  EXPECT_TRUE(held[3].missed);
-  EXPECT_EQ(held[3].where, "one + other");
-  EXPECT_FALSE(held[1].missed || held[5].missed || held[6].missed || held[7].missed);
+  EXPECT_GT(held[face_pairs].value, 0);
+  EXPECT_TRUE(held[face_pairs].missed);
+  EXPECT_TRUE(held[deep_share].missed);
+  EXPECT_NEAR(held[depth].value, 3, 0.05);  // mm; below the poles, the nearest facet is a little inclined
+  EXPECT_TRUE(held[depth].missed);
+  EXPECT_EQ(held[depth].where, "one + other");
+  EXPECT_FALSE(held[self_pairs].missed || held[bone_edges].missed || held[folded_share].missed ||
+               held[volume_error].missed);
 }
 
 TEST(Judge, what_overlaps_at_rest_may_stay_but_not_grow) {
@@ -216,14 +217,14 @@ TEST(Judge, what_overlaps_at_rest_may_stay_but_not_grow) {
   };
   for (const Real by : {0.0, -0.001, -0.01})
     for (const Worst& worst : held(by)) EXPECT_FALSE(worst.missed) << by;
-  EXPECT_NEAR(held(0.0005)[4].value, 0.5, 0.01);
-  EXPECT_TRUE(held(0.0005)[4].missed);
+  EXPECT_NEAR(held(0.0005)[growth].value, 0.5, 0.01);
+  EXPECT_TRUE(held(0.0005)[growth].missed);
 }
 
 TEST(Judge, edges_that_enter_a_bone_are_counted_unless_both_ends_are_attached) {
   const SmallScene scene;
   const Points sunk = moved(scene.one, {0, 0, -0.005}).vertices;
-  EXPECT_TRUE(scene.held(sunk, scene.other.vertices)[5].missed);
+  EXPECT_TRUE(scene.held(sunk, scene.other.vertices)[bone_edges].missed);
 
   JudgedMuscle attached = free_muscle("one", scene.one);
   attached.attached.assign(attached.attached.size(), 1);
@@ -249,9 +250,9 @@ TEST(Judge, one_folded_corner_is_named_with_its_muscle) {
   Points folded = scene.one.vertices;
   folded.col(0) *= 0.5;  // an apex pushed in
   const Verdict held = scene.held(folded, scene.other.vertices);
-  EXPECT_GT(held[6].value, 0);
-  EXPECT_EQ(held[6].where, "one");
-  EXPECT_GT(held[7].value, 0);
+  EXPECT_GT(held[folded_share].value, 0);
+  EXPECT_EQ(held[folded_share].where, "one");
+  EXPECT_GT(held[volume_error].value, 0);
 }
 
 TEST(Judge, a_frame_that_is_not_finite_misses_every_gate) {

@@ -30,31 +30,31 @@ Verdict hold_against(const Gates& gates, const Judge& judge, const FrameVerdict&
   Index deep_most = 0, folded_most = 0;
   for (const PairVerdict& pair : frame.pairs) {
     const std::string where = name(pair.first) + " + " + name(pair.second);
-    keep(0, pair.excess(), where);
-    keep(3, 1000 * pair.depth_beyond_rest, where);
-    if (pair.depth_rest > 0) keep(4, 1000 * (pair.depth - pair.depth_rest), where);
+    keep(face_pairs, pair.excess(), where);
+    keep(depth, 1000 * pair.depth_beyond_rest, where);
+    if (pair.depth_rest > 0) keep(growth, 1000 * (pair.depth - pair.depth_rest), where);
     deep_vertices += pair.deep_vertices;
     if (pair.deep_vertices > deep_most) deep_most = pair.deep_vertices, deep_where = where;
   }
   for (std::size_t m = 0; m < frame.muscles.size(); ++m) {
     const MuscleVerdict& muscle = frame.muscles[m];
     const std::string where = name(static_cast<Index>(m));
-    keep(1, muscle.self_excess(), where);
-    keep(5, muscle.bone_edges, where + " + " + muscle.bone);
-    keep(7, std::abs(muscle.volume_ratio - 1), where);
+    keep(self_pairs, muscle.self_excess(), where);
+    keep(bone_edges, muscle.bone_edges, where + " + " + muscle.bone);
+    keep(volume_error, std::abs(muscle.volume_ratio - 1), where);
     folded_hinges += muscle.folded_hinges;
     if (muscle.folded_hinges > folded_most) folded_most = muscle.folded_hinges, folded_where = where;
   }
-  keep(2, static_cast<Real>(deep_vertices) / judge.vertex_count(), deep_where);
-  keep(6, static_cast<Real>(folded_hinges) / judge.hinge_count(), folded_where);
-  worst[0].missed = worst[0].value > gates.face_pairs;
-  worst[1].missed = worst[1].value > gates.self_pairs;
-  worst[2].missed = worst[2].value >= gates.deep_share && deep_vertices > 0;
-  worst[3].missed = worst[3].value > 1000 * gates.depth;
-  worst[4].missed = worst[4].value > 1000 * gates.growth;
-  worst[5].missed = worst[5].value > gates.bone_edges;
-  worst[6].missed = worst[6].value >= gates.folded_share && folded_hinges > 0;
-  worst[7].missed = worst[7].value > gates.volume;
+  keep(deep_share, static_cast<Real>(deep_vertices) / judge.vertex_count(), deep_where);
+  keep(folded_share, static_cast<Real>(folded_hinges) / judge.hinge_count(), folded_where);
+  worst[face_pairs].missed = worst[face_pairs].value > gates.face_pairs;
+  worst[self_pairs].missed = worst[self_pairs].value > gates.self_pairs;
+  worst[deep_share].missed = worst[deep_share].value >= gates.deep_share && deep_vertices > 0;
+  worst[depth].missed = worst[depth].value > 1000 * gates.depth;
+  worst[growth].missed = worst[growth].value > 1000 * gates.growth;
+  worst[bone_edges].missed = worst[bone_edges].value > gates.bone_edges;
+  worst[folded_share].missed = worst[folded_share].value >= gates.folded_share && folded_hinges > 0;
+  worst[volume_error].missed = worst[volume_error].value > gates.volume;
   return worst;
 }
 

@@ -19,6 +19,9 @@ struct Gates {
   Real volume = 0.005;        ///< |volume ratio - 1|
 };
 
+/// What is measured in every frame. Lengths in mm.
+enum Measure { face_pairs, self_pairs, deep_share, depth, growth, bone_edges, folded_share, volume_error };
+
 /// The worst value of one measure in a frame, or in a run.
 struct Worst {
   Real value = 0;
@@ -27,11 +30,10 @@ struct Worst {
   bool missed = false;
 };
 
-/// One entry for each measure, in the order of measure_names().
+/// One entry for each Measure.
 using Verdict = std::vector<Worst>;
 
-/// face pairs beyond rest, self pairs beyond rest, deep share, depth beyond rest (mm), growth (mm), bone edges, folded
-/// share, volume error.
+/// By Measure.
 const std::vector<std::string>& measure_names();
 
 /// A frame held against the gates. A frame that is not finite misses all.

@@ -68,8 +68,9 @@ void print_frame(const Judge& judge, const FrameVerdict& frame, const Verdict& h
     return fmt::format("{:>{}.{}f}{}", scale * held[measure].value, width - 1, digits,
                        held[measure].missed ? "*" : " ");
   };
-  fmt::print("{:>5}  {}{}{}{}{}{}{}{}\n", frame.number, cell(0, 9, 0, 1), cell(1, 9, 0, 1), cell(2, 10, 3, 100),
-             cell(3, 10, 2, 1), cell(4, 10, 2, 1), cell(5, 9, 0, 1), cell(6, 10, 3, 100), cell(7, 10, 2, 100));
+  fmt::print("{:>5}  {}{}{}{}{}{}{}{}\n", frame.number, cell(face_pairs, 9, 0, 1), cell(self_pairs, 9, 0, 1),
+             cell(deep_share, 10, 3, 100), cell(depth, 10, 2, 1), cell(growth, 10, 2, 1), cell(bone_edges, 9, 0, 1),
+             cell(folded_share, 10, 3, 100), cell(volume_error, 10, 2, 100));
   if (detail) {
     for (const PairVerdict& pair : frame.pairs) print_pair(judge, pair);
     for (std::size_t m = 0; m < frame.muscles.size(); ++m) print_muscle(judge.muscles()[m], frame.muscles[m]);

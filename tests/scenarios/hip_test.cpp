@@ -6,14 +6,6 @@
 /// cadaver_hip_test.cpp.
 namespace gracilis {
 
-TEST(BuiltinHipScenario, flexes_to_90_degrees) {
-  const Scene scene = builtin_hip();
-  ASSERT_GE(scene.muscles.size(), 6u);
-  const WholeRun run = run_whole(scene);
-  EXPECT_GT(run.frames, 90);
-  expect_gates(scene, run);
-}
-
 TEST(CadaverHipScenario, adductor_brevis_survives_flexion_in_steps_of_five_degrees) {
   SKIP_WITHOUT_DATA();
   const Scene scene = cadaver_scene("flexion", {"adductor_brevis_r"});

@@ -5,11 +5,15 @@
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/scene_reader.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
+#ifdef GRACILIS_WITH_PREPARE
+#include <gracilis/prepare/prepare_surfaces.hpp>
+#endif
 #include <gracilis/simulate/run.hpp>
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,6 +39,9 @@ inline Scene cadaver_scene(const std::string& name, const std::vector<std::strin
   options.data = data_folder();
   options.only = only;
   options.set = set;
+#ifdef GRACILIS_WITH_PREPARE
+  options.prepare = prepare_surfaces;
+#endif
   return read_scene(scene_file(name), options).scene;
 }
 
@@ -54,8 +61,10 @@ inline void keep_worst(Real value, int frame, Real& worst, int& worst_frame) {
   if (value > worst) worst = value, worst_frame = frame;
 }
 
-/// Runs the whole motion; `stride` keeps every so many poses only, which makes larger steps of them.
-inline WholeRun run_whole(const Scene& scene, int stride = 1) {
+/// Runs the whole motion; `stride` keeps every so many poses only, which makes larger steps of them. `observe` sees
+/// every frame.
+inline WholeRun run_whole(const Scene& scene, int stride = 1,
+                          const std::function<void(const FrameRecord&)>& observe = {}) {
   std::vector<Pose> poses;
   const std::vector<Pose> all = pose_sequence(scene);
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -69,6 +78,7 @@ inline WholeRun run_whole(const Scene& scene, int stride = 1) {
   const std::atomic<bool> never = false;
   const auto add = [&](const FrameRecord& record) {
     ++run.frames;
+    if (observe) observe(record);
     for (std::size_t m = 0; m < run.muscles.size(); ++m) {
       MuscleRun& muscle = run.muscles[m];
       const MuscleMeasures& now = record.measures[m];

@@ -1,0 +1,121 @@
+#pragma once
+
+#include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/scene/motion.hpp>
+
+#include <fmt/format.h>
+
+#include "judged_run.hpp"
+
+#include <ostream>
+
+/// What must hold in every motion of a hip, one fact each. The facts of one motion share its runs, so CTest starts one
+/// process per motion (CMakeLists.txt).
+namespace gracilis {
+
+struct HipMotion {
+  std::string name = {};
+  std::string folder = "lhdl_hip";  ///< in scenes
+  std::string file = {};            ///< there; empty for the built-in hip
+  Vec3 end = Vec3::Zero();          ///< where the built-in hip goes to: flexion, adduction, rotation in degrees
+  int judge_every = 1;              ///< frames
+  std::vector<Real> steps = {1};    ///< degrees per frame, a run for each
+  bool may_fold = true;             ///< fewer than a thousandth of all hinges; otherwise none
+};
+
+inline void PrintTo(const HipMotion& motion, std::ostream* out) { *out << motion.name; }
+
+inline std::string name_of(const testing::TestParamInfo<HipMotion>& info) { return info.param.name; }
+
+/// The motion with contact as the scene says ("") or as `contact` does.
+inline Scene scene_of(const HipMotion& motion, Real step, const std::string& contact = "") {
+  if (!motion.file.empty()) {
+    // Six degrees lead from the capture pose into the motion.
+    std::vector<std::string> set = {fmt::format("motion.step_deg={}", step),
+                                    fmt::format("sequence.ramp_frames={}", std::ceil(6 / step))};
+    if (!contact.empty()) set.push_back("contact.muscle=" + contact);
+    return cadaver_scene("../" + motion.folder + "/" + motion.file, {}, set);
+  }
+  Scene scene = builtin_hip();
+  Eigen::MatrixXd keys = Eigen::MatrixXd::Zero(2, 3);
+  keys.row(1) = motion.end.transpose() * (pi / 180);
+  scene.motion = motion_through({"hip_flexion_r", "hip_adduction_r", "hip_rotation_r"}, keys, radians(step), 1.0 / 60);
+  if (contact == "none") scene.contact.muscle = MuscleContact::none;
+  return scene;
+}
+
+class HipInMotion : public testing::TestWithParam<HipMotion> {
+ protected:
+  void SetUp() override {
+    if (!GetParam().file.empty()) {
+      SKIP_WITHOUT_DATA();
+#ifndef GRACILIS_WITH_PREPARE
+      if (GetParam().folder == "lhdl_hip_prepared") GTEST_SKIP() << "built without GRACILIS_WITH_PREPARE";
+#endif
+    }
+    for (const Real step : GetParam().steps) run(step);
+  }
+
+  /// The motion's run at that many degrees per frame, made once.
+  static const JudgedRun& run(Real step) {
+    static std::map<std::pair<std::string, Real>, JudgedRun> runs;
+    const HipMotion& motion = GetParam();
+    const auto [found, fresh] = runs.try_emplace({motion.name, step});
+    if (fresh) {
+      contact_check::Gates gates;
+      if (!motion.may_fold) gates.folded_share = 0;
+      found->second = run_judged(scene_of(motion, step), motion.judge_every, gates);
+    }
+    return found->second;
+  }
+
+  static void expect_held(contact_check::Measure measure) {
+    for (const Real step : GetParam().steps) {
+      ASSERT_FALSE(run(step).worst.empty());
+      ASSERT_GT(run(step).judged_frames, 5);
+      const contact_check::Worst& worst = run(step).worst[measure];
+      EXPECT_FALSE(worst.missed) << contact_check::measure_names()[measure] << ": " << worst.value << " in frame "
+                                 << worst.frame << ", " << worst.where << ", at " << step << " degrees per frame";
+    }
+  }
+};
+
+TEST_P(HipInMotion, muscles_cut_each_other_no_more_than_at_rest) { expect_held(contact_check::face_pairs); }
+
+TEST_P(HipInMotion, no_muscle_cuts_itself) { expect_held(contact_check::self_pairs); }
+
+TEST_P(HipInMotion, fewer_than_one_in_a_thousand_vertices_are_inside_another_muscle) {
+  expect_held(contact_check::deep_share);
+}
+
+TEST_P(HipInMotion, no_vertex_is_a_millimeter_inside_another_muscle) { expect_held(contact_check::depth); }
+
+TEST_P(HipInMotion, overlap_at_rest_does_not_deepen) { expect_held(contact_check::growth); }
+
+TEST_P(HipInMotion, no_edge_crosses_a_bone) { expect_held(contact_check::bone_edges); }
+
+TEST_P(HipInMotion, hinges_do_not_fold) { expect_held(contact_check::folded_share); }
+
+TEST_P(HipInMotion, volume_is_kept) { expect_held(contact_check::volume_error); }
+
+TEST_P(HipInMotion, nothing_overlaps_at_rest_where_it_was_prepared) {
+  for (const Real step : GetParam().steps) {
+    const contact_check::FrameVerdict& rest = run(step).rest;
+    const bool raw = !GetParam().file.empty() && GetParam().folder == "lhdl_hip";
+    for (const contact_check::PairVerdict& pair : rest.pairs) {
+      EXPECT_TRUE(raw || pair.face_pairs == 0);
+      EXPECT_TRUE(raw || pair.depth == 0);
+    }
+    for (const contact_check::MuscleVerdict& muscle : rest.muscles) EXPECT_EQ(muscle.self_pairs, 0);
+  }
+}
+
+TEST_P(HipInMotion, every_frame_meets_the_gates_of_a_run) {
+  for (const Real step : GetParam().steps) {
+    SCOPED_TRACE(fmt::format("{} degrees per frame", step));
+    expect_gates(run(step).scene, run(step).whole);
+    if (run(step).scene.sequence.return_to_capture) expect_return(run(step).scene, run(step).whole);
+  }
+}
+
+}  // namespace gracilis
