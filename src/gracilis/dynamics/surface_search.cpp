@@ -65,10 +65,9 @@ struct SelfRule {
         rest_normals.col(corners[0]) + rest_normals.col(corners[1]) + rest_normals.col(corners[2]);
     const auto own = rest_normals.col(particle);
     const bool through = away.dot(own) < 0 && away.dot(rest_facing) > 0;
-    const bool opposed = away.dot(own) > 0 && away.dot(rest_facing) < 0;
     const bool alike = rest_facing.dot(own) > 1.5f;
     if (through && !alike) return -1;
-    return (alike || opposed) && away.squaredNorm() > neighborhood * neighborhood ? 1.0f : 0.0f;
+    return away.squaredNorm() > neighborhood * neighborhood ? 1.0f : 0.0f;
   }
 };
 

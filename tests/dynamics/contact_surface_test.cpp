@@ -1,0 +1,181 @@
+#include <gracilis/dynamics/contact_surface.hpp>
+
+#include <shapes.hpp>
+
+#include "systems_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace gracilis {
+namespace {
+
+using Eigen::Vector3f;
+
+/// A surface with its particles and normals.
+struct Body {
+  ContactSurface surface;
+  Particles particles;
+  Eigen::Matrix3Xf normals;
+};
+
+Body body_of(const TriangleMesh& mesh) {
+  Body body{build_contact_surface(mesh.faces, mesh.vertex_count()),
+            make_particles(mesh.vertices, Eigen::VectorXd::Ones(mesh.vertex_count())),
+            {}};
+  particle_normals(body.surface, body.particles, body.normals);
+  return body;
+}
+
+/// The gap to the face that is nearest by trying all.
+PointGap nearest_gap(const Body& body, const Vector3f& p) {
+  PointGap best;
+  for (Index face = 0; face < body.surface.faces.cols(); ++face) {
+    const PointGap gap = point_gap(p, body.surface, face, body.particles, body.normals);
+    if (face == 0 || std::abs(gap.distance) < std::abs(best.distance)) best = gap;
+  }
+  return best;
+}
+
+const Body& cube() {
+  static const Body body = body_of(shapes::box({0, 0, 0}, {1, 1, 1}));
+  return body;
+}
+
+}  // namespace
+
+TEST(ContactSurface, a_side_knows_the_face_behind_it_and_its_edge) {
+  const ContactSurface& surface = cube().surface;
+  for (Index face = 0; face < surface.faces.cols(); ++face)
+    for (int corner = 0; corner < 3; ++corner) {
+      const auto& edge = surface.edges[static_cast<std::size_t>(surface.sides(corner, face))];
+      EXPECT_NE(surface.faces(corner, face), edge.ends[0]);
+      EXPECT_NE(surface.faces(corner, face), edge.ends[1]);
+      const Index behind = surface.across(corner, face);
+      ASSERT_GE(behind, 0);
+      EXPECT_TRUE((edge.faces == std::array<Index, 2>{face, behind}) ||
+                  (edge.faces == std::array<Index, 2>{behind, face}));
+    }
+  EXPECT_EQ(surface.edges.size(), 18u);
+}
+
+TEST(ContactSurface, an_open_side_has_nothing_behind_it) {
+  const TriangleMesh triangle = shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  EXPECT_TRUE((build_contact_surface(triangle.faces, 3).across.array() == -1).all());
+}
+
+TEST(ContactSurface, a_cube_s_corner_points_along_its_diagonal) {
+  for (Index p = 0; p < 8; ++p) {
+    const Vector3f diagonal = (cube().particles.position(p) - Vector3f::Constant(0.5f)).normalized();
+    EXPECT_GT(cube().normals.col(p).dot(diagonal), 1 - 1e-3f) << "the split of the squares must not turn it";
+  }
+}
+
+TEST(PointGap, over_a_face_is_the_height) {
+  const PointGap gap = nearest_gap(cube(), {0.3f, 0.4f, 1.2f});
+  EXPECT_NEAR(gap.distance, 0.2f, 1e-6f);
+  EXPECT_LT((gap.normal - Vector3f::UnitZ()).norm(), 1e-6f);
+}
+
+TEST(PointGap, under_a_face_is_negative_and_points_out) {
+  const PointGap gap = nearest_gap(cube(), {0.3f, 0.4f, 0.9f});
+  EXPECT_NEAR(gap.distance, -0.1f, 1e-6f);
+  EXPECT_LT((gap.normal - Vector3f::UnitZ()).norm(), 1e-6f);
+}
+
+TEST(PointGap, beside_an_edge_points_away_from_it) {
+  const PointGap gap = nearest_gap(cube(), {1.3f, 0.5f, 1.4f});
+  EXPECT_NEAR(gap.distance, 0.5f, 1e-6f);
+  EXPECT_LT((gap.normal - Vector3f(0.6f, 0, 0.8f)).norm(), 1e-5f);
+}
+
+TEST(PointGap, beside_a_corner_points_away_from_it) {
+  const PointGap gap = nearest_gap(cube(), {-0.1f, -0.1f, -0.1f});
+  EXPECT_NEAR(gap.distance, 0.1f * std::sqrt(3.0f), 1e-6f);
+  EXPECT_LT((gap.normal + Vector3f::Constant(1 / std::sqrt(3.0f))).norm(), 1e-5f);
+}
+
+TEST(PointGap, on_an_edge_takes_the_surface_s_normal) {
+  const PointGap gap = nearest_gap(cube(), {1, 0.5f, 1});
+  EXPECT_NEAR(gap.distance, 0, 1e-6f);
+  EXPECT_NEAR(gap.normal.norm(), 1, 1e-5f);
+  EXPECT_GT(gap.normal.x(), 0.3f);
+  EXPECT_GT(gap.normal.z(), 0.3f);
+}
+
+TEST(PointGap, is_continuous_where_a_point_passes_from_a_face_over_an_edge) {
+  for (const float height : {0.2f, 0.05f}) {
+    const PointGap before = nearest_gap(cube(), {0.99999f, 0.5f, 1 + height});
+    const PointGap after = nearest_gap(cube(), {1.00001f, 0.5f, 1 + height});
+    EXPECT_NEAR(before.distance, after.distance, 1e-5f);
+    EXPECT_LT((before.normal - after.normal).norm(), 1e-3f);
+  }
+}
+
+TEST(PointGap, to_a_flat_triangle_is_finite) {
+  Body needle = body_of(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}));
+  const PointGap gap = point_gap({0.5f, 0.1f, 0}, needle.surface, 0, needle.particles, needle.normals);
+  EXPECT_TRUE(gap.normal.allFinite());
+  EXPECT_NEAR(std::abs(gap.distance), 0.1f, 1e-6f);
+  const PointGap on_it = point_gap({0.5f, 0, 0}, needle.surface, 0, needle.particles, needle.normals);
+  EXPECT_TRUE(on_it.normal.allFinite());
+}
+
+TEST(EdgeGap, of_crossing_edges_is_signed_by_the_outward_side) {
+  const EdgeGap apart = edge_gap({-1, 0, 0.1f}, {1, 0, 0.1f}, {0, -1, 0}, {0, 1, 0}, {0, 0, 1});
+  ASSERT_TRUE(apart.crossing);
+  EXPECT_NEAR(apart.distance, 0.1f, 1e-6f);
+  EXPECT_NEAR(apart.s, 0.5f, 1e-6f);
+  EXPECT_NEAR(apart.t, 0.5f, 1e-6f);
+  const EdgeGap passed = edge_gap({-1, 0, -0.1f}, {1, 0, -0.1f}, {0, -1, 0}, {0, 1, 0}, {0, 0, 1});
+  ASSERT_TRUE(passed.crossing);
+  EXPECT_NEAR(passed.distance, -0.1f, 1e-6f);
+  EXPECT_GT(passed.normal.z(), 0.99f) << "the way out does not turn";
+}
+
+TEST(EdgeGap, finds_where_skew_edges_come_nearest) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  const auto random = [&] { return Vector3f(uniform(generator), uniform(generator), uniform(generator)); };
+  int tried = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3f a0 = random(), a1 = random(), b0 = random(), b1 = random();
+    const EdgeGap gap = edge_gap(a0, a1, b0, b1, (a1 - a0).cross(b1 - b0));
+    if (!gap.crossing) continue;
+    ++tried;
+    const Vector3f p = a0 + gap.s * (a1 - a0), q = b0 + gap.t * (b1 - b0);
+    EXPECT_NEAR((p - q).dot(a1 - a0), 0, 1e-3f);
+    EXPECT_NEAR((p - q).dot(b1 - b0), 0, 1e-3f);
+    EXPECT_LT((p - q - gap.distance * gap.normal).norm(), 1e-4f);
+  }
+  EXPECT_GT(tried, 100);
+}
+
+TEST(EdgeGap, parallel_edges_and_edges_past_an_end_do_not_cross) {
+  EXPECT_FALSE(edge_gap({-1, 0, 0.1f}, {1, 0, 0.1f}, {-1, 0, 0}, {1, 0, 0}, {0, 0, 1}).crossing);
+  EXPECT_FALSE(edge_gap({-1, 2, 0.1f}, {1, 2, 0.1f}, {0, -1, 0}, {0, 1, 0}, {0, 0, 1}).crossing);
+  EXPECT_FALSE(edge_gap({0, 0, 0}, {0, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, 1}).crossing) << "an edge without length";
+  EXPECT_FALSE(edge_gap({-1, 0, 0.1f}, {1, 0, 0.1f}, {0, -1, 0}, {0, 1, 0}, {1, 0, 0}).crossing)
+      << "a side that cannot be told";
+}
+
+TEST(Walk, ends_at_the_nearest_face_of_a_sphere_wherever_it_begins) {
+  const Body ball = body_of(shapes::sphere(Vec3::Zero(), 1, 4));
+  std::mt19937 generator(4);
+  std::uniform_real_distribution<float> uniform(-1, 1);
+  std::uniform_int_distribution<Index> any_face(0, static_cast<Index>(ball.surface.faces.cols()) - 1);
+  for (int i = 0; i < 200; ++i) {
+    const Vector3f p = 1.2f * Vector3f(uniform(generator), uniform(generator), uniform(generator)).normalized();
+    const Index face = walk_to_nearest(p, ball.surface, any_face(generator), ball.particles);
+    const PointGap found = point_gap(p, ball.surface, face, ball.particles, ball.normals);
+    EXPECT_NEAR(found.distance, nearest_gap(ball, p).distance, 1e-5f);
+  }
+}
+
+TEST(Walk, stays_where_the_surface_ends) {
+  const Body triangle = body_of(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
+  EXPECT_EQ(walk_to_nearest({5, 5, 5}, triangle.surface, 0, triangle.particles), 0);
+}
+
+}  // namespace gracilis

@@ -1,0 +1,332 @@
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/surface_contact.hpp>
+
+#include <shapes.hpp>
+#include <state_hash.hpp>
+
+#include "systems_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace gracilis {
+namespace {
+
+using Eigen::Vector3f;
+
+/// Surfaces that meet, with nothing else that acts on them.
+struct Meeting {
+  SurfaceCrowd crowd;
+  std::vector<Particles> particles, start;
+  CrowdState state;
+
+  void add(const TriangleMesh& mesh, const Eigen::VectorXd& inverse_masses) {
+    crowd.surfaces.push_back(build_contact_surface(mesh.faces, mesh.vertex_count()));
+    particles.push_back(make_particles(mesh.vertices, inverse_masses));
+    crowd.rest.push_back(mesh.vertices.cast<float>());
+    crowd.rest_normals.emplace_back();
+    particle_normals(crowd.surfaces.back(), particles.back(), crowd.rest_normals.back());
+    crowd.neighborhood.push_back(0.004f);
+  }
+  void add(const TriangleMesh& mesh, Real inverse_mass = 1) {
+    add(mesh, Eigen::VectorXd::Constant(mesh.vertex_count(), inverse_mass));
+  }
+
+  SurfacePair& pair(Index first, Index second, float gap) {
+    const auto a = static_cast<std::size_t>(particles[static_cast<std::size_t>(first)].count()),
+               b = static_cast<std::size_t>(particles[static_cast<std::size_t>(second)].count());
+    SurfacePair pair;
+    pair.first = first, pair.second = second;
+    pair.first_gap.assign(a, gap), pair.second_gap.assign(b, gap);
+    pair.first_touches.assign(a, 0), pair.second_touches.assign(b, 0);
+    crowd.pairs.push_back(std::move(pair));
+    return crowd.pairs.back();
+  }
+
+  template <class Pointer>
+  std::vector<Pointer> pointers(auto& list) {
+    std::vector<Pointer> result;
+    for (auto& each : list) result.push_back(&each);
+    return result;
+  }
+
+  /// Looks for contacts and projects them. Returns the pushes of the last round.
+  Index solve(int rounds) {
+    arrange_rounds(crowd);
+    state = make_crowd_state(crowd);
+    if (start.empty()) start = particles;
+    const auto seen = pointers<const Particles*>(particles);
+    find_touches(crowd, seen, state);
+    Index pushes = 0;
+    for (int i = 0; i < rounds; ++i) {
+      follow_touches(crowd, seen, state);
+      pushes = project_touches(crowd, state, pointers<const Particles*>(start), pointers<Particles*>(particles));
+    }
+    return pushes;
+  }
+
+  /// Longest way a particle goes in one more round, m: 0 but for rounding where every gap is kept.
+  Real unrest() {
+    const std::vector<Particles> before = particles;
+    solve(1);
+    Real longest = 0;
+    for (std::size_t s = 0; s < particles.size(); ++s)
+      for (Index p = 0; p < particles[s].count(); ++p)
+        longest = std::max<Real>(longest, (particles[s].position(p) - before[s].position(p)).norm());
+    return longest;
+  }
+};
+
+Vec3 momentum(const std::vector<Particles>& now, const std::vector<Particles>& start) {
+  Vec3 sum = Vec3::Zero();
+  for (std::size_t s = 0; s < now.size(); ++s)
+    for (Index p = 0; p < now[s].count(); ++p)
+      if (now[s].inverse_mass(p) > 0)
+        sum += (now[s].position(p) - start[s].position(p)).cast<Real>() / static_cast<Real>(now[s].inverse_mass(p));
+  return sum;
+}
+
+/// Two balls of 10 mm, the second this much (m) too near.
+Meeting pressed_balls(Real too_near, Real second_inverse_mass = 1) {
+  Meeting meeting;
+  meeting.add(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  meeting.add(shapes::sphere({0.02 - too_near, 0.0003, 0.0002}, 0.01, 4), second_inverse_mass);
+  meeting.pair(0, 1, 0.0003f);
+  return meeting;
+}
+
+/// How deep the particles of one ball are in the other, m.
+Real deepest(const Particles& probe, const Vec3& center) {
+  Real depth = 0;
+  for (Index p = 0; p < probe.count(); ++p)
+    depth = std::max(depth, 0.01 - (probe.position(p).cast<Real>() - center).norm());
+  return depth;
+}
+
+}  // namespace
+
+TEST(SurfaceContact, leaves_alone_what_is_farther_than_the_gap) {
+  Meeting meeting = pressed_balls(-0.001);
+  EXPECT_EQ(meeting.solve(3), 0);
+  EXPECT_EQ(meeting.particles[0].xyzw, meeting.start[0].xyzw);
+}
+
+TEST(SurfaceContact, pushes_two_balls_apart_equally_and_keeps_their_momentum) {
+  Meeting meeting = pressed_balls(0.001);
+  EXPECT_GT(deepest(meeting.particles[0], {0.019, 0.0003, 0.0002}), 0.0009);
+  meeting.solve(40);
+  EXPECT_EQ(meeting.solve(1), 0) << "nothing is left to push";
+  Vec3 first = Vec3::Zero();
+  for (Index p = 0; p < meeting.particles[0].count(); ++p)
+    first += (meeting.particles[0].position(p) - meeting.start[0].position(p)).cast<Real>();
+  EXPECT_LT(first.x(), -1e-3) << "the first ball gave way";
+  EXPECT_LT(momentum(meeting.particles, meeting.start).norm(), 1e-4 * first.norm());
+}
+
+TEST(SurfaceContact, moves_the_lighter_side_more) {
+  Meeting meeting = pressed_balls(0.0005, 1e-3);
+  meeting.solve(40);
+  Real light = 0, heavy = 0;
+  for (Index p = 0; p < meeting.particles[0].count(); ++p) {
+    light = std::max<Real>(light, (meeting.particles[0].position(p) - meeting.start[0].position(p)).norm());
+    heavy = std::max<Real>(heavy, (meeting.particles[1].position(p) - meeting.start[1].position(p)).norm());
+  }
+  EXPECT_GT(light, 0.0005);
+  EXPECT_LT(heavy, 0.01 * light);
+}
+
+TEST(SurfaceContact, never_moves_what_is_fixed) {
+  Meeting meeting = pressed_balls(0.0005, 0);
+  meeting.solve(40);
+  EXPECT_EQ(meeting.particles[1].xyzw, meeting.start[1].xyzw);
+  EXPECT_LT(meeting.unrest(), 1e-6);
+}
+
+TEST(SurfaceContact, a_pair_s_shift_carries_one_into_the_other_s_coordinates) {
+  Meeting meeting;
+  meeting.add(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  meeting.add(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  meeting.pair(0, 1, 0.0003f).shift = {-0.0195f, 0, 0};
+  EXPECT_GT(meeting.solve(1), 0);
+  meeting.solve(40);
+  EXPECT_LT(meeting.unrest(), 1e-6);
+}
+
+TEST(SurfaceContact, edges_that_cross_while_every_particle_is_outside_are_pushed_apart) {
+  // Two roofs, ridge over ridge: the lower's ridge lies along x, the upper's along y.
+  const auto roof = [](Real ridge, Real eaves, bool along_x) {
+    std::vector<Vec3> v = {{-0.02, 0, ridge},    {0.02, 0, ridge},     {-0.02, -0.01, eaves},
+                           {0.02, -0.01, eaves}, {-0.02, 0.01, eaves}, {0.02, 0.01, eaves}};
+    std::vector<Eigen::Vector3i> f = {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4},
+                                      {0, 4, 2}, {1, 3, 5}, {2, 4, 5}, {2, 5, 3}};
+    if (!along_x)
+      for (Vec3& p : v) p = Vec3(p.y(), p.x(), p.z());
+    // Mirrored once per swap and once per turning upside down.
+    if (along_x == (eaves > ridge))
+      for (Eigen::Vector3i& t : f) std::swap(t[0], t[1]);
+    return shapes::mesh_of(v, f);
+  };
+  Meeting meeting;
+  meeting.add(roof(0, -0.01, true));
+  meeting.add(roof(-0.0004, 0.01, false));
+  meeting.crowd.settings.reach = 0.03f;
+  meeting.pair(0, 1, 0.0002f);
+  const auto gap = [&] { return meeting.particles[1].position(0).z() - meeting.particles[0].position(0).z(); };
+  EXPECT_LT(gap(), 0);
+  EXPECT_GT(meeting.solve(1), 0);
+  meeting.solve(30);
+  EXPECT_GT(gap(), 0.00019f);
+}
+
+TEST(SurfaceContact, an_overlap_that_is_allowed_stays) {
+  Meeting meeting = pressed_balls(0.001);
+  meeting.crowd.pairs[0].first_gap.assign(meeting.crowd.pairs[0].first_gap.size(), -0.0011f);
+  meeting.crowd.pairs[0].second_gap.assign(meeting.crowd.pairs[0].second_gap.size(), -0.0011f);
+  EXPECT_EQ(meeting.solve(3), 0);
+}
+
+TEST(SurfaceContact, friction_holds_back_what_slides_and_nothing_else_does) {
+  const auto slid = [](float friction) {
+    Meeting meeting;
+    meeting.add(shapes::box({-0.02, -0.02, -0.02}, {0.02, 0.02, 0}), 0);
+    meeting.add(shapes::sphere({0, 0, 0.0099}, 0.01, 4));
+    meeting.pair(0, 1, 0.0002f);
+    meeting.crowd.settings.friction = friction;
+    meeting.start = meeting.particles;
+    for (Index p = 0; p < meeting.start[1].count(); ++p) meeting.start[1].position(p).x() -= 0.0001f;
+    Index lowest = 0;
+    for (Index p = 0; p < meeting.particles[1].count(); ++p)
+      if (meeting.particles[1].position(p).z() < meeting.particles[1].position(lowest).z()) lowest = p;
+    meeting.solve(1);
+    return meeting.particles[1].position(lowest).x() - meeting.start[1].position(lowest).x();
+  };
+  EXPECT_NEAR(slid(0), 0.0001f, 2e-6f);
+  EXPECT_NEAR(slid(10), 0, 2e-6f);
+  const float some = slid(0.1f);
+  EXPECT_GT(some, 0.00002f);
+  EXPECT_LT(some, 0.00009f);
+}
+
+TEST(SurfaceContact, cohesion_holds_together_what_touched_and_lets_it_slide) {
+  const auto parted = [](float cohesion, char touched) {
+    Meeting meeting;
+    meeting.add(shapes::box({-0.02, -0.02, -0.02}, {0.02, 0.02, 0}), 0);
+    meeting.add(shapes::sphere({0.003, 0, 0.013}, 0.01, 4));
+    SurfacePair& pair = meeting.pair(0, 1, 0.0002f);
+    pair.first_touches.assign(pair.first_touches.size(), touched);
+    Index lowest = 0;
+    for (Index p = 0; p < meeting.particles[1].count(); ++p)
+      if (meeting.particles[1].position(p).z() < meeting.particles[1].position(lowest).z()) lowest = p;
+    pair.second_touches[static_cast<std::size_t>(lowest)] = touched;
+    meeting.crowd.settings.cohesion = cohesion;
+    meeting.solve(30);
+    EXPECT_NEAR(meeting.particles[1].position(lowest).x(), 0.003f, 1e-6f);
+    return meeting.particles[1].position(lowest).z();
+  };
+  EXPECT_NEAR(parted(0, 1), 0.003f, 1e-6f);
+  EXPECT_NEAR(parted(0.001f, 0), 0.003f, 1e-6f);
+  EXPECT_NEAR(parted(0.001f, 1), 0.001f, 1e-6f);
+}
+
+TEST(SurfaceContact, of_a_muscle_with_itself_parts_the_legs_of_a_hairpin) {
+  // A straight tube, bent until its legs lie 1 mm in each other.
+  const Real radius = 0.003, length = 0.08, turn = 0.004, leg = (length - pi * turn) / 2;
+  TriangleMesh tube = shapes::cylinder(radius, length, 16, 60);
+  Meeting meeting;
+  meeting.add(tube);
+  meeting.pair(0, 0, 0.0002f);
+  const Real tilt = 0.1;
+  for (Index i = 0; i < tube.vertex_count(); ++i) {
+    const Vec3 p = tube.vertices.col(i);
+    const Real along = std::clamp(p.z() - leg, Real{0}, pi * turn) / turn, beyond = p.z() - leg - along * turn;
+    // The tube's x and z axes turn in their plane, y stays.
+    const Real angle = along + (p.z() > leg + pi * turn ? tilt : 0);
+    const Vec3 forward(std::sin(angle), 0, std::cos(angle)), side(std::cos(angle), 0, -std::sin(angle));
+    const Vec3 middle = Vec3(turn - turn * std::cos(along), 0, turn * std::sin(along)) + beyond * forward;
+    tube.vertices.col(i) = middle + p.x() * side + p.y() * Vec3::UnitY();
+  }
+  meeting.particles[0] = make_particles(tube.vertices, Eigen::VectorXd::Ones(tube.vertex_count()));
+  meeting.start = meeting.particles;
+  const auto last_depth = [&] {
+    Real depth = 0;
+    for (Index ring = 0; ring <= 10; ++ring)
+      for (Index i = 0; i < 16; ++i) {
+        // Against the other leg's axis, which is straight along z at x = 0 there.
+        const Vector3f p = meeting.particles[0].position((60 - ring) * 16 + i);
+        depth = std::max<Real>(depth, radius - std::hypot(p.x(), p.y()));
+      }
+    return depth;
+  };
+  EXPECT_GT(last_depth(), 0.0005);
+  EXPECT_GT(meeting.solve(1), 0);
+  for (int i = 0; i < 20; ++i) meeting.solve(5);
+  EXPECT_LT(meeting.unrest(), 1e-6);
+  EXPECT_LT(last_depth(), 1e-5);
+}
+
+TEST(SurfaceContact, a_sheet_at_rest_does_not_meet_its_own_back) {
+  Meeting meeting;
+  meeting.add(shapes::cylinder(0.02, 0.0004, 40, 1));
+  meeting.pair(0, 0, 0.0001f);
+  EXPECT_EQ(meeting.solve(3), 0);
+}
+
+TEST(SurfaceContact, a_sheet_pressed_through_itself_comes_back) {
+  Meeting meeting;
+  TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.01, 4);
+  ball.vertices.row(2) *= 0.1;
+  meeting.add(ball);
+  meeting.pair(0, 0, 0.0002f);
+  Index top = 0;
+  ball.vertices.row(2).maxCoeff(&top);
+  meeting.particles[0].position(top).z() = -0.0014f;
+  meeting.start = meeting.particles;
+  meeting.solve(30);
+  float back = 1;
+  for (Index p = 0; p < ball.vertex_count(); ++p)
+    if (ball.vertices(2, p) < 0 && ball.vertices.col(p).head<2>().norm() < 0.001)
+      back = std::min(back, meeting.particles[0].position(p).z());
+  EXPECT_GT(meeting.particles[0].position(top).z(), back) << "front over back again";
+}
+
+TEST(SurfaceContact, gives_the_same_bits_for_any_number_of_threads) {
+  std::vector<std::uint64_t> hashes;
+  for (int threads : {1, 2, 64}) {
+    const ThreadLimit limit(threads);
+    Meeting meeting;
+    meeting.add(shapes::sphere(Vec3::Zero(), 0.01, 5));
+    meeting.add(shapes::sphere({0.0192, 0, 0}, 0.01, 5));
+    meeting.add(shapes::sphere({0.0095, 0.0165, 0}, 0.01, 5));
+    for (Index a = 0; a < 3; ++a)
+      for (Index b = a; b < 3; ++b) meeting.pair(a, b, 0.0003f);
+    EXPECT_GT(meeting.solve(10), 0);
+    std::uint64_t hash = hash_seed;
+    for (const Particles& each : meeting.particles) hash = hash_of(each.xyzw, hash);
+    hashes.push_back(hash);
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(SurfaceContact, rounds_hold_no_surface_twice) {
+  Meeting meeting;
+  for (int i = 0; i < 4; ++i) meeting.add(shapes::sphere({0.1 * i, 0, 0}, 0.01, 2));
+  for (Index a = 0; a < 4; ++a)
+    for (Index b = a; b < 4; ++b) meeting.pair(a, b, 0);
+  arrange_rounds(meeting.crowd);
+  std::size_t listed = 0;
+  for (const std::vector<Index>& round : meeting.crowd.rounds) {
+    std::vector<int> used(4, 0);
+    for (Index i : round) {
+      const SurfacePair& pair = meeting.crowd.pairs[static_cast<std::size_t>(i)];
+      ++used[static_cast<std::size_t>(pair.first)];
+      if (!pair.is_self()) ++used[static_cast<std::size_t>(pair.second)];
+      ++listed;
+    }
+    for (int count : used) EXPECT_LE(count, 1);
+  }
+  EXPECT_EQ(listed, 10u);
+}
+
+}  // namespace gracilis
