@@ -427,8 +427,7 @@ TEST(Scenes, the_scenes_of_the_cadaver_hip_are_sound) {
   }
 }
 
-TEST(SceneReader, a_box_needs_no_file_and_a_press_moves_it_in_millimetres) {
-  const SceneFolder folder;
+TEST_F(SceneReader, a_box_needs_no_file_and_a_press_moves_it_in_millimetres) {
   const std::string text = R"(schema = 1
 [[bones]]
 name = "plate"

@@ -185,7 +185,7 @@ TEST_P(Method, a_coordinate_that_is_not_finite_is_an_error_that_names_the_muscle
 }
 
 TEST_P(Method, reports_every_muscle) {
-  const StepReport report = method->advance(at(0.1));
+  const StepReport report = method->advance(at(0.02));
   ASSERT_EQ(report.muscles.size(), scene.muscles.size());
   EXPECT_EQ(report.muscles[0].iterations, GetParam().xpbd.iterations * GetParam().xpbd.substeps);
   EXPECT_GT(report.muscles[0].milliseconds, 0);

@@ -147,6 +147,13 @@ struct Aim {
   Real ratio;
 };
 
+/// Its carriers' shares are linear along it.
+Scene tube_without_tendons() {
+  XpbdSettings settings;
+  settings.tendon_length = 0;
+  return tube_scene(settings);
+}
+
 std::vector<Aim> aims(const xpbd::PreparedMuscle& prepared, const Pose& pose) {
   const DistanceSet& edges = prepared.system.distances;
   AlignedVector<float> target(edges.a.size(), 0);
@@ -163,7 +170,7 @@ std::vector<Aim> aims(const xpbd::PreparedMuscle& prepared, const Pose& pose) {
 }  // namespace
 
 TEST(XpbdMotion, a_muscle_bent_about_its_middle_aims_at_a_shorter_front_and_a_longer_back) {
-  Scene scene = tube_scene();
+  Scene scene = tube_without_tendons();
   const Real axis = 0.0255, free_length = 0.144;  // of the tube; between the rings that are attached
   scene.joints[0].frame = Eigen::Translation3d(axis, 0, 0) * RigidTransform::Identity();
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
@@ -185,7 +192,7 @@ TEST(XpbdMotion, a_muscle_bent_about_its_middle_aims_at_a_shorter_front_and_a_lo
 }
 
 TEST(XpbdMotion, a_muscle_whose_ends_approach_aims_at_shorter_fibers_down_to_a_limit) {
-  const Scene scene = tube_scene();
+  const Scene scene = tube_without_tendons();
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
   for (const Real share : {0.8, 0.5, 0.2}) {
     Pose closer = flexed(scene, 0);
@@ -208,7 +215,7 @@ TEST(XpbdMotion, a_muscle_whose_ends_approach_aims_at_shorter_fibers_down_to_a_l
 }
 
 TEST(XpbdMotion, a_stretched_muscle_aims_at_a_longer_and_thinner_shape_of_its_own_volume) {
-  const Scene scene = tube_scene();
+  const Scene scene = tube_without_tendons();
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
   Pose farther = flexed(scene, 0);
   farther.bodies[1].translation().z() -= 0.5 * 0.144;
@@ -245,7 +252,7 @@ TEST(XpbdMotion, no_edge_aims_beyond_the_stretch_limit) {
 }
 
 TEST(XpbdMotion, edges_aim_at_their_lengths_at_rest_in_the_capture_pose_and_when_all_bodies_move_alike) {
-  const Scene scene = tube_scene();
+  const Scene scene = tube_without_tendons();
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
   Pose pose = flexed(scene, 0);
   const RigidTransform moved = Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(2, Vec3(1, 2, 2) / 3);
@@ -327,9 +334,9 @@ TEST(Xpbd, a_muscle_told_to_slide_on_a_bone_does_not_lift_off) {
   const auto farthest_from_the_bone = [](const XpbdSettings& settings) {
     const Scene scene = tube_scene(settings);
     const auto method = xpbd_on_tube(scene);
-    // Drawing the bones apart stretches the muscle, turning the lower one forwards lifts it off the upper.
-    for (int degree = 1; degree <= 30; ++degree) method->advance(flexed(scene, -radians(degree)));
-    const Frame frame = frame_of(*method, flexed(scene, -radians(30)), 30);
+    // The lower bone turns forwards and takes the muscle away from the upper.
+    for (int degree = 1; degree <= 30; ++degree) method->advance(flexed(scene, radians(degree)));
+    const Frame frame = frame_of(*method, flexed(scene, radians(30)), 30);
     Real farthest = 0;
     for (Index v = 0; v < scene.muscles[0].surface.vertex_count(); ++v) {
       const Eigen::Vector3f rest = scene.muscles[0].surface.vertices.col(v).cast<float>();

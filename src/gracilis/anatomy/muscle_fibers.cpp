@@ -23,8 +23,14 @@ static Polylines prepared(const Polylines& given, const Muscle& muscle) {
   return join(lines);
 }
 
+static bool has_end(const Muscle& muscle, AttachmentEnd end) {
+  return std::any_of(muscle.attachments.begin(), muscle.attachments.end(),
+                     [&](const Attachment& attachment) { return attachment.end == end; });
+}
+
 Polylines fibers_of(const Muscle& muscle) {
   if (muscle.fibers.count == 0) return {};
+  if (!has_end(muscle, AttachmentEnd::origin) || !has_end(muscle, AttachmentEnd::insertion)) return {};
   if (muscle.given_fibers.count() == 0) return inner_fibers(muscle);
   if (muscle.given_are_superficial) return filled_between(muscle, muscle.given_fibers);
   return prepared(muscle.given_fibers, muscle);

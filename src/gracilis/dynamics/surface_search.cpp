@@ -11,6 +11,8 @@ namespace {
 constexpr Index chunk = 256;
 /// What comes nearer than this beyond its gap is projected until the next look (m).
 constexpr float listed_within = 0.0015f;
+/// Parts of a surface that lie back to back farther apart than this at rest, in neighborhoods, meet from outside.
+constexpr float thickest_sheet = 2;
 
 using Box = Eigen::AlignedBox3f;
 
@@ -59,15 +61,19 @@ struct SelfRule {
     const Eigen::Vector3f facing = normals.col(corners[0]) + normals.col(corners[1]) + normals.col(corners[2]);
     // Parts that face the same way lie side by side.
     if (facing.dot(normals.col(particle)) >= 0) return 0;
-    const Eigen::Vector3f away =
-        (rest.col(corners[0]) + rest.col(corners[1]) + rest.col(corners[2])) / 3 - rest.col(particle);
+    Eigen::Vector3f away = rest.col(corners[0]) - rest.col(particle);  // to the nearest corner
+    for (const Index corner : {corners[1], corners[2]}) {
+      const Eigen::Vector3f other = rest.col(corner) - rest.col(particle);
+      if (other.squaredNorm() < away.squaredNorm()) away = other;
+    }
     const Eigen::Vector3f rest_facing =
         rest_normals.col(corners[0]) + rest_normals.col(corners[1]) + rest_normals.col(corners[2]);
     const auto own = rest_normals.col(particle);
-    const bool through = away.dot(own) < 0 && away.dot(rest_facing) > 0;
+    const float neighborhoods = away.norm() / neighborhood;
+    const bool through = away.dot(own) < 0 && away.dot(rest_facing) > 0 && neighborhoods < thickest_sheet;
     const bool alike = rest_facing.dot(own) > 1.5f;
     if (through && !alike) return -1;
-    return away.squaredNorm() > neighborhood * neighborhood ? 1.0f : 0.0f;
+    return neighborhoods > 1 ? 1.0f : 0.0f;
   }
 };
 

@@ -37,7 +37,7 @@ std::string fiber_lengths_row(const Pose& pose, const std::vector<MuscleFibers>&
   return row + "\n";
 }
 
-void truncate_fiber_lengths(const std::filesystem::path& path, int rows) {
+void truncate_fiber_lengths(const std::filesystem::path& path, int rows, int announced) {
   if (!std::filesystem::exists(path)) return;
   const std::string text = read_text(path);
   const std::size_t end = text.find("endheader\n"), labels = text.find('\n', end + 10);
@@ -54,7 +54,7 @@ void truncate_fiber_lengths(const std::filesystem::path& path, int rows) {
   }
   std::string head = text.substr(0, labels + 1);
   const std::size_t count = head.find("nRows="), after = head.find('\n', count);
-  if (count < after && after != std::string::npos) head.replace(count, after - count, fmt::format("nRows={}", kept));
+  if (count < after && after != std::string::npos) head.replace(count, after - count, fmt::format("nRows={}", announced));
   write_text_atomically(path, head + text.substr(labels + 1, last - labels - 1));
 }
 

@@ -17,8 +17,8 @@ std::string fiber_lengths_head(const Scene& scene, const std::vector<MuscleFiber
 /// One row of that table.
 std::string fiber_lengths_row(const Pose& pose, const std::vector<MuscleFibers>& fibers);
 
-/// Drops all rows but the first `rows` and makes the head say so. Does nothing when there is no file.
-void truncate_fiber_lengths(const std::filesystem::path& path, int rows);
+/// Drops all rows but the first `rows`; the head then announces `announced`. Does nothing when there is no file.
+void truncate_fiber_lengths(const std::filesystem::path& path, int rows, int announced);
 
 /// RUN/fibers/<muscle>_<number as four digits>.vtp
 std::filesystem::path fiber_file(const std::filesystem::path& folder, const std::string& muscle, int number);

@@ -111,7 +111,7 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
   remove_frames_from(folder_ / "frames", frame_count_);
   remove_frames_from(folder_ / "fibers", frame_count_);
   truncate_measures(folder_ / "measures.csv", frame_count_);
-  truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_);
+  truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_, static_cast<int>(poses_.size()));
   if (frame_count_ == 0) {
     fs::remove(folder_ / "measures.csv");
     fs::remove(folder_ / "fiber_lengths.sto");
@@ -181,7 +181,7 @@ void RunFolder::finish() {
   if (indexed_frames_ != frame_count_) write_index();
   // Until now the head announced all rows to come.
   if (frame_count_ < static_cast<int>(poses_.size())) {
-    truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_);
+    truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_, frame_count_);
   }
 }
 

@@ -58,6 +58,9 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"tendon_length", &S::tendon_length, "m", 0, 1,
        "Distance from the attachments over which the surface is graded from tendon to belly, so that the bones' motion "
        "stretches the belly and not the triangles beside an attachment; 0 grades nothing."},
+      {"step_turn", &S::step_turn, "rad", 0, 3.2,
+       "Largest turn of the muscle's bones against each other that is taken in one step; frames that turn them further "
+       "are divided. 0 never divides."},
       {"shape_recovery", &S::shape_recovery, "", 0, 1,
        "Share of its displacement from the carried rest shape that the predictor takes back in each frame."},
       {"hinge_limit", &S::hinge_limit, "", 0, 10,

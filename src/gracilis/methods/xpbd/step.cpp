@@ -17,10 +17,12 @@ void take_velocities(float time_step, SurfaceState& state) {
 
 namespace {
 
+/// `substeps` of all in this frame. In quasi-static mode those that the size of the motion asks for have no shorter
+/// time, because they stand for frames.
 SolveSettings solve_settings(const XpbdSettings& settings, int substeps) {
   SolveSettings solve;
   solve.iterations = settings.iterations;
-  solve.time_step = settings.time_step / substeps;
+  solve.time_step = settings.time_step / (settings.time_mode == TimeMode::dynamic ? substeps : settings.substeps);
   solve.projection.time_step =
       static_cast<float>(settings.constraint_time_step > 0 ? settings.constraint_time_step : solve.time_step);
   solve.projection.rayleigh_beta = static_cast<float>(settings.rayleigh_beta);
@@ -48,6 +50,21 @@ Real farthest(const Particles& from, const Particles& to) {
   for (Index p = 0; p < to.count(); ++p)
     largest2 = std::max(largest2, (to.position(p) - from.position(p)).squaredNorm());
   return static_cast<Real>(std::sqrt(largest2));
+}
+
+/// Into how many steps the settings and the turn of the muscle's bones against each other divide a frame.
+int substeps_of(const PreparedMuscle& muscle, const Pose& before, const Pose& now) {
+  const XpbdSettings& settings = muscle.settings;
+  Real turn = 0;
+  const auto relative = [&](const Pose& pose, Index body) -> Eigen::Matrix3d {
+    return pose.bodies[static_cast<std::size_t>(muscle.carriers.front())].linear().transpose() *
+           pose.bodies[static_cast<std::size_t>(body)].linear();
+  };
+  for (Index body : muscle.carriers)
+    turn = std::max(turn, Eigen::AngleAxisd(relative(before, body).transpose() * relative(now, body)).angle());
+  if (!(settings.step_turn > 0) || !std::isfinite(turn)) return settings.substeps;
+  constexpr Real rounding = 1e-6;
+  return settings.substeps * std::max(1, static_cast<int>(std::ceil(turn / settings.step_turn - rounding)));
 }
 
 /// Where the bodies are `share` of the way from one pose to the next, for substeps.
@@ -168,7 +185,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const SurfaceCrowd& c
 void advance_together(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& crowd_state,
                       const Pose& before, const Pose& now) {
   int substeps = 1;
-  for (const MuscleStep& step : steps) substeps = std::max(substeps, step.muscle->settings.substeps);
+  for (const MuscleStep& step : steps) substeps = std::max(substeps, substeps_of(*step.muscle, before, now));
   Pose reached = before;
   for (int substep = 1; substep <= substeps; ++substep) {
     const Pose pose = pose_between(before, now, static_cast<Real>(substep) / substeps);
