@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace gracilis {
@@ -52,44 +53,43 @@ std::vector<Vec3> dense_samples(const Muscle& muscle, AttachmentEnd end, Index c
   return samples;
 }
 
+/// One sample for each of `count` parts of equal size, halved across their longer way: the nearest to the part's
+/// middle.
+void take_from_parts(std::span<Vec3> samples, Index count, std::vector<Vec3>& taken) {
+  Vec3 mean = Vec3::Zero(), low = samples.front(), high = samples.front();
+  for (const Vec3& sample : samples) {
+    mean += sample / static_cast<Real>(samples.size());
+    low = low.cwiseMin(sample), high = high.cwiseMax(sample);
+  }
+  if (count == 1) {
+    taken.push_back(*std::min_element(samples.begin(), samples.end(), [&](const Vec3& a, const Vec3& b) {
+      return (a - mean).squaredNorm() < (b - mean).squaredNorm();
+    }));
+    return;
+  }
+  Index axis = 0;
+  (high - low).maxCoeff(&axis);
+  const Index first = count / 2;
+  const std::size_t size = samples.size() * static_cast<std::size_t>(first) / static_cast<std::size_t>(count);
+  std::sort(samples.begin(), samples.end(), [&](const Vec3& a, const Vec3& b) { return a[axis] < b[axis]; });
+  take_from_parts(samples.first(size), first, taken);
+  take_from_parts(samples.subspan(size), count - first, taken);
+}
+
 }  // namespace
 
 Points attachment_samples(const Muscle& muscle, AttachmentEnd end, Index count) {
-  constexpr int rounds = 15, dense = 20;
-  const std::vector<Vec3> samples = dense_samples(muscle, end, dense * count);
+  constexpr Index dense = 20;
+  std::vector<Vec3> samples = dense_samples(muscle, end, dense * count);
   if (samples.empty() || count == 0) return Points(3, 0);
-  Points centers(3, count);
-  const auto size = static_cast<Index>(samples.size());
-  for (Index i = 0; i < count; ++i)
-    centers.col(i) = samples[static_cast<std::size_t>((static_cast<long>(2 * i + 1) * size / (2 * count)) % size)];
-  if (size <= count) return centers;
-
-  for (int round = 0; round < rounds; ++round) {
-    Points sums = Points::Zero(3, count);
-    Eigen::VectorXd counts = Eigen::VectorXd::Zero(count);
-    for (const Vec3& sample : samples) {
-      Index nearest = 0;
-      (centers.colwise() - sample).colwise().squaredNorm().minCoeff(&nearest);
-      sums.col(nearest) += sample;
-      counts[nearest] += 1;
-    }
-    for (Index i = 0; i < count; ++i)
-      if (counts[i] > 0) centers.col(i) = sums.col(i) / counts[i];
-  }
-  // Means of points on a curved surface lie off it: take the nearest sample, each once.
-  std::vector<char> taken(samples.size(), 0);
-  for (Index i = 0; i < count; ++i) {
-    std::size_t best = samples.size();
-    for (std::size_t s = 0; s < samples.size(); ++s) {
-      if (taken[s]) continue;
-      if (best == samples.size() ||
-          (samples[s] - centers.col(i)).squaredNorm() < (samples[best] - centers.col(i)).squaredNorm())
-        best = s;
-    }
-    taken[best] = 1;
-    centers.col(i) = samples[best];
-  }
-  return centers;
+  // Vertices instead of areas may be fewer than the points asked for.
+  const std::size_t given = samples.size();
+  while (samples.size() < static_cast<std::size_t>(count)) samples.push_back(samples[samples.size() - given]);
+  std::vector<Vec3> taken;
+  take_from_parts(samples, count, taken);
+  Points points(3, count);
+  for (Index i = 0; i < count; ++i) points.col(i) = taken[static_cast<std::size_t>(i)];
+  return points;
 }
 
 Vec3 attachment_center(const Muscle& muscle, AttachmentEnd end) {
