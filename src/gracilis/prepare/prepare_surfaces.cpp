@@ -19,7 +19,7 @@ using Say = std::function<void(const std::string&)>;
 
 constexpr Real sharpest_turn = radians(80);
 constexpr Real farthest_rounding = 0.0012;  ///< m
-constexpr Real thinnest_radius = 0.6;       ///< of an edge: about four go around
+constexpr Real thinnest_radius = 0.45;      ///< of an edge: about three go around
 constexpr int passes = 3;
 constexpr Real told_displacement = 0.0001;  ///< m; less is how triangles approximate a curved surface
 

@@ -49,7 +49,7 @@ struct PreparedSurfaces {
 };
 
 /// Changes whenever the same input gives another result, so that what older versions made is not taken for it.
-inline constexpr int preparation_version = 2;
+inline constexpr int preparation_version = 3;
 
 /// Prepares muscles that lie among bones, which stay as they are; says on `say` what it does.
 using PrepareFunction = std::function<PreparedSurfaces(
