@@ -29,21 +29,31 @@ struct BenchmarkHip {
   }
 };
 
-inline Scene benchmark_scene() {
-  const std::filesystem::path file =
-      std::filesystem::path(GRACILIS_SOURCE_DIR) / "scenes" / "lhdl_hip" / "flexion.toml";
-  const std::filesystem::path data = find_data_root(file, {});
-  if (data.empty() || !std::filesystem::is_directory(data / "lhdl-hip")) return builtin_hip();
-  return read_scene(file, {data, {}, {}}).scene;
+inline std::filesystem::path cadaver_scene_file() {
+  return std::filesystem::path(GRACILIS_SOURCE_DIR) / "scenes" / "lhdl_hip" / "flexion.toml";
+}
+
+inline bool cadaver_is_there() {
+  const std::filesystem::path data = find_data_root(cadaver_scene_file(), {});
+  return !data.empty() && std::filesystem::is_directory(data / "lhdl-hip");
+}
+
+inline BenchmarkHip with_fields(Scene scene) {
+  BenchmarkHip hip{std::move(scene), {}};
+  for (const Bone& bone : hip.scene.bones)
+    hip.fields.push_back(cached_bone_field(bone, hip.scene.distance_fields, default_cache_folder()));
+  return hip;
+}
+
+inline const BenchmarkHip& builtin_benchmark_hip() {
+  static const BenchmarkHip hip = with_fields(builtin_hip());
+  return hip;
 }
 
 inline const BenchmarkHip& benchmark_hip() {
-  static const BenchmarkHip hip = [] {
-    BenchmarkHip h{benchmark_scene(), {}};
-    for (const Bone& bone : h.scene.bones)
-      h.fields.push_back(cached_bone_field(bone, h.scene.distance_fields, default_cache_folder()));
-    return h;
-  }();
+  if (!cadaver_is_there()) return builtin_benchmark_hip();
+  static const BenchmarkHip hip =
+      with_fields(read_scene(cadaver_scene_file(), {find_data_root(cadaver_scene_file(), {}), {}, {}}).scene);
   return hip;
 }
 

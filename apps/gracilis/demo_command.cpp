@@ -4,6 +4,7 @@
 #include <gracilis/anatomy/builtin_hip.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/scene/presets.hpp>
+#include <gracilis/scene/setting_table.hpp>
 
 #include <memory>
 
@@ -18,7 +19,7 @@ static void apply_preset(const Preset& preset, Scene& scene) {
 void add_demo_command(CLI::App& program, const std::vector<std::string>& words, Command& chosen) {
   CLI::App* command = program.add_subcommand("demo", "Flex the built-in hip by 90 degrees; no file needed");
   struct Options {
-    std::string preset = "physical";
+    std::string preset = "physical", contact;
     SessionOptions session;
   };
   const auto options = std::make_shared<Options>();
@@ -27,6 +28,10 @@ void add_demo_command(CLI::App& program, const std::vector<std::string>& words, 
   command
       ->add_option("--preset", options->preset, "Settings to use: the default or, to compare with, the published ones")
       ->check(CLI::IsMember(names));
+  command
+      ->add_option("--contact", options->contact,
+                   "How muscles keep out of each other: surface, virtual-edges or none (default: as the preset says)")
+      ->check(CLI::IsMember({"none", "surface", "virtual-edges"}));
   add_session_options(*command, options->session);
   options->session.command = words;
   command->callback([&chosen, options] {
@@ -35,6 +40,8 @@ void add_demo_command(CLI::App& program, const std::vector<std::string>& words, 
       loaded.scene = builtin_hip();
       loaded.preset = options->preset;
       if (loaded.preset != "physical") apply_preset(*find_preset(loaded.preset), loaded.scene);
+      if (!options->contact.empty())
+        assign(loaded.scene.contact, *find_setting<ContactSettings>("muscle"), options->contact);
       loaded.warnings = warnings_about(loaded.scene);
       return run_session(loaded, options->session);
     };

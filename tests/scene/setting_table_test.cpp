@@ -48,12 +48,14 @@ TEST(SettingTable, every_entry_has_a_key_of_its_own_a_meaning_and_a_default_with
   every_entry_is_complete<XpbdSettings>();
   every_entry_is_complete<DistanceFieldSettings>();
   every_entry_is_complete<Sequence>();
+  every_entry_is_complete<ContactSettings>();
 }
 
 TEST(SettingTable, no_member_of_the_structs_is_forgotten) {
   EXPECT_EQ(setting_table<XpbdSettings>().size(), member_count<XpbdSettings>());
   EXPECT_EQ(setting_table<DistanceFieldSettings>().size(), member_count<DistanceFieldSettings>());
   EXPECT_EQ(setting_table<Sequence>().size(), member_count<Sequence>());
+  EXPECT_EQ(setting_table<ContactSettings>().size(), member_count<ContactSettings>());
 }
 
 TEST(SettingTable, a_value_of_the_right_kind_within_its_range_is_assigned) {
@@ -107,6 +109,10 @@ TEST(Presets, the_published_preset_switches_off_what_this_project_added) {
   EXPECT_FALSE(preset->xpbd.predictor || preset->xpbd.edge_contact || preset->xpbd.slack_uptake);
   EXPECT_EQ(preset->xpbd.hinge_limit, 0);
   EXPECT_EQ(preset->distance_fields.resolution, 128);
+  EXPECT_EQ(preset->contact.muscle, MuscleContact::virtual_edges);
+  EXPECT_EQ(preset->contact.contact_distance, 0.002);
+  EXPECT_EQ(preset->contact.seed_reach, 0.02);
+  EXPECT_EQ(preset->contact.update_period, 5);
 }
 
 TEST(Presets, every_preset_lies_within_the_ranges_of_the_table) {

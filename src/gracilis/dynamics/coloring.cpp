@@ -1,6 +1,7 @@
 #include <gracilis/dynamics/coloring.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace gracilis {
 
@@ -101,6 +102,19 @@ std::vector<Index> color_constraints(const ConstraintGraph& graph) {
     colors[static_cast<std::size_t>(c)] = color;
   }
   return colors;
+}
+
+std::vector<std::vector<Index>> rounds_of(const std::vector<std::array<Index, 2>>& pairs) {
+  std::vector<std::vector<Index>> rounds;
+  std::vector<std::set<Index>> taken;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    std::size_t round = 0;
+    while (round < taken.size() && (taken[round].count(pairs[i][0]) || taken[round].count(pairs[i][1]))) ++round;
+    if (round == taken.size()) taken.emplace_back(), rounds.emplace_back();
+    taken[round].insert({pairs[i][0], pairs[i][1]});
+    rounds[round].push_back(static_cast<Index>(i));
+  }
+  return rounds;
 }
 
 }  // namespace gracilis

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/types.hpp>
 
+#include <array>
 #include <vector>
 
 namespace gracilis {
@@ -20,5 +21,9 @@ struct ConstraintGraph {
 /// smallest-last order (Matula and Beck 1983), which needs at most one color more than the graph's degeneracy.
 /// Deterministic.
 std::vector<Index> color_constraints(const ConstraintGraph& graph);
+
+/// Groups pairs of surfaces (a surface may be paired with itself) into rounds in which no surface stands twice, each
+/// pair into the first round that is free for it.
+std::vector<std::vector<Index>> rounds_of(const std::vector<std::array<Index, 2>>& pairs);
 
 }  // namespace gracilis

@@ -1,6 +1,7 @@
 #include <gracilis/dynamics/surface_contact.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/coloring.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -145,19 +146,9 @@ Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const Cr
 }  // namespace
 
 void arrange_rounds(SurfaceCrowd& crowd) {
-  crowd.rounds.clear();
-  std::vector<std::vector<char>> taken;
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
-    const auto a = static_cast<std::size_t>(crowd.pairs[i].first), b = static_cast<std::size_t>(crowd.pairs[i].second);
-    std::size_t round = 0;
-    while (round < taken.size() && (taken[round][a] || taken[round][b])) ++round;
-    if (round == taken.size()) {
-      taken.emplace_back(crowd.surfaces.size(), 0);
-      crowd.rounds.emplace_back();
-    }
-    taken[round][a] = taken[round][b] = 1;
-    crowd.rounds[round].push_back(static_cast<Index>(i));
-  }
+  std::vector<std::array<Index, 2>> pairs;
+  for (const SurfacePair& pair : crowd.pairs) pairs.push_back({pair.first, pair.second});
+  crowd.rounds = rounds_of(pairs);
 }
 
 Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,

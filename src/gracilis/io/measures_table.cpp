@@ -23,7 +23,8 @@ std::string measures_header(const Scene& scene) {
          ",muscle,volume_ratio,edge_ratio_mean,edge_ratio_max,edge_ratio_max_free,dihedral_change_mean_deg,"
          "dihedral_change_max_deg,hinges_over_90,vertex_depth_mm,vertex_depth_beyond_rest_mm,"
          "midpoint_depth_beyond_rest_mm,iterations,largest_correction_mm,contacts,limited_hinges,skipped_constraints,"
-         "milliseconds,activation,fiber_strain_mean,cross_section_cm2,physiological_cross_section_cm2\n";
+         "milliseconds,activation,fiber_strain_mean,cross_section_cm2,physiological_cross_section_cm2,"
+         "virtual_edges,virtual_pushes,coinciding_edges\n";
 }
 
 static std::string row_end(const MuscleMeasures& m, const MuscleReport& r) {
@@ -55,7 +56,8 @@ std::string measures_rows(const Scene& scene, const FrameRecord& record) {
     const MuscleFibers fibers = i < record.fibers.size() ? record.fibers[i] : MuscleFibers{};
     const std::vector<Real>& activations = record.frame.pose.activations;
     rows += begin + "," + scene.muscles[i].name + row_end(measures, report) +
-            fiber_cells(i < activations.size() ? activations[i] : 0, fibers) + "\n";
+            fiber_cells(i < activations.size() ? activations[i] : 0, fibers) +
+            fmt::format(",{},{},{}\n", report.virtual_edges, report.virtual_pushes, report.coinciding_edges);
   }
   return rows;
 }

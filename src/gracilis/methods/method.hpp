@@ -16,6 +16,9 @@ struct MuscleReport {
   Index limited_hinges = 0;       ///< hinge projections held back, over all iterations
   Index limited_edges = 0;        ///< edges held at the stretch limit, over all iterations
   Index skipped_constraints = 0;  ///< projections without a usable gradient, over all iterations
+  Index virtual_edges = 0;        ///< between this muscle and others; 0 where contact is not by virtual edges
+  Index virtual_pushes = 0;       ///< of these, pushed apart in the last iteration
+  Index coinciding_edges = 0;     ///< of these, on the same vertices as another at the end
   Real milliseconds = 0;
 };
 

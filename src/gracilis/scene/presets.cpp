@@ -38,7 +38,16 @@ static Preset thesis_2024() {
   preset.distance_fields.resolution = 128;
   preset.distance_fields.domain_margin = 0;
   preset.distance_fields.domain_factor = 1.5;
-  preset.contact.muscle = MuscleContact::none;
+  preset.contact.muscle = MuscleContact::virtual_edges;
+  preset.contact.self = false;
+  preset.contact.seed_reach = 0.02;
+  preset.contact.update_period = 5;
+  preset.contact.walk_steps = 100;
+  preset.contact.contact_distance = 0.002;
+  preset.contact.adaptive_distance = false;
+  preset.contact.resolution = VirtualEdgeResolution::vector_sum;
+  preset.contact.reset_edges = false;
+  preset.contact.coinciding_edges = CoincidingEdges::keep;
   return preset;
 }
 

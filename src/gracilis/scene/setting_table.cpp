@@ -126,10 +126,28 @@ std::span<const Setting<ContactSettings>> setting_table() {
        "published, 'none' not at all."},
       {"self", &S::self, "", 0, 0, "A muscle keeps out of itself; with 'surface' only."},
       {"margin", &S::margin, "m", 0, 0.1, "Gap kept between muscles where the gap at rest allows."},
-      {"reach", &S::reach, "m", 0, 0.1, "Farthest that another muscle is looked for, once per step."},
+      {"reach", &S::reach, "m", 0, 0.1, "Farthest that another muscle is looked for, once per step; with 'surface' only."},
       {"friction", &S::friction, "", 0, 10, "Coulomb's coefficient of friction between muscles."},
       {"cohesion", &S::cohesion, "m", 0, 0.1,
        "Farthest that parts of muscles which touch in the capture pose may part; 0 lets them."},
+      {"seed_reach", &S::seed_reach, "m", 0, 1,
+       "Virtual edges: longest that one may be where it is seeded, from each vertex of one muscle to the nearest of "
+       "another."},
+      {"update_period", &S::update_period, "", 1, 100000, "Virtual edges: frames after which they are seeded anew."},
+      {"walk_steps", &S::walk_steps, "", 1, 100000,
+       "Virtual edges: most steps of a walk over neighboring vertices to a shorter edge."},
+      {"contact_distance", &S::contact_distance, "m", 0, 0.1,
+       "Virtual edges: distance to which the ends of a shorter one are pushed apart."},
+      {"adaptive_distance", &S::adaptive_distance, "", 0, 0,
+       "Virtual edges: raises the contact distance to what the ends came nearer in the step, at most to seed_reach."},
+      {"resolution", &S::resolution, "", 0, 0,
+       "Virtual edges: ends are pushed apart along the line between them ('push'), or leaned toward where they were before "
+       "the step, as much as along the line ('unit_sum') or the more the farther they came ('vector_sum')."},
+      {"reset_edges", &S::reset_edges, "", 0, 0,
+       "Virtual edges: walks begin at the seeds in every iteration instead of where the last one ended."},
+      {"coinciding_edges", &S::coinciding_edges, "", 0, 0,
+       "Virtual edges: those that end a frame on the same vertices are left ('keep'), left out until the next seeding "
+       "('drop'), or begin again at a random seed ('reseed')."},
   };
   return table;
 }

@@ -24,7 +24,8 @@ template <class Settings>
 struct Setting {
   using Member = std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*,
                               std::string Settings::*, TimeMode Settings::*, DihedralFormula Settings::*,
-                              FiberTemplate Settings::*, MuscleContact Settings::*, TunnellingGuard Settings::*>;
+                              FiberTemplate Settings::*, MuscleContact Settings::*, TunnellingGuard Settings::*,
+                              VirtualEdgeResolution Settings::*, CoincidingEdges Settings::*>;
   std::string_view key;
   Member member;
   std::string_view unit;  ///< empty for numbers without one and for switches

@@ -15,6 +15,10 @@ static constexpr std::array<std::string_view, 4> choices_of(FiberTemplate) {
 static constexpr std::array<std::string_view, 3> choices_of(MuscleContact) {
   return {"none", "surface", "virtual-edges"};
 }
+static constexpr std::array<std::string_view, 3> choices_of(VirtualEdgeResolution) {
+  return {"push", "unit_sum", "vector_sum"};
+}
+static constexpr std::array<std::string_view, 3> choices_of(CoincidingEdges) { return {"keep", "drop", "reseed"}; }
 static constexpr std::array<std::string_view, 3> choices_of(TunnellingGuard) {
   return {"none", "turned_direction", "kept_path"};
 }

@@ -66,6 +66,13 @@ struct XpbdSettings {
 /// of vertices.
 enum class MuscleContact { none, surface, virtual_edges };
 
+/// Along which line the ends of a virtual edge are pushed apart: their own (the plain push), or leaned toward where they
+/// were before, by unit vectors or by vectors as they are (Havlíček 2024, Eqs. 5.2 and 5.3).
+enum class VirtualEdgeResolution { push, unit_sum, vector_sum };
+
+/// What becomes of a virtual edge that ended on the same two vertices as another.
+enum class CoincidingEdges { keep, drop, reseed };
+
 /// Settings of contact between muscles and of a muscle with itself, for all muscles of a scene.
 struct ContactSettings {
   MuscleContact muscle = MuscleContact::surface;
@@ -74,6 +81,16 @@ struct ContactSettings {
   Real reach = 0.006;         ///< m, farthest that another muscle is looked for
   Real friction = 0;          ///< Coulomb's coefficient
   Real cohesion = 0;          ///< m, farthest that what touches at rest may part; 0: as it likes
+
+  // Virtual edges only
+  Real seed_reach = 0.02;         ///< m, longest that an edge may be where it is seeded
+  int update_period = 5;          ///< frames between two seedings
+  int walk_steps = 100;           ///< of one walk at most
+  Real contact_distance = 0.002;  ///< m, kept between vertices of different muscles
+  bool adaptive_distance = false; ///< raise it to what the ends came nearer in the step
+  VirtualEdgeResolution resolution = VirtualEdgeResolution::vector_sum;
+  bool reset_edges = false;       ///< walks begin at the seeds in every iteration, not where the last ended
+  CoincidingEdges coinciding_edges = CoincidingEdges::keep;
 };
 
 /// Settings of the distance fields of all bones.

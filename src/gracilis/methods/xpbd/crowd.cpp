@@ -1,5 +1,8 @@
 #include <gracilis/methods/xpbd/crowd.hpp>
 
+#include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/geometry/topology.hpp>
+
 #include <algorithm>
 
 namespace gracilis::xpbd {
@@ -58,11 +61,8 @@ void measure_gaps(const std::vector<PointTouch>& near, const Particles& probe, c
   }
 }
 
-}  // namespace
-
-SurfaceCrowd prepare_crowd(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
+SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
   SurfaceCrowd crowd;
-  if (settings.muscle != MuscleContact::surface) return crowd;
   const auto margin = static_cast<float>(settings.margin);
   crowd.settings.reach = static_cast<float>(settings.reach);
   crowd.settings.friction = static_cast<float>(settings.friction);
@@ -78,7 +78,7 @@ SurfaceCrowd prepare_crowd(const ContactSettings& settings, const std::vector<Pr
       crowd.pairs.push_back(pair_of(first, second, muscles, margin));
   arrange_rounds(crowd);
 
-  CrowdState state = make_crowd_state(crowd);
+  CrowdState state = gracilis::make_crowd_state(crowd);
   find_touches(crowd, rest, state);
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
     SurfacePair& pair = crowd.pairs[i];
@@ -90,6 +90,66 @@ SurfaceCrowd prepare_crowd(const ContactSettings& settings, const std::vector<Pr
     if (pair.is_self()) pair.second_gap = pair.first_gap;
   }
   return crowd;
+}
+
+EdgeResolution resolution_of(VirtualEdgeResolution resolution) {
+  switch (resolution) {
+    case VirtualEdgeResolution::push:
+      return EdgeResolution::push;
+    case VirtualEdgeResolution::unit_sum:
+      return EdgeResolution::unit_sum;
+    case VirtualEdgeResolution::vector_sum:
+      break;
+  }
+  return EdgeResolution::vector_sum;
+}
+
+CoincidingEdgeRule rule_of(CoincidingEdges rule) {
+  switch (rule) {
+    case CoincidingEdges::drop:
+      return CoincidingEdgeRule::drop;
+    case CoincidingEdges::reseed:
+      return CoincidingEdgeRule::reseed;
+    case CoincidingEdges::keep:
+      break;
+  }
+  return CoincidingEdgeRule::keep;
+}
+
+VirtualEdgeCrowd edges_of(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
+  VirtualEdgeCrowd crowd;
+  crowd.settings.reach = static_cast<float>(settings.seed_reach);
+  crowd.settings.distance = static_cast<float>(settings.contact_distance);
+  crowd.settings.adaptive = settings.adaptive_distance;
+  crowd.settings.walk_steps = settings.walk_steps;
+  crowd.settings.update_period = settings.update_period;
+  crowd.settings.resolution = resolution_of(settings.resolution);
+  crowd.settings.reset = settings.reset_edges;
+  crowd.settings.coinciding = rule_of(settings.coinciding_edges);
+  std::vector<std::array<Index, 2>> pairs;
+  for (std::size_t first = 0; first < muscles.size(); ++first) {
+    crowd.stars.push_back(build_topology(muscles[first].faces, muscles[first].system.rest.count()).stars);
+    for (std::size_t second = first + 1; second < muscles.size(); ++second) {
+      const Eigen::Vector3f shift = (muscles[first].origin - muscles[second].origin).cast<float>();
+      crowd.pairs.push_back({static_cast<Index>(first), static_cast<Index>(second), shift});
+      pairs.push_back({crowd.pairs.back().first, crowd.pairs.back().second});
+    }
+  }
+  crowd.rounds = rounds_of(pairs);
+  return crowd;
+}
+
+}  // namespace
+
+MuscleCrowd prepare_crowd(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
+  MuscleCrowd crowd;
+  if (settings.muscle == MuscleContact::surface) crowd.surfaces = surfaces_of(settings, muscles);
+  if (settings.muscle == MuscleContact::virtual_edges) crowd.edges = edges_of(settings, muscles);
+  return crowd;
+}
+
+MuscleCrowdState make_crowd_state(const MuscleCrowd& crowd) {
+  return {gracilis::make_crowd_state(crowd.surfaces), make_virtual_edge_state(crowd.edges)};
 }
 
 }  // namespace gracilis::xpbd

@@ -100,19 +100,34 @@ void for_each_step(const std::vector<MuscleStep>& steps, const Act& act) {
   });
 }
 
-/// What acts between the muscles of a crowd.
-Coupling couple(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& state) {
-  if (crowd.pairs.empty()) return {};
-  std::vector<Particles*> particles;
-  std::vector<const Particles*> seen, start;
-  for (const MuscleStep& step : steps) {
-    particles.push_back(&step.state->particles);
-    seen.push_back(&step.state->particles);
-    start.push_back(&step.state->start);
-  }
+template <class Pointer>
+std::vector<Pointer> particles_of(const std::vector<MuscleStep>& steps) {
+  std::vector<Pointer> particles;
+  for (const MuscleStep& step : steps) particles.push_back(&step.state->particles);
+  return particles;
+}
+
+Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& state) {
+  const auto particles = particles_of<Particles*>(steps);
+  const auto seen = particles_of<const Particles*>(steps);
+  std::vector<const Particles*> start;
+  for (const MuscleStep& step : steps) start.push_back(&step.state->start);
   find_touches(crowd, seen, state);
   return {[&crowd, &state, seen] { follow_touches(crowd, seen, state); },
           [&crowd, &state, start, particles] { return project_touches(crowd, state, start, particles); }};
+}
+
+Coupling couple_by_edges(const std::vector<MuscleStep>& steps, const VirtualEdgeCrowd& crowd, VirtualEdgeState& state) {
+  const auto particles = particles_of<Particles*>(steps);
+  adapt_distances(crowd, particles_of<const Particles*>(steps), state);
+  return {[] {}, [&crowd, &state, particles] { return project_virtual_edges(crowd, particles, state); }};
+}
+
+/// What acts between the muscles of a crowd, from where they are predicted.
+Coupling couple(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& state) {
+  if (!crowd.surfaces.pairs.empty()) return couple_by_surfaces(steps, crowd.surfaces, state.surfaces);
+  if (!crowd.edges.pairs.empty()) return couple_by_edges(steps, crowd.edges, state.edges);
+  return {};
 }
 
 /// The first thing after which a coordinate was not finite.
@@ -123,7 +138,7 @@ struct Failure {
 
 /// Solves again from the prediction and watches.
 Failure find_failure(std::vector<SurfaceSolve>& solves, const std::vector<Particles>& predicted,
-                     const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& crowd_state) {
+                     const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state) {
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i].state->particles = predicted[i];
   std::vector<std::optional<ConstraintKind>> first(steps.size());
   solve_together(solves, couple(steps, crowd, crowd_state), [&](std::size_t i, ConstraintKind kind) {
@@ -150,11 +165,13 @@ void add_to(MuscleReport& report, const SolveReport& solved, Real correction) {
   report.milliseconds += solved.milliseconds;
 }
 
-void advance_substep(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& crowd_state,
+void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                      int substeps, const Pose& before, const Pose& now) {
   std::vector<SurfaceSolve> solves(steps.size());
   std::vector<std::vector<FieldPlacement>> placements(steps.size());
   std::vector<Particles> predicted(steps.size());
+  if (!crowd.edges.pairs.empty()) remember_positions(particles_of<const Particles*>(steps), crowd_state.edges);
+  const VirtualEdgeState edges_before = crowd_state.edges;
   for_each_step(steps, [&](std::size_t i) {
     const PreparedMuscle& muscle = *steps[i].muscle;
     SurfaceState& state = *steps[i].state;
@@ -170,8 +187,10 @@ void advance_substep(const std::vector<MuscleStep>& steps, const SurfaceCrowd& c
                          ": a vertex position is not finite before the solver; check the pose and the velocities");
   solve_together(solves, couple(steps, crowd, crowd_state));
   const auto is_lost = [](const MuscleStep& step) { return !is_finite(step.state->particles); };
-  if (std::any_of(steps.begin(), steps.end(), is_lost))
+  if (std::any_of(steps.begin(), steps.end(), is_lost)) {
+    crowd_state.edges = edges_before;
     throw_failure(steps, find_failure(solves, predicted, steps, crowd, crowd_state));
+  }
   for_each_step(steps, [&](std::size_t i) {
     SurfaceState& state = *steps[i].state;
     if (steps[i].muscle->settings.time_mode == TimeMode::dynamic)
@@ -180,18 +199,32 @@ void advance_substep(const std::vector<MuscleStep>& steps, const SurfaceCrowd& c
   });
 }
 
+/// Adds each pair's counts to both of its muscles.
+void report_edges(const VirtualEdgeCrowd& crowd, const VirtualEdgeState& state, const std::vector<MuscleStep>& steps) {
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i)
+    for (const Index surface : {crowd.pairs[i].first, crowd.pairs[i].second}) {
+      MuscleReport& report = *steps[static_cast<std::size_t>(surface)].report;
+      report.virtual_edges += static_cast<Index>(state.pairs[i].edges.size());
+      report.virtual_pushes += state.pairs[i].pushes;
+      report.coinciding_edges += state.pairs[i].coinciding;
+    }
+}
+
 }  // namespace
 
-void advance_together(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& crowd_state,
+void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                       const Pose& before, const Pose& now) {
   int substeps = 1;
   for (const MuscleStep& step : steps) substeps = std::max(substeps, substeps_of(*step.muscle, before, now));
+  begin_edge_frame(crowd.edges, particles_of<const Particles*>(steps), crowd_state.edges);
   Pose reached = before;
   for (int substep = 1; substep <= substeps; ++substep) {
     const Pose pose = pose_between(before, now, static_cast<Real>(substep) / substeps);
     advance_substep(steps, crowd, crowd_state, substeps, reached, pose);
     reached = pose;
   }
+  end_edge_frame(crowd.edges, crowd_state.edges);
+  report_edges(crowd.edges, crowd_state.edges, steps);
 }
 
 }  // namespace gracilis::xpbd

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/dynamics/surface_contact.hpp>
 #include <gracilis/methods/method.hpp>
+#include <gracilis/methods/xpbd/crowd.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 #include <gracilis/scene/pose.hpp>
 
@@ -19,7 +19,7 @@ struct MuscleStep {
 /// Moves the muscles from one pose to the next, in as many substeps as the most demanding of them asks for. `crowd`
 /// says how they meet, its surfaces in the order of `steps`; without pairs they do not. Throws QualityError that names
 /// the muscle and the kind of constraint after which a coordinate is not finite; the states are then of no use.
-void advance_together(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& crowd_state,
+void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                       const Pose& before, const Pose& now);
 
 /// v = (x - x_start) / time step, for all particles.

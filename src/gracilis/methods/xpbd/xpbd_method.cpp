@@ -48,6 +48,7 @@ class XpbdMethod final : public DeformationMethod {
 
   void reset() override {
     for (std::size_t m = 0; m < muscles_.size(); ++m) states_[m] = make_state(muscles_[m].system);
+    crowd_state_.edges = make_virtual_edge_state(crowd_.edges);
     pose_ = capture_pose(pose_.bodies.size());
   }
 
@@ -57,10 +58,10 @@ class XpbdMethod final : public DeformationMethod {
     std::vector<SurfaceState> next = states_;
     std::vector<MuscleStep> steps;
     for (std::size_t m = 0; m < muscles_.size(); ++m) steps.push_back({&muscles_[m], &next[m], &report.muscles[m]});
-    if (crowd_.pairs.empty())
-      advance_each(steps, pose);
+    if (crowd_.meets())
+      advance_crowd(steps, pose);
     else
-      advance_together(steps, crowd_, crowd_state_, pose_, pose);
+      advance_each(steps, pose);
     states_ = std::move(next);
     pose_ = pose;
     return report;
@@ -101,17 +102,29 @@ class XpbdMethod final : public DeformationMethod {
       }
       states_[m] = std::move(state);
     }
+    crowd_state_.edges = make_virtual_edge_state(crowd_.edges);
     pose_ = last.pose;
   }
 
  private:
+  void advance_crowd(const std::vector<MuscleStep>& steps, const Pose& pose) {
+    const VirtualEdgeState edges = crowd_state_.edges;
+    try {
+      advance_together(steps, crowd_, crowd_state_, pose_, pose);
+    } catch (const QualityError&) {
+      crowd_state_.edges = edges;
+      throw;
+    }
+  }
+
   /// Muscles that never meet need not wait for each other.
   void advance_each(const std::vector<MuscleStep>& steps, const Pose& pose) {
     std::vector<std::exception_ptr> failures(steps.size());
     parallel_for(static_cast<Index>(steps.size()), 1, [&](Index begin, Index end) {
       for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
         try {
-          advance_together({steps[m]}, crowd_, crowd_state_, pose_, pose);
+          MuscleCrowdState nobody;
+          advance_together({steps[m]}, crowd_, nobody, pose_, pose);
         } catch (const QualityError&) {
           failures[m] = std::current_exception();
         }
@@ -125,8 +138,8 @@ class XpbdMethod final : public DeformationMethod {
   std::vector<DistanceField> fields_;
   std::vector<PreparedMuscle> muscles_;
   std::vector<SurfaceState> states_;
-  SurfaceCrowd crowd_;
-  CrowdState crowd_state_;
+  MuscleCrowd crowd_;
+  MuscleCrowdState crowd_state_;
   Pose pose_;
 };
 

@@ -1,0 +1,83 @@
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/methods/xpbd/xpbd_method.hpp>
+
+#include <state_hash.hpp>
+
+#include "benchmark_hip.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <map>
+#include <memory>
+
+/// Milliseconds per frame of a whole hip by each way of keeping muscles out of each other, through 90 degrees of
+/// flexion in steps of 3 degrees.
+namespace gracilis {
+namespace {
+
+constexpr int frames = 30;
+constexpr Real whole = radians(90);
+
+/// The built-in hip, and the cadaver's where its data are.
+const std::map<std::string, const BenchmarkHip*>& hips() {
+  static const std::map<std::string, const BenchmarkHip*> all = [] {
+    std::map<std::string, const BenchmarkHip*> found = {{"builtin", &builtin_benchmark_hip()}};
+    if (cadaver_is_there()) found["cadaver"] = &benchmark_hip();
+    return found;
+  }();
+  return all;
+}
+
+void flex(benchmark::State& timer, const BenchmarkHip& hip, MuscleContact contact, int threads) {
+  const ThreadLimit limit(threads);
+  Scene scene = hip.scene;
+  scene.contact.muscle = contact;
+  const auto method = make_xpbd_method(scene, hip.fields);
+  std::vector<Pose> poses;
+  for (int frame = 1; frame <= frames; ++frame) poses.push_back(hip.flexed(whole * frame / frames));
+  StepReport report;
+  for (auto _ : timer) {
+    method->reset();
+    const auto started = std::chrono::steady_clock::now();
+    for (const Pose& pose : poses) report = method->advance(pose);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+    timer.SetIterationTime(elapsed.count() / frames);
+  }
+  Frame end;
+  method->write(end);
+  std::uint64_t hash = hash_seed;
+  Index edges = 0, pushes = 0;
+  for (std::size_t m = 0; m < end.muscles.size(); ++m) {
+    hash = hash_of(end.muscles[m].points, hash);
+    edges += report.muscles[m].virtual_edges, pushes += report.muscles[m].virtual_pushes;
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+  timer.SetLabel(text);
+  if (contact != MuscleContact::virtual_edges) return;
+  // Both muscles of a pair count its edges.
+  timer.counters["edges"] = edges / 2.0;
+  timer.counters["pushes"] = pushes / 2.0;
+}
+
+const bool registered = [] {
+  const std::pair<const char*, MuscleContact> contacts[] = {{"none", MuscleContact::none},
+                                                            {"surface", MuscleContact::surface},
+                                                            {"virtual-edges", MuscleContact::virtual_edges}};
+  for (const auto& [name, hip] : hips())
+    for (const auto& [contact_name, contact] : contacts)
+      for (int threads : {1, 2}) {
+        const std::string full = "frame/" + name + "/" + contact_name + "/threads:" + std::to_string(threads);
+        benchmark::RegisterBenchmark(
+            full.c_str(),
+            [hip = hip, contact = contact, threads](benchmark::State& timer) { flex(timer, *hip, contact, threads); })
+            ->UseManualTime()
+            ->Unit(benchmark::kMillisecond)
+            ->Iterations(1);
+      }
+  return true;
+}();
+
+}  // namespace
+}  // namespace gracilis
