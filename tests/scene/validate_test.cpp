@@ -126,6 +126,12 @@ TEST(Validate, settings_must_lie_within_their_ranges) {
   EXPECT_PROBLEM(s.sequence.hold_frames = -1, "sequence: 'hold_frames' must be an integer");
 }
 
+TEST(Validate, virtual_edges_must_find_muscles_before_these_touch) {
+  EXPECT_PROBLEM((s.contact.muscle = MuscleContact::virtual_edges, s.contact.seed_reach = 0.001), "'seed_reach'");
+  const auto reaching = [](Scene& s) { s.contact.muscle = MuscleContact::virtual_edges; };
+  EXPECT_THAT(problems_after(reaching), ElementsAre());
+}
+
 TEST(Validate, the_motion_must_be_a_finite_table_of_known_coordinates_with_increasing_times) {
   EXPECT_PROBLEM(s.motion.coordinates[0] = "knee", "no joint has the coordinate 'knee'");
   EXPECT_PROBLEM(s.motion.values(1, 0) = nan, "row 1 is not finite");

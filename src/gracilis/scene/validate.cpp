@@ -175,6 +175,14 @@ struct Validation {
     }
   }
 
+  void check_contact() {
+    const ContactSettings& contact = scene.contact;
+    check_settings("contact", contact);
+    if (contact.muscle == MuscleContact::virtual_edges && !(contact.seed_reach > contact.contact_distance))
+      add("contact", "virtual edges are seeded no farther than 'contact_distance', so muscles meet before they are found",
+          "give 'seed_reach' a larger value");
+  }
+
   void check_activation() {
     std::set<std::string> driven, muscles, coordinates;
     for (const Muscle& muscle : scene.muscles) muscles.insert(muscle.name);
@@ -259,7 +267,7 @@ std::vector<Problem> validate(const Scene& scene) {
   validation.check_activation();
   validation.check_motion();
   validation.check_settings("distance_field", scene.distance_fields);
-  validation.check_settings("contact", scene.contact);
+  validation.check_contact();
   validation.check_settings("sequence", scene.sequence);
   return validation.problems;
 }
