@@ -3,7 +3,6 @@
 #include "console.hpp"
 #include "exit_handling.hpp"
 
-#include <gracilis/anatomy/activation.hpp>
 #include <gracilis/anatomy/attachments.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
@@ -59,7 +58,7 @@ class Session {
   Session(const LoadedScene& loaded, const SessionOptions& options)
       : loaded_(loaded),
         options_(options),
-        poses_(activated_poses(loaded.scene)),
+        poses_(pose_sequence(loaded.scene)),
         threads_(options.threads),
         folder_(out_folder(), loaded.scene, poses_, existing()) {}
 
@@ -95,12 +94,6 @@ class Session {
   }
 
  private:
-  static std::vector<Pose> activated_poses(const Scene& scene) {
-    std::vector<Pose> poses = pose_sequence(scene);
-    set_activations(scene, poses);
-    return poses;
-  }
-
   std::filesystem::path out_folder() const {
     return options_.out.empty() ? std::filesystem::path("runs") / loaded_.scene.name : options_.out;
   }

@@ -113,6 +113,7 @@ TEST(Presets, the_published_preset_switches_off_what_this_project_added) {
   EXPECT_EQ(preset->contact.contact_distance, 0.002);
   EXPECT_EQ(preset->contact.seed_reach, 0.02);
   EXPECT_EQ(preset->contact.update_period, 5);
+  EXPECT_FALSE(preset->contraction.spread);
 }
 
 TEST(Presets, every_preset_lies_within_the_ranges_of_the_table) {

@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/pose_sequence.hpp>
 
+#include <gracilis/anatomy/activation.hpp>
 #include <gracilis/anatomy/joint_pose.hpp>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ static Real mean_spacing(const std::vector<Real>& times) {
   return times.size() < 2 ? 1.0 / 60 : (times.back() - times.front()) / Real(times.size() - 1);
 }
 
-std::vector<Pose> pose_sequence(const Scene& scene) {
+static std::vector<Pose> relaxed_sequence(const Scene& scene) {
   const Coordinates capture = capture_coordinates(scene);
   const std::vector<Coordinates> rows = motion_rows(scene);
   std::vector<Pose> poses;
@@ -76,6 +77,12 @@ std::vector<Pose> pose_sequence(const Scene& scene) {
       add(values, poses.back().time + spacing);
     }
   }
+  return poses;
+}
+
+std::vector<Pose> pose_sequence(const Scene& scene) {
+  std::vector<Pose> poses = relaxed_sequence(scene);
+  set_activations(scene, poses);
   return poses;
 }
 

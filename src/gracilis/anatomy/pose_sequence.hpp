@@ -14,8 +14,8 @@ namespace gracilis {
 /// it leads to; 0 means as many as it takes for no coordinate to change by more than 1 degree in a frame, and none
 /// where the pose is the capture pose already. The motion's rows keep their times; the frames before and after them
 /// follow at the motion's mean spacing (1/60 s for a single row), so the capture pose usually has a negative time.
-/// Coordinates that the motion does not name keep their capture value. A motion without rows leaves frame 0 alone.
-/// Requires a scene in which `validate` finds nothing.
+/// Coordinates that the motion does not name keep their capture value. Every pose says how active the muscles are. A
+/// motion without rows leaves frame 0 alone. Requires a scene in which `validate` finds nothing.
 std::vector<Pose> pose_sequence(const Scene& scene);
 
 }  // namespace gracilis

@@ -42,12 +42,21 @@ class Nearest {
 class DirectionField {
  public:
   explicit DirectionField(const Polylines& fibers)
-      : directions_(3, fibers.points.cols() - fibers.count()), nearest_(middles(fibers)) {}
+      : directions_(3, fibers.points.cols() - fibers.count()), middles_(middles(fibers)), nearest_(middles_) {}
 
   /// Unit; zero where fibers have no length.
   Vec3 at(const Vec3& p) const {
     Vec3 sum = Vec3::Zero();
     for (const Eigen::Index piece : nearest_.query(p, 4)) sum += directions_.col(piece);
+    return sum.normalized();
+  }
+
+  /// The same by the nearest 32 pieces, weighted by one over the square of their distance (Shepard 1968): smooth where
+  /// fibers are few.
+  Vec3 between(const Vec3& p) const {
+    Vec3 sum = Vec3::Zero();
+    for (const Eigen::Index piece : nearest_.query(p, 32))
+      sum += directions_.col(piece) / std::max((middles_.col(piece) - p).squaredNorm(), Real{1e-12});
     return sum.normalized();
   }
 
@@ -63,7 +72,7 @@ class DirectionField {
     return middles;
   }
 
-  Points directions_;
+  Points directions_, middles_;
   Nearest nearest_;
 };
 
@@ -206,6 +215,15 @@ SurfaceFibers surface_fibers_from_lines(const Muscle& muscle, const Polylines& l
   collect_segments(x, nullptr, result);
   result.coverage = coverage(muscle, topology, result.segments);
   return result;
+}
+
+Points directions_of_fibers(const Polylines& fibers, const Points& places) {
+  const DirectionField field(fibers);
+  Points directions(3, places.cols());
+  parallel_for(static_cast<Index>(places.cols()), 256, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) directions.col(i) = field.between(places.col(i));
+  });
+  return directions;
 }
 
 }  // namespace gracilis

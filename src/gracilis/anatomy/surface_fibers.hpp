@@ -7,13 +7,6 @@
 
 namespace gracilis {
 
-/// How inner fibers are carried onto the surface.
-enum class SurfacePaths {
-  along_fibers,   ///< one way from the vertex nearest to each fiber's begin to that nearest to its end, at costs that
-                  ///< grow with the angle to the fiber direction and with the distance from the fiber
-  nearest_joined  ///< published: the vertices nearest to each fiber's points, joined by shortest ways
-};
-
 /// A piece of a surface fiber: an edge of the muscle's surface that may contract.
 struct FiberSegment {
   Index a = 0, b = 0;    ///< vertices, a < b
@@ -39,5 +32,9 @@ SurfaceFibers surface_fibers(const Muscle& muscle, const Polylines& fibers,
 
 /// Fibers drawn by hand on the surface: their points' nearest vertices, joined by shortest ways; no edge is rejected.
 SurfaceFibers surface_fibers_from_lines(const Muscle& muscle, const Polylines& lines);
+
+/// Which way fibers run at places (3 × k): the weighted mean direction of the fiber pieces nearest to each, unit; zero
+/// where they cancel. Precondition: there is a fiber.
+Points directions_of_fibers(const Polylines& fibers, const Points& places);
 
 }  // namespace gracilis

@@ -78,6 +78,33 @@ ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, con
   return counts;
 }
 
+ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, const float* target_length,
+                                      float strength, float* lambda, Particles& particles,
+                                      const ProjectionParameters& parameters) {
+  const D d;
+  const V zero = hn::Zero(d), tiny = hn::Set(d, 1e-30f),
+          softness = hn::Set(d, 1 / (strength * parameters.time_step * parameters.time_step));
+  ProjectionCounts counts;
+  for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
+    const auto at = static_cast<std::size_t>(slot);
+    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
+    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
+    const EdgeLength<V> edge = edge_length<Math>(a.x, b.x);
+    const V c = edge.length - hn::LoadU(d, target_length + at), weight = a.w + b.w;
+    const V alpha = hn::LoadU(d, set.compliance.data() + at) * softness;
+    const V multiplier = hn::LoadU(d, lambda + at);
+    const V wanted = multiplier - (c + alpha * multiplier) / hn::Max(weight + alpha, tiny);
+    // A pull has a negative multiplier; a push is none of this constraint's business.
+    const V step = hn::IfThenElseZero(hn::Gt(weight, zero), hn::Min(wanted, zero) - multiplier);
+    counts.skipped +=
+        static_cast<Index>(hn::CountTrue(d, hn::And(hn::Lt(edge.length, hn::Set(d, 1e-12f)), hn::Gt(weight, zero))));
+    hn::StoreU(multiplier + step, d, lambda + at);
+    store_particles(particles.xyzw.data(), ia, a.x - scaled(a.w * step, edge.direction), a.w);
+    store_particles(particles.xyzw.data(), ib, b.x + scaled(b.w * step, edge.direction), b.w);
+  }
+  return counts;
+}
+
 Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles) {
   const D d;
   Index limited = 0;
@@ -179,6 +206,7 @@ HWY_AFTER_NAMESPACE();
 namespace gracilis {
 
 HWY_EXPORT(project_distances);
+HWY_EXPORT(project_contractions);
 HWY_EXPORT(limit_stretch);
 HWY_EXPORT(project_hinges);
 HWY_EXPORT(instruction_set);
@@ -187,6 +215,12 @@ ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, con
                                    const Particles& start, Particles& particles,
                                    const ProjectionParameters& parameters) {
   return HWY_DYNAMIC_DISPATCH(project_distances)(set, range, target_length, lambda, start, particles, parameters);
+}
+
+ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, const float* target_length,
+                                      float strength, float* lambda, Particles& particles,
+                                      const ProjectionParameters& parameters) {
+  return HWY_DYNAMIC_DISPATCH(project_contractions)(set, range, target_length, strength, lambda, particles, parameters);
 }
 
 Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles) {

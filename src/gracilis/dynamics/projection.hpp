@@ -29,6 +29,13 @@ ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, con
                                    const Particles& start, Particles& particles,
                                    const ProjectionParameters& parameters);
 
+/// Projects contractions of slots [begin, end), which belong to one color: distance constraints that only pull, C =
+/// target_length - |x_b - x_a| >= 0. A segment that is shorter than its target is left alone, except that it gives back
+/// what it was pulled too far within this substep. `strength` > 0 is a factor on the stiffness.
+ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, const float* target_length,
+                                      float strength, float* lambda, Particles& particles,
+                                      const ProjectionParameters& parameters);
+
 /// Shortens edges that are longer than `limit` times their rest length to that length, without compliance and without a
 /// multiplier: C = limit · length_rest - |x_b - x_a| >= 0. Returns how many were limited.
 Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles);

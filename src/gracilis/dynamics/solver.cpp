@@ -71,6 +71,8 @@ const char* name_of(ConstraintKind kind) {
       return "none";
     case ConstraintKind::distance:
       return "distance";
+    case ConstraintKind::contraction:
+      return "contraction";
     case ConstraintKind::dihedral:
       return "dihedral";
     case ConstraintKind::volume:
@@ -91,7 +93,9 @@ SurfaceState make_state(const SurfaceSystem& system) {
   state.start = system.rest;
   state.velocities.assign(3 * static_cast<std::size_t>(system.rest.count()), 0);
   state.target_length = system.distances.rest_length;
+  state.contraction_length = system.contractions.rest_length;
   state.distance_lambda.assign(system.distances.a.size(), 0);
+  state.contraction_lambda.assign(system.contractions.a.size(), 0);
   state.hinge_lambda.assign(system.hinges.rest_angle.size(), 0);
   state.volume = system.volume.target;
   state.near.resize(system.contacts.size());
@@ -108,6 +112,13 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
       project_colors(system.distances.colors, report, [&](ColorRange range) {
         return project_distances(system.distances, range, state.target_length.data(), state.distance_lambda.data(),
                                  state.start, state.particles, settings.projection);
+      });
+      break;
+    case ConstraintKind::contraction:
+      if (!(settings.contraction > 0)) break;
+      project_colors(system.contractions.colors, report, [&](ColorRange range) {
+        return project_contractions(system.contractions, range, state.contraction_length.data(), settings.contraction,
+                                    state.contraction_lambda.data(), state.particles, settings.projection);
       });
       break;
     case ConstraintKind::dihedral:
@@ -156,6 +167,7 @@ struct Progress {
 
 void reset_multipliers(SurfaceState& state) {
   std::fill(state.distance_lambda.begin(), state.distance_lambda.end(), 0.0f);
+  std::fill(state.contraction_lambda.begin(), state.contraction_lambda.end(), 0.0f);
   std::fill(state.hinge_lambda.begin(), state.hinge_lambda.end(), 0.0f);
   state.volume_lambda = 0;
 }

@@ -15,6 +15,7 @@ namespace gracilis {
 struct SurfaceSystem {
   Particles rest;  ///< positions in the capture pose, inverse masses
   DistanceSet distances;
+  DistanceSet contractions;  ///< segments that pull while the surface is active; empty for one that never is
   HingeSet hinges;
   VolumeSet volume;
   FaceSet large_faces;  ///< those that contact tests between their edges, too
@@ -24,10 +25,11 @@ struct SurfaceSystem {
 /// What changes from step to step. A copy is a checkpoint.
 struct SurfaceState {
   Particles particles;
-  Particles start;                     ///< where the substep began
-  AlignedVector<float> velocities;     ///< 3 n, m/s; dynamic mode only
-  AlignedVector<float> target_length;  ///< m, per distance slot
-  AlignedVector<float> distance_lambda, hinge_lambda;
+  Particles start;                          ///< where the substep began
+  AlignedVector<float> velocities;          ///< 3 n, m/s; dynamic mode only
+  AlignedVector<float> target_length;       ///< m, per distance slot
+  AlignedVector<float> contraction_length;  ///< m, per contraction slot
+  AlignedVector<float> distance_lambda, contraction_lambda, hinge_lambda;
   double volume_lambda = 0;
   double volume = 0;                      ///< m³, before the last volume projection
   AlignedVector<float> volume_gradients;  ///< workspace
@@ -39,6 +41,7 @@ struct SolveSettings {
   int iterations = 30;
   double time_step = 1.0 / 60;      ///< s
   ProjectionParameters projection;  ///< its time step is that of distances and hinges
+  float contraction = 0;            ///< factor on the stiffness of contractions; 0: they are not projected
   double pressure = 1;              ///< target volume over the volume at rest
   float stretch_limit = 0;          ///< longest an edge may be, over its length at rest; 0: none
   float stop_displacement = 0;      ///< m; stop early when no particle moved further in an iteration; 0: never
@@ -46,13 +49,22 @@ struct SolveSettings {
 };
 
 /// Kinds of constraints.
-enum class ConstraintKind { none, distance, dihedral, volume, stretch_limit, muscle_contact, bone_contact };
+enum class ConstraintKind {
+  none,
+  distance,
+  contraction,
+  dihedral,
+  volume,
+  stretch_limit,
+  muscle_contact,
+  bone_contact
+};
 
 /// The kinds that one surface alone has, in the order in which an iteration projects them; contact last, so that
 /// nothing pushes back into a bone. Contact between surfaces comes right before.
-inline constexpr std::array projection_order = {ConstraintKind::distance, ConstraintKind::dihedral,
-                                                ConstraintKind::volume, ConstraintKind::stretch_limit,
-                                                ConstraintKind::bone_contact};
+inline constexpr std::array projection_order = {ConstraintKind::distance,      ConstraintKind::contraction,
+                                                ConstraintKind::dihedral,      ConstraintKind::volume,
+                                                ConstraintKind::stretch_limit, ConstraintKind::bone_contact};
 const char* name_of(ConstraintKind kind);
 
 struct SolveReport {
@@ -96,10 +108,10 @@ struct Coupling {
 /// Told after each projection of a kind on a surface.
 using SolveWatch = std::function<void(std::size_t surface, ConstraintKind kind)>;
 
-/// Resets the multipliers and iterates over all surfaces in step: distances, hinges, volume, stretch limit, contact
-/// between surfaces, bone contact (XPBD; Macklin, Müller, Chentanez 2016). Free particles with a fixed neighborhood,
-/// coinciding ends and flat triangles are survived; they are counted as skipped. Surfaces that stop early wait for the
-/// others.
+/// Resets the multipliers and iterates over all surfaces in step: distances, contractions, hinges, volume, stretch
+/// limit, contact between surfaces, bone contact (XPBD; Macklin, Müller, Chentanez 2016). Free particles with a fixed
+/// neighborhood, coinciding ends and flat triangles are survived; they are counted as skipped. Surfaces that stop early
+/// wait for the others.
 void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch = {});
 
 /// The same for one surface alone.

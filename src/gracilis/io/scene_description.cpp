@@ -161,14 +161,23 @@ static void read_fibers(TomlReader table, MuscleDescription& muscle) {
   table.reject_unknown_keys();
 }
 
-static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& global, const FiberSettings& fibers) {
+static void read_contraction(TomlReader table, MuscleDescription& muscle) {
+  table.read_settings(muscle.contraction);
+  if (const std::optional<std::string> file = table.text("file")) muscle.contraction_file = named_file(table, *file);
+  table.reject_unknown_keys();
+}
+
+static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& global, const FiberSettings& fibers,
+                                     const ContractionSettings& contraction) {
   MuscleDescription muscle;
   muscle.place = table.place();
   muscle.name = table.required_text("name");
   read_surface(table, muscle);
   muscle.xpbd = global;
   muscle.fibers = fibers;
+  muscle.contraction = contraction;
   if (std::optional<TomlReader> own = table.table("fibers")) read_fibers(std::move(*own), muscle);
+  if (std::optional<TomlReader> own = table.table("contraction")) read_contraction(std::move(*own), muscle);
   if (std::optional<TomlReader> settings = table.table("settings")) {
     settings->read_settings(muscle.xpbd);
     settings->reject_unknown_keys();
@@ -202,7 +211,13 @@ static MotionDescription read_motion(TomlReader table) {
   if (keyed && columns > 0) motion.key_poses = table.rows(key, columns).value_or(Eigen::MatrixXd(0, columns)) * unit;
   const NumberRange steps = {0.001, 360, shifts ? "mm" : "degrees"};
   motion.step = table.number(shifts ? "step_mm" : "step_deg", steps).value_or(1) * unit;
-  motion.time_step = table.number("time_step", {1e-6, 1000, "s"}).value_or(1.0 / 60);
+  motion.time_step = table.number("time_step", {1e-6, 1000, "s"}).value_or(keyed ? 1.0 / 60 : 0);
+  if (motion.file.path.empty()) {
+    for (const char* bound : {"begin", "end"})
+      if (table.has(bound)) table.add_problem(bound, "a motion through key poses is taken as a whole");
+  }
+  motion.begin = table.number("begin").value_or(motion.begin);
+  motion.end = table.number("end").value_or(motion.end);
   table.reject_unknown_keys();
   return motion;
 }
@@ -242,7 +257,16 @@ static ControlUnitDescription read_control_unit(TomlReader table) {
   unit.place = table.place();
   unit.name = table.required_text("name");
   unit.joint = table.required_text("joint");
-  unit.samples = {table.required_text("samples"), 1, table.place()};
+  const auto file = [&](const char* key) { return NamedFile{table.text(key).value_or(""), 1, table.place()}; };
+  unit.samples = file("samples"), unit.motion = file("motion"), unit.results = file("results");
+  unit.names = file("names");
+  const bool joined = !unit.motion.path.empty() && !unit.results.path.empty();
+  if (unit.samples.path.empty() ? !joined : table.has("motion") || table.has("results") || table.has("names")) {
+    Problem problem = table.place();
+    problem.what = "the samples of a joint control unit are given in exactly one way";
+    problem.remedy = "give 'samples', or 'motion' and 'results'";
+    table.add_problem(problem);
+  }
   unit.coordinates = table.texts("coordinates");
   unit.muscles = table.texts("muscles");
   unit.falloff = table.number("falloff", {0, 1e9, "1/deg²"}).value_or(0);
@@ -389,6 +413,9 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   read_section(top, "sequence", scene.sequence);
   FiberSettings fibers;
   read_section(top, "fibers", fibers);
+  ContractionSettings contraction;
+  if (const Preset* preset = find_preset(scene.preset)) contraction = preset->contraction;
+  read_section(top, "contraction", contraction);
   if (top.has("prepare")) read_section(top, "prepare", scene.prepare.emplace());
   if (std::optional<TomlReader> landmarks = top.table("landmarks")) {
     scene.landmarks = named_file(*landmarks, landmarks->required_text("file"));
@@ -397,7 +424,7 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   for (TomlReader& bone : top.tables("bones")) scene.bones.push_back(read_bone(std::move(bone)));
   for (TomlReader& joint : top.tables("joints")) scene.joints.push_back(read_joint(std::move(joint)));
   for (TomlReader& muscle : top.tables("muscles"))
-    scene.muscles.push_back(read_muscle(std::move(muscle), global, fibers));
+    scene.muscles.push_back(read_muscle(std::move(muscle), global, fibers, contraction));
   if (std::optional<TomlReader> motion = top.table("motion")) scene.motion = read_motion(std::move(*motion));
   for (TomlReader& each : top.tables("activations")) scene.activations.push_back(read_activation(std::move(each)));
   for (TomlReader& unit : top.tables("joint_control_units"))

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +58,8 @@ struct MuscleDescription {
   FiberSettings fibers;
   NamedFile fiber_file;             ///< empty path: none
   bool superficial_fibers = false;  ///< the file's lines lie on the surface
+  ContractionSettings contraction;
+  NamedFile contraction_file;  ///< surface fibers; empty path: none
   std::vector<AttachmentDescription> attachments;
   Problem place;
 };
@@ -73,7 +76,8 @@ struct MotionDescription {
   std::vector<std::string> coordinates;
   Eigen::MatrixXd key_poses;  ///< rows × coordinates, rad
   Real step = 0;              ///< rad, largest change of a coordinate per frame
-  Real time_step = 0;         ///< s
+  Real time_step = 0;         ///< s; of a file: least time between rows that are kept
+  Real begin = -std::numeric_limits<Real>::infinity(), end = std::numeric_limits<Real>::infinity();  ///< s, of a file
   Problem place;
   bool translations = false;  ///< key poses are of translations
 };
@@ -92,7 +96,9 @@ struct ActivationDescription {
 /// A joint control unit whose samples stand in a file.
 struct ControlUnitDescription {
   std::string name, joint;
-  NamedFile samples;
+  NamedFile samples;          ///< or the files that `gracilis activations join` would make them from:
+  NamedFile motion, results;  ///< empty paths where samples are given
+  NamedFile names;            ///< which columns are which muscle; empty path: numbered parts join
   std::vector<std::string> coordinates, muscles;  ///< empty: the joint's, and all that the samples know
   Real falloff = 0;
   Problem place;

@@ -2,6 +2,7 @@
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/geometry/box_mesh.hpp>
+#include <gracilis/io/activation_samples.hpp>
 #include <gracilis/io/data_root.hpp>
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/landmarks.hpp>
@@ -186,6 +187,12 @@ class SceneBuilder {
         muscle.given_are_superficial = description.superficial_fibers;
       });
     }
+    muscle.contraction = description.contraction;
+    if (!description.contraction_file.path.empty()) {
+      read(description.contraction_file, [&](const fs::path& path) {
+        muscle.given_surface_fibers = read_polylines(path, description.contraction_file.unit);
+      });
+    }
     if ((description_.prepare || raw_muscles_) && !description.box) {
       read(description.file, [&](const fs::path& path) { muscle.surface = read_mesh(path, description.file.unit); });
       return;
@@ -249,6 +256,9 @@ class SceneBuilder {
         const Table table = read_table(path);
         result_.warnings.insert(result_.warnings.end(), table.warnings.begin(), table.warnings.end());
         motion = motion_from_table(table);
+        thin_out(motion, description.begin, description.end, description.time_step);
+        if (motion.times.empty())
+          add_problem({path.string(), "", "", ""}, "no row of the motion is between its 'begin' and 'end'");
         match_coordinates(path.string());
       });
     } else if (description.key_poses.rows() > 0) {
@@ -304,6 +314,20 @@ class SceneBuilder {
     }
   }
 
+  /// What 'gracilis activations join' makes of the unit's files.
+  Table join(const ControlUnitDescription& description, const fs::path& results) {
+    Trial trial{description.name, {}, read_table(results), {}};
+    JoinSettings settings;
+    read(description.motion, [&](const fs::path& path) { trial.motion = read_table(path); });
+    if (!description.names.path.empty())
+      read(description.names, [&](const fs::path& path) { settings.muscles = read_muscle_mapping(path); });
+    if (trial.motion.columns.empty()) return {};
+    JoinedSamples joined = join_samples({trial}, settings);
+    for (const std::string& problem : joined.problems)
+      result_.warnings.push_back("joint control unit '" + description.name + "': " + problem);
+    return std::move(joined.samples);
+  }
+
   void add_control_unit(const ControlUnitDescription& description) {
     JointControlUnit unit{description.name,   description.joint, description.coordinates, description.muscles, {}, {},
                           description.falloff};
@@ -312,8 +336,9 @@ class SceneBuilder {
         if (joint.name == unit.joint)
           for (const JointAxis& axis : joint.axes) unit.coordinates.push_back(axis.coordinate);
     }
-    read(description.samples, [&](const fs::path& path) {
-      const Table table = read_table(path);
+    const bool joined = description.samples.path.empty();
+    read(joined ? description.results : description.samples, [&](const fs::path& path) {
+      const Table table = joined ? join(description, path) : read_table(path);
       if (unit.muscles.empty()) {
         for (const Muscle& muscle : result_.scene.muscles)
           if (std::find(table.columns.begin(), table.columns.end(), muscle.name) != table.columns.end())

@@ -96,6 +96,11 @@ distance_stiffness = 5.0
 [muscles.fibers]
 count = 100
 
+# Optional: any key of [contraction] below, for this muscle alone; and
+# file = "lines.vtp"      # lines drawn on the surface along which it contracts, with unit = "m" (default), "cm" or "mm"
+[muscles.contraction]
+threshold = 0.02
+
 # At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of four ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.
 [[muscles.attachments]]
@@ -141,7 +146,7 @@ value = 0.3
 # [[joint_control_units]]
 # name = "hip"
 # joint = "hip_r"
-# samples = "samples.sto"
+# samples = "samples.sto"         # or: motion = "walk.mot", results = "activation.sto", names = "names.toml" (optional)
 # coordinates = ["hip_flexion_r"] # optional: that tell samples apart; default: all of the joint
 # muscles = ["iliacus_r"]         # optional: that it governs; default: all that the samples know
 # falloff = 0.02                  # optional: F in exp(-F d²), 1/deg²; default: from the samples' spacing
@@ -150,7 +155,7 @@ value = 0.3
 [motion]
 # Either an OpenSim table (.mot, .sto), whose columns are matched to the joints' coordinates by name; with 'coordinates',
 # these columns only:
-# file = "flexion.mot"
+# file = "flexion.mot"     # optional with it: begin and end (s), and time_step, the least time between rows that are kept
 # or key poses with equal steps between them:
 coordinates = ["hip_flexion_r"]
 key_poses_deg = [[0], [90]] # one row per pose, one column per coordinate; coordinates not named keep their capture value
@@ -176,6 +181,7 @@ std::string scene_template() {
          optional_section<PrepareSettings>("prepare") + "# Distance fields of all bones.\n" +
          section<DistanceFieldSettings>("distance_field") + "# Contact between muscles.\n" +
          section<ContactSettings>("contact") + "# Fibers inside all muscles.\n" + section<FiberSettings>("fibers") +
+         "# How active muscles contract.\n" + section<ContractionSettings>("contraction") +
          "# The XPBD method, for all muscles.\n" + section<XpbdSettings>("settings");
 }
 
@@ -191,7 +197,7 @@ std::string settings_text(const Scene& scene) {
                      values("[contact]", scene.contact);
   for (const Muscle& muscle : scene.muscles) {
     text += "[[muscles]]\nname = \"" + muscle.name + "\"\n" + values("[muscles.settings]", muscle.xpbd) +
-            values("[muscles.fibers]", muscle.fibers);
+            values("[muscles.fibers]", muscle.fibers) + values("[muscles.contraction]", muscle.contraction);
   }
   return text;
 }

@@ -45,4 +45,7 @@ struct ActivationPlan {
   bool empty() const { return signals.empty() && units.empty() && functions.empty(); }
 };
 
+/// True when the plan says how active this muscle is.
+bool drives(const ActivationPlan& plan, const std::string& muscle);
+
 }  // namespace gracilis

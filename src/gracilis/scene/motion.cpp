@@ -27,6 +27,21 @@ Motion motion_through(const std::vector<std::string>& coordinates, const Eigen::
   return motion;
 }
 
+void thin_out(Motion& motion, Real begin, Real end, Real time_step) {
+  std::vector<Real> times;
+  std::vector<Index> rows;
+  const Real rounding = 1e-6 * time_step;
+  for (std::size_t row = 0; row < motion.times.size(); ++row) {
+    const Real time = motion.times[row];
+    if (time < begin - rounding || time > end + rounding) continue;
+    if (!times.empty() && time - times.back() < time_step - rounding) continue;
+    times.push_back(time);
+    rows.push_back(static_cast<Index>(row));
+  }
+  motion.values = motion.values(rows, Eigen::all).eval();
+  motion.times = std::move(times);
+}
+
 std::vector<std::string> drop_unknown_coordinates(Motion& motion, const std::vector<std::string>& known) {
   std::vector<std::string> kept, dropped;
   Eigen::MatrixXd values(motion.values.rows(), motion.values.cols());

@@ -48,12 +48,15 @@ static Preset thesis_2024() {
   preset.contact.resolution = VirtualEdgeResolution::vector_sum;
   preset.contact.reset_edges = false;
   preset.contact.coinciding_edges = CoincidingEdges::keep;
+  preset.contraction.stiffness = 1e2;
+  preset.contraction.spread = false;
+  preset.contraction.paths = SurfacePaths::nearest_joined;
   return preset;
 }
 
 const std::vector<Preset>& presets() {
   static const std::vector<Preset> all = {
-      {"physical", "real masses and units, and what this project added for stability", {}, {}, {}}, thesis_2024()};
+      {"physical", "real masses and units, and what this project added for stability", {}, {}, {}, {}}, thesis_2024()};
   return all;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/scene/contraction_settings.hpp>
 #include <gracilis/scene/settings.hpp>
 
 #include <string>
@@ -15,6 +16,7 @@ struct Preset {
   XpbdSettings xpbd;
   DistanceFieldSettings distance_fields;
   ContactSettings contact;
+  ContractionSettings contraction = {};
 };
 
 /// `physical`, the default: real masses and units. `thesis-2024`: the published setting of the method, with everything

@@ -4,6 +4,7 @@
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 #include <gracilis/scene/activation.hpp>
+#include <gracilis/scene/contraction_settings.hpp>
 #include <gracilis/scene/fiber_settings.hpp>
 #include <gracilis/scene/settings.hpp>
 
@@ -59,6 +60,8 @@ struct Muscle {
   Polylines given_fibers;  ///< from outside; where there are any, none are made from the template
   bool given_are_superficial =
       false;  ///< given_fibers lie on the surface and are to be filled in, not used as they are
+  ContractionSettings contraction = {};
+  Polylines given_surface_fibers;  ///< picked by hand; where there are any, the muscle contracts along them
 };
 
 /// Coordinate values over time; a row is a pose. Coordinates not named keep their capture value.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/scene/contraction_settings.hpp>
 #include <gracilis/scene/fiber_settings.hpp>
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/scene/settings.hpp>
@@ -12,8 +13,8 @@
 #include <vector>
 
 /// What users may set, said once: key, unit, range and meaning of each member of XpbdSettings, DistanceFieldSettings,
-/// FiberSettings, ContactSettings, PrepareSettings and Sequence. Scene files, `--set`, `print-config` and the manifest
-/// of a run all read these tables. The default is the member's initializer.
+/// FiberSettings, ContractionSettings, ContactSettings, PrepareSettings and Sequence. Scene files, `--set`,
+/// `print-config` and the manifest of a run all read these tables. The default is the member's initializer.
 namespace gracilis {
 
 /// A setting's value outside its struct; texts, and choices such as a TimeMode, are strings.
@@ -25,7 +26,7 @@ struct Setting {
   using Member = std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*,
                               std::string Settings::*, TimeMode Settings::*, DihedralFormula Settings::*,
                               FiberTemplate Settings::*, MuscleContact Settings::*, TunnellingGuard Settings::*,
-                              VirtualEdgeResolution Settings::*, CoincidingEdges Settings::*>;
+                              VirtualEdgeResolution Settings::*, CoincidingEdges Settings::*, SurfacePaths Settings::*>;
   std::string_view key;
   Member member;
   std::string_view unit;  ///< empty for numbers without one and for switches
@@ -43,6 +44,8 @@ template <>
 std::span<const Setting<DistanceFieldSettings>> setting_table();
 template <>
 std::span<const Setting<FiberSettings>> setting_table();
+template <>
+std::span<const Setting<ContractionSettings>> setting_table();
 template <>
 std::span<const Setting<Sequence>> setting_table();
 template <>

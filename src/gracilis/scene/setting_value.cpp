@@ -23,6 +23,8 @@ static constexpr std::array<std::string_view, 3> choices_of(TunnellingGuard) {
   return {"none", "turned_direction", "kept_path"};
 }
 
+static constexpr std::array<std::string_view, 2> choices_of(SurfacePaths) { return {"along_fibers", "nearest_joined"}; }
+
 template <class T>
 constexpr bool is_choice = std::is_enum_v<T>;
 
@@ -138,18 +140,21 @@ std::string assign(Settings& settings, const Setting<Settings>& setting, const S
 template SettingValue value_of(const XpbdSettings&, const Setting<XpbdSettings>&);
 template SettingValue value_of(const DistanceFieldSettings&, const Setting<DistanceFieldSettings>&);
 template SettingValue value_of(const FiberSettings&, const Setting<FiberSettings>&);
+template SettingValue value_of(const ContractionSettings&, const Setting<ContractionSettings>&);
 template SettingValue value_of(const Sequence&, const Setting<Sequence>&);
 template SettingValue value_of(const PrepareSettings&, const Setting<PrepareSettings>&);
 template SettingValue value_of(const ContactSettings&, const Setting<ContactSettings>&);
 template std::string expectation(const Setting<XpbdSettings>&);
 template std::string expectation(const Setting<DistanceFieldSettings>&);
 template std::string expectation(const Setting<FiberSettings>&);
+template std::string expectation(const Setting<ContractionSettings>&);
 template std::string expectation(const Setting<Sequence>&);
 template std::string expectation(const Setting<PrepareSettings>&);
 template std::string expectation(const Setting<ContactSettings>&);
 template std::string assign(XpbdSettings&, const Setting<XpbdSettings>&, const SettingValue&);
 template std::string assign(DistanceFieldSettings&, const Setting<DistanceFieldSettings>&, const SettingValue&);
 template std::string assign(FiberSettings&, const Setting<FiberSettings>&, const SettingValue&);
+template std::string assign(ContractionSettings&, const Setting<ContractionSettings>&, const SettingValue&);
 template std::string assign(Sequence&, const Setting<Sequence>&, const SettingValue&);
 template std::string assign(PrepareSettings&, const Setting<PrepareSettings>&, const SettingValue&);
 template std::string assign(ContactSettings&, const Setting<ContactSettings>&, const SettingValue&);

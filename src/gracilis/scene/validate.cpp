@@ -158,7 +158,9 @@ struct Validation {
       check_surface(where, muscle.surface);
       check_settings(where, muscle.xpbd);
       check_settings(where, muscle.fibers);
-      if (!muscle.given_fibers.points.allFinite()) add(where, "a point of its fibers is not finite");
+      check_settings(where, muscle.contraction);
+      for (const Polylines* lines : {&muscle.given_fibers, &muscle.given_surface_fibers})
+        if (!lines->points.allFinite()) add(where, "a point of its fibers is not finite");
       check_slide(where, muscle.xpbd.slide_on_bone);
       std::map<Index, const Attachment*> owners;
       for (const Attachment& attachment : muscle.attachments) {

@@ -6,6 +6,7 @@
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/xpbd/bone_gaps.hpp>
 #include <gracilis/methods/xpbd/carrier_shares.hpp>
+#include <gracilis/methods/xpbd/contraction.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -199,6 +200,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   PreparedMuscle prepared;
   prepared.name = muscle.name;
   prepared.settings = muscle.xpbd;
+  prepared.contraction = muscle.contraction;
   Renumbered renumbered = renumber(muscle);
   prepared.order = renumbered.order;
   prepared.rest = renumbered.surface.vertices;
@@ -218,6 +220,8 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
       build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
                        enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
   build_predictor(renumbered, topology, prepared);
+  prepared.is_driven = drives(scene.activation, muscle.name);
+  if (prepared.is_driven) build_contractions(muscle, topology, prepared);
   build_large_faces(renumbered, fields, prepared);
   build_contacts(scene, topology, fields, prepared);
   return prepared;

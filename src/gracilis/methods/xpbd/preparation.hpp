@@ -17,15 +17,19 @@ struct PreparedMuscle {
   SurfaceSystem system;
   Vec3 origin = Vec3::Zero();  ///< world position of the particles' coordinate origin, m
   std::vector<Index> order;
-  Points rest;                        ///< world, in particle order, m
-  Eigen::Matrix3Xi faces;             ///< of particles
-  std::vector<Index> fixed_body;      ///< per particle: the body it is attached to, or -1
-  std::vector<Index> carriers;        ///< bodies with attachments on this muscle
-  Eigen::MatrixXf carrier_shares;     ///< carriers × particles: harmonic shares of their motion, columns sum to 1
+  Points rest;                     ///< world, in particle order, m
+  Eigen::Matrix3Xi faces;          ///< of particles
+  std::vector<Index> fixed_body;   ///< per particle: the body it is attached to, or -1
+  std::vector<Index> carriers;     ///< bodies with attachments on this muscle
+  Eigen::MatrixXf carrier_shares;  ///< carriers × particles: harmonic shares of their motion, columns sum to 1
+  ContractionSettings contraction;
+  bool is_driven = false;             ///< the scene says how active it is
+  AlignedVector<float> along_fibers;  ///< per contraction slot: squared cosine between it and the fibers
   std::vector<Index> contact_bodies;  ///< per contact set: the body of its bone
 };
 
-/// Builds tables, masses, predictor shares and contact gaps of a muscle. `fields` has one distance field per bone of
+/// Builds tables, masses, predictor shares and contact gaps of a muscle, and contractions where the scene's activation
+/// plan drives it. `fields` has one distance field per bone of
 /// the scene and must outlive the result. Precondition: the scene is valid.
 PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields);
 

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/methods/xpbd/contraction.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 
 #include <algorithm>
@@ -80,7 +81,8 @@ Pose pose_between(const Pose& before, const Pose& now, Real share) {
 }
 
 /// Moves the state to `pose` as far as bones and inertia alone tell.
-void predict(const PreparedMuscle& muscle, const Pose& before, const Pose& pose, float time_step, SurfaceState& state) {
+void predict(const PreparedMuscle& muscle, Real activation, const Pose& before, const Pose& pose, float time_step,
+             SurfaceState& state) {
   const XpbdSettings& settings = muscle.settings;
   state.start = state.particles;
   if (settings.predictor) carry_free(muscle, before, pose, state.particles);
@@ -90,6 +92,7 @@ void predict(const PreparedMuscle& muscle, const Pose& before, const Pose& pose,
   move_attached(muscle, pose, state.particles);
   move_attached(muscle, pose, state.start);
   set_target_lengths(muscle, pose, state.target_length);
+  set_contraction_lengths(muscle, activation, state.contraction_length);
 }
 
 /// Calls act(i) for each of the steps, possibly at the same time.
@@ -176,9 +179,10 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
     const PreparedMuscle& muscle = *steps[i].muscle;
     SurfaceState& state = *steps[i].state;
     solves[i] = {&muscle.system, &placements[i], solve_settings(muscle.settings, substeps), &state, {}};
+    solves[i].settings.contraction = static_cast<float>(contraction_strength(muscle.contraction, steps[i].activation));
     placements[i] = place_fields(muscle, now);
     remember_sides(muscle.system, place_fields(muscle, before), state);
-    predict(muscle, before, now, static_cast<float>(solves[i].settings.time_step), state);
+    predict(muscle, steps[i].activation, before, now, static_cast<float>(solves[i].settings.time_step), state);
     predicted[i] = state.particles;
   });
   for (std::size_t i = 0; i < steps.size(); ++i)

@@ -14,6 +14,7 @@ struct MuscleStep {
   const PreparedMuscle* muscle = nullptr;
   SurfaceState* state = nullptr;
   MuscleReport* report = nullptr;
+  Real activation = 0;
 };
 
 /// Moves the muscles from one pose to the next, in as many substeps as the most demanding of them asks for. `crowd`

@@ -57,7 +57,8 @@ class XpbdMethod final : public DeformationMethod {
     report.muscles.resize(muscles_.size());
     std::vector<SurfaceState> next = states_;
     std::vector<MuscleStep> steps;
-    for (std::size_t m = 0; m < muscles_.size(); ++m) steps.push_back({&muscles_[m], &next[m], &report.muscles[m]});
+    for (std::size_t m = 0; m < muscles_.size(); ++m)
+      steps.push_back({&muscles_[m], &next[m], &report.muscles[m], activation_of(m, pose)});
     if (crowd_.meets())
       advance_crowd(steps, pose);
     else
@@ -97,7 +98,8 @@ class XpbdMethod final : public DeformationMethod {
               last.muscles[m].velocities.col(muscle.order[static_cast<std::size_t>(p)]).cast<float>();
       } else {
         // The mean over the frame is all that two shapes can tell.
-        if (muscle.settings.predictor) carry_free(muscle, before.pose, last.pose, state.start);
+        if (muscle.settings.predictor)
+          carry_free(muscle, before.pose, last.pose, state.start);
         take_velocities(static_cast<float>(muscle.settings.time_step), state);
       }
       states_[m] = std::move(state);
@@ -115,6 +117,14 @@ class XpbdMethod final : public DeformationMethod {
       crowd_state_.edges = edges;
       throw;
     }
+  }
+
+  Real activation_of(std::size_t m, const Pose& pose) const {
+    const Real activation = m < pose.activations.size() ? pose.activations[m] : 0;
+    if (!muscles_[m].is_driven && activation > muscles_[m].contraction.threshold)
+      throw ConfigurationError({"", "muscle " + muscles_[m].name, "a pose activates it, but the scene's plan does not",
+                                "add it to Scene::activation, so that it is prepared to contract"});
+    return activation;
   }
 
   /// Muscles that never meet need not wait for each other.

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+namespace gracilis {
+
+/// How inner fibers are carried onto the surface.
+enum class SurfacePaths {
+  along_fibers,   ///< one way from the vertex nearest to each fiber's begin to that nearest to its end, at costs that
+                  ///< grow with the angle to the fiber direction and with the distance from the fiber
+  nearest_joined  ///< published: the vertices nearest to each fiber's points, joined by shortest ways
+};
+
+/// How one muscle contracts. Defaults, units and ranges: setting_table<ContractionSettings>().
+struct ContractionSettings {
+  Real threshold = 0.02;  ///< activation above which a muscle contracts
+  Real shortest = 0.7;    ///< least share of its length at rest that a segment aims at
+  Real stiffness = 50;    ///< N/m, tension per width of the surface over relative excess length
+  bool spread = true;     ///< all edges along the fibers pull, not the segments of surface fibers only
+  SurfacePaths paths = SurfacePaths::along_fibers;
+  int segments = 100;  ///< of each fiber that is carried onto the surface
+};
+
+/// The share of its length at rest that a segment aims at, max(1 - a, shortest) (Havlíček 2024, eq. 5.11).
+inline Real contracted_share(const ContractionSettings& settings, Real activation) {
+  return activation < 1 - settings.shortest ? 1 - activation : settings.shortest;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,138 @@
+#include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/methods/xpbd/contraction.hpp>
+#include <gracilis/simulate/fiber_tracker.hpp>
+#include <gracilis/simulate/run.hpp>
+
+#include <scenes_for_tests.hpp>
+
+#include <gtest/gtest.h>
+
+namespace gracilis {
+namespace {
+
+Scene active_tube(Real activation, const ContractionSettings& settings = {}, int fibers = 100) {
+  Scene scene = tube_scene();
+  scene.muscles[0].contraction = settings;
+  scene.muscles[0].fibers.count = fibers;
+  scene.activation.signals = {{"tube", {0}, {activation}}};
+  return scene;
+}
+
+/// The tube after flexion to `degrees`, a degree per frame, with the activation that its scene's signal says.
+Frame flexed_frame(const Scene& scene, int degrees) {
+  const auto method = xpbd_on_tube(scene);
+  Pose pose;
+  for (int degree = 1; degree <= degrees; ++degree) {
+    pose = flexed(scene, radians(degree));
+    pose.activations = scene.activation.signals.empty() ? std::vector<Real>{}
+                                                        : std::vector<Real>{scene.activation.signals[0].values[0]};
+    method->advance(pose);
+  }
+  return frame_of(*method, pose, degrees);
+}
+
+Real volume_of(const Scene& scene, const Frame& frame) {
+  return enclosed_volume(frame.muscles[0].points, scene.muscles[0].surface.faces);
+}
+
+}  // namespace
+
+TEST(Contraction, up_to_the_threshold_nothing_pulls) {
+  const Frame relaxed = flexed_frame(tube_scene(), 20);
+  EXPECT_EQ(farthest(relaxed, flexed_frame(active_tube(0.02), 20)), 0);
+  EXPECT_GT(farthest(relaxed, flexed_frame(active_tube(0.03), 20)), 0);
+}
+
+TEST(Contraction, strength_grows_from_nothing_at_the_threshold_to_all_at_the_shortest) {
+  const ContractionSettings settings;
+  EXPECT_EQ(xpbd::contraction_strength(settings, 0), 0);
+  EXPECT_EQ(xpbd::contraction_strength(settings, 0.02), 0);
+  EXPECT_NEAR(xpbd::contraction_strength(settings, 0.15), 0.5, 1e-12);
+  EXPECT_EQ(xpbd::contraction_strength(settings, 0.3), 1);
+  EXPECT_EQ(xpbd::contraction_strength(settings, 1), 1);
+  EXPECT_EQ(contracted_share(settings, 0.2), 0.8);
+  EXPECT_EQ(contracted_share(settings, 0.9), 0.7);
+}
+
+TEST(Contraction, an_active_muscle_has_shorter_fibers_and_its_volume) {
+  const Scene relaxed = tube_scene(), active = active_tube(0.3);
+  const Frame slack = flexed_frame(relaxed, 60), taut = flexed_frame(active, 60);
+  const FiberTracker tracker(relaxed);
+  EXPECT_LT(tracker.follow(taut)[0].mean_length, tracker.follow(slack)[0].mean_length - 0.001);
+  const Real rest = volume_of(relaxed, capture_frame(relaxed, flexed(relaxed, 0)));
+  EXPECT_NEAR(volume_of(relaxed, slack) / rest, 1, 0.005);
+  EXPECT_NEAR(volume_of(active, taut) / rest, 1, 0.005);
+}
+
+TEST(Contraction, sixteen_fibers_give_nearly_the_shape_that_a_hundred_give) {
+  const Frame relaxed = flexed_frame(tube_scene(), 20), many = flexed_frame(active_tube(0.3), 20),
+              few = flexed_frame(active_tube(0.3, {}, 16), 20);
+  const auto distance = [](const Frame& one, const Frame& other) {
+    return std::sqrt((one.muscles[0].points - other.muscles[0].points).colwise().squaredNorm().mean());
+  };
+  EXPECT_GT(distance(relaxed, many), 0.002) << "it never contracted";
+  EXPECT_LT(distance(few, many), 0.4 * distance(relaxed, many));
+}
+
+TEST(Contraction, along_segments_of_surface_fibers_pulls_too) {
+  ContractionSettings settings;
+  settings.spread = false;
+  const Scene scene = tube_scene();
+  const Frame relaxed = flexed_frame(scene, 60);
+  const FiberTracker tracker(scene);
+  for (const SurfacePaths paths : {SurfacePaths::along_fibers, SurfacePaths::nearest_joined}) {
+    settings.paths = paths;
+    const Frame taut = flexed_frame(active_tube(0.3, settings), 60);
+    EXPECT_LT(tracker.follow(taut)[0].mean_length, tracker.follow(relaxed)[0].mean_length - 0.001);
+  }
+}
+
+TEST(Contraction, has_the_same_tension_for_any_number_of_fibers) {
+  // What crosses the middle of the tube pulls along it with stiffness times length, N per relative excess length.
+  const auto tension = [](bool spread, int fibers) {
+    ContractionSettings settings;
+    settings.spread = spread;
+    const Scene scene = active_tube(1, settings, fibers);
+    const xpbd::PreparedMuscle muscle = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+    const DistanceSet& set = muscle.system.contractions;
+    Real sum = 0;
+    for (const Index slot : set.slot) {
+      const auto at = static_cast<std::size_t>(slot);
+      const Real za = muscle.rest(2, set.a[at]) - 0.001, zb = muscle.rest(2, set.b[at]) - 0.001;
+      if (za * zb < 0) sum += static_cast<Real>(muscle.along_fibers[at] * set.rest_length[at] / set.compliance[at]);
+    }
+    return sum;
+  };
+  const Real around = 2 * pi * 0.01 * ContractionSettings{}.stiffness;
+  for (const int fibers : {16, 40, 100}) EXPECT_NEAR(tension(false, fibers) / around, 1, 0.15) << fibers << " fibers";
+  for (const int fibers : {16, 40}) EXPECT_NEAR(tension(true, fibers) / tension(true, 100), 1, 0.02) << fibers;
+}
+
+TEST(Contraction, follows_lines_drawn_by_hand) {
+  Scene scene = active_tube(1);
+  scene.muscles[0].contraction.spread = false;
+  Points line(3, 2);
+  line << 0.0355, 0.0355, 0, 0, 0.075, -0.075;
+  scene.muscles[0].given_surface_fibers = join({line});
+  const xpbd::PreparedMuscle muscle = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  const DistanceSet& set = muscle.system.contractions;
+  ASSERT_GT(set.count, 10);
+  for (const Index slot : set.slot)
+    for (const Index p : {set.a[static_cast<std::size_t>(slot)], set.b[static_cast<std::size_t>(slot)]})
+      EXPECT_LT((muscle.rest.col(p).head(2) - line.col(0).head(2)).norm(), 0.004);
+}
+
+TEST(Contraction, of_a_muscle_that_no_plan_drives_is_an_error_and_no_silence) {
+  const Scene scene = tube_scene();
+  const auto method = xpbd_on_tube(scene);
+  Pose pose = flexed(scene, radians(1));
+  pose.activations = {0.5};
+  EXPECT_THROW(method->advance(pose), ConfigurationError);
+}
+
+TEST(Contraction, a_muscle_without_fibers_stays_relaxed) {
+  EXPECT_EQ(farthest(flexed_frame(tube_scene(), 10), flexed_frame(active_tube(1, {}, 0), 10)), 0);
+}
+
+}  // namespace gracilis
