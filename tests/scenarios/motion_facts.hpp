@@ -21,6 +21,7 @@ struct HipMotion {
   int judge_every = 1;              ///< frames
   std::vector<Real> steps = {1};    ///< degrees per frame, a run for each
   bool may_fold = true;             ///< fewer than a thousandth of all hinges; otherwise none
+  Index own_cuts = 0;               ///< pairs of faces of one muscle, for data that hold needles and folded triangles
 };
 
 inline void PrintTo(const HipMotion& motion, std::ostream* out) { *out << motion.name; }
@@ -64,6 +65,7 @@ class HipInMotion : public testing::TestWithParam<HipMotion> {
     if (fresh) {
       contact_check::Gates gates;
       if (!motion.may_fold) gates.folded_share = 0;
+      gates.self_pairs = motion.own_cuts;
       found->second = run_judged(scene_of(motion, step), motion.judge_every, gates);
     }
     return found->second;
