@@ -171,8 +171,7 @@ TEST(SurfaceContact, edges_that_cross_while_every_particle_is_outside_are_pushed
   Meeting meeting;
   meeting.add(roof(0, -0.01, true));
   meeting.add(roof(-0.0004, 0.01, false));
-  meeting.crowd.settings.reach = 0.03f;
-  meeting.pair(0, 1, 0.0002f);
+  meeting.pair(0, 1, 0.0002f).reach = 0.03f;
   const auto gap = [&] { return meeting.particles[1].position(0).z() - meeting.particles[0].position(0).z(); };
   EXPECT_LT(gap(), 0);
   EXPECT_GT(meeting.solve(1), 0);

@@ -68,7 +68,7 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
   return surface;
 }
 
-static Eigen::Vector3f normal_at(Index particle, const ContactSurface& surface, const Particles& particles) {
+Eigen::Vector3f particle_normal(Index particle, const ContactSurface& surface, const Particles& particles) {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   const auto at = static_cast<std::size_t>(particle);
   for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i) {
@@ -86,7 +86,7 @@ static Eigen::Vector3f normal_at(Index particle, const ContactSurface& surface, 
 void particle_normals(const ContactSurface& surface, const Particles& particles, Eigen::Matrix3Xf& normals) {
   normals.resize(3, particles.count());
   parallel_for(particles.count(), chunk, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) normals.col(p) = normal_at(p, surface, particles);
+    for (Index p = begin; p < end; ++p) normals.col(p) = particle_normal(p, surface, particles);
   });
 }
 
@@ -95,7 +95,7 @@ void particle_normals(const ContactSurface& surface, const Particles& particles,
   parallel_for(static_cast<Index>(listed.size()), chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const Index p = listed[static_cast<std::size_t>(i)];
-      normals.col(p) = normal_at(p, surface, particles);
+      normals.col(p) = particle_normal(p, surface, particles);
     }
   });
 }

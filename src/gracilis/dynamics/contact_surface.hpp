@@ -28,6 +28,8 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
 /// Unit normals at the particles, sums of the faces' normals weighted by their angles there (Bærentzen and Aanæs 2005);
 /// zero where all faces are flat.
 void particle_normals(const ContactSurface& surface, const Particles& particles, Eigen::Matrix3Xf& normals);
+/// The normal of one particle.
+Eigen::Vector3f particle_normal(Index particle, const ContactSurface& surface, const Particles& particles);
 /// The same for the particles listed; the others keep what they have.
 void particle_normals(const ContactSurface& surface, const Particles& particles, const std::vector<Index>& listed,
                       Eigen::Matrix3Xf& normals);

@@ -9,8 +9,7 @@ namespace gracilis {
 
 /// How surfaces meet.
 struct SurfaceContactSettings {
-  float reach = 0.006f;       ///< m, farthest that one is looked for from the other, once per step
-  float self_reach = 0.002f;  ///< m, the same within one surface
+  float self_reach = 0.001f;  ///< m, farthest that parts of one surface are looked for from each other, once per step
   float friction = 0;         ///< largest tangential motion taken back, as a share of the push
   float cohesion = 0;         ///< m, farthest that particles which touch at rest may part; 0: as they like
 };
@@ -20,7 +19,8 @@ struct SurfaceContactSettings {
 struct SurfacePair {
   Index first = 0, second = 0;                      ///< equal: self-contact
   Eigen::Vector3f shift = Eigen::Vector3f::Zero();  ///< from the first's coordinates to the second's, m
-  std::vector<float> first_gap, second_gap;         ///< m, per particle
+  float reach = 0.006f;                      ///< m, farthest that one is looked for from the other, once per step
+  std::vector<float> first_gap, second_gap;  ///< m, per particle
   std::vector<char> first_touches, second_touches;  ///< which particles touch the other at rest; for cohesion
   bool is_self() const { return first == second; }
 };
@@ -40,6 +40,7 @@ struct SurfaceCrowd {
 struct PointTouch {
   Index particle = 0, face = 0;
   float side = 1;
+  float distance = 0;  ///< m, on that side, when last looked at
 };
 struct EdgeTouch {
   Index first = 0, second = 0;
@@ -54,8 +55,8 @@ struct PairTouches {
 };
 struct CrowdState {
   std::vector<NearestTriangle> trees;
-  std::vector<Eigen::Matrix3Xf> normals;
-  std::vector<PairTouches> touches;  ///< one per pair
+  std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where something is near
+  std::vector<PairTouches> touches;       ///< one per pair
 };
 
 /// Groups the pairs into rounds. Call it once all pairs are there.

@@ -2,6 +2,7 @@
 #include <gracilis/dynamics/surface_contact.hpp>
 
 #include <algorithm>
+#include <optional>
 
 /// What is near what: the searches behind surface_contact.hpp.
 namespace gracilis {
@@ -11,6 +12,8 @@ namespace {
 constexpr Index chunk = 256;
 /// What comes nearer than this beyond its gap is projected until the next look (m).
 constexpr float listed_within = 0.0015f;
+/// The same for edges, of which there are three times as many; between two looks they hardly come nearer by more.
+constexpr float edges_listed_within = 0.0008f;
 /// Parts of a surface that lie back to back farther apart than this at rest, in neighborhoods, meet from outside.
 constexpr float thickest_sheet = 2;
 
@@ -49,26 +52,38 @@ void find_near(const Particles& probe, const Eigen::Vector3f& shift, const Neare
 }
 
 /// How a particle and a face of the same surface may meet: 1 from outside where the surface folds, -1 from inside where
-/// it is a sheet and the face its back, 0 not at all because they are neighbors.
+/// it is a sheet and the face its back, 0 not at all because they are neighbors or lie side by side.
 struct SelfRule {
   const ContactSurface& surface;
-  const Eigen::Matrix3Xf &rest, &rest_normals, &normals;
+  const Eigen::Matrix3Xf &rest, &rest_normals;
+  const Particles& particles;
   float neighborhood;
 
   float side(Index particle, Index face) const {
+    const float possible = side_at_rest(particle, face);
+    return possible != 0 && area_of(face).dot(particle_normal(particle, surface, particles)) < 0 ? possible : 0;
+  }
+
+  Eigen::Vector3f area_of(Index face) const {
+    const Eigen::Vector3i corners = surface.faces.col(face);
+    const Eigen::Vector3f a = particles.position(corners[0]);
+    return (particles.position(corners[1]) - a).cross(Eigen::Vector3f(particles.position(corners[2]) - a));
+  }
+
+  /// What their places at rest allow.
+  float side_at_rest(Index particle, Index face) const {
     const Eigen::Vector3i corners = surface.faces.col(face);
     if (corners[0] == particle || corners[1] == particle || corners[2] == particle) return 0;
-    const Eigen::Vector3f facing = normals.col(corners[0]) + normals.col(corners[1]) + normals.col(corners[2]);
-    // Parts that face the same way lie side by side.
-    if (facing.dot(normals.col(particle)) >= 0) return 0;
+    const auto own = rest_normals.col(particle);
     Eigen::Vector3f away = rest.col(corners[0]) - rest.col(particle);  // to the nearest corner
+    // Most are neighbors on the same side.
+    if (away.squaredNorm() < neighborhood * neighborhood && own.dot(rest_normals.col(corners[0])) > 0.6f) return 0;
     for (const Index corner : {corners[1], corners[2]}) {
       const Eigen::Vector3f other = rest.col(corner) - rest.col(particle);
       if (other.squaredNorm() < away.squaredNorm()) away = other;
     }
     const Eigen::Vector3f rest_facing =
         rest_normals.col(corners[0]) + rest_normals.col(corners[1]) + rest_normals.col(corners[2]);
-    const auto own = rest_normals.col(particle);
     const float neighborhoods = away.norm() / neighborhood;
     const bool through = away.dot(own) < 0 && away.dot(rest_facing) > 0 && neighborhoods < thickest_sheet;
     const bool alike = rest_facing.dot(own) > 1.5f;
@@ -77,9 +92,9 @@ struct SelfRule {
   }
 };
 
-SelfRule self_rule(const SurfaceCrowd& crowd, const CrowdState& state, Index surface) {
+SelfRule self_rule(const SurfaceCrowd& crowd, const Particles& particles, Index surface) {
   const auto at = static_cast<std::size_t>(surface);
-  return {crowd.surfaces[at], crowd.rest[at], crowd.rest_normals[at], state.normals[at], crowd.neighborhood[at]};
+  return {crowd.surfaces[at], crowd.rest[at], crowd.rest_normals[at], particles, crowd.neighborhood[at]};
 }
 
 void find_self(const SelfRule& rule, const Particles& particles, const NearestTriangle& tree, float reach,
@@ -87,28 +102,43 @@ void find_self(const SelfRule& rule, const Particles& particles, const NearestTr
   search_all(
       particles.count(),
       [&](Index p, std::vector<PointTouch>& part) {
-        const std::function<bool(Index)> accepts = [&](Index face) { return rule.side(p, face) != 0; };
+        std::optional<Eigen::Vector3f> normal;
+        const std::function<bool(Index)> accepts = [&](Index face) {
+          if (rule.side_at_rest(p, face) == 0) return false;
+          if (!normal) normal = particle_normal(p, rule.surface, particles);
+          return rule.area_of(face).dot(*normal) < 0;
+        };
         const NearestPoint nearest = tree.query(particles.position(p).cast<Real>(), reach, accepts);
-        if (nearest.face >= 0) part.push_back({p, nearest.face, rule.side(p, nearest.face)});
+        if (nearest.face >= 0) part.push_back({p, nearest.face, rule.side_at_rest(p, nearest.face)});
       },
       found);
 }
 
-/// Walks each to its nearest face and lists those that could push before the next look. Within one surface a walk that
-/// ends among neighbors has found no contact.
-void follow(std::vector<PointTouch>& near, const ContactSurface& target_surface, const Eigen::Matrix3Xf& target_normals,
-            const Particles& probe, const Particles& target, const Eigen::Vector3f& shift, float within,
-            const SelfRule* self, std::vector<PointTouch>& listed) {
+/// Walks each to its nearest face.
+void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Particles& probe, const Particles& target,
+          const Eigen::Vector3f& shift) {
+  parallel_for(static_cast<Index>(near.size()), chunk, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      PointTouch& touch = near[static_cast<std::size_t>(i)];
+      touch.face = walk_to_nearest(probe.position(touch.particle) + shift, surface, touch.face, target);
+    }
+  });
+}
+
+/// Lists those that could push before the next look. Within one surface a walk that ended among neighbors has found no
+/// contact.
+void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, const Eigen::Matrix3Xf& normals,
+               const Particles& probe, const Particles& target, const Eigen::Vector3f& shift, float within,
+               const SelfRule* self, std::vector<PointTouch>& listed) {
   search_all(
       static_cast<Index>(near.size()),
       [&](Index i, std::vector<PointTouch>& part) {
         PointTouch& touch = near[static_cast<std::size_t>(i)];
-        const Eigen::Vector3f x = probe.position(touch.particle) + shift;
-        const Index face = walk_to_nearest(x, target_surface, touch.face, target);
-        if (self && self->side(touch.particle, face) != touch.side) return;
-        touch.face = face;
-        const PointGap gap = point_gap(x, target_surface, face, target, target_normals);
-        if (touch.side * gap.distance < within) part.push_back(touch);
+        const PointGap gap = point_gap(probe.position(touch.particle) + shift, surface, touch.face, target, normals);
+        touch.distance = touch.side * gap.distance;
+        if (touch.distance >= within) return;
+        if (self && self->side(touch.particle, touch.face) != touch.side) return;
+        part.push_back(touch);
       },
       listed);
 }
@@ -123,14 +153,34 @@ void gather_edges(const ContactSurface& surface, Index face, std::vector<Index>&
   }
 }
 
+/// Sum of the unit normals of an edge's faces.
+Eigen::Vector3f edge_normal(const ContactSurface& surface, Index edge, const Particles& particles) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const Index face : surface.edges[static_cast<std::size_t>(edge)].faces) {
+    if (face < 0) continue;
+    const Eigen::Vector3f a = particles.position(surface.faces(0, face));
+    sum += (particles.position(surface.faces(1, face)) - a)
+               .cross(Eigen::Vector3f(particles.position(surface.faces(2, face)) - a))
+               .normalized();
+  }
+  return sum;
+}
+
+/// An edge by its middle and half of its length.
+struct EdgeBall {
+  Eigen::Vector3f center;
+  float radius;
+};
+
+EdgeBall ball_around(const Eigen::Vector3f& a, const Eigen::Vector3f& b) { return {(a + b) / 2, (b - a).norm() / 2}; }
+
 /// Pairs of edges, one of each surface, that cross closely.
 void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::vector<const Particles*>& particles,
-                const std::vector<Eigen::Matrix3Xf>& normals, const std::vector<PointTouch>& near_second,
-                std::vector<EdgeTouch>& found) {
+                const std::vector<PointTouch>& near_second, std::vector<EdgeTouch>& found) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   const ContactSurface &first = crowd.surfaces[a], &second = crowd.surfaces[b];
-  std::vector<Index> face_near(static_cast<std::size_t>(particles[a]->count()), -1);
-  for (const PointTouch& touch : near_second) face_near[static_cast<std::size_t>(touch.particle)] = touch.face;
+  std::vector<const PointTouch*> touch_of(static_cast<std::size_t>(particles[a]->count()), nullptr);
+  for (const PointTouch& touch : near_second) touch_of[static_cast<std::size_t>(touch.particle)] = &touch;
   const auto count = static_cast<Index>(first.edges.size());
   std::vector<std::vector<EdgeTouch>> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
   parallel_for(count, chunk, [&](Index begin, Index end) {
@@ -138,23 +188,28 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
     std::vector<Index> candidates;
     for (Index e = begin; e < end; ++e) {
       const auto& ends = first.edges[static_cast<std::size_t>(e)].ends;
+      const PointTouch* touches[] = {touch_of[static_cast<std::size_t>(ends[0])],
+                                     touch_of[static_cast<std::size_t>(ends[1])]};
+      if (!touches[0] && !touches[1]) continue;
+      const Eigen::Vector3f a0 = particles[a]->position(ends[0]) + pair.shift,
+                            a1 = particles[a]->position(ends[1]) + pair.shift;
+      const EdgeBall ball = ball_around(a0, a1);
       candidates.clear();
-      for (Index end_particle : ends) {
-        const Index face = face_near[static_cast<std::size_t>(end_particle)];
-        if (face >= 0) gather_edges(second, face, candidates);
-      }
+      // An edge that crosses another closely has an end within half of its length and that.
+      for (const PointTouch* touch : touches)
+        if (touch && touch->distance < ball.radius + edges_listed_within) gather_edges(second, touch->face, candidates);
       if (candidates.empty()) continue;
       std::sort(candidates.begin(), candidates.end());
       candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-      const Eigen::Vector3f a0 = particles[a]->position(ends[0]) + pair.shift,
-                            a1 = particles[a]->position(ends[1]) + pair.shift;
+      const Eigen::Vector3f own_normal = edge_normal(first, e, *particles[a]);
       for (Index candidate : candidates) {
         const auto& other = second.edges[static_cast<std::size_t>(candidate)].ends;
-        const Eigen::Vector3f outward =
-            normals[b].col(other[0]) + normals[b].col(other[1]) - normals[a].col(ends[0]) - normals[a].col(ends[1]);
-        const EdgeGap gap =
-            edge_gap(a0, a1, particles[b]->position(other[0]), particles[b]->position(other[1]), outward);
-        if (gap.crossing && std::abs(gap.distance) < listed_within) part.push_back({e, candidate});
+        const Eigen::Vector3f b0 = particles[b]->position(other[0]), b1 = particles[b]->position(other[1]);
+        const EdgeBall other_ball = ball_around(b0, b1);
+        const float near = ball.radius + other_ball.radius + edges_listed_within;
+        if ((ball.center - other_ball.center).squaredNorm() > near * near) continue;
+        const EdgeGap gap = edge_gap(a0, a1, b0, b1, edge_normal(second, candidate, *particles[b]) - own_normal);
+        if (gap.crossing && std::abs(gap.distance) < edges_listed_within) part.push_back({e, candidate});
       }
     }
   });
@@ -162,22 +217,33 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
   for (const std::vector<EdgeTouch>& part : parts) found.insert(found.end(), part.begin(), part.end());
 }
 
-/// Normals where surfaces are near each other; elsewhere those of the step's beginning do.
-void refresh_normals(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
-  std::vector<std::vector<char>> wanted(crowd.surfaces.size());
-  for (std::size_t s = 0; s < wanted.size(); ++s) wanted[s].assign(static_cast<std::size_t>(particles[s]->count()), 0);
-  const auto want = [&](const std::vector<PointTouch>& near, std::size_t probe, std::size_t target) {
-    for (const PointTouch& touch : near) {
-      wanted[probe][static_cast<std::size_t>(touch.particle)] = 1;
-      for (Index corner : crowd.surfaces[target].faces.col(touch.face))
-        wanted[target][static_cast<std::size_t>(corner)] = 1;
-    }
-  };
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
-    const auto a = static_cast<std::size_t>(crowd.pairs[i].first), b = static_cast<std::size_t>(crowd.pairs[i].second);
-    want(state.touches[i].near_second, a, b);
-    want(state.touches[i].near_first, b, a);
+/// Which particles need normals, per surface.
+using Wanted = std::vector<std::vector<char>>;
+
+void want_faces(const std::vector<PointTouch>& near, const ContactSurface& target, std::vector<char>& wanted) {
+  for (const PointTouch& touch : near)
+    for (const Index corner : target.faces.col(touch.face)) wanted[static_cast<std::size_t>(corner)] = 1;
+}
+
+void want_edges(const std::vector<EdgeTouch>& edges, const ContactSurface& first, const ContactSurface& second,
+                std::vector<char>& first_wanted, std::vector<char>& second_wanted) {
+  for (const EdgeTouch& touch : edges) {
+    for (const Index end : first.edges[static_cast<std::size_t>(touch.first)].ends)
+      first_wanted[static_cast<std::size_t>(end)] = 1;
+    for (const Index end : second.edges[static_cast<std::size_t>(touch.second)].ends)
+      second_wanted[static_cast<std::size_t>(end)] = 1;
   }
+}
+
+/// Calls want(i, a, b, wanted) for every pair i of surfaces a and b, then makes the normals asked for. Others are those
+/// of some earlier time and nobody's business.
+template <class Want>
+void make_normals(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, const Want& want,
+                  CrowdState& state) {
+  Wanted wanted;
+  for (const Particles* each : particles) wanted.emplace_back(static_cast<std::size_t>(each->count()), 0);
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i)
+    want(i, static_cast<std::size_t>(crowd.pairs[i].first), static_cast<std::size_t>(crowd.pairs[i].second), wanted);
   std::vector<Index> listed;
   for (std::size_t s = 0; s < wanted.size(); ++s) {
     listed.clear();
@@ -203,7 +269,6 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
   parallel_for(static_cast<Index>(particles.size()), 1, [&](Index begin, Index end) {
     for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s) {
       boxes[s] = box_around(*particles[s]);
-      particle_normals(crowd.surfaces[s], *particles[s], state.normals[s]);
       Points points(3, particles[s]->count());
       for (Index p = 0; p < points.cols(); ++p) points.col(p) = particles[s]->position(p).cast<Real>();
       state.trees[s].refit(points);
@@ -214,36 +279,54 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     if (pair.is_self()) {
-      find_self(self_rule(crowd, state, pair.first), *particles[a], state.trees[a], crowd.settings.self_reach,
+      find_self(self_rule(crowd, *particles[a], pair.first), *particles[a], state.trees[a], crowd.settings.self_reach,
                 touches.near_second);
     } else {
-      const float reach = crowd.settings.reach;
-      find_near(*particles[a], pair.shift, state.trees[b], boxes[b], reach, touches.near_second);
-      find_near(*particles[b], -pair.shift, state.trees[a], boxes[a], reach, touches.near_first);
+      find_near(*particles[a], pair.shift, state.trees[b], boxes[b], pair.reach, touches.near_second);
+      find_near(*particles[b], -pair.shift, state.trees[a], boxes[a], pair.reach, touches.near_first);
     }
   }
 }
 
 void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
-  refresh_normals(crowd, particles, state);
-  // Cohesion also looks at what has parted.
-  const float within = listed_within + (crowd.settings.cohesion > 0 ? crowd.settings.reach : 0);
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+    const SurfacePair& pair = crowd.pairs[i];
+    PairTouches& touches = state.touches[i];
+    const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+    walk(touches.near_second, crowd.surfaces[b], *particles[a], *particles[b], pair.shift);
+    if (!pair.is_self()) walk(touches.near_first, crowd.surfaces[a], *particles[b], *particles[a], -pair.shift);
+  }
+  make_normals(
+      crowd, particles,
+      [&](std::size_t i, std::size_t a, std::size_t b, Wanted& wanted) {
+        want_faces(state.touches[i].near_second, crowd.surfaces[b], wanted[b]);
+        want_faces(state.touches[i].near_first, crowd.surfaces[a], wanted[a]);
+      },
+      state);
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     if (pair.is_self()) {
-      const SelfRule rule = self_rule(crowd, state, pair.first);
-      follow(touches.near_second, crowd.surfaces[a], state.normals[a], *particles[a], *particles[a],
-             Eigen::Vector3f::Zero(), listed_within, &rule, touches.on_second);
+      const SelfRule rule = self_rule(crowd, *particles[a], pair.first);
+      list_near(touches.near_second, crowd.surfaces[a], state.normals[a], *particles[a], *particles[a],
+                Eigen::Vector3f::Zero(), listed_within, &rule, touches.on_second);
       continue;
     }
-    follow(touches.near_second, crowd.surfaces[b], state.normals[b], *particles[a], *particles[b], pair.shift, within,
-           nullptr, touches.on_second);
-    follow(touches.near_first, crowd.surfaces[a], state.normals[a], *particles[b], *particles[a], -pair.shift, within,
-           nullptr, touches.on_first);
-    find_edges(crowd, pair, particles, state.normals, touches.near_second, touches.edges);
+    // Cohesion also looks at what has parted.
+    const float within = listed_within + (crowd.settings.cohesion > 0 ? pair.reach : 0);
+    list_near(touches.near_second, crowd.surfaces[b], state.normals[b], *particles[a], *particles[b], pair.shift,
+              within, nullptr, touches.on_second);
+    list_near(touches.near_first, crowd.surfaces[a], state.normals[a], *particles[b], *particles[a], -pair.shift,
+              within, nullptr, touches.on_first);
+    find_edges(crowd, pair, particles, touches.near_second, touches.edges);
   }
+  make_normals(
+      crowd, particles,
+      [&](std::size_t i, std::size_t a, std::size_t b, Wanted& wanted) {
+        want_edges(state.touches[i].edges, crowd.surfaces[a], crowd.surfaces[b], wanted[a], wanted[b]);
+      },
+      state);
 }
 
 }  // namespace gracilis

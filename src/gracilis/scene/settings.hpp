@@ -56,7 +56,7 @@ struct XpbdSettings {
   bool predictor = true;                         ///< carry free vertices with the bones before solving
   Real tendon_length = 0.03;                     ///< m from attachments, graded from tendon to belly; 0: no tendons
   Real step_turn = radians(1.25);                   ///< rad; a frame that turns bones further is taken in several steps; 0: in one
-  Real shape_recovery = 0.03;                    ///< share of its displacement that a vertex gives up per frame
+  Real shape_recovery = 0.03;                    ///< share of its displacement that a vertex gives up per degree of motion
   Real hinge_limit = 0.05;                       ///< largest motion by one hinge projection, as a share of its edge; 0: off
   Real stretch_limit = 2.5;                      ///< longest an edge may become, over its length at rest; 0: no limit
   bool slack_uptake = true;                      ///< edges aim at their lengths on the carried surface, so that nothing folds
@@ -78,7 +78,7 @@ struct ContactSettings {
   MuscleContact muscle = MuscleContact::surface;
   bool self = true;           ///< a muscle keeps out of itself; surface contact only
   Real margin = 0.0003;       ///< m, kept between muscles where the gap at rest allows
-  Real reach = 0.006;         ///< m, farthest that another muscle is looked for
+  Real reach = 0.003;         ///< m, farthest that another muscle is looked for
   Real friction = 0;          ///< Coulomb's coefficient
   Real cohesion = 0;          ///< m, farthest that what touches at rest may part; 0: as it likes
 

@@ -15,6 +15,8 @@ constexpr float overlap_given_back = 0.05f;
 constexpr float thinnest_sheet = 0.25f;
 /// What is nearer than this at rest touches, m.
 constexpr float touching = 0.001f;
+/// Overlaps at rest are looked for as deep as this, m.
+constexpr float deepest_overlap = 0.006f;
 /// Mean edges around a place that belong to it and do not meet it.
 constexpr float neighborhood_edges = 4;
 
@@ -64,7 +66,6 @@ void measure_gaps(const std::vector<PointTouch>& near, const Particles& probe, c
 SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
   SurfaceCrowd crowd;
   const auto margin = static_cast<float>(settings.margin);
-  crowd.settings.reach = static_cast<float>(settings.reach);
   crowd.settings.friction = static_cast<float>(settings.friction);
   crowd.settings.cohesion = static_cast<float>(settings.cohesion);
   const auto count = static_cast<Index>(muscles.size());
@@ -76,6 +77,7 @@ SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<Prep
   for (Index first = 0; first < count; ++first)
     for (Index second = settings.self ? first : first + 1; second < count; ++second)
       crowd.pairs.push_back(pair_of(first, second, muscles, margin));
+  for (SurfacePair& pair : crowd.pairs) pair.reach = deepest_overlap + static_cast<float>(settings.reach);
   arrange_rounds(crowd);
 
   CrowdState state = gracilis::make_crowd_state(crowd);
@@ -88,6 +90,12 @@ SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<Prep
     measure_gaps(state.touches[i].near_first, *rest[b], -pair.shift, crowd.surfaces[a], *rest[a], state.normals[a],
                  pair.second_gap, pair.second_touches);
     if (pair.is_self()) pair.second_gap = pair.first_gap;
+    // What overlaps at rest must be seen there, too.
+    const auto least = [](const std::vector<float>& gaps) {
+      return gaps.empty() ? 0.0f : *std::min_element(gaps.begin(), gaps.end());
+    };
+    const float overlap = std::max(0.0f, -std::min(least(pair.first_gap), least(pair.second_gap)));
+    pair.reach = overlap + static_cast<float>(settings.reach);
   }
   return crowd;
 }

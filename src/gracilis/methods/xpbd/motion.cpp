@@ -23,6 +23,18 @@ void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& pa
   }
 }
 
+Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& now) {
+  const auto against_first = [&](const Pose& pose, Index body) -> Eigen::Matrix3d {
+    return pose.bodies[static_cast<std::size_t>(muscle.carriers.front())].linear().transpose() *
+           pose.bodies[static_cast<std::size_t>(body)].linear();
+  };
+  Real turn = 0;
+  for (const Index body : muscle.carriers)
+    turn =
+        std::max(turn, Eigen::AngleAxisd(against_first(before, body).transpose() * against_first(now, body)).angle());
+  return turn;
+}
+
 /// The carriers' transforms from the capture pose, about the particles' origin.
 static std::vector<RigidTransform> carrier_transforms(const PreparedMuscle& muscle, const Pose& pose) {
   const Eigen::Translation3d to_world(muscle.origin);
@@ -44,7 +56,7 @@ static bool shares_of(const PreparedMuscle& muscle, Index particle, std::vector<
 
 void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, Particles& particles) {
   const std::vector<RigidTransform> from = carrier_transforms(muscle, before), to = carrier_transforms(muscle, now);
-  const Real kept = 1 - muscle.settings.shape_recovery;
+  const Real kept = std::pow(1 - muscle.settings.shape_recovery, degrees(turn_between(muscle, before, now)));
   if (from.empty()) return;
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(from.size());

@@ -9,6 +9,9 @@ namespace gracilis::xpbd {
 /// Attached particles go where their bodies are: T_body x_rest.
 void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles);
 
+/// The largest turn from one pose to another of a bone to which the muscle is attached, against another such bone, rad.
+Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& now);
+
 /// The predictor: every free particle has a frame of its own, the blend of the bodies' motions by its harmonic shares.
 /// It keeps its displacement in that frame from `before` to `now`, less the share `shape_recovery`, so that the solver
 /// only has to relax and a muscle does not remember by which way it came.

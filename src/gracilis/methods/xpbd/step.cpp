@@ -56,13 +56,7 @@ Real farthest(const Particles& from, const Particles& to) {
 /// Into how many steps the settings and the turn of the muscle's bones against each other divide a frame.
 int substeps_of(const PreparedMuscle& muscle, const Pose& before, const Pose& now) {
   const XpbdSettings& settings = muscle.settings;
-  Real turn = 0;
-  const auto relative = [&](const Pose& pose, Index body) -> Eigen::Matrix3d {
-    return pose.bodies[static_cast<std::size_t>(muscle.carriers.front())].linear().transpose() *
-           pose.bodies[static_cast<std::size_t>(body)].linear();
-  };
-  for (Index body : muscle.carriers)
-    turn = std::max(turn, Eigen::AngleAxisd(relative(before, body).transpose() * relative(now, body)).angle());
+  const Real turn = turn_between(muscle, before, now);
   if (!(settings.step_turn > 0) || !std::isfinite(turn)) return settings.substeps;
   constexpr Real rounding = 1e-6;
   return settings.substeps * std::max(1, static_cast<int>(std::ceil(turn / settings.step_turn - rounding)));
