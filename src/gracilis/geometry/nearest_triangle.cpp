@@ -58,6 +58,9 @@ NearestTriangle::NearestTriangle(const TriangleMesh& mesh) : tree_(std::make_uni
   tree_->scene = rtcNewScene(tree_->device);
   rtcSetSceneFlags(tree_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
 
+  // Only then is the geometry's own quality below heeded: refitted instead of built anew.
+  rtcSetSceneBuildQuality(tree_->scene, RTC_BUILD_QUALITY_LOW);
+
   tree_->geometry = rtcNewGeometry(tree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices =
       static_cast<float*>(rtcSetNewGeometryBuffer(tree_->geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
