@@ -117,7 +117,7 @@ TEST(SurfaceContact, pushes_two_balls_apart_equally_and_keeps_their_momentum) {
   Meeting meeting = pressed_balls(0.001);
   EXPECT_GT(deepest(meeting.particles[0], {0.019, 0.0003, 0.0002}), 0.0009);
   meeting.solve(40);
-  EXPECT_EQ(meeting.solve(1), 0) << "nothing is left to push";
+  EXPECT_LT(meeting.unrest(), 1e-6);
   Vec3 first = Vec3::Zero();
   for (Index p = 0; p < meeting.particles[0].count(); ++p)
     first += (meeting.particles[0].position(p) - meeting.start[0].position(p)).cast<Real>();

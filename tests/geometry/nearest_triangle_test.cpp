@@ -1,3 +1,4 @@
+#include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/point_triangle.hpp>
 
@@ -58,6 +59,12 @@ TEST(NearestTriangle, of_a_single_triangle_works_and_moves_with_its_owner) {
   NearestTriangle tree(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
   const NearestTriangle moved = std::move(tree);
   EXPECT_NEAR(moved.query({0.2, 0.2, -3}).distance, 3, 1e-12);
+}
+
+TEST(NearestTriangle, leaves_the_number_of_threads_to_others) {
+  const int before = thread_count();
+  const NearestTriangle tree(shapes::box(Vec3::Zero(), Vec3::Ones()));
+  EXPECT_EQ(thread_count(), before);
 }
 
 }  // namespace gracilis

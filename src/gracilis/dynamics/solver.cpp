@@ -231,9 +231,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     });
     if (coupling.project) {
       const Clock::time_point started = Clock::now();
-      const bool ending =
-          std::all_of(progress.begin(), progress.end(), [](const Progress& each) { return each.last || each.done; });
-      if (iteration % coupling_refresh == 0 || ending) coupling.refresh();
+      if (iteration % coupling_refresh == 0) coupling.refresh();
       coupling.project();
       for (std::size_t i = 0; i < surfaces.size(); ++i) {
         if (watch) watch(i, ConstraintKind::muscle_contact);

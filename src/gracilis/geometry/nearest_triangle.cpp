@@ -54,7 +54,7 @@ bool consider_triangle(RTCPointQueryFunctionArguments* arguments) {
 
 NearestTriangle::NearestTriangle(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
   tree_->mesh = mesh;
-  tree_->device = rtcNewDevice("threads=1");
+  tree_->device = rtcNewDevice(nullptr);  // any number of threads asked for here would hold for the whole program
   tree_->scene = rtcNewScene(tree_->device);
   rtcSetSceneFlags(tree_->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC));
 
