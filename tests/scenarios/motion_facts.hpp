@@ -21,7 +21,8 @@ struct HipMotion {
   int judge_every = 1;              ///< frames
   std::vector<Real> steps = {1};    ///< degrees per frame, a run for each
   bool may_fold = true;             ///< fewer than a thousandth of all hinges; otherwise none
-  Index own_cuts = 0;               ///< pairs of faces of one muscle, for data that hold needles and folded triangles
+  Index own_cuts = 0;   ///< pairs of faces of one muscle, for needles in the data and crumples at the limits
+  Index bone_cuts = 0;  ///< edges in a bone, for the same
 };
 
 inline void PrintTo(const HipMotion& motion, std::ostream* out) { *out << motion.name; }
@@ -66,6 +67,7 @@ class HipInMotion : public testing::TestWithParam<HipMotion> {
       contact_check::Gates gates;
       if (!motion.may_fold) gates.folded_share = 0;
       gates.self_pairs = motion.own_cuts;
+      gates.bone_edges = motion.bone_cuts;
       found->second = run_judged(scene_of(motion, step), motion.judge_every, gates);
     }
     return found->second;
