@@ -62,8 +62,7 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "Largest turn of the muscle's bones against each other that is taken in one step; frames that turn them further "
        "are divided. 0 never divides."},
       {"shape_recovery", &S::shape_recovery, "", 0, 1,
-       "Share of its displacement from the carried rest shape that the predictor takes back in each degree by which the "
-       "muscle's bones turn."},
+       "Share of its displacement from the carried rest shape that the predictor takes back in each step."},
       {"hinge_limit", &S::hinge_limit, "", 0, 10,
        "Largest motion that one projection of a hinge may cause, as a share of its edge; 0 sets no limit."},
       {"stretch_limit", &S::stretch_limit, "", 0, 1000,

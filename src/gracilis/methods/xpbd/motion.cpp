@@ -56,7 +56,7 @@ static bool shares_of(const PreparedMuscle& muscle, Index particle, std::vector<
 
 void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, Particles& particles) {
   const std::vector<RigidTransform> from = carrier_transforms(muscle, before), to = carrier_transforms(muscle, now);
-  const Real kept = std::pow(1 - muscle.settings.shape_recovery, degrees(turn_between(muscle, before, now)));
+  const Real kept = 1 - muscle.settings.shape_recovery;
   if (from.empty()) return;
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(from.size());
