@@ -52,8 +52,10 @@ inline const BenchmarkHip& builtin_benchmark_hip() {
 
 inline const BenchmarkHip& benchmark_hip() {
   if (!cadaver_is_there()) return builtin_benchmark_hip();
-  static const BenchmarkHip hip =
-      with_fields(read_scene(cadaver_scene_file(), {find_data_root(cadaver_scene_file(), {}), {}, {}}).scene);
+  SceneOptions options;
+  options.data = find_data_root(cadaver_scene_file(), {});
+  options.only = {"gluteus_maximus_r", "gluteus_medius_r", "iliacus_r", "psoas_major_r"};
+  static const BenchmarkHip hip = with_fields(read_scene(cadaver_scene_file(), options).scene);
   return hip;
 }
 

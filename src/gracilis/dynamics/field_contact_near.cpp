@@ -15,7 +15,7 @@ namespace {
 constexpr Index chunk = 512;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Edges and faces count as near when they may come this deep below their gap before the next listing, m.
-constexpr float element_reach = 0.001f;
+constexpr float element_reach = 0.002f;
 /// A field's slope may exceed 1 by rounding and interpolation.
 constexpr float steepest = 1.1f;
 /// The share of an edge at a fixed end that is not tested: pushing there would throw the other end far away.

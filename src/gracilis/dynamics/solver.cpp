@@ -15,8 +15,8 @@ namespace {
 constexpr Index slots_per_task = 2048;
 /// Iterations between two looks at what is near the bones, and how near counts (m). A particle would have to cross the
 /// reach within these iterations to be missed; the last iteration looks again anyway.
-constexpr int contact_refresh = 10;
-constexpr float contact_reach = 0.003f;
+constexpr int contact_refresh = 8;
+constexpr float contact_reach = 0.006f;
 /// The same between two looks at what is near between surfaces, which walk and list with reserve.
 constexpr int coupling_refresh = 15;
 
