@@ -85,4 +85,13 @@ inline TriangleMesh cylinder(Real radius, Real length, int around, int along) {
   return mesh_of(v, f);
 }
 
+/// One mesh of two.
+inline TriangleMesh both(const TriangleMesh& first, const TriangleMesh& second) {
+  TriangleMesh mesh{Points(3, first.vertex_count() + second.vertex_count()),
+                    Eigen::Matrix3Xi(3, first.face_count() + second.face_count())};
+  mesh.vertices << first.vertices, second.vertices;
+  mesh.faces << first.faces, second.faces.array() + first.vertex_count();
+  return mesh;
+}
+
 }  // namespace gracilis::shapes

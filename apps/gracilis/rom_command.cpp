@@ -93,8 +93,8 @@ void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, 
   table.values = table.values.bottomRows(rows).eval();
   table.times.erase(table.times.begin(), table.times.end() - rows);
   const auto coordinates = static_cast<Eigen::Index>(coordinate_names(scene).size());
-  const auto column = std::find(table.columns.begin(), table.columns.end(), moving.name) - table.columns.begin();
-  const Eigen::VectorXd angles = table.values.col(column) * radians(1);
+  // Every coordinate of the scene has a column.
+  const Eigen::VectorXd angles = table.values.col(column_of(table, moving.name).value()) * radians(1);
   const Eigen::Index lengths = table.values.cols() - coordinates;
   table.name = "moment_arms";
   table.values.rightCols(lengths) = moment_arms(angles, table.values.rightCols(lengths));
@@ -102,10 +102,10 @@ void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, 
 
   std::vector<std::string> muscles;
   for (const Muscle& muscle : scene.muscles) {
-    const auto found = std::find(table.columns.begin(), table.columns.end(), muscle.name);
-    if (found == table.columns.end()) continue;
+    const std::optional<Eigen::Index> found = column_of(table, muscle.name);
+    if (!found) continue;
     muscles.push_back(muscle.name);
-    const Eigen::VectorXd arms = table.values.col(found - table.columns.begin());
+    const Eigen::VectorXd arms = table.values.col(*found);
     fmt::print("{}: moment arm about {} {:.1f} to {:.1f} mm, largest step {:.3f} mm per degree\n", muscle.name,
                moving.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), 1e3 * largest_step_per_degree(angles, arms));
     write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"),

@@ -34,12 +34,8 @@ TEST(HarmonicField, stays_between_its_fixed_values_and_sums_to_one_over_bodies) 
 }
 
 TEST(HarmonicField, leaves_a_part_that_no_fixed_vertex_reaches_at_zero) {
-  TriangleMesh two = shapes::box(Vec3::Zero(), Vec3::Ones());
-  const TriangleMesh other = shapes::box(Vec3::Constant(2), Vec3::Constant(3));
-  two.vertices.conservativeResize(3, 16);
-  two.vertices.rightCols(8) = other.vertices;
-  two.faces.conservativeResize(3, 24);
-  two.faces.rightCols(12) = other.faces.array() + 8;
+  const TriangleMesh two =
+      shapes::both(shapes::box(Vec3::Zero(), Vec3::Ones()), shapes::box(Vec3::Constant(2), Vec3::Constant(3)));
   const MeshTopology topology = build_topology(two.faces, 16);
   const Eigen::MatrixXd field = harmonic_fields(two.vertices, topology, {0}, Eigen::MatrixXd::Constant(1, 1, 3.0));
   for (Index v = 0; v < 8; ++v) EXPECT_NEAR(field(v, 0), 3, 1e-9);

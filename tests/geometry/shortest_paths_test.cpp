@@ -40,16 +40,26 @@ TEST(ShortestPath, along_a_line_of_edges_is_the_geodesic_itself) {
 }
 
 TEST(ShortestPath, between_a_vertex_and_itself_is_that_vertex_and_between_pieces_there_is_none) {
-  TriangleMesh two = shapes::box(Vec3::Zero(), Vec3::Ones());
-  const TriangleMesh other = shapes::box(Vec3::Constant(2), Vec3::Constant(3));
-  two.vertices.conservativeResize(3, 16);
-  two.vertices.rightCols(8) = other.vertices;
-  two.faces.conservativeResize(3, 24);
-  two.faces.rightCols(12) = other.faces.array() + 8;
+  const TriangleMesh two =
+      shapes::both(shapes::box(Vec3::Zero(), Vec3::Ones()), shapes::box(Vec3::Constant(2), Vec3::Constant(3)));
   const EdgeGraph graph = graph_of(two);
   EXPECT_EQ(shortest_path(graph, 3, 3), std::vector<Index>{3});
   EXPECT_EQ(path_cost(graph, {3}), 0);
   EXPECT_TRUE(shortest_path(graph, 0, 9).empty());
+}
+
+TEST(EdgeDistance, is_the_way_along_edges_and_infinite_to_another_component) {
+  const TriangleMesh one = shapes::box({0, 0, 0}, {1, 2, 3}), other = shapes::box({10, 0, 0}, {11, 2, 3});
+  const TriangleMesh two = shapes::both(one, other);
+  const Eigen::VectorXd distances = edge_distances(graph_of(two), {0});
+  EXPECT_EQ(distances[0], 0);
+  EXPECT_DOUBLE_EQ(distances[1], 1);
+  EXPECT_DOUBLE_EQ(distances[2], 2);
+  EXPECT_DOUBLE_EQ(distances[4], 3);
+  for (Index v = 0; v < one.vertex_count(); ++v) {
+    EXPECT_GE(distances[v], (two.vertices.col(v) - two.vertices.col(0)).norm() - 1e-12);
+    EXPECT_TRUE(std::isinf(distances[one.vertex_count() + v]));
+  }
 }
 
 }  // namespace gracilis

@@ -1,4 +1,3 @@
-#include <gracilis/geometry/edge_distance.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/methods/xpbd/carrier_shares.hpp>
 
@@ -71,24 +70,6 @@ TEST(CarrierShares, a_tube_held_by_whole_rings_needs_no_tendons) {
     tube.fixed_body[static_cast<std::size_t>(v)] = z > 0.07 ? 0 : z < -0.07 ? 1 : -1;
   }
   EXPECT_LT((tube.shares(0.03) - tube.shares(0)).cwiseAbs().maxCoeff(), 0.02f);
-}
-
-TEST(EdgeDistance, is_the_way_along_edges_and_infinite_to_another_component) {
-  TriangleMesh two = shapes::box({0, 0, 0}, {1, 2, 3});
-  const Index count = two.vertex_count();
-  Points both(3, 2 * count);
-  both << two.vertices, two.vertices.colwise() + Vec3(10, 0, 0);
-  Eigen::Matrix3Xi faces(3, 2 * two.face_count());
-  faces << two.faces, two.faces.array() + count;
-  const Eigen::VectorXd distances = edge_distances(both, build_topology(faces, 2 * count), {0});
-  EXPECT_EQ(distances[0], 0);
-  EXPECT_DOUBLE_EQ(distances[1], 1);
-  EXPECT_DOUBLE_EQ(distances[2], 2);
-  EXPECT_DOUBLE_EQ(distances[4], 3);
-  for (Index v = 0; v < count; ++v) {
-    EXPECT_GE(distances[v], (both.col(v) - both.col(0)).norm() - 1e-12);
-    EXPECT_TRUE(std::isinf(distances[count + v]));
-  }
 }
 
 }  // namespace gracilis

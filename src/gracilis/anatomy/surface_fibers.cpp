@@ -2,41 +2,17 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
-
-#include <nanoflann.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
 
 namespace gracilis {
 
 namespace {
-
-using Rows = Eigen::Matrix<Real, Eigen::Dynamic, 3>;
-using KdTree = nanoflann::KDTreeEigenMatrixAdaptor<Rows, 3>;
-
-/// The nearest rows of a set of points.
-class Nearest {
- public:
-  explicit Nearest(const Points& points)
-      : rows_(points.transpose()), tree_(std::make_unique<KdTree>(3, std::cref(rows_))) {}
-
-  std::vector<Eigen::Index> query(const Vec3& p, std::size_t count) const {
-    count = std::min(count, static_cast<std::size_t>(rows_.rows()));
-    std::vector<Eigen::Index> found(count);
-    std::vector<Real> squares(count);
-    tree_->query(p.data(), count, found.data(), squares.data());
-    return found;
-  }
-
- private:
-  Rows rows_;
-  std::unique_ptr<KdTree> tree_;
-};
 
 /// Which way fibers run, anywhere.
 class DirectionField {
@@ -47,7 +23,7 @@ class DirectionField {
   /// Unit; zero where fibers have no length.
   Vec3 at(const Vec3& p) const {
     Vec3 sum = Vec3::Zero();
-    for (const Eigen::Index piece : nearest_.query(p, 4)) sum += directions_.col(piece);
+    for (const Index piece : nearest_.query(p, 4)) sum += directions_.col(piece);
     return sum.normalized();
   }
 
@@ -55,7 +31,7 @@ class DirectionField {
   /// fibers are few.
   Vec3 between(const Vec3& p) const {
     Vec3 sum = Vec3::Zero();
-    for (const Eigen::Index piece : nearest_.query(p, 32))
+    for (const Index piece : nearest_.query(p, 32))
       sum += directions_.col(piece) / std::max((middles_.col(piece) - p).squaredNorm(), Real{1e-12});
     return sum.normalized();
   }
@@ -73,7 +49,7 @@ class DirectionField {
   }
 
   Points directions_, middles_;
-  Nearest nearest_;
+  NearestPoints nearest_;
 };
 
 Real distance_to_line(const Points& line, const Vec3& p) {
@@ -88,10 +64,10 @@ Real distance_to_line(const Points& line, const Vec3& p) {
 }
 
 /// The published way.
-std::vector<Index> joined_nearest(const Points& line, const Nearest& vertices, const EdgeGraph& lengths) {
+std::vector<Index> joined_nearest(const Points& line, const NearestPoints& vertices, const EdgeGraph& lengths) {
   std::vector<Index> path;
   for (Eigen::Index i = 0; i < line.cols(); ++i) {
-    const auto vertex = static_cast<Index>(vertices.query(line.col(i), 1)[0]);
+    const Index vertex = vertices.nearest(line.col(i));
     if (path.empty()) {
       path.push_back(vertex);
     } else if (vertex != path.back()) {
@@ -121,15 +97,15 @@ EdgeGraph anisotropic_graph(const Points& x, const MeshTopology& topology, const
 }
 
 /// One way for the whole fiber: it cannot jump from side to side where the muscle is thin, and stays near.
-std::vector<Index> along_fiber(const Points& x, const Points& line, const Nearest& vertices, EdgeGraph graph) {
-  const auto first = static_cast<Index>(vertices.query(line.col(0), 1)[0]);
-  const auto last = static_cast<Index>(vertices.query(line.col(line.cols() - 1), 1)[0]);
+std::vector<Index> along_fiber(const Points& x, const Points& line, const NearestPoints& vertices, EdgeGraph graph) {
+  const Index first = vertices.nearest(line.col(0));
+  const Index last = vertices.nearest(line.col(line.cols() - 1));
   // Distances count against the fiber's own from the surface: those in the middle of the belly are far from it all.
   Eigen::VectorXd distances(x.cols());
   for (Index v = 0; v < x.cols(); ++v) distances[v] = distance_to_line(line, x.col(v));
   Real depth = 0;
   for (Eigen::Index i = 0; i < line.cols(); ++i)
-    depth = std::max(depth, (Vec3(x.col(vertices.query(line.col(i), 1)[0])) - line.col(i)).norm());
+    depth = std::max(depth, (Vec3(x.col(vertices.nearest(line.col(i)))) - line.col(i)).norm());
   const Real scale = std::max(depth, polyline_length(line) / 50);
   for (std::size_t v = 0; v < static_cast<std::size_t>(x.cols()); ++v)
     for (Index i = graph.stars.offsets[v]; i < graph.stars.offsets[v + 1]; ++i) {
@@ -189,7 +165,7 @@ SurfaceFibers surface_fibers(const Muscle& muscle, const Polylines& fibers, Surf
   if (fibers.count() == 0) return result;
   const Points& x = muscle.surface.vertices;
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
-  const Nearest vertices(x);
+  const NearestPoints vertices(x);
   const DirectionField directions(fibers);
   const EdgeGraph graph =
       paths == SurfacePaths::along_fibers ? anisotropic_graph(x, topology, directions) : length_graph(x, topology);
@@ -209,7 +185,7 @@ SurfaceFibers surface_fibers_from_lines(const Muscle& muscle, const Polylines& l
   SurfaceFibers result;
   const Points& x = muscle.surface.vertices;
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
-  const Nearest vertices(x);
+  const NearestPoints vertices(x);
   const EdgeGraph lengths = length_graph(x, topology);
   for (Index f = 0; f < lines.count(); ++f) result.paths.push_back(joined_nearest(lines.line(f), vertices, lengths));
   collect_segments(x, nullptr, result);

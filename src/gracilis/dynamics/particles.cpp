@@ -12,4 +12,11 @@ Particles make_particles(const Points& positions, const Eigen::VectorXd& inverse
   return particles;
 }
 
+float largest_motion(const Particles& from, const Particles& to) {
+  float largest2 = 0;
+  for (Index i = 0; i < to.count(); ++i)
+    largest2 = std::max(largest2, (to.position(i) - from.position(i)).squaredNorm());
+  return std::sqrt(largest2);
+}
+
 }  // namespace gracilis

@@ -23,4 +23,7 @@ struct Particles {
 /// Particles at `positions` (m, relative to the chosen origin) with `inverse_masses` (1/kg).
 Particles make_particles(const Points& positions, const Eigen::VectorXd& inverse_masses);
 
+/// Length of the longest way that a particle went from one state to another of as many particles, m.
+float largest_motion(const Particles& from, const Particles& to);
+
 }  // namespace gracilis

@@ -43,6 +43,35 @@ HWY_INLINE V motion_along(const Point& gradient, const Point& x, const float* st
   return dot<Math>(gradient, x - load_particles(start, indices).x);
 }
 
+/// The ends of the edges in the slots from `at` on, one edge per lane.
+struct LoadedEdges {
+  const Index *ia, *ib;
+  LoadedParticles a, b;
+  V weight;  ///< sum of the inverse masses
+};
+
+HWY_INLINE LoadedEdges load_edges(const DistanceSet& set, std::size_t at, const Particles& particles) {
+  LoadedEdges edges;
+  edges.ia = set.a.data() + at, edges.ib = set.b.data() + at;
+  edges.a = load_particles(particles.xyzw.data(), edges.ia);
+  edges.b = load_particles(particles.xyzw.data(), edges.ib);
+  edges.weight = edges.a.w + edges.b.w;
+  return edges;
+}
+
+/// Moves the second end by `share` of `along` times its inverse mass, the first the other way by its own.
+HWY_INLINE void move_ends(const LoadedEdges& edges, const V& share, const Point& along, Particles& particles) {
+  const LoadedParticles &a = edges.a, &b = edges.b;
+  store_particles(particles.xyzw.data(), edges.ia, a.x - scaled(a.w * share, along), a.w);
+  store_particles(particles.xyzw.data(), edges.ib, b.x + scaled(b.w * share, along), b.w);
+}
+
+/// How many of the edges have ends that coincide, so that nothing tells where to, though one could move.
+HWY_INLINE Index count_without_direction(const V& length, const V& weight) {
+  const D d;
+  return static_cast<Index>(hn::CountTrue(d, hn::And(hn::Lt(length, hn::Set(d, 1e-12f)), hn::Gt(weight, hn::Zero(d)))));
+}
+
 ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, const float* target_length, float* lambda,
                                    const Particles& start, Particles& particles,
                                    const ProjectionParameters& parameters) {
@@ -53,27 +82,24 @@ ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, con
   ProjectionCounts counts;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
-    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
-    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
-    const EdgeLength<V> edge = edge_length<Math>(a.x, b.x);
+    const LoadedEdges ends = load_edges(set, at, particles);
+    const EdgeLength<V> edge = edge_length<Math>(ends.a.x, ends.b.x);
     const V c = edge.length - hn::LoadU(d, target_length + at);
     const V alpha = hn::LoadU(d, set.compliance.data() + at) * hn::Set(d, inverse_dt2);
     const V multiplier = hn::LoadU(d, lambda + at);
-    V weight = a.w + b.w;
+    V weight = ends.weight;
     V numerator = c + alpha * multiplier;
     if (dissipative) {
       const V gamma = alpha * hn::Set(d, parameters.time_step * parameters.rayleigh_beta);
-      numerator = numerator + gamma * (motion_along(edge.direction, b.x, start.xyzw.data(), ib) -
-                                       motion_along(edge.direction, a.x, start.xyzw.data(), ia));
+      numerator = numerator + gamma * (motion_along(edge.direction, ends.b.x, start.xyzw.data(), ends.ib) -
+                                       motion_along(edge.direction, ends.a.x, start.xyzw.data(), ends.ia));
       weight = weight * (one + gamma);
     }
     // Between two fixed particles, and in padding, nothing moves.
-    const V step = hn::IfThenElse(hn::Gt(a.w + b.w, zero), (zero - numerator) / hn::Max(weight + alpha, tiny), zero);
-    counts.skipped +=
-        static_cast<Index>(hn::CountTrue(d, hn::And(hn::Lt(edge.length, hn::Set(d, 1e-12f)), hn::Gt(a.w + b.w, zero))));
+    const V step = hn::IfThenElse(hn::Gt(ends.weight, zero), (zero - numerator) / hn::Max(weight + alpha, tiny), zero);
+    counts.skipped += count_without_direction(edge.length, ends.weight);
     hn::StoreU(multiplier + step, d, lambda + at);
-    store_particles(particles.xyzw.data(), ia, a.x - scaled(a.w * step, edge.direction), a.w);
-    store_particles(particles.xyzw.data(), ib, b.x + scaled(b.w * step, edge.direction), b.w);
+    move_ends(ends, step, edge.direction, particles);
   }
   return counts;
 }
@@ -87,20 +113,17 @@ ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, 
   ProjectionCounts counts;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
-    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
-    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
-    const EdgeLength<V> edge = edge_length<Math>(a.x, b.x);
-    const V c = edge.length - hn::LoadU(d, target_length + at), weight = a.w + b.w;
+    const LoadedEdges ends = load_edges(set, at, particles);
+    const EdgeLength<V> edge = edge_length<Math>(ends.a.x, ends.b.x);
+    const V c = edge.length - hn::LoadU(d, target_length + at), weight = ends.weight;
     const V alpha = hn::LoadU(d, set.compliance.data() + at) * softness;
     const V multiplier = hn::LoadU(d, lambda + at);
     const V wanted = multiplier - (c + alpha * multiplier) / hn::Max(weight + alpha, tiny);
     // A pull has a negative multiplier; a push is none of this constraint's business.
     const V step = hn::IfThenElseZero(hn::Gt(weight, zero), hn::Min(wanted, zero) - multiplier);
-    counts.skipped +=
-        static_cast<Index>(hn::CountTrue(d, hn::And(hn::Lt(edge.length, hn::Set(d, 1e-12f)), hn::Gt(weight, zero))));
+    counts.skipped += count_without_direction(edge.length, ends.weight);
     hn::StoreU(multiplier + step, d, lambda + at);
-    store_particles(particles.xyzw.data(), ia, a.x - scaled(a.w * step, edge.direction), a.w);
-    store_particles(particles.xyzw.data(), ib, b.x + scaled(b.w * step, edge.direction), b.w);
+    move_ends(ends, step, edge.direction, particles);
   }
   return counts;
 }
@@ -110,19 +133,17 @@ Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Parti
   Index limited = 0;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
-    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
-    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
-    const Point along = b.x - a.x;
+    const LoadedEdges ends = load_edges(set, at, particles);
+    const Point along = ends.b.x - ends.a.x;
     const V longest = hn::Set(d, limit) * hn::LoadU(d, set.rest_length.data() + at);
-    const V weight = a.w + b.w, length2 = dot<Math>(along, along);
+    const V weight = ends.weight, length2 = dot<Math>(along, along);
     const auto beyond = hn::And(hn::Gt(length2, longest * longest), hn::Gt(weight, hn::Zero(d)));
     if (hn::AllFalse(d, beyond)) continue;
     limited += static_cast<Index>(hn::CountTrue(d, beyond));
     const V length = hn::Sqrt(length2);
-    // The share of the edge that each end gives up, per inverse mass.
-    const V share = hn::IfThenElseZero(beyond, (length - longest) / hn::Max(length * weight, hn::Set(d, 1e-30f)));
-    store_particles(particles.xyzw.data(), ia, a.x + scaled(a.w * share, along), a.w);
-    store_particles(particles.xyzw.data(), ib, b.x - scaled(b.w * share, along), b.w);
+    // The share of the edge that each end gives up, per inverse mass; negative, as they come nearer.
+    const V share = hn::IfThenElseZero(beyond, (longest - length) / hn::Max(length * weight, hn::Set(d, 1e-30f)));
+    move_ends(ends, share, along, particles);
   }
   return limited;
 }

@@ -56,13 +56,6 @@ void limit_edges(const SurfaceSystem& system, float limit, SurfaceState& state, 
   report.limited_edges += limited;
 }
 
-float largest_motion(const Particles& from, const Particles& to) {
-  float largest2 = 0;
-  for (Index i = 0; i < to.count(); ++i)
-    largest2 = std::max(largest2, (to.position(i) - from.position(i)).squaredNorm());
-  return std::sqrt(largest2);
-}
-
 }  // namespace
 
 const char* name_of(ConstraintKind kind) {

@@ -7,6 +7,13 @@ Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners) {
   return (vertices.col(corners[1]) - a).cross(vertices.col(corners[2]) - a);
 }
 
+Real area_at(const MeshEdge& edge, const Points& vertices, const Eigen::Matrix3Xi& faces) {
+  Real area = 0;
+  for (const Index face : {edge.left, edge.right})
+    if (face >= 0) area += area_vector(vertices, faces.col(face)).norm() / 2;
+  return area;
+}
+
 Real enclosed_volume(const Points& vertices, const Eigen::Matrix3Xi& faces) {
   if (vertices.cols() == 0) return 0;
   const Vec3 origin = vertices.col(0);

@@ -1,12 +1,16 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
+#include <gracilis/geometry/topology.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
 namespace gracilis {
 
 /// Twice the area times the outward unit normal of face `face`: (b - a) × (c - a).
 Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners);
+
+/// Area of the triangles at an edge, m².
+Real area_at(const MeshEdge& edge, const Points& vertices, const Eigen::Matrix3Xi& faces);
 
 /// Signed volume enclosed by a closed surface, m³, positive when oriented outwards: the sum of a·(b × c) / 6 over all
 /// faces (divergence theorem), taken about the first vertex to keep digits.

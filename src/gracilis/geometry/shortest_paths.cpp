@@ -16,36 +16,55 @@ EdgeGraph length_graph(const Points& vertices, const MeshTopology& topology) {
   return graph;
 }
 
-std::vector<Index> shortest_path(const EdgeGraph& graph, Index from, Index to) {
+namespace {
+
+/// Per vertex: what the cheapest way to it costs, infinity where none leads, and the vertex before it on that way, -1
+/// on sources.
+struct Ways {
+  Eigen::VectorXd costs;
+  std::vector<Index> previous;
+};
+
+/// Of the vertices reached before `until` (-1: of all) the ways are final.
+Ways cheapest_ways(const EdgeGraph& graph, const std::vector<Index>& sources, Index until) {
   const std::size_t count = graph.stars.offsets.size() - 1;
-  std::vector<Real> cost(count, std::numeric_limits<Real>::infinity());
-  std::vector<Index> previous(count, -1);
+  Ways ways{Eigen::VectorXd::Constant(static_cast<Index>(count), std::numeric_limits<Real>::infinity()),
+            std::vector<Index>(count, -1)};
   // Equal costs come in the order of the vertices.
   using Entry = std::pair<Real, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> front;
-  cost[static_cast<std::size_t>(from)] = 0;
-  front.emplace(0, from);
+  for (const Index source : sources) ways.costs[source] = 0, front.emplace(0, source);
   while (!front.empty()) {
     const auto [reached, vertex] = front.top();
     front.pop();
-    if (vertex == to) break;
+    if (vertex == until) break;
+    if (reached > ways.costs[vertex]) continue;
     const auto v = static_cast<std::size_t>(vertex);
-    if (reached > cost[v]) continue;
     for (Index i = graph.stars.offsets[v]; i < graph.stars.offsets[v + 1]; ++i) {
       const Index neighbor = graph.stars.neighbors[static_cast<std::size_t>(i)];
-      const auto n = static_cast<std::size_t>(neighbor);
       const Real through = reached + graph.costs[static_cast<std::size_t>(i)];
-      if (!(through < cost[n])) continue;
-      cost[n] = through;
-      previous[n] = vertex;
+      if (!(through < ways.costs[neighbor])) continue;
+      ways.costs[neighbor] = through;
+      ways.previous[static_cast<std::size_t>(neighbor)] = vertex;
       front.emplace(through, neighbor);
     }
   }
-  if (cost[static_cast<std::size_t>(to)] == std::numeric_limits<Real>::infinity()) return {};
+  return ways;
+}
+
+}  // namespace
+
+std::vector<Index> shortest_path(const EdgeGraph& graph, Index from, Index to) {
+  const Ways ways = cheapest_ways(graph, {from}, to);
+  if (ways.costs[to] == std::numeric_limits<Real>::infinity()) return {};
   std::vector<Index> path = {to};
-  while (path.back() != from) path.push_back(previous[static_cast<std::size_t>(path.back())]);
+  while (path.back() != from) path.push_back(ways.previous[static_cast<std::size_t>(path.back())]);
   std::reverse(path.begin(), path.end());
   return path;
+}
+
+Eigen::VectorXd edge_distances(const EdgeGraph& graph, const std::vector<Index>& sources) {
+  return cheapest_ways(graph, sources, -1).costs;
 }
 
 Real path_cost(const EdgeGraph& graph, const std::vector<Index>& path) {

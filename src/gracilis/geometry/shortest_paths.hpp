@@ -21,6 +21,10 @@ EdgeGraph length_graph(const Points& vertices, const MeshTopology& topology);
 /// to 2/√3 - 1 = 15.5 % on regular triangles, more on slanted ones.
 std::vector<Index> shortest_path(const EdgeGraph& graph, Index from, Index to);
 
+/// Cost of the cheapest way from the nearest of `sources` to each vertex; along lengths it is never less than the
+/// distance over the surface. Infinite where no way leads.
+Eigen::VectorXd edge_distances(const EdgeGraph& graph, const std::vector<Index>& sources);
+
 /// Sum of the costs along a way.
 Real path_cost(const EdgeGraph& graph, const std::vector<Index>& path);
 

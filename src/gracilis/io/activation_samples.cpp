@@ -19,12 +19,6 @@ namespace gracilis {
 
 namespace fs = std::filesystem;
 
-static std::optional<Eigen::Index> column_of(const Table& table, const std::string& name) {
-  const auto found = std::find(table.columns.begin(), table.columns.end(), name);
-  if (found == table.columns.end()) return std::nullopt;
-  return found - table.columns.begin();
-}
-
 bool is_muscle_column(const std::string& name) {
   static constexpr std::array residuals = {"FX", "FY", "FZ", "MX", "MY", "MZ"};
   if (std::find(residuals.begin(), residuals.end(), name) != residuals.end()) return false;

@@ -302,12 +302,12 @@ class SceneBuilder {
         read(description.file, [&](const fs::path& path) {
           const Table table = read_table(path);
           const std::string& name = description.column.empty() ? muscle : description.column;
-          const auto found = std::find(table.columns.begin(), table.columns.end(), name);
-          if (found == table.columns.end()) {
+          const std::optional<Eigen::Index> found = column_of(table, name);
+          if (!found) {
             add_problem({path.string(), "", "", ""}, "has no column '" + name + "'", suggestion(name, table.columns));
             return;
           }
-          const Eigen::VectorXd values = table.values.col(found - table.columns.begin());
+          const Eigen::VectorXd values = table.values.col(*found);
           plan.signals.push_back({muscle, table.times, {values.begin(), values.end()}});
         });
       }
@@ -341,18 +341,16 @@ class SceneBuilder {
       const Table table = joined ? join(description, path) : read_table(path);
       if (unit.muscles.empty()) {
         for (const Muscle& muscle : result_.scene.muscles)
-          if (std::find(table.columns.begin(), table.columns.end(), muscle.name) != table.columns.end())
-            unit.muscles.push_back(muscle.name);
+          if (column_of(table, muscle.name)) unit.muscles.push_back(muscle.name);
       }
       const auto columns = [&](const std::vector<std::string>& names, Real factor) {
         Eigen::MatrixXd values(table.values.rows(), static_cast<Index>(names.size()));
         for (std::size_t i = 0; i < names.size(); ++i) {
-          const auto found = std::find(table.columns.begin(), table.columns.end(), names[i]);
-          if (found == table.columns.end()) {
+          if (const std::optional<Eigen::Index> found = column_of(table, names[i])) {
+            values.col(static_cast<Index>(i)) = factor * table.values.col(*found);
+          } else {
             add_problem({path.string(), "", "", ""}, "has no column '" + names[i] + "'",
                         suggestion(names[i], table.columns));
-          } else {
-            values.col(static_cast<Index>(i)) = factor * table.values.col(found - table.columns.begin());
           }
         }
         return values;

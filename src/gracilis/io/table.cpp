@@ -222,6 +222,12 @@ static std::string angle_of_column(const std::string& column) {
   return name;
 }
 
+std::optional<Eigen::Index> column_of(const Table& table, const std::string& name) {
+  const auto found = std::find(table.columns.begin(), table.columns.end(), name);
+  if (found == table.columns.end()) return std::nullopt;
+  return found - table.columns.begin();
+}
+
 Motion motion_from_table(const Table& table) {
   Motion motion;
   motion.name = table.name;

@@ -4,6 +4,7 @@
 #include <gracilis/scene/scene.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct Table {
   bool in_degrees = false;            ///< of columns that are angles
   std::vector<std::string> warnings;  ///< what was wrong with the file but could be survived; one sentence each
 };
+
+/// Number of the column of that name.
+std::optional<Eigen::Index> column_of(const Table& table, const std::string& name);
 
 /// Reads a .mot, .sto or .csv: headers as OpenSim up to 3 writes them (name, version=, nRows=, nColumns=, inDegrees=),
 /// as SIMM does (name, datacolumns, datarows, range), as OpenSim 4 does (DataType=, OpenSimVersion=), or none at all;

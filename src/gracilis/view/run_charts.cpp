@@ -13,9 +13,9 @@ namespace gracilis {
 namespace fs = std::filesystem;
 
 static std::vector<Real> column(const Table& table, const std::string& name, Real factor) {
-  const auto found = std::find(table.columns.begin(), table.columns.end(), name);
-  if (found == table.columns.end()) return {};
-  const Eigen::VectorXd values = factor * table.values.col(found - table.columns.begin());
+  const std::optional<Eigen::Index> found = column_of(table, name);
+  if (!found) return {};
+  const Eigen::VectorXd values = factor * table.values.col(*found);
   return {values.begin(), values.end()};
 }
 
@@ -99,7 +99,7 @@ void write_run_charts(const fs::path& run_folder, const Scene& scene) {
   const std::string coordinate = main_coordinate(table, scene);
   if (coordinate.empty()) return;
   for (const Muscle& muscle : scene.muscles) {
-    if (std::find(table.columns.begin(), table.columns.end(), muscle.name) == table.columns.end()) continue;
+    if (!column_of(table, muscle.name)) continue;
     write_chart(run_folder / "plots" / ("fiber_lengths_" + muscle.name + ".svg"),
                 fiber_chart(table, coordinate, muscle.name, muscle.name + ": fiber lengths", "length (mm)"));
   }

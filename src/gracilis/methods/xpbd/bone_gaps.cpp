@@ -7,8 +7,6 @@ namespace gracilis::xpbd {
 
 namespace {
 
-/// Share of its depth in a bone at rest that a point gives back.
-constexpr Real overlap_given_back = 0.05;
 /// Where an edge's or face's sag is looked for: this many parts of each side.
 constexpr int sag_parts = 8;
 

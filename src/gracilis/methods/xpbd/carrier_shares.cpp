@@ -1,7 +1,7 @@
 #include <gracilis/methods/xpbd/carrier_shares.hpp>
 
-#include <gracilis/geometry/edge_distance.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
+#include <gracilis/geometry/shortest_paths.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -52,7 +52,7 @@ Eigen::MatrixXf carrier_shares(const TriangleMesh& surface, const MeshTopology& 
   Eigen::MatrixXd fields = harmonic_fields(surface.vertices, topology, fixed, values);
   if (!(tendon_length > 0) || carriers.size() < 2) return fields.transpose().cast<float>();
 
-  const Eigen::VectorXd distances = edge_distances(surface.vertices, topology, fixed);
+  const Eigen::VectorXd distances = edge_distances(length_graph(surface.vertices, topology), fixed);
   std::vector<Real> tendon, conductance(topology.edges.size(), 1);
   for (const MeshEdge& edge : topology.edges)
     tendon.push_back(std::max(1 - (distances[edge.a] + distances[edge.b]) / 2 / tendon_length, Real{0}));

@@ -2,10 +2,9 @@
 
 #include <gracilis/anatomy/muscle_fibers.hpp>
 #include <gracilis/anatomy/surface_fibers.hpp>
-#include <gracilis/geometry/edge_distance.hpp>
 #include <gracilis/geometry/measures.hpp>
-
-#include <nanoflann.hpp>
+#include <gracilis/geometry/nearest_points.hpp>
+#include <gracilis/geometry/shortest_paths.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +12,6 @@
 namespace gracilis::xpbd {
 
 namespace {
-
-/// Needles and slivers scale a stiffness by no more than this.
-constexpr Real largest_shape = 1e3;
 
 /// An edge that may pull, in particle numbers.
 struct Pull {
@@ -42,7 +38,7 @@ std::vector<Real> belly_shares(const PreparedMuscle& muscle, const MeshTopology&
     if (muscle.fixed_body[p] >= 0) fixed.push_back(static_cast<Index>(p));
   std::vector<Real> shares(count, 1);
   if (fixed.empty() || !(muscle.settings.tendon_length > 0)) return shares;
-  const Eigen::VectorXd distances = edge_distances(muscle.rest, topology, fixed);
+  const Eigen::VectorXd distances = edge_distances(length_graph(muscle.rest, topology), fixed);
   Real farthest = 0;
   for (const Real distance : distances)
     if (std::isfinite(distance)) farthest = std::max(farthest, distance);
@@ -71,28 +67,21 @@ std::vector<Pull> spread_pulls(const PreparedMuscle& muscle, const MeshTopology&
     if (!(length2 > 0)) continue;
     const Real c2 = std::pow(along.dot(directions.col(static_cast<Index>(e))), 2) / length2;
     if (c2 < 0.5) continue;
-    Real area = 0;
-    for (const Index face : {edge.left, edge.right})
-      if (face >= 0) area += area_vector(muscle.rest, muscle.faces.col(face)).norm() / 2;
-    pulls.push_back({edge.a, edge.b, std::sqrt(length2), c2 * area, c2});
+    pulls.push_back({edge.a, edge.b, std::sqrt(length2), c2 * area_at(edge, muscle.rest, muscle.faces), c2});
   }
   return pulls;
 }
 
 /// Gives each segment the area of the surface that is nearer to its middle than to any other's.
 void take_strips(const PreparedMuscle& muscle, std::vector<Pull>& pulls) {
-  using Rows = Eigen::Matrix<Real, Eigen::Dynamic, 3>;
-  Rows middles(static_cast<Index>(pulls.size()), 3);
+  Points middles(3, static_cast<Index>(pulls.size()));
   for (std::size_t i = 0; i < pulls.size(); ++i)
-    middles.row(static_cast<Index>(i)) = (muscle.rest.col(pulls[i].a) + muscle.rest.col(pulls[i].b)).transpose() / 2;
-  const nanoflann::KDTreeEigenMatrixAdaptor<Rows, 3> tree(3, std::cref(middles));
+    middles.col(static_cast<Index>(i)) = (muscle.rest.col(pulls[i].a) + muscle.rest.col(pulls[i].b)) / 2;
+  const NearestPoints segments(middles);
   for (Index f = 0; f < muscle.faces.cols(); ++f) {
     const auto corners = muscle.faces.col(f);
     const Vec3 center = (muscle.rest.col(corners[0]) + muscle.rest.col(corners[1]) + muscle.rest.col(corners[2])) / 3;
-    Eigen::Index nearest = 0;
-    Real square = 0;
-    tree.query(center.data(), 1, &nearest, &square);
-    pulls[static_cast<std::size_t>(nearest)].area += area_vector(muscle.rest, corners).norm() / 2;
+    pulls[static_cast<std::size_t>(segments.nearest(center))].area += area_vector(muscle.rest, corners).norm() / 2;
   }
 }
 

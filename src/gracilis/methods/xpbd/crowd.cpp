@@ -9,8 +9,6 @@ namespace gracilis::xpbd {
 
 namespace {
 
-/// Share of its depth in another muscle at rest that a point gives back, as in bones.
-constexpr float overlap_given_back = 0.05f;
 /// A sheet may become this share of its thickness at rest.
 constexpr float thinnest_sheet = 0.25f;
 /// What is nearer than this at rest touches, m.
@@ -57,7 +55,9 @@ void measure_gaps(const std::vector<PointTouch>& near, const Particles& probe, c
     const float rest =
         touch.side * point_gap(probe.position(touch.particle) + shift, surface, touch.face, target, normals).distance;
     float& gap = gaps[static_cast<std::size_t>(touch.particle)];
-    const float kept = rest < 0 ? rest * (1 - overlap_given_back) : touch.side < 0 ? rest * thinnest_sheet : rest;
+    const float kept = rest < 0         ? rest * static_cast<float>(1 - overlap_given_back)
+                       : touch.side < 0 ? rest * thinnest_sheet
+                                        : rest;
     gap = std::min(gap, kept);
     touches[static_cast<std::size_t>(touch.particle)] = rest < touching;
   }

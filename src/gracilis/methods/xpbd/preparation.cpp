@@ -21,8 +21,6 @@ constexpr Real smallest_anisotropy = 1e-6;
 constexpr Real smallest_mass_share = 1e-3;
 /// A face is large when the circle in it has a radius above this many cells of the bones' fields.
 constexpr Real large_radius = 2;
-/// Slivers and needles scale a stiffness by no more than this.
-constexpr Real largest_shape = 1e3;
 
 /// The muscle's surface and attachments in particle numbers.
 struct Renumbered {
@@ -78,14 +76,6 @@ Vec3 direction_at(const MeshEdge& edge, const Points& directions) {
 Real anisotropy(Real cosine, const XpbdSettings& settings) {
   if (!settings.fiber_anisotropy) return 1;
   return std::max({1 - std::abs(cosine), settings.anisotropy_floor, smallest_anisotropy});
-}
-
-/// Area of the triangles at an edge, m².
-Real area_at(const MeshEdge& edge, const Points& x, const Eigen::Matrix3Xi& faces) {
-  Real area = 0;
-  for (Index face : {edge.left, edge.right})
-    if (face >= 0) area += area_vector(x, faces.col(face)).norm() / 2;
-  return area;
 }
 
 /// Stiffness of one edge: the setting, scaled by A/l² (1 between equilateral triangles) so that a sheet strains alike

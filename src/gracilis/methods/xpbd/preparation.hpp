@@ -9,6 +9,11 @@
 
 namespace gracilis::xpbd {
 
+/// Slivers and needles scale a stiffness by no more than this.
+inline constexpr Real largest_shape = 1e3;
+/// Share of its depth at rest in a bone or another muscle that a point gives back.
+inline constexpr Real overlap_given_back = 0.05;
+
 /// A muscle prepared for the solver; constant during a run. Particles are renumbered breadth-first, so that neighbors
 /// on the surface are neighbors in memory: `order[particle]` is the scene's vertex.
 struct PreparedMuscle {

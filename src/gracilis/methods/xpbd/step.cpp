@@ -46,13 +46,6 @@ void coast(const XpbdSettings& settings, float time_step, SurfaceState& state) {
   }
 }
 
-Real farthest(const Particles& from, const Particles& to) {
-  float largest2 = 0;
-  for (Index p = 0; p < to.count(); ++p)
-    largest2 = std::max(largest2, (to.position(p) - from.position(p)).squaredNorm());
-  return static_cast<Real>(std::sqrt(largest2));
-}
-
 /// Into how many steps the settings and the turn of the muscle's bones against each other divide a frame.
 int substeps_of(const PreparedMuscle& muscle, const Pose& before, const Pose& now) {
   const XpbdSettings& settings = muscle.settings;
@@ -193,7 +186,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
     SurfaceState& state = *steps[i].state;
     if (steps[i].muscle->settings.time_mode == TimeMode::dynamic)
       take_velocities(static_cast<float>(solves[i].settings.time_step), state);
-    add_to(*steps[i].report, solves[i].report, farthest(predicted[i], state.particles));
+    add_to(*steps[i].report, solves[i].report, static_cast<Real>(largest_motion(predicted[i], state.particles)));
   });
 }
 
