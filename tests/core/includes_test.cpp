@@ -16,11 +16,11 @@ namespace {
 
 const std::map<std::string, int> ranks = {{"core", 0},    {"geometry", 1}, {"dynamics", 2}, {"scene", 2},
                                           {"anatomy", 3}, {"methods", 4},  {"simulate", 5}, {"io", 6},
-                                          {"prepare", 6}, {"view", 7},     {"apps", 8}};
+                                          {"prepare", 6}, {"opensim", 7},  {"view", 8},     {"apps", 9}};
 
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
 const std::vector<std::string> toolkit_libraries = {"vtk",  "fmt/",     "spdlog/", "toml++/", "nlohmann/",
-                                                    "CLI/", "openssl/", "EGL/",    "pugixml"};
+                                                    "CLI/", "openssl/", "EGL/",    "pugixml", "SimTK"};
 
 /// Folder names of a path such as "methods/xpbd/motion.hpp", without the file.
 std::vector<std::string> folders_of(const std::string& path) {
@@ -87,6 +87,7 @@ TEST(Includes, upward_and_sideways_ones_would_be_found) {
   EXPECT_NE(objection("scene/scene.hpp", "gracilis/dynamics/solver.hpp"), "");
   EXPECT_NE(objection("simulate/run.cpp", "gracilis/io/run_folder.hpp"), "");
   EXPECT_NE(objection("io/run_folder.cpp", "gracilis/view/preview.hpp"), "");
+  EXPECT_NE(objection("io/table.cpp", "gracilis/opensim/model.hpp"), "");
   EXPECT_NE(objection("methods/xpbd/motion.cpp", "gracilis/methods/rbf/kernel.hpp"), "");
   EXPECT_NE(objection("methods/method.hpp", "gracilis/methods/xpbd/motion.hpp"), "");
   EXPECT_NE(objection("geometry/measures.cpp", "vtkPolyData.h"), "");
@@ -98,6 +99,7 @@ TEST(Includes, downward_ones_are_welcome) {
   EXPECT_EQ(objection("methods/xpbd/motion.cpp", "gracilis/methods/method.hpp"), "");
   EXPECT_EQ(objection("methods/xpbd/motion.cpp", "gracilis/methods/xpbd/motion.hpp"), "");
   EXPECT_EQ(objection("view/preview.cpp", "gracilis/io/mesh_reader.hpp"), "");
+  EXPECT_EQ(objection("opensim/model_reader.cpp", "gracilis/io/input_file.hpp"), "");
   EXPECT_EQ(objection("io/mesh_writer.cpp", "vtkPolyData.h"), "");
 }
 

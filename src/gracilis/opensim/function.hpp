@@ -1,0 +1,49 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+#include <vector>
+
+namespace gracilis::opensim {
+
+/// A scalar function of coordinates as OpenSim's joints, constraints and paths use it, times `scale`.
+struct Function {
+  enum class Kind {
+    constant,         ///< coefficients[0]
+    linear,           ///< coefficients: one per argument, then the value at zero
+    polynomial,       ///< of one argument; coefficients from the highest power down
+    multivariate,     ///< polynomial of several arguments up to a total power; see monomials()
+    spline,           ///< cubic pieces between knots, straight beyond them
+    piecewise_linear  ///< straight between knots and beyond them
+  };
+  Kind kind = Kind::constant;
+  std::vector<Real> coefficients = {0};
+  std::vector<Real> knots;  ///< x, increasing
+  /// spline: row i holds value, slope, half the second and a sixth of the third derivative at knot i; piecewise_linear:
+  /// value and slope.
+  Eigen::Matrix<Real, Eigen::Dynamic, 4> pieces;
+  int dimension = 1, order = 0;  ///< multivariate
+  Real scale = 1;
+};
+
+Function constant(Real value);
+Function linear(Real slope, Real value_at_zero);
+
+/// The cubic spline through (x, y) as SIMM and OpenSim's SimmSpline have it: at both ends the third derivative is that
+/// of the cubic through the four outermost points; the parabola through three points, the line through two (Forsythe,
+/// Malcolm, Moler 1977). x increases.
+Function simm_spline(const std::vector<Real>& x, const std::vector<Real>& y);
+/// The cubic spline through (x, y) with no curvature at its ends.
+Function natural_spline(const std::vector<Real>& x, const std::vector<Real>& y);
+Function piecewise_linear(const std::vector<Real>& x, const std::vector<Real>& y);
+
+/// The powers of a multivariate polynomial's terms, in the order of its coefficients: the last argument's power
+/// varies fastest, and their sum never exceeds `order`.
+std::vector<std::vector<int>> monomials(int dimension, int order);
+
+/// The value at `arguments` (rad, m), and its partial derivatives by the arguments named in `by`, one after the other
+/// (at most two). A function that takes fewer arguments ignores the others.
+Real value(const Function& function, const std::vector<Real>& arguments);
+Real derivative(const Function& function, const std::vector<Real>& arguments, const std::vector<int>& by);
+
+}  // namespace gracilis::opensim

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <gracilis/opensim/model.hpp>
+
+namespace gracilis::opensim {
+
+/// How a line between two points meets a wrap object.
+struct Wrap {
+  enum class Kind {
+    none,    ///< the line runs past it
+    inside,  ///< one of the points lies in it
+    held,    ///< the line misses it, but the path is held on one side
+    needed   ///< the line cuts it
+  };
+  Kind kind = Kind::none;
+  Vec3 first = Vec3::Zero(), last = Vec3::Zero();  ///< where the path touches and leaves, in the object's frame
+  Real length = 0;                                 ///< m, between these on the surface
+};
+
+/// The shortest way from a to b (in the object's frame) around the cylinder or sphere, on the side that it is held on.
+Wrap wrap_around(const WrapObject& object, const Vec3& a, const Vec3& b);
+
+}  // namespace gracilis::opensim

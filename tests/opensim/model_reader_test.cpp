@@ -1,0 +1,180 @@
+#include "opensim/model_texts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace gracilis::opensim {
+
+using testing::HasSubstr;
+
+TEST(ModelReader, reads_bodies_joints_and_coordinates) {
+  const Model model = model_from(pendulum());
+  EXPECT_EQ(model.name, "tiny");
+  ASSERT_EQ(model.bodies.size(), 2u);
+  EXPECT_EQ(model.bodies[0].name, "ground");
+  EXPECT_EQ(model.bodies[1].mass, 2);
+  EXPECT_EQ(model.bodies[1].mass_center, Vec3(0, -0.5, 0));
+  ASSERT_EQ(model.joints.size(), 1u);
+  EXPECT_EQ(model.joints[0].child_body, 1);
+  ASSERT_EQ(model.coordinates.size(), 1u);
+  EXPECT_TRUE(model.coordinates[0].rotation);
+  EXPECT_TRUE(model.unsupported.empty());
+}
+
+TEST(ModelReader, reads_joints_inside_bodies_as_version_3_has_them) {
+  const Model model = model_from(document(
+      "<BodySet><objects><Body name=\"ground\"><mass>0</mass></Body><Body name=\"rod\"><mass>2</mass><inertia_xx>1"
+      "</inertia_xx><Joint><CustomJoint name=\"hinge\"><parent_body>ground</parent_body><location_in_parent>1 2 3"
+      "</location_in_parent><CoordinateSet><objects><Coordinate name=\"slide\"><motion_type>translational</motion_type>"
+      "</Coordinate></objects></CoordinateSet><SpatialTransform><TransformAxis name=\"translation2\"><coordinates>slide"
+      "</coordinates><axis>0 2 0</axis><function><MultiplierFunction><function><LinearFunction><coefficients> 1 0"
+      "</coefficients></LinearFunction></function><scale>3</scale></MultiplierFunction></function></TransformAxis>"
+      "</SpatialTransform></CustomJoint></Joint><VisibleObject><GeometrySet><objects><DisplayGeometry><geometry_file>"
+      ".\\geometry\\rod.vtp</geometry_file><scale_factors>1 2 3</scale_factors></DisplayGeometry></objects>"
+      "</GeometrySet><scale_factors>0.001 0.001 0.001</scale_factors></VisibleObject></Body></objects></BodySet>",
+      "30000"));
+  ASSERT_EQ(model.joints.size(), 1u);
+  EXPECT_EQ(model.joints[0].parent_frame.translation(), Vec3(1, 2, 3));
+  EXPECT_FALSE(model.coordinates[0].rotation);
+  const TransformAxis& axis = model.joints[0].axes[4];
+  EXPECT_EQ(axis.axis, Vec3::UnitY());
+  EXPECT_EQ(value(axis.function, {0.5}), 1.5);
+  ASSERT_EQ(model.bodies[1].geometry.size(), 1u);
+  EXPECT_EQ(model.bodies[1].geometry[0].file, "geometry/rod.vtp");
+  EXPECT_TRUE(model.bodies[1].geometry[0].scale.isApprox(Vec3(0.001, 0.002, 0.003)));
+}
+
+TEST(ModelReader, survives_bytes_that_are_not_utf_8) {
+  const Model model = model_from(document("<credits>Universit\xe9</credits>" + set("BodySet", body("rod")) +
+                                          set("JointSet", joint("WeldJoint", "fixed", "/ground", "rod", ""))));
+  EXPECT_EQ(model.bodies.size(), 2u);
+}
+
+TEST(ModelReader, entities_of_a_document_type_stay_unread) {
+  const std::string text = pendulum();
+  const std::string evil = "<!DOCTYPE x [<!ENTITY a \"aaaa\"><!ENTITY b SYSTEM \"file:///etc/passwd\">]>";
+  const Model model = model_from(evil + text.substr(text.find("?>") + 2));
+  EXPECT_EQ(model.bodies.size(), 2u);
+}
+
+TEST(ModelReader, lists_what_it_leaves_out) {
+  const Model model = model_from(document(
+      set("BodySet", body("rod", "<attached_geometry><Brick name=\"box\"/></attached_geometry>")) +
+      set("JointSet", joint("ScapulothoracicJoint", "gliding", "/ground", "rod", coordinate("swing"))) +
+      set("ForceSet", "<BushingForce name=\"bush\"/>") + set("ConstraintSet", "<PointConstraint name=\"loop\"/>")));
+  EXPECT_THAT(model.unsupported, testing::UnorderedElementsAre(HasSubstr("Brick 'box'"), HasSubstr("'gliding'"),
+                                                               HasSubstr("'bush'"), HasSubstr("'loop'")));
+}
+
+TEST(ModelReader, a_force_set_is_appended_or_takes_the_place_of_the_models_forces) {
+  const std::string forces =
+      "<OpenSimDocument Version=\"40000\"><ForceSet><objects><CoordinateActuator name=\"reserve\"><coordinate>swing"
+      "</coordinate><optimal_force>5</optimal_force></CoordinateActuator></objects></ForceSet></OpenSimDocument>";
+  const TestFolder folder;
+  const auto path = folder.write("forces.xml", forces);
+  const auto model_path =
+      folder.write("m.osim", pendulum(muscle("m", point("/ground", "0 0 0") + point("rod", "0 -1 0"))));
+  Model model = read_model(model_path);
+  read_force_set(path, false, model);
+  EXPECT_EQ(model.muscles.size(), 1u);
+  ASSERT_EQ(model.actuators.size(), 1u);
+  EXPECT_EQ(model.actuators[0].optimal_force, 5);
+  Model other = read_model(model_path);
+  read_force_set(path, true, other);
+  EXPECT_TRUE(other.muscles.empty());
+  EXPECT_EQ(other.actuators.size(), 1u);
+}
+
+TEST(ModelReader, names_bodies_that_do_not_exist) {
+  EXPECT_THAT(complaint_about(document(set("BodySet", body("rod")) +
+                                       set("JointSet", joint("PinJoint", "hinge", "/bodyset/rud", "rod", "")))),
+              testing::AllOf(HasSubstr("'/bodyset/rud', which does not exist"), HasSubstr("did you mean 'rod'?")));
+}
+
+TEST(ModelReader, refuses_joints_in_a_circle) {
+  const std::string text = document(
+      set("BodySet", body("a") + body("b")) +
+      set("JointSet", joint("PinJoint", "ab", "/bodyset/a", "b", "") + joint("PinJoint", "ba", "/bodyset/b", "a", "")));
+  EXPECT_THAT(complaint_about(text), HasSubstr("part of a circle that never meets the ground"));
+}
+
+TEST(ModelReader, refuses_a_body_on_two_joints_and_one_on_none) {
+  const std::string twice =
+      joint("PinJoint", "one", "/ground", "rod", "") + joint("PinJoint", "two", "/ground", "rod", "");
+  EXPECT_THAT(complaint_about(document(set("BodySet", body("rod")) + set("JointSet", twice))),
+              HasSubstr("moves 'rod', which another joint holds"));
+  EXPECT_THAT(complaint_about(document(set("BodySet", body("rod")))), HasSubstr("body 'rod' hangs on no joint"));
+}
+
+/// A custom joint about the given axis.
+static std::string custom(const std::string& axes) {
+  return document(set("BodySet", body("rod")) +
+                  set("JointSet", joint("CustomJoint", "hinge", "/ground", "rod", coordinate("swing"),
+                                        "<SpatialTransform>" + axes + "</SpatialTransform>")));
+}
+
+static std::string axis(const std::string& name, const std::string& direction, const std::string& function = "") {
+  return "<TransformAxis name=\"" + name + "\"><coordinates>swing</coordinates><axis>" + direction + "</axis>" +
+         function + "</TransformAxis>";
+}
+
+TEST(ModelReader, refuses_axes_without_length_and_the_same_axis_twice) {
+  EXPECT_THAT(complaint_about(custom(axis("rotation1", "0 0 0"))), HasSubstr("'hinge': has an axis without length"));
+  EXPECT_THAT(complaint_about(custom(axis("rotation1", "1 0 0") + axis("rotation2", "-2 0 0"))),
+              HasSubstr("has the same axis twice"));
+}
+
+TEST(ModelReader, refuses_functions_that_do_not_fit) {
+  const auto with = [](const std::string& function) { return custom(axis("rotation1", "1 0 0", function)); };
+  EXPECT_THAT(complaint_about(with("<SimmSpline><x>0 1 1</x><y>0 0 0</y></SimmSpline>")),
+              HasSubstr("does not increase"));
+  EXPECT_THAT(complaint_about(with("<SimmSpline><x>0 1</x><y>0</y></SimmSpline>")),
+              HasSubstr("2 values x and 1 values y"));
+  EXPECT_THAT(complaint_about(with("<LinearFunction><coefficients>1</coefficients></LinearFunction>")),
+              HasSubstr("has 1 coefficients where 2 are needed"));
+  EXPECT_THAT(complaint_about(with("<MultivariatePolynomialFunction><dimension>1</dimension><order>1000000000</order>"
+                                   "</MultivariatePolynomialFunction>")),
+              HasSubstr("order 12 can be read"));
+  std::string deep = "<Constant><value>1</value></Constant>";
+  for (int i = 0; i < 200; ++i) deep = "<MultiplierFunction><function>" + deep + "</function></MultiplierFunction>";
+  EXPECT_THAT(complaint_about(with(deep)), HasSubstr("nested more than 100 times"));
+}
+
+TEST(ModelReader, elements_nested_a_hundred_thousand_times_do_no_harm) {
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "<a>";
+  for (int i = 0; i < 100000; ++i) deep += "</a>";
+  const std::string text =
+      document(deep + set("BodySet", body("rod")) + set("JointSet", joint("WeldJoint", "fixed", "/ground", "rod", "")));
+  EXPECT_EQ(model_from(text).bodies.size(), 2u);
+}
+
+TEST(ModelReader, refuses_what_is_no_model) {
+  EXPECT_THAT(complaint_about("<OpenSimDocument Version=\"40000\"><Model>"), HasSubstr("is not XML"));
+  EXPECT_THAT(complaint_about("<html/>"), HasSubstr("is no OpenSim document"));
+  EXPECT_THAT(complaint_about(document("", "20302")), HasSubstr("30000 (OpenSim 3.0) is the oldest"));
+  EXPECT_THAT(complaint_about(pendulum(muscle("m", point("rod", "0 zero 0")))),
+              HasSubstr("'zero', which is not a number"));
+  EXPECT_THAT(complaint_about(pendulum(muscle("m", point("rod", "0 0 0")))), HasSubstr("less than two points"));
+}
+
+TEST(ModelReader, the_walking_model_has_92_muscles) {
+  GRACILIS_NEEDS_DATA("opensim");
+  const Model model = read_model(data_root() / "opensim/subject01_simbody_adjusted_StaticOp.osim");
+  EXPECT_EQ(model.muscles.size(), 92u);
+  EXPECT_EQ(model.coordinates.size(), 23u);
+  EXPECT_EQ(model.bodies.size(), 13u);
+  EXPECT_TRUE(model.unsupported.empty()) << model.unsupported.front();
+  EXPECT_FALSE(model.coordinates[3].rotation);  // pelvis_tx
+}
+
+TEST(ModelReader, the_cadaver_hip_has_8_muscles_and_bones_in_millimetres) {
+  GRACILIS_NEEDS_DATA("lhdl-hip");
+  const Model model = read_model(data_root() / "lhdl-hip/motion/LHDL_hip_r.osim");
+  EXPECT_EQ(model.muscles.size(), 8u);
+  ASSERT_EQ(model.bodies[1].geometry.size(), 1u);
+  EXPECT_EQ(model.bodies[1].geometry[0].file, "geometry/LHDL_pelvis.vtp");
+  EXPECT_NEAR(model.bodies[1].geometry[0].scale.x(), 0.001, 1e-15);
+}
+
+}  // namespace gracilis::opensim
