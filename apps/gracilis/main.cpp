@@ -7,6 +7,7 @@
 #include "inspect_command.hpp"
 #include "prepare_command.hpp"
 #include "print_config_command.hpp"
+#include "report_command.hpp"
 #include "rom_command.hpp"
 #include "run_command.hpp"
 
@@ -33,6 +34,7 @@ int main(int count, char** arguments) {
   add_activations_command(program, chosen);
   add_print_config_command(program, chosen);
   add_inspect_command(program, chosen);
+  add_report_command(program, chosen);
   add_prepare_command(program, chosen);
   try {
     program.parse(count, arguments);

@@ -159,6 +159,7 @@ class Session {
     manifest.inputs = loaded_.inputs;
     manifest.guessed = guessed_;
     manifest.warnings = warnings_;
+    manifest.axes = loaded_.scene.axes;
     manifest.status = status;
     manifest.threads = thread_count();
     folder_.write_manifest(manifest);

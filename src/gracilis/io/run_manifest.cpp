@@ -27,6 +27,8 @@ static nlohmann::ordered_json library_versions() {
           {"compiler", __VERSION__}};
 }
 
+static std::vector<Real> components(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
 void write_manifest(const std::filesystem::path& path, const RunManifest& manifest) {
   nlohmann::ordered_json inputs = nlohmann::json::array();
   for (const std::filesystem::path& input : manifest.inputs) {
@@ -45,6 +47,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"threads", manifest.threads},
       {"instruction_set", instruction_set()},  // results differ in the last bits between sets
       {"processors", std::thread::hardware_concurrency()},
+      {"axes", {{"anterior", components(manifest.axes.anterior)}, {"superior", components(manifest.axes.superior)}}},
       {"guessed", manifest.guessed},
       {"warnings", manifest.warnings},
       {"inputs", inputs},

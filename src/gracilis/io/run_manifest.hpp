@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gracilis/scene/scene.hpp>
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,6 +18,7 @@ struct RunManifest {
   std::vector<std::filesystem::path> inputs;  ///< each is listed with its SHA-256
   std::vector<std::string> guessed;           ///< what was guessed rather than measured, e.g. "psoas_r origin"
   std::vector<std::string> warnings;
+  AnatomicalAxes axes;             ///< how the subject stands
   std::string status = "running";  ///< running, complete, interrupted, or "failed: why"
   int threads = 1;
   int frames = 0;      ///< on disk

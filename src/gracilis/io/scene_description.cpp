@@ -369,6 +369,19 @@ static void keep_only(std::vector<MuscleDescription>& muscles, const std::vector
   });
 }
 
+static void read_axes(TomlReader& top, AnatomicalAxes& axes) {
+  const Vec3 anterior = top.vector("anterior").value_or(axes.anterior);
+  const Vec3 superior = top.vector("superior").value_or(axes.superior);
+  if (!(anterior.norm() > 0 && superior.norm() > 0 &&
+        std::abs(anterior.normalized().dot(superior.normalized())) < 0.1)) {
+    top.add_problem(top.has("superior") ? "superior" : "anterior", "'anterior' and 'superior' are not at right angles",
+                    "give both, as in anterior = [0, -1, 0] and superior = [0, 0, 1]");
+    return;
+  }
+  axes.superior = superior.normalized();
+  axes.anterior = (anterior - anterior.dot(axes.superior) * axes.superior).normalized();
+}
+
 static void start_from_preset(TomlReader& top, SceneDescription& scene, XpbdSettings& global) {
   scene.preset = top.text("preset").value_or(std::string(presets().front().name));
   std::vector<std::string> names;
@@ -405,6 +418,7 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
     top.add_problem("schema", "only schema 1 is known to this version");
   }
   scene.name = top.text("name").value_or(path.stem().string());
+  read_axes(top, scene.axes);
   XpbdSettings global;
   start_from_preset(top, scene, global);
   read_section(top, "settings", global);

@@ -106,6 +106,7 @@ struct ControlUnitDescription {
 
 struct SceneDescription {
   std::string name, preset;
+  AnatomicalAxes axes;
   std::vector<BoneDescription> bones;
   std::vector<JointDescription> joints;
   std::vector<MuscleDescription> muscles;

@@ -39,6 +39,7 @@ class SceneBuilder {
     result_.warnings = description_.notes;
     result_.scene.name = description_.name;
     result_.scene.sequence = description_.sequence;
+    result_.scene.axes = description_.axes;
     result_.scene.distance_fields = description_.distance_fields;
     result_.scene.contact = description_.contact;
     place_bodies();

@@ -34,6 +34,10 @@ schema = 1
 # Optional: appears in the run's manifest; default: the file's name.
 name = "example"
 
+# Optional: how the subject stands in the frame of the files, for views of pictures; defaults as in OpenSim's models.
+anterior = [1, 0, 0]
+superior = [0, 1, 0]
+
 # Optional: other scene files, relative to this one, on which this one builds. Tables merge key by key, lists of tables
 # (bones, muscles, ...) by their names; what stands here wins. [motion] is replaced as a whole.
 # include = ["base.toml"]

@@ -79,6 +79,15 @@ struct Sequence {
   bool return_to_capture = false;  ///< ramp back to the capture pose at the end
 };
 
+/// How the subject stands in the world frame; pictures look along these. Unit and perpendicular to each other. The
+/// defaults are those of OpenSim's models.
+struct AnatomicalAxes {
+  Vec3 anterior = Vec3::UnitX();
+  Vec3 superior = Vec3::UnitY();
+
+  Vec3 right() const { return anterior.cross(superior); }  ///< towards the subject's right
+};
+
 /// Everything a run needs, as plain values in SI units. `validate` finds all that is wrong with it.
 struct Scene {
   std::string name;
@@ -91,6 +100,7 @@ struct Scene {
   DistanceFieldSettings distance_fields;
   ContactSettings contact;
   ActivationPlan activation = {};
+  AnatomicalAxes axes = {};
 };
 
 }  // namespace gracilis

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <gracilis/geometry/polylines.hpp>
+#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// A run folder as it was written, without the scene behind it: what reports, pictures and exports are made from.
+struct RecordedRun {
+  std::filesystem::path folder;
+  nlohmann::ordered_json manifest;       ///< run.json
+  AnatomicalAxes axes;                   ///< how the subject stands in the frames
+  std::vector<std::string> muscles;      ///< in the scene's order
+  std::vector<std::string> bones;        ///< all other surfaces, sorted
+  int frame_count = 0;                   ///< frames 0 ... frame_count - 1 are there for every surface and measured
+  std::vector<Real> times;               ///< s, per frame
+  std::vector<std::string> coordinates;  ///< with their units, as in hip_flexion_r_deg
+  Eigen::MatrixXd coordinate_values;     ///< frames × coordinates
+  std::vector<std::string> measures;     ///< columns of measures.csv that come after the muscle
+  std::vector<Eigen::MatrixXd> values;   ///< per measure: frames × muscles; nan where a cell is empty
+};
+
+/// Throws InputError when the folder holds no run, or its measures or frames are damaged.
+RecordedRun open_recorded_run(const std::filesystem::path& folder);
+
+/// One measure, frames × muscles; empty when the run does not have it.
+Eigen::MatrixXd measure_of(const RecordedRun& run, const std::string& measure);
+
+/// A surface in one frame, m. Throws InputError.
+TriangleMesh recorded_surface(const RecordedRun& run, const std::string& name, int frame);
+
+/// A muscle's fibers in one frame, m; none when the run has none of it.
+Polylines recorded_fibers(const RecordedRun& run, const std::string& muscle, int frame);
+
+/// How a bone has moved since frame 0 (least squares over its vertices, Umeyama 1991).
+RigidTransform rigid_motion(const Points& rest, const Points& now);
+
+/// The coordinate that changes most over the run, as an index; -1 when there is none.
+int main_coordinate(const RecordedRun& run);
+
+/// "hip_flexion_r_deg" becomes name "hip_flexion_r" and unit "°".
+struct CoordinateLabel {
+  std::string name, unit;
+};
+CoordinateLabel coordinate_label(const std::string& column);
+
+}  // namespace gracilis

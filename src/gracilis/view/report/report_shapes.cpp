@@ -1,0 +1,192 @@
+#include <gracilis/view/report/report_shapes.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/topology.hpp>
+#include <gracilis/view/decimation.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace gracilis {
+
+using Json = nlohmann::ordered_json;
+
+static constexpr int most_frames = 120;              // shown; the view blends between them
+static constexpr Index most_muscle_vertices = 4000;  // what one sees no longer, a file need not hold
+static constexpr Index most_bone_vertices = 4000;
+static constexpr int fibers_shown = 32;  // per muscle
+
+/// Appends an array and returns where it begins.
+template <class Number>
+static std::size_t append(std::string& bytes, const std::vector<Number>& numbers) {
+  bytes.resize((bytes.size() + 3) / 4 * 4);
+  const std::size_t at = bytes.size();
+  bytes.append(reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number));
+  return at;
+}
+
+static Json components(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+static std::uint8_t log_ratio_byte(Real ratio) {
+  if (!(ratio > 0)) return 128;
+  return static_cast<std::uint8_t>(std::clamp(std::lround(128 + 127 * std::log2(ratio)), 0L, 255L));
+}
+
+/// First, last, and as many between at equal distances as are allowed.
+static std::vector<int> shown_frames(int count) {
+  const int step = std::max(1, (count - 1 + most_frames - 2) / (most_frames - 1));
+  std::vector<int> frames;
+  for (int frame = 0; frame < count - 1; frame += step) frames.push_back(frame);
+  frames.push_back(count - 1);
+  return frames;
+}
+
+/// Points of all frames as 16 bits per coordinate within their common box, which goes into `description`.
+static void append_points(const std::vector<Points>& frames, Json& description, std::string& bytes) {
+  Eigen::AlignedBox3d box;
+  for (const Points& points : frames) {
+    if (points.cols() == 0) continue;
+    box.extend(Vec3(points.rowwise().minCoeff()));
+    box.extend(Vec3(points.rowwise().maxCoeff()));
+  }
+  const Vec3 low = box.isEmpty() ? Vec3::Zero() : box.min();
+  const Vec3 size = box.isEmpty() ? Vec3::Ones() : Vec3(box.sizes().cwiseMax(1e-9));
+  std::vector<std::uint16_t> numbers;
+  for (const Points& points : frames)
+    for (const Vec3 point : points.colwise())
+      for (int k = 0; k < 3; ++k)
+        numbers.push_back(static_cast<std::uint16_t>(std::lround(65535 * (point[k] - low[k]) / size[k])));
+  description["low"] = components(low);
+  description["size"] = components(size);
+  description["points_at"] = append(bytes, numbers);
+}
+
+static void append_faces(const Eigen::Matrix3Xi& faces, Json& description, std::string& bytes) {
+  std::vector<std::uint16_t> numbers;
+  for (const int index : faces.reshaped()) numbers.push_back(static_cast<std::uint16_t>(index));
+  description["faces"] = faces.cols();
+  description["faces_at"] = append(bytes, numbers);
+}
+
+static std::vector<Real> edge_lengths(const std::vector<MeshEdge>& edges, const Points& points) {
+  std::vector<Real> lengths;
+  for (const MeshEdge& edge : edges) lengths.push_back((points.col(edge.a) - points.col(edge.b)).norm());
+  return lengths;
+}
+
+/// Per vertex the lengths of its edges together, over those at rest.
+static std::vector<Real> vertex_stretch(const std::vector<MeshEdge>& edges, const std::vector<Real>& rest,
+                                        const Points& points) {
+  const std::vector<Real> now = edge_lengths(edges, points);
+  std::vector<Real> sum_now(static_cast<std::size_t>(points.cols())), sum_rest(sum_now.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    for (const Index v : {edges[e].a, edges[e].b}) {
+      sum_now[static_cast<std::size_t>(v)] += now[e];
+      sum_rest[static_cast<std::size_t>(v)] += rest[e];
+    }
+  }
+  for (std::size_t v = 0; v < sum_now.size(); ++v) sum_now[v] = sum_rest[v] > 0 ? sum_now[v] / sum_rest[v] : 1;
+  return sum_now;
+}
+
+static Json muscle_surface(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
+                           Index most_vertices, std::string& bytes) {
+  const TriangleMesh rest = recorded_surface(run, name, 0);
+  const CoarseSurface coarse = decimate(rest, most_vertices);
+  const std::vector<MeshEdge> edges = build_topology(rest.faces, rest.vertex_count()).edges;
+  const std::vector<Real> rest_lengths = edge_lengths(edges, rest.vertices);
+  std::vector<Points> points(frames.size());
+  std::vector<std::uint8_t> stretch(frames.size() * coarse.vertices.size());
+  parallel_for(static_cast<Index>(frames.size()), 1, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const Points now = recorded_surface(run, name, frames[k]).vertices;
+      points[k] = picked(now, coarse.vertices);
+      const std::vector<Real> all = vertex_stretch(edges, rest_lengths, now);
+      for (std::size_t v = 0; v < coarse.vertices.size(); ++v)
+        stretch[k * coarse.vertices.size() + v] = log_ratio_byte(all[static_cast<std::size_t>(coarse.vertices[v])]);
+    }
+  });
+  Json surface = {{"name", name}, {"kind", "muscle"}, {"vertices", coarse.vertices.size()}};
+  append_faces(coarse.faces, surface, bytes);
+  append_points(points, surface, bytes);
+  surface["stretch_at"] = append(bytes, stretch);
+  return surface;
+}
+
+static Json bone_surface(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
+                         Index most_vertices, std::string& bytes) {
+  const TriangleMesh rest = recorded_surface(run, name, 0);
+  const CoarseSurface coarse = decimate(rest, most_vertices);
+  std::vector<float> motions(7 * frames.size());
+  parallel_for(static_cast<Index>(frames.size()), 1, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const Points now = recorded_surface(run, name, frames[static_cast<std::size_t>(i)]).vertices;
+      const RigidTransform motion = rigid_motion(rest.vertices, now);
+      const Eigen::Quaternionf turn(motion.linear().cast<float>());
+      const Eigen::Vector3f shift = motion.translation().cast<float>();
+      Eigen::Map<Eigen::Vector<float, 7>>(motions.data() + 7 * i) << turn.coeffs(), shift;
+    }
+  });
+  Json surface = {{"name", name}, {"kind", "bone"}, {"vertices", coarse.vertices.size()}};
+  append_faces(coarse.faces, surface, bytes);
+  append_points({picked(rest.vertices, coarse.vertices)}, surface, bytes);
+  surface["motion_at"] = append(bytes, motions);
+  return surface;
+}
+
+/// Some of the lines, evenly spread over their numbers.
+static Polylines some_lines(const Polylines& lines) {
+  const Index count = std::min(lines.count(), fibers_shown);
+  std::vector<Points> chosen;
+  for (Index i = 0; i < count; ++i) chosen.push_back(lines.line(i * lines.count() / count));
+  return join(chosen);
+}
+
+/// Null where the run has no fibers of this muscle, or not the same number in every frame.
+static Json muscle_fibers(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
+                          std::string& bytes) {
+  const Polylines rest = some_lines(recorded_fibers(run, name, 0));
+  if (rest.count() == 0) return nullptr;
+  const std::vector<Real> rest_lengths = polyline_lengths(rest);
+  std::vector<Points> points;
+  std::vector<std::uint8_t> strain;
+  for (const int frame : frames) {
+    const Polylines now = some_lines(recorded_fibers(run, name, frame));
+    if (now.offsets != rest.offsets) return nullptr;
+    points.push_back(now.points);
+    const std::vector<Real> lengths = polyline_lengths(now);
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+      strain.push_back(log_ratio_byte(rest_lengths[i] > 0 ? lengths[i] / rest_lengths[i] : 1));
+  }
+  Json fibers = {{"muscle", name}, {"sizes", Json::array()}};
+  for (Index i = 0; i < rest.count(); ++i) fibers["sizes"].push_back(rest.size(i));
+  append_points(points, fibers, bytes);
+  fibers["strain_at"] = append(bytes, strain);
+  return fibers;
+}
+
+ReportShapes report_shapes(const RecordedRun& run, std::size_t budget) {
+  ReportShapes shapes;
+  const std::vector<int> frames = shown_frames(run.frame_count);
+  Json surfaces = Json::array(), fibers = Json::array();
+  const Index bone_vertices = std::min<Index>(
+      most_bone_vertices, static_cast<Index>(budget / 4 / 18 / std::max<std::size_t>(run.bones.size(), 1)));
+  for (const std::string& bone : run.bones)
+    surfaces.push_back(bone_surface(run, bone, frames, bone_vertices, shapes.bytes));
+  for (const std::string& muscle : run.muscles) {
+    const Json lines = muscle_fibers(run, muscle, frames, shapes.bytes);
+    if (!lines.is_null()) fibers.push_back(lines);
+  }
+  // What is left is for the muscles: per vertex 7 bytes in each frame, and two faces.
+  const std::size_t left = budget > shapes.bytes.size() ? budget - shapes.bytes.size() : 0;
+  const std::size_t per_vertex = run.muscles.size() * (7 * frames.size() + 12);
+  const Index muscle_vertices = std::clamp<Index>(static_cast<Index>(left / per_vertex), 200, most_muscle_vertices);
+  for (const std::string& muscle : run.muscles)
+    surfaces.push_back(muscle_surface(run, muscle, frames, muscle_vertices, shapes.bytes));
+  shapes.description = {{"frames", frames}, {"surfaces", surfaces}, {"fibers", fibers}};
+  return shapes;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,230 @@
+// The shapes of all runs side by side under one camera. See report_shapes.hpp for how they are stored.
+const DIVERGING = [[33, 102, 172], [146, 197, 222], [247, 244, 238], [244, 165, 130], [178, 24, 43]];
+const RISING = [[250, 240, 225], [240, 170, 120], [205, 70, 60], [110, 10, 60]];
+const SHAPE_COLORS = {
+  muscle: {label: 'by muscle'},
+  stretch: {label: 'by edge stretch', title: 'edge length, × rest', colors: DIVERGING, low: -1, high: 1,
+            ticks: ['0.5', '1', '2']},
+  volume: {label: 'by volume', title: 'change of volume, %', colors: DIVERGING, low: -1, high: 1,
+           ticks: ['−1', '0', '+1'], chart: 'volume_ratio'},
+  activation: {label: 'by activation', title: 'activation', colors: RISING, low: 0, high: 1, ticks: ['0', '0.5', '1'],
+               chart: 'activation'},
+  strain: {label: 'by fiber length', title: 'fiber length, × rest', colors: DIVERGING, low: -1, high: 1,
+           ticks: ['0.5', '1', '2'], fibers: true},
+};
+
+// A color of a list that is spread over [low, high]; components 0 ... 1.
+function colorAt(scale, value) {
+  const colors = scale.colors;
+  const at = Math.min(Math.max((value - scale.low) / (scale.high - scale.low), 0), 1) * (colors.length - 1);
+  const i = Math.min(Math.floor(at), colors.length - 2);
+  return [0, 1, 2].map(k => (colors[i][k] + (at - i) * (colors[i + 1][k] - colors[i][k])) / 255);
+}
+
+function bytesOf(id) {
+  const text = atob(document.getElementById(id).textContent);
+  const bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes.buffer;
+}
+
+// Two frames and how far it is from one to the other, for a frame of the run that may not be stored.
+function between(frames, frame) {
+  let next = frames.findIndex(each => each >= frame);
+  if (next < 0) next = frames.length - 1;
+  const before = frames[next] === frame || next === 0 ? next : next - 1;
+  return [before, next, before === next ? 0 : (frame - frames[before]) / (frames[next] - frames[before])];
+}
+
+// Blends points of two frames, stored as 16 bits within a box, into an array of floats.
+function blendPoints(stored, count, low, size, [a, b, share], out) {
+  for (let i = 0; i < 3 * count; ++i) {
+    const k = i % 3;
+    const value = (1 - share) * stored[3 * count * a + i] + share * stored[3 * count * b + i];
+    out[i] = low[k] + size[k] * value / 65535;
+  }
+}
+
+class RunShapes {
+  constructor(run, index) {
+    this.run = run;
+    this.buffer = bytesOf('shapes-' + index);
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.01, 10);
+    this.scene.add(this.camera, new THREE.AmbientLight(0xffffff, 0.32));
+    for (const [x, y, z, strength] of [[-0.7, 0.8, 1, 0.62], [1, -0.1, 0.8, 0.28], [0.3, 1, -0.6, 0.25]]) {
+      const light = new THREE.DirectionalLight(0xffffff, strength);
+      light.position.set(x, y, z);
+      this.camera.add(light, light.target);
+    }
+    this.surfaces = run.shapes.surfaces.map(surface => this.makeSurface(surface));
+    this.fibers = run.shapes.fibers.map(fibers => this.makeFibers(fibers));
+  }
+
+  makeSurface(surface) {
+    const muscle = surface.kind === 'muscle';
+    const geometry = new THREE.BufferGeometry();
+    const points = new Float32Array(3 * surface.vertices);
+    const stored = new Uint16Array(this.buffer, surface.points_at,
+                                   3 * surface.vertices * (muscle ? this.run.shapes.frames.length : 1));
+    blendPoints(stored, surface.vertices, surface.low, surface.size, [0, 0, 0], points);
+    geometry.setIndex(new THREE.BufferAttribute(new Uint16Array(this.buffer, surface.faces_at, 3 * surface.faces), 1));
+    geometry.setAttribute('position', new THREE.BufferAttribute(points, 3));
+    geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(points.length).fill(1), 3));
+    geometry.computeVertexNormals();
+    const material = new THREE.MeshPhongMaterial({color: 0xefe6d0, specular: 0x222222, shininess: 18,
+                                                  side: THREE.DoubleSide});
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.frustumCulled = false;
+    this.scene.add(mesh);
+    const result = {...surface, mesh, stored};
+    if (muscle) {
+      material.vertexColors = THREE.VertexColors;
+      const color = new THREE.Color(this.run.muscles.find(each => each.name === surface.name).color);
+      result.color = [color.r, color.g, color.b];
+      result.stretch = new Uint8Array(this.buffer, surface.stretch_at, surface.vertices * this.run.shapes.frames.length);
+    } else {
+      result.motion = new Float32Array(this.buffer, surface.motion_at, 7 * this.run.shapes.frames.length);
+    }
+    return result;
+  }
+
+  makeFibers(fibers) {
+    const count = fibers.sizes.reduce((sum, size) => sum + size, 0), index = [];
+    let begin = 0;
+    for (const size of fibers.sizes) {
+      for (let i = 0; i + 1 < size; ++i) index.push(begin + i, begin + i + 1);
+      begin += size;
+    }
+    const geometry = new THREE.BufferGeometry();
+    geometry.setIndex(index);
+    geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+    geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+    const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({vertexColors: THREE.VertexColors}));
+    lines.frustumCulled = false;
+    this.scene.add(lines);
+    const frames = this.run.shapes.frames.length;
+    return {...fibers, count, lines, stored: new Uint16Array(this.buffer, fibers.points_at, 3 * count * frames),
+            strain: new Uint8Array(this.buffer, fibers.strain_at, fibers.sizes.length * frames)};
+  }
+
+  // `frame` is one of this run's.
+  show(frame, state) {
+    const at = between(this.run.shapes.frames, frame);
+    for (const surface of this.surfaces) {
+      if (surface.kind === 'bone') this.showBone(surface, at, state);
+      else this.showMuscle(surface, at, frame, state);
+    }
+    for (const fibers of this.fibers) this.showFibers(fibers, at, state);
+  }
+
+  showBone(bone, [a, b, share], state) {
+    bone.mesh.visible = state.bones;
+    const turn = i => new THREE.Quaternion().fromArray(bone.motion, 7 * i);
+    const place = i => new THREE.Vector3().fromArray(bone.motion, 7 * i + 4);
+    bone.mesh.quaternion.copy(turn(a)).slerp(turn(b), share);
+    bone.mesh.position.copy(place(a)).lerp(place(b), share);
+  }
+
+  showMuscle(muscle, at, frame, state) {
+    const {geometry, material} = muscle.mesh;
+    muscle.mesh.visible = state.visible.has(muscle.name);
+    if (!muscle.mesh.visible) return;
+    const fibersShown = state.fibers || SHAPE_COLORS[state.colorBy].fibers;
+    const opacity = fibersShown ? Math.min(state.opacity, 0.3) : state.opacity;
+    Object.assign(material, {opacity, transparent: opacity < 1, depthWrite: opacity === 1});
+    blendPoints(muscle.stored, muscle.vertices, muscle.low, muscle.size, at, geometry.attributes.position.array);
+    geometry.attributes.position.needsUpdate = true;
+    geometry.computeVertexNormals();
+    const colors = geometry.attributes.color.array, scale = SHAPE_COLORS[state.colorBy];
+    const chart = scale.chart && this.run.charts.find(each => each.id === scale.chart);
+    const values = chart && chart.series.find(each => each.muscle === muscle.name).values;
+    const whole = values ? colorAt(scale, values[frame]) : muscle.color;
+    for (let v = 0; v < muscle.vertices; ++v) {
+      let color = whole;
+      if (state.colorBy === 'stretch') {
+        const [a, b, share] = at;
+        const byte = (1 - share) * muscle.stretch[a * muscle.vertices + v] + share * muscle.stretch[b * muscle.vertices + v];
+        color = colorAt(scale, (byte - 128) / 127);
+      }
+      colors.set(color, 3 * v);
+    }
+    geometry.attributes.color.needsUpdate = true;
+  }
+
+  showFibers(fibers, at, state) {
+    const scale = SHAPE_COLORS[state.colorBy];
+    fibers.lines.visible = (state.fibers || Boolean(scale.fibers)) && state.visible.has(fibers.muscle);
+    if (!fibers.lines.visible) return;
+    const {position, color} = fibers.lines.geometry.attributes;
+    blendPoints(fibers.stored, fibers.count, fibers.low, fibers.size, at, position.array);
+    let point = 0;
+    fibers.sizes.forEach((size, line) => {
+      const value = (fibers.strain[at[0] * fibers.sizes.length + line] - 128) / 127;
+      const shown = scale.fibers ? colorAt(scale, value) : [0.25, 0.04, 0.04];
+      for (let i = 0; i < size; ++i) color.array.set(shown, 3 * point++);
+    });
+    position.needsUpdate = true;
+    color.needsUpdate = true;
+  }
+
+  // The box of everything in all frames.
+  bounds() {
+    const box = new THREE.Box3();
+    for (const surface of this.surfaces) {
+      const low = new THREE.Vector3(...surface.low), size = new THREE.Vector3(...surface.size);
+      const own = new THREE.Box3(low, low.clone().add(size));
+      if (surface.kind === 'muscle') box.union(own);
+      else this.run.shapes.frames.forEach((_, i) => {
+        const motion = new THREE.Matrix4().compose(new THREE.Vector3().fromArray(surface.motion, 7 * i + 4),
+          new THREE.Quaternion().fromArray(surface.motion, 7 * i), new THREE.Vector3(1, 1, 1));
+        box.union(own.clone().applyMatrix4(motion));
+      });
+    }
+    return box;
+  }
+}
+
+class Stage {
+  constructor(runs, canvas) {
+    this.canvas = canvas;
+    const options = {antialias: true, alpha: true, preserveDrawingBuffer: true};
+    const context = canvas.getContext('webgl', options);
+    this.renderer = context && new THREE.WebGLRenderer({canvas, context, ...options});
+    if (context) this.renderer.setScissorTest(true);
+    this.shapes = runs.map((run, i) => new RunShapes(run, i));
+    const vector = name => new THREE.Vector3(...runs[0][name]);
+    this.axes = {anterior: vector('anterior'), superior: vector('superior'), right: vector('right')};
+    this.orbit = new Orbit(canvas, this.axes.superior, () => this.draw());
+    new ResizeObserver(() => this.draw()).observe(canvas);
+    this.fit();
+  }
+
+  // Everything in sight, whatever turns.
+  fit() {
+    const box = new THREE.Box3();
+    for (const shapes of this.shapes) box.union(shapes.bounds());
+    box.getCenter(this.orbit.center);
+    const size = box.getSize(new THREE.Vector3());
+    this.orbit.halfHeight = 0.36 * size.length();
+    this.draw();
+  }
+
+  draw() {
+    const {clientWidth: width, clientHeight: height} = this.canvas;
+    if (!this.renderer || !this.orbit || !width || !height) return;
+    this.renderer.setPixelRatio(window.devicePixelRatio);
+    const size = this.renderer.getSize(new THREE.Vector2());
+    if (size.x !== width || size.y !== height) this.renderer.setSize(width, height, false);
+    const part = width / this.shapes.length;
+    this.shapes.forEach((shapes, i) => {
+      this.renderer.setViewport(i * part, 0, part, height);
+      this.renderer.setScissor(i * part, 0, part, height);
+      this.orbit.place(shapes.camera, part / height);
+      this.renderer.render(shapes.scene, shapes.camera);
+    });
+    if (this.drawn) this.drawn();
+  }
+
+  pixelsPerMetre() { return this.canvas.clientHeight / (2 * this.orbit.halfHeight); }
+}

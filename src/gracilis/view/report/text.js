@@ -1,0 +1,116 @@
+// What the report says in words and tables.
+function make(name, text = '', attributes = {}) {
+  const element = document.createElement(name);
+  element.textContent = text;
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  return element;
+}
+
+// "gluteus_maximus_r" is what programs read.
+const spoken = name => name.replaceAll('_', ' ');
+
+function tableOf(heads, caption) {
+  const table = make('table', '', {class: 'facts'});
+  if (caption) table.createCaption().textContent = caption;
+  const row = table.createTHead().insertRow();
+  for (const head of heads) row.append(make('th', head, {scope: 'col'}));
+  table.createTBody();
+  return table;
+}
+
+function writeHead(runs) {
+  const count = (number, word) => `${number} ${word}${number === 1 ? '' : 's'}`;
+  document.getElementById('title').textContent = runs.map(run => run.label).join('  |  ');
+  document.getElementById('subtitle').textContent = runs.map(run =>
+    `${count(run.muscles.length, 'muscle')}, ${count(run.frame_count, 'frame')}, preset ${run.manifest.preset}, ` +
+    `${run.manifest.status}, ${(run.manifest.written || '').slice(0, 10)}`).join('  |  ');
+  const verdict = document.getElementById('verdict');
+  for (const run of runs) {
+    const missed = run.gates.filter(gate => !gate.met).length;
+    const text = missed ? `${missed} of ${run.gates.length} quality gates missed` : 'all quality gates met';
+    verdict.append(make('a', (runs.length > 1 ? run.label + ': ' : '') + text,
+                        {class: 'badge ' + (missed ? 'bad' : 'good'), href: '#gates-title', style: 'text-decoration: none'}),
+                   ' ');
+  }
+}
+
+// The gates of one run; those that were missed come first.
+function writeGates(runs, goTo) {
+  runs.forEach((run, index) => {
+    if (runs.length > 1) document.getElementById('gates').append(make('h3', run.label));
+    const table = tableOf(['Muscle', 'Gate', 'Limit', 'Worst', 'Frame', 'Result']);
+    for (const gate of [...run.gates].sort((a, b) => a.met - b.met)) {
+      const row = table.tBodies[0].insertRow();
+      row.append(make('th', spoken(gate.muscle), {scope: 'row'}));
+      row.insertCell().textContent = gate.title;
+      row.append(make('td', `${gate.both_ways ? '±' : ''}${gate.limit} ${gate.unit}`, {class: 'number'}),
+                 make('td', `${gate.worst === null ? 'not finite' : shownNumber(gate.worst)} ${gate.unit}`,
+                      {class: 'number'}));
+      const link = make('button', String(gate.frame), {type: 'button', class: 'link',
+                        'aria-label': `Show frame ${gate.frame}, worst of ${spoken(gate.muscle)}: ${gate.title}`});
+      link.addEventListener('click', () => goTo(gate.frame, index));
+      row.insertCell().append(link);
+      row.append(make('td', gate.met ? '✓ met' : `✗ missed in ${gate.missed} frame${gate.missed > 1 ? 's' : ''}`,
+                      {class: gate.met ? 'met' : 'missed'}));
+    }
+    document.getElementById('gates').append(table);
+  });
+}
+
+function writeWarnings(runs) {
+  const place = document.getElementById('warnings');
+  for (const run of runs) {
+    if (runs.length > 1) place.append(make('h3', run.label));
+    const {warnings = [], guessed = [], status} = run.manifest;
+    const said = [...warnings];
+    if (status !== 'complete') said.push(`This run is not complete: ${status}. Frames after ${run.frame_count - 1} are missing.`);
+    if (guessed.length) said.push(`Guessed, not measured: ${guessed.map(spoken).join(', ')}.`);
+    for (const text of said) place.append(make('p', text, {class: 'warning'}));
+    if (said.length === 0) place.append(make('p', 'None: the run had nothing to complain about.'));
+  }
+}
+
+function writeProvenance(runs) {
+  const facts = {
+    'Scene': run => run.manifest.scene, 'Preset': run => run.manifest.preset, 'Status': run => run.manifest.status,
+    'Frames': run => run.frame_count, 'Written': run => run.manifest.written, 'Run folder': run => run.folder,
+    'Command': run => (run.manifest.command || []).join(' '),
+    'Gracilis': run => run.manifest.gracilis,
+    'Libraries': run => Object.entries(run.manifest.libraries || {}).map(pair => pair.join(' ')).join(', '),
+    'Machine': run => `${run.manifest.processors} processors, ${run.manifest.threads} threads used, ` +
+                      `instruction set ${run.manifest.instruction_set}`,
+    'Time': run => `${shownNumber(run.manifest.seconds)} s`,
+  };
+  const table = tableOf(runs.length > 1 ? ['', ...runs.map(run => run.label)] : ['', '']);
+  if (runs.length === 1) table.deleteTHead();
+  for (const [name, value] of Object.entries(facts)) {
+    const row = table.tBodies[0].insertRow();
+    row.append(make('th', name, {scope: 'row'}), ...runs.map(run => make('td', String(value(run) ?? ''))));
+  }
+  const place = document.getElementById('provenance');
+  place.append(table);
+  for (const run of runs) {
+    const inputs = run.manifest.inputs || [];
+    place.append(make('h3', 'Input files' + (runs.length > 1 ? ', ' + run.label : '')));
+    if (inputs.length === 0) place.append(make('p', 'None: the scene is built in.'));
+    else {
+      const files = tableOf(['File', 'SHA-256']);
+      for (const input of inputs) {
+        const row = files.tBodies[0].insertRow();
+        row.insertCell().textContent = input.file;
+        row.insertCell().append(make('code', input.sha256));
+      }
+      place.append(files);
+    }
+  }
+}
+
+function writeSettings(runs) {
+  const place = document.getElementById('settings');
+  for (const run of runs) {
+    const details = make('details');
+    details.append(make('summary', 'All settings, as resolved' + (runs.length > 1 ? ': ' + run.label : '')),
+                   make('pre', run.manifest.settings || ''));
+    place.append(details);
+  }
+}
