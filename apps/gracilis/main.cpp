@@ -5,11 +5,13 @@
 #include "exit_handling.hpp"
 #include "fibers_command.hpp"
 #include "inspect_command.hpp"
+#include "paths_command.hpp"
 #include "prepare_command.hpp"
 #include "print_config_command.hpp"
 #include "report_command.hpp"
 #include "rom_command.hpp"
 #include "run_command.hpp"
+#include "static_optimization_command.hpp"
 
 #include <gracilis/core/errors.hpp>
 
@@ -36,6 +38,8 @@ int main(int count, char** arguments) {
   add_inspect_command(program, chosen);
   add_report_command(program, chosen);
   add_prepare_command(program, chosen);
+  add_paths_command(program, chosen);
+  add_static_optimization_command(program, chosen);
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {

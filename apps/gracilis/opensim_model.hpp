@@ -1,0 +1,15 @@
+#pragma once
+
+#include <gracilis/opensim/model.hpp>
+
+#include <filesystem>
+
+namespace gracilis {
+
+/// Reads a model and warns of everything in it that is left out; with `strict` that is an error (exit code 4).
+opensim::Model read_opensim_model(const std::filesystem::path& path, bool strict);
+
+/// Warns of what `model` leaves out, from the `first` entry on; with `strict` throws.
+void report_unsupported(const opensim::Model& model, std::size_t first, bool strict);
+
+}  // namespace gracilis

@@ -1,0 +1,92 @@
+#include "paths_command.hpp"
+
+#include "opensim_model.hpp"
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/value_reader.hpp>
+#include <gracilis/opensim/path_tables.hpp>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+
+namespace gracilis {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PathsOptions {
+  fs::path model, motion, out;
+  std::string sweep, prefix;
+  bool strict = false;
+};
+
+std::vector<std::string> names_of(const std::vector<opensim::Coordinate>& coordinates) {
+  std::vector<std::string> names;
+  for (const opensim::Coordinate& coordinate : coordinates) names.push_back(coordinate.name);
+  return names;
+}
+
+/// "hip_flexion_r=-40:120:5", in degrees or m.
+opensim::CoordinateMotion parse_sweep(const opensim::Model& model, const std::string& text) {
+  const std::size_t equals = text.find('='), first = text.find(':'), second = text.find(':', first + 1);
+  double begin = 0, end = 0, step = 0;
+  const bool whole = equals != std::string::npos && first != std::string::npos && second != std::string::npos &&
+                     equals < first && parse_number(text.substr(equals + 1, first - equals - 1), begin) &&
+                     parse_number(text.substr(first + 1, second - first - 1), end) &&
+                     parse_number(text.substr(second + 1), step) && step > 0;
+  if (!whole) throw ConfigurationError({"--coord", "", fmt::format("'{}' is no sweep", text), "NAME=FROM:TO:STEP"});
+  const std::string name = text.substr(0, equals);
+  const Index coordinate = opensim::index_of(model.coordinates, name);
+  if (coordinate < 0)
+    throw ConfigurationError({"--coord", "", fmt::format("the model has no coordinate '{}'", name),
+                              suggestion(name, names_of(model.coordinates))});
+  const Real unit = model.coordinates[static_cast<std::size_t>(coordinate)].rotation ? radians(1) : 1;
+  return opensim::sweep(model, coordinate, begin * unit, end * unit, step * unit);
+}
+
+int write_paths(const PathsOptions& options) {
+  if (options.motion.empty() == options.sweep.empty())
+    throw ConfigurationError({"", "", "give either --motion FILE or --coord NAME=FROM:TO:STEP", ""});
+  const opensim::Model model = read_opensim_model(options.model, options.strict);
+  opensim::CoordinateMotion motion;
+  if (options.motion.empty()) {
+    motion = parse_sweep(model, options.sweep);
+  } else {
+    const Table table = read_table(options.motion);
+    for (const std::string& warning : table.warnings) spdlog::warn("{}", warning);
+    motion = opensim::coordinate_motion(model, table);
+  }
+  for (const std::string& note : motion.notes) spdlog::warn("{}", note);
+  const opensim::PathTables tables = opensim::path_tables(model, motion);
+  fs::create_directories(options.out);
+  const std::string start = options.prefix.empty() ? model.name : options.prefix;
+  const auto write = [&](const std::string& what, const Table& table) {
+    const fs::path path = options.out / (start + "_" + what + ".sto");
+    write_sto(path, table);
+    fmt::print("{}\n", path.string());
+  };
+  write("MuscleAnalysis_Length", tables.lengths);
+  for (const auto& [coordinate, table] : tables.moment_arms) write("MuscleAnalysis_MomentArm_" + coordinate, table);
+  if (options.motion.empty()) write("coordinates", opensim::coordinate_table(model, motion));
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_paths_command(CLI::App& program, Command& chosen) {
+  CLI::App* command = program.add_subcommand("paths", "Lengths and moment arms of an OpenSim model's muscles");
+  const auto options = std::make_shared<PathsOptions>();
+  command->add_option("MODEL", options->model, "OpenSim model (.osim)")->required();
+  command->add_option("--motion", options->motion, "Coordinates over time (.mot, .sto)");
+  command->add_option("--coord", options->sweep, "Or one coordinate, NAME=FROM:TO:STEP in degrees or m");
+  command->add_option("--out", options->out, "Folder for the tables")->required();
+  command->add_option("--prefix", options->prefix, "Start of the tables' names (default: the model's name)");
+  command->add_flag("--strict", options->strict, "Fail where the model holds what is not supported (exit code 4)");
+  command->callback([&chosen, options] { chosen = [options] { return write_paths(*options); }; });
+}
+
+}  // namespace gracilis

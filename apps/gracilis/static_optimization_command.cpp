@@ -1,0 +1,139 @@
+#include "static_optimization_command.hpp"
+
+#include "console.hpp"
+#include "opensim_model.hpp"
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/opensim/low_pass.hpp>
+#include <gracilis/opensim/model_reader.hpp>
+#include <gracilis/opensim/setup_reader.hpp>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+namespace gracilis {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What the command line says; where it says nothing, the set-up file does.
+struct OptimizationOptions {
+  fs::path setup, model, motion, loads, out;
+  std::vector<fs::path> forces;
+  bool replace = false, isometric = false, strict = false;
+  std::optional<Real> begin, end, cutoff, exponent;
+  std::optional<int> every;
+};
+
+opensim::StaticOptimizationSetup setup_from(const OptimizationOptions& options) {
+  opensim::StaticOptimizationSetup setup;
+  if (!options.setup.empty()) setup = opensim::read_setup(options.setup);
+  if (!options.model.empty()) setup.model = options.model;
+  if (!options.motion.empty()) setup.coordinates = options.motion;
+  if (!options.loads.empty()) setup.external_loads = options.loads;
+  if (!options.forces.empty()) setup.force_sets = options.forces;
+  if (options.replace) setup.replace_force_set = true;
+  if (options.isometric) setup.settings.use_muscle_physiology = false;
+  setup.begin = options.begin.value_or(setup.begin);
+  setup.end = options.end.value_or(setup.end);
+  setup.cutoff = options.cutoff.value_or(setup.cutoff);
+  setup.step_interval = options.every.value_or(setup.step_interval);
+  setup.settings.exponent = options.exponent.value_or(setup.settings.exponent);
+  if (setup.model.empty() || setup.coordinates.empty())
+    throw ConfigurationError(
+        {"", "", "static optimization needs a model and coordinates", "give a set-up file, or --model and --motion"});
+  if (!(setup.settings.exponent > 1))
+    throw ConfigurationError({"--exponent", "", "the exponent must be larger than 1", ""});
+  return setup;
+}
+
+opensim::Model model_with_forces(const opensim::StaticOptimizationSetup& setup, bool strict) {
+  opensim::Model model = read_opensim_model(setup.model, strict);
+  bool replace = setup.replace_force_set;
+  for (const fs::path& path : setup.force_sets) {
+    const std::size_t known = model.unsupported.size();
+    opensim::read_force_set(path, replace, model);
+    report_unsupported(model, known, strict);
+    replace = false;
+  }
+  return model;
+}
+
+opensim::CoordinateMotion motion_of(const opensim::Model& model, const opensim::StaticOptimizationSetup& setup) {
+  const Table table = read_table(setup.coordinates);
+  for (const std::string& warning : table.warnings) spdlog::warn("{}", warning);
+  opensim::CoordinateMotion motion = opensim::coordinate_motion(model, table);
+  for (const std::string& note : motion.notes) spdlog::warn("{}", note);
+  if (setup.cutoff > 0) motion.values = opensim::low_pass(motion.times, motion.values, setup.cutoff);
+  return motion;
+}
+
+void report(const opensim::StaticOptimizationResult& result) {
+  for (const opensim::InfeasibleInstant& instant : result.infeasible) {
+    std::string missing;
+    for (std::size_t i = 0; i < std::min<std::size_t>(instant.missing.size(), 3); ++i)
+      missing += fmt::format("{}{} {:.3g}", i ? ", " : "", instant.missing[i].first, instant.missing[i].second);
+    spdlog::warn("at {} s the muscles and actuators are too weak; missing (N m or N): {}", instant.time, missing);
+  }
+}
+
+int optimize(const OptimizationOptions& options) {
+  const opensim::StaticOptimizationSetup setup = setup_from(options);
+  for (const std::string& note : setup.notes) spdlog::warn("{}: {}", options.setup.string(), note);
+  const opensim::Model model = model_with_forces(setup, options.strict);
+  const opensim::CoordinateMotion motion = motion_of(model, setup);
+  opensim::ExternalLoads loads;
+  if (!setup.external_loads.empty()) loads = opensim::read_external_loads(model, setup.external_loads);
+  const std::vector<std::size_t> rows = opensim::rows_of(setup, motion.times);
+  if (rows.empty())
+    throw ConfigurationError({setup.coordinates.string(), "", "has no row between the times asked for", ""});
+  if (!loads.forces.empty() && (motion.times[rows.front()] < loads.begin || motion.times[rows.back()] > loads.end))
+    spdlog::warn("{}: the loads are measured from {} to {} s only", setup.external_loads.string(), loads.begin,
+                 loads.end);
+  Progress progress(0, static_cast<int>(rows.size()));
+  const opensim::StaticOptimizationResult result = opensim::static_optimization(
+      model, motion, loads, rows, setup.settings, [&](std::size_t done) { progress.show(static_cast<int>(done)); });
+  progress.clear();
+  report(result);
+  fs::create_directories(options.out);
+  const std::string start = setup.name + "_" + setup.analysis;
+  for (const auto& [what, table] : {std::pair{"activation", &result.activations}, {"force", &result.forces}}) {
+    const fs::path path = options.out / fmt::format("{}_{}.sto", start, what);
+    write_sto(path, *table);
+    fmt::print("{}\n", path.string());
+  }
+  const bool failed = options.strict && !result.infeasible.empty();
+  return static_cast<int>(failed ? ExitCode::quality : ExitCode::done);
+}
+
+}  // namespace
+
+void add_static_optimization_command(CLI::App& program, Command& chosen) {
+  CLI::App* command = program.add_subcommand("static-optimization",
+                                             "Activations of an OpenSim model's muscles that give a measured motion");
+  const auto options = std::make_shared<OptimizationOptions>();
+  command->add_option("SETUP", options->setup, "OpenSim's set-up file of static optimization (.xml)");
+  command->add_option("--model", options->model, "OpenSim model (.osim)");
+  command->add_option("--motion", options->motion, "Coordinates over time (.mot, .sto)");
+  command->add_option("--loads", options->loads, "External loads (.xml, beside its table)");
+  command->add_option("--forces", options->forces, "Force set with more actuators (.xml); may be repeated")
+      ->allow_extra_args(false);
+  command->add_flag("--replace", options->replace, "Take the model's own forces away first");
+  command->add_option("--out", options->out, "Folder for the results")->required();
+  command->add_option("--begin", options->begin, "First time, s");
+  command->add_option("--end", options->end, "Last time, s");
+  command->add_option("--every", options->every, "Take every so many rows of the motion")->check(CLI::PositiveNumber);
+  command->add_option("--cutoff", options->cutoff, "Low-pass filter of the coordinates, Hz");
+  command->add_option("--exponent", options->exponent, "Minimize the sum of activations to this power (2)");
+  command->add_flag("--isometric", options->isometric, "Forces do not depend on length and velocity");
+  command->add_flag("--strict", options->strict,
+                    "Fail where something is not supported (exit code 4) or muscles are too weak (5)");
+  command->callback([&chosen, options] { chosen = [options] { return optimize(*options); }; });
+}
+
+}  // namespace gracilis

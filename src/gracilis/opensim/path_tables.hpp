@@ -1,0 +1,17 @@
+#pragma once
+
+#include <gracilis/opensim/coordinate_motion.hpp>
+
+#include <utility>
+
+namespace gracilis::opensim {
+
+/// Lengths and moment arms of all of a model's muscles through a motion, a column per muscle.
+struct PathTables {
+  Table lengths;                                           ///< m
+  std::vector<std::pair<std::string, Table>> moment_arms;  ///< by coordinate: those that any muscle acts on, m
+};
+
+PathTables path_tables(const Model& model, const CoordinateMotion& motion);
+
+}  // namespace gracilis::opensim

@@ -1,0 +1,65 @@
+#include "app/program.hpp"
+#include "opensim/model_texts.hpp"
+
+#include <gracilis/io/table.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gracilis {
+
+using opensim::muscle;
+using opensim::pendulum;
+using opensim::point;
+
+static const std::string tiny = pendulum(muscle("m", point("/ground", "0.3 0 0") + point("/bodyset/rod", "0 -0.4 0")));
+
+TEST(PathsCommand, a_sweep_writes_lengths_moment_arms_and_the_coordinate) {
+  const TestFolder folder;
+  const auto model = folder.write("tiny.osim", tiny);
+  const ProgramResult result =
+      run_program("paths " + model.string() + " --coord swing=-10:20:5 --out " + (folder.path() / "out").string());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Table lengths = read_table(folder.path() / "out/tiny_MuscleAnalysis_Length.sto");
+  const Table arms = read_table(folder.path() / "out/tiny_MuscleAnalysis_MomentArm_swing.sto");
+  const Table coordinates = read_table(folder.path() / "out/tiny_coordinates.sto");
+  ASSERT_EQ(lengths.times.size(), 7u);
+  EXPECT_NEAR(coordinates.values(6, 0), 20, 1e-12);
+  EXPECT_NEAR(lengths.values(2, 0), 0.5, 1e-14);
+  EXPECT_NEAR(arms.values(2, 0), 0.3 * 0.4 / 0.5, 1e-14);
+}
+
+TEST(PathsCommand, a_motion_in_degrees_is_turned_into_radians) {
+  const TestFolder folder;
+  const auto model = folder.write("tiny.osim", tiny);
+  const auto motion = folder.write("m.mot",
+                                   "m\nversion=1\nnRows=2\nnColumns=2\ninDegrees=yes\nendheader\ntime\tswing\n"
+                                   "0\t0\n1\t90\n");
+  const ProgramResult result = run_program("paths " + model.string() + " --motion " + motion.string() +
+                                           " --prefix p --out " + folder.path().string());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NEAR(read_table(folder.path() / "p_MuscleAnalysis_Length.sto").values(1, 0), 0.1, 1e-14);
+}
+
+TEST(PathsCommand, what_is_not_supported_is_named_and_fails_when_strict) {
+  const TestFolder folder;
+  const auto model = folder.write("tiny.osim", pendulum("<BushingForce name=\"bush\"/>"));
+  const std::string arguments = "paths " + model.string() + " --coord swing=0:1:1 --out " + folder.path().string();
+  const ProgramResult loose = run_program(arguments);
+  EXPECT_EQ(loose.exit_code, 0);
+  EXPECT_THAT(loose.err, testing::HasSubstr("not supported: BushingForce 'bush'"));
+  EXPECT_EQ(run_program(arguments + " --strict").exit_code, 4);
+}
+
+TEST(PathsCommand, a_wrong_coordinate_is_a_usage_error_with_a_suggestion) {
+  const TestFolder folder;
+  const auto model = folder.write("tiny.osim", tiny);
+  const ProgramResult result =
+      run_program("paths " + model.string() + " --coord swim=0:1:1 --out " + folder.path().string());
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, testing::HasSubstr("did you mean 'swing'?"));
+}
+
+}  // namespace gracilis
