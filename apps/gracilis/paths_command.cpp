@@ -52,6 +52,7 @@ int write_paths(const PathsOptions& options) {
   if (options.motion.empty() == options.sweep.empty())
     throw ConfigurationError({"", "", "give either --motion FILE or --coord NAME=FROM:TO:STEP", ""});
   const opensim::Model model = read_opensim_model(options.model, options.strict);
+  if (model.muscles.empty()) throw InputError({options.model.string(), "", "has no muscles", "name another model"});
   opensim::CoordinateMotion motion;
   if (options.motion.empty()) {
     motion = parse_sweep(model, options.sweep);

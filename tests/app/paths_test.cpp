@@ -45,7 +45,9 @@ TEST(PathsCommand, a_motion_in_degrees_is_turned_into_radians) {
 
 TEST(PathsCommand, what_is_not_supported_is_named_and_fails_when_strict) {
   const TestFolder folder;
-  const auto model = folder.write("tiny.osim", pendulum("<BushingForce name=\"bush\"/>"));
+  const auto model = folder.write(
+      "tiny.osim",
+      pendulum("<BushingForce name=\"bush\"/>" + muscle("m", point("/ground", "1 0 0") + point("rod", "0 -1 0"))));
   const std::string arguments = "paths " + model.string() + " --coord swing=0:1:1 --out " + folder.path().string();
   const ProgramResult loose = run_program(arguments);
   EXPECT_EQ(loose.exit_code, 0);

@@ -12,6 +12,7 @@ struct PathTables {
   std::vector<std::pair<std::string, Table>> moment_arms;  ///< by coordinate: those that any muscle acts on, m
 };
 
+/// The model must have muscles, the motion rows.
 PathTables path_tables(const Model& model, const CoordinateMotion& motion);
 
 }  // namespace gracilis::opensim
