@@ -39,7 +39,7 @@ UnderWay under_way(const Muscle& muscle) {
   Pose before = hip.flexed(0);
   for (int frame = 0; frame <= frames; ++frame) {
     const Pose pose = hip.flexed(middle * frame / frames);
-    xpbd::carry_free(u.muscle, before, pose, u.state.particles);
+    xpbd::carry_free(u.muscle, before, pose, false, u.state.particles);
     xpbd::move_attached(u.muscle, pose, u.state.particles);
     xpbd::set_target_lengths(u.muscle, pose, u.state.target_length);
     u.state.start = u.state.particles;

@@ -81,6 +81,8 @@ CoordinateRange set_motion(const std::vector<std::string>& texts, Scene& scene) 
     throw ConfigurationError({"--coord", "", "no coordinate moves", "write one as NAME=FROM:TO:STEP"});
   scene.motion = motion_through(names, keys, radians(moving.step), 1.0 / 60);
   scene.motion.name = scene.name;
+  // Muscles settle first: what they do when they become active is no moment arm.
+  if (scene.sequence.settle_frames == 0) scene.sequence.settle_frames = 30;
   scene.sequence.hold_frames = 0;
   scene.sequence.return_to_capture = false;
   return moving;

@@ -102,6 +102,18 @@ TEST(PoseSequence, the_motion_keeps_its_times_and_the_ramp_comes_before) {
   EXPECT_EQ(poses[8].coordinates, poses[6].coordinates);
 }
 
+TEST(PoseSequence, muscles_may_settle_in_the_first_pose) {
+  Scene scene = leg();
+  scene.motion = motion({"flexion"}, {2, 2.5, 3}, Eigen::Vector3d(0.5, 0.6, 0.7));
+  scene.sequence.ramp_frames = 2;
+  scene.sequence.settle_frames = 3;
+  const std::vector<Pose> poses = pose_sequence(scene);
+  ASSERT_EQ(poses.size(), 1u + 2u + 3u + 2u);
+  for (std::size_t i = 0; i < poses.size(); ++i) EXPECT_NEAR(poses[i].time, -0.5 + 0.5 * Real(i), 1e-12);
+  for (std::size_t i = 2; i <= 5; ++i) EXPECT_EQ(poses[i].coordinates[0], 0.5);
+  EXPECT_EQ(poses[6].coordinates[0], 0.6);
+}
+
 TEST(PoseSequence, a_motion_that_starts_in_the_capture_pose_needs_no_ramp) {
   Scene scene = leg();
   scene.motion = motion({"flexion"}, {0, 1}, Eigen::Vector2d(0.03, 0.04));

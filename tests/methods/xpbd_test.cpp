@@ -239,6 +239,32 @@ TEST(XpbdMotion, a_stretched_muscle_aims_at_a_longer_and_thinner_shape_of_its_ow
   EXPECT_GT(across, 300);
 }
 
+TEST(XpbdMotion, carried_back_to_the_capture_pose_a_relaxed_muscle_gives_up_its_displacement_in_proportion) {
+  const Scene scene = tube_without_tendons();
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  const Real kept = 1 - prepared.settings.shape_recovery, displacement = 0.004;
+  const auto left = [&](Real from, Real to, bool active) {
+    const auto carried = [&](Real angle) -> Points {
+      return xpbd::carried_rest(prepared, flexed(scene, radians(angle)));
+    };
+    Particles particles = prepared.system.rest;
+    const Points before = carried(from), after = carried(to);
+    for (Index p = 0; p < particles.count(); ++p)
+      if (prepared.fixed_body[static_cast<std::size_t>(p)] < 0)
+        particles.position(p) = (before.col(p) + Vec3(displacement, 0, 0)).cast<float>();
+    xpbd::carry_free(prepared, flexed(scene, radians(from)), flexed(scene, radians(to)), active, particles);
+    Real largest = 0;
+    for (Index p = 0; p < particles.count(); ++p)
+      if (prepared.fixed_body[static_cast<std::size_t>(p)] < 0)
+        largest = std::max(largest, (particles.position(p).cast<Real>() - after.col(p)).norm());
+    return largest / displacement;
+  };
+  EXPECT_NEAR(left(30, 31, false), kept, 1e-4) << "away from the capture pose";
+  EXPECT_NEAR(left(30, 24, false), 0.8 * kept, 1e-4) << "towards it";
+  EXPECT_NEAR(left(30, 0, false), 0, 1e-4) << "there the muscle is as it was";
+  EXPECT_NEAR(left(30, 24, true), kept, 1e-4) << "an active one pulls by itself";
+}
+
 TEST(XpbdMotion, no_edge_aims_beyond_the_stretch_limit) {
   XpbdSettings settings;
   settings.stretch_limit = 1.25;

@@ -67,7 +67,8 @@ static std::vector<Pose> relaxed_sequence(const Scene& scene) {
   const Real spacing = mean_spacing(times);
 
   // A motion that starts in the capture pose has that row as its frame 0.
-  const std::vector<Coordinates> into = ramp(scene, capture, rows.front(), scene.sequence.ramp_frames);
+  std::vector<Coordinates> into = ramp(scene, capture, rows.front(), scene.sequence.ramp_frames);
+  into.insert(into.end(), static_cast<std::size_t>(std::max(scene.sequence.settle_frames, 0)), rows.front());
   add(capture, times.front() - spacing * Real(into.size()));
   for (std::size_t i = 0; i < into.size(); ++i) add(into[i], times.front() - spacing * Real(into.size() - 1 - i));
   for (std::size_t i = 1; i < rows.size(); ++i) add(rows[i], times[i]);

@@ -8,7 +8,7 @@
 namespace gracilis {
 
 /// The poses of all frames of a run: frame 0 is the capture pose; a ramp leads to the motion's first row; then come the
-/// motion's rows, the frames that hold the last one, and, where the scene asks for it, a ramp back to the capture pose.
+/// frames that hold it while muscles settle, the motion's rows, the frames that hold the last one, and, where the scene asks for it, a ramp back to the capture pose.
 ///
 /// A ramp moves all coordinates in equal steps. It takes `Sequence::ramp_frames` frames, the last of which is the pose
 /// it leads to; 0 means as many as it takes for no coordinate to change by more than 1 degree in a frame, and none

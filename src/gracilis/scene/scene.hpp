@@ -75,6 +75,7 @@ struct Motion {
 /// How a run goes from the capture pose (frame 0) into the motion and out of it.
 struct Sequence {
   int ramp_frames = 0;  ///< between the capture pose and the motion's first pose; 0: as many as 1 degree each needs
+  int settle_frames = 0;  ///< the motion's first pose repeated before it begins
   int hold_frames = 0;  ///< the motion's last pose repeated
   bool return_to_capture = false;  ///< ramp back to the capture pose at the end
 };

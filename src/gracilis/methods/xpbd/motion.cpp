@@ -35,6 +35,13 @@ Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& 
   return turn;
 }
 
+/// The same, from the capture pose.
+static Real turn_from_capture(const PreparedMuscle& muscle, const Pose& pose) {
+  Pose capture;
+  capture.bodies.assign(pose.bodies.size(), RigidTransform::Identity());
+  return turn_between(muscle, capture, pose);
+}
+
 /// The carriers' transforms from the capture pose, about the particles' origin.
 static std::vector<RigidTransform> carrier_transforms(const PreparedMuscle& muscle, const Pose& pose) {
   const Eigen::Translation3d to_world(muscle.origin);
@@ -54,10 +61,18 @@ static bool shares_of(const PreparedMuscle& muscle, Index particle, std::vector<
   return true;
 }
 
-void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, Particles& particles) {
+/// The share of their displacements that free particles keep from one pose to the next.
+static Real kept_share(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active) {
+  const Real recovery = muscle.settings.shape_recovery;
+  if (active || !(recovery > 0)) return 1 - recovery;
+  const Real away = turn_from_capture(muscle, before);
+  return (1 - recovery) * (away > 0 ? std::min(turn_from_capture(muscle, now) / away, Real{1}) : 1);
+}
+
+void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, Particles& particles) {
   const std::vector<RigidTransform> from = carrier_transforms(muscle, before), to = carrier_transforms(muscle, now);
-  const Real kept = 1 - muscle.settings.shape_recovery;
   if (from.empty()) return;
+  const Real kept = kept_share(muscle, before, now, active);
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(from.size());
     for (Index p = begin; p < end; ++p) {

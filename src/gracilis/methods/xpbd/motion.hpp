@@ -15,7 +15,11 @@ Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& 
 /// The predictor: every free particle has a frame of its own, the blend of the bodies' motions by its harmonic shares.
 /// It keeps its displacement in that frame from `before` to `now`, less the share `shape_recovery`, so that the solver
 /// only has to relax and a muscle does not remember by which way it came.
-void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, Particles& particles);
+///
+/// On the way back to the capture pose a relaxed muscle also keeps no more than in proportion to the turn of its bones
+/// from there: where they are as they were, so is the muscle. An active one is displaced by its own pull, too, which
+/// knows nothing of that.
+void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, Particles& particles);
 
 /// Places each obstacle's field where its bone is now.
 std::vector<FieldPlacement> place_fields(const PreparedMuscle& muscle, const Pose& pose);

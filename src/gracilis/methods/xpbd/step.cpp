@@ -72,7 +72,8 @@ void predict(const PreparedMuscle& muscle, Real activation, const Pose& before, 
              SurfaceState& state) {
   const XpbdSettings& settings = muscle.settings;
   state.start = state.particles;
-  if (settings.predictor) carry_free(muscle, before, pose, state.particles);
+  if (settings.predictor)
+    carry_free(muscle, before, pose, contraction_strength(muscle.contraction, activation) > 0, state.particles);
   // Velocities are relative to the carried motion, so the predictor adds no momentum of its own.
   if (settings.predictor) state.start = state.particles;
   if (settings.time_mode == TimeMode::dynamic) coast(settings, time_step, state);

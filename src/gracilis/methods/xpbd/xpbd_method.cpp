@@ -99,7 +99,8 @@ class XpbdMethod final : public DeformationMethod {
       } else {
         // The mean over the frame is all that two shapes can tell.
         if (muscle.settings.predictor)
-          carry_free(muscle, before.pose, last.pose, state.start);
+          carry_free(muscle, before.pose, last.pose, activation_of(m, last.pose) > muscle.contraction.threshold,
+                     state.start);
         take_velocities(static_cast<float>(muscle.settings.time_step), state);
       }
       states_[m] = std::move(state);
