@@ -4,6 +4,7 @@
 #include "demo_command.hpp"
 #include "exit_handling.hpp"
 #include "fibers_command.hpp"
+#include "import_command.hpp"
 #include "inspect_command.hpp"
 #include "paths_command.hpp"
 #include "prepare_command.hpp"
@@ -38,6 +39,7 @@ int main(int count, char** arguments) {
   add_inspect_command(program, chosen);
   add_report_command(program, chosen);
   add_prepare_command(program, chosen);
+  add_import_command(program, chosen);
   add_paths_command(program, chosen);
   add_static_optimization_command(program, chosen);
   try {

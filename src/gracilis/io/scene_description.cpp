@@ -66,7 +66,8 @@ static JointAxis read_axis(TomlReader table) {
   axis.translation = table.flag("translation").value_or(false);
   const Real unit = axis.translation ? 0.001 : radians(1);
   const std::string capture = axis.translation ? "capture_mm" : "capture_deg";
-  axis.capture_value = table.number(capture, {-360, 360, axis.translation ? "mm" : "degrees"}).value_or(0) * unit;
+  const NumberRange values = axis.translation ? NumberRange{-1e5, 1e5, "mm"} : NumberRange{-360, 360, "degrees"};
+  axis.capture_value = table.number(capture, values).value_or(0) * unit;
   const std::string range_key = axis.translation ? "range_mm" : "range_deg";
   if (const std::optional<Eigen::Vector2d> range = table.pair(range_key)) {
     axis.range_min = (*range)(0) * unit;

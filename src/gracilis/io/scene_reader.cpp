@@ -256,7 +256,7 @@ class SceneBuilder {
       read(description.file, [&](const fs::path& path) {
         const Table table = read_table(path);
         result_.warnings.insert(result_.warnings.end(), table.warnings.begin(), table.warnings.end());
-        motion = motion_from_table(table);
+        motion = motion_from_table(table, translation_names());
         thin_out(motion, description.begin, description.end, description.time_step);
         if (motion.times.empty())
           add_problem({path.string(), "", "", ""}, "no row of the motion is between its 'begin' and 'end'");
@@ -266,6 +266,14 @@ class SceneBuilder {
       motion = motion_through(description.coordinates, description.key_poses, description.step, description.time_step);
       motion.name = description_.name;
     }
+  }
+
+  std::vector<std::string> translation_names() const {
+    std::vector<std::string> names;
+    for (const Joint& joint : result_.scene.joints)
+      for (const JointAxis& axis : joint.axes)
+        if (axis.translation) names.push_back(axis.coordinate);
+    return names;
   }
 
   /// A motion's file usually tells of more joints than the scene has; one that tells of none of them is the wrong file.

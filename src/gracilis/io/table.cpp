@@ -208,14 +208,15 @@ void write_sto(const std::filesystem::path& path, const Table& table) {
   write_text_atomically(path, text);
 }
 
-/// The name of the coordinate that a column holds as an angle; empty when it holds anything else.
-static std::string angle_of_column(const std::string& column) {
+/// The name of the coordinate that a column holds; empty when it holds anything else.
+static std::string coordinate_of_column(const std::string& column, const std::vector<std::string>& translations) {
   std::string name = column;
   if (name.starts_with('/')) {
     if (!name.ends_with("/value")) return "";
     name.resize(name.size() - std::string_view("/value").size());
     name = name.substr(name.rfind('/') + 1);
   }
+  if (std::find(translations.begin(), translations.end(), name) != translations.end()) return name;
   for (const char* ending : {"_tx", "_ty", "_tz", "Translation", "_speed", "_u"}) {
     if (name.ends_with(ending)) return "";
   }
@@ -228,18 +229,19 @@ std::optional<Eigen::Index> column_of(const Table& table, const std::string& nam
   return found - table.columns.begin();
 }
 
-Motion motion_from_table(const Table& table) {
+Motion motion_from_table(const Table& table, const std::vector<std::string>& translations) {
   Motion motion;
   motion.name = table.name;
   motion.times = table.times;
   motion.values.resize(table.values.rows(), 0);
   for (std::size_t column = 0; column < table.columns.size(); ++column) {
-    const std::string coordinate = angle_of_column(table.columns[column]);
+    const std::string coordinate = coordinate_of_column(table.columns[column], translations);
     if (coordinate.empty()) continue;
+    const bool shifts = std::find(translations.begin(), translations.end(), coordinate) != translations.end();
     motion.coordinates.push_back(coordinate);
     motion.values.conservativeResize(Eigen::NoChange, motion.values.cols() + 1);
     motion.values.rightCols(1) =
-        table.values.col(static_cast<Eigen::Index>(column)) * (table.in_degrees ? radians(1) : 1);
+        table.values.col(static_cast<Eigen::Index>(column)) * (table.in_degrees && !shifts ? radians(1) : 1);
   }
   return motion;
 }

@@ -1,0 +1,44 @@
+#include <gracilis/methods/cylinder/action_line.hpp>
+
+#include <cassert>
+#include <cmath>
+
+namespace gracilis {
+
+Points subdivide_line(const Points& line, int scaling) {
+  assert(line.cols() >= 2 && scaling >= 0 && scaling <= 16);
+  const Eigen::Index parts = Eigen::Index(1) << scaling;
+  Points result(3, (line.cols() - 1) * parts + 1);
+  for (Eigen::Index i = 0; i < result.cols(); ++i) {
+    const Eigen::Index before = i / parts;
+    const Real share = static_cast<Real>(i % parts) / static_cast<Real>(parts);
+    result.col(i) = share == 0 ? Vec3(line.col(before)) : (1 - share) * line.col(before) + share * line.col(before + 1);
+  }
+  return result;
+}
+
+Real line_length(const Points& line) {
+  Real length = 0;
+  for (Eigen::Index i = 1; i < line.cols(); ++i) length += (line.col(i) - line.col(i - 1)).norm();
+  return length;
+}
+
+Vec3 point_before_end(const Points& line, Real distance, Index& after) {
+  for (Eigen::Index i = line.cols() - 1; i > 0; --i) {
+    const Real part = (line.col(i) - line.col(i - 1)).norm();
+    after = static_cast<Index>(i);
+    if (distance <= part && part > 0) return line.col(i) + distance / part * (line.col(i - 1) - line.col(i));
+    distance -= part;
+  }
+  return line.col(0);
+}
+
+TendonLengths tendon_lengths(Real optimal_fiber, Real pennation, Real slack, Real line, Real scaled_line) {
+  TendonLengths lengths;
+  lengths.rest = slack + optimal_fiber * std::cos(pennation);
+  lengths.scaled_rest = lengths.rest * scaled_line / line;
+  lengths.scaled_tendon = lengths.scaled_rest * slack / lengths.rest;
+  return lengths;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/opensim/model.hpp>
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace gracilis::opensim {
+
+/// Which files stand for a surface that a model names, and their unit in m; 0: as the model says by its scale factors.
+struct GeometryFiles {
+  std::vector<std::filesystem::path> files;
+  Real unit = 0;
+};
+
+/// Where a model's surfaces are looked for.
+struct GeometryPlaces {
+  std::filesystem::path model_folder;
+  std::vector<std::filesystem::path> folders;
+  std::map<std::string, GeometryFiles> named;  ///< by the name in the model; these win
+};
+
+/// A TOML file: "LHDL_pelvis.vtp" = "pelvis.ply" or ["hip_bone_r.vtk", "sacrum.vtk"], or { files = [...], unit = "mm"
+/// }; files lie beside it or below. Throws InputError.
+std::map<std::string, GeometryFiles> read_geometry_map(const std::filesystem::path& path);
+
+struct ModelBone {
+  std::string name;
+  Index body = 0;
+  TriangleMesh surface;  ///< m, in the ground frame
+};
+
+struct ModelBones {
+  std::vector<ModelBone> bones;
+  std::vector<std::string> missing;  ///< a sentence each
+};
+
+/// A name of letters, digits, '_' and '-' that none of `taken` is, with a number at its end where needed; added to
+/// them.
+std::string name_for_file(std::string wanted, std::set<std::string>& taken);
+
+/// All surfaces of a model's bodies but the ground's, for the bodies at `poses`. A surface is looked for by its path
+/// below the geometry folders, the model's folder and its folder Geometry, then by its name alone; never outside of
+/// them. Those that are missing or cannot be read are listed.
+ModelBones load_bones(const Model& model, const std::vector<RigidTransform>& poses, const GeometryPlaces& places);
+
+}  // namespace gracilis::opensim

@@ -1,0 +1,127 @@
+#include <gracilis/opensim/scene_folder.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/mesh_writer.hpp>
+#include <gracilis/opensim/scene_joints.hpp>
+#include <gracilis/opensim/skeleton.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace gracilis::opensim {
+
+namespace fs = std::filesystem;
+
+/// A TOML string.
+static std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return result + "\"";
+}
+
+static std::string vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
+
+static std::string axis_text(const SceneAxis& axis, const Eigen::VectorXd& coordinates) {
+  const Real unit = axis.translation ? 1000 : degrees(1);
+  const char* suffix = axis.translation ? "mm" : "deg";
+  return fmt::format("\n[[joints.axes]]\ncoordinate = {}\naxis = {}\n{}capture_{} = {}\nrange_{} = [{}, {}]\n",
+                     quoted(axis.coordinate), vector(axis.axis->axis), axis.translation ? "translation = true\n" : "",
+                     suffix, value_of(axis, coordinates) * unit, suffix, axis.range_min * unit, axis.range_max * unit);
+}
+
+static std::string joint_text(const Model& model, const Joint& joint, const Skeleton& skeleton,
+                              const Eigen::VectorXd& coordinates) {
+  const auto name = [&](Index body) { return quoted(model.bodies[static_cast<std::size_t>(body)].name); };
+  const RigidTransform frame = skeleton.poses()[static_cast<std::size_t>(joint.parent_body)] * joint.parent_frame;
+  std::string text =
+      fmt::format("\n[[joints]]\nname = {}\nparent = {}\nchild = {}\ncenter = {}\norientation_xyz_rad = {}\n",
+                  quoted(joint.name), name(joint.parent_body), name(joint.child_body), vector(frame.translation()),
+                  vector(frame.linear().eulerAngles(0, 1, 2)));
+  for (const SceneAxis& axis : scene_axes(model, joint)) text += axis_text(axis, coordinates);
+  return text;
+}
+
+static std::string muscle_text(const Model& model, const std::string& name, const MuscleVolume& volume) {
+  std::string text =
+      fmt::format("\n[[muscles]]\nname = {}\nfile = {}\n", quoted(name), quoted("muscles/" + name + ".vtp"));
+  for (std::size_t i = 0; i < volume.held.size(); ++i) {
+    const HeldVertices& held = volume.held[i];
+    const bool origin = held.end == AttachmentEnd::origin;
+    text += fmt::format("\n[[muscles.attachments]]\nname = \"{}\"\nend = \"{}\"\nbody = {}\nvertices = [{}]\n",
+                        origin                        ? "origin"
+                        : i + 1 == volume.held.size() ? "insertion"
+                                                      : fmt::format("via_{}", i),
+                        origin ? "origin" : "insertion", quoted(model.bodies[static_cast<std::size_t>(held.body)].name),
+                        fmt::join(held.vertices, ", "));
+  }
+  return text;
+}
+
+static std::string head(const Model& model) {
+  return fmt::format(
+      "# Made of the OpenSim model {} by 'gracilis import'. Bones and muscles in the pose of its default\n"
+      "# coordinates. Muscles are round about the model's lines, with the volumes that its forces and fiber\n"
+      "# lengths ask for; lines run through each other, so contact between muscles is off.\n"
+      "schema = 1\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n\n[contact]\nmuscle = \"none\"\n",
+      quoted(model.name));
+}
+
+/// The muscles asked for, in the model's order.
+static std::vector<const Muscle*> chosen(const Model& model, const std::vector<std::string>& names) {
+  std::vector<const Muscle*> muscles;
+  for (const std::string& name : names)
+    if (index_of(model.muscles, name) < 0)
+      throw ConfigurationError({"--muscles", "", fmt::format("the model has no muscle '{}'", name), ""});
+  for (const Muscle& muscle : model.muscles)
+    if (names.empty() || std::find(names.begin(), names.end(), muscle.name) != names.end()) muscles.push_back(&muscle);
+  return muscles;
+}
+
+static void write_motion(const Model& model, const NamedMotion& motion, const fs::path& folder) {
+  write_sto(folder / (motion.name + ".sto"), scene_motion(model, motion.motion, motion.name));
+  write_text_atomically(folder / (motion.name + ".toml"),
+                        fmt::format("schema = 1\nname = {}\ninclude = \"model.toml\"\n\n[motion]\nfile = {}\n",
+                                    quoted(motion.name), quoted(motion.name + ".sto")));
+}
+
+std::vector<std::string> write_scene_folder(const Model& model, const GeometryPlaces& places,
+                                            const std::vector<NamedMotion>& motions,
+                                            const SceneFolderSettings& settings, const fs::path& folder) {
+  Skeleton skeleton(model);
+  const Eigen::VectorXd coordinates = default_coordinates(model);
+  skeleton.place(coordinates);
+  const ModelBones bones = load_bones(model, skeleton.poses(), places);
+  std::vector<std::string> left_out = bones.missing;
+  fs::create_directories(folder / "bones");
+  fs::create_directories(folder / "muscles");
+  std::string text = head(model);
+  for (const ModelBone& bone : bones.bones) {
+    write_surface(folder / "bones" / (bone.name + ".vtp"), bone.surface.vertices, bone.surface.faces);
+    text += fmt::format("\n[[bones]]\nname = {}\nbody = {}\nfile = {}\n", quoted(bone.name),
+                        quoted(model.bodies[static_cast<std::size_t>(bone.body)].name),
+                        quoted("bones/" + bone.name + ".vtp"));
+  }
+  for (const Joint& joint : model.joints) text += joint_text(model, joint, skeleton, coordinates);
+  std::set<std::string> names;
+  for (const Muscle* muscle : chosen(model, settings.muscles)) {
+    try {
+      const MuscleVolume volume = muscle_volume(model, *muscle, skeleton.poses(), coordinates, settings.volumes);
+      const std::string name = name_for_file(muscle->name, names);
+      write_surface(folder / "muscles" / (name + ".vtp"), volume.surface.vertices, volume.surface.faces);
+      text += muscle_text(model, name, volume);
+    } catch (const InputError& error) {
+      left_out.push_back(error.what());
+    }
+  }
+  write_text_atomically(folder / "model.toml", text);
+  for (const NamedMotion& motion : motions) write_motion(model, motion, folder);
+  return left_out;
+}
+
+}  // namespace gracilis::opensim

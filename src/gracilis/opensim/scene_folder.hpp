@@ -1,0 +1,27 @@
+#pragma once
+
+#include <gracilis/opensim/bone_files.hpp>
+#include <gracilis/opensim/coordinate_motion.hpp>
+#include <gracilis/opensim/muscle_volume.hpp>
+
+namespace gracilis::opensim {
+
+/// A motion for the scene: its name becomes that of its files.
+struct NamedMotion {
+  std::string name;
+  CoordinateMotion motion;
+};
+
+struct SceneFolderSettings {
+  VolumeSettings volumes;
+  std::vector<std::string> muscles;  ///< to take; empty: all
+};
+
+/// Writes a folder that `gracilis run` understands, for the model with its coordinates at their default values:
+/// model.toml with bones, joints and muscles, their surfaces under bones/ and muscles/, and for each motion NAME.toml
+/// with NAME.sto. Returns what was left out, a sentence each. Throws InputError.
+std::vector<std::string> write_scene_folder(const Model& model, const GeometryPlaces& places,
+                                            const std::vector<NamedMotion>& motions,
+                                            const SceneFolderSettings& settings, const std::filesystem::path& folder);
+
+}  // namespace gracilis::opensim
