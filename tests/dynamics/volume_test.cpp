@@ -62,7 +62,7 @@ TEST(VolumeProjection, gradient_is_that_of_the_volume) {
       x(axis, i) = there - 1e-5;
       const Real below = enclosed_volume(x, ball().faces);
       x(axis, i) = there;
-      EXPECT_NEAR(state.volume_gradients[static_cast<std::size_t>(3 * i + axis)], (above - below) / 2e-5, 1e-5 * scale);
+      EXPECT_NEAR(state.volume_gradients[static_cast<std::size_t>(4 * i + axis)], (above - below) / 2e-5, 1e-5 * scale);
     }
 }
 

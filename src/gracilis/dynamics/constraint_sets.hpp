@@ -40,13 +40,17 @@ struct HingeSet {
 };
 
 /// A closed surface keeps its volume: C = V(x) - V_target (Müller et al. 2007, with the factor 1/6 of a volume). The
-/// ring of a vertex lists its neighbors counter-clockwise seen from outside; gradients are sums over rings, so no two
-/// vertices ever write to the same place.
+/// ring of a vertex lists its neighbors counter-clockwise seen from outside and ends with the first again; gradients
+/// are sums over rings, so no two vertices ever write to the same place. Vertices with rings of nearly equal length
+/// stand in groups; shorter rings repeat their last neighbor, which adds nothing.
 struct VolumeSet {
-  std::vector<Index> ring_offsets;  ///< n + 1
-  std::vector<Index> ring;
-  double target = 0;      ///< m³
-  double compliance = 0;  ///< m³·m³/J
+  AlignedVector<Index> particles;   ///< group_width per group, padded with the idle particle
+  std::vector<Index> ring_offsets;  ///< of each group, and the end: steps in `ring`
+  AlignedVector<Index> ring;        ///< group_width neighbors per step
+  double target = 0;                ///< m³
+  double compliance = 0;            ///< m³·m³/J
+
+  Index group_count() const { return static_cast<Index>(particles.size()) / group_width; }
 };
 
 /// Input of the two builders: one constraint each.

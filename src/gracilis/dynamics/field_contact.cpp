@@ -2,6 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/field_contact_guard.hpp>
+#include <gracilis/dynamics/field_contact_points.hpp>
 
 #include <algorithm>
 #include <atomic>
@@ -13,10 +14,13 @@ namespace gracilis {
 namespace {
 
 constexpr Index chunk = 512;
+constexpr float infinity = std::numeric_limits<float>::infinity();
 /// On the field's ridges the interpolated gradient fades; there is no way out to be read from it.
 constexpr float least_slope2 = 1e-4f;
 /// The share of an edge at a fixed end in which nothing can be pushed out without throwing the other end far away.
 constexpr float stiff_share = 0.2f;
+/// Of an edge that was this far above its gap at its deepest point, other points were, too, m.
+constexpr float edge_reserve = 0.0005f;
 /// A distance exceeds its ceiling only by more than this, m.
 constexpr float rounding = 1e-7f;
 /// How the deepest point of an edge is followed: the step is the slope along the edge times this, at most a quarter of
@@ -37,20 +41,30 @@ Index project_edge_contacts(const FieldContactSet& set, const DistanceSet& dista
         const auto slot = static_cast<std::size_t>(near.edges[static_cast<std::size_t>(i)]);
         const Index a = distances.a[slot], b = distances.b[slot];
         const float wa = particles.inverse_mass(a), wb = particles.inverse_mass(b);
-        float& t = near.edge_points[static_cast<std::size_t>(i)];
-        const float ga = near.gap[static_cast<std::size_t>(a)], gb = near.gap[static_cast<std::size_t>(b)];
+        DeepestPoint& deepest = near.edge_points[static_cast<std::size_t>(i)];
+        float& t = deepest.t;
         const Eigen::Vector3f xa = particles.position(a), along = particles.position(b) - xa;
-        const FieldSample at = sample(*set.field.field, placement.to_obstacle(xa + t * along));
+        Eigen::Vector3f q = placement.to_obstacle(xa + (t == unknown_point ? 0.5f : t) * along);
+        if (!may_reach(deepest.seen, q, edge_reserve)) continue;
+        const float ga = near.gap[static_cast<std::size_t>(a)], gb = near.gap[static_cast<std::size_t>(b)];
+        const float low = wa > 0 ? 0 : stiff_share, high = wb > 0 ? 1 : 1 - stiff_share;
+        if (t == unknown_point) {
+          t = deepest_on_edge(*set.field.field, {placement.to_obstacle(xa), ga},
+                              {placement.to_obstacle(xa + along), gb}, low, high);
+          q = placement.to_obstacle(xa + t * along);
+        }
+        const FieldSample at = sample(*set.field.field, q);
         const float slope2 = at.gradient.squaredNorm();
         if (slope2 < least_slope2) continue;
         const Eigen::Vector3f gradient = placement.rotation.transpose() * at.gradient;
         const float depth =
             ga + t * (gb - ga) + sag[slot] + placement.release * (released[slot] - sag[slot]) - at.distance;
+        deepest.seen = {q, -depth};
         const float length2 = along.squaredNorm(), here = t;
         if (length2 > 0) {
           const float length = std::sqrt(length2), slope = (gradient.dot(along) - gb + ga) / length;
           const float step = std::clamp(follow_radius * slope, -longest_step, longest_step) / length;
-          t = std::clamp(t - step, wa > 0 ? 0.0f : stiff_share, wb > 0 ? 1.0f : 1 - stiff_share);
+          t = std::clamp(t - step, low, high);
         }
         if (!(depth > 0)) continue;
         ++count;
@@ -100,6 +114,7 @@ Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, co
 Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
                                 Particles& particles) {
   std::atomic<Index> touching = 0;
+  const auto cell = static_cast<float>(set.field.field->cell_size.maxCoeff());
   parallel_for(static_cast<Index>(near.particles.size()), chunk, [&](Index begin, Index end) {
     Index count = 0;
     for (Index i = begin; i < end; ++i) {
@@ -107,10 +122,11 @@ Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement
       const auto p = static_cast<std::size_t>(particle);
       const float gap = near.gap[p];
       const Eigen::Vector3f moved = placement.to_obstacle(particles.position(particle));
+      const float ceiling = set.ceiling.empty() ? infinity : set.ceiling[p];
+      if (ceiling == infinity && !may_reach(near.last[p], moved, gap + cell)) continue;
       Eigen::Vector3f q = guarded(set, near.last[p], moved, gap);
       const FieldSample at = sample_bounded(set.field, q);
       const float slope2 = at.gradient.squaredNorm();
-      const float ceiling = set.ceiling.empty() ? std::numeric_limits<float>::infinity() : set.ceiling[p];
       const float wanted = at.distance < gap ? gap : at.distance > ceiling + rounding ? ceiling : at.distance;
       const bool pushed = wanted != at.distance && slope2 > least_slope2;
       if (pushed) q += at.gradient * ((wanted - at.distance) / slope2);

@@ -60,12 +60,29 @@ struct Sighting {
   float distance = 0;
 };
 
+/// Where an edge is deepest: 0 at a, 1 at b, or `unknown_point`; and where that point was, and how far above its gap at
+/// least, when the obstacle was last asked.
+struct DeepestPoint {
+  float t = 0;
+  Sighting seen;
+};
+inline constexpr float unknown_point = -1;  ///< nobody has looked yet; `seen` is that of the middle
+
+/// A field's slope may exceed 1 by rounding and interpolation.
+inline constexpr float steepest = 1.1f;
+
+/// Whether what was `seen` may have come down to `level` on its way to `q`.
+inline bool may_reach(const Sighting& seen, const Eigen::Vector3f& q, float level) {
+  const float left = seen.distance - level;
+  return left <= 0 || steepest * steepest * (q - seen.place).squaredNorm() >= left * left;
+}
+
 /// What is close enough to one obstacle to be tested in every iteration, found anew every few, and what is known about
 /// every particle.
 struct NearField {
   std::vector<Index> particles;
   std::vector<Index> edges;                  ///< distance slots, grouped by color
-  std::vector<float> edge_points;            ///< where on each edge it is deepest: 0 at a, 1 at b
+  std::vector<DeepestPoint> edge_points;     ///< one per listed edge
   std::vector<ColorRange> edge_colors;       ///< ranges in `edges`
   std::vector<Index> faces;                  ///< face slots, grouped by color
   std::vector<Eigen::Vector3f> face_points;  ///< barycentric

@@ -14,12 +14,10 @@ namespace {
 
 constexpr Index chunk = 512;
 constexpr float infinity = std::numeric_limits<float>::infinity();
+/// What is known to be farther away than this need not be seen before every step, m.
+constexpr float far_away = 0.02f;
 /// Edges and faces count as near when they may come this deep below their gap before the next listing, m.
 constexpr float element_reach = 0.002f;
-/// A field's slope may exceed 1 by rounding and interpolation.
-constexpr float steepest = 1.1f;
-/// The share of an edge at a fixed end that is not tested: pushing there would throw the other end far away.
-constexpr float stiff_share = 0.2f;
 
 /// Cosine of the turn by which the published test knows a vertex that passed through a bone.
 const float turned_cosine = static_cast<float>(std::cos(radians(135)));
@@ -75,11 +73,9 @@ void see_particles(const FieldContactSet& set, const FieldPlacement& placement, 
   });
 }
 
-/// Whether the element can reach below its gap: distances fall by no more than what lies between a point and the
-/// corners.
-bool edge_may_touch(float clearance_a, float clearance_b, float length) {
-  return (clearance_a + clearance_b - steepest * length) / 2 < element_reach;
-}
+/// No point of an edge is nearer to its gap than this: distances fall by no more than what lies between a point and the
+/// ends.
+float least_clearance(float clearances, float length) { return (clearances - steepest * length) / 2; }
 
 }  // namespace
 
@@ -108,20 +104,21 @@ FaceSet build_face_set(const Eigen::Matrix3Xi& faces, Index particle_count) {
 
 void remember_sides(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
                     NearField& near) {
-  near.last.resize(static_cast<std::size_t>(particles.count()));
+  const auto count = static_cast<std::size_t>(particles.count());
+  const bool known = near.last.size() == count;
+  near.last.resize(count);
+  const auto cell = static_cast<float>(set.field.field->cell_size.maxCoeff());
   parallel_for(particles.count(), chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
+      Sighting& last = near.last[static_cast<std::size_t>(i)];
       const Eigen::Vector3f q = placement.to_obstacle(particles.position(i));
-      near.last[static_cast<std::size_t>(i)] = {q, sample_bounded(set.field, q).distance};
+      if (!known || may_reach(last, q, far_away + cell)) last = {q, sample_bounded(set.field, q).distance};
     }
   });
 }
 
-static void list_edges(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
-                       const Particles& particles, NearField& near) {
-  const auto corner = [&](Index p) {
-    return ContactCorner{placement.to_obstacle(particles.position(p)), near.gap[static_cast<std::size_t>(p)]};
-  };
+static void list_edges(const DistanceSet& distances, const FieldPlacement& placement, const Particles& particles,
+                       NearField& near) {
   for (const ColorRange& color : distances.colors) {
     const auto begin = static_cast<Index>(near.edges.size());
     for (Index slot = color.begin; slot < color.end; ++slot) {
@@ -132,21 +129,14 @@ static void list_edges(const FieldContactSet& set, const DistanceSet& distances,
       if (clearances > 2 * element_reach + 4 * steepest * distances.rest_length[static_cast<std::size_t>(slot)])
         continue;
       if (!(particles.inverse_mass(a) + particles.inverse_mass(b) > 0)) continue;
-      const float length = (particles.position(b) - particles.position(a)).norm();
-      if (edge_may_touch(clearances, 0, length)) near.edges.push_back(slot);
+      const Eigen::Vector3f from = particles.position(a), to = particles.position(b);
+      const float least = least_clearance(clearances, (to - from).norm());
+      if (least > element_reach) continue;
+      near.edges.push_back(slot);
+      near.edge_points.push_back({unknown_point, {placement.to_obstacle((from + to) / 2), least}});
     }
     near.edge_colors.push_back({begin, static_cast<Index>(near.edges.size())});
   }
-  near.edge_points.resize(near.edges.size());
-  parallel_for(static_cast<Index>(near.edges.size()), chunk, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const auto slot = static_cast<std::size_t>(near.edges[static_cast<std::size_t>(i)]);
-      const Index a = distances.a[slot], b = distances.b[slot];
-      near.edge_points[static_cast<std::size_t>(i)] =
-          deepest_on_edge(*set.field.field, corner(a), corner(b), particles.inverse_mass(a) > 0 ? 0 : stiff_share,
-                          particles.inverse_mass(b) > 0 ? 1 : 1 - stiff_share);
-    }
-  });
 }
 
 static void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
@@ -177,6 +167,7 @@ void find_near(const FieldContactSet& set, const DistanceSet& distances, const F
                const FieldPlacement& placement, float reach, Particles& particles, NearField& near) {
   near.particles.clear();
   near.edges.clear();
+  near.edge_points.clear();
   near.edge_colors.clear();
   near.faces.clear();
   near.face_points.clear();
@@ -185,7 +176,7 @@ void find_near(const FieldContactSet& set, const DistanceSet& distances, const F
   see_particles(set, placement, reach, particles, near, is_near);
   for (Index i = 0; i < particles.count(); ++i)
     if (is_near[static_cast<std::size_t>(i)]) near.particles.push_back(i);
-  if (!set.captured.edge_sag.empty()) list_edges(set, distances, placement, particles, near);
+  if (!set.captured.edge_sag.empty()) list_edges(distances, placement, particles, near);
   if (!set.captured.face_sag.empty()) list_faces(set, faces, placement, particles, near);
 }
 

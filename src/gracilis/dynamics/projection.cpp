@@ -1,42 +1,13 @@
 #include <gracilis/dynamics/projection.hpp>
 
-#include <cstring>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "gracilis/dynamics/projection.cpp"
 #include <hwy/foreach_target.h>
 // After foreach_target.h, as Highway asks.
-#include <gracilis/dynamics/kernels-inl.hpp>
+#include <gracilis/dynamics/particle_lanes-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
 namespace gracilis::HWY_NAMESPACE {
-
-using D = hn::CappedTag<float, group_width>;
-using V = hn::Vec<D>;
-using Math = Lanes<D>;
-using Point = Vector3<V>;
-
-struct LoadedParticles {
-  Point x;
-  V w;
-};
-
-/// Positions and inverse masses of one particle per lane.
-HWY_INLINE LoadedParticles load_particles(const float* xyzw, const Index* indices) {
-  HWY_ALIGN float lanes[4 * group_width];
-  for (std::size_t lane = 0; lane < hn::Lanes(D()); ++lane)
-    std::memcpy(lanes + 4 * lane, xyzw + 4 * static_cast<std::size_t>(indices[lane]), 4 * sizeof(float));
-  LoadedParticles loaded;
-  hn::LoadInterleaved4(D(), lanes, loaded.x.x, loaded.x.y, loaded.x.z, loaded.w);
-  return loaded;
-}
-
-HWY_INLINE void store_particles(float* xyzw, const Index* indices, const Point& x, V w) {
-  HWY_ALIGN float lanes[4 * group_width];
-  hn::StoreInterleaved4(x.x, x.y, x.z, w, D(), lanes);
-  for (std::size_t lane = 0; lane < hn::Lanes(D()); ++lane)
-    std::memcpy(xyzw + 4 * static_cast<std::size_t>(indices[lane]), lanes + 4 * lane, 4 * sizeof(float));
-}
 
 /// ∇C·(x - xⁿ) of one particle.
 HWY_INLINE V motion_along(const Point& gradient, const Point& x, const float* start, const Index* indices) {

@@ -44,8 +44,8 @@ Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Parti
 ProjectionCounts project_hinges(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,
                                 Particles& particles, const ProjectionParameters& parameters);
 
-/// Projects the volume constraint; `gradients` (3 floats per particle) is workspace, `lambda` is accumulated.
-/// Returns the volume before the projection, m³. Deterministic for any number of threads.
+/// Projects the volume constraint; `gradients` (four floats per particle, like positions) is workspace, `lambda` is
+/// accumulated. Returns the volume before the projection, m³. Deterministic for any number of threads.
 double project_volume(const VolumeSet& set, double time_step, double pressure, double& lambda,
                       AlignedVector<float>& gradients, Particles& particles);
 
