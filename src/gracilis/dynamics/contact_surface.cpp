@@ -100,6 +100,29 @@ void particle_normals(const ContactSurface& surface, const Particles& particles,
   });
 }
 
+Eigen::Matrix3Xf face_areas(const ContactSurface& surface, const Particles& particles) {
+  Eigen::Matrix3Xf areas(3, surface.faces.cols());
+  parallel_for(surface.faces.cols(), chunk, [&](Index begin, Index end) {
+    for (Index f = begin; f < end; ++f) areas.col(f) = face_area(surface, f, particles);
+  });
+  return areas;
+}
+
+Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces) {
+  const auto count = static_cast<Index>(surface.fan_offsets.size()) - 1;
+  Eigen::Matrix3Xf sums(3, count);
+  parallel_for(count, chunk, [&](Index begin, Index end) {
+    for (Index p = begin; p < end; ++p) {
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+      for (Index i = surface.fan_offsets[static_cast<std::size_t>(p)];
+           i < surface.fan_offsets[static_cast<std::size_t>(p) + 1]; ++i)
+        sum += of_faces.col(surface.fan[static_cast<std::size_t>(i)]);
+      sums.col(p) = sum;
+    }
+  });
+  return sums;
+}
+
 PointGap point_gap(const Eigen::Vector3f& p, const ContactSurface& surface, Index face, const Particles& particles,
                    const Eigen::Matrix3Xf& normals) {
   const Corners x = corners_of(surface, face, particles);

@@ -34,6 +34,17 @@ Eigen::Vector3f particle_normal(Index particle, const ContactSurface& surface, c
 void particle_normals(const ContactSurface& surface, const Particles& particles, const std::vector<Index>& listed,
                       Eigen::Matrix3Xf& normals);
 
+/// The area vector of a face: along its normal, twice its area long.
+inline Eigen::Vector3f face_area(const ContactSurface& surface, Index face, const Particles& particles) {
+  const Eigen::Vector3f a = particles.position(surface.faces(0, face));
+  return (particles.position(surface.faces(1, face)) - a)
+      .cross(Eigen::Vector3f(particles.position(surface.faces(2, face)) - a));
+}
+/// Those of all faces.
+Eigen::Matrix3Xf face_areas(const ContactSurface& surface, const Particles& particles);
+/// At each particle the sum over its faces of what they have, one column each.
+Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces);
+
 /// Where a point stands against a triangle: the nearest point of the triangle, and the signed distance to it along
 /// `normal`, positive outside.
 struct PointGap {

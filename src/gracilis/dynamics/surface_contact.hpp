@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/contact_surface.hpp>
+#include <gracilis/dynamics/patch_tree.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
 
 #include <vector>
@@ -55,6 +55,7 @@ struct PairTouches {
 };
 struct CrowdState {
   std::vector<NearestTriangle> trees;
+  std::vector<PatchTree> patches;  ///< of surfaces that may meet themselves
   std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where something is near
   std::vector<PairTouches> touches;       ///< one per pair
 };

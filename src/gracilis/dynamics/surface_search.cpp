@@ -1,8 +1,8 @@
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/self_contact.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
 
 #include <algorithm>
-#include <optional>
 
 /// What is near what: the searches behind surface_contact.hpp.
 namespace gracilis {
@@ -14,8 +14,6 @@ constexpr Index chunk = 256;
 constexpr float listed_within = 0.0015f;
 /// The same for edges, of which there are three times as many; between two looks they hardly come nearer by more.
 constexpr float edges_listed_within = 0.0008f;
-/// Parts of a surface that lie back to back farther apart than this at rest, in neighborhoods, meet from outside.
-constexpr float thickest_sheet = 2;
 
 using Box = Eigen::AlignedBox3f;
 
@@ -47,69 +45,6 @@ void find_near(const Particles& probe, const Eigen::Vector3f& shift, const Neare
         if (target_box.squaredExteriorDistance(x) > reach * reach) return;
         const NearestPoint nearest = target.query(x.cast<Real>(), reach);
         if (nearest.face >= 0) part.push_back({p, nearest.face, 1});
-      },
-      found);
-}
-
-/// How a particle and a face of the same surface may meet: 1 from outside where the surface folds, -1 from inside where
-/// it is a sheet and the face its back, 0 not at all because they are neighbors or lie side by side.
-struct SelfRule {
-  const ContactSurface& surface;
-  const Eigen::Matrix3Xf &rest, &rest_normals;
-  const Particles& particles;
-  float neighborhood;
-
-  float side(Index particle, Index face) const {
-    const float possible = side_at_rest(particle, face);
-    return possible != 0 && area_of(face).dot(particle_normal(particle, surface, particles)) < 0 ? possible : 0;
-  }
-
-  Eigen::Vector3f area_of(Index face) const {
-    const Eigen::Vector3i corners = surface.faces.col(face);
-    const Eigen::Vector3f a = particles.position(corners[0]);
-    return (particles.position(corners[1]) - a).cross(Eigen::Vector3f(particles.position(corners[2]) - a));
-  }
-
-  /// What their places at rest allow.
-  float side_at_rest(Index particle, Index face) const {
-    const Eigen::Vector3i corners = surface.faces.col(face);
-    if (corners[0] == particle || corners[1] == particle || corners[2] == particle) return 0;
-    const auto own = rest_normals.col(particle);
-    Eigen::Vector3f away = rest.col(corners[0]) - rest.col(particle);  // to the nearest corner
-    // Most are neighbors on the same side.
-    if (away.squaredNorm() < neighborhood * neighborhood && own.dot(rest_normals.col(corners[0])) > 0.6f) return 0;
-    for (const Index corner : {corners[1], corners[2]}) {
-      const Eigen::Vector3f other = rest.col(corner) - rest.col(particle);
-      if (other.squaredNorm() < away.squaredNorm()) away = other;
-    }
-    const Eigen::Vector3f rest_facing =
-        rest_normals.col(corners[0]) + rest_normals.col(corners[1]) + rest_normals.col(corners[2]);
-    const float neighborhoods = away.norm() / neighborhood;
-    const bool through = away.dot(own) < 0 && away.dot(rest_facing) > 0 && neighborhoods < thickest_sheet;
-    const bool alike = rest_facing.dot(own) > 1.5f;
-    if (through && !alike) return -1;
-    return neighborhoods > 1 ? 1.0f : 0.0f;
-  }
-};
-
-SelfRule self_rule(const SurfaceCrowd& crowd, const Particles& particles, Index surface) {
-  const auto at = static_cast<std::size_t>(surface);
-  return {crowd.surfaces[at], crowd.rest[at], crowd.rest_normals[at], particles, crowd.neighborhood[at]};
-}
-
-void find_self(const SelfRule& rule, const Particles& particles, const NearestTriangle& tree, float reach,
-               std::vector<PointTouch>& found) {
-  search_all(
-      particles.count(),
-      [&](Index p, std::vector<PointTouch>& part) {
-        std::optional<Eigen::Vector3f> normal;
-        const std::function<bool(Index)> accepts = [&](Index face) {
-          if (rule.side_at_rest(p, face) == 0) return false;
-          if (!normal) normal = particle_normal(p, rule.surface, particles);
-          return rule.area_of(face).dot(*normal) < 0;
-        };
-        const NearestPoint nearest = tree.query(particles.position(p).cast<Real>(), reach, accepts);
-        if (nearest.face >= 0) part.push_back({p, nearest.face, rule.side_at_rest(p, nearest.face)});
       },
       found);
 }
@@ -158,10 +93,7 @@ Eigen::Vector3f edge_normal(const ContactSurface& surface, Index edge, const Par
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (const Index face : surface.edges[static_cast<std::size_t>(edge)].faces) {
     if (face < 0) continue;
-    const Eigen::Vector3f a = particles.position(surface.faces(0, face));
-    sum += (particles.position(surface.faces(1, face)) - a)
-               .cross(Eigen::Vector3f(particles.position(surface.faces(2, face)) - a))
-               .normalized();
+    sum += face_area(surface, face, particles).normalized();
   }
   return sum;
 }
@@ -259,6 +191,11 @@ CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
   CrowdState state;
   for (std::size_t s = 0; s < crowd.surfaces.size(); ++s)
     state.trees.emplace_back(TriangleMesh{crowd.rest[s].cast<Real>(), crowd.surfaces[s].faces});
+  state.patches.resize(crowd.surfaces.size());
+  for (const SurfacePair& pair : crowd.pairs) {
+    const auto at = static_cast<std::size_t>(pair.first);
+    if (pair.is_self()) state.patches[at] = build_patch_tree(crowd.surfaces[at], crowd.rest[at]);
+  }
   state.normals = crowd.rest_normals;
   state.touches.resize(crowd.pairs.size());
   return state;
@@ -279,7 +216,7 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     if (pair.is_self()) {
-      find_self(self_rule(crowd, *particles[a], pair.first), *particles[a], state.trees[a], crowd.settings.self_reach,
+      find_self(self_rule(crowd, *particles[a], pair.first), crowd.settings.self_reach, state.patches[a],
                 touches.near_second);
     } else {
       find_near(*particles[a], pair.shift, state.trees[b], boxes[b], pair.reach, touches.near_second);

@@ -1,0 +1,147 @@
+#include <gracilis/dynamics/patch_tree.hpp>
+
+#include <gracilis/core/parallel.hpp>
+
+#include <algorithm>
+
+namespace gracilis {
+
+namespace {
+
+constexpr Index faces_per_patch = 8;
+constexpr Index chunk = 64;
+/// Cosines this near to 0 may be rounding.
+constexpr float least_cosine = 1e-5f;
+
+class Builder {
+ public:
+  Builder(const ContactSurface& surface, const Eigen::Matrix3Xf& rest) : centers_(3, surface.faces.cols()) {
+    tree_.faces.resize(static_cast<std::size_t>(surface.faces.cols()));
+    for (Index f = 0; f < surface.faces.cols(); ++f) {
+      tree_.faces[static_cast<std::size_t>(f)] = f;
+      const Eigen::Vector3i corners = surface.faces.col(f);
+      centers_.col(f) = (rest.col(corners[0]) + rest.col(corners[1]) + rest.col(corners[2])) / 3;
+    }
+    if (!tree_.faces.empty()) add(0, surface.faces.cols());
+    deal_out_particles(surface);
+    tree_.bounds.resize(tree_.nodes.size());
+  }
+
+  PatchTree take() { return std::move(tree_); }
+
+ private:
+  void add(Index begin, Index end) {
+    const std::size_t node = tree_.nodes.size();
+    tree_.nodes.push_back({begin, end, 0, end - begin <= faces_per_patch});
+    if (tree_.nodes[node].is_patch) {
+      tree_.patches.push_back(static_cast<Index>(node));
+    } else {
+      const Index middle = halve(begin, end);
+      add(begin, middle);
+      add(middle, end);
+    }
+    tree_.nodes[node].skip = static_cast<Index>(tree_.nodes.size());
+  }
+
+  Index halve(Index begin, Index end) {
+    Eigen::AlignedBox3f box;
+    for (Index i = begin; i < end; ++i) box.extend(center(tree_.faces[static_cast<std::size_t>(i)]));
+    Index axis = 0;
+    box.sizes().maxCoeff(&axis);
+    const Index middle = (begin + end) / 2;
+    // Ties by number, so that the tree does not depend on the sorting.
+    std::nth_element(
+        tree_.faces.begin() + begin, tree_.faces.begin() + middle, tree_.faces.begin() + end, [&](Index l, Index r) {
+          return centers_(axis, l) < centers_(axis, r) || (centers_(axis, l) == centers_(axis, r) && l < r);
+        });
+    return middle;
+  }
+
+  Eigen::Vector3f center(Index face) const { return centers_.col(face); }
+
+  void deal_out_particles(const ContactSurface& surface) {
+    std::vector<char> dealt(surface.fan_offsets.size(), 0);
+    tree_.particle_offsets.push_back(0);
+    for (const Index node : tree_.patches) {
+      for (Index i = tree_.nodes[static_cast<std::size_t>(node)].begin;
+           i < tree_.nodes[static_cast<std::size_t>(node)].end; ++i)
+        for (const Index p : surface.faces.col(tree_.faces[static_cast<std::size_t>(i)])) {
+          if (dealt[static_cast<std::size_t>(p)]) continue;
+          dealt[static_cast<std::size_t>(p)] = 1;
+          tree_.particles.push_back(p);
+        }
+      tree_.particle_offsets.push_back(static_cast<Index>(tree_.particles.size()));
+    }
+  }
+
+  PatchTree tree_;
+  Eigen::Matrix3Xf centers_;
+};
+
+PatchTree::Bounds bounds_of_faces(const PatchTree& tree, const PatchTree::Node& node, const ContactSurface& surface,
+                                  const Particles& particles, const Eigen::Matrix3Xf& areas) {
+  PatchTree::Bounds bounds;
+  for (Index i = node.begin; i < node.end; ++i) {
+    const Index face = tree.faces[static_cast<std::size_t>(i)];
+    for (const Index corner : surface.faces.col(face)) bounds.places.extend(particles.position(corner));
+    bounds.normals.extend(areas.col(face).normalized());
+  }
+  return bounds;
+}
+
+}  // namespace
+
+PatchTree build_patch_tree(const ContactSurface& surface, const Eigen::Matrix3Xf& rest) {
+  return Builder(surface, rest).take();
+}
+
+void refit(const ContactSurface& surface, const Particles& particles, const Eigen::Matrix3Xf& areas, PatchTree& tree) {
+  parallel_for(static_cast<Index>(tree.patches.size()), chunk, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const auto node = static_cast<std::size_t>(tree.patches[static_cast<std::size_t>(i)]);
+      tree.bounds[node] = bounds_of_faces(tree, tree.nodes[node], surface, particles, areas);
+    }
+  });
+  for (std::size_t node = tree.nodes.size(); node-- > 0;) {
+    if (tree.nodes[node].is_patch) continue;
+    const PatchTree::Bounds &first = tree.bounds[node + 1],
+                            &second = tree.bounds[static_cast<std::size_t>(tree.nodes[node + 1].skip)];
+    tree.bounds[node] = {first.places.merged(second.places), first.normals.merged(second.normals)};
+  }
+}
+
+PatchTree::Bounds bounds_of_particles(const PatchTree& tree, Index patch, const Particles& particles,
+                                      const Eigen::Matrix3Xf& outward) {
+  PatchTree::Bounds bounds;
+  const auto at = static_cast<std::size_t>(patch);
+  for (Index i = tree.particle_offsets[at]; i < tree.particle_offsets[at + 1]; ++i) {
+    const Index p = tree.particles[static_cast<std::size_t>(i)];
+    bounds.places.extend(particles.position(p));
+    bounds.normals.extend(outward.col(p).normalized());
+  }
+  return bounds;
+}
+
+bool may_meet(const PatchTree::Bounds& one, const PatchTree::Bounds& other, float reach) {
+  if ((one.places.min().array() - reach > other.places.max().array()).any() ||
+      (other.places.min().array() - reach > one.places.max().array()).any())
+    return false;
+  // The least cosine between two vectors of the boxes, axis by axis.
+  const auto a = one.normals.min().array(), b = one.normals.max().array(), c = other.normals.min().array(),
+             d = other.normals.max().array();
+  return (a * c).min(a * d).min(b * c).min(b * d).sum() < least_cosine;
+}
+
+void gather_faces(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& faces) {
+  for (std::size_t node = 0; node < tree.nodes.size();) {
+    const PatchTree::Node& at = tree.nodes[node];
+    if (!may_meet(bounds, tree.bounds[node], reach)) {
+      node = static_cast<std::size_t>(at.skip);
+      continue;
+    }
+    if (at.is_patch) faces.insert(faces.end(), tree.faces.begin() + at.begin, tree.faces.begin() + at.end);
+    ++node;
+  }
+}
+
+}  // namespace gracilis
