@@ -17,7 +17,7 @@ RigidTransform random_motion(std::mt19937& generator, Real largest_angle) {
 }
 
 RigidTransform blend_of(const std::vector<RigidTransform>& motions, const std::vector<Real>& weights) {
-  return blend(motions, weights);
+  return blend(prepare_blend(motions), weights);
 }
 
 Real difference(const RigidTransform& a, const RigidTransform& b) { return (a.matrix() - b.matrix()).norm(); }

@@ -49,11 +49,11 @@ Index project_edge_contacts(const FieldContactSet& set, const DistanceSet& dista
         const float ga = near.gap[static_cast<std::size_t>(a)], gb = near.gap[static_cast<std::size_t>(b)];
         const float low = wa > 0 ? 0 : stiff_share, high = wb > 0 ? 1 : 1 - stiff_share;
         if (t == unknown_point) {
-          t = deepest_on_edge(*set.field.field, {placement.to_obstacle(xa), ga},
-                              {placement.to_obstacle(xa + along), gb}, low, high);
+          t = deepest_on_edge(set.field.grid, {placement.to_obstacle(xa), ga}, {placement.to_obstacle(xa + along), gb},
+                              low, high);
           q = placement.to_obstacle(xa + t * along);
         }
-        const FieldSample at = sample(*set.field.field, q);
+        const FieldSample at = sample(set.field.grid, q);
         const float slope2 = at.gradient.squaredNorm();
         if (slope2 < least_slope2) continue;
         const Eigen::Vector3f gradient = placement.rotation.transpose() * at.gradient;
@@ -95,7 +95,7 @@ Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, co
           gap += where[k] * near.gap[static_cast<std::size_t>(p)];
           sum += where[k] * where[k] * particles.inverse_mass(p);
         }
-        const FieldSample at = sample(*set.field.field, placement.to_obstacle(x));
+        const FieldSample at = sample(set.field.grid, placement.to_obstacle(x));
         const float slope2 = at.gradient.squaredNorm();
         if (!(at.distance < gap) || slope2 < least_slope2 || !(sum > 0)) continue;
         ++count;

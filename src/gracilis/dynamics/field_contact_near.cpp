@@ -23,7 +23,7 @@ constexpr float element_reach = 0.002f;
 const float turned_cosine = static_cast<float>(std::cos(radians(135)));
 
 bool passed(const FieldContactSet& set, const Eigen::Vector3f& before, const Eigen::Vector3f& gradient_now) {
-  const Eigen::Vector3f gradient = sample(*set.field.field, before).gradient;
+  const Eigen::Vector3f gradient = sample(set.field.grid, before).gradient;
   return gradient.dot(gradient_now) < turned_cosine * gradient.norm() * gradient_now.norm();
 }
 
@@ -82,7 +82,7 @@ float least_clearance(float clearances, float length) { return (clearances - ste
 Eigen::Vector3f guarded(const FieldContactSet& set, const Sighting& last, const Eigen::Vector3f& q, float gap) {
   if (set.guard == MotionGuard::kept_path && is_fast(set, last, q, gap))
     return kept_path(set.field, last.place, q, std::min(gap, last.distance));
-  if (set.guard == MotionGuard::turned_direction && passed(set, last.place, sample(*set.field.field, q).gradient))
+  if (set.guard == MotionGuard::turned_direction && passed(set, last.place, sample(set.field.grid, q).gradient))
     return last.place;
   return q;
 }
@@ -157,7 +157,7 @@ static void list_faces(const FieldContactSet& set, const FaceSet& faces, const F
       // No point of a triangle is farther from its nearest corner than this share of its longest edge.
       if (!(mobility > 0) || clearance > element_reach + 0.58f * steepest * std::sqrt(longest2)) continue;
       near.faces.push_back(slot);
-      near.face_points.push_back(deepest_on_face(*set.field.field, corners));
+      near.face_points.push_back(deepest_on_face(set.field.grid, corners));
     }
     near.face_colors.push_back({first, static_cast<Index>(near.faces.size())});
   }

@@ -4,8 +4,7 @@
 
 namespace gracilis {
 
-float deepest_on_edge(const DistanceField& field, const ContactCorner& a, const ContactCorner& b, float low,
-                      float high) {
+float deepest_on_edge(const FieldGrid& field, const ContactCorner& a, const ContactCorner& b, float low, float high) {
   const Eigen::Vector3f along = b.q - a.q;
   const float rise = b.gap - a.gap;
   float best = (low + high) / 2, deepest = std::numeric_limits<float>::infinity();
@@ -19,7 +18,7 @@ float deepest_on_edge(const DistanceField& field, const ContactCorner& a, const 
   return best;
 }
 
-Eigen::Vector3f deepest_on_face(const DistanceField& field, const std::array<ContactCorner, 3>& corners) {
+Eigen::Vector3f deepest_on_face(const FieldGrid& field, const std::array<ContactCorner, 3>& corners) {
   Eigen::Vector3f where = Eigen::Vector3f::Constant(1.0f / 3), best = where;
   float deepest = std::numeric_limits<float>::infinity();
   for (int step = 0; step < 6; ++step) {

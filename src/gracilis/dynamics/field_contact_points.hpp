@@ -14,11 +14,10 @@ struct ContactCorner {
 
 /// Where between 0 (a) and 1 (b) the edge is deepest below the line between its gaps: bisection by the slope along the
 /// edge, four samples, within [low, high]. A local minimum where the obstacle is not convex.
-float deepest_on_edge(const DistanceField& field, const ContactCorner& a, const ContactCorner& b, float low,
-                      float high);
+float deepest_on_edge(const FieldGrid& field, const ContactCorner& a, const ContactCorner& b, float low, float high);
 
 /// Barycentric coordinates of the deepest point of a triangle: six Frank-Wolfe steps from its center (Macklin et al.
 /// 2020). A local minimum where the obstacle is not convex.
-Eigen::Vector3f deepest_on_face(const DistanceField& field, const std::array<ContactCorner, 3>& corners);
+Eigen::Vector3f deepest_on_face(const FieldGrid& field, const std::array<ContactCorner, 3>& corners);
 
 }  // namespace gracilis

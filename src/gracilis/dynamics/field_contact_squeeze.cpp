@@ -20,8 +20,13 @@ struct Press {
 
 Press press_of(const FieldContactSet& set, const FieldPlacement& placement, const NearField& near, Index particle,
                const Eigen::Vector3f& x) {
-  const FieldSample at = sample(*set.field.field, placement.to_obstacle(x));
+  const FieldSample at = sample(set.field.grid, placement.to_obstacle(x));
   return {placement.rotation.transpose() * at.gradient, near.gap[static_cast<std::size_t>(particle)] - at.distance};
+}
+
+bool may_press(const FieldPlacement& placement, const NearField& near, Index particle, const Eigen::Vector3f& x) {
+  const auto p = static_cast<std::size_t>(particle);
+  return may_reach(near.last[p], placement.to_obstacle(x), near.gap[p]);
 }
 
 /// The shortest step that serves both; zero when one alone can be served without hurting the other, which the plain
@@ -53,6 +58,7 @@ Index project_squeezed(const std::vector<FieldContactSet>& sets, const std::vect
       const float longest = std::min(safe_step(*sets[i].field.field), safe_step(*sets[j].field.field));
       for (const Index p : common) {
         const Eigen::Vector3f x = particles.position(p);
+        if (!may_press(placements[i], near[i], p, x) && !may_press(placements[j], near[j], p, x)) continue;
         Eigen::Vector3f step =
             way_out(press_of(sets[i], placements[i], near[i], p, x), press_of(sets[j], placements[j], near[j], p, x));
         const float length = step.norm();

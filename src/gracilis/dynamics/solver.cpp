@@ -217,21 +217,22 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     });
   };
   const auto is_done = [](const Progress& each) { return each.done; };
-  for (int iteration = 0; !std::all_of(progress.begin(), progress.end(), is_done); ++iteration) {
+  for (int iteration = 0;; ++iteration) {
     const double elapsed = milliseconds_since(begin);
+    // The end of one iteration and the begin of the next at one go, while the surface is in the cache.
     for_active([&](SurfaceSolve& surface, Progress& each, const std::function<void(ConstraintKind)>& told) {
-      begin_iteration(surface, each, elapsed, told);
+      if (iteration > 0) end_iteration(surface, each, told);
+      if (!each.done) begin_iteration(surface, each, elapsed, told);
     });
-    if (coupling.project) {
-      const Clock::time_point started = Clock::now();
-      if (iteration % coupling_refresh == 0) coupling.refresh();
-      coupling.project();
-      for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        if (watch) watch(i, ConstraintKind::muscle_contact);
-        surfaces[i].report.milliseconds += milliseconds_since(started) / static_cast<double>(surfaces.size());
-      }
+    if (std::all_of(progress.begin(), progress.end(), is_done)) break;
+    if (!coupling.project) continue;
+    const Clock::time_point started = Clock::now();
+    if (iteration % coupling_refresh == 0) coupling.refresh();
+    coupling.project();
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      if (watch) watch(i, ConstraintKind::muscle_contact);
+      surfaces[i].report.milliseconds += milliseconds_since(started) / static_cast<double>(surfaces.size());
     }
-    for_active(end_iteration);
   }
 }
 

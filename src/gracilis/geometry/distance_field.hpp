@@ -41,38 +41,48 @@ FieldDomain domain_by_resolution(const TriangleMesh& mesh, int resolution, Real 
 /// one face, finite coordinates.
 DistanceField build_distance_field(const TriangleMesh& mesh, const FieldDomain& domain);
 
+/// A field as the solver asks it, in single precision like its positions; the field must outlive it.
+struct FieldGrid {
+  Eigen::Vector3f origin = Eigen::Vector3f::Zero();  ///< m
+  Eigen::Vector3f cells_per_metre = Eigen::Vector3f::Ones();
+  std::array<Index, 3> nodes{0, 0, 0};
+  const float* values = nullptr;
+};
+
+FieldGrid grid_of(const DistanceField& field);
+
 /// Distance and gradient at one point.
+FieldSample sample(const FieldGrid& grid, const Eigen::Vector3f& p);
 FieldSample sample(const DistanceField& field, const Eigen::Vector3f& p);
 
 /// The batched query: columns of `points` → distances (n) and, where asked for, gradients (3 × n).
 void sample(const DistanceField& field, const Points& points, Eigen::VectorXd& distances, Points* gradients = nullptr);
 
-inline FieldSample sample(const DistanceField& field, const Eigen::Vector3f& p) {
-  // Everything in float relative to the grid's origin: the solver's positions are float, too.
-  const float fx = (p.x() - static_cast<float>(field.origin.x())) / static_cast<float>(field.cell_size.x());
-  const float fy = (p.y() - static_cast<float>(field.origin.y())) / static_cast<float>(field.cell_size.y());
-  const float fz = (p.z() - static_cast<float>(field.origin.z())) / static_cast<float>(field.cell_size.z());
-  const bool inside = fx >= 0 && fy >= 0 && fz >= 0 && fx < static_cast<float>(field.nodes[0] - 1) &&
-                      fy < static_cast<float>(field.nodes[1] - 1) && fz < static_cast<float>(field.nodes[2] - 1);
+inline FieldGrid grid_of(const DistanceField& field) {
+  return {field.origin.cast<float>(), field.cell_size.cast<float>().cwiseInverse(), field.nodes, field.values.data()};
+}
+
+inline FieldSample sample(const FieldGrid& grid, const Eigen::Vector3f& p) {
+  const Eigen::Vector3f f = (p - grid.origin).cwiseProduct(grid.cells_per_metre);
+  const bool inside = f.x() >= 0 && f.y() >= 0 && f.z() >= 0 && f.x() < static_cast<float>(grid.nodes[0] - 1) &&
+                      f.y() < static_cast<float>(grid.nodes[1] - 1) && f.z() < static_cast<float>(grid.nodes[2] - 1);
   if (!inside) return {};
-  const auto i = static_cast<Index>(fx), j = static_cast<Index>(fy), k = static_cast<Index>(fz);
-  const float x = fx - static_cast<float>(i), y = fy - static_cast<float>(j), z = fz - static_cast<float>(k);
-  const std::size_t row = static_cast<std::size_t>(field.nodes[0]),
-                    slice = row * static_cast<std::size_t>(field.nodes[1]);
-  const float* v = field.values.data() + static_cast<std::size_t>(i) + row * static_cast<std::size_t>(j) +
+  const auto i = static_cast<Index>(f.x()), j = static_cast<Index>(f.y()), k = static_cast<Index>(f.z());
+  const float x = f.x() - static_cast<float>(i), y = f.y() - static_cast<float>(j), z = f.z() - static_cast<float>(k);
+  const std::size_t row = static_cast<std::size_t>(grid.nodes[0]),
+                    slice = row * static_cast<std::size_t>(grid.nodes[1]);
+  const float* v = grid.values + static_cast<std::size_t>(i) + row * static_cast<std::size_t>(j) +
                    slice * static_cast<std::size_t>(k);
   const float v000 = v[0], v100 = v[1], v010 = v[row], v110 = v[row + 1];
   const float v001 = v[slice], v101 = v[slice + 1], v011 = v[slice + row], v111 = v[slice + row + 1];
   const float d00 = v100 - v000, d10 = v110 - v010, d01 = v101 - v001, d11 = v111 - v011;
   const float v00 = v000 + x * d00, v10 = v010 + x * d10, v01 = v001 + x * d01, v11 = v011 + x * d11;
   const float v0 = v00 + y * (v10 - v00), v1 = v01 + y * (v11 - v01);
-  FieldSample sample;
-  sample.distance = v0 + z * (v1 - v0);
   const float dx0 = d00 + y * (d10 - d00), dx1 = d01 + y * (d11 - d01);
-  sample.gradient = {(dx0 + z * (dx1 - dx0)) / static_cast<float>(field.cell_size.x()),
-                     ((v10 - v00) + z * ((v11 - v01) - (v10 - v00))) / static_cast<float>(field.cell_size.y()),
-                     (v1 - v0) / static_cast<float>(field.cell_size.z())};
-  return sample;
+  const Eigen::Vector3f per_cell = {dx0 + z * (dx1 - dx0), (v10 - v00) + z * ((v11 - v01) - (v10 - v00)), v1 - v0};
+  return {v0 + z * (v1 - v0), per_cell.cwiseProduct(grid.cells_per_metre)};
 }
+
+inline FieldSample sample(const DistanceField& field, const Eigen::Vector3f& p) { return sample(grid_of(field), p); }
 
 }  // namespace gracilis

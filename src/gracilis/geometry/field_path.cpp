@@ -26,11 +26,11 @@ BoundedField bounded(const DistanceField& field) {
     for (Index i = 0; i < nx; ++i) see(i, 0, k), see(i, ny - 1, k);
     for (Index j = 0; j < ny; ++j) see(0, j, k), see(nx - 1, j, k);
   }
-  return {&field, std::max(border, 0.0f)};
+  return {&field, grid_of(field), std::max(border, 0.0f)};
 }
 
 FieldSample sample_bounded(const BoundedField& bounded, const Eigen::Vector3f& p) {
-  FieldSample answer = sample(*bounded.field, p);
+  FieldSample answer = sample(bounded.grid, p);
   if (std::isfinite(answer.distance)) return answer;
   const DistanceField& field = *bounded.field;
   const Eigen::Vector3f low = field.origin.cast<float>();
@@ -65,7 +65,8 @@ Eigen::Vector3f kept_path(const BoundedField& bounded, const Eigen::Vector3f& fr
       next += at.gradient * std::min((level - at.distance) / slope2, 2 * safe / std::sqrt(slope2));
       at = sample_bounded(bounded, next);
       // Pushed back as far as it came: nothing is left to slide along.
-      if ((to - next).norm() > left - least_headway * std::min(stride, left)) return at.distance < level - safe ? p : next;
+      if ((to - next).norm() > left - least_headway * std::min(stride, left))
+        return at.distance < level - safe ? p : next;
     }
     p = next;
     if (stride >= left) return p;

@@ -7,6 +7,7 @@ namespace gracilis {
 /// A field with the least distance on its grid's border, so that far points can be answered, too.
 struct BoundedField {
   const DistanceField* field = nullptr;  ///< must outlive this
+  FieldGrid grid;                        ///< the same, to be asked
   float border = 0;                      ///< m; least value on the border, at least 0
 };
 

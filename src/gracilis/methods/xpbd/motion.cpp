@@ -43,12 +43,12 @@ static Real turn_from_capture(const PreparedMuscle& muscle, const Pose& pose) {
 }
 
 /// The carriers' transforms from the capture pose, about the particles' origin.
-static std::vector<RigidTransform> carrier_transforms(const PreparedMuscle& muscle, const Pose& pose) {
+static RigidBlend carrier_transforms(const PreparedMuscle& muscle, const Pose& pose) {
   const Eigen::Translation3d to_world(muscle.origin);
   std::vector<RigidTransform> transforms;
   for (Index body : muscle.carriers)
     transforms.push_back(to_world.inverse() * pose.bodies[static_cast<std::size_t>(body)] * to_world);
-  return transforms;
+  return prepare_blend(transforms);
 }
 
 /// One particle's shares of the carriers' motion into `shares`, brought to the sum 1. False where nothing carries it.
@@ -70,11 +70,11 @@ static Real kept_share(const PreparedMuscle& muscle, const Pose& before, const P
 }
 
 void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, Particles& particles) {
-  const std::vector<RigidTransform> from = carrier_transforms(muscle, before), to = carrier_transforms(muscle, now);
-  if (from.empty()) return;
+  if (muscle.carriers.empty()) return;
+  const RigidBlend from = carrier_transforms(muscle, before), to = carrier_transforms(muscle, now);
   const Real kept = kept_share(muscle, before, now, active);
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
-    std::vector<Real> shares(from.size());
+    std::vector<Real> shares(muscle.carriers.size());
     for (Index p = begin; p < end; ++p) {
       if (muscle.fixed_body[static_cast<std::size_t>(p)] >= 0 || !shares_of(muscle, p, shares)) continue;
       const Vec3 rest = muscle.rest.col(p) - muscle.origin;
@@ -85,11 +85,11 @@ void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& no
 }
 
 Points carried_rest(const PreparedMuscle& muscle, const Pose& pose) {
-  const std::vector<RigidTransform> transforms = carrier_transforms(muscle, pose);
   Points carried = muscle.rest.colwise() - muscle.origin;
-  if (transforms.empty()) return carried;
+  if (muscle.carriers.empty()) return carried;
+  const RigidBlend transforms = carrier_transforms(muscle, pose);
   parallel_for(static_cast<Index>(carried.cols()), 512, [&](Index begin, Index end) {
-    std::vector<Real> shares(transforms.size());
+    std::vector<Real> shares(muscle.carriers.size());
     for (Index p = begin; p < end; ++p)
       if (shares_of(muscle, p, shares)) carried.col(p) = blend(transforms, shares) * Vec3(carried.col(p));
   });
