@@ -16,16 +16,16 @@ namespace {
 struct Held {
   Scene scene;
   std::vector<MuscleMeasures> measures;  ///< of every frame
-  StepReport last;
+  Index contacts = 0;                    ///< summed over all frames
 };
 
 Held held_at_a_right_angle(const XpbdSettings& settings) {
-  Held held{tube_scene(settings), {}, {}};
+  Held held{tube_scene(settings), {}, 0};
   Measurer measurer(held.scene);
   const auto method = xpbd_on_tube(held.scene);
   for (int frame = 1; frame <= 120; ++frame) {
     const Pose pose = flexed(held.scene, radians(std::min(frame, 90)));
-    held.last = method->advance(pose);
+    held.contacts += method->advance(pose).muscles[0].contacts;
     held.measures.push_back(measurer.measure(frame_of(*method, pose, frame)).at(0));
   }
   return held;
@@ -48,7 +48,7 @@ TEST(Xpbd, a_muscle_held_at_a_right_angle_keeps_its_volume_and_stays_out_of_the_
     }
     EXPECT_GT(held.measures.back().edge_ratio_mean, 1.05) << "the muscle was never stretched";
     if (!slack_uptake) {
-      EXPECT_GT(held.last.muscles[0].contacts, 0) << "the muscle never met a bone";
+      EXPECT_GT(held.contacts, 0) << "the muscle never met a bone";
     }
   }
 }

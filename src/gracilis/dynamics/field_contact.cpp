@@ -17,10 +17,6 @@ constexpr Index chunk = 512;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 /// On the field's ridges the interpolated gradient fades; there is no way out to be read from it.
 constexpr float least_slope2 = 1e-4f;
-/// The share of an edge at a fixed end in which nothing can be pushed out without throwing the other end far away.
-constexpr float stiff_share = 0.2f;
-/// Of an edge that was this far above its gap at its deepest point, other points were, too, m.
-constexpr float edge_reserve = 0.0005f;
 /// A distance exceeds its ceiling only by more than this, m.
 constexpr float rounding = 1e-7f;
 /// How the deepest point of an edge is followed: the step is the slope along the edge times this, at most a quarter of
@@ -47,7 +43,7 @@ Index project_edge_contacts(const FieldContactSet& set, const DistanceSet& dista
         Eigen::Vector3f q = placement.to_obstacle(xa + (t == unknown_point ? 0.5f : t) * along);
         if (!may_reach(deepest.seen, q, edge_reserve)) continue;
         const float ga = near.gap[static_cast<std::size_t>(a)], gb = near.gap[static_cast<std::size_t>(b)];
-        const float low = wa > 0 ? 0 : stiff_share, high = wb > 0 ? 1 : 1 - stiff_share;
+        const float low = lowest_share(wa), high = 1 - lowest_share(wb);
         if (t == unknown_point) {
           t = deepest_on_edge(set.field.grid, {placement.to_obstacle(xa), ga}, {placement.to_obstacle(xa + along), gb},
                               low, high);

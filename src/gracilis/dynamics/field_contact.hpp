@@ -96,6 +96,11 @@ struct NearField {
 void remember_sides(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
                     NearField& near);
 
+/// Edges and faces count as near when they may come this deep below their gap before the next listing, m; no particle
+/// may go farther than `listed_motion` until then.
+inline constexpr float element_reach = 0.002f;
+inline constexpr float listed_motion = element_reach / steepest;
+
 /// Brings back particles that passed through the obstacle since they were last seen (the set's guard), then lists what
 /// is within `reach` (m) of touching: movable particles, edges and faces with a movable corner.
 void find_near(const FieldContactSet& set, const DistanceSet& distances, const FaceSet& faces,

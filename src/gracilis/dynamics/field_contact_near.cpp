@@ -16,8 +16,6 @@ constexpr Index chunk = 512;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 /// What is known to be farther away than this need not be seen before every step, m.
 constexpr float far_away = 0.02f;
-/// Edges and faces count as near when they may come this deep below their gap before the next listing, m.
-constexpr float element_reach = 0.002f;
 
 /// Cosine of the turn by which the published test knows a vertex that passed through a bone.
 const float turned_cosine = static_cast<float>(std::cos(radians(135)));
@@ -117,8 +115,20 @@ void remember_sides(const FieldContactSet& set, const FieldPlacement& placement,
   });
 }
 
-static void list_edges(const DistanceSet& distances, const FieldPlacement& placement, const Particles& particles,
-                       NearField& near) {
+/// Where the edge is deepest, if it may be so near that it must be known at once.
+static DeepestPoint first_point(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
+                                const NearField& near, Index a, Index b, float least) {
+  const Eigen::Vector3f from = placement.to_obstacle(particles.position(a)),
+                        to = placement.to_obstacle(particles.position(b));
+  if (least > edge_reserve) return {unknown_point, {(from + to) / 2, least}};
+  const float ga = near.gap[static_cast<std::size_t>(a)], gb = near.gap[static_cast<std::size_t>(b)];
+  return {deepest_on_edge(set.field.grid, {from, ga}, {to, gb}, lowest_share(particles.inverse_mass(a)),
+                          1 - lowest_share(particles.inverse_mass(b))),
+          {}};
+}
+
+static void list_edges(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
+                       const Particles& particles, NearField& near) {
   for (const ColorRange& color : distances.colors) {
     const auto begin = static_cast<Index>(near.edges.size());
     for (Index slot = color.begin; slot < color.end; ++slot) {
@@ -129,11 +139,10 @@ static void list_edges(const DistanceSet& distances, const FieldPlacement& place
       if (clearances > 2 * element_reach + 4 * steepest * distances.rest_length[static_cast<std::size_t>(slot)])
         continue;
       if (!(particles.inverse_mass(a) + particles.inverse_mass(b) > 0)) continue;
-      const Eigen::Vector3f from = particles.position(a), to = particles.position(b);
-      const float least = least_clearance(clearances, (to - from).norm());
+      const float least = least_clearance(clearances, (particles.position(b) - particles.position(a)).norm());
       if (least > element_reach) continue;
       near.edges.push_back(slot);
-      near.edge_points.push_back({unknown_point, {placement.to_obstacle((from + to) / 2), least}});
+      near.edge_points.push_back(first_point(set, placement, particles, near, a, b, least));
     }
     near.edge_colors.push_back({begin, static_cast<Index>(near.edges.size())});
   }
@@ -176,7 +185,7 @@ void find_near(const FieldContactSet& set, const DistanceSet& distances, const F
   see_particles(set, placement, reach, particles, near, is_near);
   for (Index i = 0; i < particles.count(); ++i)
     if (is_near[static_cast<std::size_t>(i)]) near.particles.push_back(i);
-  if (!set.captured.edge_sag.empty()) list_edges(distances, placement, particles, near);
+  if (!set.captured.edge_sag.empty()) list_edges(set, distances, placement, particles, near);
   if (!set.captured.face_sag.empty()) list_faces(set, faces, placement, particles, near);
 }
 

@@ -8,7 +8,7 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index faces_per_patch = 8;
+constexpr Index faces_per_patch = 4, faces_per_bundle = 32;
 constexpr Index chunk = 64;
 /// Cosines this near to 0 may be rounding.
 constexpr float least_cosine = 1e-5f;
@@ -22,23 +22,29 @@ class Builder {
       const Eigen::Vector3i corners = surface.faces.col(f);
       centers_.col(f) = (rest.col(corners[0]) + rest.col(corners[1]) + rest.col(corners[2])) / 3;
     }
-    if (!tree_.faces.empty()) add(0, surface.faces.cols());
+    if (!tree_.faces.empty()) add(0, surface.faces.cols(), false);
+    tree_.bundle_offsets.push_back(static_cast<Index>(tree_.patches.size()));
     deal_out_particles(surface);
     tree_.bounds.resize(tree_.nodes.size());
+    tree_.particle_bounds.resize(tree_.patches.size());
   }
 
   PatchTree take() { return std::move(tree_); }
 
  private:
-  void add(Index begin, Index end) {
+  void add(Index begin, Index end, bool in_bundle) {
     const std::size_t node = tree_.nodes.size();
+    if (!in_bundle && end - begin <= faces_per_bundle) {
+      in_bundle = true;
+      tree_.bundle_offsets.push_back(static_cast<Index>(tree_.patches.size()));
+    }
     tree_.nodes.push_back({begin, end, 0, end - begin <= faces_per_patch});
     if (tree_.nodes[node].is_patch) {
       tree_.patches.push_back(static_cast<Index>(node));
     } else {
       const Index middle = halve(begin, end);
-      add(begin, middle);
-      add(middle, end);
+      add(begin, middle, in_bundle);
+      add(middle, end, in_bundle);
     }
     tree_.nodes[node].skip = static_cast<Index>(tree_.nodes.size());
   }
@@ -79,12 +85,22 @@ class Builder {
 };
 
 PatchTree::Bounds bounds_of_faces(const PatchTree& tree, const PatchTree::Node& node, const ContactSurface& surface,
-                                  const Particles& particles, const Eigen::Matrix3Xf& areas) {
+                                  const Particles& particles) {
   PatchTree::Bounds bounds;
   for (Index i = node.begin; i < node.end; ++i) {
     const Index face = tree.faces[static_cast<std::size_t>(i)];
     for (const Index corner : surface.faces.col(face)) bounds.places.extend(particles.position(corner));
-    bounds.normals.extend(areas.col(face).normalized());
+    bounds.normals.extend(tree.areas.col(face).normalized());
+  }
+  return bounds;
+}
+
+PatchTree::Bounds bounds_of_particles(const PatchTree& tree, std::size_t patch, const Particles& particles) {
+  PatchTree::Bounds bounds;
+  for (Index i = tree.particle_offsets[patch]; i < tree.particle_offsets[patch + 1]; ++i) {
+    const Index p = tree.particles[static_cast<std::size_t>(i)];
+    bounds.places.extend(particles.position(p));
+    bounds.normals.extend(tree.outward.col(p).normalized());
   }
   return bounds;
 }
@@ -95,51 +111,40 @@ PatchTree build_patch_tree(const ContactSurface& surface, const Eigen::Matrix3Xf
   return Builder(surface, rest).take();
 }
 
-void refit(const ContactSurface& surface, const Particles& particles, const Eigen::Matrix3Xf& areas, PatchTree& tree) {
+void refit(const ContactSurface& surface, const Particles& particles, PatchTree& tree) {
+  tree.areas = face_areas(surface, particles);
+  tree.outward = sums_around_particles(surface, tree.areas);
   parallel_for(static_cast<Index>(tree.patches.size()), chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      const auto node = static_cast<std::size_t>(tree.patches[static_cast<std::size_t>(i)]);
-      tree.bounds[node] = bounds_of_faces(tree, tree.nodes[node], surface, particles, areas);
+      const auto patch = static_cast<std::size_t>(i), node = static_cast<std::size_t>(tree.patches[patch]);
+      tree.bounds[node] = bounds_of_faces(tree, tree.nodes[node], surface, particles);
+      tree.particle_bounds[patch] = bounds_of_particles(tree, patch, particles);
     }
   });
   for (std::size_t node = tree.nodes.size(); node-- > 0;) {
     if (tree.nodes[node].is_patch) continue;
     const PatchTree::Bounds &first = tree.bounds[node + 1],
                             &second = tree.bounds[static_cast<std::size_t>(tree.nodes[node + 1].skip)];
-    tree.bounds[node] = {first.places.merged(second.places), first.normals.merged(second.normals)};
+    tree.bounds[node] = first.merged(second);
   }
-}
-
-PatchTree::Bounds bounds_of_particles(const PatchTree& tree, Index patch, const Particles& particles,
-                                      const Eigen::Matrix3Xf& outward) {
-  PatchTree::Bounds bounds;
-  const auto at = static_cast<std::size_t>(patch);
-  for (Index i = tree.particle_offsets[at]; i < tree.particle_offsets[at + 1]; ++i) {
-    const Index p = tree.particles[static_cast<std::size_t>(i)];
-    bounds.places.extend(particles.position(p));
-    bounds.normals.extend(outward.col(p).normalized());
-  }
-  return bounds;
 }
 
 bool may_meet(const PatchTree::Bounds& one, const PatchTree::Bounds& other, float reach) {
-  if ((one.places.min().array() - reach > other.places.max().array()).any() ||
-      (other.places.min().array() - reach > one.places.max().array()).any())
+  if ((one.places.low - reach > other.places.high).any() || (other.places.low - reach > one.places.high).any())
     return false;
   // The least cosine between two vectors of the boxes, axis by axis.
-  const auto a = one.normals.min().array(), b = one.normals.max().array(), c = other.normals.min().array(),
-             d = other.normals.max().array();
-  return (a * c).min(a * d).min(b * c).min(b * d).sum() < least_cosine;
+  const Eigen::Array4f &a = one.normals.low, &b = one.normals.high, &c = other.normals.low, &d = other.normals.high;
+  return (a * c).min(a * d).min((b * c).min(b * d)).sum() < least_cosine;
 }
 
-void gather_faces(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& faces) {
+void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches) {
   for (std::size_t node = 0; node < tree.nodes.size();) {
     const PatchTree::Node& at = tree.nodes[node];
     if (!may_meet(bounds, tree.bounds[node], reach)) {
       node = static_cast<std::size_t>(at.skip);
       continue;
     }
-    if (at.is_patch) faces.insert(faces.end(), tree.faces.begin() + at.begin, tree.faces.begin() + at.end);
+    if (at.is_patch) patches.push_back(static_cast<Index>(node));
     ++node;
   }
 }

@@ -2,6 +2,7 @@
 
 #include <gracilis/dynamics/contact_surface.hpp>
 
+#include <limits>
 #include <vector>
 
 namespace gracilis {
@@ -10,38 +11,62 @@ namespace gracilis {
 /// tells which parts of a surface may meet each other: those that are near and do not all face the same way (after
 /// Volino and Magnenat-Thalmann 1994, with boxes of normals instead of cones).
 struct PatchTree {
+  static constexpr float infinity = std::numeric_limits<float>::infinity();
+
   struct Node {
     Index begin = 0, end = 0;  ///< in `faces`
     Index skip = 0;            ///< the first node that is not below this one; nodes stand in depth-first order
     bool is_patch = false;     ///< nothing is below it
   };
+  /// A box with a fourth coordinate, always 0, that lets one instruction compare a corner.
+  struct Box {
+    Eigen::Array4f low = Eigen::Array4f(infinity, infinity, infinity, 0);
+    Eigen::Array4f high = Eigen::Array4f(-infinity, -infinity, -infinity, 0);
+
+    void extend(const Eigen::Vector3f& point) {
+      const Eigen::Array4f at(point.x(), point.y(), point.z(), 0);
+      low = low.min(at), high = high.max(at);
+    }
+    Box merged(const Box& other) const { return {low.min(other.low), high.max(other.high)}; }
+    void move(const Eigen::Vector3f& by) {
+      const Eigen::Array4f along(by.x(), by.y(), by.z(), 0);
+      low += along, high += along;
+    }
+    float squared_distance(const Eigen::Array4f& point) const {
+      return (low - point).max(point - high).max(0.0f).square().sum();
+    }
+  };
   /// Boxes around places (m) and unit normals.
   struct Bounds {
-    Eigen::AlignedBox3f places, normals;
+    Box places, normals;
+
+    Bounds merged(const Bounds& other) const { return {places.merged(other.places), normals.merged(other.normals)}; }
   };
 
   std::vector<Index> faces;
   std::vector<Node> nodes;
   std::vector<Index> patches;                      ///< the nodes that are patches
+  std::vector<Index> bundle_offsets;               ///< neighboring patches in bundles: offsets into `patches`
   std::vector<Index> particle_offsets, particles;  ///< of each patch; every particle with a face is in one
-  std::vector<Bounds> bounds;                      ///< per node, of its faces; changes with the surface
+
+  // What changes with the surface.
+  std::vector<Bounds> bounds;           ///< per node, of its faces
+  std::vector<Bounds> particle_bounds;  ///< per patch, of its particles
+  Eigen::Matrix3Xf areas;               ///< area vectors of the faces
+  Eigen::Matrix3Xf outward;             ///< at each particle the sum of those around it
 };
 
-/// The tree of a surface whose particles are at the columns of `rest`, by halving along the longest axis. Bounds are
-/// not set yet.
+/// The tree of a surface whose particles are at the columns of `rest`, by halving along the longest axis; not fitted
+/// yet.
 PatchTree build_patch_tree(const ContactSurface& surface, const Eigen::Matrix3Xf& rest);
 
-/// Bounds of all nodes for where the particles are now; `areas` are the faces' area vectors.
-void refit(const ContactSurface& surface, const Particles& particles, const Eigen::Matrix3Xf& areas, PatchTree& tree);
-
-/// Bounds of the particles of patch number `patch`; each faces along its column of `outward`, of any length.
-PatchTree::Bounds bounds_of_particles(const PatchTree& tree, Index patch, const Particles& particles,
-                                      const Eigen::Matrix3Xf& outward);
+/// Fits the tree to where the particles are now.
+void refit(const ContactSurface& surface, const Particles& particles, PatchTree& tree);
 
 /// Whether something in one may be within `reach` (m) of something in the other and face against it.
 bool may_meet(const PatchTree::Bounds& one, const PatchTree::Bounds& other, float reach);
 
-/// Appends the faces of all patches that may meet what is within `bounds`.
-void gather_faces(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& faces);
+/// Appends all nodes that are patches and may meet what is within `bounds`.
+void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches);
 
 }  // namespace gracilis

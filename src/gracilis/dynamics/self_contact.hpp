@@ -20,7 +20,4 @@ struct SelfRule {
 
 SelfRule self_rule(const SurfaceCrowd& crowd, const Particles& particles, Index surface);
 
-/// The nearest face within `reach` (m) that each particle may meet, in the order of particles. Sets the tree's bounds.
-void find_self(const SelfRule& rule, float reach, PatchTree& tree, std::vector<PointTouch>& found);
-
 }  // namespace gracilis

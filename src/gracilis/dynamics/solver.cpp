@@ -13,11 +13,11 @@ namespace {
 
 /// Slots per task: large enough to outweigh a task's start, small enough to share a color among cores.
 constexpr Index slots_per_task = 2048;
-/// Iterations between two looks at what is near the bones, and how near counts (m). A particle would have to cross the
-/// reach within these iterations to be missed; the last iteration looks again anyway.
-constexpr int contact_refresh = 8;
+/// How near to the bones counts as near (m), and iterations between two looks at whether particles moved so far that
+/// something may have come near.
 constexpr float contact_reach = 0.006f;
-/// The same between two looks at what is near between surfaces, which walk and list with reserve.
+constexpr int motion_check = 4;
+/// Iterations between two looks at what is near between surfaces, which walk and list with reserve.
 constexpr int coupling_refresh = 15;
 
 template <class Project>
@@ -137,6 +137,7 @@ void refresh_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
     find_near(system.contacts[i], system.distances, system.large_faces, placements[i], contact_reach, state.particles,
               state.near[i]);
+  state.listed = state.particles;
 }
 
 void remember_sides(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state) {
@@ -165,6 +166,12 @@ void reset_multipliers(SurfaceState& state) {
   state.volume_lambda = 0;
 }
 
+/// Lists what is near the bones again where something that is not listed may have come near.
+void keep_listed(const SurfaceSolve& surface) {
+  if (largest_motion(surface.state->listed, surface.state->particles) > listed_motion)
+    refresh_contacts(*surface.system, *surface.placements, *surface.state);
+}
+
 /// All of an iteration up to contact.
 void begin_iteration(SurfaceSolve& surface, Progress& progress, double elapsed,
                      const std::function<void(ConstraintKind)>& told) {
@@ -173,8 +180,10 @@ void begin_iteration(SurfaceSolve& surface, Progress& progress, double elapsed,
   if (settings.stop_displacement > 0) progress.before = surface.state->particles;
   progress.last =
       iteration + 1 >= settings.iterations || (settings.stop_milliseconds > 0 && elapsed > settings.stop_milliseconds);
-  if (iteration % contact_refresh == 0 && !progress.last)
+  if (iteration == 0)
     refresh_contacts(*surface.system, *surface.placements, *surface.state);
+  else if (iteration % motion_check == 0)
+    keep_listed(surface);
   for (ConstraintKind kind : projection_order) {
     if (kind == ConstraintKind::bone_contact) continue;
     project_kind(kind, *surface.system, *surface.placements, settings, *surface.state, surface.report);
@@ -184,7 +193,7 @@ void begin_iteration(SurfaceSolve& surface, Progress& progress, double elapsed,
 
 void end_iteration(SurfaceSolve& surface, Progress& progress, const std::function<void(ConstraintKind)>& told) {
   const SolveSettings& settings = surface.settings;
-  if (progress.last) refresh_contacts(*surface.system, *surface.placements, *surface.state);
+  if (progress.last) keep_listed(surface);
   project_kind(ConstraintKind::bone_contact, *surface.system, *surface.placements, settings, *surface.state,
                surface.report);
   told(ConstraintKind::bone_contact);

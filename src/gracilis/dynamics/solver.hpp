@@ -34,6 +34,7 @@ struct SurfaceState {
   double volume = 0;                      ///< m³, before the last volume projection
   AlignedVector<float> volume_gradients;  ///< workspace
   std::vector<NearField> near;            ///< per contact set; workspace
+  Particles listed;                       ///< where the particles were when what is near was listed; workspace
 };
 
 /// How one substep is solved.

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gracilis/dynamics/patch_tree.hpp>
-#include <gracilis/geometry/nearest_triangle.hpp>
 
 #include <vector>
 
@@ -54,8 +53,7 @@ struct PairTouches {
   std::vector<EdgeTouch> edges;
 };
 struct CrowdState {
-  std::vector<NearestTriangle> trees;
-  std::vector<PatchTree> patches;  ///< of surfaces that may meet themselves
+  std::vector<PatchTree> trees;
   std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where something is near
   std::vector<PairTouches> touches;       ///< one per pair
 };

@@ -1,6 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/self_contact.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
+#include <gracilis/dynamics/touch_search.hpp>
 
 #include <algorithm>
 
@@ -15,14 +16,6 @@ constexpr float listed_within = 0.0015f;
 /// The same for edges, of which there are three times as many; between two looks they hardly come nearer by more.
 constexpr float edges_listed_within = 0.0008f;
 
-using Box = Eigen::AlignedBox3f;
-
-Box box_around(const Particles& particles) {
-  Box box;
-  for (Index p = 0; p < particles.count(); ++p) box.extend(Eigen::Vector3f(particles.position(p)));
-  return box;
-}
-
 /// Fills `found` with accept(i) for each i of [0, count) that it takes, in order.
 template <class Search>
 void search_all(Index count, const Search& search, std::vector<PointTouch>& found) {
@@ -34,19 +27,6 @@ void search_all(Index count, const Search& search, std::vector<PointTouch>& foun
   });
   found.clear();
   for (const std::vector<PointTouch>& part : parts) found.insert(found.end(), part.begin(), part.end());
-}
-
-void find_near(const Particles& probe, const Eigen::Vector3f& shift, const NearestTriangle& target,
-               const Box& target_box, float reach, std::vector<PointTouch>& found) {
-  search_all(
-      probe.count(),
-      [&](Index p, std::vector<PointTouch>& part) {
-        const Eigen::Vector3f x = probe.position(p) + shift;
-        if (target_box.squaredExteriorDistance(x) > reach * reach) return;
-        const NearestPoint nearest = target.query(x.cast<Real>(), reach);
-        if (nearest.face >= 0) part.push_back({p, nearest.face, 1});
-      },
-      found);
 }
 
 /// Walks each to its nearest face.
@@ -106,30 +86,52 @@ struct EdgeBall {
 
 EdgeBall ball_around(const Eigen::Vector3f& a, const Eigen::Vector3f& b) { return {(a + b) / 2, (b - a).norm() / 2}; }
 
+/// The edges with an end among the particles that are near, each once.
+std::vector<Index> edges_around(const std::vector<PointTouch>& near, const ContactSurface& surface) {
+  std::vector<Index> edges;
+  for (const PointTouch& touch : near) {
+    const auto at = static_cast<std::size_t>(touch.particle);
+    for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
+      for (const Index side : surface.sides.col(surface.fan[static_cast<std::size_t>(i)])) {
+        const auto& ends = surface.edges[static_cast<std::size_t>(side)].ends;
+        if (ends[0] == touch.particle || ends[1] == touch.particle) edges.push_back(side);
+      }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+/// What a particle is near, or null; touches are in the order of particles.
+const PointTouch* touch_of(const std::vector<PointTouch>& near, Index particle) {
+  const auto found = std::lower_bound(near.begin(), near.end(), particle,
+                                      [](const PointTouch& touch, Index p) { return touch.particle < p; });
+  return found != near.end() && found->particle == particle ? &*found : nullptr;
+}
+
 /// Pairs of edges, one of each surface, that cross closely.
 void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::vector<const Particles*>& particles,
                 const std::vector<PointTouch>& near_second, std::vector<EdgeTouch>& found) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   const ContactSurface &first = crowd.surfaces[a], &second = crowd.surfaces[b];
-  std::vector<const PointTouch*> touch_of(static_cast<std::size_t>(particles[a]->count()), nullptr);
-  for (const PointTouch& touch : near_second) touch_of[static_cast<std::size_t>(touch.particle)] = &touch;
-  const auto count = static_cast<Index>(first.edges.size());
+  const std::vector<Index> edges = edges_around(near_second, first);
+  const auto count = static_cast<Index>(edges.size());
   std::vector<std::vector<EdgeTouch>> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
   parallel_for(count, chunk, [&](Index begin, Index end) {
     std::vector<EdgeTouch>& part = parts[static_cast<std::size_t>(begin / chunk)];
     std::vector<Index> candidates;
-    for (Index e = begin; e < end; ++e) {
+    for (Index i = begin; i < end; ++i) {
+      const Index e = edges[static_cast<std::size_t>(i)];
       const auto& ends = first.edges[static_cast<std::size_t>(e)].ends;
-      const PointTouch* touches[] = {touch_of[static_cast<std::size_t>(ends[0])],
-                                     touch_of[static_cast<std::size_t>(ends[1])]};
-      if (!touches[0] && !touches[1]) continue;
       const Eigen::Vector3f a0 = particles[a]->position(ends[0]) + pair.shift,
                             a1 = particles[a]->position(ends[1]) + pair.shift;
       const EdgeBall ball = ball_around(a0, a1);
       candidates.clear();
       // An edge that crosses another closely has an end within half of its length and that.
-      for (const PointTouch* touch : touches)
+      for (const Index particle : ends) {
+        const PointTouch* touch = touch_of(near_second, particle);
         if (touch && touch->distance < ball.radius + edges_listed_within) gather_edges(second, touch->face, candidates);
+      }
       if (candidates.empty()) continue;
       std::sort(candidates.begin(), candidates.end());
       candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
@@ -190,37 +192,28 @@ void make_normals(const SurfaceCrowd& crowd, const std::vector<const Particles*>
 CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
   CrowdState state;
   for (std::size_t s = 0; s < crowd.surfaces.size(); ++s)
-    state.trees.emplace_back(TriangleMesh{crowd.rest[s].cast<Real>(), crowd.surfaces[s].faces});
-  state.patches.resize(crowd.surfaces.size());
-  for (const SurfacePair& pair : crowd.pairs) {
-    const auto at = static_cast<std::size_t>(pair.first);
-    if (pair.is_self()) state.patches[at] = build_patch_tree(crowd.surfaces[at], crowd.rest[at]);
-  }
+    state.trees.push_back(build_patch_tree(crowd.surfaces[s], crowd.rest[s]));
   state.normals = crowd.rest_normals;
   state.touches.resize(crowd.pairs.size());
   return state;
 }
 
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
-  std::vector<Box> boxes(particles.size());
-  parallel_for(static_cast<Index>(particles.size()), 1, [&](Index begin, Index end) {
-    for (auto s = static_cast<std::size_t>(begin); s < static_cast<std::size_t>(end); ++s) {
-      boxes[s] = box_around(*particles[s]);
-      Points points(3, particles[s]->count());
-      for (Index p = 0; p < points.cols(); ++p) points.col(p) = particles[s]->position(p).cast<Real>();
-      state.trees[s].refit(points);
-    }
-  });
+  std::vector<SearchedSurface> searched;
+  for (std::size_t s = 0; s < particles.size(); ++s) {
+    refit(crowd.surfaces[s], *particles[s], state.trees[s]);
+    searched.push_back({crowd.surfaces[s], *particles[s], state.trees[s]});
+  }
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     if (pair.is_self()) {
-      find_self(self_rule(crowd, *particles[a], pair.first), crowd.settings.self_reach, state.patches[a],
+      find_self(searched[a], self_rule(crowd, *particles[a], pair.first), crowd.settings.self_reach,
                 touches.near_second);
     } else {
-      find_near(*particles[a], pair.shift, state.trees[b], boxes[b], pair.reach, touches.near_second);
-      find_near(*particles[b], -pair.shift, state.trees[a], boxes[a], pair.reach, touches.near_first);
+      find_near(searched[a], pair.shift, searched[b], pair.reach, touches.near_second);
+      find_near(searched[b], -pair.shift, searched[a], pair.reach, touches.near_first);
     }
   }
 }

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <gracilis/dynamics/self_contact.hpp>
+
+namespace gracilis {
+
+/// One surface's part in a search; the tree is fitted to the particles.
+struct SearchedSurface {
+  const ContactSurface& surface;
+  const Particles& particles;
+  const PatchTree& tree;
+};
+
+/// The nearest face of the target within `reach` (m) of each particle of the probe, in the order of particles; `shift`
+/// leads from the probe's coordinates to the target's.
+void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const SearchedSurface& target, float reach,
+               std::vector<PointTouch>& found);
+
+/// The nearest face of the same surface within `reach` (m) that each particle may meet, in the order of particles.
+void find_self(const SearchedSurface& surface, const SelfRule& rule, float reach, std::vector<PointTouch>& found);
+
+}  // namespace gracilis
