@@ -12,7 +12,7 @@ namespace gracilis {
 namespace {
 
 /// Slots per task: large enough to outweigh a task's start, small enough to share a color among cores.
-constexpr Index slots_per_task = 2048;
+constexpr Index slots_per_task = 1024;
 /// How near to the bones counts as near (m), and iterations between two looks at whether particles moved so far that
 /// something may have come near.
 constexpr float contact_reach = 0.006f;
