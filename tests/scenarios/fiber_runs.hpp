@@ -23,7 +23,8 @@ struct FiberRun {
   }
 };
 
-inline FiberRun run_with_fibers(const Scene& scene) {
+/// `observe` sees every frame.
+inline FiberRun run_with_fibers(const Scene& scene, const std::function<void(const FrameRecord&)>& observe = {}) {
   std::vector<DistanceField> fields;
   for (const Bone& bone : scene.bones)
     fields.push_back(cached_bone_field(bone, scene.distance_fields, default_cache_folder()));
@@ -40,6 +41,7 @@ inline FiberRun run_with_fibers(const Scene& scene) {
         run.frames.push_back(record.fibers);
         run.measures.push_back(record.measures);
         run.end = record.frame.muscles;
+        if (observe) observe(record);
       },
       &tracker);
   return run;

@@ -19,6 +19,13 @@ namespace gracilis {
 
 namespace fs = std::filesystem;
 
+std::optional<CombineParts> find_combination(const std::string& name) {
+  if (name == "sum") return CombineParts::sum;
+  if (name == "weighted_mean") return CombineParts::weighted_mean;
+  if (name == "maximum") return CombineParts::maximum;
+  return std::nullopt;
+}
+
 bool is_muscle_column(const std::string& name) {
   static constexpr std::array residuals = {"FX", "FY", "FZ", "MX", "MY", "MZ"};
   if (std::find(residuals.begin(), residuals.end(), name) != residuals.end()) return false;

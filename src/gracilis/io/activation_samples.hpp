@@ -3,6 +3,7 @@
 #include <gracilis/io/table.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,9 @@ enum class CombineParts {
   maximum
 };
 
+/// The way of that name: "sum", "weighted_mean" or "maximum".
+std::optional<CombineParts> find_combination(const std::string& name);
+
 /// A muscle of the scene and the columns that are its parts.
 struct MuscleParts {
   std::string muscle;
@@ -25,7 +29,7 @@ struct MuscleParts {
 
 struct JoinSettings {
   CombineParts combine = CombineParts::sum;
-  Real tolerance = 0.001;           ///< s, farthest that times which belong together may lie apart
+  Real tolerance = 0.001;            ///< s, farthest that times which belong together may lie apart
   std::vector<MuscleParts> muscles;  ///< empty: every column that is a muscle, numbered parts as one
 };
 

@@ -253,6 +253,21 @@ static ActivationDescription read_activation(TomlReader table) {
   return activation;
 }
 
+/// How parts of muscles become one.
+static void read_combination(TomlReader& table, ControlUnitDescription& unit) {
+  const std::string way = table.text("combine").value_or("sum");
+  unit.forces = NamedFile{table.text("forces").value_or(""), 1, table.place()};
+  if (const std::optional<CombineParts> combine = find_combination(way)) {
+    unit.combine = *combine;
+  } else {
+    table.add_problem("combine", "there is no way '" + way + "' to combine parts of a muscle",
+                      "'sum', 'weighted_mean' or 'maximum'");
+  }
+  if ((unit.combine == CombineParts::weighted_mean) == unit.forces.path.empty())
+    table.add_problem("combine", "'forces' and combine = \"weighted_mean\" need each other",
+                      "give both, or neither for the sum or the maximum");
+}
+
 static ControlUnitDescription read_control_unit(TomlReader table) {
   ControlUnitDescription unit;
   unit.place = table.place();
@@ -261,8 +276,10 @@ static ControlUnitDescription read_control_unit(TomlReader table) {
   const auto file = [&](const char* key) { return NamedFile{table.text(key).value_or(""), 1, table.place()}; };
   unit.samples = file("samples"), unit.motion = file("motion"), unit.results = file("results");
   unit.names = file("names");
+  read_combination(table, unit);
   const bool joined = !unit.motion.path.empty() && !unit.results.path.empty();
-  if (unit.samples.path.empty() ? !joined : table.has("motion") || table.has("results") || table.has("names")) {
+  const bool tells_how = table.has("motion") || table.has("results") || table.has("names") || table.has("combine");
+  if (unit.samples.path.empty() ? !joined : tells_how) {
     Problem problem = table.place();
     problem.what = "the samples of a joint control unit are given in exactly one way";
     problem.remedy = "give 'samples', or 'motion' and 'results'";

@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/attachments.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/activation_samples.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <array>
@@ -96,9 +97,11 @@ struct ActivationDescription {
 /// A joint control unit whose samples stand in a file.
 struct ControlUnitDescription {
   std::string name, joint;
-  NamedFile samples;          ///< or the files that `gracilis activations join` would make them from:
-  NamedFile motion, results;  ///< empty paths where samples are given
-  NamedFile names;            ///< which columns are which muscle; empty path: numbered parts join
+  NamedFile samples;                         ///< or the files that `gracilis activations join` would make them from:
+  NamedFile motion, results;                 ///< empty paths where samples are given
+  NamedFile names;                           ///< which columns are which muscle; empty path: numbered parts join
+  CombineParts combine = CombineParts::sum;  ///< how parts of a muscle become one
+  NamedFile forces;                          ///< that weigh the parts, for the weighted mean
   std::vector<std::string> coordinates, muscles;  ///< empty: the joint's, and all that the samples know
   Real falloff = 0;
   Problem place;

@@ -330,7 +330,10 @@ class SceneBuilder {
     read(description.motion, [&](const fs::path& path) { trial.motion = read_table(path); });
     if (!description.names.path.empty())
       read(description.names, [&](const fs::path& path) { settings.muscles = read_muscle_mapping(path); });
-    if (trial.motion.columns.empty()) return {};
+    settings.combine = description.combine;
+    if (!description.forces.path.empty())
+      read(description.forces, [&](const fs::path& path) { trial.forces = read_table(path); });
+    if (trial.motion.columns.empty() || (!description.forces.path.empty() && trial.forces.columns.empty())) return {};
     JoinedSamples joined = join_samples({trial}, settings);
     for (const std::string& problem : joined.problems)
       result_.warnings.push_back("joint control unit '" + description.name + "': " + problem);

@@ -151,6 +151,8 @@ value = 0.3
 # name = "hip"
 # joint = "hip_r"
 # samples = "samples.sto"         # or: motion = "walk.mot", results = "activation.sto", names = "names.toml" (optional)
+# combine = "sum"                 # of files: a muscle's parts become one by their "sum", "maximum" or "weighted_mean",
+#                                 # which needs forces = "force.sto"
 # coordinates = ["hip_flexion_r"] # optional: that tell samples apart; default: all of the joint
 # muscles = ["iliacus_r"]         # optional: that it governs; default: all that the samples know
 # falloff = 0.02                  # optional: F in exp(-F d²), 1/deg²; default: from the samples' spacing
