@@ -1,7 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 
-#include <state_hash.hpp>
+#include <gracilis/core/state_hash.hpp>
 
 #include "benchmark_hip.hpp"
 

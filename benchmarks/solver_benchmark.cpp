@@ -1,8 +1,7 @@
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/methods/xpbd/motion.hpp>
-#include <gracilis/methods/xpbd/preparation.hpp>
+#include <gracilis/methods/xpbd/under_way.hpp>
 
-#include <state_hash.hpp>
+#include <gracilis/core/state_hash.hpp>
 
 #include "benchmark_hip.hpp"
 
@@ -18,44 +17,19 @@ namespace {
 
 constexpr Real middle = radians(45);
 
-/// A muscle half way through flexion, in the middle of a solve: neither at rest nor converged.
-struct UnderWay {
-  xpbd::PreparedMuscle muscle;
-  std::vector<FieldPlacement> placements;
-  SolveSettings settings;
-  SurfaceState state;
-};
+using xpbd::UnderWay;
 
-UnderWay under_way(const Muscle& muscle) {
-  const BenchmarkHip& hip = benchmark_hip();
-  UnderWay u{xpbd::prepare_muscle(hip.scene, muscle, hip.fields), {}, {}, {}};
-  u.settings.iterations = muscle.xpbd.iterations;
-  u.settings.time_step = muscle.xpbd.time_step;
-  u.settings.projection.time_step = static_cast<float>(muscle.xpbd.time_step);
-  u.settings.projection.hinge_limit = static_cast<float>(muscle.xpbd.hinge_limit);
-  u.settings.stretch_limit = static_cast<float>(muscle.xpbd.stretch_limit);
-  u.state = make_state(u.muscle.system);
+/// A muscle half way through flexion.
+UnderWay half_way(const Muscle& muscle) {
   constexpr int frames = 45;
-  Pose before = hip.flexed(0);
-  for (int frame = 0; frame <= frames; ++frame) {
-    const Pose pose = hip.flexed(middle * frame / frames);
-    xpbd::carry_free(u.muscle, before, pose, false, u.state.particles);
-    xpbd::move_attached(u.muscle, pose, u.state.particles);
-    xpbd::set_target_lengths(u.muscle, pose, u.state.target_length);
-    u.state.start = u.state.particles;
-    u.placements = xpbd::place_fields(u.muscle, pose);
-    SolveSettings settings = u.settings;
-    if (frame == frames) settings.iterations = 3;
-    solve_substep(u.muscle.system, u.placements, settings, u.state);
-    before = pose;
-  }
-  refresh_contacts(u.muscle.system, u.placements, u.state);
-  return u;
+  std::vector<Pose> poses;
+  for (int frame = 0; frame <= frames; ++frame) poses.push_back(benchmark_hip().flexed(middle * frame / frames));
+  return xpbd::under_way(benchmark_hip().scene, muscle, benchmark_hip().fields, poses);
 }
 
 const UnderWay& prepared(std::size_t muscle) {
   static std::vector<std::unique_ptr<UnderWay>> all(benchmark_hip().scene.muscles.size());
-  if (!all[muscle]) all[muscle] = std::make_unique<UnderWay>(under_way(benchmark_hip().scene.muscles[muscle]));
+  if (!all[muscle]) all[muscle] = std::make_unique<UnderWay>(half_way(benchmark_hip().scene.muscles[muscle]));
   return *all[muscle];
 }
 

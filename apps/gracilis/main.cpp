@@ -1,4 +1,5 @@
 #include "activations_command.hpp"
+#include "bench_command.hpp"
 #include "command.hpp"
 #include "console.hpp"
 #include "demo_command.hpp"
@@ -36,6 +37,7 @@ int main(int count, char** arguments) {
   add_fibers_command(program, chosen);
   add_activations_command(program, chosen);
   add_print_config_command(program, chosen);
+  add_bench_command(program, chosen);
   add_inspect_command(program, chosen);
   add_report_command(program, chosen);
   add_prepare_command(program, chosen);

@@ -1,7 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/solver.hpp>
 
-#include <state_hash.hpp>
+#include <gracilis/core/state_hash.hpp>
 
 #include "systems_for_tests.hpp"
 

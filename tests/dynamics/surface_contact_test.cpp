@@ -3,7 +3,7 @@
 #include <gracilis/dynamics/surface_contact.hpp>
 
 #include <shapes.hpp>
-#include <state_hash.hpp>
+#include <gracilis/core/state_hash.hpp>
 
 #include "systems_for_tests.hpp"
 

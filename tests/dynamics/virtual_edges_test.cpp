@@ -3,7 +3,7 @@
 #include <gracilis/dynamics/virtual_edges.hpp>
 
 #include <shapes.hpp>
-#include <state_hash.hpp>
+#include <gracilis/core/state_hash.hpp>
 
 #include "systems_for_tests.hpp"
 

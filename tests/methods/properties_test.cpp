@@ -4,7 +4,7 @@
 #include <gracilis/simulate/run.hpp>
 
 #include <scenes_for_tests.hpp>
-#include <state_hash.hpp>
+#include <gracilis/core/state_hash.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <scenes_for_tests.hpp>
-#include <state_hash.hpp>
+#include <gracilis/core/state_hash.hpp>
 
 #include <gtest/gtest.h>
 

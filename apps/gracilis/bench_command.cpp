@@ -1,0 +1,167 @@
+#include "bench_command.hpp"
+
+#include "scene_options.hpp"
+
+#include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/core/state_hash.hpp>
+#include <gracilis/io/field_cache.hpp>
+#include <gracilis/methods/xpbd/under_way.hpp>
+#include <gracilis/methods/xpbd/xpbd_method.hpp>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+namespace gracilis {
+
+namespace {
+
+struct BenchOptions {
+  std::filesystem::path file;
+  SceneOptions scene;
+  std::vector<int> threads;
+  int frame = -1;  ///< -1: a quarter of the motion
+  int repeats = 15;
+  bool json = false;
+};
+
+/// One line of the answer.
+struct BenchEntry {
+  std::string muscle, phase;
+  int threads = 1;
+  Index triangles = 0;
+  double milliseconds = 0;
+  std::uint64_t hash = 0;
+};
+
+/// The phases of an iteration, and the iteration itself first. Muscles are timed relaxed, so nothing contracts.
+struct Phase {
+  const char* name;
+  std::optional<ConstraintKind> kind;
+};
+constexpr Phase phases[] = {{"iteration", {}},
+                            {"distance", ConstraintKind::distance},
+                            {"dihedral", ConstraintKind::dihedral},
+                            {"volume", ConstraintKind::volume},
+                            {"stretch_limit", ConstraintKind::stretch_limit},
+                            {"bone_contact", ConstraintKind::bone_contact}};
+
+/// The poses from the capture pose to the frame asked for.
+std::vector<Pose> poses_until(const Scene& scene, int frame) {
+  std::vector<Pose> poses = pose_sequence(scene);
+  const int last = static_cast<int>(poses.size()) - 1;
+  if (frame > last)
+    throw ConfigurationError(
+        {"", "--frame", fmt::format("the motion has frames 0 to {}", last), "ask for one of them"});
+  poses.resize(static_cast<std::size_t>(frame < 0 ? (last + 3) / 4 : frame) + 1);
+  return poses;
+}
+
+void time_muscle(const xpbd::UnderWay& muscle, const BenchOptions& options, std::vector<BenchEntry>& entries) {
+  for (const int threads : options.threads) {
+    const ThreadLimit limit(threads);
+    for (const Phase& phase : phases) {
+      const xpbd::PhaseTime time = xpbd::time_projection(muscle, phase.kind, options.repeats);
+      entries.push_back({muscle.muscle.name, phase.name, threads, static_cast<Index>(muscle.muscle.faces.cols()),
+                         time.milliseconds, time.hash});
+    }
+  }
+}
+
+/// Whole frames with all contact: the median over those of the second half of the way.
+BenchEntry time_frames(const Scene& scene, const std::vector<DistanceField>& fields, const std::vector<Pose>& poses,
+                       int threads) {
+  const ThreadLimit limit(threads);
+  const auto method = make_xpbd_method(scene, fields);
+  std::vector<double> times;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const auto started = std::chrono::steady_clock::now();
+    method->advance(poses[i]);
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - started;
+    if (2 * i >= poses.size() - 1) times.push_back(elapsed.count());
+  }
+  BenchEntry entry{"all", "frame", threads, 0, 0, hash_seed};
+  for (const Muscle& muscle : scene.muscles) entry.triangles += muscle.surface.face_count();
+  if (times.empty()) return entry;
+  const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
+  std::nth_element(times.begin(), middle, times.end());
+  entry.milliseconds = *middle;
+  Frame end;
+  method->write(end);
+  for (const MuscleShape& shape : end.muscles) entry.hash = hash_of(shape.points, entry.hash);
+  return entry;
+}
+
+void print_json(const Scene& scene, int frame, const std::vector<BenchEntry>& entries) {
+  nlohmann::ordered_json answer = {{"version", GRACILIS_VERSION},
+                                   {"scene", scene.name},
+                                   {"frame", frame},
+                                   {"instruction_set", instruction_set()},
+                                   {"benchmarks", nlohmann::ordered_json::array()}};
+  for (const BenchEntry& entry : entries)
+    answer["benchmarks"].push_back({{"muscle", entry.muscle},
+                                    {"phase", entry.phase},
+                                    {"threads", entry.threads},
+                                    {"triangles", entry.triangles},
+                                    {"ms", entry.milliseconds},
+                                    {"hash", fmt::format("{:016x}", entry.hash)}});
+  fmt::print("{}\n", answer.dump(2));
+}
+
+void print_table(const std::vector<BenchEntry>& entries) {
+  fmt::print("{:24} {:14} {:>7} {:>9} {:>10}  {}\n", "muscle", "phase", "threads", "triangles", "ms", "hash");
+  for (const BenchEntry& entry : entries)
+    fmt::print("{:24} {:14} {:7} {:9} {:10.4f}  {:016x}\n", entry.muscle, entry.phase, entry.threads, entry.triangles,
+               entry.milliseconds, entry.hash);
+}
+
+int bench(const Scene& scene, BenchOptions options) {
+  if (options.threads.empty()) {
+    options.threads = {1};
+    if (thread_count() > 1) options.threads.push_back(thread_count());
+  }
+  const std::vector<Pose> poses = poses_until(scene, options.frame);
+  std::vector<DistanceField> fields;
+  for (const Bone& bone : scene.bones)
+    fields.push_back(cached_bone_field(bone, scene.distance_fields, default_cache_folder()));
+  std::vector<BenchEntry> entries;
+  for (const Muscle& muscle : scene.muscles)
+    time_muscle(xpbd::under_way(scene, muscle, fields, poses), options, entries);
+  for (const int threads : options.threads) entries.push_back(time_frames(scene, fields, poses, threads));
+  if (options.json)
+    print_json(scene, static_cast<int>(poses.size()) - 1, entries);
+  else
+    print_table(entries);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& program, Command& chosen) {
+  CLI::App* command = program.add_subcommand(
+      "bench", "Time one iteration, its phases and whole frames of a scene; of the built-in hip without one");
+  const auto options = std::make_shared<BenchOptions>();
+  add_scene_options(*command, options->file, options->scene);
+  command->get_option("SCENE")->required(false);
+  command->add_option("--threads", options->threads, "Numbers of threads, separated by commas (default: 1 and all)")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--frame", options->frame, "Frame of the motion to time at (default: a quarter of the way)")
+      ->check(CLI::Range(0, 1000000));
+  command->add_option("--repeats", options->repeats, "How often each is timed; the median counts (default: 15)")
+      ->check(CLI::Range(1, 100000));
+  command->add_flag("--json", options->json, "Print JSON instead of a table");
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      return bench(options->file.empty() ? builtin_hip() : read_scene(options->file, options->scene).scene, *options);
+    };
+  });
+}
+
+}  // namespace gracilis

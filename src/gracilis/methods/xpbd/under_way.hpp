@@ -1,0 +1,34 @@
+#pragma once
+
+#include <gracilis/methods/xpbd/preparation.hpp>
+#include <gracilis/scene/pose.hpp>
+
+#include <cstdint>
+#include <optional>
+
+namespace gracilis::xpbd {
+
+/// A muscle in the middle of a solve, neither at rest nor converged: what timings of a single iteration start from.
+struct UnderWay {
+  PreparedMuscle muscle;
+  std::vector<FieldPlacement> placements;
+  SolveSettings settings;
+  SurfaceState state;
+};
+
+/// Takes a muscle alone and relaxed through the poses, and stops after three iterations of the last. `fields` (one per
+/// bone) must outlive the result. Precondition: at least one pose; the scene is valid.
+UnderWay under_way(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
+                   const std::vector<Pose>& poses);
+
+/// What a repeated piece of work takes, and a fingerprint of the positions after it.
+struct PhaseTime {
+  double milliseconds = 0;  ///< median
+  std::uint64_t hash = 0;
+};
+
+/// Times one projection of all constraints of a kind, or, without a kind, one iteration with all of them: the mean of
+/// ten in a row from where the muscle is, the median over `repeats` such rows, each from the same state.
+PhaseTime time_projection(const UnderWay& muscle, std::optional<ConstraintKind> kind, int repeats);
+
+}  // namespace gracilis::xpbd
