@@ -3,6 +3,7 @@
 #include "scene_options.hpp"
 
 #include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/anatomy/finer_muscle.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
@@ -14,8 +15,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 
 namespace gracilis {
@@ -28,6 +32,7 @@ struct BenchOptions {
   std::vector<int> threads;
   int frame = -1;  ///< -1: a quarter of the motion
   int repeats = 15;
+  int subdivide = 0;
   bool json = false;
 };
 
@@ -38,6 +43,8 @@ struct BenchEntry {
   Index triangles = 0;
   double milliseconds = 0;
   std::uint64_t hash = 0;
+  double bytes_per_triangle =
+      0;  ///< growth of the process's peak while the muscle was prepared and solved; 0: not asked
 };
 
 /// The phases of an iteration, and the iteration itself first. Muscles are timed relaxed, so nothing contracts.
@@ -63,13 +70,25 @@ std::vector<Pose> poses_until(const Scene& scene, int frame) {
   return poses;
 }
 
-void time_muscle(const xpbd::UnderWay& muscle, const BenchOptions& options, std::vector<BenchEntry>& entries) {
+/// The most memory that the process ever had, bytes.
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+void time_muscle(const Scene& scene, const Muscle& which, const std::vector<DistanceField>& fields,
+                 const std::vector<Pose>& poses, const BenchOptions& options, std::vector<BenchEntry>& entries) {
+  const double before = peak_memory();
+  const xpbd::UnderWay muscle = xpbd::under_way(scene, which, fields, poses);
+  const auto triangles = static_cast<Index>(muscle.muscle.faces.cols());
+  const double grown = (peak_memory() - before) / triangles;
   for (const int threads : options.threads) {
     const ThreadLimit limit(threads);
     for (const Phase& phase : phases) {
       const xpbd::PhaseTime time = xpbd::time_projection(muscle, phase.kind, options.repeats);
-      entries.push_back({muscle.muscle.name, phase.name, threads, static_cast<Index>(muscle.muscle.faces.cols()),
-                         time.milliseconds, time.hash});
+      entries.push_back(
+          {muscle.muscle.name, phase.name, threads, triangles, time.milliseconds, time.hash, phase.kind ? 0 : grown});
     }
   }
 }
@@ -86,7 +105,7 @@ BenchEntry time_frames(const Scene& scene, const std::vector<DistanceField>& fie
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - started;
     if (2 * i >= poses.size() - 1) times.push_back(elapsed.count());
   }
-  BenchEntry entry{"all", "frame", threads, 0, 0, hash_seed};
+  BenchEntry entry{"all", "frame", threads, 0, 0, hash_seed, 0};
   for (const Muscle& muscle : scene.muscles) entry.triangles += muscle.surface.face_count();
   if (times.empty()) return entry;
   const auto middle = times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2);
@@ -104,13 +123,13 @@ void print_json(const Scene& scene, int frame, const std::vector<BenchEntry>& en
                                    {"frame", frame},
                                    {"instruction_set", instruction_set()},
                                    {"benchmarks", nlohmann::ordered_json::array()}};
-  for (const BenchEntry& entry : entries)
-    answer["benchmarks"].push_back({{"muscle", entry.muscle},
-                                    {"phase", entry.phase},
-                                    {"threads", entry.threads},
-                                    {"triangles", entry.triangles},
-                                    {"ms", entry.milliseconds},
-                                    {"hash", fmt::format("{:016x}", entry.hash)}});
+  for (const BenchEntry& entry : entries) {
+    nlohmann::ordered_json line = {{"muscle", entry.muscle},   {"phase", entry.phase},
+                                   {"threads", entry.threads}, {"triangles", entry.triangles},
+                                   {"ms", entry.milliseconds}, {"hash", fmt::format("{:016x}", entry.hash)}};
+    if (entry.bytes_per_triangle > 0) line["peak_bytes_per_triangle"] = std::round(entry.bytes_per_triangle);
+    answer["benchmarks"].push_back(line);
+  }
   fmt::print("{}\n", answer.dump(2));
 }
 
@@ -121,7 +140,9 @@ void print_table(const std::vector<BenchEntry>& entries) {
                entry.milliseconds, entry.hash);
 }
 
-int bench(const Scene& scene, BenchOptions options) {
+int bench(Scene scene, BenchOptions options) {
+  for (Muscle& muscle : scene.muscles)
+    for (int i = 0; i < options.subdivide; ++i) muscle = finer_muscle(muscle);
   if (options.threads.empty()) {
     options.threads = {1};
     if (thread_count() > 1) options.threads.push_back(thread_count());
@@ -131,8 +152,7 @@ int bench(const Scene& scene, BenchOptions options) {
   for (const Bone& bone : scene.bones)
     fields.push_back(cached_bone_field(bone, scene.distance_fields, default_cache_folder()));
   std::vector<BenchEntry> entries;
-  for (const Muscle& muscle : scene.muscles)
-    time_muscle(xpbd::under_way(scene, muscle, fields, poses), options, entries);
+  for (const Muscle& muscle : scene.muscles) time_muscle(scene, muscle, fields, poses, options, entries);
   for (const int threads : options.threads) entries.push_back(time_frames(scene, fields, poses, threads));
   if (options.json)
     print_json(scene, static_cast<int>(poses.size()) - 1, entries);
@@ -156,6 +176,10 @@ void add_bench_command(CLI::App& program, Command& chosen) {
       ->check(CLI::Range(0, 1000000));
   command->add_option("--repeats", options->repeats, "How often each is timed; the median counts (default: 15)")
       ->check(CLI::Range(1, 100000));
+  command
+      ->add_option("--subdivide", options->subdivide,
+                   "Divide every triangle of the muscles into four, so many times over, to see how time grows")
+      ->check(CLI::Range(0, 6));
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   command->callback([&chosen, options] {
     chosen = [options] {

@@ -31,6 +31,15 @@ struct Lanes {
   static HWY_INLINE V copy_sign(V x, V sign) { return hn::CopySign(x, sign); }
   /// x < y ? a : b
   static HWY_INLINE V if_less(V x, V y, V a, V b) { return hn::IfThenElse(hn::Lt(x, y), a, b); }
+  /// 1 / x and 1 / √x for x > 0, from the machine's estimate by a step of Newton's: a division costs several times that.
+  static HWY_INLINE V reciprocal(V x) {
+    const V estimate = hn::ApproximateReciprocal(x);
+    return estimate * hn::NegMulAdd(x, estimate, number(2));
+  }
+  static HWY_INLINE V inverse_sqrt(V x) {
+    const V estimate = hn::ApproximateReciprocalSqrt(x);
+    return estimate * hn::NegMulAdd(number(0.5) * x * estimate, estimate, number(1.5));
+  }
 };
 
 /// ... and for one number, so that tests can ask for double precision.
@@ -44,6 +53,8 @@ struct Scalar {
   static V fma(V x, V y, V z) { return x * y + z; }
   static V copy_sign(V x, V sign) { return std::copysign(x, sign); }
   static V if_less(V x, V y, V a, V b) { return x < y ? a : b; }
+  static V reciprocal(V x) { return 1 / x; }
+  static V inverse_sqrt(V x) { return 1 / std::sqrt(x); }
 };
 
 template <class V>
@@ -78,7 +89,7 @@ HWY_INLINE V atan2(V y, V x) {
   const V zero = Math::number(0), half_turn = Math::number(3.14159265358979323846),
           quarter = Math::number(1.57079632679489661923);
   const V ax = Math::abs(x), ay = Math::abs(y);
-  const V t = Math::min(ax, ay) / Math::max(Math::max(ax, ay), Math::number(1e-37));
+  const V t = Math::min(ax, ay) * Math::reciprocal(Math::max(Math::max(ax, ay), Math::number(1e-37)));
   const V s = t * t;
   V p = Math::number(0.0028662257);
   p = Math::fma(p, s, Math::number(-0.0161657367));
@@ -104,10 +115,9 @@ struct EdgeLength {
 template <class Math, class V = typename Math::V>
 HWY_INLINE EdgeLength<V> edge_length(const Vector3<V>& a, const Vector3<V>& b) {
   const Vector3<V> d = b - a;
-  const V length = Math::sqrt(dot<Math>(d, d));
-  const V tiny = Math::number(1e-12);
-  const V inverse = Math::if_less(length, tiny, Math::number(0), Math::number(1) / Math::max(length, tiny));
-  return {length, scaled(inverse, d)};
+  const V length2 = dot<Math>(d, d), tiny = Math::number(1e-24), zero = Math::number(0);
+  const V inverse = Math::if_less(length2, tiny, zero, Math::inverse_sqrt(Math::max(length2, tiny)));
+  return {length2 * inverse, scaled(inverse, d)};
 }
 
 /// The signed angle at a hinge and its gradient at the four points; all zero where a triangle or the edge has no area.
@@ -142,12 +152,12 @@ HWY_INLINE HingeAngle<V> hinge_angle(const Vector3<V>& x0, const Vector3<V>& x1,
   const V smaller = Math::min(n1_squared, n2_squared);
   HingeAngle<V> hinge;
   hinge.valid = Math::if_less(smaller, floor, zero, one);
-  const V length = Math::sqrt(length2);
-  const V inverse_length2 = hinge.valid / Math::max(length2, Math::number(1e-30));
-  hinge.angle = hinge.valid * atan2<Math>(dot<Math>(cross(n1, n2), e) * length * inverse_length2, dot<Math>(n1, n2));
-  hinge.g2 = scaled(zero - length * hinge.valid / Math::max(n1_squared, floor), n1);
-  hinge.g3 = scaled(zero - length * hinge.valid / Math::max(n2_squared, floor), n2);
-  balance_edge_ends<Math>(e, a, b, inverse_length2, hinge);
+  const V inverse_length = hinge.valid * Math::inverse_sqrt(Math::max(length2, Math::number(1e-30)));
+  const V length = length2 * inverse_length;
+  hinge.angle = hinge.valid * atan2<Math>(dot<Math>(cross(n1, n2), e) * inverse_length, dot<Math>(n1, n2));
+  hinge.g2 = scaled(zero - length * Math::reciprocal(Math::max(n1_squared, floor)), n1);
+  hinge.g3 = scaled(zero - length * Math::reciprocal(Math::max(n2_squared, floor)), n2);
+  balance_edge_ends<Math>(e, a, b, inverse_length * inverse_length, hinge);
   return hinge;
 }
 

@@ -67,7 +67,7 @@ ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, con
       weight = weight * (one + gamma);
     }
     // Between two fixed particles, and in padding, nothing moves.
-    const V step = hn::IfThenElse(hn::Gt(ends.weight, zero), (zero - numerator) / hn::Max(weight + alpha, tiny), zero);
+    const V step = hn::IfThenElse(hn::Gt(ends.weight, zero), (zero - numerator) * Math::reciprocal(hn::Max(weight + alpha, tiny)), zero);
     counts.skipped += count_without_direction(edge.length, ends.weight);
     hn::StoreU(multiplier + step, d, lambda + at);
     move_ends(ends, step, edge.direction, particles);
@@ -89,7 +89,7 @@ ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, 
     const V c = edge.length - hn::LoadU(d, target_length + at), weight = ends.weight;
     const V alpha = hn::LoadU(d, set.compliance.data() + at) * softness;
     const V multiplier = hn::LoadU(d, lambda + at);
-    const V wanted = multiplier - (c + alpha * multiplier) / hn::Max(weight + alpha, tiny);
+    const V wanted = multiplier - (c + alpha * multiplier) * Math::reciprocal(hn::Max(weight + alpha, tiny));
     // A pull has a negative multiplier; a push is none of this constraint's business.
     const V step = hn::IfThenElseZero(hn::Gt(weight, zero), hn::Min(wanted, zero) - multiplier);
     counts.skipped += count_without_direction(edge.length, ends.weight);
@@ -161,15 +161,15 @@ ProjectionCounts project_hinge_range(const HingeSet& set, ColorRange range, floa
                            motion_along(hinge.g2, p2.x, from, index[2]) + motion_along(hinge.g3, p3.x, from, index[3]));
       weight = weight * (one + gamma);
     }
-    V step = hn::IfThenElse(movable, (zero - numerator) / hn::Max(weight + alpha, tiny), zero);
+    V step = hn::IfThenElse(movable, (zero - numerator) * Math::reciprocal(hn::Max(weight + alpha, tiny)), zero);
     if (limiting) {
       const V reach2 =
           hn::Max(hn::Max(p0.w * p0.w * g0, p1.w * p1.w * g1), hn::Max(p2.w * p2.w * g2, p3.w * p3.w * g3));
-      const V motion = hn::Abs(step) * hn::Sqrt(reach2);
+      const V motion2 = step * step * reach2;
       const V limit = hn::LoadU(d, set.edge_length.data() + at) * hn::Set(d, parameters.hinge_limit);
-      const auto beyond = hn::Gt(motion, limit);
+      const auto beyond = hn::Gt(motion2, limit * limit);
       counts.limited += static_cast<Index>(hn::CountTrue(d, beyond));
-      step = hn::IfThenElse(beyond, step * (limit / hn::Max(motion, tiny)), step);
+      step = hn::IfThenElse(beyond, step * limit * Math::inverse_sqrt(hn::Max(motion2, tiny)), step);
     }
     const V moving_weight = hn::Max(hn::Max(p0.w, p1.w), hn::Max(p2.w, p3.w));
     counts.skipped +=
