@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# Times the solver on this machine and writes docs/performance.md. Needs a build (./demo.sh or cmake) and, for the
+# cadaver's hip, its data. Close everything else first: other programs show in the numbers.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+program=${GRACILIS_PROGRAM:-build/release/bin/gracilis}
+page=docs/performance.md
+four=gluteus_maximus_r,gluteus_medius_r,iliacus_r,psoas_major_r
+hip=(scenes/lhdl_hip/flexion.toml --set fibers.count=0 --set sequence.ramp_frames=0)
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+say() { printf '%s\n' "$@" >>"$work/page"; }
+
+# Lines of `gracilis bench` of one phase as rows: muscle, triangles, threads, ms, hash.
+rows() { awk -v phase="$1" '$2 == phase { printf "| %s | %s | %s | %s | `%s` |\n", $1, $4, $3, $5, $6 }' "$2"; }
+
+machine() {
+  local processor
+  processor=$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)
+  printf '%s, %s threads, %s; %s' "$processor" "$(nproc)" "$("$program" --version)" "$(uname -sr)"
+}
+
+say "# Performance" "" "Written by \`benchmarks/run.sh\` on: $(machine)." ""
+say "Times are medians in milliseconds of wall clock; the fingerprint of the resulting state stands beside each. On another" \
+  "machine, or with other programs running, they differ; ratios within one table say more than numbers." ""
+
+"$program" bench "${hip[@]}" --only "$four" --frame 45 >"$work/four"
+say "## One iteration" "" "Every kind of constraint once, bones included, at 45 degrees of flexion of the cadaver's hip." "" \
+  "| muscle | triangles | threads | ms | state |" "| --- | --- | --- | --- | --- |"
+rows iteration "$work/four" >>"$work/page"
+say "" "By kind of constraint, one thread:" "" "| muscle | distance | dihedral | volume | stretch limit | bone contact |" \
+  "| --- | --- | --- | --- | --- | --- |"
+awk '$3 == 1 && $1 != "all" { ms[$1, $2] = $5; if ($2 == "iteration") names[++n] = $1 }
+  END { for (i = 1; i <= n; ++i) { m = names[i]
+    printf "| %s | %s | %s | %s | %s | %s |\n", m, ms[m, "distance"], ms[m, "dihedral"], ms[m, "volume"], ms[m, "stretch_limit"], ms[m, "bone_contact"] } }' \
+  "$work/four" >>"$work/page"
+
+say "" "## Whole frames" "" "The four muscles, one degree of flexion per frame, by iterations and by \`contact.muscle\`." "" \
+  "| iterations | contact | threads | ms | frames per second |" "| --- | --- | --- | --- | --- |"
+for iterations in 30 70; do
+  for contact in none virtual-edges surface; do
+    "$program" bench "${hip[@]}" --only "$four" --frame 45 --repeats 1 --set iterations="$iterations" \
+      --set contact.muscle="$contact" >"$work/frames"
+    awk -v i="$iterations" -v c="$contact" '$2 == "frame" { printf "| %s | %s | %s | %s | %.1f |\n", i, c, $3, $5, 1000 / $5 }' \
+      "$work/frames" >>"$work/page"
+  done
+done
+
+say "" "## Growth with triangles" "" "Gluteus maximus, each triangle divided into four again and again; one thread. The last column is" \
+  "what the process's peak of memory grew while the muscle was prepared and solved." "" \
+  "| triangles | ms per iteration | ns per triangle | bytes per triangle |" "| --- | --- | --- | --- |"
+for times in 0 1 2 3; do
+  "$program" bench "${hip[@]}" --only gluteus_maximus_r --frame 5 --threads 1 --repeats 5 --subdivide "$times" --json |
+    awk -F'[:,]' '/"triangles"/ { t = $2 } /"ms"/ { ms = $2 }
+      /peak_bytes/ { printf "| %d | %.3f | %.1f | %d |\n", t, ms, 1e6 * ms / t, $2 }' >>"$work/page"
+done
+
+mv "$work/page" "$page"
+echo "$page"
