@@ -198,6 +198,12 @@ void end_iteration(SurfaceSolve& surface, Progress& progress, const std::functio
                surface.report);
   told(ConstraintKind::bone_contact);
   ++surface.report.iterations;
+  // What contact takes from the volume, or the volume presses into an obstacle, is shared out between them.
+  for (int round = 0; progress.last && round < settings.settling_rounds; ++round)
+    for (const ConstraintKind kind : {ConstraintKind::volume, ConstraintKind::bone_contact}) {
+      project_kind(kind, *surface.system, *surface.placements, settings, *surface.state, surface.report);
+      told(kind);
+    }
   progress.done =
       progress.last || (settings.stop_displacement > 0 &&
                         largest_motion(progress.before, surface.state->particles) < settings.stop_displacement);

@@ -31,6 +31,7 @@ static Preset thesis_2024() {
   xpbd.predictor = false;
   xpbd.tendon_length = 0;
   xpbd.step_turn = 0;
+  xpbd.settling_rounds = 0;
   xpbd.shape_recovery = 0;
   xpbd.hinge_limit = 0;
   xpbd.stretch_limit = 0;

@@ -23,6 +23,7 @@ namespace {
 SolveSettings solve_settings(const XpbdSettings& settings, int substeps) {
   SolveSettings solve;
   solve.iterations = settings.iterations;
+  solve.settling_rounds = settings.settling_rounds;
   solve.time_step = settings.time_step / (settings.time_mode == TimeMode::dynamic ? substeps : settings.substeps);
   solve.projection.time_step =
       static_cast<float>(settings.constraint_time_step > 0 ? settings.constraint_time_step : solve.time_step);
