@@ -7,6 +7,7 @@
 #include "fibers_command.hpp"
 #include "import_command.hpp"
 #include "inspect_command.hpp"
+#include "motions_command.hpp"
 #include "paths_command.hpp"
 #include "prepare_command.hpp"
 #include "print_config_command.hpp"
@@ -42,6 +43,7 @@ int main(int count, char** arguments) {
   add_report_command(program, chosen);
   add_prepare_command(program, chosen);
   add_import_command(program, chosen);
+  add_motions_command(program, chosen);
   add_paths_command(program, chosen);
   add_static_optimization_command(program, chosen);
   try {

@@ -4,6 +4,7 @@
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/io/scene_reader.hpp>
+#include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/methods/cylinder/spindle.hpp>
 #include <gracilis/opensim/scene_folder.hpp>
 #include <gracilis/opensim/skeleton.hpp>
@@ -153,6 +154,14 @@ TEST(SceneFolder, the_walking_model_becomes_a_scene_of_92_muscles) {
   EXPECT_EQ(loaded.scene.muscles.size(), 92u);
   EXPECT_EQ(loaded.scene.bones.size(), 19u);
   EXPECT_TRUE(validate(loaded.scene).empty());
+  Scene cylinders = loaded.scene;
+  cylinders.method = MethodKind::cylinder;
+  EXPECT_TRUE(validate(cylinders).empty());
+  const auto method = make_cylinder_method(cylinders);
+  Frame frame;
+  for (const Pose& pose : pose_sequence(cylinders)) method->advance(pose);
+  method->write(frame);
+  EXPECT_EQ(frame.muscles.size(), 92u);
 }
 
 TEST(SceneFolder, the_cadaver_hip_becomes_a_scene_of_8_muscles) {

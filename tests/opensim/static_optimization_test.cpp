@@ -107,12 +107,10 @@ static const char* load_file =
     "</OpenSimDocument>";
 
 TEST(ExternalLoads, a_force_at_a_point_and_a_torque_act_on_the_body) {
+  const Model model = model_from(pendulum());
   const TestFolder folder;
   folder.write("loads.mot", load_table);
-  const Model model = model_from(pendulum());
-  const TestFolder same;
-  same.write("loads.mot", load_table);
-  const ExternalLoads loads = read_external_loads(model, same.write("loads.xml", load_file));
+  const ExternalLoads loads = read_external_loads(model, folder.write("loads.xml", load_file));
   ASSERT_EQ(loads.forces.size(), 1u);
   EXPECT_EQ(loads.end, 3);
   Skeleton skeleton(model);

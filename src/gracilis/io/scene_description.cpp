@@ -168,6 +168,18 @@ static void read_contraction(TomlReader table, MuscleDescription& muscle) {
   table.reject_unknown_keys();
 }
 
+static void read_action_line(TomlReader table, ActionLineDescription& description) {
+  ActionLine& line = description.line;
+  line.rays = static_cast<Index>(table.required_number("rays", {6, 1000}).value_or(6));
+  line.scaling = static_cast<int>(table.number("scaling", {0, 16}).value_or(0));
+  line.tendon = millimetres(table, "tendon_mm");
+  description.bodies = table.texts("bodies");
+  if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3)) line.points = rows->transpose() / 1000;
+  if (line.points.cols() != static_cast<Index>(description.bodies.size()))
+    table.add_problem("bodies", "'bodies' must name a body for each of 'points_mm'");
+  table.reject_unknown_keys();
+}
+
 static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& global, const FiberSettings& fibers,
                                      const ContractionSettings& contraction) {
   MuscleDescription muscle;
@@ -179,6 +191,8 @@ static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& globa
   muscle.contraction = contraction;
   if (std::optional<TomlReader> own = table.table("fibers")) read_fibers(std::move(*own), muscle);
   if (std::optional<TomlReader> own = table.table("contraction")) read_contraction(std::move(*own), muscle);
+  if (std::optional<TomlReader> line = table.table("action_line"))
+    read_action_line(std::move(*line), muscle.action_line);
   if (std::optional<TomlReader> settings = table.table("settings")) {
     settings->read_settings(muscle.xpbd);
     settings->reject_unknown_keys();
@@ -332,6 +346,8 @@ static void check_references(const SceneDescription& scene, std::vector<Problem>
   }
   for (const MuscleDescription& muscle : scene.muscles) {
     reject_duplicates(muscle.attachments, "attachment", problems);
+    for (const std::string& body : muscle.action_line.bodies)
+      require_known(body, bodies, "body", muscle.place, problems);
     for (const AttachmentDescription& attachment : muscle.attachments) {
       for (const std::string& bone : attachment.bones) require_known(bone, bones, "bone", attachment.place, problems);
       require_known(attachment.body, bodies, "body", attachment.place, problems);
@@ -436,6 +452,10 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
     top.add_problem("schema", "only schema 1 is known to this version");
   }
   scene.name = top.text("name").value_or(path.stem().string());
+  const std::string method = top.text("method").value_or("xpbd");
+  if (method != "xpbd" && method != "cylinder")
+    top.add_problem("method", "there is no method '" + method + "'", suggestion(method, {"xpbd", "cylinder"}));
+  scene.method = method == "cylinder" ? MethodKind::cylinder : MethodKind::xpbd;
   read_axes(top, scene.axes);
   XpbdSettings global;
   start_from_preset(top, scene, global);

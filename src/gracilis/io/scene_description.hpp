@@ -51,6 +51,12 @@ struct AttachmentDescription {
   Problem place;
 };
 
+/// The line of a muscle made of sections, with the bodies' names.
+struct ActionLineDescription {
+  ActionLine line;  ///< its bodies are empty
+  std::vector<std::string> bodies;
+};
+
 struct MuscleDescription {
   std::string name;
   NamedFile file;  ///< or a box
@@ -62,6 +68,7 @@ struct MuscleDescription {
   ContractionSettings contraction;
   NamedFile contraction_file;  ///< surface fibers; empty path: none
   std::vector<AttachmentDescription> attachments;
+  ActionLineDescription action_line;
   Problem place;
 };
 
@@ -121,6 +128,7 @@ struct SceneDescription {
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
   ContactSettings contact;
   NamedFile landmarks;
+  MethodKind method = MethodKind::xpbd;
   std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
   std::vector<std::string> notes;
 };

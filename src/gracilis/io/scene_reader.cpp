@@ -42,6 +42,7 @@ class SceneBuilder {
     result_.scene.axes = description_.axes;
     result_.scene.distance_fields = description_.distance_fields;
     result_.scene.contact = description_.contact;
+    result_.scene.method = description_.method;
     place_bodies();
     stop_at<ConfigurationError>();
     read_files();
@@ -189,6 +190,9 @@ class SceneBuilder {
       });
     }
     muscle.contraction = description.contraction;
+    muscle.action_line = description.action_line.line;
+    for (const std::string& body : description.action_line.bodies)
+      muscle.action_line.bodies.push_back(body_index(body));
     if (!description.contraction_file.path.empty()) {
       read(description.contraction_file, [&](const fs::path& path) {
         muscle.given_surface_fibers = read_polylines(path, description.contraction_file.unit);

@@ -42,6 +42,10 @@ superior = [0, 1, 0]
 # (bones, muscles, ...) by their names; what stands here wins. [motion] is replaced as a whole.
 # include = ["base.toml"]
 
+# Optional: how muscles are deformed. "xpbd" (default): their surfaces, by constraints; "cylinder": sections across an
+# action line, without a solver, for muscles that 'gracilis import' made.
+method = "xpbd"
+
 # Optional: keep these muscles only.
 # only = ["gluteus_maximus_r"]
 

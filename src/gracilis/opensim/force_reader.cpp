@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace gracilis::opensim {
 
 /// 4.x says appliesForce, 3.x isDisabled.

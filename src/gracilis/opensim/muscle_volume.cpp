@@ -60,6 +60,7 @@ MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::
   const SectionFrames frames = section_frames(fine, Vec3::UnitX());
   volume.surface.vertices = section_vertices(fine, frames, radii.transpose().replicate(rays, 1));
   volume.surface.faces = section_faces(sections, rays);
+  volume.line = {line.points, line.bodies, rays, scaling, tendon};
   std::vector<Index> first_vertices = section(0, rays), last_vertices = section(last, rays);
   first_vertices.push_back(rays * sections);
   last_vertices.push_back(rays * sections + 1);

@@ -22,6 +22,7 @@ struct HeldVertices {
 
 struct MuscleVolume {
   TriangleMesh surface;
+  ActionLine line;  ///< its bodies are the model's
   std::vector<HeldVertices> held;
 };
 

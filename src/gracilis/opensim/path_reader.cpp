@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gracilis::opensim {
 
 /// "+x", "-y" ...: the side a path stays on; "all" is both.
@@ -97,8 +99,9 @@ static void read_wraps(ModelReading& reading, const pugi::xml_node& node, Path& 
     }
     const std::vector<Real> range = reading.context.numbers(each, "range");
     if (range.size() == 2) {
-      wrap.first_point = static_cast<int>(range[0]);
-      wrap.last_point = static_cast<int>(range[1]);
+      const auto number = [&](Real place) { return static_cast<int>(std::clamp(place, -1.0, 1e6)); };
+      wrap.first_point = number(range[0]);
+      wrap.last_point = number(range[1]);
     }
     const auto& object = reading.model.wrap_objects[static_cast<std::size_t>(wrap.object)];
     path.approximate = path.approximate || object.kind != WrapObject::Kind::cylinder;

@@ -50,6 +50,15 @@ static std::string joint_text(const Model& model, const Joint& joint, const Skel
 static std::string muscle_text(const Model& model, const std::string& name, const MuscleVolume& volume) {
   std::string text =
       fmt::format("\n[[muscles]]\nname = {}\nfile = {}\n", quoted(name), quoted("muscles/" + name + ".vtp"));
+  std::vector<std::string> bodies, points;
+  for (const Index body : volume.line.bodies)
+    bodies.push_back(quoted(model.bodies[static_cast<std::size_t>(body)].name));
+  for (Eigen::Index i = 0; i < volume.line.points.cols(); ++i)
+    points.push_back(vector(1000 * volume.line.points.col(i)));
+  text +=
+      fmt::format("\n[muscles.action_line]\nrays = {}\nscaling = {}\ntendon_mm = {}\nbodies = [{}]\npoints_mm = [{}]\n",
+                  volume.line.rays, volume.line.scaling, 1000 * volume.line.tendon, fmt::join(bodies, ", "),
+                  fmt::join(points, ", "));
   for (std::size_t i = 0; i < volume.held.size(); ++i) {
     const HeldVertices& held = volume.held[i];
     const bool origin = held.end == AttachmentEnd::origin;

@@ -51,6 +51,18 @@ struct Attachment {
   bool guessed = false;         ///< not measured: marked so in the run's manifest
 };
 
+/// The line that a muscle pulls along, where its surface is made of sections across it (methods/cylinder).
+struct ActionLine {
+  Points points = Points(3, 0);  ///< world frame of the capture pose, origin first
+  std::vector<Index> bodies;     ///< of each point
+  Index rays = 0;                ///< corners of a section; 0: there is no line
+  int scaling = 0;               ///< sections: the points, and each part between them halved so many times
+  Real tendon = 0;               ///< m, at the insertion
+};
+
+/// Which method deforms a scene's muscles.
+enum class MethodKind { xpbd, cylinder };
+
 struct Muscle {
   std::string name;
   TriangleMesh surface;  ///< closed, oriented outwards
@@ -62,6 +74,7 @@ struct Muscle {
       false;  ///< given_fibers lie on the surface and are to be filled in, not used as they are
   ContractionSettings contraction = {};
   Polylines given_surface_fibers;  ///< picked by hand; where there are any, the muscle contracts along them
+  ActionLine action_line = {};     ///< asked for by the method `cylinder`
 };
 
 /// Coordinate values over time; a row is a pose. Coordinates not named keep their capture value.
@@ -74,9 +87,9 @@ struct Motion {
 
 /// How a run goes from the capture pose (frame 0) into the motion and out of it.
 struct Sequence {
-  int ramp_frames = 0;  ///< between the capture pose and the motion's first pose; 0: as many as 1 degree each needs
+  int ramp_frames = 0;    ///< between the capture pose and the motion's first pose; 0: as many as 1 degree each needs
   int settle_frames = 0;  ///< the motion's first pose repeated before it begins
-  int hold_frames = 0;  ///< the motion's last pose repeated
+  int hold_frames = 0;    ///< the motion's last pose repeated
   bool return_to_capture = false;  ///< ramp back to the capture pose at the end
 };
 
@@ -102,6 +115,7 @@ struct Scene {
   ContactSettings contact;
   ActivationPlan activation = {};
   AnatomicalAxes axes = {};
+  MethodKind method = MethodKind::xpbd;
 };
 
 }  // namespace gracilis

@@ -151,11 +151,35 @@ struct Validation {
     if (!known) add(where, "'slide_on_bone' names '" + name + "', but the scene has no such bone");
   }
 
+  /// The surface must have as many vertices as its sections ask for.
+  void check_line(const std::string& where, const Muscle& muscle) {
+    const ActionLine& line = muscle.action_line;
+    if (line.rays == 0) {
+      if (scene.method == MethodKind::cylinder)
+        add(where, "the method 'cylinder' needs its action line", "add [muscles.action_line]");
+      return;
+    }
+    for (const Index body : line.bodies) check_body(where, body);
+    if (line.rays < 6 || line.rays % 2 != 0) add(where, "its sections must have an even number of corners, 6 or more");
+    if (!line.points.allFinite() || line.points.cols() < 2 ||
+        line.points.cols() != static_cast<Index>(line.bodies.size()) || line.scaling < 0 || line.scaling > 16) {
+      add(where, "its action line needs two points or more with a body each", "correct [muscles.action_line]");
+      return;
+    }
+    const Index sections = ((static_cast<Index>(line.points.cols()) - 1) << line.scaling) + 1;
+    if (muscle.surface.vertex_count() != line.rays * sections + 2)
+      add(where,
+          "its surface has " + std::to_string(muscle.surface.vertex_count()) + " vertices; " +
+              std::to_string(sections) + " sections and two ends have " + std::to_string(line.rays * sections + 2),
+          "give the surface that was made for this line");
+  }
+
   void check_muscles() {
     if (scene.muscles.empty()) add("", "the scene has no muscles", "add [[muscles]]");
     for (const Muscle& muscle : scene.muscles) {
       const std::string where = "muscle '" + muscle.name + "'";
       check_surface(where, muscle.surface);
+      check_line(where, muscle);
       check_settings(where, muscle.xpbd);
       check_settings(where, muscle.fibers);
       check_settings(where, muscle.contraction);
@@ -181,7 +205,8 @@ struct Validation {
     const ContactSettings& contact = scene.contact;
     check_settings("contact", contact);
     if (contact.muscle == MuscleContact::virtual_edges && !(contact.seed_reach > contact.contact_distance))
-      add("contact", "virtual edges are seeded no farther than 'contact_distance', so muscles meet before they are found",
+      add("contact",
+          "virtual edges are seeded no farther than 'contact_distance', so muscles meet before they are found",
           "give 'seed_reach' a larger value");
   }
 
