@@ -43,12 +43,13 @@ static Real left_out_error(const Eigen::MatrixXd& terms, const Eigen::VectorXd& 
 }
 
 PathFit fit_path(const Eigen::MatrixXd& coordinates, const Eigen::VectorXd& lengths, int largest_order) {
+  const Real rounding = 1e-9;  // m
   PathFit best;
   for (int order = 0; order <= largest_order; ++order) {
     const Eigen::MatrixXd terms = terms_of(coordinates, order);
     if (order > 0 && 2 * terms.cols() > terms.rows()) break;
     const Real error = left_out_error(terms, lengths);
-    if (order > 0 && error > 0.99 * best.left_out) continue;
+    if (order > 0 && error > 0.99 * best.left_out - rounding) continue;
     const Eigen::VectorXd fit = least_squares(terms, lengths);
     const Eigen::VectorXd off = terms * fit - lengths;
     best.function.kind = Function::Kind::multivariate;
