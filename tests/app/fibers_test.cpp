@@ -134,14 +134,14 @@ TEST_F(FiberCommands, activations_reach_the_measures_in_every_way) {
   const std::string head = "x\nversion=1\nnRows=2\nnColumns=3\ninDegrees=yes\nendheader\n";
   folder.write("walk.mot", head + "time\tflexion\tknee\n0\t2\t0\n1\t90\t0\n");
   folder.write("parts.sto", head + "time\tmuscle1\tmuscle2\n0\t0.125\t0.5\n1\t1\t1\n");
-  folder.write("forces.sto", head + "time\tmuscle1\tmuscle2\n0\t300\t100\n1\t1\t1\n");
+  folder.write("forces.sto", head + "time\tmuscle1\tmuscle2\n0\t150\t100\n1\t1\t1\n");
   folder.write("names.toml", "muscle = [\"muscle1\", \"muscle2\"]\n");
   const std::string unit =
       "[[joint_control_units]]\nname = \"hip\"\njoint = \"hip\"\nmotion = \"walk.mot\"\nresults = \"parts.sto\"\n"
       "names = \"names.toml\"\n";
   EXPECT_EQ(first_activation(unit), 0.625);
   EXPECT_EQ(first_activation(unit + "combine = \"maximum\"\n"), 0.5);
-  EXPECT_NEAR(first_activation(unit + "combine = \"weighted_mean\"\nforces = \"forces.sto\"\n"), 0.21875, 1e-12);
+  EXPECT_NEAR(first_activation(unit + "combine = \"weighted_mean\"\nforces = \"forces.sto\"\n"), 0.275, 1e-12);
   const ProgramResult unweighted = run("run", good_scene() + unit + "combine = \"weighted_mean\"\n", "--force");
   EXPECT_EQ(unweighted.exit_code, 2);
   EXPECT_THAT(unweighted.err, HasSubstr("need each other"));

@@ -198,12 +198,6 @@ void end_iteration(SurfaceSolve& surface, Progress& progress, const std::functio
                surface.report);
   told(ConstraintKind::bone_contact);
   ++surface.report.iterations;
-  // What contact takes from the volume, or the volume presses into an obstacle, is shared out between them.
-  for (int round = 0; progress.last && round < settings.settling_rounds; ++round)
-    for (const ConstraintKind kind : {ConstraintKind::volume, ConstraintKind::bone_contact}) {
-      project_kind(kind, *surface.system, *surface.placements, settings, *surface.state, surface.report);
-      told(kind);
-    }
   progress.done =
       progress.last || (settings.stop_displacement > 0 &&
                         largest_motion(progress.before, surface.state->particles) < settings.stop_displacement);
@@ -219,10 +213,10 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     surfaces[i].report = {};
     progress[i].done = surfaces[i].settings.iterations <= 0;
   }
-  const auto for_active = [&](const auto& act) {
+  const auto for_each = [&](const auto& wanted, const auto& act) {
     parallel_for(static_cast<Index>(surfaces.size()), 1, [&](Index from, Index to) {
       for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
-        if (progress[i].done) continue;
+        if (!wanted(i)) continue;
         const Clock::time_point started = Clock::now();
         act(surfaces[i], progress[i], [&, i](ConstraintKind kind) {
           if (watch) watch(i, kind);
@@ -231,23 +225,43 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       }
     });
   };
-  const auto is_done = [](const Progress& each) { return each.done; };
-  for (int iteration = 0;; ++iteration) {
-    const double elapsed = milliseconds_since(begin);
-    // The end of one iteration and the begin of the next at one go, while the surface is in the cache.
-    for_active([&](SurfaceSolve& surface, Progress& each, const std::function<void(ConstraintKind)>& told) {
-      if (iteration > 0) end_iteration(surface, each, told);
-      if (!each.done) begin_iteration(surface, each, elapsed, told);
-    });
-    if (std::all_of(progress.begin(), progress.end(), is_done)) break;
-    if (!coupling.project) continue;
+  const auto couple = [&] {
+    if (!coupling.project) return;
     const Clock::time_point started = Clock::now();
-    if (iteration % coupling_refresh == 0) coupling.refresh();
     coupling.project();
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       if (watch) watch(i, ConstraintKind::muscle_contact);
       surfaces[i].report.milliseconds += milliseconds_since(started) / static_cast<double>(surfaces.size());
     }
+  };
+  const auto is_active = [&](std::size_t i) { return !progress[i].done; };
+  const auto is_done = [](const Progress& each) { return each.done; };
+  for (int iteration = 0;; ++iteration) {
+    const double elapsed = milliseconds_since(begin);
+    // The end of one iteration and the begin of the next at one go, while the surface is in the cache.
+    for_each(is_active, [&](SurfaceSolve& surface, Progress& each, const std::function<void(ConstraintKind)>& told) {
+      if (iteration > 0) end_iteration(surface, each, told);
+      if (!each.done) begin_iteration(surface, each, elapsed, told);
+    });
+    if (std::all_of(progress.begin(), progress.end(), is_done)) break;
+    if (coupling.project && iteration % coupling_refresh == 0) coupling.refresh();
+    couple();
+  }
+
+  // What contact takes from the volume, or the volume presses into a neighbor, is shared out between them.
+  int rounds = 0;
+  for (const SurfaceSolve& surface : surfaces) rounds = std::max(rounds, surface.settings.settling_rounds);
+  for (int round = 0; round < rounds; ++round) {
+    const auto is_settling = [&](std::size_t i) { return round < surfaces[i].settings.settling_rounds; };
+    const auto project = [&](ConstraintKind kind) {
+      for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>& told) {
+        project_kind(kind, *surface.system, *surface.placements, surface.settings, *surface.state, surface.report);
+        told(kind);
+      });
+    };
+    project(ConstraintKind::volume);
+    couple();
+    project(ConstraintKind::bone_contact);
   }
 }
 

@@ -40,7 +40,7 @@ struct SurfaceState {
 /// How one substep is solved.
 struct SolveSettings {
   int iterations = 30;
-  int settling_rounds = 0;          ///< of volume and obstacles alone after the last iteration
+  int settling_rounds = 0;          ///< of volume and contact alone after the last iteration
   double time_step = 1.0 / 60;      ///< s
   ProjectionParameters projection;  ///< its time step is that of distances and hinges
   float contraction = 0;            ///< factor on the stiffness of contractions; 0: they are not projected

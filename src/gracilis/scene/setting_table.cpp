@@ -62,7 +62,7 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "Largest turn of the muscle's bones against each other that is taken in one step; frames that turn them further "
        "are divided. 0 never divides."},
       {"settling_rounds", &S::settling_rounds, "", 0, 1000,
-       "Rounds of volume and bone contact alone after the last iteration, so that neither undoes the other."},
+       "Rounds of volume and contact alone after the last iteration, so that neither undoes the other."},
       {"shape_recovery", &S::shape_recovery, "", 0, 1,
        "Share of its displacement from the carried rest shape that the predictor takes back in each step."},
       {"hinge_limit", &S::hinge_limit, "", 0, 10,
