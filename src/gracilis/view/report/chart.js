@@ -48,7 +48,7 @@ class Chart {
     this.svg.replaceChildren();
     const lines = this.shownLines();
     const numbers = key => lines.flatMap(line => line[key] || []).filter(value => value !== null);
-    const x = numbers('x'), y = [...numbers('values'), ...numbers('low'), ...numbers('high')];
+    const x = numbers('x'), y = this.page.runCount > 1 ? numbers('values') : [...numbers('values'), ...numbers('low'), ...numbers('high')];
     if (y.length === 0) y.push(0, 1);
     if (x.length === 0) x.push(0, 1);
     // (Math.min(...x) would overflow the stack on long runs.)
@@ -112,7 +112,7 @@ class Chart {
   }
 
   drawLine(line) {
-    if (line.low) {
+    if (line.low && this.page.runCount === 1) {
       const there = line.values.map((value, i) => i).filter(i => line.values[i] !== null);
       const outline = this.path(there.map(i => line.x[i]), there.map(i => line.high[i])) +
         this.path(there.map(i => line.x[i]).reverse(), there.map(i => line.low[i]).reverse()).replace('M', 'L');

@@ -1,16 +1,17 @@
 // Puts the page together: one state, and everything that follows it.
 const runs = JSON.parse(document.getElementById('data').textContent);
 const element = id => document.getElementById(id);
-runs.forEach((run, i) => {
-  const twin = runs.some((other, j) => j !== i && other.name === run.name);
-  run.label = twin ? `${spoken(run.name)} (${run.folder.split('/').filter(Boolean).pop()})` : spoken(run.name);
-});
+for (const run of runs) {  // runs of one scene are told apart by their folders
+  const same = runs.length > 1 && runs.every(other => other.name === run.name);
+  run.label = spoken(same ? run.folder.split('/').filter(Boolean).pop() : run.name);
+}
 
 const muscles = [];  // of all runs, each once
 for (const run of runs)
   for (const muscle of run.muscles) if (!muscles.some(each => each.name === muscle.name)) muscles.push(muscle);
 
 const page = {
+  runCount: runs.length,
   state: {frame: 0, playing: false, visible: new Set(muscles.map(muscle => muscle.name)), colorBy: 'muscle', opacity: 1,
           bones: true, fibers: false, xAxis: 'frame'},
 
@@ -112,7 +113,7 @@ const VIEWS = {
 };
 Object.entries(VIEWS).forEach(([name, direction], i) => {
   const button = make('button', name, {type: 'button', title: `Seen from ${name} (${i + 1})`});
-  button.addEventListener('click', () => stage.orbit.lookFrom(direction.clone().normalize()));
+  button.addEventListener('click', () => stage.lookFrom(direction));
   element('views').append(button);
 });
 
@@ -222,5 +223,5 @@ element('canvas').setAttribute('aria-label', `Bones and ${muscles.length} muscle
   `${muscles.map(muscle => spoken(muscle.name)).join(', ')}. Arrow keys turn, plus and minus zoom, 1 to 6 choose views.`);
 // Flexion is seen best from the side of the leg, a little from the front.
 const side = muscles.filter(muscle => muscle.name.endsWith('_l')).length > muscles.length / 2 ? -1 : 1;
-stage.orbit.lookFrom(stage.axes.right.clone().multiplyScalar(side).addScaledVector(stage.axes.anterior, 0.45).normalize());
+stage.lookFrom(stage.axes.right.clone().multiplyScalar(side).addScaledVector(stage.axes.anterior, 0.45));
 page.redraw();

@@ -1,5 +1,6 @@
 // The shapes of all runs side by side under one camera. See report_shapes.hpp for how they are stored.
 const DIVERGING = [[33, 102, 172], [146, 197, 222], [247, 244, 238], [244, 165, 130], [178, 24, 43]];
+const DIVERGING_LINES = [[20, 80, 170], [70, 120, 170], [110, 110, 110], [190, 90, 60], [178, 24, 43]];
 const RISING = [[250, 240, 225], [240, 170, 120], [205, 70, 60], [110, 10, 60]];
 const SHAPE_COLORS = {
   muscle: {label: 'by muscle'},
@@ -9,8 +10,8 @@ const SHAPE_COLORS = {
            ticks: ['−1', '0', '+1'], chart: 'volume_ratio'},
   activation: {label: 'by activation', title: 'activation', colors: RISING, low: 0, high: 1, ticks: ['0', '0.5', '1'],
                chart: 'activation'},
-  strain: {label: 'by fiber length', title: 'fiber length, × rest', colors: DIVERGING, low: -1, high: 1,
-           ticks: ['0.5', '1', '2'], fibers: true},
+  strain: {label: 'by fiber length', title: 'fiber length, × rest', colors: DIVERGING_LINES, low: -0.585,
+           high: 0.585, ticks: ['0.67', '1', '1.5'], fibers: true},
 };
 
 // A color of a list that is spread over [low, high]; components 0 ... 1.
@@ -120,6 +121,8 @@ class RunShapes {
 
   showBone(bone, [a, b, share], state) {
     bone.mesh.visible = state.bones;
+    // Beside colors that mean something bones step back.
+    bone.mesh.material.color.set(SHAPE_COLORS[state.colorBy].colors ? 0xa9aeb1 : 0xefe6d0);
     const turn = i => new THREE.Quaternion().fromArray(bone.motion, 7 * i);
     const place = i => new THREE.Vector3().fromArray(bone.motion, 7 * i + 4);
     bone.mesh.quaternion.copy(turn(a)).slerp(turn(b), share);
@@ -131,7 +134,7 @@ class RunShapes {
     muscle.mesh.visible = state.visible.has(muscle.name);
     if (!muscle.mesh.visible) return;
     const fibersShown = state.fibers || SHAPE_COLORS[state.colorBy].fibers;
-    const opacity = fibersShown ? Math.min(state.opacity, 0.3) : state.opacity;
+    const opacity = fibersShown ? Math.min(state.opacity, 0.25) : state.opacity;
     Object.assign(material, {opacity, transparent: opacity < 1, depthWrite: opacity === 1});
     blendPoints(muscle.stored, muscle.vertices, muscle.low, muscle.size, at, geometry.attributes.position.array);
     geometry.attributes.position.needsUpdate = true;
@@ -139,7 +142,7 @@ class RunShapes {
     const colors = geometry.attributes.color.array, scale = SHAPE_COLORS[state.colorBy];
     const chart = scale.chart && this.run.charts.find(each => each.id === scale.chart);
     const values = chart && chart.series.find(each => each.muscle === muscle.name).values;
-    const whole = values ? colorAt(scale, values[frame]) : muscle.color;
+    const whole = values ? colorAt(scale, values[frame]) : scale.fibers ? [0.8, 0.8, 0.8] : muscle.color;
     for (let v = 0; v < muscle.vertices; ++v) {
       let color = whole;
       if (state.colorBy === 'stretch') {
@@ -168,20 +171,22 @@ class RunShapes {
     color.needsUpdate = true;
   }
 
-  // The box of everything in all frames.
-  bounds() {
-    const box = new THREE.Box3();
+  // Corners of boxes that hold everything in all frames.
+  corners() {
+    const list = [];
     for (const surface of this.surfaces) {
-      const low = new THREE.Vector3(...surface.low), size = new THREE.Vector3(...surface.size);
-      const own = new THREE.Box3(low, low.clone().add(size));
-      if (surface.kind === 'muscle') box.union(own);
-      else this.run.shapes.frames.forEach((_, i) => {
-        const motion = new THREE.Matrix4().compose(new THREE.Vector3().fromArray(surface.motion, 7 * i + 4),
-          new THREE.Quaternion().fromArray(surface.motion, 7 * i), new THREE.Vector3(1, 1, 1));
-        box.union(own.clone().applyMatrix4(motion));
-      });
+      const motions = surface.kind === 'bone' ? this.run.shapes.frames.length : 1;
+      for (let i = 0; i < 8 * motions; ++i) {
+        const corner = new THREE.Vector3(...surface.low.map((low, k) => low + (i >> k & 1) * surface.size[k]));
+        if (surface.kind === 'bone') {
+          const at = 7 * Math.floor(i / 8);
+          corner.applyQuaternion(new THREE.Quaternion().fromArray(surface.motion, at));
+          corner.add(new THREE.Vector3().fromArray(surface.motion, at + 4));
+        }
+        list.push(corner);
+      }
     }
-    return box;
+    return list;
   }
 }
 
@@ -197,16 +202,24 @@ class Stage {
     this.axes = {anterior: vector('anterior'), superior: vector('superior'), right: vector('right')};
     this.orbit = new Orbit(canvas, this.axes.superior, () => this.draw());
     new ResizeObserver(() => this.draw()).observe(canvas);
-    this.fit();
   }
 
-  // Everything in sight, whatever turns.
-  fit() {
-    const box = new THREE.Box3();
-    for (const shapes of this.shapes) box.union(shapes.bounds());
-    box.getCenter(this.orbit.center);
-    const size = box.getSize(new THREE.Vector3());
-    this.orbit.halfHeight = 0.36 * size.length();
+  // All that any frame shows, seen from `direction`, as large as the view allows.
+  lookFrom(direction) {
+    this.orbit.lookFrom(direction.clone().normalize());
+    const back = this.orbit.direction(), right = this.axes.superior.clone().cross(back).normalize();
+    const axes = [right, back.clone().cross(right), back];
+    const center = new THREE.Vector3(), half = [];
+    const corners = this.shapes.flatMap(shapes => shapes.corners());
+    for (const axis of axes) {
+      const along = corners.map(corner => corner.dot(axis));
+      const low = along.reduce((a, b) => Math.min(a, b)), high = along.reduce((a, b) => Math.max(a, b));
+      center.addScaledVector(axis, (low + high) / 2);
+      half.push((high - low) / 2);
+    }
+    const aspect = this.canvas.clientWidth / this.shapes.length / this.canvas.clientHeight || 1;
+    this.orbit.center.copy(center);
+    this.orbit.halfHeight = 1.04 * Math.max(half[1], half[0] / aspect);
     this.draw();
   }
 

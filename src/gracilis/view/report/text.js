@@ -18,12 +18,17 @@ function tableOf(heads, caption) {
   return table;
 }
 
+function titleOf(runs) {
+  const labels = runs.map(run => run.label).join(' · '), scene = spoken(runs[0].name);
+  return runs.length > 1 && runs.every(run => run.name === runs[0].name) ? `${scene}: ${labels}` : labels;
+}
+
 function writeHead(runs) {
   const count = (number, word) => `${number} ${word}${number === 1 ? '' : 's'}`;
-  document.getElementById('title').textContent = runs.map(run => run.label).join('  |  ');
+  document.getElementById('title').textContent = titleOf(runs);
   document.getElementById('subtitle').textContent = runs.map(run =>
-    `${count(run.muscles.length, 'muscle')}, ${count(run.frame_count, 'frame')}, preset ${run.manifest.preset}, ` +
-    `${run.manifest.status}, ${(run.manifest.written || '').slice(0, 10)}`).join('  |  ');
+    (runs.length > 1 ? `${run.label}: ` : '') + `${count(run.muscles.length, 'muscle')}, ${count(run.frame_count, 'frame')}, preset ${run.manifest.preset}, ` +
+    `${run.manifest.status}, ${(run.manifest.written || '').slice(0, 10)}`).join('; ');
   const verdict = document.getElementById('verdict');
   for (const run of runs) {
     const missed = run.gates.filter(gate => !gate.met).length;
@@ -34,27 +39,37 @@ function writeHead(runs) {
   }
 }
 
-// The gates of one run; those that were missed come first.
+// A row per muscle, a column per gate.
 function writeGates(runs, goTo) {
   runs.forEach((run, index) => {
     if (runs.length > 1) document.getElementById('gates').append(make('h3', run.label));
-    const table = tableOf(['Muscle', 'Gate', 'Limit', 'Worst', 'Frame', 'Result']);
-    for (const gate of [...run.gates].sort((a, b) => a.met - b.met)) {
+    const measures = run.gates.filter(gate => gate.muscle === run.gates[0].muscle);
+    const table = tableOf(['Muscle']);
+    for (const gate of measures) {
+      const head = make('th', gate.title, {scope: 'col'});
+      head.append(make('small', ` limit ${gate.both_ways ? '±' : ''}${gate.limit} ${gate.unit}`));
+      table.tHead.rows[0].append(head);
+    }
+    for (const muscle of run.muscles) {
       const row = table.tBodies[0].insertRow();
-      row.append(make('th', spoken(gate.muscle), {scope: 'row'}));
-      row.insertCell().textContent = gate.title;
-      row.append(make('td', `${gate.both_ways ? '±' : ''}${gate.limit} ${gate.unit}`, {class: 'number'}),
-                 make('td', `${gate.worst === null ? 'not finite' : shownNumber(gate.worst)} ${gate.unit}`,
-                      {class: 'number'}));
-      const link = make('button', String(gate.frame), {type: 'button', class: 'link',
-                        'aria-label': `Show frame ${gate.frame}, worst of ${spoken(gate.muscle)}: ${gate.title}`});
-      link.addEventListener('click', () => goTo(gate.frame, index));
-      row.insertCell().append(link);
-      row.append(make('td', gate.met ? '✓ met' : `✗ missed in ${gate.missed} frame${gate.missed > 1 ? 's' : ''}`,
-                      {class: gate.met ? 'met' : 'missed'}));
+      row.append(make('th', spoken(muscle.name), {scope: 'row'}));
+      for (const {measure} of measures)
+        row.append(gateCell(run.gates.find(gate => gate.muscle === muscle.name && gate.measure === measure), index, goTo));
     }
     document.getElementById('gates').append(table);
   });
+}
+
+// Whether a gate is met, its worst value, and a way to the frame of it.
+function gateCell(gate, index, goTo) {
+  const cell = make('td', gate.met ? '✓ ' : '✗ ', {class: gate.met ? 'met' : 'missed'});
+  const value = gate.worst === null ? 'not finite' : `${shownNumber(gate.worst)} ${gate.unit}`;
+  const link = make('button', `frame ${gate.frame}`, {type: 'button', class: 'link',
+                    'aria-label': `Show frame ${gate.frame}, the worst of ${spoken(gate.muscle)}: ${gate.title} ${value}, ` +
+                                  (gate.met ? 'met' : 'missed')});
+  link.addEventListener('click', () => goTo(gate.frame, index));
+  cell.append(value, make('br'), link, gate.met ? '' : ` and ${gate.missed - 1} more`);
+  return cell;
 }
 
 function writeWarnings(runs) {
