@@ -4,6 +4,7 @@
 #include "console.hpp"
 #include "demo_command.hpp"
 #include "exit_handling.hpp"
+#include "export_command.hpp"
 #include "fibers_command.hpp"
 #include "import_command.hpp"
 #include "inspect_command.hpp"
@@ -11,6 +12,7 @@
 #include "paths_command.hpp"
 #include "prepare_command.hpp"
 #include "print_config_command.hpp"
+#include "render_command.hpp"
 #include "report_command.hpp"
 #include "rom_command.hpp"
 #include "run_command.hpp"
@@ -40,6 +42,8 @@ int main(int count, char** arguments) {
   add_print_config_command(program, chosen);
   add_bench_command(program, chosen);
   add_inspect_command(program, chosen);
+  add_render_command(program, chosen);
+  add_export_command(program, chosen);
   add_report_command(program, chosen);
   add_prepare_command(program, chosen);
   add_import_command(program, chosen);

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace gracilis {
@@ -167,6 +168,30 @@ int main_coordinate(const RecordedRun& run) {
     if (span > largest) largest = span, found = i;
   }
   return found;
+}
+
+int nearest_pose(const RecordedRun& run, int frame, const RecordedRun& other) {
+  int best = 0;
+  Real least = std::numeric_limits<Real>::infinity();
+  for (int candidate = 0; candidate < other.frame_count; ++candidate) {
+    Real distance = 1e-3 * std::abs(Real(candidate) / other.frame_count - Real(frame) / run.frame_count);
+    for (std::size_t i = 0; i < run.coordinates.size(); ++i) {
+      const auto same = std::find(other.coordinates.begin(), other.coordinates.end(), run.coordinates[i]);
+      if (same == other.coordinates.end()) continue;
+      distance += std::abs(other.coordinate_values(candidate, static_cast<Index>(same - other.coordinates.begin())) -
+                           run.coordinate_values(frame, static_cast<Index>(i)));
+    }
+    if (distance < least) least = distance, best = candidate;
+  }
+  return best;
+}
+
+std::vector<int> spread_frames(int count, int most) {
+  const int step = std::max(1, (count - 1 + most - 2) / (most - 1));
+  std::vector<int> frames;
+  for (int frame = 0; frame < count - 1; frame += step) frames.push_back(frame);
+  frames.push_back(count - 1);
+  return frames;
 }
 
 CoordinateLabel coordinate_label(const std::string& column) {

@@ -45,6 +45,12 @@ RigidTransform rigid_motion(const Points& rest, const Points& now);
 /// The coordinate that changes most over the run, as an index; -1 when there is none.
 int main_coordinate(const RecordedRun& run);
 
+/// The frame of `other` whose coordinates are nearest to those of a frame of `run`; of several, the one as far through.
+int nearest_pose(const RecordedRun& run, int frame, const RecordedRun& other);
+
+/// 0 ... count - 1, thinned to at most `most` at equal distances; the first and the last stay. Precondition: most >= 2.
+std::vector<int> spread_frames(int count, int most);
+
 /// "hip_flexion_r_deg" becomes name "hip_flexion_r" and unit "°".
 struct CoordinateLabel {
   std::string name, unit;

@@ -7,8 +7,9 @@
 
 namespace gracilis {
 
-static constexpr int strip_height = 56;  // pixels: title, legend or caption
-static constexpr Real border = 1.06;     // free space around what is seen
+static constexpr int strip_height = 56;      // pixels: title, legend or caption
+static constexpr int color_bar_width = 460;  // pixels
+static constexpr Real border = 1.06;         // free space around what is seen
 
 static void require(bool ok, const char* what) {
   if (!ok) throw ConfigurationError({"", "picture", what, ""});
@@ -26,13 +27,16 @@ static Extent extent_seen_by(const CameraView& camera, const Picture& picture) {
   Extent extent;
   for (const Panel& panel : picture.panels) {
     if (!panel.looking.normalized().isApprox(camera.looking, 1e-9)) continue;
-    for (const PaintedSurface& surface : panel.surfaces) {
-      if (!surface.framed || surface.mesh.vertices.cols() == 0) continue;
-      require(surface.mesh.vertices.allFinite(), "a point is not finite");
-      const Points seen = axes * surface.mesh.vertices;
+    const auto add = [&](const Points& points) {
+      if (points.cols() == 0) return;
+      require(points.allFinite(), "a point is not finite");
+      const Points seen = axes * points;
       extent.low = extent.low.cwiseMin(seen.rowwise().minCoeff());
       extent.high = extent.high.cwiseMax(seen.rowwise().maxCoeff());
-    }
+    };
+    add(panel.room);
+    for (const PaintedSurface& surface : panel.surfaces)
+      if (surface.framed) add(surface.mesh.vertices);
   }
   return extent;
 }
@@ -93,7 +97,10 @@ PictureLayout lay_out(const Picture& picture) {
   const int row_height = panel_height + caption_height;
   layout.legend_entries = legend_of(picture);
   layout.width = columns * picture.panel_width;
-  layout.legend = {0, 0, layout.width, layout.legend_entries.empty() ? 0 : strip_height};
+  const int bar_width = picture.color_bar ? std::min(layout.width, color_bar_width) : 0;
+  const int legend_width = layout.legend_entries.empty() ? 0 : layout.width - bar_width;
+  layout.legend = {0, 0, legend_width, legend_width > 0 || bar_width > 0 ? strip_height : 0};
+  layout.color_bar = {layout.width - bar_width, 0, bar_width, bar_width > 0 ? strip_height : 0};
   layout.title = {0, layout.legend.height + rows * row_height, layout.width, picture.title.empty() ? 0 : strip_height};
   layout.height = layout.title.y + layout.title.height;
   for (int i = 0; i < count; ++i) {

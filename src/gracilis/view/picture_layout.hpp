@@ -22,7 +22,8 @@ struct CameraView {
 /// Where everything of a picture goes.
 struct PictureLayout {
   int width = 0, height = 0;        ///< of the whole picture, pixels
-  Rectangle title, legend;          ///< height 0: none
+  Rectangle title, legend;          ///< height 0 (legend also width 0): none
+  Rectangle color_bar;              ///< beside the legend; height 0: none
   std::vector<Rectangle> panels;    ///< one per panel, the caption's strip excluded
   std::vector<Rectangle> captions;  ///< one per panel, below it
   std::vector<CameraView> cameras;  ///< one per panel

@@ -224,4 +224,11 @@ element('canvas').setAttribute('aria-label', `Bones and ${muscles.length} muscle
 // Flexion is seen best from the side of the leg, a little from the front.
 const side = muscles.filter(muscle => muscle.name.endsWith('_l')).length > muscles.length / 2 ? -1 : 1;
 stage.lookFrom(stage.axes.right.clone().multiplyScalar(side).addScaledVector(stage.axes.anterior, 0.45));
+// The address may say what to show at first: report.html#frame=45&color=stretch
+const wanted = new URLSearchParams(location.hash.slice(1));
+if (SHAPE_COLORS[wanted.get('color')]) {
+  element('color-by').value = wanted.get('color');
+  element('color-by').dispatchEvent(new Event('change'));
+}
+page.state.frame = Math.min(Math.max(Number(wanted.get('frame')) || 0, 0), runs[0].frame_count - 1);
 page.redraw();

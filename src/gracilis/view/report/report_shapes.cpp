@@ -1,8 +1,8 @@
 #include <gracilis/view/report/report_shapes.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/geometry/topology.hpp>
 #include <gracilis/view/decimation.hpp>
+#include <gracilis/view/vertex_stretch.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -33,15 +33,6 @@ static std::uint8_t log_ratio_byte(Real ratio) {
   return static_cast<std::uint8_t>(std::clamp(std::lround(128 + 127 * std::log2(ratio)), 0L, 255L));
 }
 
-/// First, last, and as many between at equal distances as are allowed.
-static std::vector<int> shown_frames(int count) {
-  const int step = std::max(1, (count - 1 + most_frames - 2) / (most_frames - 1));
-  std::vector<int> frames;
-  for (int frame = 0; frame < count - 1; frame += step) frames.push_back(frame);
-  frames.push_back(count - 1);
-  return frames;
-}
-
 /// Points of all frames as 16 bits per coordinate within their common box, which goes into `description`.
 static void append_points(const std::vector<Points>& frames, Json& description, std::string& bytes) {
   Eigen::AlignedBox3d box;
@@ -69,33 +60,11 @@ static void append_faces(const Eigen::Matrix3Xi& faces, Json& description, std::
   description["faces_at"] = append(bytes, numbers);
 }
 
-static std::vector<Real> edge_lengths(const std::vector<MeshEdge>& edges, const Points& points) {
-  std::vector<Real> lengths;
-  for (const MeshEdge& edge : edges) lengths.push_back((points.col(edge.a) - points.col(edge.b)).norm());
-  return lengths;
-}
-
-/// Per vertex the lengths of its edges together, over those at rest.
-static std::vector<Real> vertex_stretch(const std::vector<MeshEdge>& edges, const std::vector<Real>& rest,
-                                        const Points& points) {
-  const std::vector<Real> now = edge_lengths(edges, points);
-  std::vector<Real> sum_now(static_cast<std::size_t>(points.cols())), sum_rest(sum_now.size());
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const Index v : {edges[e].a, edges[e].b}) {
-      sum_now[static_cast<std::size_t>(v)] += now[e];
-      sum_rest[static_cast<std::size_t>(v)] += rest[e];
-    }
-  }
-  for (std::size_t v = 0; v < sum_now.size(); ++v) sum_now[v] = sum_rest[v] > 0 ? sum_now[v] / sum_rest[v] : 1;
-  return sum_now;
-}
-
 static Json muscle_surface(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
                            Index most_vertices, std::string& bytes) {
   const TriangleMesh rest = recorded_surface(run, name, 0);
   const CoarseSurface coarse = decimate(rest, most_vertices);
-  const std::vector<MeshEdge> edges = build_topology(rest.faces, rest.vertex_count()).edges;
-  const std::vector<Real> rest_lengths = edge_lengths(edges, rest.vertices);
+  const VertexStretch stretch_around(rest);
   std::vector<Points> points(frames.size());
   std::vector<std::uint8_t> stretch(frames.size() * coarse.vertices.size());
   parallel_for(static_cast<Index>(frames.size()), 1, [&](Index begin, Index end) {
@@ -103,7 +72,7 @@ static Json muscle_surface(const RecordedRun& run, const std::string& name, cons
       const auto k = static_cast<std::size_t>(i);
       const Points now = recorded_surface(run, name, frames[k]).vertices;
       points[k] = picked(now, coarse.vertices);
-      const std::vector<Real> all = vertex_stretch(edges, rest_lengths, now);
+      const std::vector<Real> all = stretch_around.of(now);
       for (std::size_t v = 0; v < coarse.vertices.size(); ++v)
         stretch[k * coarse.vertices.size() + v] = log_ratio_byte(all[static_cast<std::size_t>(coarse.vertices[v])]);
     }
@@ -169,7 +138,7 @@ static Json muscle_fibers(const RecordedRun& run, const std::string& name, const
 
 ReportShapes report_shapes(const RecordedRun& run, std::size_t budget) {
   ReportShapes shapes;
-  const std::vector<int> frames = shown_frames(run.frame_count);
+  const std::vector<int> frames = spread_frames(run.frame_count, most_frames);
   Json surfaces = Json::array(), fibers = Json::array();
   const Index bone_vertices = std::min<Index>(
       most_bone_vertices, static_cast<Index>(budget / 4 / 18 / std::max<std::size_t>(run.bones.size(), 1)));

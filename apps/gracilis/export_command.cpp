@@ -1,0 +1,97 @@
+#include "export_command.hpp"
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/view/export.hpp>
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <numeric>
+
+namespace gracilis {
+
+namespace {
+
+struct ExportOptions {
+  std::filesystem::path run, out;
+  std::string to;
+  std::vector<int> frames;
+  GltfOptions gltf;
+};
+
+/// One thing that `--to` can say.
+struct ExportFormat {
+  const char* name;
+  const char* default_out;  ///< within the run's folder
+  const char* meaning;
+  void (*write)(const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options);
+};
+
+std::vector<int> frames_or_all(const RecordedRun& run, const std::vector<int>& chosen) {
+  if (chosen.empty()) {
+    std::vector<int> all(static_cast<std::size_t>(run.frame_count));
+    std::iota(all.begin(), all.end(), 0);
+    return all;
+  }
+  for (const int frame : chosen) {
+    if (frame < 0 || frame >= run.frame_count)
+      throw ConfigurationError({"--frames", "", fmt::format("there is no frame {}", frame),
+                                fmt::format("the run has frames 0 to {}", run.frame_count - 1)});
+  }
+  return chosen;
+}
+
+/// A new format is a line here.
+const std::vector<ExportFormat>& formats() {
+  static const std::vector<ExportFormat> list = {
+      {"gltf", "run.glb", "one .glb that plays in viewers, muscles as morph targets",
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+         export_gltf(run, out, options.gltf);
+       }},
+      {"csv", "csv", "a folder with all tables, and the muscles' points in --frames",
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+         export_csv(run, out, options.frames.empty() ? options.frames : frames_or_all(run, options.frames));
+       }},
+      {"obj", "obj", "a folder with one .obj per frame",
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+         export_obj(run, out, frames_or_all(run, options.frames));
+       }}};
+  return list;
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& program, Command& chosen) {
+  const auto options = std::make_shared<ExportOptions>();
+  CLI::App* command = program.add_subcommand("export", "Write a run in other programs' formats");
+  std::vector<std::string> names;
+  std::string help = "Format";
+  for (const ExportFormat& format : formats()) {
+    names.push_back(format.name);
+    help += fmt::format("; {}: {}", format.name, format.meaning);
+  }
+  command->add_option("RUN", options->run, "Run folder")->required();
+  command->add_option("--to", options->to, help)->required()->check(CLI::IsMember(names));
+  command->add_option("--out", options->out, "File or folder to write (default: within the run's folder)");
+  command->add_option("--frames", options->frames, "These only, as in 0,45,90 (csv, obj)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--vertices", options->gltf.muscle_vertices, "About so many at most for each muscle (gltf; 4000)")
+      ->check(CLI::Range(50, 10'000'000));
+  command->add_option("--most-frames", options->gltf.frames, "At most so many frames (gltf; 60)")
+      ->check(CLI::Range(2, 100'000));
+  command->callback([&chosen, options] {
+    chosen = [options] {
+      for (const ExportFormat& format : formats()) {
+        if (options->to != format.name) continue;
+        const RecordedRun run = open_recorded_run(options->run);
+        const std::filesystem::path out = options->out.empty() ? options->run / format.default_out : options->out;
+        format.write(run, out, *options);
+        fmt::print("{}\n", out.string());
+      }
+      return static_cast<int>(ExitCode::done);
+    };
+  });
+}
+
+}  // namespace gracilis

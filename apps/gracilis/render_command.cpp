@@ -1,0 +1,149 @@
+#include "render_command.hpp"
+
+#include "console.hpp"
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/input_file.hpp>
+#include <gracilis/view/gif.hpp>
+#include <gracilis/view/picture_layout.hpp>
+#include <gracilis/view/preview.hpp>
+#include <gracilis/view/run_picture.hpp>
+#include <gracilis/view/video.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace gracilis {
+
+namespace {
+
+struct RenderOptions {
+  std::filesystem::path run, out;
+  std::vector<std::filesystem::path> compare;
+  std::vector<int> frames;
+  std::string color_by = "muscle", size, title, palette = "flesh";
+  bool transparent = false, gif = false, mp4 = false;
+  int rate = 25, step = 1;
+  RunPictureOptions picture;
+};
+
+/// "1280x720" as pixels of the whole picture.
+void set_size(const std::string& text, Picture& picture) {
+  if (text.empty()) return;
+  int width = 0, height = 0;
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &end) != 2 || width < 64 || height < 64 || width > 8192 ||
+      height > 8192)
+    throw ConfigurationError({"--size", "", "'" + text + "' is no size", "write WIDTHxHEIGHT in pixels, 64 to 8192"});
+  const int rows = (static_cast<int>(picture.panels.size()) + picture.columns - 1) / picture.columns;
+  picture.panel_width = std::max(1, width / picture.columns);
+  picture.panel_height = 1;
+  // What is not panels, such as legend and captions, keeps its height.
+  const int strips = lay_out(picture).height - rows;
+  if (height - strips < 32 * rows)
+    throw ConfigurationError({"--size", "", "'" + text + "' leaves no room for the shapes", "make it higher"});
+  picture.panel_height = (height - strips) / rows;
+}
+
+/// The capture pose, half way, and the farthest pose, as in a run's preview.
+std::vector<int> telling_frames(const RecordedRun& run) {
+  std::vector<Pose> poses(static_cast<std::size_t>(run.frame_count));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::VectorXd row = run.coordinate_values.row(static_cast<Index>(i));
+    poses[i].coordinates.assign(row.begin(), row.end());
+  }
+  return preview_frames(poses, run.frame_count);
+}
+
+void check_frames(const std::vector<int>& frames, const RecordedRun& run) {
+  for (const int frame : frames) {
+    if (frame >= 0 && frame < run.frame_count) continue;
+    throw ConfigurationError({"--frames", "", fmt::format("there is no frame {}", frame),
+                              fmt::format("the run has frames 0 to {}", run.frame_count - 1)});
+  }
+}
+
+int render(const RenderOptions& options) {
+  std::vector<RecordedRun> runs = {open_recorded_run(options.run)};
+  for (const std::filesystem::path& folder : options.compare) runs.push_back(open_recorded_run(folder));
+  RunPictureOptions chosen = options.picture;
+  const auto& scales = color_scales();
+  chosen.color_by = static_cast<ColorBy>(
+      std::find_if(scales.begin(), scales.end(), [&](const ColorScale& s) { return s.name == options.color_by; }) -
+      scales.begin());
+  chosen.palette = options.palette == "flesh" ? Palette::flesh : Palette::okabe_ito;
+  std::vector<RunPainter> painters;
+  for (const RecordedRun& run : runs) painters.emplace_back(run, chosen);
+
+  const std::string extension = lower_case_extension(options.out);
+  const bool gif = options.gif || extension == ".gif", film = gif || options.mp4 || extension == ".mp4";
+  if (!film && extension != ".png") {
+    throw ConfigurationError(
+        {options.out.string(), "", "is no kind of picture that can be written", "name a .png, .gif or .mp4 file"});
+  }
+  PictureDrawer drawer;
+  const auto picture_of = [&](const std::vector<int>& frames) {
+    Picture picture = run_picture(runs, painters, frames, chosen);
+    picture.title = options.title;
+    return picture;
+  };
+  if (!film) {
+    check_frames(options.frames, runs[0]);
+    Picture picture = picture_of(options.frames.empty() ? telling_frames(runs[0]) : options.frames);
+    set_size(options.size, picture);
+    write_png(options.out, drawer.draw(picture, options.transparent));
+  } else {
+    Points room = painters[0].room();
+    const int count = (runs[0].frame_count + options.step - 1) / options.step;
+    Progress progress(0, count - 1);
+    const auto image = [&](int i) {
+      Picture picture = picture_of({i * options.step});
+      for (Panel& panel : picture.panels) panel.room = room;
+      set_size(options.size, picture);
+      progress.show(i);
+      return drawer.draw(picture);
+    };
+    gif ? write_gif(options.out, count, options.rate, image) : write_video(options.out, count, options.rate, image);
+  }
+  fmt::print("{}\n", options.out.string());
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& program, Command& chosen) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* command = program.add_subcommand("render", "Draw pictures and films of a run; needs no display");
+  command->add_option("RUN", options->run, "Run folder")->required();
+  command->add_option("--out", options->out, "File to write: .png, or .gif or .mp4 for a film of all frames")
+      ->required();
+  command->add_option("--view", options->picture.view, "From where: anterior, lateral, anteromedial ... (lateral)")
+      ->check(CLI::IsMember(view_names()));
+  command->add_option("--size", options->size, "WIDTHxHEIGHT of the whole picture, pixels (default: 720 per panel)");
+  std::vector<std::string> names;
+  for (const ColorScale& scale : color_scales()) names.push_back(scale.name);
+  command->add_option("--color-by", options->color_by, "What colors tell (muscle)")->check(CLI::IsMember(names));
+  command->add_option("--frames", options->frames, "Frames side by side, as in 0,45,90 (capture, half way, farthest)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--compare", options->compare, "Another run, below (or beside, for one frame); may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--muscles", options->picture.muscles, "Show these only; names separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--palette", options->palette, "Colors of muscles: flesh, or okabe-ito for diagrams (flesh)")
+      ->check(CLI::IsMember({"flesh", "okabe-ito"}));
+  command->add_option("--opacity", options->picture.opacity, "Of muscles, 0.05 to 1")->check(CLI::Range(0.05, 1.0));
+  command->add_flag("--fibers", options->picture.fibers, "Show fibers inside muscles that one sees through");
+  command->add_option("--title", options->title, "A line above");
+  command->add_flag("--transparent", options->transparent, "No background (.png)");
+  command->add_flag("--gif", options->gif, "A film as .gif, whatever the file is called");
+  command->add_flag("--mp4", options->mp4, "A film as .mp4; needs ffmpeg");
+  command->add_option("--rate", options->rate, "Images per second of a film, 1 to 50")->check(CLI::Range(1, 50));
+  command->add_option("--step", options->step, "Every which frame goes into a film")->check(CLI::Range(1, 1000));
+  command->callback([&chosen, options] { chosen = [options] { return render(*options); }; });
+}
+
+}  // namespace gracilis

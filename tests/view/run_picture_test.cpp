@@ -1,0 +1,119 @@
+#include <gracilis/core/errors.hpp>
+#include <gracilis/view/run_picture.hpp>
+
+#include "view/recorded_runs.hpp"
+
+#include <gtest/gtest.h>
+#include <io/test_files.hpp>
+
+using namespace gracilis;
+
+namespace {
+
+/// Draws, or skips the test where there is no OpenGL.
+#define DRAW_OR_SKIP(image, ...)                                    \
+  try {                                                             \
+    image = PictureDrawer().draw(__VA_ARGS__);                      \
+  } catch (const Error& error) {                                    \
+    ASSERT_EQ(error.code(), ExitCode::unsupported) << error.what(); \
+    GTEST_SKIP() << error.what();                                   \
+  }
+
+/// How many pixels fulfill a condition on red, green, blue and opacity.
+template <class Condition>
+int count(const PixelImage& image, Condition condition) {
+  int result = 0;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+    if (condition(image.rgba[i], image.rgba[i + 1], image.rgba[i + 2], image.rgba[i + 3])) ++result;
+  return result;
+}
+
+class RunPicture : public testing::Test {
+ protected:
+  Picture picture(const RunPictureOptions& options, const std::vector<int>& frames) {
+    runs.assign(1, FlexingLeg(21).written(folder.path() / "run"));
+    std::vector<RunPainter> painters;
+    painters.emplace_back(runs[0], options);
+    Picture result = run_picture(runs, painters, frames, options);
+    result.panel_width = 240;
+    return result;
+  }
+
+  TestFolder folder;
+  std::vector<RecordedRun> runs;
+};
+
+}  // namespace
+
+TEST_F(RunPicture, views_look_from_where_their_names_say) {
+  const RecordedRun run = FlexingLeg(2).written(folder.path());
+  EXPECT_TRUE(view_direction(run, "anterior").isApprox(Vec3::UnitX()));
+  EXPECT_TRUE(view_direction(run, "posterior").isApprox(-Vec3::UnitX()));
+  EXPECT_TRUE(view_direction(run, "lateral").isApprox(Vec3::UnitZ()));  // of a right leg
+  EXPECT_TRUE(view_direction(run, "medial").isApprox(-Vec3::UnitZ()));
+  EXPECT_TRUE(view_direction(run, "anteromedial").isApprox(Vec3(1, 0, -1).normalized()));
+  EXPECT_TRUE(view_direction(run, "posterolateral").isApprox(Vec3(-1, 0, 1).normalized()));
+  EXPECT_GT(view_direction(run, "superior").y(), 0.99);
+  for (const std::string& view : view_names()) EXPECT_NEAR(view_direction(run, view).norm(), 1, 1e-9) << view;
+}
+
+TEST_F(RunPicture, captions_tell_the_angle) {
+  const RecordedRun run = FlexingLeg(21).written(folder.path());
+  EXPECT_EQ(pose_caption(run, 0), "hip_flexion_r 0°");
+  EXPECT_EQ(pose_caption(run, 20), "hip_flexion_r 60°");
+}
+
+TEST_F(RunPicture, frames_stand_side_by_side_and_runs_below_each_other) {
+  runs = {FlexingLeg(21).written(folder.path() / "a"), FlexingLeg(21).written(folder.path() / "b")};
+  const RunPictureOptions options;
+  std::vector<RunPainter> painters;
+  for (const RecordedRun& run : runs) painters.emplace_back(run, options);
+  const Picture many = run_picture(runs, painters, {0, 10, 20}, options);
+  EXPECT_EQ(many.columns, 3);
+  ASSERT_EQ(many.panels.size(), 6u);
+  EXPECT_EQ(many.panels[5].caption, "b: hip_flexion_r 60°");
+  EXPECT_EQ(run_picture(runs, painters, {0}, options).columns, 2);
+}
+
+TEST_F(RunPicture, stretch_is_seen_where_it_is) {
+  RunPictureOptions options;
+  options.color_by = ColorBy::edge_stretch;
+  options.muscles = {"bulging_r"};
+  PixelImage rest, stretched;
+  const auto reddish = [](int r, int, int b, int) { return r > b + 35; };
+  DRAW_OR_SKIP(rest, picture(options, {0}));
+  DRAW_OR_SKIP(stretched, picture(options, {20}));
+  // The color bar has some red in both.
+  EXPECT_GT(count(stretched, reddish), 3 * count(rest, reddish));
+}
+
+TEST_F(RunPicture, a_transparent_background_is_transparent_and_shapes_are_not) {
+  PixelImage image;
+  DRAW_OR_SKIP(image, picture({}, {0}), true);
+  const int all = image.width * image.height;
+  EXPECT_EQ(image.rgba[3], 0);
+  EXPECT_GT(count(image, [](int, int, int, int a) { return a == 0; }), all / 4);
+  EXPECT_GT(count(image, [](int, int, int, int a) { return a == 255; }), all / 20);
+}
+
+TEST_F(RunPicture, muscles_can_be_chosen_by_name) {
+  RunPictureOptions options;
+  options.muscles = {"steady_r"};
+  EXPECT_EQ(picture(options, {0}).panels[0].surfaces.size(), 2u);  // with the bone
+  options.muscles = {"stedy_r"};
+  try {
+    picture(options, {0});
+    FAIL() << "no error";
+  } catch (const ConfigurationError& error) {
+    EXPECT_NE(std::string(error.what()).find("steady_r"), std::string::npos) << error.what();
+  }
+}
+
+TEST(ColorScale, goes_from_its_first_color_to_its_last_and_no_further) {
+  const ColorScale& scale = color_scale(ColorBy::edge_stretch);
+  EXPECT_EQ(color_at(scale, -7), scale.colors.front());
+  EXPECT_EQ(color_at(scale, 0), scale.colors[2]);
+  EXPECT_EQ(color_at(scale, 1), scale.colors.back());
+  EXPECT_EQ(color_at(scale, 99), scale.colors.back());
+  EXPECT_TRUE(color_at(scale, 0.25).isApprox((scale.colors[2] + scale.colors[3]) / 2));
+}
