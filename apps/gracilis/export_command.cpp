@@ -1,9 +1,11 @@
 #include "export_command.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/opensim/run_paths.hpp>
 #include <gracilis/view/export.hpp>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <memory>
 #include <numeric>
@@ -55,6 +57,12 @@ const std::vector<ExportFormat>& formats() {
       {"obj", "obj", "a folder with one .obj per frame",
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
          export_obj(run, out, frames_or_all(run, options.frames));
+       }},
+      {"osim-function", "function_paths.osim",
+       "the fibers' mean lengths as polynomials of the coordinates, which OpenSim 4.5 and later read as "
+       "FunctionBasedPaths",
+       [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
+         for (const std::string& line : opensim::export_function_paths(options.run, out)) spdlog::info("{}", line);
        }}};
   return list;
 }
