@@ -1,5 +1,6 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
+#include <gracilis/geometry/polylines.hpp>
 #include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>
 #include <gracilis/methods/cylinder/spindle.hpp>
@@ -60,7 +61,7 @@ TEST(CylinderGeometry, subdividing_keeps_the_given_points) {
   const Points line = line_with(2), fine = subdivide_line(line, 3);
   ASSERT_EQ(fine.cols(), 8 * 3 + 1);
   for (Eigen::Index i = 0; i < line.cols(); ++i) EXPECT_EQ(fine.col(8 * i), line.col(i));
-  EXPECT_NEAR(line_length(fine), line_length(line), 1e-14);
+  EXPECT_NEAR(polyline_length(fine), polyline_length(line), 1e-14);
 }
 
 TEST(CylinderGeometry, the_surface_is_closed_and_turned_outwards) {

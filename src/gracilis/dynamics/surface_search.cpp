@@ -16,19 +16,6 @@ constexpr float listed_within = 0.0015f;
 /// The same for edges, of which there are three times as many; between two looks they hardly come nearer by more.
 constexpr float edges_listed_within = 0.0008f;
 
-/// Fills `found` with accept(i) for each i of [0, count) that it takes, in order.
-template <class Search>
-void search_all(Index count, const Search& search, std::vector<PointTouch>& found) {
-  const Index chunks = (count + chunk - 1) / chunk;
-  std::vector<std::vector<PointTouch>> parts(static_cast<std::size_t>(chunks));
-  parallel_for(count, chunk, [&](Index begin, Index end) {
-    std::vector<PointTouch>& part = parts[static_cast<std::size_t>(begin / chunk)];
-    for (Index i = begin; i < end; ++i) search(i, part);
-  });
-  found.clear();
-  for (const std::vector<PointTouch>& part : parts) found.insert(found.end(), part.begin(), part.end());
-}
-
 /// Walks each to its nearest face.
 void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Particles& probe, const Particles& target,
           const Eigen::Vector3f& shift) {
@@ -45,17 +32,17 @@ void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Pa
 void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, const Eigen::Matrix3Xf& normals,
                const Particles& probe, const Particles& target, const Eigen::Vector3f& shift, float within,
                const SelfRule* self, std::vector<PointTouch>& listed) {
-  search_all(
-      static_cast<Index>(near.size()),
-      [&](Index i, std::vector<PointTouch>& part) {
-        PointTouch& touch = near[static_cast<std::size_t>(i)];
-        const PointGap gap = point_gap(probe.position(touch.particle) + shift, surface, touch.face, target, normals);
-        touch.distance = touch.side * gap.distance;
-        if (touch.distance >= within) return;
-        if (self && self->side(touch.particle, touch.face) != touch.side) return;
-        part.push_back(touch);
-      },
-      listed);
+  listed = collect_in_order<PointTouch>(
+      static_cast<Index>(near.size()), chunk, [&](Index begin, Index end, std::vector<PointTouch>& part) {
+        for (Index i = begin; i < end; ++i) {
+          PointTouch& touch = near[static_cast<std::size_t>(i)];
+          const PointGap gap = point_gap(probe.position(touch.particle) + shift, surface, touch.face, target, normals);
+          touch.distance = touch.side * gap.distance;
+          if (touch.distance >= within) continue;
+          if (self && self->side(touch.particle, touch.face) != touch.side) continue;
+          part.push_back(touch);
+        }
+      });
 }
 
 /// The edges of a face and of the faces behind its sides.
@@ -116,9 +103,7 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
   const ContactSurface &first = crowd.surfaces[a], &second = crowd.surfaces[b];
   const std::vector<Index> edges = edges_around(near_second, first);
   const auto count = static_cast<Index>(edges.size());
-  std::vector<std::vector<EdgeTouch>> parts(static_cast<std::size_t>((count + chunk - 1) / chunk));
-  parallel_for(count, chunk, [&](Index begin, Index end) {
-    std::vector<EdgeTouch>& part = parts[static_cast<std::size_t>(begin / chunk)];
+  found = collect_in_order<EdgeTouch>(count, chunk, [&](Index begin, Index end, std::vector<EdgeTouch>& part) {
     std::vector<Index> candidates;
     for (Index i = begin; i < end; ++i) {
       const Index e = edges[static_cast<std::size_t>(i)];
@@ -147,8 +132,6 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
       }
     }
   });
-  found.clear();
-  for (const std::vector<EdgeTouch>& part : parts) found.insert(found.end(), part.begin(), part.end());
 }
 
 /// Which particles need normals, per surface.

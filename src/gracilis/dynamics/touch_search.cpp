@@ -61,35 +61,31 @@ void search(const SearchedSurface& probe, const SearchedSurface& target, float r
             const Touch& touch, std::vector<PointTouch>& found) {
   const PatchTree& tree = probe.tree;
   const auto count = static_cast<Index>(tree.bundle_offsets.size()) - 1;
-  std::vector<std::vector<PointTouch>> parts(
-      static_cast<std::size_t>((count + bundles_per_task - 1) / bundles_per_task));
-  parallel_for(count, bundles_per_task, [&](Index begin, Index end) {
-    std::vector<PointTouch>& part = parts[static_cast<std::size_t>(begin / bundles_per_task)];
-    std::vector<Index> near_bundle, near;
-    for (auto bundle = static_cast<std::size_t>(begin); bundle < static_cast<std::size_t>(end); ++bundle) {
-      const auto first = static_cast<std::size_t>(tree.bundle_offsets[bundle]),
-                 last = static_cast<std::size_t>(tree.bundle_offsets[bundle + 1]);
-      PatchTree::Bounds bounds;
-      for (std::size_t patch = first; patch < last; ++patch) bounds = bounds.merged(tree.particle_bounds[patch]);
-      near_bundle.clear();
-      gather_patches(target.tree, see(bounds), reach, near_bundle);
-      for (std::size_t patch = first; patch < last && !near_bundle.empty(); ++patch) {
-        const PatchTree::Bounds own = see(tree.particle_bounds[patch]);
-        near.clear();
-        for (const Index node : near_bundle)
-          if (may_meet(own, target.tree.bounds[static_cast<std::size_t>(node)], reach)) near.push_back(node);
-        if (near.empty()) continue;
-        for (Index i = tree.particle_offsets[patch]; i < tree.particle_offsets[patch + 1]; ++i) {
-          const Index particle = tree.particles[static_cast<std::size_t>(i)];
-          PointTouch nearest = touch(particle, near);
-          nearest.particle = particle;
-          if (nearest.face >= 0) part.push_back(nearest);
+  found =
+      collect_in_order<PointTouch>(count, bundles_per_task, [&](Index begin, Index end, std::vector<PointTouch>& part) {
+        std::vector<Index> near_bundle, near;
+        for (auto bundle = static_cast<std::size_t>(begin); bundle < static_cast<std::size_t>(end); ++bundle) {
+          const auto first = static_cast<std::size_t>(tree.bundle_offsets[bundle]),
+                     last = static_cast<std::size_t>(tree.bundle_offsets[bundle + 1]);
+          PatchTree::Bounds bounds;
+          for (std::size_t patch = first; patch < last; ++patch) bounds = bounds.merged(tree.particle_bounds[patch]);
+          near_bundle.clear();
+          gather_patches(target.tree, see(bounds), reach, near_bundle);
+          for (std::size_t patch = first; patch < last && !near_bundle.empty(); ++patch) {
+            const PatchTree::Bounds own = see(tree.particle_bounds[patch]);
+            near.clear();
+            for (const Index node : near_bundle)
+              if (may_meet(own, target.tree.bounds[static_cast<std::size_t>(node)], reach)) near.push_back(node);
+            if (near.empty()) continue;
+            for (Index i = tree.particle_offsets[patch]; i < tree.particle_offsets[patch + 1]; ++i) {
+              const Index particle = tree.particles[static_cast<std::size_t>(i)];
+              PointTouch nearest = touch(particle, near);
+              nearest.particle = particle;
+              if (nearest.face >= 0) part.push_back(nearest);
+            }
+          }
         }
-      }
-    }
-  });
-  found.clear();
-  for (const std::vector<PointTouch>& part : parts) found.insert(found.end(), part.begin(), part.end());
+      });
   std::sort(found.begin(), found.end(),
             [](const PointTouch& l, const PointTouch& r) { return l.particle < r.particle; });
 }

@@ -3,7 +3,6 @@
 #include <gracilis/core/types.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
-#include <functional>
 #include <limits>
 #include <memory>
 
@@ -28,12 +27,6 @@ class NearestTriangle {
 
   /// The nearest point within `reach`, or face -1.
   NearestPoint query(const Vec3& p, Real reach = std::numeric_limits<Real>::infinity()) const;
-  /// The same among the faces that `accepts` takes.
-  NearestPoint query(const Vec3& p, Real reach, const std::function<bool(Index face)>& accepts) const;
-
-  /// The surface has moved to `vertices`, as many as before; its hierarchy keeps its shape and takes new boxes. No
-  /// query may run meanwhile.
-  void refit(const Points& vertices);
 
  private:
   struct Tree;

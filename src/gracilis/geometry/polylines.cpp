@@ -40,24 +40,38 @@ std::vector<Real> polyline_lengths(const Polylines& lines) {
   return lengths;
 }
 
-Points resampled(const Points& line, Index segments) {
+std::vector<Real> distances_along(const Points& line) {
+  std::vector<Real> distances;
+  for (Eigen::Index i = 0; i < line.cols(); ++i)
+    distances.push_back(i == 0 ? 0 : distances.back() + (line.col(i) - line.col(i - 1)).norm());
+  return distances;
+}
+
+Points points_along(const Points& line, const std::vector<Real>& distances) {
   const Eigen::Index last = line.cols() - 1;
-  const Real step = polyline_length(line) / segments;
-  Points result(3, segments + 1);
-  result.col(0) = line.col(0);
-  result.col(segments) = line.col(last);
+  Points points(3, static_cast<Eigen::Index>(distances.size()));
   Eigen::Index i = 0;
   Real begin = 0, length = last > 0 ? (line.col(1) - line.col(0)).norm() : 0;  // of segment i
-  for (Index k = 1; k < segments; ++k) {
-    const Real wanted = step * k;
-    while (i + 1 < last && begin + length < wanted) {
+  for (std::size_t k = 0; k < distances.size(); ++k) {
+    while (i + 1 < last && begin + length < distances[k]) {
       begin += length;
       ++i;
       length = (line.col(i + 1) - line.col(i)).norm();
     }
-    const Real share = length > 0 ? std::clamp((wanted - begin) / length, Real{0}, Real{1}) : 0;
-    result.col(k) = last > 0 ? Vec3(line.col(i) + share * (line.col(i + 1) - line.col(i))) : Vec3(line.col(0));
+    const Real share = length > 0 ? std::clamp((distances[k] - begin) / length, Real{0}, Real{1}) : 0;
+    points.col(static_cast<Eigen::Index>(k)) =
+        last > 0 ? Vec3(line.col(i) + share * (line.col(i + 1) - line.col(i))) : Vec3(line.col(0));
   }
+  return points;
+}
+
+Points resampled(const Points& line, Index segments) {
+  const Real step = polyline_length(line) / segments;
+  std::vector<Real> distances;
+  for (Index k = 0; k <= segments; ++k) distances.push_back(step * k);
+  Points result = points_along(line, distances);
+  result.col(0) = line.col(0);
+  result.col(segments) = line.col(line.cols() - 1);
   return result;
 }
 

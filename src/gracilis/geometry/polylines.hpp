@@ -29,6 +29,13 @@ Real polyline_length(const Points& line);
 /// The length of every line, m.
 std::vector<Real> polyline_lengths(const Polylines& lines);
 
+/// How far along the line each of its points is, m; 0 for the first.
+std::vector<Real> distances_along(const Points& line);
+
+/// The points of a line at these distances from its beginning (m, ascending); beyond an end, that end. Precondition: at
+/// least one point.
+Points points_along(const Points& line, const std::vector<Real>& distances);
+
 /// A line of `segments` pieces between points at equal distances along the given one; first and last stay. A single
 /// point is repeated. Preconditions: at least one point, segments > 0.
 Points resampled(const Points& line, Index segments);

@@ -208,14 +208,16 @@ void write_sto(const std::filesystem::path& path, const Table& table) {
   write_text_atomically(path, text);
 }
 
-/// The name of the coordinate that a column holds; empty when it holds anything else.
-static std::string coordinate_of_column(const std::string& column, const std::vector<std::string>& translations) {
-  std::string name = column;
-  if (name.starts_with('/')) {
-    if (!name.ends_with("/value")) return "";
-    name.resize(name.size() - std::string_view("/value").size());
-    name = name.substr(name.rfind('/') + 1);
-  }
+std::string coordinate_of_column(const std::string& column) {
+  if (!column.starts_with('/')) return column;
+  if (!column.ends_with("/value")) return "";
+  const std::string path = column.substr(0, column.size() - std::string_view("/value").size());
+  return path.substr(path.rfind('/') + 1);
+}
+
+/// The same, but empty for what moves along and for speeds; `translations` are coordinates that may move along.
+static std::string moving_coordinate(const std::string& column, const std::vector<std::string>& translations) {
+  const std::string name = coordinate_of_column(column);
   if (std::find(translations.begin(), translations.end(), name) != translations.end()) return name;
   for (const char* ending : {"_tx", "_ty", "_tz", "Translation", "_speed", "_u"}) {
     if (name.ends_with(ending)) return "";
@@ -235,7 +237,7 @@ Motion motion_from_table(const Table& table, const std::vector<std::string>& tra
   motion.times = table.times;
   motion.values.resize(table.values.rows(), 0);
   for (std::size_t column = 0; column < table.columns.size(); ++column) {
-    const std::string coordinate = coordinate_of_column(table.columns[column], translations);
+    const std::string coordinate = moving_coordinate(table.columns[column], translations);
     if (coordinate.empty()) continue;
     const bool shifts = std::find(translations.begin(), translations.end(), coordinate) != translations.end();
     motion.coordinates.push_back(coordinate);

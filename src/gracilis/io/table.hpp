@@ -34,9 +34,12 @@ Table read_table(const std::filesystem::path& path);
 /// Writes a table with the header that OpenSim 4 reads (version 1, inDegrees), whole or not at all.
 void write_sto(const std::filesystem::path& path, const Table& table);
 
-/// The coordinates of a motion in rad. Columns named in `translations` are in m in any table and stay as they are; other
-/// translations (names that end in _tx, _ty, _tz or Translation) and speeds are left out; OpenSim's state names
-/// (/jointset/hip_r/hip_flexion_r/value) are cut to the coordinate.
+/// The coordinate that a column holds: the column's name, cut from OpenSim's state names
+/// (/jointset/hip_r/hip_flexion_r/value); empty for other states.
+std::string coordinate_of_column(const std::string& column);
+
+/// The coordinates of a motion in rad. Columns named in `translations` are in m in any table and stay as they are;
+/// other translations (names that end in _tx, _ty, _tz or Translation) and speeds are left out.
 Motion motion_from_table(const Table& table, const std::vector<std::string>& translations = {});
 
 }  // namespace gracilis

@@ -10,15 +10,6 @@
 
 namespace gracilis::opensim {
 
-/// The coordinate that a column holds; empty when it is a speed, an activation or the like.
-static std::string coordinate_of_column(const std::string& column) {
-  if (!column.starts_with('/')) return column;
-  const std::string ending = "/value";
-  if (!column.ends_with(ending)) return "";
-  const std::string path = column.substr(0, column.size() - ending.size());
-  return path.substr(path.rfind('/') + 1);
-}
-
 CoordinateMotion coordinate_motion(const Model& model, const Table& table) {
   CoordinateMotion motion;
   motion.times = table.times;

@@ -1,6 +1,7 @@
 #include <gracilis/opensim/muscle_volume.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/polylines.hpp>
 #include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>
 #include <gracilis/methods/cylinder/spindle.hpp>
@@ -38,17 +39,15 @@ static std::vector<Index> section(Index k, Index rays) {
 MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                            const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
   const Line line = line_of(model, muscle, poses, coordinates);
-  const Real length = line.points.cols() < 2 ? 0 : line_length(line.points);
+  const Real length = line.points.cols() < 2 ? 0 : polyline_length(line.points);
   if (!(length > 1e-3))
     throw InputError({model.name, muscle.name, "has no path through space of 1 mm or more", "leave the muscle out"});
   int scaling = 1;
   while (scaling < 8 && length / static_cast<Real>((line.points.cols() - 1) << scaling) > settings.section_distance)
     ++scaling;
   const Points fine = subdivide_line(line.points, scaling);
-  Eigen::VectorXd positions(fine.cols());
-  positions[0] = 0;
-  for (Eigen::Index i = 1; i < fine.cols(); ++i)
-    positions[i] = positions[i - 1] + (fine.col(i) - fine.col(i - 1)).norm();
+  const std::vector<Real> places = distances_along(fine);
+  const Eigen::VectorXd positions = Eigen::VectorXd::Map(places.data(), fine.cols());
   const MuscleSize size{muscle.max_isometric_force, muscle.optimal_fiber_length, muscle.pennation_angle_at_optimal,
                         settings.specific_tension};
   const Real rest = muscle.tendon_slack_length + muscle.optimal_fiber_length * std::cos(size.pennation);

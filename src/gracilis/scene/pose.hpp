@@ -8,10 +8,17 @@ namespace gracilis {
 
 /// Where every body is at one instant.
 struct Pose {
-  Real time = 0;                         ///< s
-  std::vector<Real> coordinates;         ///< rad, in the order of all axes of all joints of the scene
-  std::vector<RigidTransform> bodies;    ///< per body: from its place in the capture pose to its place now, world frame
-  std::vector<Real> activations = {};    ///< 0 to 1 per muscle of the scene; empty: all muscles are relaxed
+  Real time = 0;                       ///< s
+  std::vector<Real> coordinates;       ///< rad, in the order of all axes of all joints of the scene
+  std::vector<RigidTransform> bodies;  ///< per body: from its place in the capture pose to its place now, world frame
+  std::vector<Real> activations = {};  ///< 0 to 1 per muscle of the scene; empty: all muscles are relaxed
 };
+
+/// Where all bodies are as they were captured.
+inline Pose capture_pose(std::size_t body_count) {
+  Pose pose;
+  pose.bodies.assign(body_count, RigidTransform::Identity());
+  return pose;
+}
 
 }  // namespace gracilis

@@ -17,12 +17,6 @@ Points subdivide_line(const Points& line, int scaling) {
   return result;
 }
 
-Real line_length(const Points& line) {
-  Real length = 0;
-  for (Eigen::Index i = 1; i < line.cols(); ++i) length += (line.col(i) - line.col(i - 1)).norm();
-  return length;
-}
-
 Vec3 point_before_end(const Points& line, Real distance, Index& after) {
   for (Eigen::Index i = line.cols() - 1; i > 0; --i) {
     const Real part = (line.col(i) - line.col(i - 1)).norm();

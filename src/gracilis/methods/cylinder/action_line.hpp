@@ -10,8 +10,6 @@ namespace gracilis {
 /// (Laclé 2014, eq. 3.19). `scaling` from 0 to 16; at least two points.
 Points subdivide_line(const Points& line, int scaling);
 
-Real line_length(const Points& line);
-
 /// The point that lies `distance` (m) before the line's end, walked along it; its first point where it is shorter.
 /// `after` becomes the index of the point that follows it.
 Vec3 point_before_end(const Points& line, Real distance, Index& after);

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/polylines.hpp>
 #include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>
 
@@ -51,23 +52,6 @@ static Eigen::VectorXd spacing_of(const Points& centers) {
   return spacing;
 }
 
-/// The points of a line at these distances from its beginning, ascending.
-static Points points_along(const Points& line, const std::vector<Real>& places) {
-  Points points(3, static_cast<Eigen::Index>(places.size()));
-  Eigen::Index part = 0;
-  Real before = 0, length = (line.col(1) - line.col(0)).norm();
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    while (places[i] > before + length && part + 2 < line.cols()) {
-      before += length;
-      ++part;
-      length = (line.col(part + 1) - line.col(part)).norm();
-    }
-    const Real share = length > 0 ? std::clamp((places[i] - before) / length, 0.0, 1.0) : 0;
-    points.col(static_cast<Eigen::Index>(i)) = line.col(part) + share * (line.col(part + 1) - line.col(part));
-  }
-  return points;
-}
-
 /// Places of the sections on a line of this length: the tendon's keep their distance from its end.
 static std::vector<Real> places_on(const CylinderMuscle& muscle, Real length) {
   const Real tendon = muscle.line->tendon, belly = muscle.length - tendon;
@@ -89,7 +73,7 @@ static Sections sections_at(const CylinderMuscle& muscle, const Pose& pose) {
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     points.col(i) =
         pose.bodies[static_cast<std::size_t>(line.bodies[static_cast<std::size_t>(i)])] * line.points.col(i);
-  const Points centers = points_along(points, places_on(muscle, line_length(points)));
+  const Points centers = points_along(points, places_on(muscle, polyline_length(points)));
   const Vec3 ray = pose.bodies[static_cast<std::size_t>(line.bodies[0])].linear() * muscle.first_ray;
   return {centers, section_frames(centers, ray)};
 }
@@ -112,12 +96,6 @@ static Points surface_at(const CylinderMuscle& muscle, const Pose& pose) {
   return points;
 }
 
-static Pose capture_pose_of(const Scene& scene) {
-  Pose pose;
-  pose.bodies.assign(scene.bodies.size(), RigidTransform::Identity());
-  return pose;
-}
-
 /// The vertices' places in their sections, and the sections' on the line, from the surface as it was captured.
 static CylinderMuscle prepare(const Pose& capture, const Muscle& muscle) {
   CylinderMuscle result;
@@ -126,10 +104,8 @@ static CylinderMuscle prepare(const Pose& capture, const Muscle& muscle) {
   result.rays = muscle.action_line.rays;
   const Index count = (muscle.surface.vertex_count() - 2) / result.rays;
   const Points centers = subdivide_line(muscle.action_line.points, muscle.action_line.scaling);
-  result.length = line_length(centers);
-  result.places.push_back(0);
-  for (Index k = 1; k < count; ++k)
-    result.places.push_back(result.places.back() + (centers.col(k) - centers.col(k - 1)).norm());
+  result.length = polyline_length(centers);
+  result.places = distances_along(centers);
   result.spacing = spacing_of(centers);
   result.first_ray = muscle.surface.vertices.col(0) - centers.col(0);
   if (result.first_ray.norm() < 1e-9) result.first_ray = Vec3::UnitX();
@@ -147,7 +123,7 @@ namespace {
 class CylinderMethod final : public DeformationMethod {
  public:
   explicit CylinderMethod(const Scene& scene) : lines_(scene.muscles) {
-    const Pose capture = capture_pose_of(scene);
+    const Pose capture = capture_pose(scene.bodies.size());
     for (const Muscle& muscle : lines_) {
       muscles_.push_back(prepare(capture, muscle));
       shapes_.push_back(muscle.surface.vertices);

@@ -13,12 +13,6 @@ namespace gracilis {
 
 namespace xpbd {
 
-static Pose capture_pose(std::size_t body_count) {
-  Pose pose;
-  pose.bodies.assign(body_count, RigidTransform::Identity());
-  return pose;
-}
-
 /// Into the scene's order; nothing in quasi-static mode, which carries no velocity.
 static void write_velocities(const PreparedMuscle& muscle, const SurfaceState& state, Points& velocities) {
   const bool carried = muscle.settings.time_mode == TimeMode::dynamic;

@@ -82,10 +82,10 @@ static Json table_chart(const RecordedRun& run, const std::string& file, const s
   const auto rows = std::min<Eigen::Index>(table.values.rows(), run.frame_count);
   Json series = Json::array();
   for (const std::string& muscle : run.muscles) {
-    const auto mean = std::find(table.columns.begin(), table.columns.end(), muscle);
-    if (mean == table.columns.end()) continue;
+    const std::optional<Eigen::Index> mean = column_of(table, muscle);
+    if (!mean) continue;
     Eigen::VectorXd values = Eigen::VectorXd::Constant(run.frame_count, std::nan("")), low = values, high = values;
-    values.tail(rows) = 1000 * table.values.col(mean - table.columns.begin()).head(rows);
+    values.tail(rows) = 1000 * table.values.col(*mean).head(rows);
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
       if (!table.columns[c].starts_with(muscle + "_f")) continue;
       const Eigen::VectorXd fiber = 1000 * table.values.col(static_cast<Index>(c)).head(rows);
