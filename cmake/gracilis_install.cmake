@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 set(gracilis_package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/gracilis)
-string(REPLACE ";" " " GRACILIS_VTK_COMPONENT_LIST "${GRACILIS_VTK_COMPONENTS}")
+string(REPLACE ";" " " GRACILIS_VTK_COMPONENT_LIST "${GRACILIS_VTK_COMPONENTS};${GRACILIS_VTK_WINDOW_COMPONENTS}")
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/gracilisConfig.cmake.in
                               ${PROJECT_BINARY_DIR}/gracilisConfig.cmake
                               INSTALL_DESTINATION ${gracilis_package_folder} NO_SET_AND_CHECK_MACRO)

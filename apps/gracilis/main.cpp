@@ -17,6 +17,7 @@
 #include "rom_command.hpp"
 #include "run_command.hpp"
 #include "static_optimization_command.hpp"
+#include "view_command.hpp"
 
 #include <gracilis/core/errors.hpp>
 
@@ -45,6 +46,7 @@ int main(int count, char** arguments) {
   add_render_command(program, chosen);
   add_export_command(program, chosen);
   add_report_command(program, chosen);
+  add_view_command(program, chosen);
   add_prepare_command(program, chosen);
   add_import_command(program, chosen);
   add_motions_command(program, chosen);

@@ -106,8 +106,7 @@ static void add_lines(const PaintedLines& lines, int scale, vtkRenderer& rendere
   renderer.AddActor(actor);
 }
 
-/// Three lights fixed to the camera: key from the upper left, weaker fill from the right, rim from behind and above.
-static void add_lights(vtkRenderer& renderer) {
+void add_camera_lights(vtkRenderer& renderer) {
   struct CameraLight {
     double x, y, z, intensity;
   };
@@ -252,7 +251,7 @@ void add_renderers(const Picture& picture, const PictureLayout& layout, int scal
     }
     for (const PaintedSurface& surface : panel.surfaces) add_surface(surface, *renderer);
     for (const PaintedLines& lines : panel.lines) add_lines(lines, scale, *renderer);
-    add_lights(*renderer);
+    add_camera_lights(*renderer);
     place_camera(layout.cameras[i], layout.half_height, *renderer);
     if (i == 0 && picture.scale_bar && layout.captions[i].height == 0) add_scale_bar(layout, scale, *renderer);
     if (layout.captions[i].height == 0) continue;

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/view/window/glyphs.hpp>
+#include <gracilis/view/window/shape_history.hpp>
+#include <gracilis/view/window/window_state.hpp>
+
+#include <array>
+#include <vector>
+
+namespace gracilis {
+
+/// The kinds of constraints whose displacements are shown, in the order in which an iteration projects them.
+inline constexpr std::array arrow_kinds = {
+    ConstraintKind::distance,      ConstraintKind::contraction,    ConstraintKind::dihedral,    ConstraintKind::volume,
+    ConstraintKind::stretch_limit, ConstraintKind::muscle_contact, ConstraintKind::bone_contact};
+
+/// After Okabe and Ito (2008): told apart by color-blind readers, too.
+Color arrow_color(ConstraintKind kind);
+
+/// Where an arrow begins and what it stands for.
+struct Displacement {
+  Eigen::Vector3f root, moved;  ///< m
+  ConstraintKind kind;
+};
+
+/// What each kind moved in a frame, or in one of its iterations, as the state asks: one entry per kind and root of the
+/// muscles that are shown, without those that are zero.
+std::vector<Displacement> displacements_of(const ShownShapes& shapes, const ShownFrame& frame,
+                                           const WindowState& state);
+
+/// How many iterations a frame has.
+int iteration_count(const ShownFrame& frame);
+
+/// A round factor (1, 2 or 5 times a power of ten) that makes all but the longest twentieth shorter than 15 mm.
+Real arrow_scale(const std::vector<Displacement>& displacements);
+
+/// Arrows `scale` times as long; those that would be shorter than half a millimetre are left out.
+ColoredMesh arrow_mesh(const std::vector<Displacement>& displacements, Real scale);
+
+}  // namespace gracilis

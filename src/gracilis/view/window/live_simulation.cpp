@@ -1,0 +1,265 @@
+#include <gracilis/view/window/live_simulation.hpp>
+
+#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/simulate/run.hpp>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace gracilis {
+
+// What a method takes in one step.
+static constexpr Real largest_turn = radians(1.25);
+static constexpr Real largest_shift = 0.001;  // m, of coordinates that are translations
+static constexpr Real largest_activation = 0.05;
+
+LiveSimulation::LiveSimulation(const Scene& scene, ShapeHistory& history,
+                               std::function<std::unique_ptr<DeformationMethod>()> make_method)
+    : scene_(scene),
+      history_(history),
+      make_method_(std::move(make_method)),
+      motion_(pose_sequence(scene)),
+      motion_at_(motion_.size()) {
+  shapes_.title = scene.name;
+  shapes_.axes = scene.axes;
+  std::vector<TriangleMesh> muscles, bones;
+  std::size_t left = 0;
+  for (const Muscle& muscle : scene.muscles) {
+    shapes_.muscles.push_back(muscle.name);
+    if (muscle.name.ends_with("_l")) ++left;
+    muscles.push_back(muscle.surface);
+  }
+  shapes_.left_side = 2 * left > scene.muscles.size();
+  for (const Bone& bone : scene.bones) {
+    shapes_.bones.push_back(bone.name);
+    bones.push_back(bone.surface);
+  }
+  maker_.emplace(std::move(muscles), std::move(bones), shapes_);
+  wanted_ = {capture_coordinates(scene), std::vector<Real>(scene.muscles.size())};
+  reached_ = wanted_;
+  history_.append(shown(capture_frame(scene, pose_at(scene, reached_.coordinates))));
+  thread_ = std::thread([this] { work(); });
+}
+
+LiveSimulation::~LiveSimulation() {
+  {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void LiveSimulation::aim(std::size_t coordinate, Real value) {
+  const std::lock_guard lock(mutex_);
+  wanted_.coordinates.at(coordinate) = value;
+  motion_at_ = motion_.size();
+  changed_.notify_all();
+}
+
+Real LiveSimulation::aim_of(std::size_t coordinate) const {
+  const std::lock_guard lock(mutex_);
+  return wanted_.coordinates.at(coordinate);
+}
+
+void LiveSimulation::activate(std::size_t muscle, Real activation) {
+  const std::lock_guard lock(mutex_);
+  wanted_.activations.at(muscle) = activation;
+  motion_at_ = motion_.size();
+  changed_.notify_all();
+}
+
+Real LiveSimulation::activation_of(std::size_t muscle) const {
+  const std::lock_guard lock(mutex_);
+  return wanted_.activations.at(muscle);
+}
+
+void LiveSimulation::play_motion() {
+  const std::lock_guard lock(mutex_);
+  motion_at_ = 0;
+  paused_ = false;
+  changed_.notify_all();
+}
+
+void LiveSimulation::pause(bool on) {
+  const std::lock_guard lock(mutex_);
+  paused_ = on;
+  single_steps_ = 0;
+  changed_.notify_all();
+}
+
+bool LiveSimulation::is_paused() const {
+  const std::lock_guard lock(mutex_);
+  return paused_;
+}
+
+void LiveSimulation::step_once() {
+  const std::lock_guard lock(mutex_);
+  ++single_steps_;
+  changed_.notify_all();
+}
+
+void LiveSimulation::look_again() {
+  const std::lock_guard lock(mutex_);
+  look_again_ = true;
+  changed_.notify_all();
+}
+
+void LiveSimulation::reset() {
+  const std::lock_guard lock(mutex_);
+  wanted_ = {capture_coordinates(scene_), std::vector<Real>(scene_.muscles.size())};
+  motion_at_ = motion_.size();
+  reset_ = true;
+  changed_.notify_all();
+}
+
+std::string LiveSimulation::status() const {
+  const std::lock_guard lock(mutex_);
+  return paused_ && status_ != "preparing" ? "paused" : status_;
+}
+
+void LiveSimulation::tell(const std::string& status) {
+  const std::lock_guard lock(mutex_);
+  status_ = status;
+}
+
+/// One step of all values towards where they are wanted; false when they are there. Where the scene's motion plays,
+/// its next pose is wanted as soon as the last is reached.
+bool LiveSimulation::approach() {
+  if (motion_at_ < motion_.size()) {
+    if (reached_.coordinates == wanted_.coordinates && reached_.activations == wanted_.activations) ++motion_at_;
+    if (motion_at_ < motion_.size()) {
+      wanted_.coordinates = motion_[motion_at_].coordinates;
+      wanted_.activations = motion_[motion_at_].activations;
+      wanted_.activations.resize(scene_.muscles.size());
+    }
+  }
+  const auto move = [](Real& value, Real wanted, Real most) {
+    if (value == wanted) return false;
+    value += std::clamp(wanted - value, -most, most);
+    return true;
+  };
+  bool moved = false;
+  std::size_t i = 0;
+  for (const Joint& joint : scene_.joints)
+    for (const JointAxis& axis : joint.axes) {
+      moved |= move(reached_.coordinates[i], wanted_.coordinates[i], axis.translation ? largest_shift : largest_turn);
+      ++i;
+    }
+  for (std::size_t m = 0; m < scene_.muscles.size(); ++m)
+    moved |= move(reached_.activations[m], wanted_.activations[m], largest_activation);
+  return moved;
+}
+
+/// Behind the lock.
+bool LiveSimulation::may_step() {
+  if (!paused_) return approach();
+  if (single_steps_ == 0) return false;
+  --single_steps_;
+  approach();
+  return true;
+}
+
+void LiveSimulation::prepare() {
+  method_ = make_method_();
+  method_->reset();
+  tracker_.emplace(scene_);
+  history_.replace(0, shown(capture_frame(scene_, pose_at(scene_, reached_.coordinates))));
+  tell("ready");
+  spdlog::info("ready: pull the sliders");
+}
+
+Frame LiveSimulation::next_frame(int number) {
+  Frame frame;
+  frame.number = number;
+  frame.pose = pose_at(scene_, reached_.coordinates);
+  frame.pose.activations = reached_.activations;
+  frame.pose.time = number / 60.0;
+  const auto begin = std::chrono::steady_clock::now();
+  method_->advance(frame.pose);
+  milliseconds_ = std::chrono::duration<Real, std::milli>(std::chrono::steady_clock::now() - begin).count();
+  method_->write(frame);
+  return frame;
+}
+
+/// What is to be done next; waits until there is something.
+LiveSimulation::Task LiveSimulation::next_task() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    if (stop_) return Task::stop;
+    if (std::exchange(look_again_, false)) return Task::look_again;
+    if (std::exchange(reset_, false)) {
+      reached_ = wanted_;
+      return Task::reset;
+    }
+    if (may_step()) {
+      status_ = "moving";
+      return Task::step;
+    }
+    if (status_ == "moving") status_ = "ready";
+    changed_.wait(lock);
+  }
+}
+
+void LiveSimulation::work() {
+  Frame last = capture_frame(scene_, pose_at(scene_, reached_.coordinates));
+  for (Task task = Task::step; task != Task::stop;) {
+    try {
+      if (!method_) prepare();
+      task = next_task();
+      if (task == Task::reset) method_->reset();
+      if (task == Task::step || task == Task::reset) {
+        last = next_frame(last.number + 1);
+        history_.append(shown(last));
+      }
+      if (task == Task::look_again) history_.replace(last.number, shown(last));
+    } catch (const Error& error) {
+      spdlog::error("the simulation has stopped: {}", error.what());
+      std::unique_lock lock(mutex_);
+      status_ = std::string("stopped: ") + error.what();
+      changed_.wait(lock, [this] { return stop_ || (reset_ && method_); });
+    }
+  }
+}
+
+ShownFrame LiveSimulation::shown(const Frame& frame) {
+  ShownFrame result;
+  std::size_t coordinate = 0;
+  for (const Joint& joint : scene_.joints) {
+    for (const JointAxis& axis : joint.axes) {
+      const Real now = frame.pose.coordinates[coordinate];
+      const bool moved = std::abs(now - axis.capture_value) > (axis.translation ? 0.0005 : radians(0.5));
+      if (moved || coordinate == 0)
+        result.caption += fmt::format("{}{} {:.0f}{}", result.caption.empty() ? "" : ", ", axis.coordinate,
+                                      shown_value(axis, now) + 0.0, axis.translation ? " mm" : "°");
+      ++coordinate;
+    }
+  }
+  std::vector<Points> muscles;
+  for (const MuscleShape& shape : frame.muscles) muscles.push_back(shape.points);
+  std::vector<RigidTransform> bones;
+  for (const Bone& bone : scene_.bones) bones.push_back(frame.pose.bodies[static_cast<std::size_t>(bone.body)]);
+  maker_->fill(muscles, std::move(bones), history_.wishes.contact_depth, result);
+  std::vector<Polylines> fibers(scene_.muscles.size());
+  if (tracker_) {
+    const std::vector<MuscleFibers> followed = tracker_->follow(frame);
+    for (std::size_t m = 0; m < fibers.size(); ++m) fibers[m] = followed[m].lines;
+    maker_->fill_fibers(fibers, result);
+  } else {
+    result.fibers = fibers;
+    result.strain.resize(fibers.size());
+  }
+  result.activation = frame.pose.activations;
+  result.activation.resize(scene_.muscles.size());
+  result.milliseconds = milliseconds_;
+  return result;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <gracilis/methods/method.hpp>
+#include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/fiber_tracker.hpp>
+#include <gracilis/view/window/frame_maker.hpp>
+#include <gracilis/view/window/shape_history.hpp>
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace gracilis {
+
+/// A scene that moves to where its coordinates are told to go, on a thread of its own. Every step becomes a frame of
+/// the history, so that what happened can be looked at again. All functions may be called from any thread, and return
+/// at once.
+class LiveSimulation {
+ public:
+  /// Appends the capture pose at once; `make_method` is called on the thread, for preparing takes seconds. Scene and
+  /// history must outlive this. Precondition: the scene is valid.
+  LiveSimulation(const Scene& scene, ShapeHistory& history,
+                 std::function<std::unique_ptr<DeformationMethod>()> make_method);
+  ~LiveSimulation();
+  LiveSimulation(const LiveSimulation&) = delete;
+  LiveSimulation& operator=(const LiveSimulation&) = delete;
+
+  const ShownShapes& shapes() const { return shapes_; }
+  /// Where a coordinate shall go (rad, m), in the order of coordinate_names().
+  void aim(std::size_t coordinate, Real value);
+  Real aim_of(std::size_t coordinate) const;
+  /// How active a muscle shall be, 0 to 1.
+  void activate(std::size_t muscle, Real activation);
+  Real activation_of(std::size_t muscle) const;
+  /// Through the scene's own motion, until it ends or a slider is moved.
+  void play_motion();
+  void pause(bool on);
+  bool is_paused() const;
+  /// One more step while paused, even where nothing is left to move.
+  void step_once();
+  /// Makes the last frame again, with what is wished for now.
+  void look_again();
+  /// Back to the capture pose, whatever happened.
+  void reset();
+  /// "preparing", "ready", "moving", "paused", or what went wrong.
+  std::string status() const;
+
+ private:
+  struct Wanted {
+    std::vector<Real> coordinates, activations;
+  };
+  enum class Task { step, reset, look_again, stop };
+  void work();
+  void prepare();
+  Task next_task();
+  bool approach();
+  bool may_step();
+  Frame next_frame(int number);
+  ShownFrame shown(const Frame& frame);
+  void tell(const std::string& status);
+
+  const Scene& scene_;
+  ShapeHistory& history_;
+  std::function<std::unique_ptr<DeformationMethod>()> make_method_;
+  ShownShapes shapes_;
+  std::optional<FrameMaker> maker_;
+  const std::vector<Pose> motion_;
+  // Of the simulation's thread.
+  std::unique_ptr<DeformationMethod> method_;
+  std::optional<FiberTracker> tracker_;
+  Wanted reached_;
+  Real milliseconds_ = 0;  ///< of the last step
+  // Of all, behind the lock.
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  Wanted wanted_;
+  std::size_t motion_at_;  ///< next pose of the motion; its end: it does not play
+  int single_steps_ = 0;
+  bool paused_ = false, reset_ = false, look_again_ = false, stop_ = false;
+  std::string status_ = "preparing";
+  std::thread thread_;
+};
+
+}  // namespace gracilis

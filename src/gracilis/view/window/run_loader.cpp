@@ -1,0 +1,94 @@
+#include <gracilis/view/window/run_loader.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/view/run_picture.hpp>
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace gracilis {
+
+/// Surfaces of a frame, read at the same time.
+static std::vector<TriangleMesh> read_surfaces(const RecordedRun& run, const std::vector<std::string>& names,
+                                               int frame) {
+  std::vector<TriangleMesh> surfaces(names.size());
+  parallel_for(static_cast<Index>(names.size()), 1, [&](Index begin, Index end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      surfaces[i] = recorded_surface(run, names[i], frame);
+  });
+  return surfaces;
+}
+
+RunLoader::RunLoader(const RecordedRun& run, ShapeHistory& history)
+    : run_(run),
+      history_(history),
+      has_depth_(static_cast<std::size_t>(run.frame_count)),
+      activations_(measure_of(run, "activation")),
+      volumes_(measure_of(run, "volume_ratio")),
+      milliseconds_(measure_of(run, "milliseconds")) {
+  shapes_.title = run.manifest.value("scene", run.folder.filename().string());
+  shapes_.axes = run.axes;
+  shapes_.left_side = view_direction(run, "lateral").dot(run.axes.right()) < 0;
+  shapes_.muscles = run.muscles;
+  shapes_.bones = run.bones;
+  maker_.emplace(read_surfaces(run, run.muscles, 0), read_surfaces(run, run.bones, 0), shapes_);
+  history_.append(read(0));
+  thread_ = std::thread([this] { work(); });
+}
+
+RunLoader::~RunLoader() {
+  stop_ = true;
+  thread_.join();
+}
+
+void RunLoader::work() {
+  try {
+    for (int frame = 1; frame < run_.frame_count && !stop_; ++frame) history_.append(read(frame));
+    while (!stop_) {
+      const int frame = history_.wishes.contact_depth ? frame_without_depth() : -1;
+      if (frame >= 0)
+        history_.replace(frame, read(frame));
+      else
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  } catch (const Error& error) {
+    spdlog::warn("what comes after frame {} cannot be shown: {}", history_.end() - 1, error.what());
+  }
+}
+
+/// The first one from where somebody looks; -1: all have it.
+int RunLoader::frame_without_depth() const {
+  const int count = history_.end(), from = history_.wishes.frame;
+  for (int i = 0; i < count; ++i)
+    if (!has_depth_[static_cast<std::size_t>((from + i) % count)]) return (from + i) % count;
+  return -1;
+}
+
+ShownFrame RunLoader::read(int number) {
+  ShownFrame frame;
+  frame.caption = pose_caption(run_, number);
+  std::vector<Points> muscles;
+  for (TriangleMesh& surface : read_surfaces(run_, run_.muscles, number))
+    muscles.push_back(std::move(surface.vertices));
+  std::vector<RigidTransform> bones;
+  const std::vector<TriangleMesh> moved = read_surfaces(run_, run_.bones, number);
+  for (std::size_t b = 0; b < moved.size(); ++b)
+    bones.push_back(rigid_motion(maker_->bones()[b].vertices, moved[b].vertices));
+  const bool with_depth = history_.wishes.contact_depth;
+  maker_->fill(muscles, std::move(bones), with_depth, frame);
+  has_depth_[static_cast<std::size_t>(number)] = with_depth;
+  std::vector<Polylines> fibers;
+  for (const std::string& name : run_.muscles) fibers.push_back(recorded_fibers(run_, name, number));
+  maker_->fill_fibers(fibers, frame);
+  for (Index m = 0; m < static_cast<Index>(run_.muscles.size()); ++m) {
+    frame.activation.push_back(activations_.size() > 0 ? activations_(number, m) : 0);
+    if (volumes_.size() > 0) frame.volume[static_cast<std::size_t>(m)] = volumes_(number, m);
+    if (milliseconds_.size() > 0) frame.milliseconds += milliseconds_(number, m);
+  }
+  return frame;
+}
+
+}  // namespace gracilis

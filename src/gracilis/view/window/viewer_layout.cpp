@@ -1,0 +1,214 @@
+#include <gracilis/view/window/arrows.hpp>
+#include <gracilis/view/window/bone_slice.hpp>
+#include <gracilis/view/window/viewer.hpp>
+
+#include <fmt/format.h>
+#include <vtkActor.h>
+#include <vtkActor2D.h>
+#include <vtkCamera.h>
+#include <vtkPolyData.h>
+#include <vtkTextActor.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gracilis {
+
+static const Color ink = Color::Constant(0.1), faint = Color::Constant(0.38), accent(0.04, 0.36, 0.68);
+static constexpr int margin = 16, right_width = 210, track_height = 66;
+
+void Viewer::lay_out() {
+  width_ = window_->GetSize()[0];
+  height_ = window_->GetSize()[1];
+  overlay_.clear();
+  lay_out_left();
+  lay_out_right();
+  lay_out_track();
+  if (!help_) return;
+  overlay_.begin_layer();
+  add_help(width_, height_, help_rows(bindings_), overlay_);
+}
+
+/// From a standard direction, into the room that the texts leave.
+void Viewer::look(const std::string& view) {
+  view_ = view;
+  const int* size = window_->GetSize();
+  const int side = margin + right_width + 10;
+  const Rectangle room{side, track_height + 10, std::max(100, size[0] - 2 * side),
+                       std::max(100, size[1] - track_height - 56)};
+  look_from(view, shapes_, history_, room, *scene_renderer_);
+}
+
+static const char* name_of(WindowColor color) {
+  static constexpr std::array names = {"muscle",       "tissue",        "activation", "fiber strain",
+                                       "edge stretch", "contact depth", "volume"};
+  return names[static_cast<std::size_t>(color)];
+}
+
+std::vector<OptionEntry> Viewer::options_shown() {
+  static constexpr std::array styles = {"solid", "edges", "wireframe"};
+  static constexpr std::array ghosts = {"off", "first frame", "10, 20, 30 earlier"};
+  static constexpr std::array slices = {"off", "sagittal", "coronal", "transverse"};
+  static constexpr std::array arrows = {"off", "whole frame", "iteration"};
+  const auto on = [](bool value) { return std::string(value ? "on" : "off"); };
+  const auto of = [](const auto& names, auto value) { return std::string(names[static_cast<std::size_t>(value)]); };
+  std::vector<OptionEntry> entries = {{"c", "color", name_of(state_.color_by), {}},
+                                      {"s", "surface", of(styles, state_.style), {}},
+                                      {"b", "bones", on(state_.bones), {}},
+                                      {"f", "fibers", on(state_.fibers), {}},
+                                      {"a", "attachments", on(state_.attachments), {}},
+                                      {"g", "ghost", of(ghosts, state_.ghost), {}},
+                                      {"x", "slice", of(slices, state_.slice), {}}};
+  if (options_.live) {
+    std::string which = of(arrows, state_.arrows);
+    if (state_.arrows == Arrows::iteration)
+      which += fmt::format(" {} of {}", state_.iteration + 1, iteration_count(*history_.at(player_.frame)));
+    entries.push_back({"v", "arrows", which, {}});
+  }
+  for (OptionEntry& entry : entries) entry.act = [this, key = entry.key] { press(key); };
+  entries.push_back({"?", "help", "", [this] { press("question"); }});
+  return entries;
+}
+
+void Viewer::lay_out_left() {
+  overlay_.add_text(margin, height_ - 32, words_of(shapes_.title), 19, ink);
+  std::vector<ListEntry> muscles;
+  for (std::size_t m = 0; m < shapes_.muscles.size(); ++m) {
+    const MuscleState shown = state_.muscles[m];
+    muscles.push_back({words_of(shapes_.muscles[m]), muscle_color(static_cast<Index>(m)),
+                       shown == MuscleState::solid         ? 1
+                       : shown == MuscleState::transparent ? 0.35
+                                                           : 0,
+                       [this, m] { cycle_muscle(m); }});
+  }
+  const std::vector<OptionEntry> entries = options_shown();
+  const int options_height = 20 * static_cast<int>(entries.size()) + 16;
+  const int end = add_list(margin, height_ - 46, track_height + options_height + 10, muscles, overlay_);
+  add_options(margin, end - 14, entries, overlay_);
+}
+
+/// A scale above `bottom`; returns the next free height.
+int Viewer::lay_out_scale(const ColorScale& scale, int bottom) {
+  const Rectangle bar{width_ - margin - right_width, bottom + 20, right_width, 12};
+  add_color_bar(scale, bar, overlay_);
+  return bottom + 66;
+}
+
+void Viewer::lay_out_right() {
+  const int left = width_ - margin - right_width;
+  int bottom = track_height + 8;
+  if (!window_scale(state_.color_by).colors.empty()) bottom = lay_out_scale(window_scale(state_.color_by), bottom);
+  if (state_.color_by == WindowColor::tissue || state_.attachments) {
+    std::vector<ListEntry> entries;
+    for (const TissueColor& tissue : tissue_colors()) entries.push_back({tissue.name, tissue.color, 1, [] {}});
+    if (state_.color_by != WindowColor::tissue) entries.erase(entries.begin(), entries.begin() + 2);
+    add_list(left, bottom + 22 * static_cast<int>(entries.size()) + 4, bottom, entries, overlay_);
+    bottom += 22 * static_cast<int>(entries.size()) + 12;
+  }
+  if (state_.slice != Slice::none) bottom = lay_out_scale(slice_scale(), bottom);
+  if (state_.arrows != Arrows::none) {
+    std::vector<ListEntry> entries;
+    for (const ConstraintKind kind : arrow_kinds)
+      entries.push_back({gracilis::name_of(kind), arrow_color(kind),
+                         state_.arrow_kinds[static_cast<std::size_t>(kind)] ? 1.0 : 0.0, [this, kind] {
+                           const auto place = static_cast<std::size_t>(kind);
+                           state_.arrow_kinds[place] = !state_.arrow_kinds[place];
+                           changed_ = relaid_ = true;
+                         }});
+    const int height = 22 * static_cast<int>(entries.size());
+    add_list(left, bottom + height + 4, bottom, entries, overlay_);
+    overlay_.add_text(left, bottom + height + 10, fmt::format("moved by, {:g} times as long", scene_->arrow_scale()),
+                      15, ink);
+    bottom += height + 36;
+  }
+
+  int top = height_ - 18;
+  if (state_.slice != Slice::none) {
+    const std::vector<WindowSlider> one = {{"", "slice at", "", 0, 1, [this] { return state_.slice_at; }, {}}};
+    std::size_t page = 0;
+    top = add_sliders(
+        left, top, bottom, right_width, page, one,
+        [this](std::size_t, Real share) {
+          state_.slice_at = share;
+          changed_ = relaid_ = true;
+        },
+        {}, overlay_);
+  }
+  if (!options_.live) return;
+  add_sliders(
+      left, top, bottom, right_width, slider_page_, options_.live->sliders,
+      [this](std::size_t s, Real share) {
+        const WindowSlider& slider = options_.live->sliders[s];
+        slider.moved(slider.low + share * (slider.high - slider.low));
+        follows_ = changed_ = relaid_ = true;  // who moves a slider wants to see what comes of it
+        player_.playing = false;
+      },
+      [this] { changed_ = relaid_ = true; }, overlay_);
+}
+
+void Viewer::lay_out_track() {
+  const bool runs = player_.playing || (options_.live && follows_ && !options_.live->is_paused());
+  const int y = 20;
+  if (runs) {
+    overlay_.add_rectangle({margin + 2, y - 5, 5, 16}, ink);
+    overlay_.add_rectangle({margin + 11, y - 5, 5, 16}, ink);
+  } else {
+    overlay_.add_triangle({margin + 2, y - 5, 15, 16}, ink);
+  }
+  overlay_.add_area({margin - 6, 8, 32, 32}, false, [this](Real) { press("space"); });
+  track_ = {margin + 40, y, width_ - 2 * margin - 46, 6};
+  overlay_.add_rectangle(track_, Color::Constant(0.85));
+  const Real there = static_cast<Real>(history_.end()) / std::max(1, total_frames());
+  overlay_.add_rectangle({track_.x, track_.y, static_cast<int>(track_.width * std::min(there, 1.0)), track_.height},
+                         Color::Constant(0.62));
+  cursor_ = overlay_.add_mark({track_.x, track_.y - 7, 6, 20}, accent);
+  overlay_.add_area(
+      {track_.x - 8, track_.y - 14, track_.width + 16, 34}, true,
+      [this](Real at) {
+        const int begin = history_.begin();
+        jump(begin + static_cast<int>(std::lround(at * (total_frames() - 1 - begin))));
+        changed_ = relaid_ = true;
+      },
+      track_);
+  status_ = overlay_.add_text(margin, 46, "", 16, ink);
+  speed_ = overlay_.add_text_right(width_ - margin, 46, "", 14, faint);
+  const Real pixels_per_metre = height_ / (2 * scene_renderer_->GetActiveCamera()->GetParallelScale());
+  add_scale_bar(margin, track_height + 14, pixels_per_metre, 150, overlay_);
+  overlay_.add_text_centered(width_ / 2, height_ - 30, view_.empty() ? "" : view_ + " view", 15, faint);
+}
+
+/// What the user should know before anything else; empty: nothing.
+std::string Viewer::hint() const {
+  if (!frame_number_.empty()) return "jump to frame " + frame_number_.substr(1) + "_";
+  const std::shared_ptr<const ShownFrame> frame = history_.at(player_.frame);
+  if (state_.slice != Slice::none && fields_.empty())
+    return options_.bone_fields ? "building the bones' distance fields ..." : "no bones to slice";
+  if (state_.color_by == WindowColor::contact_depth && frame->contact_depth.empty()) return "contact depth comes ...";
+  if (state_.arrows != Arrows::none && frame->passes.empty()) return "arrows are there from the next step on";
+  const bool knows_tissue =
+      std::any_of(shapes_.belly.begin(), shapes_.belly.end(), [](const auto& b) { return !b.empty(); });
+  if ((state_.attachments || state_.color_by == WindowColor::tissue) && !knows_tissue)
+    return "this run does not tell its attachments; run it again to see them";
+  if (history_.end() < options_.expected_frames)
+    return fmt::format("reading, {} of {} frames", history_.end(), options_.expected_frames);
+  return options_.live ? options_.live->status() : "";
+}
+
+void Viewer::write_status() {
+  const std::shared_ptr<const ShownFrame> frame = history_.at(player_.frame);
+  const std::string hint_text = hint();
+  status_->SetInput(fmt::format("frame {} of {}    {}{}{}", player_.frame, total_frames() - 1, frame->caption,
+                                hint_text.empty() ? "" : "    ", hint_text)
+                        .c_str());
+  std::string speed = fmt::format("drawn in {:.0f} ms", 1000 * draw_seconds_);
+  if (player_.playing)
+    speed += fmt::format(", {:.0f} frames per second, {:g} × as fast", pictures_per_second_, player_.speed);
+  if (frame->milliseconds > 0) speed = fmt::format("solved in {:.0f} ms, ", frame->milliseconds) + speed;
+  speed_->SetInput(speed.c_str());
+  const int begin = history_.begin();
+  const Real share = static_cast<Real>(player_.frame - begin) / std::max(1, total_frames() - 1 - begin);
+  cursor_->SetPosition(track_.x + share * track_.width - 3, track_.y - 7);
+}
+
+}  // namespace gracilis

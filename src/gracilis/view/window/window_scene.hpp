@@ -1,0 +1,55 @@
+#pragma once
+
+#include <gracilis/view/picture_layout.hpp>
+#include <gracilis/view/window/glyphs.hpp>
+#include <gracilis/view/window/shape_history.hpp>
+#include <gracilis/view/window/surface_actor.hpp>
+#include <gracilis/view/window/window_state.hpp>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// The shapes as VTK's actors. For the thread of the window only.
+class WindowScene {
+ public:
+  /// Both must outlive this.
+  WindowScene(const ShownShapes& shapes, const ShapeHistory& history, vtkRenderer& renderer);
+
+  /// Everything as it is in a frame.
+  void show(int frame, const WindowState& state, const ColoredMesh& slice);
+  /// How many times longer than the displacements the arrows are.
+  Real arrow_scale() const { return arrow_scale_; }
+
+ private:
+  struct MuscleActors {
+    SurfaceActor surface, fibers, attachments;
+    std::array<SurfaceActor, trail_steps.size()> ghosts;
+  };
+  void show_bones(const ShownFrame& frame, const WindowState& state);
+  void show_muscle(std::size_t muscle, const ShownFrame& frame, const WindowState& state);
+  void show_fibers(std::size_t muscle, const ShownFrame& frame, const WindowState& state);
+  void show_attachments(std::size_t muscle, const ShownFrame& frame, const WindowState& state);
+  void show_ghosts(std::size_t muscle, int frame, const WindowState& state);
+  void show_arrows(const ShownFrame& frame, const WindowState& state);
+
+  const ShownShapes& shapes_;
+  const ShapeHistory& history_;
+  vtkRenderer& renderer_;
+  std::vector<MuscleActors> muscles_;
+  std::vector<SurfaceActor> bones_;
+  SurfaceActor slice_, arrows_;
+  Real arrow_scale_ = 1;
+};
+
+/// True when a muscle is shown so that one sees through it.
+bool is_seen_through(std::size_t muscle, const WindowState& state);
+
+/// Camera from a direction of view_names(); the muscles, wherever they go in the frames that are known, fill a part of
+/// the window.
+void look_from(const std::string& view, const ShownShapes& shapes, const ShapeHistory& history, const Rectangle& part,
+               vtkRenderer& renderer);
+
+}  // namespace gracilis
