@@ -1,4 +1,6 @@
 #include <gracilis/opensim/function.hpp>
+#include <gracilis/opensim/quintic_spline.hpp>
+#include <gracilis/opensim/smoothing_spline.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,6 +38,59 @@ TEST(OpenSimFunction, a_natural_spline_has_no_curvature_at_its_ends) {
   const Function spline = natural_spline({0, 1, 2}, {0, 1, 0});
   EXPECT_NEAR(derivative(spline, {0}, {0, 0}), 0, 1e-14);
   EXPECT_NEAR(value(spline, {0.5}), 1.5 * 0.5 - 0.5 * 0.125, 1e-14);  // 3/2 x - 1/2 x^3
+}
+
+TEST(OpenSimFunction, a_sine_has_its_derivatives) {
+  const Function f = sine(2, 3, 0.5, 7);
+  EXPECT_NEAR(value(f, {0.4}), 7 + 2 * std::sin(1.7), 1e-15);
+  EXPECT_NEAR(derivative(f, {0.4}, {0}), 6 * std::cos(1.7), 1e-14);
+  EXPECT_NEAR(derivative(f, {0.4}, {0, 0}), -18 * std::sin(1.7), 1e-14);
+}
+
+/// Points of a wave at uneven places.
+static void wave(std::vector<Real>& x, std::vector<Real>& y, int count) {
+  for (int i = 0; i < count; ++i) {
+    x.push_back(0.1 * i + 0.03 * (i % 3));
+    y.push_back(std::sin(2 * x.back()) + 0.3 * x.back());
+  }
+}
+
+TEST(OpenSimFunction, a_gcv_spline_of_half_order_2_is_the_natural_cubic) {
+  std::vector<Real> x, y;
+  wave(x, y, 40);
+  const Function spline = smoothing_spline(x, y, {}), cubic = natural_spline(x, y);
+  for (const Real at : {-0.5, 0.0, 0.77, 1.5, 3.9, 5.0}) {
+    EXPECT_NEAR(value(spline, {at}), value(cubic, {at}), 1e-9) << at;
+    EXPECT_NEAR(derivative(spline, {at}, {0, 0}), derivative(cubic, {at}, {0, 0}), 1e-6) << at;
+  }
+}
+
+TEST(OpenSimFunction, a_gcv_spline_of_half_order_3_is_the_quintic_one) {
+  std::vector<Real> x, y;
+  wave(x, y, 40);
+  SmoothingSplineSettings settings;
+  settings.half_order = 3;
+  const Function spline = smoothing_spline(x, y, settings);
+  const QuinticSpline quintic = quintic_spline(x, Eigen::VectorXd::Map(y.data(), 40));
+  for (const Real at : {0.0, 0.011, 0.77, 1.5, 3.9}) EXPECT_NEAR(value(spline, {at}), evaluate(quintic, at)[0], 1e-8);
+}
+
+TEST(OpenSimFunction, a_gcv_spline_finds_the_wave_behind_the_noise) {
+  std::vector<Real> x, y;
+  wave(x, y, 80);
+  std::vector<Real> noisy = y;
+  for (std::size_t i = 0; i < y.size(); ++i) noisy[i] += 0.1 * std::sin(1000.0 * static_cast<Real>(i * i));
+  for (const Real variance : {-1.0, 0.005}) {
+    SmoothingSplineSettings settings;
+    settings.error_variance = variance;
+    const Function spline = smoothing_spline(x, noisy, settings);
+    Real before = 0, after = 0;
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      before += (noisy[i] - y[i]) * (noisy[i] - y[i]);
+      after += std::pow(value(spline, {x[i]}) - y[i], 2);
+    }
+    EXPECT_LT(after, 0.5 * before) << variance;
+  }
 }
 
 TEST(OpenSimFunction, a_linear_function_of_two_arguments_has_its_coefficients_as_slopes) {

@@ -135,6 +135,13 @@ TEST(ModelReader, refuses_functions_that_do_not_fit) {
   EXPECT_THAT(complaint_about(with("<MultivariatePolynomialFunction><dimension>1</dimension><order>1000000000</order>"
                                    "</MultivariatePolynomialFunction>")),
               HasSubstr("order 12 can be read"));
+  EXPECT_THAT(complaint_about(with("<GCVSpline><x>0 1 2 3</x><y>0 0 0 0</y><half_order>1e9</half_order></GCVSpline>")),
+              HasSubstr("half order from 1 to 4"));
+  EXPECT_THAT(complaint_about(with("<GCVSpline><x>0 1 2</x><y>0 0 0</y><half_order>2</half_order></GCVSpline>")),
+              HasSubstr("3 points"));
+  EXPECT_THAT(complaint_about(with("<GCVSpline><x>0 1 2 3</x><y>0 0 0 0</y><half_order>2</half_order>"
+                                   "<weights>1 1 0 1</weights></GCVSpline>")),
+              HasSubstr("weights must be above zero"));
   std::string deep = "<Constant><value>1</value></Constant>";
   for (int i = 0; i < 200; ++i) deep = "<MultiplierFunction><function>" + deep + "</function></MultiplierFunction>";
   EXPECT_THAT(complaint_about(with(deep)), HasSubstr("nested more than 100 times"));
@@ -156,6 +163,25 @@ TEST(ModelReader, refuses_what_is_no_model) {
   EXPECT_THAT(complaint_about(pendulum(muscle("m", point("rod", "0 zero 0")))),
               HasSubstr("'zero', which is not a number"));
   EXPECT_THAT(complaint_about(pendulum(muscle("m", point("rod", "0 0 0")))), HasSubstr("less than two points"));
+}
+
+TEST(ModelReader, refuses_wrap_objects_without_size) {
+  const auto with = [](const std::string& object) {
+    return complaint_about(pendulum(muscle("m", point("/ground", "1 0 0") + point("rod", "0 -1 0")),
+                                    set("WrapObjectSet", object)));
+  };
+  EXPECT_THAT(with("<WrapSphere name=\"w\"><radius>0</radius></WrapSphere>"), HasSubstr("must be above zero"));
+  EXPECT_THAT(with("<WrapCylinder name=\"w\"><radius>nan</radius></WrapCylinder>"), HasSubstr("radius"));
+  EXPECT_THAT(with("<WrapEllipsoid name=\"w\"><dimensions>1 0 1</dimensions></WrapEllipsoid>"),
+              HasSubstr("three radii above zero"));
+  EXPECT_THAT(with("<WrapTorus name=\"w\"><inner_radius>2</inner_radius><outer_radius>1</outer_radius></WrapTorus>"),
+              HasSubstr("the outer one must be larger"));
+  EXPECT_THAT(with("<WrapCylinderObst name=\"w\"><radius>1</radius><wrapDirection>up</wrapDirection>"
+                   "</WrapCylinderObst>"),
+              HasSubstr("use righthand or lefthand"));
+  EXPECT_THAT(with("<WrapDoubleCylinderObst name=\"w\"><wrapVcylHomeBodyName>moon</wrapVcylHomeBodyName>"
+                   "</WrapDoubleCylinderObst>"),
+              HasSubstr("'moon', which does not exist"));
 }
 
 TEST(ModelReader, the_walking_model_has_92_muscles) {

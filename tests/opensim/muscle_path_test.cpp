@@ -116,6 +116,90 @@ TEST(MusclePath, a_sphere_is_rounded_on_a_great_circle_and_flagged) {
   EXPECT_TRUE(model.muscles[0].path.approximate);
 }
 
+/// From left to right past an object at the origin.
+static Model model_past(const std::string& object, const std::string& from, const std::string& to) {
+  return model_from(
+      pendulum(muscle("m", point("/ground", from) + point("/ground", to), "", around), set("WrapObjectSet", object)));
+}
+
+TEST(MusclePath, an_ellipsoid_with_equal_radii_is_a_sphere) {
+  const std::string from = "-0.3 0.02 0.03", to = "0.25 -0.03 0.05";
+  const Model ball = model_past("<WrapSphere name=\"around\"><radius>0.1</radius></WrapSphere>", from, to);
+  const Model round =
+      model_past("<WrapEllipsoid name=\"around\"><dimensions>0.1 0.1 0.1</dimensions></WrapEllipsoid>", from, to);
+  EXPECT_NEAR(measure(round, {0}).length, measure(ball, {0}).length, 1e-9);
+  EXPECT_TRUE(round.muscles[0].path.approximate);
+}
+
+/// The ellipse x²/p² + y²/q² = 1 rounded above from (-d, 0) to (d, 0), by adding up chords.
+static Real length_over_ellipse(Real p, Real q, Real d) {
+  // The tangent from (d, 0) touches where cos t = p / d.
+  const Real touch = std::acos(p / d);
+  Real length = 2 * std::hypot(d - p * std::cos(touch), q * std::sin(touch));
+  const int parts = 100000;
+  const Real step = (pi - 2 * touch) / parts;
+  for (int i = 0; i < parts; ++i) {
+    const Real t = touch + i * step, next = t + step;
+    length += std::hypot(p * (std::cos(next) - std::cos(t)), q * (std::sin(next) - std::sin(t)));
+  }
+  return length;
+}
+
+TEST(MusclePath, an_ellipsoid_is_rounded_where_it_is_thinnest_or_on_its_side) {
+  const std::string begin = "<WrapEllipsoid name=\"around\"><dimensions>0.1 0.05 0.2</dimensions>";
+  const Model free = model_past(begin + "</WrapEllipsoid>", "-0.3 0 0", "0.3 0 0");
+  EXPECT_NEAR(measure(free, {0}).length, length_over_ellipse(0.1, 0.05, 0.3), 1e-8);
+  const Model far = model_past(begin + "<quadrant>+y</quadrant></WrapEllipsoid>", "-0.3 0 0", "0.3 0 0");
+  EXPECT_NEAR(measure(far, {0}).length, length_over_ellipse(0.1, 0.05, 0.3), 1e-8);
+  const Model past = model_past(begin + "</WrapEllipsoid>", "-0.3 0.06 0", "0.3 0.06 0");
+  EXPECT_NEAR(measure(past, {0}).length, 0.6, 1e-14);
+}
+
+TEST(MusclePath, a_path_through_a_torus_bends_about_its_tube) {
+  const Model model = model_past(
+      "<WrapTorus name=\"around\"><inner_radius>0.05</inner_radius><outer_radius>0.2</outer_radius></WrapTorus>",
+      "0.18 0 -0.3", "0.18 0 0.3");
+  const Real distance = std::hypot(0.02, 0.3), angle = 2 * std::atan2(0.3, 0.02) - 2 * std::acos(0.05 / distance);
+  EXPECT_NEAR(measure(model, {0}).length, 2 * std::sqrt(distance * distance - 0.0025) + 0.05 * angle, 1e-9);
+  EXPECT_TRUE(model.muscles[0].path.approximate);
+}
+
+TEST(MusclePath, an_obstacle_is_passed_in_its_sense_until_nothing_touches) {
+  const auto length = [](const std::string& hand, Real height) {
+    const std::string y = std::to_string(height);
+    return measure(model_past("<WrapCylinderObst name=\"around\"><radius>0.125</radius><wrapDirection>" + hand +
+                                  "</wrapDirection></WrapCylinderObst>",
+                              "-0.3 " + y + " 0", "0.3 " + y + " 0"),
+                   {0})
+        .length;
+  };
+  // OpenSim wraps around 0.8 of the radius.
+  const auto expected = [](Real height, Real between) {
+    const Real distance = std::hypot(0.3, height);
+    return 2 * std::sqrt(distance * distance - 0.01) + 0.1 * (between - 2 * std::acos(0.1 / distance));
+  };
+  const Real above = pi - 2 * std::atan2(0.05, 0.3), below = pi + 2 * std::atan2(0.05, 0.3);
+  EXPECT_NEAR(length("lefthand", 0.05), expected(0.05, above), 1e-9);
+  EXPECT_NEAR(length("righthand", 0.05), expected(0.05, below), 1e-9);
+  EXPECT_NEAR(length("righthand", 0.5), expected(0.5, pi + 2 * std::atan2(0.5, 0.3)), 1e-6);
+  EXPECT_NEAR(length("righthand", -0.5), 0.6, 1e-14);
+}
+
+TEST(MusclePath, a_double_obstacle_is_two_cylinders_on_two_bodies) {
+  const Model model = model_past(
+      "<WrapDoubleCylinderObst name=\"around\"><radiusUcyl>0.125</radiusUcyl><radiusVcyl>0.125</radiusVcyl>"
+      "<wrapUcylDirection>lefthand</wrapUcylDirection><wrapVcylDirection>lefthand</wrapVcylDirection>"
+      "<wrapVcylHomeBodyName>ground</wrapVcylHomeBodyName><translationVcyl>0.4 0 0</translationVcyl>"
+      "</WrapDoubleCylinderObst>",
+      "-0.3 0 0", "0.7 0 0");
+  ASSERT_EQ(model.wrap_objects.size(), 2u);
+  EXPECT_EQ(model.wrap_objects[0].body, 1);
+  EXPECT_EQ(model.wrap_objects[1].body, 0);
+  // Over both: two tangents of 0.2828, a quarter less acos(1/3) on each, and 0.4 between the tops.
+  const Real touch = std::acos(0.1 / 0.3);
+  EXPECT_NEAR(measure(model, {0}).length, 2 * std::sqrt(0.08) + 0.4 + 2 * 0.1 * (pi / 2 - touch), 2e-4);
+}
+
 TEST(MusclePath, a_coupled_coordinate_works_through_the_one_it_depends_on) {
   const std::string coupler =
       "<CoordinateCouplerConstraint name=\"c\"><coupled_coordinates_function><LinearFunction><coefficients>2 0.1"

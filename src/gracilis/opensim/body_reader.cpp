@@ -95,9 +95,7 @@ static void read_body(ModelReading& reading, const pugi::xml_node& node) {
     if (!(body.mass >= 0)) context.fail(node, fmt::format("has the mass {}", body.mass), "give 0 or more");
     reading.model.bodies.push_back(std::move(body));
   }
-  const PlacedFrame frame{index, RigidTransform::Identity()};
-  read_geometry(reading, node, frame);
-  read_wrap_objects(reading, node, frame);
+  read_geometry(reading, node, {index, RigidTransform::Identity()});
 }
 
 void read_bodies(ModelReading& reading, const pugi::xml_node& model) {
@@ -107,6 +105,12 @@ void read_bodies(ModelReading& reading, const pugi::xml_node& model) {
   if (model.child("Ground")) read_body(reading, model.child("Ground"));
   const std::vector<pugi::xml_node> bodies = objects_of(model, "BodySet");
   for (const pugi::xml_node& body : bodies) read_body(reading, body);
+  // A wrap object may name any body.
+  const auto read_wraps = [&](const pugi::xml_node& body) {
+    read_wrap_objects(reading, body, {index_of(reading.model.bodies, name_of(body)), RigidTransform::Identity()});
+  };
+  if (model.child("Ground")) read_wraps(model.child("Ground"));
+  for (const pugi::xml_node& body : bodies) read_wraps(body);
   for (const pugi::xml_node& body : bodies) read_frames(reading, body, "components", name_of(body));
   read_frames(reading, model, "components", "");
 }

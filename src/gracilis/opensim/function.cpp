@@ -86,12 +86,19 @@ Function piecewise_linear(const std::vector<Real>& x, const std::vector<Real>& y
   function.kind = Function::Kind::piecewise_linear;
   function.knots = x;
   const auto n = static_cast<Eigen::Index>(x.size());
-  function.pieces.setZero(n, 4);
+  function.pieces.setZero(n, 4);  // two of them are zero
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto left = static_cast<std::size_t>(std::min(i, n - 2));
     function.pieces(i, 0) = y[static_cast<std::size_t>(i)];
     function.pieces(i, 1) = (y[left + 1] - y[left]) / (x[left + 1] - x[left]);
   }
+  return function;
+}
+
+Function sine(Real amplitude, Real angular_frequency, Real phase, Real offset) {
+  Function function;
+  function.kind = Function::Kind::sine;
+  function.coefficients = {amplitude, angular_frequency, phase, offset};
   return function;
 }
 
@@ -125,10 +132,19 @@ static Real piecewise(const Function& function, Real x, int n) {
   const auto piece = function.pieces.row(i);
   const Real h = x - function.knots[static_cast<std::size_t>(i)];
   const bool beyond = h < 0 || after == function.knots.end();
-  const Real c = beyond ? 0 : piece[2], d = beyond ? 0 : piece[3];
-  if (n == 0) return piece[0] + h * (piece[1] + h * (c + h * d));
-  if (n == 1) return piece[1] + h * (2 * c + 3 * h * d);
-  return 2 * c + 6 * h * d;
+  const auto terms = static_cast<int>(beyond ? piece.size() / 2 : piece.size());
+  Real sum = 0;
+  for (int power = terms - 1; power >= n; --power) {
+    Real factor = 1;
+    for (int k = 0; k < n; ++k) factor *= power - k;
+    sum = sum * h + factor * piece[power];
+  }
+  return sum;
+}
+
+/// The n-th derivative turns a sine by n quarters.
+static Real sine_derivative(const std::vector<Real>& c, Real x, int n) {
+  return c[0] * std::pow(c[1], n) * std::sin(c[1] * x + c[2] + n * pi / 2) + (n == 0 ? c[3] : 0);
 }
 
 static Real multivariate(const Function& function, const std::vector<Real>& arguments, const std::vector<int>& by) {
@@ -169,6 +185,9 @@ static Real unscaled(const Function& function, const std::vector<Real>& argument
     case Function::Kind::piecewise_linear:
       if (std::any_of(by.begin(), by.end(), [](int argument) { return argument != 0; })) return 0;
       return piecewise(function, arguments[0], n);
+    case Function::Kind::sine:
+      if (std::any_of(by.begin(), by.end(), [](int argument) { return argument != 0; })) return 0;
+      return sine_derivative(c, arguments[0], n);
   }
   return 0;
 }

@@ -9,19 +9,20 @@ namespace gracilis::opensim {
 /// A scalar function of coordinates as OpenSim's joints, constraints and paths use it, times `scale`.
 struct Function {
   enum class Kind {
-    constant,         ///< coefficients[0]
-    linear,           ///< coefficients: one per argument, then the value at zero
-    polynomial,       ///< of one argument; coefficients from the highest power down
-    multivariate,     ///< polynomial of several arguments up to a total power; see monomials()
-    spline,           ///< cubic pieces between knots, straight beyond them
-    piecewise_linear  ///< straight between knots and beyond them
+    constant,          ///< coefficients[0]
+    linear,            ///< coefficients: one per argument, then the value at zero
+    polynomial,        ///< of one argument; coefficients from the highest power down
+    multivariate,      ///< polynomial of several arguments up to a total power; see monomials()
+    spline,            ///< polynomial pieces between knots, of half as high an order beyond them
+    piecewise_linear,  ///< straight between knots and beyond them
+    sine               ///< coefficients: amplitude, angular frequency, phase, offset
   };
   Kind kind = Kind::constant;
   std::vector<Real> coefficients = {0};
   std::vector<Real> knots;  ///< x, increasing
-  /// spline: row i holds value, slope, half the second and a sixth of the third derivative at knot i; piecewise_linear:
-  /// value and slope.
-  Eigen::Matrix<Real, Eigen::Dynamic, 4> pieces;
+  /// Row i holds the Taylor coefficients at knot i: value, slope, half the second derivative and so on, an even number;
+  /// the first half of them holds beyond the ends.
+  Eigen::MatrixXd pieces;
   int dimension = 1, order = 0;  ///< multivariate
   Real scale = 1;
 };
@@ -36,6 +37,8 @@ Function simm_spline(const std::vector<Real>& x, const std::vector<Real>& y);
 /// The cubic spline through (x, y) with no curvature at its ends.
 Function natural_spline(const std::vector<Real>& x, const std::vector<Real>& y);
 Function piecewise_linear(const std::vector<Real>& x, const std::vector<Real>& y);
+
+Function sine(Real amplitude, Real angular_frequency, Real phase, Real offset);
 
 /// The powers of a multivariate polynomial's terms, in the order of its coefficients: the last argument's power
 /// varies fastest, and their sum never exceeds `order`.

@@ -1,5 +1,7 @@
 #include <gracilis/opensim/function_reader.hpp>
 
+#include <gracilis/opensim/smoothing_spline.hpp>
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -23,6 +25,24 @@ static void check_coefficients(const XmlContext& context, const pugi::xml_node& 
   context.fail(node, fmt::format("has {} coefficients where {} are needed", values.size(), count), "correct them");
 }
 
+static Function read_smoothing_spline(const XmlContext& context, const pugi::xml_node& node, const std::vector<Real>& x,
+                                      const std::vector<Real>& y) {
+  SmoothingSplineSettings settings;
+  const Real half_order = context.number(node, "half_order", 3);
+  if (!(half_order >= 1 && half_order <= 4) || half_order != std::floor(half_order) || x.size() < 2 * half_order ||
+      x.size() > 1000)
+    context.fail(node, fmt::format("has the half order {} and {} points", half_order, x.size()),
+                 "a half order from 1 to 4, twice as many points or more, and at most 1000, can be read");
+  settings.half_order = static_cast<int>(half_order);
+  settings.weights = context.numbers(node, "weights");
+  for (const Real weight : settings.weights)
+    if (!(weight > 0)) context.fail(node, fmt::format("has the weight {}", weight), "weights must be above zero");
+  if (!settings.weights.empty() && settings.weights.size() != x.size())
+    context.fail(node, fmt::format("has {} weights for {} points", settings.weights.size(), x.size()), "give as many");
+  settings.error_variance = context.number(node, "error_variance", 0);
+  return smoothing_spline(x, y, settings);
+}
+
 static Function read_knots(const XmlContext& context, const pugi::xml_node& node) {
   const std::vector<Real> x = context.numbers(node, "x"), y = context.numbers(node, "y");
   if (x.size() < 2 || x.size() != y.size())
@@ -31,6 +51,7 @@ static Function read_knots(const XmlContext& context, const pugi::xml_node& node
   for (std::size_t i = 1; i < x.size(); ++i)
     if (x[i] <= x[i - 1]) context.fail(node, fmt::format("x does not increase after {}", x[i - 1]), "sort the points");
   const std::string_view kind = node.name();
+  if (kind == "GCVSpline") return read_smoothing_spline(context, node, x, y);
   if (kind == "SimmSpline") return simm_spline(x, y);
   return kind == "NaturalCubicSpline" ? natural_spline(x, y) : piecewise_linear(x, y);
 }
@@ -55,7 +76,13 @@ static Function read_plain(const XmlContext& context, const pugi::xml_node& node
                            std::vector<std::string>& unsupported) {
   const std::string_view kind = node.name();
   if (kind == "Constant") return constant(context.number(node, "value", 0));
-  if (kind == "SimmSpline" || kind == "NaturalCubicSpline" || kind == "PiecewiseLinearFunction") {
+  if (kind == "Sine") {
+    if (arguments < 1) context.fail(node, "is a function of a coordinate but is given none", "name the coordinate");
+    return sine(context.number(node, "amplitude", 1), context.number(node, "omega", 1),
+                context.number(node, "phase", 0), context.number(node, "offset", 0));
+  }
+  if (kind == "SimmSpline" || kind == "NaturalCubicSpline" || kind == "PiecewiseLinearFunction" ||
+      kind == "GCVSpline") {
     if (arguments < 1) context.fail(node, "is a function of a coordinate but is given none", "name the coordinate");
     return read_knots(context, node);
   }

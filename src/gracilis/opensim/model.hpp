@@ -57,12 +57,15 @@ struct Coupler {
 };
 
 struct WrapObject {
-  enum class Kind { cylinder, sphere };
+  enum class Kind { cylinder, sphere, ellipsoid, torus };
   std::string name;
   Kind kind = Kind::cylinder;
   Index body = 0;
-  RigidTransform frame = RigidTransform::Identity();  ///< a cylinder's axis is its z
-  Real radius = 0, length = 0;
+  RigidTransform frame = RigidTransform::Identity();  ///< the axis of a cylinder or torus is its z
+  Real radius = 0, length = 0;                        ///< a torus' radius is that of its tube
+  Vec3 radii = Vec3::Zero();                          ///< of an ellipsoid
+  Real ring_radius = 0;                               ///< of the circle that a torus' tube lies about
+  int hand = 0;        ///< an obstacle is passed in this sense only: +1 counterclockwise about z, -1 clockwise
   int side_axis = -1;  ///< 0, 1, 2: wraps on one side only, along this axis (OpenSim's quadrant)
   int side_sign = 0;   ///< +1 or -1
 };

@@ -9,6 +9,9 @@
 
 namespace gracilis::opensim {
 
+/// The name of a double obstacle's second cylinder goes on so.
+static const char* const second_cylinder = "/V";
+
 /// "+x", "-y" ...: the side a path stays on; "all" is both.
 static void read_quadrant(const XmlContext& context, const pugi::xml_node& node, WrapObject& object) {
   const std::string quadrant = context.text(node, "quadrant");
@@ -20,31 +23,98 @@ static void read_quadrant(const XmlContext& context, const pugi::xml_node& node,
   object.side_sign = quadrant[0] == '-' ? -1 : 1;
 }
 
+static Real size_of(const XmlContext& context, const pugi::xml_node& node, const char* name, Real otherwise) {
+  const Real size = context.number(node, name, otherwise);
+  if (!(size > 0 && size < 1e6)) context.fail(node, fmt::format("<{}> is {}", name, size), "it must be above zero");
+  return size;
+}
+
+/// Obstacles are passed in the sense of a right or a left hand about z.
+static int read_hand(const XmlContext& context, const pugi::xml_node& node, const char* name) {
+  const std::string hand = context.text(node, name);
+  const bool left = hand.starts_with("left") || hand.starts_with("Left");
+  if (!left && !hand.empty() && hand != "Unassigned" && !hand.starts_with("right") && !hand.starts_with("Right"))
+    context.fail(node, fmt::format("<{}> is '{}'", name, hand), "use righthand or lefthand");
+  return left ? -1 : 1;
+}
+
+/// OpenSim wraps around obstacles of 0.8 times the radius that they are given.
+static constexpr Real obstacle_share = 0.8;
+
+/// Radius and hand of an obstacle: "radius" and "wrapDirection", of the two of a double one "radiusUcyl" and so on.
+static void make_obstacle(const XmlContext& context, const pugi::xml_node& node, const std::string& radius,
+                          const std::string& hand, WrapObject& object) {
+  object.kind = WrapObject::Kind::cylinder;
+  object.radius = obstacle_share * size_of(context, node, radius.c_str(), 1);
+  object.hand = read_hand(context, node, hand.c_str());
+  object.length = 1e6;  // they are cylinders without end
+}
+
+/// What an element of this kind is; false for a kind that is not known.
+static bool read_shape(const XmlContext& context, const pugi::xml_node& node, WrapObject& object) {
+  const std::string_view kind = node.name();
+  if (kind == "WrapCylinder") {
+    object.radius = size_of(context, node, "radius", 1);
+    object.length = context.number(node, "length", 1);
+    if (!(object.length >= 0)) context.fail(node, fmt::format("has the length {}", object.length), "give 0 or more");
+  } else if (kind == "WrapSphere" || kind == "WrapSphereObst") {
+    object.kind = WrapObject::Kind::sphere;
+    object.radius = (kind == "WrapSphere" ? 1 : obstacle_share) * size_of(context, node, "radius", 1);
+  } else if (kind == "WrapEllipsoid") {
+    object.kind = WrapObject::Kind::ellipsoid;
+    object.radii = context.vector(node, "dimensions", Vec3::Constant(-1));
+    if (!(object.radii.minCoeff() > 0)) context.fail(node, "needs <dimensions> of three radii above zero", "give them");
+  } else if (kind == "WrapTorus") {
+    object.kind = WrapObject::Kind::torus;
+    object.radius = size_of(context, node, "inner_radius", -1);
+    object.ring_radius = size_of(context, node, "outer_radius", -1);
+    if (object.ring_radius <= object.radius)
+      context.fail(node, fmt::format("has the radii {} and {}", object.radius, object.ring_radius),
+                   "the outer one must be larger");
+  } else if (kind == "WrapCylinderObst") {
+    make_obstacle(context, node, "radius", "wrapDirection", object);
+  } else if (kind == "WrapDoubleCylinderObst") {
+    make_obstacle(context, node, "radiusUcyl", "wrapUcylDirection", object);
+  } else {
+    return false;
+  }
+  return true;
+}
+
+static void add_wrap_object(ModelReading& reading, const pugi::xml_node& node, WrapObject object) {
+  if (index_of(reading.model.wrap_objects, object.name) >= 0)
+    reading.context.fail(node, "occurs twice", "give every wrap object its own name");
+  reading.model.wrap_objects.push_back(std::move(object));
+}
+
+/// The second cylinder of a double obstacle may be on another body.
+static void add_second_cylinder(ModelReading& reading, const pugi::xml_node& node, WrapObject object) {
+  const XmlContext& context = reading.context;
+  make_obstacle(context, node, "radiusVcyl", "wrapVcylDirection", object);
+  object.name += second_cylinder;
+  const std::string body = context.text(node, "wrapVcylHomeBodyName");
+  if (!body.empty() && body != "Unassigned") object.body = reading.frame(node, body, "").body;
+  object.frame = body_fixed_xyz(context.vector(node, "xyz_body_rotationVcyl", Vec3::Zero()),
+                                context.vector(node, "translationVcyl", Vec3::Zero()));
+  add_wrap_object(reading, node, std::move(object));
+}
+
 void read_wrap_objects(ModelReading& reading, const pugi::xml_node& holder, const PlacedFrame& frame) {
   const XmlContext& context = reading.context;
   for (const pugi::xml_node& node : objects_of(holder, "WrapObjectSet")) {
-    const std::string_view kind = node.name();
-    const bool sphere = kind == "WrapSphere";
-    if (!sphere && kind != "WrapCylinder") {
+    WrapObject object;
+    object.name = name_of(node);
+    object.body = frame.body;
+    object.frame = frame.in_body * body_fixed_xyz(context.vector(node, "xyz_body_rotation", Vec3::Zero()),
+                                                  context.vector(node, "translation", Vec3::Zero()));
+    if (!read_shape(context, node, object)) {
       reading.leave_out(node, "kind of wrap object not known; paths pass through it");
       continue;
     }
     if (!context.boolean(node, "active", true)) continue;
-    WrapObject object;
-    object.name = name_of(node);
-    object.kind = sphere ? WrapObject::Kind::sphere : WrapObject::Kind::cylinder;
-    object.body = frame.body;
-    object.frame = frame.in_body * body_fixed_xyz(context.vector(node, "xyz_body_rotation", Vec3::Zero()),
-                                                  context.vector(node, "translation", Vec3::Zero()));
-    object.radius = context.number(node, "radius", 1);
-    object.length = context.number(node, "length", 1);
-    if (!(object.radius > 0) || !(object.length >= 0))
-      context.fail(node, fmt::format("has the radius {} and the length {}", object.radius, object.length),
-                   "both must be larger than zero");
     read_quadrant(context, node, object);
-    if (index_of(reading.model.wrap_objects, object.name) >= 0)
-      context.fail(node, "occurs twice", "give every wrap object its own name");
-    reading.model.wrap_objects.push_back(std::move(object));
+    add_wrap_object(reading, node, object);
+    if (std::string_view(node.name()) == "WrapDoubleCylinderObst") add_second_cylinder(reading, node, object);
   }
 }
 
@@ -104,8 +174,10 @@ static void read_wraps(ModelReading& reading, const pugi::xml_node& node, Path& 
       wrap.last_point = number(range[1]);
     }
     const auto& object = reading.model.wrap_objects[static_cast<std::size_t>(wrap.object)];
-    path.approximate = path.approximate || object.kind != WrapObject::Kind::cylinder;
+    path.approximate = path.approximate || object.kind != WrapObject::Kind::cylinder || object.hand != 0;
     path.wraps.push_back(wrap);
+    wrap.object = index_of(reading.model.wrap_objects, name + second_cylinder);
+    if (wrap.object >= 0) path.wraps.push_back(wrap);
   }
 }
 

@@ -1,5 +1,7 @@
 #include <gracilis/opensim/wrapping.hpp>
 
+#include <gracilis/opensim/golden_section.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,6 +66,23 @@ static int held_direction(const WrapObject& object, const Vec2& a, const Vec2& b
   return first_ccw.dot(last_ccw) < first_cw.dot(last_cw) ? 1 : -1;
 }
 
+/// Whether the way in an obstacle's sense touches it on less than half a turn.
+static bool obstacle_is_met(const WrapObject& object, const Vec2& from, const Vec2& to) {
+  const Vec2 first = tangent_point(from, object.radius, object.hand);
+  const Vec2 last = tangent_point(to, object.radius, -object.hand);
+  return object.hand * (first.x() * last.y() - first.y() * last.x()) >= 0;
+}
+
+/// +1 is counterclockwise; where nothing holds the path, the shorter way.
+static int direction_around(const WrapObject& object, const Vec2& from, const Vec2& to) {
+  if (object.hand != 0) return object.hand;
+  if (object.side_sign != 0 && object.side_axis < 2) return held_direction(object, from, to);
+  const Real r = object.radius;
+  const Real ccw = turn(tangent_point(from, r, 1), tangent_point(to, r, -1));
+  const Real cw = turn(tangent_point(to, r, 1), tangent_point(from, r, -1));
+  return ccw <= cw ? 1 : -1;
+}
+
 static Wrap wrap_cylinder(const WrapObject& object, const Vec3& a, const Vec3& b) {
   Wrap wrap;
   const Real r = object.radius;
@@ -72,16 +91,11 @@ static Wrap wrap_cylinder(const WrapObject& object, const Vec3& a, const Vec3& b
     wrap.kind = Wrap::Kind::inside;
     return wrap;
   }
-  wrap.kind = kind_of_wrap(object, a, b);
+  wrap.kind = object.hand == 0                    ? kind_of_wrap(object, a, b)
+              : obstacle_is_met(object, from, to) ? Wrap::Kind::needed
+                                                  : Wrap::Kind::none;
   if (wrap.kind == Wrap::Kind::none) return wrap;
-  int direction = 0;
-  if (object.side_sign != 0 && object.side_axis < 2) {
-    direction = held_direction(object, from, to);
-  } else {
-    const Real ccw = turn(tangent_point(from, r, 1), tangent_point(to, r, -1));
-    const Real cw = turn(tangent_point(to, r, 1), tangent_point(from, r, -1));
-    direction = ccw <= cw ? 1 : -1;
-  }
+  const int direction = direction_around(object, from, to);
   const Vec2 first = tangent_point(from, r, direction), last = tangent_point(to, r, -direction);
   const Real angle = direction > 0 ? turn(first, last) : turn(last, first);
   // The way is straight once the cylinder is unrolled, so height grows evenly along it.
@@ -127,8 +141,54 @@ static Wrap wrap_sphere(const WrapObject& object, const Vec3& a, const Vec3& b) 
   return wrap;
 }
 
+/// The point of a circle about z that is nearest to the line from a to b: its angle, searched on 64 points and then
+/// between them. Where the circle is held on a side, of the points there.
+static Real nearest_of_ring(const WrapObject& object, const Vec3& a, const Vec3& b) {
+  const Vec3 along = (b - a).normalized();
+  const auto distance = [&](Real angle) {
+    const Vec3 p = object.ring_radius * Vec3(std::cos(angle), std::sin(angle), 0);
+    const bool wrong =
+        object.side_sign != 0 && object.side_axis < 2 && sign_of(p[object.side_axis]) != object.side_sign;
+    const Vec3 off = p - a;
+    return (off - off.dot(along) * along).norm() + (wrong ? 1e3 : 0);
+  };
+  const Real step = 2 * pi / 64;
+  Real best = 0;
+  for (int i = 1; i < 64; ++i)
+    if (distance(i * step) < distance(best)) best = i * step;
+  return least_between(best - step, best + step, distance);
+}
+
+static Wrap wrap_torus(const WrapObject& object, const Vec3& a, const Vec3& b) {
+  const Real angle = nearest_of_ring(object, a, b);
+  // The cylinder's x points to the ring's center, its z along the ring.
+  const Vec3 out(std::cos(angle), std::sin(angle), 0), along(-out.y(), out.x(), 0);
+  RigidTransform frame = RigidTransform::Identity();
+  frame.translation() = object.ring_radius * out;
+  frame.linear() << -out, along.cross(-out), along;
+  WrapObject tube;
+  tube.radius = object.radius;
+  tube.length = 1e4;
+  tube.side_axis = 0;
+  tube.side_sign = 1;
+  Wrap wrap = wrap_cylinder(tube, frame.inverse() * a, frame.inverse() * b);
+  wrap.first = frame * wrap.first;
+  wrap.last = frame * wrap.last;
+  return wrap;
+}
+
 Wrap wrap_around(const WrapObject& object, const Vec3& a, const Vec3& b) {
-  return object.kind == WrapObject::Kind::cylinder ? wrap_cylinder(object, a, b) : wrap_sphere(object, a, b);
+  switch (object.kind) {
+    case WrapObject::Kind::cylinder:
+      return wrap_cylinder(object, a, b);
+    case WrapObject::Kind::sphere:
+      return wrap_sphere(object, a, b);
+    case WrapObject::Kind::ellipsoid:
+      return wrap_ellipsoid(object, a, b);
+    case WrapObject::Kind::torus:
+      return wrap_torus(object, a, b);
+  }
+  return {};
 }
 
 }  // namespace gracilis::opensim

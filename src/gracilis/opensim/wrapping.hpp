@@ -17,7 +17,12 @@ struct Wrap {
   Real length = 0;                                 ///< m, between these on the surface
 };
 
-/// The shortest way from a to b (in the object's frame) around the cylinder or sphere, on the side that it is held on.
+/// The shortest way from a to b (in the object's frame) around the object, on the side that it is held on. An obstacle
+/// (Garner and Pandy 2000) is passed in its sense as long as less than half a turn touches it. Inside a torus' ring the
+/// way is that around a cylinder along its tube where the line comes nearest to it, as OpenSim has it.
 Wrap wrap_around(const WrapObject& object, const Vec3& a, const Vec3& b);
+
+/// Around an ellipsoid: of the ways in planes through both points the shortest.
+Wrap wrap_ellipsoid(const WrapObject& object, const Vec3& a, const Vec3& b);
 
 }  // namespace gracilis::opensim
