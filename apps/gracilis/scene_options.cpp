@@ -12,7 +12,7 @@ void add_scene_options(CLI::App& command, std::filesystem::path& file, SceneOpti
   command
       .add_option(
           "--set", options.set,
-          "KEY=VALUE, MUSCLE.KEY=VALUE, preset=NAME, distance_field.KEY=VALUE, sequence.KEY=VALUE, "
+          "KEY=VALUE, MUSCLE.KEY=VALUE, preset=NAME, method=NAME, distance_field.KEY=VALUE, sequence.KEY=VALUE, "
           "motion.KEY=VALUE (motion.step_deg=0.25), fibers.KEY=VALUE, contraction.KEY=VALUE or prepare.KEY=VALUE; may "
           "be repeated. A key for all muscles leaves those alone that the file gives one of their own")
       ->allow_extra_args(false);

@@ -68,9 +68,8 @@ class Session {
     describe_scene();
     spdlog::info("fibers");
     const FiberTracker tracker(loaded_.scene);
-    const auto method = loaded_.scene.method == MethodKind::cylinder
-                            ? make_cylinder_method(loaded_.scene)
-                            : make_xpbd_method(loaded_.scene, bone_fields());
+    const auto method = loaded_.scene.method == MethodKind::cylinder ? make_cylinder_method(loaded_.scene)
+                                                                     : make_xpbd_method(loaded_.scene, bone_fields());
     write_manifest("running");
     const ResumePoint* resume = folder_.resume_point() ? &*folder_.resume_point() : nullptr;
     if (resume) spdlog::info("going on after frame {}", resume->last.number);
@@ -162,6 +161,8 @@ class Session {
     manifest.inputs = loaded_.inputs;
     manifest.guessed = guessed_;
     manifest.warnings = warnings_;
+    for (const Muscle& muscle : loaded_.scene.muscles)
+      if (muscle.action_line.rays > 0) manifest.lines.emplace_back(muscle.name, muscle.action_line);
     manifest.axes = loaded_.scene.axes;
     manifest.status = status;
     manifest.threads = thread_count();

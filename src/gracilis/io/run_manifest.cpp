@@ -29,6 +29,27 @@ static nlohmann::ordered_json library_versions() {
 
 static std::vector<Real> components(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
+static nlohmann::ordered_json rows(const Points& points) {
+  nlohmann::ordered_json rows = nlohmann::json::array();
+  for (const Vec3 point : points.colwise()) rows.push_back(components(point));
+  return rows;
+}
+
+/// What exports of sections need (view/export_tetrahedra).
+static nlohmann::ordered_json action_lines(const RunManifest& manifest) {
+  nlohmann::ordered_json lines = nlohmann::json::object();
+  for (const auto& [muscle, line] : manifest.lines)
+    lines[muscle] = {{"rays", line.rays},
+                     {"scaling", line.scaling},
+                     {"tendon_m", line.tendon},
+                     {"origin_tendon_m", line.origin_tendon},
+                     {"optimal_fiber_m", line.optimal_fiber},
+                     {"pennation_rad", line.pennation},
+                     {"points_m", rows(line.points)},
+                     {"centers_m", rows(line.centers)}};
+  return lines;
+}
+
 void write_manifest(const std::filesystem::path& path, const RunManifest& manifest) {
   nlohmann::ordered_json inputs = nlohmann::json::array();
   for (const std::filesystem::path& input : manifest.inputs) {
@@ -48,6 +69,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"instruction_set", instruction_set()},  // results differ in the last bits between sets
       {"processors", std::thread::hardware_concurrency()},
       {"axes", {{"anterior", components(manifest.axes.anterior)}, {"superior", components(manifest.axes.superior)}}},
+      {"action_lines", action_lines(manifest)},
       {"guessed", manifest.guessed},
       {"warnings", manifest.warnings},
       {"inputs", inputs},

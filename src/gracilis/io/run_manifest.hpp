@@ -18,8 +18,9 @@ struct RunManifest {
   std::vector<std::filesystem::path> inputs;  ///< each is listed with its SHA-256
   std::vector<std::string> guessed;           ///< what was guessed rather than measured, e.g. "psoas_r origin"
   std::vector<std::string> warnings;
-  AnatomicalAxes axes;             ///< how the subject stands
-  std::string status = "running";  ///< running, complete, interrupted, or "failed: why"
+  std::vector<std::pair<std::string, ActionLine>> lines;  ///< of muscles that have one, by their names
+  AnatomicalAxes axes;                                    ///< how the subject stands
+  std::string status = "running";                         ///< running, complete, interrupted, or "failed: why"
   int threads = 1;
   int frames = 0;      ///< on disk
   double seconds = 0;  ///< spent on them

@@ -173,6 +173,10 @@ static void read_action_line(TomlReader table, ActionLineDescription& descriptio
   line.rays = static_cast<Index>(table.required_number("rays", {6, 1000}).value_or(6));
   line.scaling = static_cast<int>(table.number("scaling", {0, 16}).value_or(0));
   line.tendon = millimetres(table, "tendon_mm");
+  line.origin_tendon = millimetres(table, "origin_tendon_mm");
+  line.optimal_fiber = millimetres(table, "optimal_fiber_mm");
+  line.pennation = radians(table.number("pennation_deg", {0, 89}).value_or(0));
+  if (const std::optional<Eigen::MatrixXd> rows = table.rows("centers_mm", 3)) line.centers = rows->transpose() / 1000;
   description.bodies = table.texts("bodies");
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3)) line.points = rows->transpose() / 1000;
   if (line.points.cols() != static_cast<Index>(description.bodies.size()))
@@ -331,6 +335,25 @@ static void require_known(const std::string& name, const std::vector<std::string
   problems.push_back(problem);
 }
 
+static SectionCorner read_corner(TomlReader& table, const std::string& prefix) {
+  SectionCorner corner;
+  corner.section = static_cast<Index>(table.number(prefix + "section", {0, 1e6}).value_or(0));
+  corner.ray = static_cast<Index>(table.number(prefix + "ray", {0, 1e6}).value_or(0));
+  return corner;
+}
+
+static TransversalDescription read_transversal(TomlReader table) {
+  TransversalDescription description;
+  description.place = table.place();
+  description.muscle = table.required_text("muscle");
+  description.transversal.moved = read_corner(table, "");
+  description.other = table.text("other_muscle").value_or("");
+  description.transversal.other = read_corner(table, "other_");
+  description.bones = table.texts("bones");
+  table.reject_unknown_keys();
+  return description;
+}
+
 static void check_references(const SceneDescription& scene, std::vector<Problem>& problems) {
   std::vector<std::string> bones, bodies, coordinates;
   for (const BoneDescription& bone : scene.bones) {
@@ -381,6 +404,11 @@ static void check_references(const SceneDescription& scene, std::vector<Problem>
     for (const std::string& name : activation.muscles)
       require_known(name, muscles, "muscle", activation.place, problems);
     require_known(activation.coordinate, coordinates, "coordinate", activation.place, problems);
+  }
+  for (const TransversalDescription& each : scene.transversals) {
+    require_known(each.muscle, muscles, "muscle", each.place, problems);
+    require_known(each.other, muscles, "muscle", each.place, problems);
+    for (const std::string& bone : each.bones) require_known(bone, bones, "bone", each.place, problems);
   }
   for (const ControlUnitDescription& unit : scene.control_units) {
     require_known(unit.joint, joints, "joint", unit.place, problems);
@@ -481,6 +509,7 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   for (TomlReader& each : top.tables("activations")) scene.activations.push_back(read_activation(std::move(each)));
   for (TomlReader& unit : top.tables("joint_control_units"))
     scene.control_units.push_back(read_control_unit(std::move(unit)));
+  for (TomlReader& each : top.tables("transversals")) scene.transversals.push_back(read_transversal(std::move(each)));
   check_references(scene, problems);
   const Problem only_place = top.has("only") ? place_of(*top.find("only")) : Problem{};
   keep_only(scene.muscles, top.texts("only"), only_place, problems);

@@ -114,6 +114,13 @@ struct ControlUnitDescription {
   Problem place;
 };
 
+struct TransversalDescription {
+  Transversal transversal;  ///< its indices of muscles and bones are not set
+  std::string muscle, other;
+  std::vector<std::string> bones;
+  Problem place;
+};
+
 struct SceneDescription {
   std::string name, preset;
   AnatomicalAxes axes;
@@ -123,6 +130,7 @@ struct SceneDescription {
   MotionDescription motion;
   std::vector<ActivationDescription> activations;
   std::vector<ControlUnitDescription> control_units;
+  std::vector<TransversalDescription> transversals;
   Sequence sequence;
   DistanceFieldSettings distance_fields;
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]

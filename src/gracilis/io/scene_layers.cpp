@@ -135,8 +135,8 @@ static toml::table layer_of(const std::string& setting, const std::vector<std::s
   std::string key = setting.substr(0, equals);
   toml::table value = parse_value(setting.substr(equals + 1), source);
   toml::table layer;
-  if (key == "preset") {
-    insert_moved(layer, toml::key("preset"), *value.get("value"));
+  if (key == "preset" || key == "method") {
+    insert_moved(layer, toml::key(key), *value.get("value"));
     return layer;
   }
 

@@ -49,6 +49,7 @@ class SceneBuilder {
     stop_at<InputError>();
     if (description_.prepare) prepare_muscles();
     for (std::size_t i = 0; i < description_.muscles.size(); ++i) attach(i);
+    place_transversals();
     stop_at<ConfigurationError>();
     std::vector<Problem> invalid = validate(result_.scene);
     for (Problem& problem : invalid) problem.file = description_.files.front().string();
@@ -77,6 +78,26 @@ class SceneBuilder {
     place.what = what;
     place.remedy = remedy;
     problems_.push_back(std::move(place));
+  }
+
+  /// Those of muscles that are left out are left out, too.
+  void place_transversals() {
+    const Scene& scene = result_.scene;
+    const auto muscle_index = [&](const std::string& name) {
+      const auto same = [&](const Muscle& muscle) { return muscle.name == name; };
+      const auto found = std::find_if(scene.muscles.begin(), scene.muscles.end(), same);
+      return found == scene.muscles.end() ? Index{-1} : static_cast<Index>(found - scene.muscles.begin());
+    };
+    for (const TransversalDescription& description : description_.transversals) {
+      Transversal transversal = description.transversal;
+      transversal.moved.muscle = muscle_index(description.muscle);
+      transversal.other.muscle = muscle_index(description.other);
+      for (std::size_t bone = 0; bone < scene.bones.size(); ++bone)
+        if (std::find(description.bones.begin(), description.bones.end(), scene.bones[bone].name) !=
+            description.bones.end())
+          transversal.bones.push_back(static_cast<Index>(bone));
+      if (transversal.moved.muscle >= 0) result_.scene.transversals.push_back(transversal);
+    }
   }
 
   // ---- Bodies and joints

@@ -58,6 +58,24 @@ struct ActionLine {
   Index rays = 0;                ///< corners of a section; 0: there is no line
   int scaling = 0;               ///< sections: the points, and each part between them halved so many times
   Real tendon = 0;               ///< m, at the insertion
+  Real origin_tendon = 0;        ///< m
+  /// Of the sections in the capture pose, where they lie beside the line; none: on it.
+  Points centers = Points(3, 0);
+  Real optimal_fiber = 0;  ///< m; 0: not known
+  Real pennation = 0;      ///< rad, at the optimal fiber length
+};
+
+/// A corner of a muscle's section.
+struct SectionCorner {
+  Index muscle = -1, section = 0, ray = 0;
+};
+
+/// Keeps a section on its side of another muscle's section, or out of bones (Laclé 2014, section 4.1;
+/// methods/cylinder).
+struct Transversal {
+  SectionCorner moved;
+  SectionCorner other;       ///< muscle -1: there is none
+  std::vector<Index> bones;  ///< that the section keeps out of
 };
 
 /// Which method deforms a scene's muscles.
@@ -116,6 +134,7 @@ struct Scene {
   ActivationPlan activation = {};
   AnatomicalAxes axes = {};
   MethodKind method = MethodKind::xpbd;
+  std::vector<Transversal> transversals = {};  ///< of the method `cylinder`
 };
 
 }  // namespace gracilis

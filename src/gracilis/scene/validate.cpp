@@ -172,6 +172,26 @@ struct Validation {
           "its surface has " + std::to_string(muscle.surface.vertex_count()) + " vertices; " +
               std::to_string(sections) + " sections and two ends have " + std::to_string(line.rays * sections + 2),
           "give the surface that was made for this line");
+    if (line.centers.cols() > 0 && (line.centers.cols() != sections || !line.centers.allFinite()))
+      add(where,
+          "its action line has " + std::to_string(line.centers.cols()) + " centers for " + std::to_string(sections) +
+              " sections",
+          "give one for each, or none");
+  }
+
+  void check_corner(const SectionCorner& corner) {
+    const Muscle& muscle = scene.muscles[static_cast<std::size_t>(corner.muscle)];
+    const ActionLine& line = muscle.action_line;
+    const Index sections = line.rays == 0 ? 0 : (muscle.surface.vertex_count() - 2) / line.rays;
+    if (corner.section < sections && corner.ray < line.rays) return;
+    add("muscle '" + muscle.name + "'", "a transversal names its section " + std::to_string(corner.section) + ", ray " +
+                                            std::to_string(corner.ray) + ", which it does not have");
+  }
+
+  void check_transversals() {
+    for (const Transversal& transversal : scene.transversals)
+      for (const SectionCorner& corner : {transversal.moved, transversal.other})
+        if (corner.muscle >= 0) check_corner(corner);
   }
 
   void check_muscles() {
@@ -291,6 +311,7 @@ std::vector<Problem> validate(const Scene& scene) {
   validation.check_bones();
   validation.check_joints();
   validation.check_muscles();
+  validation.check_transversals();
   validation.check_activation();
   validation.check_motion();
   validation.check_settings("distance_field", scene.distance_fields);

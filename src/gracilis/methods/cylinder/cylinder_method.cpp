@@ -5,6 +5,7 @@
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>
+#include <gracilis/methods/cylinder/section_collision.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -22,7 +23,8 @@ struct CylinderMuscle {
   Real length = 0;                 ///< m, of the line in the capture pose
   std::vector<Real> places;        ///< m along the line in the capture pose, of each section
   Eigen::VectorXd spacing;         ///< m, what belongs to each section of the line, in the capture pose
-  Points shape;                    ///< each vertex from its section's center, in its section's axes
+  Points shape;                    ///< each vertex from its section's place on the line, in its section's axes
+  Points offsets;                  ///< so each section's center
   Vec3 first_ray = Vec3::UnitX();  ///< of the first section, in the capture pose
 };
 
@@ -52,17 +54,21 @@ static Eigen::VectorXd spacing_of(const Points& centers) {
   return spacing;
 }
 
-/// Places of the sections on a line of this length: the tendon's keep their distance from its end.
+/// Places of the sections on a line of this length: the tendons' keep their distance from its ends.
 static std::vector<Real> places_on(const CylinderMuscle& muscle, Real length) {
-  const Real tendon = muscle.line->tendon, belly = muscle.length - tendon;
+  const Real begin = muscle.line->origin_tendon, end = muscle.length - muscle.line->tendon;
+  const Real tendons = muscle.length - (end - begin), belly = end - begin;
   std::vector<Real> places;
   // A line hardly longer than the tendon leaves no room for a belly: then all shrink alike.
-  const bool stiff = tendon > 0 && belly > 0 && length - tendon > 0.2 * belly;
+  const bool stiff = tendons > 0 && belly > 0 && length - tendons > 0.2 * belly;
   for (const Real place : muscle.places) {
     if (!stiff)
       places.push_back(place * length / muscle.length);
+    else if (place <= begin)
+      places.push_back(place);
     else
-      places.push_back(place <= belly ? place * (length - tendon) / belly : length - (muscle.length - place));
+      places.push_back(place <= end ? begin + (place - begin) * (length - tendons) / belly
+                                    : length - (muscle.length - place));
   }
   return places;
 }
@@ -78,22 +84,42 @@ static Sections sections_at(const CylinderMuscle& muscle, const Pose& pose) {
   return {centers, section_frames(centers, ray)};
 }
 
-static Points surface_at(const CylinderMuscle& muscle, const Pose& pose) {
+namespace {
+
+/// A muscle's sections, and the vertices that close its ends.
+struct CylinderShape {
+  SectionRings rings;
+  Points ends;
+
+  Points vertices() const {
+    Points all(3, rings.corners.cols() + ends.cols());
+    all << rings.corners, ends;
+    return all;
+  }
+};
+
+}  // namespace
+
+static CylinderShape shape_at(const CylinderMuscle& muscle, const Pose& pose) {
   const Sections sections = sections_at(muscle, pose);
   const Eigen::VectorXd spacing = spacing_of(sections.centers);
   const Eigen::Index count = sections.centers.cols();
-  Points points(3, muscle.shape.cols());
-  const auto place = [&](Eigen::Index k, Eigen::Index first, Eigen::Index vertices) {
+  CylinderShape result;
+  result.rings = {muscle.rays, Points(3, count), Points(3, count * muscle.rays)};
+  result.ends.resize(3, 2);
+  for (Eigen::Index k = 0; k < count; ++k) {
     Real growth = spacing[k] > 0 ? std::sqrt(muscle.spacing[k] / spacing[k]) : 1;
-    if (muscle.places[static_cast<std::size_t>(k)] > muscle.length - muscle.line->tendon) growth = 1;
+    const Real at = muscle.places[static_cast<std::size_t>(k)];
+    if (at > muscle.length - muscle.line->tendon || at < muscle.line->origin_tendon) growth = 1;
     const Eigen::Matrix3d axes = sections.axes(k) * Eigen::DiagonalMatrix<Real, 3>(growth, growth, 1);
-    points.middleCols(first, vertices) =
-        (axes * muscle.shape.middleCols(first, vertices)).colwise() + sections.centers.col(k);
-  };
-  for (Eigen::Index k = 0; k < count; ++k) place(k, k * muscle.rays, muscle.rays);
-  place(0, count * muscle.rays, 1);
-  place(count - 1, count * muscle.rays + 1, 1);
-  return points;
+    const Vec3 center = sections.centers.col(k);
+    result.rings.corners.middleCols(k * muscle.rays, muscle.rays) =
+        (axes * muscle.shape.middleCols(k * muscle.rays, muscle.rays)).colwise() + center;
+    result.rings.centers.col(k) = axes * muscle.offsets.col(k) + center;
+    if (k == 0) result.ends.col(0) = axes * muscle.shape.col(count * muscle.rays) + center;
+    if (k == count - 1) result.ends.col(1) = axes * muscle.shape.col(count * muscle.rays + 1) + center;
+  }
+  return result;
 }
 
 /// The vertices' places in their sections, and the sections' on the line, from the surface as it was captured.
@@ -115,15 +141,67 @@ static CylinderMuscle prepare(const Pose& capture, const Muscle& muscle) {
     const Index k = v < count * result.rays ? v / result.rays : v == count * result.rays ? 0 : count - 1;
     result.shape.col(v) = sections.axes(k).transpose() * (muscle.surface.vertices.col(v) - sections.centers.col(k));
   }
+  result.offsets = Points::Zero(3, count);
+  for (Index k = 0; k < count && muscle.action_line.centers.cols() > 0; ++k)
+    result.offsets.col(k) =
+        sections.axes(k).transpose() * (muscle.action_line.centers.col(k) - sections.centers.col(k));
   return result;
+}
+
+/// Lets tagged sections give way, at most 20 rounds; each frame anew, so that nothing is carried on.
+static void resolve(const std::vector<Transversal>& transversals, const std::vector<Bone>& bones,
+                    const std::vector<SegmentHits>& hits, const Pose& pose, std::vector<CylinderShape>& shapes) {
+  struct Held {
+    Real area = 0;
+    Eigen::VectorXd radii;
+    std::vector<bool> fixed;
+  };
+  std::vector<Held> held;
+  for (const Transversal& each : transversals) {
+    const SectionRings& rings = shapes[static_cast<std::size_t>(each.moved.muscle)].rings;
+    Held state{section_area(rings, each.moved.section), Eigen::VectorXd(rings.rays),
+               std::vector<bool>(static_cast<std::size_t>(rings.rays))};
+    for (Index i = 0; i < rings.rays; ++i)
+      state.radii[i] = (rings.corner(each.moved.section, i) - rings.centers.col(each.moved.section)).norm();
+    held.push_back(std::move(state));
+  }
+  const auto give_way = [&](const Transversal& each, Held& state) {
+    SectionRings& rings = shapes[static_cast<std::size_t>(each.moved.muscle)].rings;
+    bool moved = false;
+    std::vector<Obstacle> obstacles;
+    if (each.other.muscle >= 0) {
+      const SectionRings& other = shapes[static_cast<std::size_t>(each.other.muscle)].rings;
+      moved = yield_to_transversal(rings, each.moved, transversal_depth(rings, each.moved, other, each.other));
+      obstacles.push_back(obstacle_of(other));
+    }
+    for (const Index bone : each.bones) {
+      const Bone& solid = bones[static_cast<std::size_t>(bone)];
+      const RigidTransform back = pose.bodies[static_cast<std::size_t>(solid.body)].inverse();
+      const SegmentHits& tree = hits[static_cast<std::size_t>(bone)];
+      obstacles.push_back([back, &tree](const Vec3& a, const Vec3& b) { return tree.cut(back * a, back * b); });
+    }
+    const Obstacle any = [&](const Vec3& a, const Vec3& b) {
+      return std::any_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& cuts) { return cuts(a, b); });
+    };
+    if (!yield_to_obstacle(rings, each.moved.section, any, state.radii, state.fixed)) return moved;
+    inflate(rings, each.moved.section, state.area, state.fixed);
+    return true;
+  };
+  for (int round = 0; round < 20; ++round) {
+    bool any = false;
+    for (std::size_t i = 0; i < transversals.size(); ++i) any = give_way(transversals[i], held[i]) || any;
+    if (!any) return;
+  }
 }
 
 namespace {
 
 class CylinderMethod final : public DeformationMethod {
  public:
-  explicit CylinderMethod(const Scene& scene) : lines_(scene.muscles) {
+  explicit CylinderMethod(const Scene& scene) : lines_(scene.muscles), transversals_(scene.transversals) {
     const Pose capture = capture_pose(scene.bodies.size());
+    if (!transversals_.empty()) bones_ = scene.bones;
+    for (const Bone& bone : bones_) hits_.emplace_back(bone.surface);
     for (const Muscle& muscle : lines_) {
       muscles_.push_back(prepare(capture, muscle));
       shapes_.push_back(muscle.surface.vertices);
@@ -137,15 +215,18 @@ class CylinderMethod final : public DeformationMethod {
   StepReport advance(const Pose& pose) override {
     StepReport report;
     report.muscles.resize(muscles_.size());
-    std::vector<Points> next(muscles_.size());
+    std::vector<CylinderShape> shapes(muscles_.size());
     parallel_for(static_cast<Index>(muscles_.size()), 8, [&](Index begin, Index end) {
       for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
         const auto start = std::chrono::steady_clock::now();
-        next[m] = surface_at(muscles_[m], pose);
+        shapes[m] = shape_at(muscles_[m], pose);
         const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - start;
         report.muscles[m].milliseconds = taken.count();
       }
     });
+    if (!transversals_.empty()) resolve(transversals_, bones_, hits_, pose, shapes);
+    std::vector<Points> next;
+    for (const CylinderShape& shape : shapes) next.push_back(shape.vertices());
     for (std::size_t m = 0; m < muscles_.size(); ++m)
       if (!next[m].allFinite()) throw QualityError("muscle " + muscles_[m].name + ": a section is not finite");
     shapes_ = std::move(next);
@@ -163,6 +244,9 @@ class CylinderMethod final : public DeformationMethod {
 
  private:
   std::vector<Muscle> lines_;  ///< the scene's, which need not outlive this
+  std::vector<Transversal> transversals_;
+  std::vector<Bone> bones_;
+  std::vector<SegmentHits> hits_;  ///< of each bone
   std::vector<CylinderMuscle> muscles_;
   std::vector<Points> shapes_;
 };

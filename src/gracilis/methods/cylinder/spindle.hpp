@@ -20,8 +20,10 @@ Real muscle_volume(const MuscleSize& size);
 Real tendon_radius(const MuscleSize& size);
 
 /// Radii (m) of sections whose centers are `positions` (m, ascending) along the action line. The last `tendon` of it is
-/// tendon; before that the belly swells and shrinks as a sine from the tendon's radius and back, so far that it has the
-/// muscle's volume between the sections. A belly too short for that is no thicker than half its length.
-Eigen::VectorXd spindle_radii(const MuscleSize& size, const Eigen::VectorXd& positions, Real tendon);
+/// tendon, and the first `origin_tendon`; between them the belly swells and shrinks as a sine from the tendon's radius
+/// and back, so far that it has the muscle's volume between the sections. A belly too short for that is no thicker than
+/// half its length.
+Eigen::VectorXd spindle_radii(const MuscleSize& size, const Eigen::VectorXd& positions, Real tendon,
+                              Real origin_tendon = 0);
 
 }  // namespace gracilis

@@ -1,0 +1,57 @@
+#include <gracilis/geometry/segment_hits.hpp>
+
+#include <embree3/rtcore.h>
+
+namespace gracilis {
+
+struct SegmentHits::Tree {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+
+  ~Tree() {
+    if (scene) rtcReleaseScene(scene);
+    if (device) rtcReleaseDevice(device);
+  }
+};
+
+SegmentHits::SegmentHits(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
+  tree_->device = rtcNewDevice(nullptr);
+  tree_->scene = rtcNewScene(tree_->device);
+  rtcSetSceneFlags(tree_->scene, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry geometry = rtcNewGeometry(tree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices =
+      static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                  3 * sizeof(float), static_cast<std::size_t>(mesh.vertex_count())));
+  Eigen::Map<Eigen::Matrix3Xf>(vertices, 3, mesh.vertex_count()) = mesh.vertices.cast<float>();
+  auto* faces = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                               3 * sizeof(unsigned),
+                                                               static_cast<std::size_t>(mesh.face_count())));
+  Eigen::Map<Eigen::Matrix<unsigned, 3, Eigen::Dynamic>>(faces, 3, mesh.face_count()) = mesh.faces.cast<unsigned>();
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(tree_->scene, geometry);
+  rtcReleaseGeometry(geometry);  // the scene holds it
+  rtcCommitScene(tree_->scene);
+}
+
+SegmentHits::~SegmentHits() = default;
+SegmentHits::SegmentHits(SegmentHits&&) noexcept = default;
+SegmentHits& SegmentHits::operator=(SegmentHits&&) noexcept = default;
+
+bool SegmentHits::cut(const Vec3& a, const Vec3& b) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  const Eigen::Vector3f from = a.cast<float>(), along = (b - a).cast<float>();
+  RTCRay ray{};
+  ray.org_x = from.x();
+  ray.org_y = from.y();
+  ray.org_z = from.z();
+  ray.dir_x = along.x();
+  ray.dir_y = along.y();
+  ray.dir_z = along.z();
+  ray.tfar = 1;
+  ray.mask = 0xffffffffu;
+  rtcOccluded1(tree_->scene, &context, &ray);
+  return ray.tfar < 0;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gracilis/geometry/segment_hits.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <functional>
+#include <vector>
+
+namespace gracilis {
+
+/// Sections that give way to each other and to bones (Laclé 2014, chapter 4).
+
+/// One muscle's sections as they are in a frame. Corner i of section k is column k * rays + i.
+struct SectionRings {
+  Index rays = 0;
+  Points centers;
+  Points corners;  ///< those of all sections; without the two ends
+
+  Index sections() const { return static_cast<Index>(centers.cols()); }
+  auto corner(Index k, Index ray) { return corners.col(k * rays + ray); }
+  Vec3 corner(Index k, Index ray) const { return corners.col(k * rays + ray); }
+};
+
+/// Area about the center of the polygon that a section's corners make: the sum of its triangles, m².
+Real section_area(const SectionRings& rings, Index section);
+
+/// How far two sections joined by a transversal lie in each other, m: at each end where the angle between the
+/// transversal and the direction to the section's own center is acute, the transversal's projection on that direction.
+Real transversal_depth(const SectionRings& moved, const SectionCorner& corner, const SectionRings& other,
+                       const SectionCorner& other_corner);
+
+/// Moves the section's center, and its corners with it, along the direction from the tagged corner to the center,
+/// where the depth exceeds that radius, so that it lies `depth` from where the corner was (eq. 4.4).
+bool yield_to_transversal(SectionRings& rings, const SectionCorner& corner, Real depth);
+
+/// Whether a segment cuts an obstacle.
+using Obstacle = std::function<bool(const Vec3& a, const Vec3& b)>;
+
+/// The surface of another muscle's sections as it is now: every triangle is tried whose box the segment's box meets
+/// (Möller and Trumbore 1997).
+Obstacle obstacle_of(const SectionRings& rings);
+
+/// One round for one section: where the way from a corner to the next one cuts the obstacle both radii shrink by a
+/// tenth and are fixed; where one is nearly spent (5 % of what it was), or the way to the next corner of the following
+/// section cuts it, the center moves by a tenth of the opposite radius. `fixed` remembers per ray what was held.
+/// Returns whether anything was cut.
+bool yield_to_obstacle(SectionRings& rings, Index section, const Obstacle& cuts, const Eigen::VectorXd& radii_before,
+                       std::vector<bool>& fixed);
+
+/// Scales the free radii alike so that the section has `area` (m²) again; at most to three times their length.
+void inflate(SectionRings& rings, Index section, Real area, const std::vector<bool>& fixed);
+
+}  // namespace gracilis
