@@ -3,7 +3,11 @@
 #include "opensim_model.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/value_reader.hpp>
 #include <gracilis/opensim/scene_folder.hpp>
+#include <gracilis/opensim/skeleton.hpp>
+#include <gracilis/opensim/skeleton_fit.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -17,8 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct ImportOptions {
-  fs::path model, out, map;
+  fs::path model, out, map, surfaces, fit;
   std::vector<fs::path> geometry, motions;
+  std::vector<std::string> pose;
   opensim::SceneFolderSettings settings;
   bool strict = false;
 };
@@ -36,8 +41,41 @@ std::vector<opensim::NamedMotion> motions_of(const opensim::Model& model, const 
   return motions;
 }
 
-int import_model(const ImportOptions& options) {
-  const opensim::Model model = read_opensim_model(options.model, options.strict);
+/// "hip_flexion_r=30", in degrees or m: the values become the coordinates' defaults.
+void set_pose(opensim::Model& model, const std::vector<std::string>& pose) {
+  for (const std::string& setting : pose) {
+    const std::size_t equals = setting.find('=');
+    double number = 0;
+    if (equals == std::string::npos || !parse_number(setting.substr(equals + 1), number))
+      throw ConfigurationError({"--pose", "", fmt::format("'{}' is not of the form NAME=VALUE", setting), ""});
+    const std::string name = setting.substr(0, equals);
+    const Index index = opensim::index_of(model.coordinates, name);
+    if (index < 0) {
+      std::vector<std::string> names;
+      for (const opensim::Coordinate& coordinate : model.coordinates) names.push_back(coordinate.name);
+      throw ConfigurationError(
+          {"--pose", "", fmt::format("the model has no coordinate '{}'", name), suggestion(name, names)});
+    }
+    opensim::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
+    coordinate.default_value = number * (coordinate.rotation ? radians(1) : 1);
+  }
+}
+
+/// Surfaces of muscles, from a file as --map has it, for the pose of the default coordinates.
+std::map<std::string, TriangleMesh> muscle_surfaces(const opensim::Model& model, const fs::path& path) {
+  opensim::Skeleton skeleton(model);
+  skeleton.place(opensim::default_coordinates(model));
+  return opensim::load_muscle_surfaces(model, skeleton.poses(), opensim::read_geometry_map(path));
+}
+
+int import_model(ImportOptions options) {
+  opensim::Model model = read_opensim_model(options.model, options.strict);
+  set_pose(model, options.pose);
+  if (!options.fit.empty()) model = opensim::fit_to_skeleton(model, opensim::read_skeleton_fit(options.fit));
+  if (options.settings.volumes.rays % 2 != 0)
+    throw ConfigurationError(
+        {"--rays", "", fmt::format("{} is odd", options.settings.volumes.rays), "give an even number"});
+  if (!options.surfaces.empty()) options.settings.volumes.surfaces = muscle_surfaces(model, options.surfaces);
   opensim::GeometryPlaces places{options.model.parent_path(), options.geometry, {}};
   if (!options.map.empty()) places.named = opensim::read_geometry_map(options.map);
   if (fs::exists(options.out / "model.toml"))
@@ -67,9 +105,38 @@ void add_import_command(CLI::App& program, Command& chosen) {
       ->allow_extra_args(false);
   command->add_option("--muscles", options->settings.muscles, "Muscles to take, between commas (default: all)")
       ->delimiter(',');
+  command
+      ->add_option("--pose", options->pose,
+                   "The pose of bones and surfaces, NAME=VALUE,... in degrees and m (default: the model's)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--fit", options->fit, "TOML file that says where the bodies lie in another skeleton");
+  command->add_option("--surfaces", options->surfaces,
+                      "TOML file as --map takes: \"muscle\" = its surface, { files, unit, like = \"bone's surface\" }; "
+                      "sections are brought onto it");
+  command
+      ->add_option("--more-rays", options->settings.volumes.more_rays,
+                   "Times as many rays as corners look for the inside of such a surface")
+      ->check(CLI::Range(1, 32))
+      ->capture_default_str();
+  static const std::map<std::string, opensim::TendonPlace> tendons = {
+      {"half", opensim::TendonPlace::half_at_insertion},
+      {"whole", opensim::TendonPlace::whole_at_insertion},
+      {"both-ends", opensim::TendonPlace::both_ends}};
+  command
+      ->add_option(
+          "--tendon", options->settings.volumes.tendon,
+          "Where the tendon lies: half of its length at the insertion (default), the whole, or half at both ends")
+      ->transform(CLI::CheckedTransformer(tendons));
   command->add_option("--rays", options->settings.volumes.rays, "Corners of a muscle's cross-section, 6 or more")
       ->check(CLI::Range(6, 100))
       ->capture_default_str();
+  command
+      ->add_option_function<double>(
+          "--section-distance-mm",
+          [options](double distance) { options->settings.volumes.section_distance = distance / 1000; },
+          "Sections of a muscle are at most so far apart on average (12)")
+      ->check(CLI::Range(0.5, 1000.0));
   command
       ->add_option("--specific-tension", options->settings.volumes.specific_tension,
                    "Force per physiological cross-section area, N/m²")

@@ -3,12 +3,16 @@
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
+#include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/io/scene_reader.hpp>
+#include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/methods/cylinder/spindle.hpp>
 #include <gracilis/opensim/scene_folder.hpp>
 #include <gracilis/opensim/skeleton.hpp>
 #include <gracilis/scene/validate.hpp>
+
+#include <shapes.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -136,6 +140,90 @@ TEST(SceneFolder, a_muscle_has_its_volume_and_is_held_at_its_ends_and_where_its_
   const MuscleSize size{800, 0.1, 0, 6.1e5};
   const Real tendon = pi * tendon_radius(size) * tendon_radius(size) * 0.2;
   EXPECT_NEAR(report.volume, 0.955 * (gracilis::muscle_volume(size) + tendon), 0.1 * gracilis::muscle_volume(size));
+}
+
+TEST(SceneFolder, the_tendon_lies_at_the_insertion_or_at_both_ends) {
+  const Model model = model_from(knee_model());
+  Skeleton skeleton(model);
+  const Eigen::VectorXd q = default_coordinates(model);
+  skeleton.place(q);
+  VolumeSettings settings;
+  const auto line = [&](TendonPlace place) {
+    settings.tendon = place;
+    return muscle_volume(model, model.muscles[0], skeleton.poses(), q, settings).line;
+  };
+  const ActionLine half = line(TendonPlace::half_at_insertion), whole = line(TendonPlace::whole_at_insertion),
+                   both = line(TendonPlace::both_ends);
+  EXPECT_GT(half.tendon, 0);
+  EXPECT_EQ(half.origin_tendon, 0);
+  EXPECT_NEAR(whole.tendon, 2 * half.tendon, 1e-15);
+  EXPECT_NEAR(both.tendon, half.tendon, 1e-15);
+  EXPECT_NEAR(both.origin_tendon, half.tendon, 1e-15);
+}
+
+TEST(SceneFolder, sections_are_brought_onto_a_surface_that_is_known) {
+  const Model model =
+      model_from(pendulum(muscle("m", point("/ground", "0 0.1 0") + point("/bodyset/rod", "0 -0.3 0"))));
+  const TestFolder folder;
+  SceneFolderSettings settings;
+  settings.volumes.surfaces["m"] = shapes::box({-0.01, -0.25, -0.02}, {0.03, 0.05, 0.02});
+  EXPECT_THAT(
+      write_scene_folder(model, {}, {{"rest", {{0}, Eigen::MatrixXd::Zero(1, 1), {}}}}, settings, folder.path()),
+      testing::IsEmpty());
+  const Scene scene = read_scene(folder.path() / "rest.toml", {}).scene;
+  EXPECT_THAT(validate(scene), testing::IsEmpty());
+  const gracilis::Muscle& muscle = scene.muscles[0];
+  ASSERT_GT(muscle.action_line.centers.cols(), 8);
+  int on_box = 0;
+  for (Index v = 0; v < muscle.surface.vertex_count() - 2; ++v) {
+    const Vec3 corner = muscle.surface.vertices.col(v);
+    if (corner.y() < 0.045 && corner.y() > -0.245 && std::abs(std::abs(corner.x() - 0.01) - 0.02) < 1e-9) ++on_box;
+  }
+  EXPECT_GT(on_box, 100);
+  settings.volumes.surfaces["m"] = shapes::box({5, 5, 5}, {6, 6, 6});
+  std::filesystem::remove(folder.path() / "model.toml");
+  EXPECT_THAT(write_scene_folder(model, {}, {}, settings, folder.path()),
+              testing::ElementsAre(testing::HasSubstr("nowhere near its line")));
+}
+
+/// Centers of the sections of a real muscle, brought onto its surface with 36 rays, that lie outside of it.
+static int centers_outside(const std::string& muscle, const std::string& file) {
+  Model model = read_model(data_root() / "lhdl-hip/motion/LHDL_hip_r.osim");
+  // The scan's pose.
+  const std::pair<const char*, Real> pose[] = {
+      {"hip_flexion_r", 1.58}, {"hip_adduction_r", -4.73}, {"hip_rotation_r", -5.29}};
+  for (const auto& [name, angle] : pose)
+    model.coordinates[static_cast<std::size_t>(index_of(model.coordinates, name))].default_value = radians(angle);
+  Skeleton skeleton(model);
+  const Eigen::VectorXd q = default_coordinates(model);
+  skeleton.place(q);
+  VolumeSettings settings;
+  settings.more_rays = 3;
+  settings.surfaces = load_muscle_surfaces(
+      model, skeleton.poses(), {{muscle, {{data_root() / "lhdl-hip/clean" / file}, 0.001, "LHDL_pelvis.vtp"}}});
+  const Muscle& line = model.muscles[static_cast<std::size_t>(index_of(model.muscles, muscle))];
+  const MuscleVolume volume = muscle_volume(model, line, skeleton.poses(), q, settings);
+  EXPECT_GT(volume.sections_on_surface, 8) << muscle;
+  const SignedDistance distance(settings.surfaces.at(muscle));
+  const Points sections = subdivide_line(volume.line.points, volume.line.scaling);
+  int outside = 0;
+  for (Eigen::Index k = 1; k + 1 < sections.cols(); ++k) {
+    // Sections whose plane misses the muscle stay on the line.
+    const Vec3 center = volume.line.centers.col(k);
+    const bool moved = (center - sections.col(k)).norm() > 0;
+    if (distance.query(center).distance >= 0 && moved) ++outside;
+  }
+  return outside;
+}
+
+TEST(SceneFolder, centers_of_the_cadavers_muscles_lie_inside_them) {
+  GRACILIS_NEEDS_DATA("lhdl-hip/clean");
+  EXPECT_EQ(centers_outside("iliacus_r", "iliacus_r.ply"), 0);
+  EXPECT_EQ(centers_outside("psoas_r", "psoas_major_r.ply"), 0);
+  for (const char* part : {"glut_max1_r", "glut_max2_r", "glut_max3_r"})
+    EXPECT_EQ(centers_outside(part, "gluteus_maximus_r.ply"), 0) << part;
+  for (const char* part : {"glut_med1_r", "glut_med2_r", "glut_med3_r"})
+    EXPECT_EQ(centers_outside(part, "gluteus_medius_r.ply"), 0) << part;
 }
 
 TEST(SceneFolder, the_walking_model_becomes_a_scene_of_92_muscles) {

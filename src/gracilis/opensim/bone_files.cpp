@@ -31,6 +31,7 @@ std::map<std::string, GeometryFiles> read_geometry_map(const fs::path& path) {
       const toml::table* described = node.as_table();
       if (described)
         if (const auto unit = (*described)["unit"].value<std::string>()) entry.unit = unit_named(path, *unit);
+      if (described) entry.like = (*described)["like"].value_or(std::string());
       const auto add = [&](const std::string& file) { entry.files.push_back(file_beside(path, file)); };
       const toml::node* files = described ? described->get("files") : &node;
       if (files && files->is_string()) add(files->ref<std::string>());
@@ -101,6 +102,30 @@ ModelBones load_bones(const Model& model, const std::vector<RigidTransform>& pos
     }
   }
   return result;
+}
+
+/// Where a surface that the model shows lies in the ground frame, but for its scale.
+static RigidTransform place_of(const Model& model, const std::vector<RigidTransform>& poses, const std::string& muscle,
+                               const std::string& surface) {
+  for (std::size_t body = 0; body < model.bodies.size(); ++body)
+    for (const Geometry& geometry : model.bodies[body].geometry)
+      if (geometry.file == surface || fs::path(geometry.file).filename() == surface)
+        return poses[body] * geometry.frame;
+  throw InputError({model.name, muscle, fmt::format("lies like '{}', which the model does not show", surface),
+                    "name the surface of a bone as the model does"});
+}
+
+std::map<std::string, TriangleMesh> load_muscle_surfaces(const Model& model, const std::vector<RigidTransform>& poses,
+                                                         const std::map<std::string, GeometryFiles>& files) {
+  std::map<std::string, TriangleMesh> surfaces;
+  for (const auto& [muscle, entry] : files) {
+    if (index_of(model.muscles, muscle) < 0)
+      throw InputError({model.name, muscle, "is no muscle of the model", "name one of its muscles"});
+    if (entry.files.size() != 1) throw InputError({model.name, muscle, "needs one surface", "join the files"});
+    TriangleMesh& surface = surfaces[muscle] = read_mesh(entry.files[0], entry.unit > 0 ? entry.unit : 1);
+    if (!entry.like.empty()) surface.vertices = place_of(model, poses, muscle, entry.like) * surface.vertices;
+  }
+  return surfaces;
 }
 
 }  // namespace gracilis::opensim

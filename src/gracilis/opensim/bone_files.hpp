@@ -13,6 +13,7 @@ namespace gracilis::opensim {
 struct GeometryFiles {
   std::vector<std::filesystem::path> files;
   Real unit = 0;
+  std::string like = {};  ///< lies as this surface of the model does; empty: in the ground frame (surfaces of muscles)
 };
 
 /// Where a model's surfaces are looked for.
@@ -22,8 +23,8 @@ struct GeometryPlaces {
   std::map<std::string, GeometryFiles> named;  ///< by the name in the model; these win
 };
 
-/// A TOML file: "LHDL_pelvis.vtp" = "pelvis.ply" or ["hip_bone_r.vtk", "sacrum.vtk"], or { files = [...], unit = "mm"
-/// }; files lie beside it or below. Throws InputError.
+/// A TOML file: "LHDL_pelvis.vtp" = "pelvis.ply" or ["hip_bone_r.vtk", "sacrum.vtk"], or { files = [...], unit = "mm",
+/// like = "LHDL_pelvis.vtp" }; files lie beside it or below. Throws InputError.
 std::map<std::string, GeometryFiles> read_geometry_map(const std::filesystem::path& path);
 
 struct ModelBone {
@@ -45,5 +46,10 @@ std::string name_for_file(std::string wanted, std::set<std::string>& taken);
 /// below the geometry folders, the model's folder and its folder Geometry, then by its name alone; never outside of
 /// them. Those that are missing or cannot be read are listed.
 ModelBones load_bones(const Model& model, const std::vector<RigidTransform>& poses, const GeometryPlaces& places);
+
+/// Surfaces of muscles by their names, in the ground frame, m, for the bodies at `poses`: one file each; without a unit
+/// in m. Throws InputError for names that are no muscle's or no surface's.
+std::map<std::string, TriangleMesh> load_muscle_surfaces(const Model& model, const std::vector<RigidTransform>& poses,
+                                                         const std::map<std::string, GeometryFiles>& files);
 
 }  // namespace gracilis::opensim

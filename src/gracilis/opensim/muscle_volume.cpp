@@ -4,10 +4,13 @@
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>
+#include <gracilis/methods/cylinder/enhancement.hpp>
 #include <gracilis/methods/cylinder/spindle.hpp>
 #include <gracilis/opensim/muscle_path.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace gracilis::opensim {
 
@@ -36,6 +39,38 @@ static std::vector<Index> section(Index k, Index rays) {
   return vertices;
 }
 
+/// Origin's and insertion's tendon lengths on a line of this length, m: the slack length scaled as the line is.
+static std::pair<Real, Real> tendons_on(const Muscle& muscle, Real length, TendonPlace place) {
+  const Real rest =
+      muscle.tendon_slack_length + muscle.optimal_fiber_length * std::cos(muscle.pennation_angle_at_optimal);
+  const Real scaled = muscle.tendon_slack_length * length / rest;
+  switch (place) {
+    case TendonPlace::half_at_insertion:
+      return {0, scaled / 2};
+    case TendonPlace::whole_at_insertion:
+      return {0, scaled};
+    case TendonPlace::both_ends:
+      return {scaled / 2, scaled / 2};
+  }
+  return {0, scaled / 2};
+}
+
+/// Sections along the line, brought onto the muscle's own surface where it is known.
+static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const Muscle& muscle,
+                        const VolumeSettings& settings, MuscleVolume& volume) {
+  const Eigen::MatrixXd round = radii.transpose().replicate(settings.rays, 1);
+  volume.surface.faces = section_faces(static_cast<Index>(fine.cols()), settings.rays);
+  const auto known = settings.surfaces.find(muscle.name);
+  if (known == settings.surfaces.end()) {
+    volume.surface.vertices = section_vertices(fine, section_frames(fine, Vec3::UnitX()), round);
+    return;
+  }
+  const EnhancedSections sections = enhance(fine, Vec3::UnitX(), round, known->second, settings.more_rays);
+  volume.surface.vertices = section_vertices(sections.centers, sections.frames, sections.radii);
+  volume.line.centers = sections.centers;
+  volume.sections_on_surface = static_cast<Index>(std::count(sections.cut.begin(), sections.cut.end(), true));
+}
+
 MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                            const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
   const Line line = line_of(model, muscle, poses, coordinates);
@@ -50,23 +85,24 @@ MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::
   const Eigen::VectorXd positions = Eigen::VectorXd::Map(places.data(), fine.cols());
   const MuscleSize size{muscle.max_isometric_force, muscle.optimal_fiber_length, muscle.pennation_angle_at_optimal,
                         settings.specific_tension};
-  const Real rest = muscle.tendon_slack_length + muscle.optimal_fiber_length * std::cos(size.pennation);
-  const Real tendon = 0.5 * muscle.tendon_slack_length * length / rest;
-  const Eigen::VectorXd radii = spindle_radii(size, positions, tendon);
+  const auto [origin_tendon, tendon] = tendons_on(muscle, length, settings.tendon);
 
   MuscleVolume volume;
+  volume.line = {line.points, line.bodies, settings.rays, scaling, tendon, origin_tendon};
+  volume.line.optimal_fiber = muscle.optimal_fiber_length;
+  volume.line.pennation = muscle.pennation_angle_at_optimal;
+  add_surface(fine, spindle_radii(size, positions, tendon, origin_tendon), muscle, settings, volume);
+
   const Index rays = settings.rays, sections = static_cast<Index>(fine.cols()), last = sections - 1;
-  const SectionFrames frames = section_frames(fine, Vec3::UnitX());
-  volume.surface.vertices = section_vertices(fine, frames, radii.transpose().replicate(rays, 1));
-  volume.surface.faces = section_faces(sections, rays);
-  volume.line = {line.points, line.bodies, rays, scaling, tendon};
   std::vector<Index> first_vertices = section(0, rays), last_vertices = section(last, rays);
   first_vertices.push_back(rays * sections);
   last_vertices.push_back(rays * sections + 1);
   volume.held.push_back({AttachmentEnd::origin, line.bodies.front(), std::move(first_vertices)});
   for (std::size_t i = 1; i + 1 < line.bodies.size(); ++i) {
     const auto k = static_cast<Index>(i) << scaling;
-    if (positions[k] > length - tendon)
+    if (positions[k] < origin_tendon)
+      volume.held.push_back({AttachmentEnd::origin, line.bodies[i], section(k, rays)});
+    else if (positions[k] > length - tendon)
       volume.held.push_back({AttachmentEnd::insertion, line.bodies[i], section(k, rays)});
   }
   volume.held.push_back({AttachmentEnd::insertion, line.bodies.back(), std::move(last_vertices)});

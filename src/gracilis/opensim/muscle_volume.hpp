@@ -4,13 +4,27 @@
 #include <gracilis/opensim/model.hpp>
 #include <gracilis/scene/scene.hpp>
 
+#include <map>
+#include <string>
+
 namespace gracilis::opensim {
+
+/// Where a muscle's tendon lies along its line (Laclé 2014, section 3.4.3).
+enum class TendonPlace {
+  half_at_insertion,  ///< half of its slack length, as published
+  whole_at_insertion,
+  both_ends  ///< half of it at each
+};
 
 /// How muscles that are lines become volumes.
 struct VolumeSettings {
-  int rays = 12;                  ///< corners of a section
+  int rays = 12;                  ///< corners of a section, even
   Real section_distance = 0.012;  ///< m, at most this far apart on average
   Real specific_tension = 6.1e5;  ///< N/m²
+  TendonPlace tendon = TendonPlace::half_at_insertion;
+  /// Surfaces that are known, by the muscles' names, closed, in the ground frame: sections are brought onto them.
+  std::map<std::string, TriangleMesh> surfaces;
+  int more_rays = 6;  ///< times as many rays as corners look for the surfaces' inside (Laclé's CSS)
 };
 
 /// Vertices of a muscle's surface that move with a body.
@@ -24,10 +38,11 @@ struct MuscleVolume {
   TriangleMesh surface;
   ActionLine line;  ///< its bodies are the model's
   std::vector<HeldVertices> held;
+  Index sections_on_surface = 0;  ///< of those brought onto a surface that is known
 };
 
 /// A closed surface around a muscle's path for the bodies at `poses` (Laclé 2014, after the line's own points; radii by
-/// spindle_radii with half of the tendon's slack length at the insertion). The first sections are held by the origin's
+/// spindle_radii, or from the surface that is known, see enhance). The first sections are held by the origin's
 /// body and the last by the insertion's; sections at points between that lie in the tendon, by theirs. Throws
 /// InputError for a path by functions, which has no place, and for one without length.
 MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,

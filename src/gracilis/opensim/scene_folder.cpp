@@ -55,10 +55,17 @@ static std::string muscle_text(const Model& model, const std::string& name, cons
     bodies.push_back(quoted(model.bodies[static_cast<std::size_t>(body)].name));
   for (Eigen::Index i = 0; i < volume.line.points.cols(); ++i)
     points.push_back(vector(1000 * volume.line.points.col(i)));
-  text +=
-      fmt::format("\n[muscles.action_line]\nrays = {}\nscaling = {}\ntendon_mm = {}\nbodies = [{}]\npoints_mm = [{}]\n",
-                  volume.line.rays, volume.line.scaling, 1000 * volume.line.tendon, fmt::join(bodies, ", "),
-                  fmt::join(points, ", "));
+  const ActionLine& line = volume.line;
+  text += fmt::format(
+      "\n[muscles.action_line]\nrays = {}\nscaling = {}\ntendon_mm = {}\norigin_tendon_mm = {}\n"
+      "optimal_fiber_mm = {}\npennation_deg = {}\nbodies = [{}]\npoints_mm = [{}]\n",
+      line.rays, line.scaling, 1000 * line.tendon, 1000 * line.origin_tendon, 1000 * line.optimal_fiber,
+      degrees(line.pennation), fmt::join(bodies, ", "), fmt::join(points, ", "));
+  if (line.centers.cols() > 0) {
+    std::vector<std::string> centers;
+    for (const Vec3 center : line.centers.colwise()) centers.push_back(vector(1000 * center));
+    text += fmt::format("centers_mm = [{}]\n", fmt::join(centers, ", "));
+  }
   for (std::size_t i = 0; i < volume.held.size(); ++i) {
     const HeldVertices& held = volume.held[i];
     const bool origin = held.end == AttachmentEnd::origin;
@@ -122,6 +129,8 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
     try {
       const MuscleVolume volume = muscle_volume(model, *muscle, skeleton.poses(), coordinates, settings.volumes);
       const std::string name = name_for_file(muscle->name, names);
+      if (settings.volumes.surfaces.count(muscle->name) > 0 && volume.sections_on_surface == 0)
+        left_out.push_back(fmt::format("muscle '{}': its surface is nowhere near its line", muscle->name));
       write_surface(folder / "muscles" / (name + ".vtp"), volume.surface.vertices, volume.surface.faces);
       text += muscle_text(model, name, volume);
     } catch (const InputError& error) {
