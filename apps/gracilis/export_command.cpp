@@ -1,7 +1,9 @@
 #include "export_command.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/opensim/model_reader.hpp>
 #include <gracilis/opensim/run_paths.hpp>
+#include <gracilis/opensim/run_points.hpp>
 #include <gracilis/view/export.hpp>
 
 #include <fmt/format.h>
@@ -15,10 +17,12 @@ namespace gracilis {
 namespace {
 
 struct ExportOptions {
-  std::filesystem::path run, out;
+  std::filesystem::path run, out, model;
   std::string to;
   std::vector<int> frames;
   GltfOptions gltf;
+  Real specific_tension = 6.1e5;
+  Index points = 12;
 };
 
 /// One thing that `--to` can say.
@@ -58,11 +62,27 @@ const std::vector<ExportFormat>& formats() {
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
          export_obj(run, out, frames_or_all(run, options.frames));
        }},
+      {"tetrahedra", "tetrahedra",
+       "a folder with the volumes of muscles made of sections: .vtu with compartments and masses, and tables, in "
+       "--frames",
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+         export_tetrahedra(run, out, frames_or_all(run, options.frames), options.specific_tension);
+       }},
       {"osim-function", "function_paths.osim",
        "the fibers' mean lengths as polynomials of the coordinates, which OpenSim 4.5 and later read as "
        "FunctionBasedPaths",
        [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
          for (const std::string& line : opensim::export_function_paths(options.run, out)) spdlog::info("{}", line);
+       }},
+      {"osim-points", "point_paths.osim",
+       "the mean fibers as path points of the --model, a force set that OpenSim appends to it or puts in the place of "
+       "its forces",
+       [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
+         if (options.model.empty())
+           throw ConfigurationError({"--to osim-points", "", "needs the model", "add --model MODEL.osim"});
+         const opensim::Model model = opensim::read_model(options.model);
+         for (const std::string& line : opensim::export_points(options.run, model, options.points, out))
+           spdlog::info("{}", line);
        }}};
   return list;
 }
@@ -81,13 +101,22 @@ void add_export_command(CLI::App& program, Command& chosen) {
   command->add_option("RUN", options->run, "Run folder")->required();
   command->add_option("--to", options->to, help)->required()->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "File or folder to write (default: within the run's folder)");
-  command->add_option("--frames", options->frames, "These only, as in 0,45,90 (csv, obj)")
+  command->add_option("--frames", options->frames, "These only, as in 0,45,90 (csv, obj, tetrahedra)")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--vertices", options->gltf.muscle_vertices, "About so many at most for each muscle (gltf; 4000)")
       ->check(CLI::Range(50, 10'000'000));
   command->add_option("--most-frames", options->gltf.frames, "At most so many frames (gltf; 60)")
       ->check(CLI::Range(2, 100'000));
+  command
+      ->add_option("--specific-tension", options->specific_tension,
+                   "Force per physiological cross-section area, N/m² (tetrahedra)")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--model", options->model, "The OpenSim model that the run's scene was made of (osim-points)");
+  command->add_option("--points", options->points, "Points of a path, its ends among them (osim-points)")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
   command->callback([&chosen, options] {
     chosen = [options] {
       for (const ExportFormat& format : formats()) {

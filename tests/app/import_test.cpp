@@ -1,6 +1,8 @@
 #include "app/program.hpp"
 #include "opensim/model_texts.hpp"
 
+#include <gracilis/io/input_file.hpp>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,6 +26,60 @@ TEST(ImportCommand, an_imported_model_runs_its_motion) {
   const ProgramResult ran = run_program("run " + out + "/swing.toml --out " + (folder.path() / "run").string());
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "run/frames/m_0001.vtp"));
+}
+
+/// A muscle from the ground to the rod, and a swing of three degrees.
+static ProgramResult import_swing(const TestFolder& folder, const std::string& options) {
+  const auto model = folder.write(
+      "tiny.osim", pendulum(muscle("m", point("/ground", "0.1 0.1 0") + point("/bodyset/rod", "0.05 -0.3 0"))));
+  const auto motion = folder.write(
+      "swing.mot", "m\nversion=1\nnRows=2\nnColumns=2\ninDegrees=yes\nendheader\ntime\tswing\n0\t0\n1\t3\n");
+  return run_program("import " + model.string() + " --motion " + motion.string() + " --out " +
+                     (folder.path() / "scene").string() + " " + options);
+}
+
+TEST(ImportCommand, an_imported_model_runs_by_sections_and_goes_back_to_opensim) {
+  const TestFolder folder;
+  ASSERT_EQ(import_swing(folder, "--tendon both-ends --rays 8").exit_code, 0);
+  const std::string run = (folder.path() / "run").string();
+  const ProgramResult ran =
+      run_program("run " + (folder.path() / "scene/swing.toml").string() + " --set method=cylinder --out " + run);
+  ASSERT_EQ(ran.exit_code, 0) << ran.err;
+  const ProgramResult cells = run_program("export " + run + " --to tetrahedra --frames 0,1");
+  ASSERT_EQ(cells.exit_code, 0) << cells.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run/tetrahedra/m_0001.vtu"));
+  EXPECT_THAT(read_text(folder.path() / "run/tetrahedra/sections.csv"), testing::HasSubstr("1,m,0,0.000,tendon,"));
+  const ProgramResult points =
+      run_program("export " + run + " --to osim-points --model " + (folder.path() / "tiny.osim").string());
+  ASSERT_EQ(points.exit_code, 0) << points.err;
+  EXPECT_THAT(points.err, testing::HasSubstr("m: 12 points; 0.0"));
+  EXPECT_EQ(run_program("export " + run + " --to osim-points").exit_code, 2);
+}
+
+TEST(ImportCommand, the_pose_of_bones_and_surfaces_may_be_given) {
+  const TestFolder folder;
+  ASSERT_EQ(import_swing(folder, "--pose swing=20").exit_code, 0);
+  EXPECT_THAT(read_text(folder.path() / "scene/model.toml"), testing::HasSubstr("capture_deg = 20"));
+  const TestFolder other;
+  const ProgramResult wrong = import_swing(other, "--pose swim=20");
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_THAT(wrong.err, testing::HasSubstr("did you mean 'swing'?"));
+  EXPECT_EQ(import_swing(other, "--rays 7").exit_code, 2);
+}
+
+TEST(ImportCommand, surfaces_of_muscles_and_another_skeleton_come_from_files) {
+  const TestFolder folder;
+  folder.write("box.obj",
+               "v -30 -250 -20\nv 60 -250 -20\nv -30 50 -20\nv 60 50 -20\nv -30 -250 20\nv 60 -250 20\nv -30 50 20\n"
+               "v 60 50 20\nf 1 3 2\nf 2 3 4\nf 5 6 7\nf 6 8 7\nf 1 2 5\nf 2 6 5\nf 3 7 4\nf 4 7 8\nf 1 5 3\n"
+               "f 3 5 7\nf 2 4 6\nf 4 8 6\n");
+  const auto surfaces = folder.write("surfaces.toml", "m = { files = \"box.obj\", unit = \"mm\" }\n");
+  const auto fit = folder.write("fit.toml", "[bodies.rod]\nshift_mm = [0, 0, 5]\n");
+  const ProgramResult result = import_swing(folder, "--surfaces " + surfaces.string() + " --fit " + fit.string());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string text = read_text(folder.path() / "scene/model.toml");
+  EXPECT_THAT(text, testing::HasSubstr("centers_mm"));
+  EXPECT_THAT(text, testing::HasSubstr("center = [0, 0, 0.005]"));
 }
 
 TEST(ImportCommand, a_folder_that_holds_a_model_is_left_alone) {

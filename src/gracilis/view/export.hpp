@@ -27,4 +27,10 @@ void export_obj(const RecordedRun& run, const std::filesystem::path& folder, con
 /// each muscle its points in these frames (frame, vertex, x, y, z in m). Throws InputError.
 void export_csv(const RecordedRun& run, const std::filesystem::path& folder, const std::vector<int>& frames);
 
+/// A folder with the tetrahedra of all muscles that are made of sections across their lines, MUSCLE_FRAME.vtu (see
+/// write_tetrahedra), and two tables: sections.csv with each section's area and shape, and muscles.csv with volumes,
+/// mass, physiological cross-section and the force that it makes with the specific tension (N/m²). Throws InputError.
+void export_tetrahedra(const RecordedRun& run, const std::filesystem::path& folder, const std::vector<int>& frames,
+                       Real specific_tension);
+
 }  // namespace gracilis

@@ -1,0 +1,224 @@
+#include <gracilis/opensim/run_points.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/polylines.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/recorded_run.hpp>
+#include <gracilis/opensim/coordinate_motion.hpp>
+#include <gracilis/opensim/model_reader.hpp>
+#include <gracilis/opensim/muscle_path.hpp>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis::opensim {
+
+using Poses = std::vector<RigidTransform>;
+
+/// The point's places in a body, 3 × frames.
+static Points places_in(const std::vector<Points>& fibers, Eigen::Index point, const std::vector<Poses>& poses,
+                        std::size_t body) {
+  Points places(3, static_cast<Eigen::Index>(fibers.size()));
+  for (std::size_t f = 0; f < fibers.size(); ++f)
+    places.col(static_cast<Eigen::Index>(f)) = poses[f][body].inverse() * fibers[f].col(point);
+  return places;
+}
+
+static Real movement(const Points& places) {
+  const Points off = places.colwise() - places.rowwise().mean();
+  return std::sqrt(off.squaredNorm() / static_cast<Real>(places.cols()));
+}
+
+/// Frames in the order of the moving coordinate, at most 15, no value twice.
+static std::vector<std::size_t> knot_frames(const std::vector<Real>& moving) {
+  std::vector<std::size_t> frames(moving.size()), kept;
+  for (std::size_t f = 0; f < frames.size(); ++f) frames[f] = f;
+  std::stable_sort(frames.begin(), frames.end(), [&](std::size_t a, std::size_t b) { return moving[a] < moving[b]; });
+  const Real step = frames.empty() ? 0 : (moving[frames.back()] - moving[frames.front()]) / 14;
+  for (const std::size_t f : frames)
+    if (kept.empty() || moving[f] - moving[kept.back()] > 0.999 * step) kept.push_back(f);
+  return kept;
+}
+
+std::vector<FiberPoint> fit_points(const std::vector<Points>& fibers, const std::vector<Poses>& poses,
+                                   const std::vector<Real>& moving) {
+  std::vector<FiberPoint> result;
+  const Eigen::Index count = fibers.front().cols();
+  for (Eigen::Index p = 0; p < count; ++p) {
+    FiberPoint point;
+    Points places = places_in(fibers, p, poses, 0);
+    point.moves = movement(places);
+    // A body that does not move beside the ground is the better home.
+    for (std::size_t body = 1; body < poses.front().size(); ++body) {
+      const Points here = places_in(fibers, p, poses, body);
+      const Real moves = movement(here);
+      if (moves > point.moves - (point.body == 0 ? -1e-9 : 1e-9)) continue;
+      point.body = static_cast<Index>(body);
+      point.moves = moves;
+      places = here;
+    }
+    point.location = places.rowwise().mean();
+    if (!moving.empty() && p > 0 && p + 1 < count && point.moves > 1e-5) {
+      const std::vector<std::size_t> frames = knot_frames(moving);
+      point.places.resize(3, static_cast<Eigen::Index>(frames.size()));
+      for (std::size_t k = 0; k < frames.size(); ++k) {
+        point.knots.push_back(moving[frames[k]]);
+        point.places.col(static_cast<Eigen::Index>(k)) = places.col(static_cast<Eigen::Index>(frames[k]));
+      }
+    }
+    result.push_back(std::move(point));
+  }
+  return result;
+}
+
+Path path_of(const std::vector<FiberPoint>& points, Index coordinate) {
+  Path path;
+  for (const FiberPoint& fitted : points) {
+    PathPoint point;
+    point.name = fmt::format("p{}", path.points.size() + 1);
+    point.body = fitted.body;
+    point.location = fitted.location;
+    point.moving = fitted.knots.size() > 1;
+    for (std::size_t i = 0; i < 3 && point.moving; ++i) {
+      const Eigen::VectorXd y = fitted.places.row(static_cast<Eigen::Index>(i));
+      point.moves_with[i] = coordinate;
+      point.moves_to[i] = simm_spline(fitted.knots, {y.begin(), y.end()});
+    }
+    path.points.push_back(std::move(point));
+  }
+  return path;
+}
+
+static std::string moving_text(const Model& model, const PathPoint& point) {
+  std::string text;
+  const char* names[3] = {"x", "y", "z"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(point.moves_with[i])];
+    const std::string& joint = model.joints[static_cast<std::size_t>(coordinate.joint)].name;
+    std::vector<Real> y;
+    for (const Real knot : point.moves_to[i].knots) y.push_back(value(point.moves_to[i], {knot}));
+    text += fmt::format(
+        "            <socket_{0}_coordinate>/jointset/{1}/{2}</socket_{0}_coordinate>\n"
+        "            <{0}_location><SimmSpline><x>{3}</x><y>{4}</y></SimmSpline></{0}_location>\n",
+        names[i], joint, coordinate.name, fmt::join(point.moves_to[i].knots, " "), fmt::join(y, " "));
+  }
+  return text;
+}
+
+static std::string point_text(const Model& model, const PathPoint& point) {
+  const std::string& body = model.bodies[static_cast<std::size_t>(point.body)].name;
+  const std::string frame = point.body == 0 ? "/ground" : "/bodyset/" + body;
+  const char* kind = point.moving ? "MovingPathPoint" : "PathPoint";
+  std::string text =
+      fmt::format("          <{} name=\"{}\">\n            <socket_parent_frame>{}</socket_parent_frame>\n", kind,
+                  point.name, frame);
+  text += point.moving ? moving_text(model, point)
+                       : fmt::format("            <location>{} {} {}</location>\n", point.location.x(),
+                                     point.location.y(), point.location.z());
+  return text + fmt::format("          </{}>\n", kind);
+}
+
+std::string muscle_text(const Model& model, const Muscle& muscle) {
+  const std::string type = muscle.type.empty() ? "Thelen2003Muscle" : muscle.type;
+  std::string text = fmt::format(
+      "      <{} name=\"{}\">\n        <max_isometric_force>{}</max_isometric_force>\n"
+      "        <optimal_fiber_length>{}</optimal_fiber_length>\n"
+      "        <tendon_slack_length>{}</tendon_slack_length>\n"
+      "        <pennation_angle_at_optimal>{}</pennation_angle_at_optimal>\n        <GeometryPath name=\"path\">\n"
+      "          <PathPointSet><objects>\n",
+      type, muscle.name, muscle.max_isometric_force, muscle.optimal_fiber_length, muscle.tendon_slack_length,
+      muscle.pennation_angle_at_optimal);
+  for (const PathPoint& point : muscle.path.points) text += point_text(model, point);
+  return text + fmt::format("          </objects></PathPointSet>\n        </GeometryPath>\n      </{}>\n", type);
+}
+
+/// The mean of a muscle's fibers in a frame, `count` points; none where the run has none of it.
+static Points mean_fiber(const RecordedRun& run, const std::string& muscle, int frame, Index count) {
+  const Polylines fibers = recorded_fibers(run, muscle, frame);
+  if (fibers.count() == 0) return Points(3, 0);
+  Points mean = Points::Zero(3, count);
+  for (Index i = 0; i < fibers.count(); ++i) mean += resampled(fibers.line(i), count - 1);
+  return mean / fibers.count();
+}
+
+/// The only coordinate that changes in a motion, or -1.
+static Index only_moving(const CoordinateMotion& motion) {
+  Index found = -1;
+  for (Eigen::Index i = 0; i < motion.values.cols(); ++i) {
+    if (motion.values.col(i).maxCoeff() - motion.values.col(i).minCoeff() < 1e-4) continue;
+    if (found >= 0) return -1;
+    found = static_cast<Index>(i);
+  }
+  return found;
+}
+
+/// How far a path's lengths are from those of the fibers, m: root mean square and largest.
+static std::pair<Real, Real> errors_of(const Model& model, const Path& path, const CoordinateMotion& motion,
+                                       const std::vector<Points>& fibers) {
+  Skeleton skeleton(model);
+  Real sum = 0, largest = 0;
+  for (std::size_t f = 0; f < fibers.size(); ++f) {
+    const Eigen::VectorXd coordinates = motion.values.row(static_cast<Eigen::Index>(f));
+    skeleton.place(coordinates);
+    const Real error = measure_path(skeleton, path, coordinates).length - polyline_length(fibers[f]);
+    sum += error * error;
+    largest = std::max(largest, std::abs(error));
+  }
+  return {std::sqrt(sum / static_cast<Real>(fibers.size())), largest};
+}
+
+std::vector<std::string> export_points(const std::filesystem::path& folder, const Model& model, Index count,
+                                       const std::filesystem::path& out) {
+  const RecordedRun run = open_recorded_run(folder);
+  const CoordinateMotion motion = coordinate_motion(model, read_table(folder / "fiber_lengths.sto"));
+  if (static_cast<int>(motion.times.size()) < run.frame_count)
+    throw InputError({folder.string(), "", "has fewer rows of fiber lengths than frames", "run the scene again"});
+  Skeleton skeleton(model);
+  std::vector<Poses> poses;
+  for (int f = 0; f < run.frame_count; ++f) {
+    skeleton.place(motion.values.row(f));
+    poses.push_back(skeleton.poses());
+  }
+  const Index coordinate = only_moving(motion);
+  std::vector<Real> moving;
+  for (int f = 0; f < run.frame_count && coordinate >= 0; ++f) moving.push_back(motion.values(f, coordinate));
+
+  std::string text;
+  std::vector<std::vector<Points>> fibers;
+  std::vector<std::string> names;
+  for (const std::string& name : run.muscles) {
+    std::vector<Points> lines;
+    for (int f = 0; f < run.frame_count; ++f) lines.push_back(mean_fiber(run, name, f, count));
+    if (lines.front().cols() == 0) continue;
+    const std::vector<FiberPoint> points = fit_points(lines, poses, moving);
+    if (std::max(points.front().moves, points.back().moves) > 0.005)
+      throw InputError({folder.string(), name, "has ends that move with no body of the model",
+                        "name the model that the run's scene was made of"});
+    const Index known = index_of(model.muscles, name);
+    Muscle muscle = known >= 0 ? model.muscles[static_cast<std::size_t>(known)] : Muscle{};
+    muscle.name = name;
+    muscle.path = path_of(points, coordinate);
+    text += muscle_text(model, muscle);
+    fibers.push_back(std::move(lines));
+    names.push_back(name);
+  }
+  if (names.empty()) throw InputError({folder.string(), "", "has no fibers", "run the scene with fibers"});
+  write_text_atomically(out, fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument "
+                                         "Version=\"40000\">\n  <ForceSet name=\"{}\">\n    <objects>\n{}    "
+                                         "</objects>\n  </ForceSet>\n</OpenSimDocument>\n",
+                                         folder.filename().string(), text));
+  Model read = model;
+  read_force_set(out, true, read);
+  std::vector<std::string> lines;
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    const auto [root_mean_square, largest] = errors_of(read, read.muscles[m].path, motion, fibers[m]);
+    lines.push_back(fmt::format("{}: {} points; {:.3f} mm root mean square, {:.3f} mm at most", names[m], count,
+                                1000 * root_mean_square, 1000 * largest));
+  }
+  return lines;
+}
+
+}  // namespace gracilis::opensim
