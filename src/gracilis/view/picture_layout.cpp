@@ -9,6 +9,7 @@ namespace gracilis {
 
 static constexpr int strip_height = 56;      // pixels: title, legend or caption
 static constexpr int color_bar_width = 460;  // pixels
+static constexpr int entry_width = 100;      // pixels, least for a legend's entry
 static constexpr Real border = 1.06;         // free space around what is seen
 
 static void require(bool ok, const char* what) {
@@ -98,6 +99,9 @@ PictureLayout lay_out(const Picture& picture) {
   layout.legend_entries = legend_of(picture);
   layout.width = columns * picture.panel_width;
   const int bar_width = picture.color_bar ? std::min(layout.width, color_bar_width) : 0;
+  // Nobody tells a body's hundred muscles apart by color; names that do not fit would hide each other.
+  if (static_cast<int>(layout.legend_entries.size()) * entry_width > layout.width - bar_width)
+    layout.legend_entries.clear();
   const int legend_width = layout.legend_entries.empty() ? 0 : layout.width - bar_width;
   layout.legend = {0, 0, legend_width, legend_width > 0 || bar_width > 0 ? strip_height : 0};
   layout.color_bar = {layout.width - bar_width, 0, bar_width, bar_width > 0 ? strip_height : 0};

@@ -106,12 +106,15 @@ static std::string caption_of(const Scene& scene, const Frame& frame) {
   if (frame.number == 0) return "capture pose";
   std::string caption;
   std::size_t coordinate = 0;
+  int shown_coordinates = 0;
   for (const Joint& joint : scene.joints) {
     for (const JointAxis& axis : joint.axes) {
       if (coordinate >= frame.pose.coordinates.size()) break;
       const Real value = frame.pose.coordinates[coordinate++];
       const Real shown = shown_value(axis, value);
       if (std::abs(shown - shown_value(axis, axis.capture_value)) < 0.5 || std::abs(shown) < 0.5) continue;
+      // A whole body has more coordinates than a caption has room.
+      if (++shown_coordinates > 3) return fmt::format("frame {}, {:.2f} s", frame.number, frame.pose.time);
       caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", axis.coordinate, shown,
                              axis.translation ? " mm" : "°");
     }

@@ -37,10 +37,13 @@ Vec3 view_direction(const RecordedRun& run, const std::string& view) {
 
 std::string pose_caption(const RecordedRun& run, int frame) {
   std::string caption;
+  int shown = 0;
   for (Index i = 0; i < run.coordinate_values.cols(); ++i) {
     const Real value = run.coordinate_values(frame, i);
     const bool changed = std::abs(value - run.coordinate_values(0, i)) >= 0.5 && std::abs(value) >= 0.5;
     if (!changed && i != main_coordinate(run)) continue;
+    // A whole body has more coordinates than a caption has room.
+    if (++shown > 3) return fmt::format("frame {}, {:.2f} s", frame, run.times[static_cast<std::size_t>(frame)]);
     const CoordinateLabel label = coordinate_label(run.coordinates[static_cast<std::size_t>(i)]);
     caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", label.name, value + 0.0, label.unit);
   }
