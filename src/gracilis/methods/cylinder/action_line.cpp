@@ -5,18 +5,6 @@
 
 namespace gracilis {
 
-Points subdivide_line(const Points& line, int scaling) {
-  assert(line.cols() >= 2 && scaling >= 0 && scaling <= 16);
-  const Eigen::Index parts = Eigen::Index(1) << scaling;
-  Points result(3, (line.cols() - 1) * parts + 1);
-  for (Eigen::Index i = 0; i < result.cols(); ++i) {
-    const Eigen::Index before = i / parts;
-    const Real share = static_cast<Real>(i % parts) / static_cast<Real>(parts);
-    result.col(i) = share == 0 ? Vec3(line.col(before)) : (1 - share) * line.col(before) + share * line.col(before + 1);
-  }
-  return result;
-}
-
 Vec3 point_before_end(const Points& line, Real distance, Index& after) {
   for (Eigen::Index i = line.cols() - 1; i > 0; --i) {
     const Real part = (line.col(i) - line.col(i - 1)).norm();

@@ -1,14 +1,10 @@
 #pragma once
 
-#include <gracilis/core/types.hpp>
+#include <gracilis/geometry/section_frames.hpp>
 
 namespace gracilis {
 
 /// The line from a muscle's origin over its via points to its insertion (Laclé 2014, chapter 3), 3 × n, m.
-
-/// The line with every part halved `scaling` times: 2^scaling (via points + 1) + 1 points, among them all given ones
-/// (Laclé 2014, eq. 3.19). `scaling` from 0 to 16; at least two points.
-Points subdivide_line(const Points& line, int scaling);
 
 /// The point that lies `distance` (m) before the line's end, walked along it; its first point where it is shorter.
 /// `after` becomes the index of the point that follows it.

@@ -1,9 +1,8 @@
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 
+#include <gracilis/anatomy/line_sections.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/geometry/polylines.hpp>
-#include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>
 #include <gracilis/methods/cylinder/section_collision.hpp>
 
@@ -18,29 +17,14 @@ namespace {
 /// What stays the same of one muscle.
 struct CylinderMuscle {
   std::string name;
-  const ActionLine* line = nullptr;
+  LineSections sections;
   Index rays = 0;
-  Real length = 0;                 ///< m, of the line in the capture pose
-  std::vector<Real> places;        ///< m along the line in the capture pose, of each section
-  Eigen::VectorXd spacing;         ///< m, what belongs to each section of the line, in the capture pose
-  Points shape;                    ///< each vertex from its section's place on the line, in its section's axes
-  Points offsets;                  ///< so each section's center
-  Vec3 first_ray = Vec3::UnitX();  ///< of the first section, in the capture pose
+  Eigen::VectorXd spacing;  ///< m, what belongs to each section of the line, in the capture pose
+  Points shape;             ///< each vertex from its section's place on the line, in its section's axes
+  Points offsets;           ///< so each section's center
 };
 
 }  // namespace
-
-/// Where sections are, and their axes: first ray, the direction across it in the plane, the normal.
-struct Sections {
-  Points centers;
-  SectionFrames frames;
-
-  Eigen::Matrix3d axes(Eigen::Index k) const {
-    Eigen::Matrix3d axes;
-    axes << frames.first_rays.col(k), frames.normals.col(k).cross(frames.first_rays.col(k)), frames.normals.col(k);
-    return axes;
-  }
-};
 
 /// Half of the way to each neighbor.
 static Eigen::VectorXd spacing_of(const Points& centers) {
@@ -52,36 +36,6 @@ static Eigen::VectorXd spacing_of(const Points& centers) {
     spacing[k] += half;
   }
   return spacing;
-}
-
-/// Places of the sections on a line of this length: the tendons' keep their distance from its ends.
-static std::vector<Real> places_on(const CylinderMuscle& muscle, Real length) {
-  const Real begin = muscle.line->origin_tendon, end = muscle.length - muscle.line->tendon;
-  const Real tendons = muscle.length - (end - begin), belly = end - begin;
-  std::vector<Real> places;
-  // A line hardly longer than the tendon leaves no room for a belly: then all shrink alike.
-  const bool stiff = tendons > 0 && belly > 0 && length - tendons > 0.2 * belly;
-  for (const Real place : muscle.places) {
-    if (!stiff)
-      places.push_back(place * length / muscle.length);
-    else if (place <= begin)
-      places.push_back(place);
-    else
-      places.push_back(place <= end ? begin + (place - begin) * (length - tendons) / belly
-                                    : length - (muscle.length - place));
-  }
-  return places;
-}
-
-static Sections sections_at(const CylinderMuscle& muscle, const Pose& pose) {
-  const ActionLine& line = *muscle.line;
-  Points points(3, line.points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    points.col(i) =
-        pose.bodies[static_cast<std::size_t>(line.bodies[static_cast<std::size_t>(i)])] * line.points.col(i);
-  const Points centers = points_along(points, places_on(muscle, polyline_length(points)));
-  const Vec3 ray = pose.bodies[static_cast<std::size_t>(line.bodies[0])].linear() * muscle.first_ray;
-  return {centers, section_frames(centers, ray)};
 }
 
 namespace {
@@ -101,7 +55,7 @@ struct CylinderShape {
 }  // namespace
 
 static CylinderShape shape_at(const CylinderMuscle& muscle, const Pose& pose) {
-  const Sections sections = sections_at(muscle, pose);
+  const PlacedSections sections = sections_at(muscle.sections, pose);
   const Eigen::VectorXd spacing = spacing_of(sections.centers);
   const Eigen::Index count = sections.centers.cols();
   CylinderShape result;
@@ -109,9 +63,10 @@ static CylinderShape shape_at(const CylinderMuscle& muscle, const Pose& pose) {
   result.ends.resize(3, 2);
   for (Eigen::Index k = 0; k < count; ++k) {
     Real growth = spacing[k] > 0 ? std::sqrt(muscle.spacing[k] / spacing[k]) : 1;
-    const Real at = muscle.places[static_cast<std::size_t>(k)];
-    if (at > muscle.length - muscle.line->tendon || at < muscle.line->origin_tendon) growth = 1;
-    const Eigen::Matrix3d axes = sections.axes(k) * Eigen::DiagonalMatrix<Real, 3>(growth, growth, 1);
+    const LineSections& rest = muscle.sections;
+    const Real at = rest.places[static_cast<std::size_t>(k)];
+    if (at > rest.length - rest.line.tendon || at < rest.line.origin_tendon) growth = 1;
+    const Eigen::Matrix3d axes = sections.frames.axes(k) * Eigen::DiagonalMatrix<Real, 3>(growth, growth, 1);
     const Vec3 center = sections.centers.col(k);
     result.rings.corners.middleCols(k * muscle.rays, muscle.rays) =
         (axes * muscle.shape.middleCols(k * muscle.rays, muscle.rays)).colwise() + center;
@@ -126,25 +81,21 @@ static CylinderShape shape_at(const CylinderMuscle& muscle, const Pose& pose) {
 static CylinderMuscle prepare(const Pose& capture, const Muscle& muscle) {
   CylinderMuscle result;
   result.name = muscle.name;
-  result.line = &muscle.action_line;
+  result.sections = line_sections(muscle);
   result.rays = muscle.action_line.rays;
-  const Index count = (muscle.surface.vertex_count() - 2) / result.rays;
-  const Points centers = subdivide_line(muscle.action_line.points, muscle.action_line.scaling);
-  result.length = polyline_length(centers);
-  result.places = distances_along(centers);
-  result.spacing = spacing_of(centers);
-  result.first_ray = muscle.surface.vertices.col(0) - centers.col(0);
-  if (result.first_ray.norm() < 1e-9) result.first_ray = Vec3::UnitX();
-  const Sections sections = sections_at(result, capture);
+  const auto count = static_cast<Index>(result.sections.places.size());
+  const PlacedSections sections = sections_at(result.sections, capture);
+  result.spacing = spacing_of(sections.centers);
   result.shape.resize(3, muscle.surface.vertex_count());
   for (Index v = 0; v < muscle.surface.vertex_count(); ++v) {
-    const Index k = v < count * result.rays ? v / result.rays : v == count * result.rays ? 0 : count - 1;
-    result.shape.col(v) = sections.axes(k).transpose() * (muscle.surface.vertices.col(v) - sections.centers.col(k));
+    const Index k = section_of_vertex(result.sections, v);
+    result.shape.col(v) =
+        sections.frames.axes(k).transpose() * (muscle.surface.vertices.col(v) - sections.centers.col(k));
   }
   result.offsets = Points::Zero(3, count);
   for (Index k = 0; k < count && muscle.action_line.centers.cols() > 0; ++k)
     result.offsets.col(k) =
-        sections.axes(k).transpose() * (muscle.action_line.centers.col(k) - sections.centers.col(k));
+        sections.frames.axes(k).transpose() * (muscle.action_line.centers.col(k) - sections.centers.col(k));
   return result;
 }
 

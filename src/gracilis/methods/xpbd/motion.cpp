@@ -61,6 +61,48 @@ static bool shares_of(const PreparedMuscle& muscle, Index particle, std::vector<
   return true;
 }
 
+namespace {
+
+/// The frames that carry free particles from the capture pose to a pose, about the particles' origin: their sections'
+/// where the muscle is made of sections across a line, else blends of the bodies' motions.
+class FreeFrames {
+ public:
+  FreeFrames(const PreparedMuscle& muscle, const Pose& pose) : muscle_(muscle), pose_(pose) {
+    if (!muscle.line) {
+      blend_ = carrier_transforms(muscle, pose);
+      return;
+    }
+    const Eigen::Translation3d to_world(muscle.origin);
+    const PlacedSections rest = sections_at(*muscle.line, capture_pose(pose.bodies.size()));
+    const PlacedSections now = sections_at(*muscle.line, pose);
+    for (Eigen::Index k = 0; k < now.centers.cols(); ++k)
+      sections_.push_back(to_world.inverse() * now.frame(k) * rest.frame(k).inverse() * to_world);
+  }
+
+  /// Of one particle into `frame`; false where nothing carries it. `shares` is room to work in.
+  bool of(Index particle, std::vector<Real>& shares, RigidTransform& frame) const {
+    if (muscle_.line) {
+      const Index section = muscle_.section[static_cast<std::size_t>(particle)];
+      const Index body = muscle_.fixed_body[static_cast<std::size_t>(particle)];
+      const Eigen::Translation3d to_world(muscle_.origin);
+      frame = body < 0 ? sections_[static_cast<std::size_t>(section)]
+                       : to_world.inverse() * pose_.bodies[static_cast<std::size_t>(body)] * to_world;
+      return true;
+    }
+    if (!shares_of(muscle_, particle, shares)) return false;
+    frame = blend(blend_, shares);
+    return true;
+  }
+
+ private:
+  const PreparedMuscle& muscle_;
+  const Pose& pose_;
+  RigidBlend blend_;
+  std::vector<RigidTransform> sections_;
+};
+
+}  // namespace
+
 /// The share of their displacements that free particles keep from one pose to the next.
 static Real kept_share(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active) {
   const Real recovery = muscle.settings.shape_recovery;
@@ -71,15 +113,17 @@ static Real kept_share(const PreparedMuscle& muscle, const Pose& before, const P
 
 void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, Particles& particles) {
   if (muscle.carriers.empty()) return;
-  const RigidBlend from = carrier_transforms(muscle, before), to = carrier_transforms(muscle, now);
+  const FreeFrames from(muscle, before), to(muscle, now);
   const Real kept = kept_share(muscle, before, now, active);
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(muscle.carriers.size());
+    RigidTransform was, is;
     for (Index p = begin; p < end; ++p) {
-      if (muscle.fixed_body[static_cast<std::size_t>(p)] >= 0 || !shares_of(muscle, p, shares)) continue;
+      if (muscle.fixed_body[static_cast<std::size_t>(p)] >= 0 || !from.of(p, shares, was) || !to.of(p, shares, is))
+        continue;
       const Vec3 rest = muscle.rest.col(p) - muscle.origin;
-      const Vec3 displaced = blend(from, shares).inverse() * particles.position(p).cast<Real>();
-      particles.position(p) = (blend(to, shares) * Vec3(rest + kept * (displaced - rest))).cast<float>();
+      const Vec3 displaced = was.inverse() * particles.position(p).cast<Real>();
+      particles.position(p) = (is * Vec3(rest + kept * (displaced - rest))).cast<float>();
     }
   });
 }
@@ -87,11 +131,12 @@ void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& no
 Points carried_rest(const PreparedMuscle& muscle, const Pose& pose) {
   Points carried = muscle.rest.colwise() - muscle.origin;
   if (muscle.carriers.empty()) return carried;
-  const RigidBlend transforms = carrier_transforms(muscle, pose);
+  const FreeFrames frames(muscle, pose);
   parallel_for(static_cast<Index>(carried.cols()), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(muscle.carriers.size());
+    RigidTransform frame;
     for (Index p = begin; p < end; ++p)
-      if (shares_of(muscle, p, shares)) carried.col(p) = blend(transforms, shares) * Vec3(carried.col(p));
+      if (frames.of(p, shares, frame)) carried.col(p) = frame * Vec3(carried.col(p));
   });
   return carried;
 }

@@ -210,6 +210,10 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
       build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
                        enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
   build_predictor(renumbered, topology, prepared);
+  if (muscle.action_line.rays > 0) {
+    prepared.line = line_sections(muscle);
+    for (const Index vertex : prepared.order) prepared.section.push_back(section_of_vertex(*prepared.line, vertex));
+  }
   prepared.is_driven = drives(scene.activation, muscle.name);
   if (prepared.is_driven) build_contractions(muscle, topology, prepared);
   build_large_faces(renumbered, fields, prepared);

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <gracilis/anatomy/line_sections.hpp>
 #include <gracilis/dynamics/solver.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/scene/scene.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace gracilis::xpbd {
@@ -22,11 +24,13 @@ struct PreparedMuscle {
   SurfaceSystem system;
   Vec3 origin = Vec3::Zero();  ///< world position of the particles' coordinate origin, m
   std::vector<Index> order;
-  Points rest;                     ///< world, in particle order, m
-  Eigen::Matrix3Xi faces;          ///< of particles
-  std::vector<Index> fixed_body;   ///< per particle: the body it is attached to, or -1
-  std::vector<Index> carriers;     ///< bodies with attachments on this muscle
-  Eigen::MatrixXf carrier_shares;  ///< carriers × particles: harmonic shares of their motion, columns sum to 1
+  Points rest;                       ///< world, in particle order, m
+  Eigen::Matrix3Xi faces;            ///< of particles
+  std::vector<Index> fixed_body;     ///< per particle: the body it is attached to, or -1
+  std::vector<Index> carriers;       ///< bodies with attachments on this muscle
+  Eigen::MatrixXf carrier_shares;    ///< carriers × particles: harmonic shares of their motion, columns sum to 1
+  std::optional<LineSections> line;  ///< where its surface is made of sections, whose frames carry it then
+  std::vector<Index> section;        ///< per particle, where there is a line
   ContractionSettings contraction;
   bool is_driven = false;             ///< the scene says how active it is
   AlignedVector<float> along_fibers;  ///< per contraction slot: squared cosine between it and the fibers

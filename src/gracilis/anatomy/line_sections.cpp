@@ -1,0 +1,63 @@
+#include <gracilis/anatomy/line_sections.hpp>
+
+#include <gracilis/geometry/polylines.hpp>
+
+#include <algorithm>
+
+namespace gracilis {
+
+LineSections line_sections(const Muscle& muscle) {
+  LineSections result;
+  result.line = muscle.action_line;
+  const Points centers = subdivide_line(muscle.action_line.points, muscle.action_line.scaling);
+  result.length = polyline_length(centers);
+  result.places = distances_along(centers);
+  result.first_ray = muscle.surface.vertices.col(0) - centers.col(0);
+  if (result.first_ray.norm() < 1e-9) result.first_ray = Vec3::UnitX();
+  return result;
+}
+
+Index section_of_vertex(const LineSections& sections, Index vertex) {
+  const auto count = static_cast<Index>(sections.places.size());
+  if (vertex < count * sections.line.rays) return vertex / sections.line.rays;
+  return vertex == count * sections.line.rays ? 0 : count - 1;
+}
+
+RigidTransform PlacedSections::frame(Eigen::Index k) const {
+  RigidTransform frame = RigidTransform::Identity();
+  frame.linear() = frames.axes(k);
+  frame.translation() = centers.col(k);
+  return frame;
+}
+
+/// Places of the sections on a line of this length: the tendons' keep their distance from its ends.
+static std::vector<Real> places_on(const LineSections& sections, Real length) {
+  const Real begin = sections.line.origin_tendon, end = sections.length - sections.line.tendon;
+  const Real tendons = sections.length - (end - begin), belly = end - begin;
+  std::vector<Real> places;
+  // A line hardly longer than the tendon leaves no room for a belly: then all shrink alike.
+  const bool stiff = tendons > 0 && belly > 0 && length - tendons > 0.2 * belly;
+  for (const Real place : sections.places) {
+    if (!stiff)
+      places.push_back(place * length / sections.length);
+    else if (place <= begin)
+      places.push_back(place);
+    else
+      places.push_back(place <= end ? begin + (place - begin) * (length - tendons) / belly
+                                    : length - (sections.length - place));
+  }
+  return places;
+}
+
+PlacedSections sections_at(const LineSections& sections, const Pose& pose) {
+  const ActionLine& line = sections.line;
+  Points points(3, line.points.cols());
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    points.col(i) =
+        pose.bodies[static_cast<std::size_t>(line.bodies[static_cast<std::size_t>(i)])] * line.points.col(i);
+  const Points centers = points_along(points, places_on(sections, polyline_length(points)));
+  const Vec3 ray = pose.bodies[static_cast<std::size_t>(line.bodies[0])].linear() * sections.first_ray;
+  return {centers, section_frames(centers, ray)};
+}
+
+}  // namespace gracilis

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <gracilis/geometry/section_frames.hpp>
+#include <gracilis/scene/pose.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// A muscle's sections across its action line, which moves with its bodies (Laclé 2014).
+struct LineSections {
+  ActionLine line;
+  Real length = 0;                 ///< m, of the line in the capture pose
+  std::vector<Real> places;        ///< m along it, of each section
+  Vec3 first_ray = Vec3::UnitX();  ///< of the first section, in the capture pose
+};
+
+/// Precondition: the muscle has an action line of which its surface was made.
+LineSections line_sections(const Muscle& muscle);
+
+/// The section that a vertex of the muscle's surface belongs to; the two that close the ends belong to theirs.
+Index section_of_vertex(const LineSections& sections, Index vertex);
+
+/// Where sections are, and their axes: first ray, the direction across it in the plane, the normal.
+struct PlacedSections {
+  Points centers;
+  SectionFrames frames;
+
+  RigidTransform frame(Eigen::Index k) const;
+};
+
+/// The line's points move with their bodies. In the tendons, which keep their lengths, sections keep their distance
+/// from the line's ends; elsewhere their share of the rest.
+PlacedSections sections_at(const LineSections& sections, const Pose& pose);
+
+}  // namespace gracilis
