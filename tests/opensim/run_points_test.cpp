@@ -59,7 +59,7 @@ TEST(RunPoints, points_that_move_with_the_only_coordinate_give_the_runs_lengths)
   EXPECT_FALSE(still.points[2].moving);
   EXPECT_TRUE(moving.points[2].moving);
   EXPECT_FALSE(moving.points[4].moving);
-  EXPECT_LT(run.largest_error(moving), 1e-5);
+  EXPECT_LT(run.largest_error(moving), 1e-4);  // 15 knots for 29 frames
   EXPECT_GT(run.largest_error(still), 1e-3);
 }
 
@@ -75,7 +75,7 @@ TEST(RunPoints, what_is_written_is_read_back_with_the_same_lengths_and_parameter
   EXPECT_EQ(read.muscles[0].max_isometric_force, 321);
   EXPECT_EQ(read.muscles[0].type, muscle.type);
   EXPECT_TRUE(read.unsupported.empty());
-  EXPECT_LT(run.largest_error(read.muscles[0].path), 1e-5);
+  EXPECT_NEAR(run.largest_error(read.muscles[0].path), run.largest_error(muscle.path), 1e-9);
 }
 
 }  // namespace gracilis::opensim

@@ -67,6 +67,26 @@ TEST(SkeletonFit, joints_turn_about_their_new_centers) {
   EXPECT_TRUE(turn.isApprox(Eigen::AngleAxisd(0.5, Vec3::UnitZ()).toRotationMatrix(), 1e-12));
 }
 
+TEST(SkeletonFit, a_joint_that_shifts_its_child_ends_the_body_where_the_child_is_now) {
+  const std::string knee =
+      "<SpatialTransform><TransformAxis name=\"rotation1\"><coordinates>bend</coordinates><axis>0 0 1</axis>"
+      "<LinearFunction><coefficients>1 0</coefficients></LinearFunction></TransformAxis>"
+      "<TransformAxis name=\"translation2\"><axis>0 1 0</axis><Constant><value>-0.4</value></Constant>"
+      "</TransformAxis></SpatialTransform>";
+  const Model model = model_from(
+      document(set("BodySet", body("upper") + body("lower")) +
+               set("JointSet", joint("PinJoint", "hip", "/ground", "upper", coordinate("hip_angle")) +
+                                   joint("CustomJoint", "knee", "/bodyset/upper", "lower", coordinate("bend"), knee))));
+  BodyFit fit;
+  fit.body = "upper";
+  fit.start = Vec3(0, 0, 0);
+  fit.end = Vec3(0, -0.6, 0);
+  const Model fitted = fit_to_skeleton(model, {fit});
+  const auto poses = poses_at(fitted, 0, 0.5);
+  EXPECT_TRUE(poses[2].translation().isApprox(Vec3(0, -0.6, 0), 1e-12));
+  EXPECT_NEAR(value(fitted.joints[1].axes[4].function, {0}), -0.6, 1e-12);
+}
+
 TEST(SkeletonFit, corrections_by_hand_come_last) {
   BodyFit fit;
   fit.body = "lower";

@@ -32,15 +32,39 @@ static Real movement(const Points& places) {
   return std::sqrt(off.squaredNorm() / static_cast<Real>(places.cols()));
 }
 
-/// Frames in the order of the moving coordinate, at most 15, no value twice.
-static std::vector<std::size_t> knot_frames(const std::vector<Real>& moving) {
-  std::vector<std::size_t> frames(moving.size()), kept;
-  for (std::size_t f = 0; f < frames.size(); ++f) frames[f] = f;
-  std::stable_sort(frames.begin(), frames.end(), [&](std::size_t a, std::size_t b) { return moving[a] < moving[b]; });
-  const Real step = frames.empty() ? 0 : (moving[frames.back()] - moving[frames.front()]) / 14;
-  for (const std::size_t f : frames)
-    if (kept.empty() || moving[f] - moving[kept.back()] > 0.999 * step) kept.push_back(f);
-  return kept;
+/// The point's places by the moving coordinate: means over up to 15 equal parts of its range, unless that explains too
+/// little of the movement.
+static void follow(const std::vector<Real>& moving, const Points& places, FiberPoint& point) {
+  struct Part {
+    Real value = 0;
+    Vec3 place = Vec3::Zero();
+    int count = 0;
+  };
+  const auto [least, most] = std::minmax_element(moving.begin(), moving.end());
+  std::vector<Part> parts(std::min<std::size_t>(15, moving.size()));
+  for (std::size_t f = 0; f < moving.size(); ++f) {
+    const Real share = (moving[f] - *least) / std::max(*most - *least, 1e-12);
+    Part& part = parts[std::min(static_cast<std::size_t>(share * static_cast<Real>(parts.size())), parts.size() - 1)];
+    part.value += moving[f];
+    part.place += places.col(static_cast<Eigen::Index>(f));
+    ++part.count;
+  }
+  std::erase_if(parts, [](const Part& part) { return part.count == 0; });
+  if (parts.size() < 2) return;
+  FiberPoint moved = point;
+  moved.places.resize(3, static_cast<Eigen::Index>(parts.size()));
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    moved.knots.push_back(parts[k].value / parts[k].count);
+    moved.places.col(static_cast<Eigen::Index>(k)) = parts[k].place / parts[k].count;
+  }
+  Real left = 0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const Eigen::VectorXd y = moved.places.row(i);
+    const Function spline = simm_spline(moved.knots, {y.begin(), y.end()});
+    for (std::size_t f = 0; f < moving.size(); ++f)
+      left += std::pow(value(spline, {moving[f]}) - places(i, static_cast<Eigen::Index>(f)), 2);
+  }
+  if (std::sqrt(left / static_cast<Real>(moving.size())) <= 0.7 * point.moves) point = moved;
 }
 
 std::vector<FiberPoint> fit_points(const std::vector<Points>& fibers, const std::vector<Poses>& poses,
@@ -61,14 +85,7 @@ std::vector<FiberPoint> fit_points(const std::vector<Points>& fibers, const std:
       places = here;
     }
     point.location = places.rowwise().mean();
-    if (!moving.empty() && p > 0 && p + 1 < count && point.moves > 1e-5) {
-      const std::vector<std::size_t> frames = knot_frames(moving);
-      point.places.resize(3, static_cast<Eigen::Index>(frames.size()));
-      for (std::size_t k = 0; k < frames.size(); ++k) {
-        point.knots.push_back(moving[frames[k]]);
-        point.places.col(static_cast<Eigen::Index>(k)) = places.col(static_cast<Eigen::Index>(frames[k]));
-      }
-    }
+    if (!moving.empty() && p > 0 && p + 1 < count && point.moves > 1e-5) follow(moving, places, point);
     result.push_back(std::move(point));
   }
   return result;
@@ -144,15 +161,11 @@ static Points mean_fiber(const RecordedRun& run, const std::string& muscle, int 
   return mean / fibers.count();
 }
 
-/// The only coordinate that changes in a motion, or -1.
-static Index only_moving(const CoordinateMotion& motion) {
-  Index found = -1;
-  for (Eigen::Index i = 0; i < motion.values.cols(); ++i) {
-    if (motion.values.col(i).maxCoeff() - motion.values.col(i).minCoeff() < 1e-4) continue;
-    if (found >= 0) return -1;
-    found = static_cast<Index>(i);
-  }
-  return found;
+/// The coordinate that changes most in a motion, or -1.
+static Index most_moving(const CoordinateMotion& motion) {
+  const Eigen::VectorXd range = motion.values.colwise().maxCoeff() - motion.values.colwise().minCoeff();
+  Eigen::Index found = -1;
+  return range.size() > 0 && range.maxCoeff(&found) > 1e-4 ? static_cast<Index>(found) : -1;
 }
 
 /// How far a path's lengths are from those of the fibers, m: root mean square and largest.
@@ -182,7 +195,7 @@ std::vector<std::string> export_points(const std::filesystem::path& folder, cons
     skeleton.place(motion.values.row(f));
     poses.push_back(skeleton.poses());
   }
-  const Index coordinate = only_moving(motion);
+  const Index coordinate = most_moving(motion);
   std::vector<Real> moving;
   for (int f = 0; f < run.frame_count && coordinate >= 0; ++f) moving.push_back(motion.values(f, coordinate));
 

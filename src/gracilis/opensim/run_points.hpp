@@ -13,14 +13,15 @@ struct FiberPoint {
   Index body = 0;
   Vec3 location = Vec3::Zero();  ///< in the body's frame, m; its mean over the frames
   Real moves = 0;                ///< m, root mean square about that mean
-  /// Where one coordinate alone moves: the point's place in the body for each of these values, rad or m; else empty.
+  /// Where the point moves with a coordinate: its place in the body for each of these values, rad or m; else empty.
   std::vector<Real> knots;
   Points places = Points(3, 0);
 };
 
 /// Where points (3 × n each, ground frame, one matrix per frame) stay best: for each the body in which it moves least.
-/// `poses` are the bodies' in each frame. A coordinate that moves alone (`moving`, its value per frame) lets points
-/// move in their bodies; empty: points stay. The ends always stay.
+/// `poses` are the bodies' in each frame. Inner points move in their bodies with one coordinate (`moving`, its value
+/// per frame; empty: they stay), at up to 15 of its values, where that leaves less than 0.7 of their movement; what
+/// other coordinates do to them is averaged. The ends always stay.
 std::vector<FiberPoint> fit_points(const std::vector<Points>& fibers,
                                    const std::vector<std::vector<RigidTransform>>& poses,
                                    const std::vector<Real>& moving);

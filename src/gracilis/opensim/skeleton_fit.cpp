@@ -32,7 +32,7 @@ class SkeletonFit {
     before_ = skeleton.poses();
     bodies_.resize(model.bodies.size());
     for (const BodyFit& fit : fits)
-      if (index_of(model.bodies, fit.body) < 1) fail(fit.body, "is no body of the model");
+      if (index_of(model.bodies, fit.body) < 1) fail(fit.body, "is no body of the model", similar(fit.body));
   }
 
   Model fitted() {
@@ -45,10 +45,14 @@ class SkeletonFit {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& body, const std::string& what) const {
+  [[noreturn]] void fail(const std::string& body, const std::string& what, const std::string& remedy) const {
+    throw InputError({model_.name, body, what, remedy});
+  }
+
+  std::string similar(const std::string& body) const {
     std::vector<std::string> names;
     for (const Body& each : model_.bodies) names.push_back(each.name);
-    throw InputError({model_.name, body, what, suggestion(body, names)});
+    return suggestion(body, names);
   }
 
   FittedBody& at(Index body) { return bodies_[static_cast<std::size_t>(body)]; }
@@ -58,10 +62,11 @@ class SkeletonFit {
     for (const Joint& joint : model_.joints) {
       if (joint.parent_body != body) continue;
       if (!fit.toward.empty() && model_.bodies[static_cast<std::size_t>(joint.child_body)].name != fit.toward) continue;
-      return before_[static_cast<std::size_t>(body)] * joint.parent_frame.translation();
+      return before_[static_cast<std::size_t>(joint.child_body)] * joint.child_frame.translation();
     }
     fail(fit.body,
-         fit.toward.empty() ? "carries no other body, so that it has no length" : "does not carry " + fit.toward);
+         fit.toward.empty() ? "carries no other body, so that it has no length" : "does not carry " + fit.toward,
+         "leave 'end_mm' out, or name a body that it carries in 'toward'");
   }
 
   void fit_joint(std::size_t j) {
@@ -80,7 +85,8 @@ class SkeletonFit {
     if (fit.start) start = *fit.start;
     if (fit.end) {
       const Vec3 old_way = far_end(fit, joint.child_body) - old_start, way = *fit.end - start;
-      if (!(old_way.norm() > 1e-6 && way.norm() > 1e-6)) fail(fit.body, "has no length");
+      if (!(old_way.norm() > 1e-6 && way.norm() > 1e-6))
+        fail(fit.body, "has no length", "its start and end must differ, in the model, too");
       child.scale = Vec3::Constant(way.norm() / old_way.norm());
       child.turned = Eigen::Quaterniond::FromTwoVectors(old_way, way).toRotationMatrix();
     }
