@@ -11,6 +11,7 @@ namespace gracilis {
 /// What happened to one muscle in one frame.
 struct MuscleReport {
   int iterations = 0;
+  Index triangles = 0;            ///< of the surface that was simulated; 0: the method simulates none
   Real largest_correction = 0;    ///< m, farthest that the solver moved a vertex from where it was predicted
   Index contacts = 0;             ///< points touching a bone at the end
   Index limited_hinges = 0;       ///< hinge projections held back, over all iterations
@@ -22,8 +23,19 @@ struct MuscleReport {
   Real milliseconds = 0;
 };
 
+/// How a method kept to a rate of frames, and what that cost.
+struct PaceReport {
+  Real target_fps = 0;       ///< 1/s; 0: no rate was asked for
+  Real milliseconds = 0;     ///< that the frame took
+  int iterations = 0;        ///< in each substep
+  int asked_iterations = 0;  ///< without a rate to hold
+  Index triangles = 0;       ///< simulated, all muscles
+  Index asked_triangles = 0;
+};
+
 struct StepReport {
   std::vector<MuscleReport> muscles;  ///< in the scene's order
+  PaceReport pace = {};
 };
 
 /// A way to deform muscles, prepared for one scene. The problem it solves: given where every body is, where are the

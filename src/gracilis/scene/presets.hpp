@@ -20,7 +20,8 @@ struct Preset {
 };
 
 /// `physical`, the default: real masses and units. `thesis-2024`: the published setting of the method, with everything
-/// that this project added switched off; it is there to compare with and does break.
+/// that this project added switched off; it is there to compare with and does break. `fast`: coarser copies of the
+/// muscles are simulated, and the surfaces follow them.
 const std::vector<Preset>& presets();
 
 /// The preset with this name, or null.

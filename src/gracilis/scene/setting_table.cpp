@@ -21,6 +21,15 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "A substep ends early once no vertex moved further in an iteration; 0 never ends it early."},
       {"stop_milliseconds", &S::stop_milliseconds, "ms", 0, 1e6,
        "A frame ends early after this time, which makes results depend on the machine; 0 never ends it early."},
+      {"simulated_edge", &S::simulated_edge, "m", 0, 0.1,
+       "Edge length of a coarser copy of the muscle that is simulated and that the surface follows; 0 simulates the "
+       "surface itself."},
+      {"full_iterations", &S::full_iterations, "", 0, 100000,
+       "Iterations on the whole surface in each frame, from where its coarser copy takes it; used with simulated_edge "
+       "and target_fps."},
+      {"target_fps", &S::target_fps, "1/s", 0, 1000,
+       "Rate of frames to hold by fewer iterations and a coarser copy, which makes results depend on the machine; the "
+       "largest of all muscles' counts. 0 holds none."},
       {"unit_masses", &S::unit_masses, "", 0, 0,
        "Gives every vertex 1 kg, as the published setting does, instead of its share of the muscle's mass."},
       {"density", &S::density, "kg/m³", 1, 1e5, "Density of muscle; ignored with unit masses."},

@@ -30,6 +30,9 @@ struct XpbdSettings {
   Real rayleigh_beta = 0;       ///< 1/s, dissipation of the distance and dihedral constraints
   Real stop_displacement = 0;   ///< m; stop a substep early when no vertex moved further; 0: never
   Real stop_milliseconds = 0;   ///< ms; stop a frame early after this time; 0: never
+  Real simulated_edge = 0;      ///< m, edge length of a coarser copy that is simulated in place of the surface; 0: none
+  int full_iterations = 0;      ///< on the whole surface, from where its coarser copy takes it
+  Real target_fps = 0;  ///< 1/s, rate to hold by fewer iterations and a coarser copy; the scene's largest; 0: none
 
   // Material
   bool unit_masses = false;            ///< every vertex weighs 1 kg, as published

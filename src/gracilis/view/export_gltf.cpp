@@ -1,4 +1,4 @@
-#include <gracilis/view/decimation.hpp>
+#include <gracilis/geometry/decimation.hpp>
 #include <gracilis/view/export.hpp>
 #include <gracilis/view/palette.hpp>
 

@@ -141,6 +141,35 @@ Points carried_rest(const PreparedMuscle& muscle, const Pose& pose) {
   return carried;
 }
 
+Points displacements(const PreparedMuscle& muscle, const Pose& pose, const Particles& particles) {
+  Points displaced(3, particles.count());
+  const RigidBlend transforms = carrier_transforms(muscle, pose);
+  parallel_for(particles.count(), 512, [&](Index begin, Index end) {
+    std::vector<Real> shares(muscle.carriers.size());
+    for (Index p = begin; p < end; ++p) {
+      displaced.col(p) = particles.position(p).cast<Real>();
+      if (shares_of(muscle, p, shares)) displaced.col(p) = blend(transforms, shares).inverse() * Vec3(displaced.col(p));
+      displaced.col(p) -= muscle.rest.col(p) - muscle.origin;
+    }
+  });
+  return displaced;
+}
+
+void displace_carried(const PreparedMuscle& muscle, const Pose& pose, const Points& displacements,
+                      Particles& particles) {
+  const RigidBlend transforms = carrier_transforms(muscle, pose);
+  parallel_for(particles.count(), 512, [&](Index begin, Index end) {
+    std::vector<Real> shares(muscle.carriers.size());
+    for (Index p = begin; p < end; ++p) {
+      if (muscle.fixed_body[static_cast<std::size_t>(p)] >= 0) continue;
+      const Vec3 displaced = muscle.rest.col(p) - muscle.origin + displacements.col(p);
+      particles.position(p) =
+          (shares_of(muscle, p, shares) ? Vec3(blend(transforms, shares) * displaced) : displaced).cast<float>();
+    }
+  });
+  move_attached(muscle, pose, particles);
+}
+
 /// A bone that turned by this against the muscle's other bones, or moved the muscle's middle by this, has moved.
 static constexpr Real moved_angle = radians(0.5), moved_distance = 0.0005;
 

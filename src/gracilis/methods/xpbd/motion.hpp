@@ -28,6 +28,14 @@ std::vector<FieldPlacement> place_fields(const PreparedMuscle& muscle, const Pos
 /// knows neither volume nor contact but is as smooth as the surface at rest.
 Points carried_rest(const PreparedMuscle& muscle, const Pose& pose);
 
+/// Every particle's displacement from where the bodies carry it, in its own frame at rest, m: what carry_free keeps.
+/// The motion of the bodies is taken out, so it varies little from one particle to its neighbors.
+Points displacements(const PreparedMuscle& muscle, const Pose& pose, const Particles& particles);
+
+/// The inverse: carries the rest and displaces it. Attached particles go where their bodies are.
+void displace_carried(const PreparedMuscle& muscle, const Pose& pose, const Points& displacements,
+                      Particles& particles);
+
 /// Slack uptake: every edge aims at the length it has on the carried surface, between 0.4 and `stretch_limit` times its
 /// rest, so that a muscle may shorten in front and lengthen behind and nothing is left over to fold. Where the carried
 /// surface encloses more than the muscle's volume it is first shrunk to that, which leaves a stretched muscle taut.

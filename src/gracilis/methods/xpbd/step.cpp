@@ -84,6 +84,16 @@ void predict(const PreparedMuscle& muscle, Real activation, const Pose& before, 
   set_contraction_lengths(muscle, activation, state.contraction_length);
 }
 
+/// Moves the state to where a coarser copy put the surface.
+void place(const PreparedMuscle& muscle, Real activation, const Pose& pose, const Particles& placed,
+           SurfaceState& state) {
+  state.particles = placed;
+  state.start = placed;
+  if (muscle.settings.full_iterations == 0) return;
+  set_target_lengths(muscle, pose, state.target_length);
+  set_contraction_lengths(muscle, activation, state.contraction_length);
+}
+
 /// Calls act(i) for each of the steps, possibly at the same time.
 template <class Act>
 void for_each_step(const std::vector<MuscleStep>& steps, const Act& act) {
@@ -157,8 +167,10 @@ void add_to(MuscleReport& report, const SolveReport& solved, Real correction) {
   report.milliseconds += solved.milliseconds;
 }
 
+/// With `placed`, the surfaces are where coarser copies put them, otherwise where bones and inertia do.
 void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
-                     int substeps, const Pose& before, const Pose& now) {
+                     int substeps, const Pose& before, const Pose& now,
+                     const std::vector<Particles>* placed = nullptr) {
   std::vector<SurfaceSolve> solves(steps.size());
   std::vector<std::vector<FieldPlacement>> placements(steps.size());
   std::vector<Particles> predicted(steps.size());
@@ -171,7 +183,13 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
     solves[i].settings.contraction = static_cast<float>(contraction_strength(muscle.contraction, steps[i].activation));
     placements[i] = place_fields(muscle, now);
     remember_sides(muscle.system, place_fields(muscle, before), state);
-    predict(muscle, steps[i].activation, before, now, static_cast<float>(solves[i].settings.time_step), state);
+    if (placed) {
+      solves[i].settings.iterations = muscle.settings.full_iterations;
+      place(muscle, steps[i].activation, now, (*placed)[i], state);
+      if (solves[i].settings.iterations == 0) refresh_contacts(muscle.system, placements[i], state);
+    } else {
+      predict(muscle, steps[i].activation, before, now, static_cast<float>(solves[i].settings.time_step), state);
+    }
     predicted[i] = state.particles;
   });
   for (std::size_t i = 0; i < steps.size(); ++i)
@@ -186,7 +204,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
   }
   for_each_step(steps, [&](std::size_t i) {
     SurfaceState& state = *steps[i].state;
-    if (steps[i].muscle->settings.time_mode == TimeMode::dynamic)
+    if (!placed && steps[i].muscle->settings.time_mode == TimeMode::dynamic)
       take_velocities(static_cast<float>(solves[i].settings.time_step), state);
     add_to(*steps[i].report, solves[i].report, static_cast<Real>(largest_motion(predicted[i], state.particles)));
   });
@@ -218,6 +236,11 @@ void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& c
   }
   end_edge_frame(crowd.edges, crowd_state.edges);
   report_edges(crowd.edges, crowd_state.edges, steps);
+}
+
+void refine_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
+                     const Pose& before, const Pose& now, const std::vector<Particles>& placed) {
+  advance_substep(steps, crowd, crowd_state, 1, before, now, &placed);
 }
 
 }  // namespace gracilis::xpbd

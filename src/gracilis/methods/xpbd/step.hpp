@@ -23,6 +23,11 @@ struct MuscleStep {
 void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                       const Pose& before, const Pose& now);
 
+/// Takes whole surfaces to where their coarser copies put them (`placed`, in the order of `steps`) and solves them
+/// there: `full_iterations`, then the settling rounds. Otherwise as above.
+void refine_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
+                     const Pose& before, const Pose& now, const std::vector<Particles>& placed);
+
 /// v = (x - x_start) / time step, for all particles.
 void take_velocities(float time_step, SurfaceState& state);
 

@@ -1,13 +1,13 @@
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/core/parallel.hpp>
-#include <gracilis/methods/xpbd/crowd.hpp>
+#include <gracilis/methods/xpbd/level.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
-#include <gracilis/methods/xpbd/preparation.hpp>
-#include <gracilis/methods/xpbd/step.hpp>
+#include <gracilis/methods/xpbd/pace.hpp>
 
-#include <exception>
+#include <algorithm>
+#include <chrono>
+#include <optional>
 
 namespace gracilis {
 
@@ -22,62 +22,73 @@ static void write_velocities(const PreparedMuscle& muscle, const SurfaceState& s
         Eigen::Map<const Eigen::Vector3f>(state.velocities.data() + 3 * static_cast<std::size_t>(p)).cast<Real>();
 }
 
+/// Edge lengths of copies that a rate of frames is tried with, finest first, m.
+constexpr Real tried_edges[] = {0.004, 0.005, 0.006, 0.008, 0.01};
+/// A level of detail is fine enough to keep where it has time for this share of the iterations: more of them on a
+/// coarser copy come nearer to the converged shape (docs/decisions).
+constexpr Real wanted_share = 0.5;
+
 class XpbdMethod final : public DeformationMethod {
  public:
   XpbdMethod(const Scene& scene, std::vector<DistanceField> fields)
-      : fields_(std::move(fields)),
-        muscles_(scene.muscles.size()),
-        states_(scene.muscles.size()),
-        pose_(capture_pose(scene.bodies.size())) {
-    parallel_for(static_cast<Index>(muscles_.size()), 1, [&](Index begin, Index end) {
-      for (Index i = begin; i < end; ++i) {
-        const auto m = static_cast<std::size_t>(i);
-        muscles_[m] = prepare_muscle(scene, scene.muscles[m], fields_);
-        states_[m] = make_state(muscles_[m].system);
-      }
-    });
-    crowd_ = prepare_crowd(scene.contact, muscles_);
-    crowd_state_ = make_crowd_state(crowd_);
+      : fields_(std::move(fields)), pose_(capture_pose(scene.bodies.size())) {
+    bool is_coarser = false, is_refined = false;
+    for (const Muscle& muscle : scene.muscles) {
+      is_coarser |= muscle.xpbd.simulated_edge > 0;
+      is_refined |= muscle.xpbd.full_iterations > 0;
+      asked_iterations_.push_back(muscle.xpbd.iterations);
+      if (muscle.xpbd.target_fps > 0) pace_.budget = 1000 / std::max(muscle.xpbd.target_fps, target_fps());
+    }
+    full_ = make_level(scene, fields_, !is_coarser || is_refined);
+    if (is_coarser) coarser_ = make_coarser_level(scene, full_, fields_);
+    asked_triangles_ = triangle_count(simulated());
+    if (pace_.budget > 0) choose_level(scene, !is_refined);
   }
 
   void reset() override {
-    for (std::size_t m = 0; m < muscles_.size(); ++m) states_[m] = make_state(muscles_[m].system);
-    crowd_state_.edges = make_virtual_edge_state(crowd_.edges);
+    xpbd::reset(full_);
+    if (coarser_) xpbd::reset(coarser_->level);
     pose_ = capture_pose(pose_.bodies.size());
   }
 
   StepReport advance(const Pose& pose) override {
+    const auto started = std::chrono::steady_clock::now();
     StepReport report;
-    report.muscles.resize(muscles_.size());
-    std::vector<SurfaceState> next = states_;
-    std::vector<MuscleStep> steps;
-    for (std::size_t m = 0; m < muscles_.size(); ++m)
-      steps.push_back({&muscles_[m], &next[m], &report.muscles[m], activation_of(m, pose)});
-    if (crowd_.meets())
-      advance_crowd(steps, pose);
-    else
-      advance_each(steps, pose);
-    states_ = std::move(next);
+    report.muscles.resize(full_.muscles.size());
+    std::vector<Real> activations;
+    for (std::size_t m = 0; m < full_.muscles.size(); ++m) activations.push_back(activation_of(m, pose));
+    for (std::size_t m = 0; m < full_.muscles.size(); ++m)
+      simulated().muscles[m].settings.iterations = paced_iterations(pace_, asked_iterations_[m]);
+    std::vector<SurfaceState> next = simulated().states;
+    xpbd::advance(simulated(), pose_, pose, activations, next, report.muscles);
+    if (coarser_) {
+      std::vector<SurfaceState> next_full = full_.states;
+      refine(*coarser_, full_, pose_, pose, activations, next, next_full, report.muscles);
+      full_.states = std::move(next_full);
+    }
+    simulated().states = std::move(next);
     pose_ = pose;
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - started;
+    if (pace_.budget > 0) report_pace(elapsed.count(), report.pace);
     return report;
   }
 
   void write(Frame& frame) const override {
-    frame.muscles.resize(muscles_.size());
-    for (std::size_t m = 0; m < muscles_.size(); ++m) {
-      const PreparedMuscle& muscle = muscles_[m];
+    frame.muscles.resize(full_.muscles.size());
+    for (std::size_t m = 0; m < full_.muscles.size(); ++m) {
+      const PreparedMuscle& muscle = full_.muscles[m];
       Points& points = frame.muscles[m].points;
       points.resize(3, muscle.rest.cols());
       for (Index p = 0; p < muscle.rest.cols(); ++p)
         points.col(muscle.order[static_cast<std::size_t>(p)]) =
-            states_[m].particles.position(p).cast<Real>() + muscle.origin;
-      write_velocities(muscle, states_[m], frame.muscles[m].velocities);
+            full_.states[m].particles.position(p).cast<Real>() + muscle.origin;
+      write_velocities(muscle, full_.states[m], frame.muscles[m].velocities);
     }
   }
 
   void restore(const Frame& before, const Frame& last) override {
-    for (std::size_t m = 0; m < muscles_.size(); ++m) {
-      const PreparedMuscle& muscle = muscles_[m];
+    for (std::size_t m = 0; m < full_.muscles.size(); ++m) {
+      const PreparedMuscle& muscle = full_.muscles[m];
       SurfaceState state = make_state(muscle.system);
       const auto place = [&](const Frame& frame, Particles& particles) {
         for (Index p = 0; p < particles.count(); ++p)
@@ -97,55 +108,70 @@ class XpbdMethod final : public DeformationMethod {
                      state.start);
         take_velocities(static_cast<float>(muscle.settings.time_step), state);
       }
-      states_[m] = std::move(state);
+      full_.states[m] = std::move(state);
     }
-    crowd_state_.edges = make_virtual_edge_state(crowd_.edges);
+    full_.crowd_state.edges = make_virtual_edge_state(full_.crowd.edges);
+    if (coarser_) follow_full(full_, *coarser_);
     pose_ = last.pose;
   }
 
  private:
-  void advance_crowd(const std::vector<MuscleStep>& steps, const Pose& pose) {
-    const VirtualEdgeState edges = crowd_state_.edges;
-    try {
-      advance_together(steps, crowd_, crowd_state_, pose_, pose);
-    } catch (const QualityError&) {
-      crowd_state_.edges = edges;
-      throw;
-    }
-  }
+  Level& simulated() { return coarser_ ? coarser_->level : full_; }
+
+  Real target_fps() const { return pace_.budget > 0 ? 1000 / pace_.budget : 0; }
 
   Real activation_of(std::size_t m, const Pose& pose) const {
     const Real activation = m < pose.activations.size() ? pose.activations[m] : 0;
-    if (!muscles_[m].is_driven && activation > muscles_[m].contraction.threshold)
-      throw ConfigurationError({"", "muscle " + muscles_[m].name, "a pose activates it, but the scene's plan does not",
+    const PreparedMuscle& muscle = full_.muscles[m];
+    if (!muscle.is_driven && activation > muscle.contraction.threshold)
+      throw ConfigurationError({"", "muscle " + muscle.name, "a pose activates it, but the scene's plan does not",
                                 "add it to Scene::activation, so that it is prepared to contract"});
     return activation;
   }
 
-  /// Muscles that never meet need not wait for each other.
-  void advance_each(const std::vector<MuscleStep>& steps, const Pose& pose) {
-    std::vector<std::exception_ptr> failures(steps.size());
-    parallel_for(static_cast<Index>(steps.size()), 1, [&](Index begin, Index end) {
-      for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
-        try {
-          MuscleCrowdState nobody;
-          advance_together({steps[m]}, crowd_, nobody, pose_, pose);
-        } catch (const QualityError&) {
-          failures[m] = std::current_exception();
-        }
+  /// The finest level that has time for enough iterations, by trial at the capture pose. `alone`: whole surfaces need
+  /// not meet where copies do.
+  void choose_level(const Scene& scene, bool alone) {
+    const Pose rest = pose_;
+    const auto is_in_time = [&] {
+      Real milliseconds = 0;
+      for (int trial = 0; trial < 3; ++trial) {
+        pace_.share = wanted_share;
+        milliseconds = advance(rest).pace.milliseconds;
       }
-    });
-    // The first in the scene's order, whichever thread was faster.
-    for (const std::exception_ptr& failure : failures)
-      if (failure) std::rethrow_exception(failure);
+      reset();
+      pace_.share = wanted_share;
+      return milliseconds < pace_.budget;
+    };
+    if (is_in_time()) return;
+    for (const Real edge : tried_edges) {
+      Scene tried = scene;
+      for (Muscle& muscle : tried.muscles) muscle.xpbd.simulated_edge = std::max(muscle.xpbd.simulated_edge, edge);
+      if (alone) full_.crowd = {}, full_.crowd_state = {};
+      coarser_ = make_coarser_level(tried, full_, fields_);
+      if (is_in_time()) return;
+    }
+  }
+
+  void report_pace(Real milliseconds, PaceReport& report) {
+    report.target_fps = target_fps();
+    report.milliseconds = milliseconds;
+    for (const int asked : asked_iterations_) {
+      report.asked_iterations = std::max(report.asked_iterations, asked);
+      report.iterations = std::max(report.iterations, paced_iterations(pace_, asked));
+    }
+    report.triangles = triangle_count(simulated());
+    report.asked_triangles = asked_triangles_;
+    see_frame(pace_, milliseconds);
   }
 
   std::vector<DistanceField> fields_;
-  std::vector<PreparedMuscle> muscles_;
-  std::vector<SurfaceState> states_;
-  MuscleCrowd crowd_;
-  MuscleCrowdState crowd_state_;
+  Level full_;
+  std::optional<CoarserLevel> coarser_;
   Pose pose_;
+  std::vector<int> asked_iterations_;  ///< per muscle
+  Index asked_triangles_ = 0;
+  Pace pace_;
 };
 
 }  // namespace xpbd

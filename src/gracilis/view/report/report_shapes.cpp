@@ -1,7 +1,7 @@
 #include <gracilis/view/report/report_shapes.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/view/decimation.hpp>
+#include <gracilis/geometry/decimation.hpp>
 #include <gracilis/view/vertex_stretch.hpp>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
-#include <gracilis/view/decimation.hpp>
+#include <gracilis/geometry/decimation.hpp>
 
 #include <gtest/gtest.h>
 #include <shapes.hpp>

@@ -1,0 +1,142 @@
+#include <gracilis/methods/xpbd/level.hpp>
+
+#include <gracilis/anatomy/coarser_muscle.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+
+#include <exception>
+
+namespace gracilis::xpbd {
+
+namespace {
+
+std::vector<MuscleStep> steps_of(const Level& level, const std::vector<Real>& activations,
+                                 std::vector<SurfaceState>& next, std::vector<MuscleReport>& reports) {
+  std::vector<MuscleStep> steps;
+  for (std::size_t m = 0; m < level.muscles.size(); ++m)
+    steps.push_back({&level.muscles[m], &next[m], &reports[m], activations[m]});
+  return steps;
+}
+
+/// Muscles that never meet need not wait for each other.
+void advance_each(const Level& level, const std::vector<MuscleStep>& steps, const Pose& before, const Pose& now) {
+  std::vector<std::exception_ptr> failures(steps.size());
+  parallel_for(static_cast<Index>(steps.size()), 1, [&](Index begin, Index end) {
+    for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
+      try {
+        MuscleCrowdState nobody;
+        advance_together({steps[m]}, level.crowd, nobody, before, now);
+      } catch (const QualityError&) {
+        failures[m] = std::current_exception();
+      }
+    }
+  });
+  // The first in the scene's order, whichever thread was faster.
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+/// Velocities of the copy between its vertices.
+void prolong_velocities(const Prolongation& prolongation, SurfaceState& coarse, SurfaceState& full) {
+  for (std::size_t p = 0; p < prolongation.corners.size(); ++p) {
+    Eigen::Vector3f velocity = Eigen::Vector3f::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      velocity += prolongation.weights[p][static_cast<Index>(k)] * velocity_of(coarse, prolongation.corners[p][k]);
+    velocity_of(full, static_cast<Index>(p)) = velocity;
+  }
+}
+
+}  // namespace
+
+Level make_level(const Scene& scene, const std::vector<DistanceField>& fields, bool meet) {
+  Level level;
+  level.muscles.resize(scene.muscles.size());
+  level.states.resize(scene.muscles.size());
+  parallel_for(static_cast<Index>(level.muscles.size()), 1, [&](Index begin, Index end) {
+    for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
+      level.muscles[m] = prepare_muscle(scene, scene.muscles[m], fields);
+      level.states[m] = make_state(level.muscles[m].system);
+    }
+  });
+  if (meet) level.crowd = prepare_crowd(scene.contact, level.muscles);
+  level.crowd_state = make_crowd_state(level.crowd);
+  return level;
+}
+
+void reset(Level& level) {
+  for (std::size_t m = 0; m < level.muscles.size(); ++m) level.states[m] = make_state(level.muscles[m].system);
+  level.crowd_state.edges = make_virtual_edge_state(level.crowd.edges);
+}
+
+void advance(Level& level, const Pose& before, const Pose& now, const std::vector<Real>& activations,
+             std::vector<SurfaceState>& next, std::vector<MuscleReport>& reports) {
+  const std::vector<MuscleStep> steps = steps_of(level, activations, next, reports);
+  for (std::size_t m = 0; m < reports.size(); ++m)
+    reports[m].triangles = static_cast<Index>(level.muscles[m].faces.cols());
+  if (!level.crowd.meets()) return advance_each(level, steps, before, now);
+  const VirtualEdgeState edges = level.crowd_state.edges;
+  try {
+    advance_together(steps, level.crowd, level.crowd_state, before, now);
+  } catch (const QualityError&) {
+    level.crowd_state.edges = edges;
+    throw;
+  }
+}
+
+CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std::vector<DistanceField>& fields) {
+  Scene copies = scene;
+  std::vector<std::vector<Index>> vertices(scene.muscles.size());
+  parallel_for(static_cast<Index>(vertices.size()), 1, [&](Index begin, Index end) {
+    for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
+      const Real edge = scene.muscles[m].xpbd.simulated_edge;
+      CoarserMuscle coarser = coarser_muscle(scene.muscles[m], edge);
+      copies.muscles[m] = std::move(coarser.muscle);
+      vertices[m] = std::move(coarser.vertices);
+    }
+  });
+  CoarserLevel coarser{make_level(copies, fields), {}};
+  for (std::size_t m = 0; m < vertices.size(); ++m)
+    coarser.prolongations.push_back(prepare_prolongation(vertices[m], full.muscles[m], coarser.level.muscles[m]));
+  return coarser;
+}
+
+void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const Pose& now,
+            const std::vector<Real>& activations, std::vector<SurfaceState>& next_coarse,
+            std::vector<SurfaceState>& next_full, std::vector<MuscleReport>& reports) {
+  std::vector<Particles> placed(next_full.size());
+  parallel_for(static_cast<Index>(placed.size()), 1, [&](Index begin, Index end) {
+    for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
+      placed[m] = next_full[m].particles;
+      prolong(coarser.prolongations[m], coarser.level.muscles[m], next_coarse[m].particles, full.muscles[m], now,
+              placed[m]);
+    }
+  });
+  refine_together(steps_of(full, activations, next_full, reports), full.crowd, full.crowd_state, before, now, placed);
+  for (std::size_t m = 0; m < placed.size(); ++m) {
+    restrict_to_copy(coarser.prolongations[m], full.muscles[m], next_full[m].particles, coarser.level.muscles[m],
+                     next_coarse[m].particles);
+    if (full.muscles[m].settings.time_mode == TimeMode::dynamic)
+      prolong_velocities(coarser.prolongations[m], next_coarse[m], next_full[m]);
+  }
+}
+
+void follow_full(const Level& full, CoarserLevel& coarser) {
+  reset(coarser.level);
+  for (std::size_t m = 0; m < full.muscles.size(); ++m) {
+    const Prolongation& prolongation = coarser.prolongations[m];
+    SurfaceState from = full.states[m];
+    SurfaceState& state = coarser.level.states[m];
+    restrict_to_copy(prolongation, full.muscles[m], from.particles, coarser.level.muscles[m], state.particles);
+    restrict_to_copy(prolongation, full.muscles[m], from.start, coarser.level.muscles[m], state.start);
+    for (std::size_t p = 0; p < prolongation.picked.size(); ++p)
+      velocity_of(state, static_cast<Index>(p)) = velocity_of(from, prolongation.picked[p]);
+  }
+}
+
+Index triangle_count(const Level& level) {
+  Index count = 0;
+  for (const PreparedMuscle& muscle : level.muscles) count += static_cast<Index>(muscle.faces.cols());
+  return count;
+}
+
+}  // namespace gracilis::xpbd

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <gracilis/methods/xpbd/preparation.hpp>
+#include <gracilis/scene/pose.hpp>
+
+#include <array>
+#include <vector>
+
+namespace gracilis::xpbd {
+
+/// How a surface follows a coarser copy of itself: the bodies carry it as if there were no copy, and where it is
+/// displaced from that, as the copy is: linearly between its vertices. All detail below the copy's triangles moves
+/// rigidly.
+struct Prolongation {
+  std::vector<Index> picked;                  ///< per particle of the copy: the same one of the surface
+  std::vector<std::array<Index, 3>> corners;  ///< per particle of the surface: those of the copy around it ...
+  std::vector<Eigen::Vector3f> weights;       ///< ... and their shares, sum 1
+};
+
+/// Binds each particle to the nearest triangle of the copy that faces the same way. `vertices`: which of the scene's
+/// vertices each of the copy's is. The copy takes over the surface's carrier shares.
+Prolongation prepare_prolongation(const std::vector<Index>& vertices, const PreparedMuscle& full,
+                                  PreparedMuscle& coarse);
+
+/// Where the surface is when its copy is at `coarse_particles`. `particles` says which are free.
+void prolong(const Prolongation& prolongation, const PreparedMuscle& coarse, const Particles& coarse_particles,
+             const PreparedMuscle& full, const Pose& pose, Particles& particles);
+
+/// Puts the copy's particles where the surface's are.
+void restrict_to_copy(const Prolongation& prolongation, const PreparedMuscle& full, const Particles& particles,
+                      const PreparedMuscle& coarse, Particles& coarse_particles);
+
+}  // namespace gracilis::xpbd
