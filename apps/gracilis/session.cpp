@@ -33,8 +33,10 @@ struct Summary {
     long limited = 0, skipped = 0;
   };
   std::vector<PerMuscle> muscles;
+  std::vector<PaceReport> paces;  ///< of the frames in which a rate was to be held
 
   void add(const FrameRecord& record) {
+    if (record.report.pace.target_fps > 0) paces.push_back(record.report.pace);
     muscles.resize(record.measures.size());
     for (std::size_t i = 0; i < muscles.size(); ++i) {
       const std::vector<std::string> missed = missed_gates(record.measures[i], QualityGates{});
@@ -47,6 +49,25 @@ struct Summary {
         muscles[i].skipped += record.report.muscles[i].skipped_constraints;
       }
     }
+  }
+
+  /// What was given up to hold a rate of frames; empty where none was asked for.
+  std::string pace() const {
+    if (paces.empty()) return {};
+    std::vector<int> iterations;
+    std::size_t in_time = 0;
+    for (const PaceReport& frame : paces) {
+      iterations.push_back(frame.iterations);
+      in_time += frame.milliseconds * frame.target_fps <= 1000;
+    }
+    std::sort(iterations.begin(), iterations.end());
+    const PaceReport& last = paces.back();
+    return fmt::format(
+        "target_fps = {:g}: {} of {} frames were in time; {} of {} triangles were simulated, with {} to {} (median {}) "
+        "of "
+        "{} iterations; another machine gives other results",
+        last.target_fps, in_time, paces.size(), last.triangles, last.asked_triangles, iterations.front(),
+        iterations.back(), iterations[iterations.size() / 2], last.asked_iterations);
   }
 
   bool all_gates_met() const {
@@ -171,6 +192,7 @@ class Session {
 
   void finish(const std::string& status) {
     summarize();
+    if (const std::string pace = summary_.pace(); !pace.empty()) warn(pace);
     folder_.finish();
     write_run_charts(folder_.path(), loaded_.scene);
     try {

@@ -37,6 +37,12 @@ std::vector<Variant> all_variants() {
   variants.back().xpbd.time_mode = TimeMode::dynamic;
   variants.back().xpbd.substeps = 2;
   variants.back().xpbd.iterations = 15;
+  variants.push_back({"xpbd_coarser_copy", xpbd_on_tube, {}});
+  variants.back().xpbd.simulated_edge = 0.006;
+  variants.back().xpbd.full_iterations = 1;
+  variants.push_back({"xpbd_coarser_copy_dynamic", xpbd_on_tube, {}});
+  variants.back().xpbd.simulated_edge = 0.006;
+  variants.back().xpbd.time_mode = TimeMode::dynamic;
   variants.push_back({"xpbd_dissipative", xpbd_on_tube, {}});
   variants.back().xpbd.rayleigh_beta = 0.01;
   variants.push_back({"xpbd_thesis_2024", xpbd_on_tube, find_preset("thesis-2024")->xpbd});

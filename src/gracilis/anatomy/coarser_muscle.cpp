@@ -20,7 +20,7 @@ CoarserMuscle coarser_muscle(const Muscle& muscle, Real edge_length) {
     for (const Index v : attachment.vertices) body[static_cast<std::size_t>(v)] = attachment.body;
   CoarseSurface coarse = decimate(muscle.surface, vertices_for(muscle.surface, edge_length), body);
 
-  CoarserMuscle result{muscle, std::move(coarse.vertices)};
+  CoarserMuscle result{muscle, std::move(coarse.vertices), std::move(coarse.went_to)};
   result.muscle.surface = {picked(muscle.surface.vertices, result.vertices), std::move(coarse.faces)};
   std::vector<Index> number(body.size(), -1);
   for (std::size_t i = 0; i < result.vertices.size(); ++i)

@@ -10,6 +10,7 @@ namespace gracilis {
 struct CoarserMuscle {
   Muscle muscle;
   std::vector<Index> vertices;  ///< of the whole muscle, in the coarser one's order
+  std::vector<Index> went_to;   ///< per vertex of the whole muscle: the coarser one's that it is or was drawn onto
 };
 
 /// The muscle with triangles of about `edge_length` (m), by `decimate`. What is attached to different bodies, or to

@@ -60,7 +60,9 @@ class Decimation {
         around_(static_cast<std::size_t>(mesh.vertex_count())),
         quadrics_(around_.size()),
         border_(around_.size(), 0),
-        versions_(around_.size(), 0) {
+        versions_(around_.size(), 0),
+        went_to_(around_.size()) {
+    std::iota(went_to_.begin(), went_to_.end(), 0);
     for (Index f = 0; f < mesh.face_count(); ++f) {
       const Quadric q = plane_quadric(x_.col(faces_(0, f)), normal(faces_.col(f)) / 2);
       for (int k = 0; k < 3; ++k) {
@@ -167,6 +169,7 @@ class Decimation {
       around_[at(kept)].push_back(f);
     }
     around_[at(gone)].clear();
+    went_to_[at(gone)] = kept;
     quadrics_[at(kept)] += quadrics_[at(gone)];
     const std::vector<Index> ring = neighbors(kept);
     ++versions_[at(kept)], ++versions_[at(gone)];
@@ -180,6 +183,11 @@ class Decimation {
       if (around_[v].empty()) continue;
       number[v] = static_cast<Index>(coarse.vertices.size());
       coarse.vertices.push_back(static_cast<Index>(v));
+    }
+    for (std::size_t v = 0; v < around_.size(); ++v) {
+      Index end = static_cast<Index>(v);
+      while (went_to_[at(end)] != end) end = went_to_[at(end)];
+      coarse.went_to.push_back(number[at(end)]);
     }
     coarse.faces.resize(3, std::count(alive_.begin(), alive_.end(), 1));
     Index next = 0;
@@ -199,14 +207,16 @@ class Decimation {
   std::vector<Quadric> quadrics_;
   std::vector<char> border_;
   std::vector<int> versions_;
+  std::vector<Index> went_to_;  ///< itself while it is left
   std::vector<std::pair<Index, Index>> edges_;
   std::priority_queue<Collapse> queue_;
 };
 
 /// All of a surface, as if decimated.
 CoarseSurface whole(const TriangleMesh& mesh) {
-  CoarseSurface coarse{std::vector<Index>(static_cast<std::size_t>(mesh.vertex_count())), mesh.faces};
+  CoarseSurface coarse{std::vector<Index>(static_cast<std::size_t>(mesh.vertex_count())), mesh.faces, {}};
   std::iota(coarse.vertices.begin(), coarse.vertices.end(), 0);
+  coarse.went_to = coarse.vertices;
   return coarse;
 }
 

@@ -11,6 +11,7 @@ namespace gracilis {
 struct CoarseSurface {
   std::vector<Index> vertices;  ///< which of the given ones are left, in the coarse surface's order
   Eigen::Matrix3Xi faces;       ///< 3 × m, indices into `vertices`
+  std::vector<Index> went_to;   ///< per given vertex: the one of `vertices` that it is or was drawn onto
 };
 
 /// At most about `vertex_count` vertices: the edge whose collapse onto one of its ends costs least goes first, where

@@ -85,18 +85,17 @@ void advance(Level& level, const Pose& before, const Pose& now, const std::vecto
 
 CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std::vector<DistanceField>& fields) {
   Scene copies = scene;
-  std::vector<std::vector<Index>> vertices(scene.muscles.size());
-  parallel_for(static_cast<Index>(vertices.size()), 1, [&](Index begin, Index end) {
+  std::vector<CoarserMuscle> coarser_muscles(scene.muscles.size());
+  parallel_for(static_cast<Index>(coarser_muscles.size()), 1, [&](Index begin, Index end) {
     for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
-      const Real edge = scene.muscles[m].xpbd.simulated_edge;
-      CoarserMuscle coarser = coarser_muscle(scene.muscles[m], edge);
-      copies.muscles[m] = std::move(coarser.muscle);
-      vertices[m] = std::move(coarser.vertices);
+      coarser_muscles[m] = coarser_muscle(scene.muscles[m], scene.muscles[m].xpbd.simulated_edge);
+      copies.muscles[m] = coarser_muscles[m].muscle;
     }
   });
   CoarserLevel coarser{make_level(copies, fields), {}};
-  for (std::size_t m = 0; m < vertices.size(); ++m)
-    coarser.prolongations.push_back(prepare_prolongation(vertices[m], full.muscles[m], coarser.level.muscles[m]));
+  for (std::size_t m = 0; m < coarser_muscles.size(); ++m)
+    coarser.prolongations.push_back(
+        prepare_prolongation(coarser_muscles[m], full.muscles[m], coarser.level.muscles[m]));
   return coarser;
 }
 
@@ -111,7 +110,12 @@ void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const 
               placed[m]);
     }
   });
-  refine_together(steps_of(full, activations, next_full, reports), full.crowd, full.crowd_state, before, now, placed);
+  std::vector<MuscleReport> refined(reports.size());
+  refine_together(steps_of(full, activations, next_full, refined), full.crowd, full.crowd_state, before, now, placed);
+  for (std::size_t m = 0; m < reports.size(); ++m) {
+    reports[m].contacts = refined[m].contacts;
+    reports[m].milliseconds += refined[m].milliseconds;
+  }
   for (std::size_t m = 0; m < placed.size(); ++m) {
     restrict_to_copy(coarser.prolongations[m], full.muscles[m], next_full[m].particles, coarser.level.muscles[m],
                      next_coarse[m].particles);

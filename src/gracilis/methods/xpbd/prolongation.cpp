@@ -1,54 +1,74 @@
 #include <gracilis/methods/xpbd/prolongation.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/geometry/measures.hpp>
-#include <gracilis/geometry/nearest_triangle.hpp>
+#include <gracilis/geometry/point_triangle.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 
+#include <algorithm>
 #include <limits>
 
 namespace gracilis::xpbd {
 
-static constexpr Real anywhere = std::numeric_limits<Real>::infinity();
+namespace {
 
-/// Sum of the area vectors of the faces around each particle.
-static Points particle_directions(const PreparedMuscle& muscle) {
-  Points directions = Points::Zero(3, muscle.rest.cols());
-  for (Index f = 0; f < muscle.faces.cols(); ++f) {
-    const Vec3 area = area_vector(muscle.rest, muscle.faces.col(f));
-    for (int k = 0; k < 3; ++k) directions.col(muscle.faces(k, f)) += area;
+std::vector<Index> inverse_of(const std::vector<Index>& order) {
+  std::vector<Index> inverse(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) inverse[static_cast<std::size_t>(order[i])] = static_cast<Index>(i);
+  return inverse;
+}
+
+/// Per particle: the faces around it and around its neighbors, each once.
+std::vector<std::vector<Index>> faces_near(const PreparedMuscle& muscle) {
+  const auto count = static_cast<std::size_t>(muscle.rest.cols());
+  std::vector<std::vector<Index>> around(count), near(count);
+  for (Index f = 0; f < muscle.faces.cols(); ++f)
+    for (int k = 0; k < 3; ++k) around[static_cast<std::size_t>(muscle.faces(k, f))].push_back(f);
+  for (std::size_t p = 0; p < count; ++p) {
+    for (const Index face : around[p])
+      for (int k = 0; k < 3; ++k) {
+        const auto& theirs = around[static_cast<std::size_t>(muscle.faces(k, face))];
+        near[p].insert(near[p].end(), theirs.begin(), theirs.end());
+      }
+    std::sort(near[p].begin(), near[p].end());
+    near[p].erase(std::unique(near[p].begin(), near[p].end()), near[p].end());
   }
-  return directions;
+  return near;
 }
 
-/// The nearest place on the copy; through a thin sheet that would be its other side.
-static NearestPoint place_on(const NearestTriangle& nearest, const PreparedMuscle& coarse, const Vec3& p,
-                             const Vec3& direction) {
-  const NearestPoint same_side = nearest.query(
-      p, anywhere, [&](Index face) { return area_vector(coarse.rest, coarse.faces.col(face)).dot(direction) > 0; });
-  return same_side.face >= 0 ? same_side : nearest.query(p);
+/// The nearest place on these faces: corners and weights.
+void bind_to_nearest(const Vec3& point, const std::vector<Index>& faces, const PreparedMuscle& coarse,
+                     std::array<Index, 3>& corners, Eigen::Vector3f& weights) {
+  Real nearest = std::numeric_limits<Real>::infinity();
+  for (const Index face : faces) {
+    const Eigen::Vector3i at = coarse.faces.col(face);
+    const Eigen::Matrix3d x = coarse.rest(Eigen::all, at);
+    const Vec3 barycentric = nearest_barycentric(point, x.col(0), x.col(1), x.col(2));
+    const Real distance = (x * barycentric - point).squaredNorm();
+    if (!(distance < nearest)) continue;
+    nearest = distance;
+    corners = {at[0], at[1], at[2]};
+    weights = barycentric.cast<float>();
+  }
 }
 
-Prolongation prepare_prolongation(const std::vector<Index>& vertices, const PreparedMuscle& full,
-                                  PreparedMuscle& coarse) {
+}  // namespace
+
+Prolongation prepare_prolongation(const CoarserMuscle& copy, const PreparedMuscle& full, PreparedMuscle& coarse) {
   Prolongation result;
-  std::vector<Index> particle_of(full.order.size());
-  for (std::size_t p = 0; p < full.order.size(); ++p)
-    particle_of[static_cast<std::size_t>(full.order[p])] = static_cast<Index>(p);
+  const std::vector<Index> full_particle = inverse_of(full.order), coarse_particle = inverse_of(coarse.order);
   for (const Index vertex : coarse.order)
-    result.picked.push_back(particle_of[static_cast<std::size_t>(vertices[static_cast<std::size_t>(vertex)])]);
+    result.picked.push_back(full_particle[static_cast<std::size_t>(copy.vertices[static_cast<std::size_t>(vertex)])]);
   coarse.carrier_shares = full.carrier_shares(Eigen::all, result.picked).eval();
 
-  const NearestTriangle nearest({coarse.rest, coarse.faces});
-  const Points directions = particle_directions(full);
-  result.corners.resize(full.order.size());
-  result.weights.resize(full.order.size());
+  const std::vector<std::vector<Index>> near = faces_near(coarse);
+  result.corners.assign(full.order.size(), {0, 0, 0});
+  result.weights.assign(full.order.size(), Eigen::Vector3f::Zero());
   parallel_for(static_cast<Index>(full.order.size()), 256, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) {
-      const NearestPoint place = place_on(nearest, coarse, full.rest.col(p), directions.col(p));
-      for (int k = 0; k < 3; ++k)
-        result.corners[static_cast<std::size_t>(p)][static_cast<std::size_t>(k)] = coarse.faces(k, place.face);
-      result.weights[static_cast<std::size_t>(p)] = place.barycentric.cast<float>();
+    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+      const Index drawn_onto = copy.went_to[static_cast<std::size_t>(full.order[p])];
+      if (drawn_onto < 0) continue;  // belongs to no face
+      const auto center = static_cast<std::size_t>(coarse_particle[static_cast<std::size_t>(drawn_onto)]);
+      bind_to_nearest(full.rest.col(static_cast<Index>(p)), near[center], coarse, result.corners[p], result.weights[p]);
     }
   });
   for (std::size_t i = 0; i < result.picked.size(); ++i) {

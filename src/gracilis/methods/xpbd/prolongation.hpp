@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/anatomy/coarser_muscle.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 #include <gracilis/scene/pose.hpp>
 
@@ -17,10 +18,10 @@ struct Prolongation {
   std::vector<Eigen::Vector3f> weights;       ///< ... and their shares, sum 1
 };
 
-/// Binds each particle to the nearest triangle of the copy that faces the same way. `vertices`: which of the scene's
-/// vertices each of the copy's is. The copy takes over the surface's carrier shares.
-Prolongation prepare_prolongation(const std::vector<Index>& vertices, const PreparedMuscle& full,
-                                  PreparedMuscle& coarse);
+/// Binds each particle to the nearest triangle of the copy, out of those around the vertex that it was drawn onto and
+/// around that one's neighbors: through a thin sheet the nearest of all would be on its other side. `copy` says how the
+/// copy's vertices and the scene's belong together. The copy takes over the surface's carrier shares.
+Prolongation prepare_prolongation(const CoarserMuscle& copy, const PreparedMuscle& full, PreparedMuscle& coarse);
 
 /// Where the surface is when its copy is at `coarse_particles`. `particles` says which are free.
 void prolong(const Prolongation& prolongation, const PreparedMuscle& coarse, const Particles& coarse_particles,

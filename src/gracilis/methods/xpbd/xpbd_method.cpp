@@ -32,17 +32,17 @@ class XpbdMethod final : public DeformationMethod {
  public:
   XpbdMethod(const Scene& scene, std::vector<DistanceField> fields)
       : fields_(std::move(fields)), pose_(capture_pose(scene.bodies.size())) {
-    bool is_coarser = false, is_refined = false;
+    bool is_coarser = false;
     for (const Muscle& muscle : scene.muscles) {
       is_coarser |= muscle.xpbd.simulated_edge > 0;
-      is_refined |= muscle.xpbd.full_iterations > 0;
       asked_iterations_.push_back(muscle.xpbd.iterations);
       if (muscle.xpbd.target_fps > 0) pace_.budget = 1000 / std::max(muscle.xpbd.target_fps, target_fps());
     }
-    full_ = make_level(scene, fields_, !is_coarser || is_refined);
+    // Copies meet in the surfaces' place, at a fraction of the time.
+    full_ = make_level(scene, fields_, !is_coarser);
     if (is_coarser) coarser_ = make_coarser_level(scene, full_, fields_);
     asked_triangles_ = triangle_count(simulated());
-    if (pace_.budget > 0) choose_level(scene, !is_refined);
+    if (pace_.budget > 0) choose_level(scene);
   }
 
   void reset() override {
@@ -129,9 +129,8 @@ class XpbdMethod final : public DeformationMethod {
     return activation;
   }
 
-  /// The finest level that has time for enough iterations, by trial at the capture pose. `alone`: whole surfaces need
-  /// not meet where copies do.
-  void choose_level(const Scene& scene, bool alone) {
+  /// The finest level that has time for enough iterations, by trial at the capture pose.
+  void choose_level(const Scene& scene) {
     const Pose rest = pose_;
     const auto is_in_time = [&] {
       Real milliseconds = 0;
@@ -147,7 +146,7 @@ class XpbdMethod final : public DeformationMethod {
     for (const Real edge : tried_edges) {
       Scene tried = scene;
       for (Muscle& muscle : tried.muscles) muscle.xpbd.simulated_edge = std::max(muscle.xpbd.simulated_edge, edge);
-      if (alone) full_.crowd = {}, full_.crowd_state = {};
+      full_.crowd = {}, full_.crowd_state = {};
       coarser_ = make_coarser_level(tried, full_, fields_);
       if (is_in_time()) return;
     }

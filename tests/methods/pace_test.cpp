@@ -1,0 +1,50 @@
+#include <gracilis/methods/xpbd/pace.hpp>
+
+#include <scenes_for_tests.hpp>
+
+#include <gtest/gtest.h>
+
+namespace gracilis {
+
+using xpbd::Pace;
+
+TEST(Pace, without_a_rate_all_iterations_are_made) {
+  Pace pace;
+  see_frame(pace, 1e6);
+  EXPECT_EQ(paced_iterations(pace, 30), 30);
+}
+
+TEST(Pace, finds_the_iterations_that_fit_and_keeps_them) {
+  const auto time_of = [](int iterations) { return 4.0 + 0.6 * iterations; };  // ms
+  Pace pace{1000.0 / 60, 1};
+  for (int frame = 0; frame < 60; ++frame) see_frame(pace, time_of(paced_iterations(pace, 70)));
+  const int found = paced_iterations(pace, 70);
+  EXPECT_LE(time_of(found), pace.budget);
+  EXPECT_GE(time_of(found + 2), 0.8 * pace.budget);
+}
+
+TEST(Pace, never_makes_more_iterations_than_asked_for_nor_fewer_than_the_least) {
+  Pace fast{1000, 1}, slow{1e-3, 1};
+  for (int frame = 0; frame < 30; ++frame) see_frame(fast, 1), see_frame(slow, 100);
+  EXPECT_EQ(paced_iterations(fast, 30), 30);
+  EXPECT_EQ(paced_iterations(slow, 30), xpbd::least_iterations);
+  EXPECT_EQ(paced_iterations(slow, 2), 2);
+}
+
+TEST(Pace, a_method_says_what_it_gave_up_for_a_rate_that_no_machine_holds) {
+  XpbdSettings settings;
+  settings.target_fps = 1000;
+  settings.iterations = 5000;
+  const Scene scene = tube_scene(settings);
+  const auto method = make_xpbd_method(scene, tube_fields());
+  StepReport report;
+  for (int degree = 1; degree <= 20; ++degree) report = method->advance(flexed(scene, radians(degree)));
+  EXPECT_EQ(report.pace.target_fps, 1000);
+  EXPECT_EQ(report.pace.asked_iterations, 5000);
+  EXPECT_LT(report.pace.iterations, 5000);
+  EXPECT_EQ(report.pace.asked_triangles, scene.muscles[0].surface.face_count());
+  EXPECT_LE(report.pace.triangles, report.pace.asked_triangles);
+  EXPECT_GT(report.pace.milliseconds, 0);
+}
+
+}  // namespace gracilis
