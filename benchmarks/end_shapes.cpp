@@ -8,8 +8,8 @@
 #include <gracilis/simulate/measures.hpp>
 #include <gracilis/simulate/run.hpp>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -89,7 +89,8 @@ int run_all(int count, char** arguments) {
   CLI11_PARSE(program, count, arguments);
   const ThreadLimit limit(threads);
   fmt::print(
-      "setting,muscle,triangles,ms_per_frame,mean_mm,p99_mm,max_mm,volume,vertex_depth_mm,midpoint_depth_mm,hinges_over_90,"
+      "setting,muscle,triangles,ms_per_frame,mean_mm,p99_mm,max_mm,volume,vertex_depth_mm,midpoint_depth_mm,hinges_"
+      "over_90,"
       "edge_ratio,hash\n");
   Outcome reference;
   for (std::size_t i = 0; i < variants.size(); ++i) {

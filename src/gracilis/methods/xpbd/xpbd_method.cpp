@@ -143,6 +143,9 @@ class XpbdMethod final : public DeformationMethod {
       return milliseconds < pace_.budget;
     };
     if (is_in_time()) return;
+    // One iteration on the whole surface keeps its edges within the stretch limit.
+    for (PreparedMuscle& muscle : full_.muscles)
+      muscle.settings.full_iterations = std::max(muscle.settings.full_iterations, 1);
     for (const Real edge : tried_edges) {
       Scene tried = scene;
       for (Muscle& muscle : tried.muscles) muscle.xpbd.simulated_edge = std::max(muscle.xpbd.simulated_edge, edge);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/view/decimation.hpp>
+#include <gracilis/geometry/decimation.hpp>
 #include <gracilis/view/vertex_stretch.hpp>
 #include <gracilis/view/window/contact_depth.hpp>
 #include <gracilis/view/window/shape_history.hpp>

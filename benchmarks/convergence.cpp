@@ -1,0 +1,219 @@
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/core/state_hash.hpp>
+#include <gracilis/methods/xpbd/motion.hpp>
+#include <gracilis/methods/xpbd/xpbd_method.hpp>
+#include <gracilis/view/line_chart.hpp>
+
+#include "acceleration.hpp"
+#include "benchmark_hip.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+/// How near to the converged shape one frame comes in how much time, muscle by muscle: one degree of flexion from 44 to
+/// 45 on one thread, each muscle alone, bones included. The reference is the same step after 3000 plain iterations; the
+/// error is the mean distance of its vertices. Writes a table to stdout and a chart per muscle into the folder given.
+namespace gracilis {
+namespace {
+
+struct Sample {
+  int count = 0;  ///< iterations or substeps
+  Real milliseconds = 0, error = 0;
+  std::uint64_t hash = 0;
+};
+
+struct Curve {
+  std::string name;
+  std::vector<Sample> samples;
+};
+
+/// One muscle's step: the frames before it and its pose.
+struct Step {
+  Scene scene;  ///< with this muscle alone, without settling rounds
+  Frame before, last;
+  Pose pose;
+  Points reference;
+};
+
+constexpr int reference_iterations = 3000;
+constexpr int looked_at[] = {1, 2, 4, 8, 15, 30, 60, 120, 240};
+
+Real milliseconds_since(std::chrono::steady_clock::time_point started) {
+  return std::chrono::duration<Real, std::milli>(std::chrono::steady_clock::now() - started).count();
+}
+
+Real error_of(const Points& shape, const Points& reference) {
+  return 1000 * (shape - reference).colwise().norm().mean();
+}
+
+Step step_of(std::size_t muscle) {
+  Step step{benchmark_hip().scene, {}, {}, benchmark_hip().flexed(radians(45)), {}};
+  step.scene.muscles = {benchmark_hip().scene.muscles[muscle]};
+  step.scene.contact.muscle = MuscleContact::none;
+  step.scene.muscles[0].xpbd.settling_rounds = 0;
+  const auto method = make_xpbd_method(step.scene, benchmark_hip().fields);
+  for (int degree = 2; degree <= 44; ++degree) {
+    step.before = step.last;
+    step.last.pose = benchmark_hip().flexed(radians(degree));
+    method->advance(step.last.pose);
+    method->write(step.last);
+  }
+  return step;
+}
+
+/// The step with other settings, by the method as users have it.
+Sample by_method(const Step& step, int count, const std::function<void(XpbdSettings&)>& change) {
+  constexpr int repeats = 3;
+  Scene scene = step.scene;
+  change(scene.muscles[0].xpbd);
+  const auto method = make_xpbd_method(scene, benchmark_hip().fields);
+  std::vector<Real> times;
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    method->restore(step.before, step.last);
+    const auto started = std::chrono::steady_clock::now();
+    method->advance(step.pose);
+    times.push_back(milliseconds_since(started));
+  }
+  std::sort(times.begin(), times.end());
+  Frame frame;
+  method->write(frame);
+  const Points& shape = frame.muscles[0].points;
+  const Real error = step.reference.cols() > 0 ? error_of(shape, step.reference) : 0;
+  return {count, times[repeats / 2], error, hash_of(shape)};
+}
+
+/// The prediction from which all iterations of the step begin.
+struct Prediction {
+  xpbd::PreparedMuscle muscle;
+  std::vector<FieldPlacement> placements;
+  SolveSettings settings;
+  SurfaceState state;
+};
+
+Prediction predict(const Step& step) {
+  const Muscle& muscle = step.scene.muscles[0];
+  Prediction p{xpbd::prepare_muscle(step.scene, muscle, benchmark_hip().fields), {}, {}, {}};
+  p.settings.time_step = muscle.xpbd.time_step;
+  p.settings.projection.time_step = static_cast<float>(muscle.xpbd.time_step);
+  p.settings.projection.hinge_limit = static_cast<float>(muscle.xpbd.hinge_limit);
+  p.settings.stretch_limit = static_cast<float>(muscle.xpbd.stretch_limit);
+  p.state = make_state(p.muscle.system);
+  for (Index i = 0; i < p.state.particles.count(); ++i)
+    p.state.particles.position(i) =
+        (step.last.muscles[0].points.col(p.muscle.order[static_cast<std::size_t>(i)]) - p.muscle.origin).cast<float>();
+  remember_sides(p.muscle.system, xpbd::place_fields(p.muscle, step.last.pose), p.state);
+  xpbd::carry_free(p.muscle, step.last.pose, step.pose, false, p.state.particles);
+  xpbd::move_attached(p.muscle, step.pose, p.state.particles);
+  xpbd::set_target_lengths(p.muscle, step.pose, p.state.target_length);
+  p.state.start = p.state.particles;
+  p.placements = xpbd::place_fields(p.muscle, step.pose);
+  return p;
+}
+
+Points shape_of(const Prediction& p, const SurfaceState& state) {
+  Points shape(3, state.particles.count());
+  for (Index i = 0; i < shape.cols(); ++i)
+    shape.col(p.muscle.order[static_cast<std::size_t>(i)]) = state.particles.position(i).cast<Real>() + p.muscle.origin;
+  return shape;
+}
+
+/// Iterates and looks at the error on the way, off the clock.
+Curve iterate(const std::string& name, const Step& step, const Prediction& begin, Accelerator accelerate) {
+  Curve curve{name, {}};
+  SurfaceState state = begin.state;
+  SolveReport report;
+  Real spent = 0;
+  int done = 0;
+  for (const int count : looked_at) {
+    const auto started = std::chrono::steady_clock::now();
+    for (; done < count; ++done) {
+      if (done == 0 || (done % 4 == 0 && largest_motion(state.listed, state.particles) > listed_motion))
+        refresh_contacts(begin.muscle.system, begin.placements, state);
+      for (const ConstraintKind kind : projection_order)
+        project_kind(kind, begin.muscle.system, begin.placements, begin.settings, state, report);
+      if (!accelerate.improve(state)) continue;
+      project_kind(ConstraintKind::bone_contact, begin.muscle.system, begin.placements, begin.settings, state, report);
+    }
+    spent += milliseconds_since(started);
+    const Points shape = shape_of(begin, state);
+    curve.samples.push_back({count, spent, error_of(shape, step.reference), hash_of(shape)});
+  }
+  return curve;
+}
+
+std::vector<Curve> curves_of(Step& step) {
+  const auto plain = [](int iterations) { return [=](XpbdSettings& s) { s.iterations = iterations; }; };
+  const Prediction begin = predict(step);
+  SurfaceState converged = begin.state;
+  SolveSettings settings = begin.settings;
+  settings.iterations = reference_iterations;
+  solve_substep(begin.muscle.system, begin.placements, settings, converged);
+  step.reference = shape_of(begin, converged);
+
+  std::vector<Curve> curves;
+  curves.push_back(iterate("iterations", step, begin, Accelerator::none()));
+  curves.push_back(iterate("Chebyshev 0.9", step, begin, Accelerator::chebyshev(0.9f)));
+  curves.push_back(iterate("Chebyshev 0.98", step, begin, Accelerator::chebyshev(0.98f)));
+  curves.push_back(iterate("Anderson 5", step, begin, Accelerator::anderson(5)));
+  curves.push_back({"whole frame, iterations", {}});
+  for (const int count : {4, 8, 15, 30, 60, 120}) curves.back().samples.push_back(by_method(step, count, plain(count)));
+  curves.push_back({"whole frame, small steps", {}});
+  for (const int count : {1, 2, 4, 8, 15, 30})
+    curves.back().samples.push_back(by_method(step, count, [=](XpbdSettings& s) {
+      s.substeps = count;
+      s.iterations = 1;
+    }));
+  for (const Real edge : {0.004, 0.006}) {
+    curves.push_back({fmt::format("whole frame, copy of {:g} mm", 1000 * edge), {}});
+    for (const int count : {4, 8, 15, 30, 60})
+      curves.back().samples.push_back(by_method(step, count, [=](XpbdSettings& s) {
+        s.iterations = count;
+        s.simulated_edge = edge;
+        s.full_iterations = 1;
+      }));
+  }
+  return curves;
+}
+
+void print(const Step& step, const std::vector<Curve>& curves) {
+  for (const Curve& curve : curves)
+    for (const Sample& sample : curve.samples)
+      fmt::print("| {} | {} | {} | {:.3f} | {:.5f} | `{:016x}` |\n", step.scene.muscles[0].name, curve.name,
+                 sample.count, sample.milliseconds, sample.error, sample.hash);
+  std::fflush(stdout);
+}
+
+void draw(const Step& step, const std::vector<Curve>& curves, const std::filesystem::path& folder) {
+  LineChart chart{step.scene.muscles[0].name + ": one degree of flexion",
+                  "log10 of milliseconds, one thread",
+                  "log10 of the mean error in mm",
+                  {}};
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    ChartSeries series;
+    series.name = curves[i].name;
+    series.color = muscle_color(static_cast<Index>(i), Palette::okabe_ito);
+    series.width = 2;
+    for (const Sample& sample : curves[i].samples) {
+      series.x.push_back(std::log10(sample.milliseconds));
+      series.y.push_back(std::log10(sample.error));
+    }
+    chart.series.push_back(series);
+  }
+  write_chart(folder / ("convergence_" + step.scene.muscles[0].name + ".svg"), chart);
+}
+
+}  // namespace
+}  // namespace gracilis
+
+int main(int count, char** arguments) {
+  using namespace gracilis;
+  const ThreadLimit limit(1);
+  for (std::size_t m = 0; m < benchmark_hip().scene.muscles.size(); ++m) {
+    Step step = step_of(m);
+    const std::vector<Curve> curves = curves_of(step);
+    print(step, curves);
+    if (count > 1) draw(step, curves, arguments[1]);
+  }
+}
