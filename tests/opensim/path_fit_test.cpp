@@ -78,6 +78,18 @@ TEST(RunPaths, a_model_with_the_fitted_paths_has_the_runs_lengths) {
   }
 }
 
+TEST(RunPaths, lengths_among_the_coordinates_are_no_angles) {
+  const TestFolder folder;
+  std::string text =
+      "fiber_lengths\nversion=1\nnRows=9\nnColumns=4\ninDegrees=yes\nendheader\ntime\tslide\tm\tm_f000\n";
+  for (int i = 0; i < 9; ++i) text += fmt::format("{}\t{}\t{}\t{}\n", i, 0.01 * i, 0.3 + 0.02 * i, 0.3 + 0.02 * i);
+  folder.write("fiber_lengths.sto", text);
+  folder.write("measures.csv", "frame,time_s,slide_mm,muscle,volume_ratio\n");
+  const std::vector<FittedMuscle> muscles = fit_run(folder.path());
+  ASSERT_EQ(muscles.size(), 1u);
+  EXPECT_NEAR(derivative(muscles[0].fit.function, {0.03}, {0}), 2, 1e-9);
+}
+
 TEST(RunPaths, a_run_that_does_not_move_is_refused) {
   const TestFolder folder;
   folder.write("fiber_lengths.sto",

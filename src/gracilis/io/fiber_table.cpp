@@ -26,9 +26,15 @@ std::string fiber_lengths_head(const Scene& scene, const std::vector<MuscleFiber
                      labels);
 }
 
-std::string fiber_lengths_row(const Pose& pose, const std::vector<MuscleFibers>& fibers) {
+std::string fiber_lengths_row(const Scene& scene, const Pose& pose, const std::vector<MuscleFibers>& fibers) {
   std::string row = fmt::format("{}", pose.time);
-  for (const Real coordinate : pose.coordinates) row += fmt::format("\t{}", degrees(coordinate));
+  std::size_t coordinate = 0;
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes) {
+      if (coordinate >= pose.coordinates.size()) break;
+      const Real value = pose.coordinates[coordinate++];
+      row += fmt::format("\t{}", axis.translation ? value : degrees(value));
+    }
   for (const MuscleFibers& muscle : fibers) {
     if (muscle.lengths.empty()) continue;
     row += fmt::format("\t{:.9g}", muscle.mean_length);
@@ -54,7 +60,8 @@ void truncate_fiber_lengths(const std::filesystem::path& path, int rows, int ann
   }
   std::string head = text.substr(0, labels + 1);
   const std::size_t count = head.find("nRows="), after = head.find('\n', count);
-  if (count < after && after != std::string::npos) head.replace(count, after - count, fmt::format("nRows={}", announced));
+  if (count < after && after != std::string::npos)
+    head.replace(count, after - count, fmt::format("nRows={}", announced));
   write_text_atomically(path, head + text.substr(labels + 1, last - labels - 1));
 }
 

@@ -168,7 +168,7 @@ void RunFolder::write_fibers(const FrameRecord& record) {
   });
   append_measures(folder_ / "fiber_lengths.sto",
                   fiber_lengths_head(scene_, record.fibers, static_cast<int>(poses_.size())),
-                  fiber_lengths_row(record.frame.pose, record.fibers));
+                  fiber_lengths_row(scene_, record.frame.pose, record.fibers));
 }
 
 void RunFolder::write_manifest(RunManifest manifest) const {

@@ -109,6 +109,17 @@ count = 100
 [muscles.contraction]
 threshold = 0.02
 
+# Optional: the line that the muscle's surface was made about, as 'gracilis import' writes it: sections of so many corners
+# at its points, and between them where each part is halved 'scaling' times.
+# [muscles.action_line]
+# rays = 12
+# scaling = 3
+# points_mm = [[-100, 20, 60], [-70, -220, 130]] # origin first
+# bodies = ["pelvis", "femur_r"]                 # of each point
+# tendon_mm = 40                                 # optional: length at the insertion; origin_tendon_mm likewise
+# optimal_fiber_mm = 110                         # optional, with pennation_deg: for forces of 'export --to tetrahedra'
+# centers_mm = [[...], ...]                      # optional: of all sections, where they lie beside the line
+
 # At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of four ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.
 [[muscles.attachments]]
@@ -142,6 +153,17 @@ name = "trochanter"
 end = "insertion"
 bone = "femur_r"
 bone_distance_mm = 3
+
+# Optional, for method = "cylinder": a section that gives way. It stays on its side of another muscle's section, to whose
+# corner its own is joined, and out of that muscle and of bones.
+# [[transversals]]
+# muscle = "gluteus_maximus_r"
+# section = 5                  # counted from the origin, from 0
+# ray = 3                      # corner of the section
+# other_muscle = "gluteus_medius_r"
+# other_section = 4
+# other_ray = 9
+# bones = ["femur_r"]
 
 # Optional: how active muscles are, 0 to 1, in one way for each; those not named are relaxed.
 # 1. A constant:

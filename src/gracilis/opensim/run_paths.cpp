@@ -8,6 +8,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <fstream>
+#include <set>
+#include <sstream>
 
 namespace gracilis::opensim {
 
@@ -30,12 +33,27 @@ static LengthColumns columns_of(const Table& table, const std::filesystem::path&
   return columns;
 }
 
+/// The coordinates that are lengths: measures.csv names them with their unit.
+static std::set<std::string> translations_of(const std::filesystem::path& run) {
+  std::set<std::string> names;
+  std::ifstream file(run / "measures.csv");
+  std::string label;
+  std::getline(file, label);
+  std::istringstream labels(label);
+  while (std::getline(labels, label, ',') && label != "muscle")
+    if (label.ends_with("_mm")) names.insert(label.substr(0, label.size() - 3));
+  return names;
+}
+
 /// Without the coordinates whose loss hardly matters, one after the other.
-static FittedMuscle fit_muscle(const Table& table, std::vector<Eigen::Index> coordinates, Eigen::Index muscle) {
+static FittedMuscle fit_muscle(const Table& table, const std::set<std::string>& translations,
+                               std::vector<Eigen::Index> coordinates, Eigen::Index muscle) {
   const auto fitted = [&](const std::vector<Eigen::Index>& over) {
-    Eigen::MatrixXd angles = table.values(Eigen::all, over);
-    if (table.in_degrees) angles *= radians(1);
-    return fit_path(angles, table.values.col(muscle));
+    Eigen::MatrixXd values = table.values(Eigen::all, over);
+    for (std::size_t i = 0; i < over.size(); ++i)
+      if (table.in_degrees && translations.count(table.columns[static_cast<std::size_t>(over[i])]) == 0)
+        values.col(static_cast<Eigen::Index>(i)) *= radians(1);
+    return fit_path(values, table.values.col(muscle));
   };
   PathFit fit = fitted(coordinates);
   for (std::size_t i = coordinates.size(); i-- > 0 && coordinates.size() > 1;) {
@@ -61,7 +79,8 @@ std::vector<FittedMuscle> fit_run(const std::filesystem::path& run) {
   if (moving.empty() || table.times.size() < 4)
     throw InputError({path.string(), "", "holds no motion to fit lengths to", "run a motion of several frames first"});
   std::vector<FittedMuscle> muscles;
-  for (const Eigen::Index muscle : columns.muscles) muscles.push_back(fit_muscle(table, moving, muscle));
+  const std::set<std::string> translations = translations_of(run);
+  for (const Eigen::Index muscle : columns.muscles) muscles.push_back(fit_muscle(table, translations, moving, muscle));
   return muscles;
 }
 
