@@ -70,7 +70,7 @@ static std::string muscle_text(const Model& model, const std::string& name, cons
     const HeldVertices& held = volume.held[i];
     const bool origin = held.end == AttachmentEnd::origin;
     text += fmt::format("\n[[muscles.attachments]]\nname = \"{}\"\nend = \"{}\"\nbody = {}\nvertices = [{}]\n",
-                        origin                        ? "origin"
+                        i == 0                        ? "origin"
                         : i + 1 == volume.held.size() ? "insertion"
                                                       : fmt::format("via_{}", i),
                         origin ? "origin" : "insertion", quoted(model.bodies[static_cast<std::size_t>(held.body)].name),
