@@ -1,3 +1,5 @@
+#include <gracilis/anatomy/coarser_muscle.hpp>
+#include <gracilis/anatomy/finer_muscle.hpp>
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/line_sections.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>
@@ -48,6 +50,21 @@ TEST(LineCarriers, sections_carry_the_surface_along_the_line) {
     if (prepared.order[static_cast<std::size_t>(p)] < 136)
       middles.col(prepared.order[static_cast<std::size_t>(p)] / 8) += carried.col(p) / 8;
   for (int k = 0; k < 17; ++k) EXPECT_LT((middles.col(k) - sections.centers.col(k)).norm(), 1e-12) << k;
+}
+
+TEST(LineCarriers, finer_and_coarser_copies_follow_the_nearest_sections) {
+  const Scene scene = hinge_scene();
+  const Pose pose = pose_at(scene, std::vector<Real>{-1.2});
+  const Vec3 from(0.03, 0, 0.2), to = pose.bodies[1] * Vec3(0.03, 0, -0.2), along = (to - from).normalized();
+  for (const Muscle& copy : {finer_muscle(scene.muscles[0]), coarser_muscle(scene.muscles[0], 0.02).muscle}) {
+    ASSERT_NE(copy.surface.vertex_count(), scene.muscles[0].surface.vertex_count());
+    const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, copy, {});
+    const Points carried = xpbd::carried_rest(prepared, pose).colwise() + prepared.origin;
+    for (Index p = 0; p < carried.cols(); ++p) {
+      const Vec3 off = carried.col(p) - from;
+      EXPECT_LT((off - off.dot(along) * along).norm(), 0.02) << p;  // the radius is 0.01
+    }
+  }
 }
 
 TEST(LineCarriers, a_muscle_by_xpbd_stays_along_its_line) {

@@ -186,6 +186,19 @@ Points fiber_directions(const Points& vertices, const Eigen::Matrix3Xi& faces, c
   return directions;
 }
 
+/// The section that carries each particle: its own, or, where the surface is a finer or coarser copy, the nearest.
+static void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepared) {
+  prepared.line = line_sections(muscle);
+  const Points centers = sections_at(*prepared.line, capture_pose(scene.bodies.size())).centers;
+  const bool own = static_cast<Eigen::Index>(prepared.order.size()) == muscle.action_line.rays * centers.cols() + 2;
+  for (Index p = 0; p < static_cast<Index>(prepared.order.size()); ++p) {
+    Eigen::Index nearest = 0;
+    (centers.colwise() - prepared.rest.col(p)).colwise().squaredNorm().minCoeff(&nearest);
+    prepared.section.push_back(own ? section_of_vertex(*prepared.line, prepared.order[static_cast<std::size_t>(p)])
+                                   : static_cast<Index>(nearest));
+  }
+}
+
 PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
   PreparedMuscle prepared;
   prepared.name = muscle.name;
@@ -210,10 +223,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
       build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
                        enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
   build_predictor(renumbered, topology, prepared);
-  if (muscle.action_line.rays > 0) {
-    prepared.line = line_sections(muscle);
-    for (const Index vertex : prepared.order) prepared.section.push_back(section_of_vertex(*prepared.line, vertex));
-  }
+  if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
   prepared.is_driven = drives(scene.activation, muscle.name);
   if (prepared.is_driven) build_contractions(muscle, topology, prepared);
   build_large_faces(renumbered, fields, prepared);
