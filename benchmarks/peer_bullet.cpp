@@ -87,7 +87,11 @@ void put_back(const xpbd::UnderWay& begin, btSoftBody& body) {
 void fill(const xpbd::UnderWay& begin, const Edges& edges, btSoftBody& body) {
   for (const auto& [a, b] : edges.ends) body.appendLink(a, b);
   body.updateConstants();
-  for (int e = 0; e < body.m_links.size(); ++e) body.m_links[e].m_rl = edges.lengths[static_cast<std::size_t>(e)];
+  for (int e = 0; e < body.m_links.size(); ++e) {
+    btSoftBody::Link& link = body.m_links[e];
+    link.m_rl = edges.lengths[static_cast<std::size_t>(e)];
+    link.m_c1 = link.m_rl * link.m_rl;
+  }
   for (int p = 0; p < body.m_nodes.size(); ++p) body.m_nodes[p].m_im = begin.state.particles.inverse_mass(p);
   body.updateLinkConstants();
 }

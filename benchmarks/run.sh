@@ -47,6 +47,39 @@ for iterations in 30 70; do
   done
 done
 
+study=gluteus_maximus_r,gluteus_medius_r,iliacus_r,adductor_brevis_r
+say "" "## The published study's four muscles, and the preset \`fast\`" "" \
+  "61,354 triangles, one degree of flexion per frame, contact of all kinds; errors of \`fast\`: docs/convergence.md." "" \
+  "| setting | threads | ms | frames per second | state |" "| --- | --- | --- | --- | --- |"
+for setting in iterations=70 preset=physical preset=fast; do
+  "$program" bench "${hip[@]}" --only "$study" --frame 45 --repeats 1 --set "$setting" |
+    awk -v s="$setting" '$2 == "frame" { printf "| %s | %s | %s | %.1f | `%s` |\n", s, $3, $5, 1000 / $5, $6 }' >>"$work/page"
+done
+
+say "" "## Files to first frame" "" "The study's four muscles, from reading the scene to the first solved frame, all threads: with an empty" \
+  "cache of distance fields, and with a full one." "" "| cache | seconds |" "| --- | --- |"
+for cache in empty full; do
+  XDG_CACHE_HOME="$work/cache" "$program" bench "${hip[@]}" --only "$study" --frame 1 --repeats 1 |
+    awk -v c="$cache" '$2 == "first_frame" { printf "| %s | %.2f |\n", c, $5 / 1000 }' >>"$work/page"
+done
+
+say "" "## Growth with muscles" "" "Copies of the built-in hip's muscles, each for itself, all threads." "" \
+  "| muscles | triangles | ms per frame | ms per frame and muscle |" "| --- | --- | --- | --- |"
+for count in 1 2 4 8 16 32 64; do
+  "$program" bench --muscles "$count" --frame 5 --threads "$(nproc)" |
+    awk -v n="$count" '$2 == "frame" { printf "| %s | %s | %.2f | %.3f |\n", n, $4, $5, $5 / n }' >>"$work/page"
+done
+
+peer=$(dirname "$program")/gracilis_peer_bullet
+if [ -x "$peer" ]; then
+  say "" "## A peer on the same meshes" "" "One sweep over all edges, one thread: our distance constraints beside the links of Bullet's soft bodies" \
+    "(Debian's libbullet-dev), taking turns, from the same positions, masses and target lengths. Bullet's links have no compliance" \
+    "and it has no constraint like our others. Errors: root mean square of the edges' relative error, before and after 10 sweeps." "" \
+    "| muscle | triangles | ms, ours | ms, Bullet | ratio | error before | after ours | after Bullet | state, ours | state, Bullet |" \
+    "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+  "$peer" >>"$work/page"
+fi
+
 say "" "## Growth with triangles" "" "Gluteus maximus, each triangle divided into four again and again; one thread. The last column is" \
   "what the process's peak of memory grew while the muscle was prepared and solved." "" \
   "| triangles | ms per iteration | ns per triangle | bytes per triangle |" "| --- | --- | --- | --- |"

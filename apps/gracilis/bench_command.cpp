@@ -26,6 +26,8 @@ namespace gracilis {
 
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 struct BenchOptions {
   std::filesystem::path file;
   SceneOptions scene;
@@ -33,6 +35,7 @@ struct BenchOptions {
   int frame = -1;  ///< -1: a quarter of the motion
   int repeats = 15;
   int subdivide = 0;
+  int muscles = 0;  ///< 0: those of the scene
   bool json = false;
 };
 
@@ -140,7 +143,33 @@ void print_table(const std::vector<BenchEntry>& entries) {
                entry.milliseconds, entry.hash);
 }
 
-int bench(Scene scene, BenchOptions options) {
+/// As many muscles as asked for, copies of the scene's in turn. Copies lie in each other, so none keeps out of another.
+void copy_muscles(Scene& scene, int count) {
+  const std::vector<Muscle> originals = scene.muscles;
+  scene.muscles.clear();
+  scene.contact.muscle = MuscleContact::none;
+  for (int i = 0; i < count; ++i) {
+    scene.muscles.push_back(originals[static_cast<std::size_t>(i) % originals.size()]);
+    scene.muscles.back().name += fmt::format("_{}", i);
+  }
+}
+
+/// From before the scene was read until the first frame is solved, with the fields as the cache has them.
+BenchEntry time_first_frame(const Scene& scene, const std::vector<DistanceField>& fields,
+                            const std::vector<Pose>& poses, Clock::time_point started) {
+  const auto method = make_xpbd_method(scene, fields);
+  if (poses.size() > 1) method->advance(poses[1]);
+  const std::chrono::duration<double, std::milli> elapsed = Clock::now() - started;
+  BenchEntry entry{"all", "first_frame", thread_count(), 0, elapsed.count(), hash_seed, 0};
+  for (const Muscle& muscle : scene.muscles) entry.triangles += muscle.surface.face_count();
+  Frame frame;
+  method->write(frame);
+  for (const MuscleShape& shape : frame.muscles) entry.hash = hash_of(shape.points, entry.hash);
+  return entry;
+}
+
+int bench(Scene scene, BenchOptions options, Clock::time_point started) {
+  if (options.muscles > 0) copy_muscles(scene, options.muscles);
   for (Muscle& muscle : scene.muscles)
     for (int i = 0; i < options.subdivide; ++i) muscle = finer_muscle(muscle);
   if (options.threads.empty()) {
@@ -152,7 +181,9 @@ int bench(Scene scene, BenchOptions options) {
   for (const Bone& bone : scene.bones)
     fields.push_back(cached_bone_field(bone, scene.distance_fields, default_cache_folder()));
   std::vector<BenchEntry> entries;
-  for (const Muscle& muscle : scene.muscles) time_muscle(scene, muscle, fields, poses, options, entries);
+  entries.push_back(time_first_frame(scene, fields, poses, started));
+  if (options.muscles == 0)
+    for (const Muscle& muscle : scene.muscles) time_muscle(scene, muscle, fields, poses, options, entries);
   for (const int threads : options.threads) entries.push_back(time_frames(scene, fields, poses, threads));
   if (options.json)
     print_json(scene, static_cast<int>(poses.size()) - 1, entries);
@@ -180,10 +211,16 @@ void add_bench_command(CLI::App& program, Command& chosen) {
       ->add_option("--subdivide", options->subdivide,
                    "Divide every triangle of the muscles into four, so many times over, to see how time grows")
       ->check(CLI::Range(0, 6));
+  command
+      ->add_option("--muscles", options->muscles,
+                   "Time frames of so many muscles, copies of the scene's in turn, to see how time grows")
+      ->check(CLI::Range(1, 10000));
   command->add_flag("--json", options->json, "Print JSON instead of a table");
   command->callback([&chosen, options] {
     chosen = [options] {
-      return bench(options->file.empty() ? builtin_hip() : read_scene(options->file, options->scene).scene, *options);
+      const Clock::time_point started = Clock::now();
+      return bench(options->file.empty() ? builtin_hip() : read_scene(options->file, options->scene).scene, *options,
+                   started);
     };
   });
 }
