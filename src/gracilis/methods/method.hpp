@@ -4,6 +4,8 @@
 #include <gracilis/scene/frame.hpp>
 #include <gracilis/scene/pose.hpp>
 
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace gracilis {
@@ -33,6 +35,17 @@ struct PaceReport {
   Index asked_triangles = 0;
 };
 
+enum class ConstraintKind;  // dynamics/solver.hpp
+
+/// What the constraints of one kind moved of a muscle, all at once.
+struct SolverPass {
+  std::size_t muscle = 0;
+  ConstraintKind kind{};
+  int iteration = 0;  ///< of the frame, all its steps counted on; after the last one volume and contact settle
+  Points moved = Points(3, 0);  ///< m, one per vertex of the muscle's surface
+};
+using PassWatch = std::function<void(const SolverPass&)>;
+
 struct StepReport {
   std::vector<MuscleReport> muscles;  ///< in the scene's order
   PaceReport pace = {};
@@ -50,6 +63,10 @@ class DeformationMethod {
   /// To the next pose. Throws QualityError that names muscle and constraint when a coordinate stops being finite; the
   /// state is then that before the call.
   virtual StepReport advance(const Pose& pose) = 0;
+  /// Tells what happens inside of the steps to come, for pictures that explain a solver. Calls may come from several
+  /// threads at once, each muscle's in their order. An empty function costs nothing. Methods without iterations have
+  /// nothing to tell, nor do coarser copies that are simulated in the muscles' place.
+  virtual void watch_passes(PassWatch /*watch*/) {}
   /// The present shapes, into frame.muscles.
   virtual void write(Frame& frame) const = 0;
   /// Continues from a recorded frame and the one before it, as if this method had made them.

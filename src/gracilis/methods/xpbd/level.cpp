@@ -14,7 +14,7 @@ std::vector<MuscleStep> steps_of(const Level& level, const std::vector<Real>& ac
                                  std::vector<SurfaceState>& next, std::vector<MuscleReport>& reports) {
   std::vector<MuscleStep> steps;
   for (std::size_t m = 0; m < level.muscles.size(); ++m)
-    steps.push_back({&level.muscles[m], &next[m], &reports[m], activations[m]});
+    steps.push_back({&level.muscles[m], &next[m], &reports[m], activations[m], m, &level.watch});
   return steps;
 }
 

@@ -16,6 +16,7 @@ struct Level {
   std::vector<SurfaceState> states;
   MuscleCrowd crowd;
   MuscleCrowdState crowd_state;
+  PassWatch watch = {};  ///< told of every pass of the solver
 };
 
 /// Prepares a level, at rest. `fields` as in prepare_muscle; muscles that do not `meet` have no crowd.

@@ -4,6 +4,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/xpbd/contraction.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
+#include <gracilis/methods/xpbd/pass_recorder.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -196,7 +197,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
     if (!is_finite(predicted[i]))
       throw QualityError("muscle " + steps[i].muscle->name +
                          ": a vertex position is not finite before the solver; check the pose and the velocities");
-  solve_together(solves, couple(steps, crowd, crowd_state));
+  solve_together(solves, couple(steps, crowd, crowd_state), record_passes(steps, solves));
   const auto is_lost = [](const MuscleStep& step) { return !is_finite(step.state->particles); };
   if (std::any_of(steps.begin(), steps.end(), is_lost)) {
     crowd_state.edges = edges_before;

@@ -15,6 +15,8 @@ struct MuscleStep {
   SurfaceState* state = nullptr;
   MuscleReport* report = nullptr;
   Real activation = 0;
+  std::size_t number = 0;            ///< of the muscle in the scene
+  const PassWatch* watch = nullptr;  ///< told of every pass; an empty one, or none: nobody is
 };
 
 /// Moves the muscles from one pose to the next, in as many substeps as the most demanding of them asks for. `crowd`

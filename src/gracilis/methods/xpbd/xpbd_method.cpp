@@ -73,6 +73,8 @@ class XpbdMethod final : public DeformationMethod {
     return report;
   }
 
+  void watch_passes(PassWatch watch) override { full_.watch = std::move(watch); }
+
   void write(Frame& frame) const override {
     frame.muscles.resize(full_.muscles.size());
     for (std::size_t m = 0; m < full_.muscles.size(); ++m) {

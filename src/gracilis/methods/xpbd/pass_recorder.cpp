@@ -1,0 +1,25 @@
+#include <gracilis/methods/xpbd/pass_recorder.hpp>
+
+#include <algorithm>
+#include <memory>
+
+namespace gracilis::xpbd {
+
+SolveWatch record_passes(const std::vector<MuscleStep>& steps, const std::vector<SurfaceSolve>& solves) {
+  const auto is_watched = [](const MuscleStep& step) { return step.watch && *step.watch; };
+  if (!std::all_of(steps.begin(), steps.end(), is_watched)) return {};
+  const auto before = std::make_shared<std::vector<Particles>>();
+  for (const MuscleStep& step : steps) before->push_back(step.state->particles);
+  return [&steps, &solves, before](std::size_t i, ConstraintKind kind) {
+    const MuscleStep& step = steps[i];
+    const Particles& now = step.state->particles;
+    SolverPass pass{step.number, kind, step.report->iterations + solves[i].report.iterations, Points(3, now.count())};
+    for (Index p = 0; p < now.count(); ++p)
+      pass.moved.col(step.muscle->order[static_cast<std::size_t>(p)]) =
+          (now.position(p) - (*before)[i].position(p)).cast<Real>();
+    (*before)[i] = now;
+    (*step.watch)(pass);
+  };
+}
+
+}  // namespace gracilis::xpbd
