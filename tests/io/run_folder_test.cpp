@@ -1,6 +1,8 @@
 #include <gracilis/io/content_hash.hpp>
 #include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh_writer.hpp>
+#include <gracilis/io/recorded_run.hpp>
 #include <gracilis/io/run_folder.hpp>
 
 #include <gmock/gmock.h>
@@ -127,6 +129,23 @@ TEST(RunFolder, frame_0_is_the_input_and_bones_move_with_their_body) {
   EXPECT_TRUE((points("femur_r", 0).array() == run.scene.bones[0].surface.vertices.array()).all());
   EXPECT_TRUE(points("femur_r", 2).isApprox(run.poses[2].bodies[1] * run.scene.bones[0].surface.vertices, 1e-15));
   EXPECT_EQ(count_frames(out.path(), run.scene), 3);
+}
+
+TEST(RunFolder, frame_0_tells_origins_insertions_and_bellies) {
+  const TestFolder folder;
+  TinyRun tiny;
+  tiny.scene.muscles[0].attachments = {{"a", AttachmentEnd::origin, 0, {0}}, {"b", AttachmentEnd::insertion, 1, {2}}};
+  RunFolder run(folder.path(), tiny.scene, tiny.poses, ExistingRun::refuse);
+  for (int number = 0; number < 2; ++number) run.write_frame(tiny.record(number));
+  RecordedRun recorded;
+  recorded.folder = folder.path();
+  const Points tissue = recorded_tissue(recorded, "gluteus_maximus_r");
+  ASSERT_EQ(tissue.cols(), 4);
+  EXPECT_EQ(tissue.row(0), Eigen::RowVector4d(1, 0, 0, 0));
+  EXPECT_EQ(tissue.row(1), Eigen::RowVector4d(0, 0, 1, 0));
+  EXPECT_EQ(tissue(2, 0), 0);
+  EXPECT_EQ(tissue(2, 3), 1);  // farther away than a tendon is long
+  EXPECT_EQ(read_vtp_vectors(frame_file(folder.path(), "gluteus_maximus_r", 1), tissue_name).cols(), 0);
 }
 
 TEST(RunFolder, measures_have_a_row_per_frame_and_muscle_under_named_columns) {

@@ -4,6 +4,7 @@
 #include <gracilis/io/fiber_table.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh_reader_vtp.hpp>
 #include <gracilis/io/polyline_file.hpp>
 #include <gracilis/io/run_folder.hpp>
 #include <gracilis/io/text_cells.hpp>
@@ -152,6 +153,10 @@ TriangleMesh recorded_surface(const RecordedRun& run, const std::string& name, i
 Polylines recorded_fibers(const RecordedRun& run, const std::string& muscle, int frame) {
   const fs::path path = fiber_file(run.folder, muscle, frame);
   return fs::exists(path) ? read_polylines(path, 1) : Polylines{};
+}
+
+Points recorded_tissue(const RecordedRun& run, const std::string& muscle) {
+  return read_vtp_vectors(frame_file(run.folder, muscle, 0), tissue_name);
 }
 
 RigidTransform rigid_motion(const Points& rest, const Points& now) {

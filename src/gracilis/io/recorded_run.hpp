@@ -39,6 +39,10 @@ TriangleMesh recorded_surface(const RecordedRun& run, const std::string& name, i
 /// A muscle's fibers in one frame, m; none when the run has none of it.
 Polylines recorded_fibers(const RecordedRun& run, const std::string& muscle, int frame);
 
+/// Per vertex of a muscle: 1 where it is of an origin, 1 where of an insertion, share of belly against tendon (0 to 1).
+/// 3 × 0 when the run was made before runs told it.
+Points recorded_tissue(const RecordedRun& run, const std::string& muscle);
+
 /// How a bone has moved since frame 0 (least squares over its vertices, Umeyama 1991).
 RigidTransform rigid_motion(const Points& rest, const Points& now);
 

@@ -1,5 +1,6 @@
 #include <gracilis/io/run_folder.hpp>
 
+#include <gracilis/anatomy/tendon.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/io/atomic_file.hpp>
@@ -66,6 +67,16 @@ Frame read_frame(const fs::path& folder, const Scene& scene, int number, const P
 static std::vector<VertexArray> velocity_array(const MuscleShape& shape) {
   if (shape.velocities.cols() == 0) return {};
   return {{velocity_name, shape.velocities.reshaped(), 3}};
+}
+
+/// 1 or 0 where the vertex is of an origin, 1 or 0 where of an insertion, and how much of a belly it is, 0 to 1.
+static VertexArray tissue_array(const Muscle& muscle) {
+  Points tissue = Points::Zero(3, muscle.surface.vertex_count());
+  for (const Attachment& attachment : muscle.attachments)
+    for (const Index v : attachment.vertices) tissue(attachment.end == AttachmentEnd::origin ? 0 : 1, v) = 1;
+  const std::vector<Real> belly = belly_shares(muscle);
+  for (std::size_t v = 0; v < belly.size(); ++v) tissue(2, static_cast<Index>(v)) = belly[v];
+  return {tissue_name, tissue.reshaped(), 3};
 }
 
 static void create_folders(const fs::path& folder) {
@@ -136,8 +147,9 @@ void RunFolder::write_frame(const FrameRecord& record) {
       if (i < muscle_count) {
         const Muscle& muscle = scene_.muscles[static_cast<std::size_t>(i)];
         const MuscleShape& shape = frame.muscles[static_cast<std::size_t>(i)];
-        write_surface(frame_file(folder_, muscle.name, frame.number), shape.points, muscle.surface.faces,
-                      velocity_array(shape));
+        std::vector<VertexArray> arrays = velocity_array(shape);
+        if (frame.number == 0) arrays.push_back(tissue_array(muscle));
+        write_surface(frame_file(folder_, muscle.name, frame.number), shape.points, muscle.surface.faces, arrays);
       } else {
         const Bone& bone = scene_.bones[static_cast<std::size_t>(i - muscle_count)];
         const RigidTransform& motion = frame.pose.bodies[static_cast<std::size_t>(bone.body)];

@@ -19,7 +19,9 @@ enum class ExistingRun { refuse, replace, resume };
 ///
 ///   run.json                       see run_manifest.hpp
 ///   run.pvd                        opens the animation in ParaView; always names frames that are there only
-///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits
+///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits, and muscles'
+///   vertices
+///                                  in it tell whether they are of an origin or an insertion, and how much of a belly
 ///   measures.csv                   one row per frame and muscle; the units stand in the names of the columns
 ///   fiber_lengths.sto              one row per frame, see fiber_table.hpp
 ///   fibers/<muscle>_0000.vtp       one per frame and muscle with fibers, m
@@ -63,6 +65,9 @@ class RunFolder {
   std::optional<ResumePoint> resume_point_;
   std::chrono::steady_clock::time_point opened_, indexed_;
 };
+
+/// Point data of muscles in frame 0: of an origin (0 or 1), of an insertion (0 or 1), share of belly against tendon.
+inline constexpr const char* tissue_name = "origin_insertion_belly";
 
 /// RUN/frames/<name>_<number as four digits>.vtp
 std::filesystem::path frame_file(const std::filesystem::path& folder, const std::string& name, int number);

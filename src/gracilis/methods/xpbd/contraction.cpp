@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/muscle_fibers.hpp>
 #include <gracilis/anatomy/surface_fibers.hpp>
+#include <gracilis/anatomy/tendon.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
@@ -29,25 +30,11 @@ Polylines contracting_lines(const Muscle& muscle) {
   return fibers_of(finer);
 }
 
-/// How much of a belly each particle is: 0 on attachments, 1 a tendon's length away from them or, on a muscle too short
-/// for that, half as far as its farthest particle.
-std::vector<Real> belly_shares(const PreparedMuscle& muscle, const MeshTopology& topology) {
-  const auto count = static_cast<std::size_t>(muscle.rest.cols());
-  std::vector<Index> fixed;
-  for (std::size_t p = 0; p < count; ++p)
-    if (muscle.fixed_body[p] >= 0) fixed.push_back(static_cast<Index>(p));
-  std::vector<Real> shares(count, 1);
-  if (fixed.empty() || !(muscle.settings.tendon_length > 0)) return shares;
-  const Eigen::VectorXd distances = edge_distances(length_graph(muscle.rest, topology), fixed);
-  Real farthest = 0;
-  for (const Real distance : distances)
-    if (std::isfinite(distance)) farthest = std::max(farthest, distance);
-  const Real tendon = std::min(muscle.settings.tendon_length, farthest / 2);
-  for (std::size_t p = 0; p < count && tendon > 0; ++p) {
-    const Real t = std::min(distances[static_cast<Index>(p)] / tendon, Real{1});
-    shares[p] = t * t * (3 - 2 * t);
-  }
-  return shares;
+std::vector<Index> attached_particles(const PreparedMuscle& muscle) {
+  std::vector<Index> attached;
+  for (std::size_t p = 0; p < muscle.fixed_body.size(); ++p)
+    if (muscle.fixed_body[p] >= 0) attached.push_back(static_cast<Index>(p));
+  return attached;
 }
 
 /// All edges that run more along the fibers than across them. An edge pulls for its triangles by c², c the cosine to
@@ -108,7 +95,8 @@ void build_contractions(const Muscle& muscle, const MeshTopology& topology, Prep
   if (lines.count() == 0) return;
   const std::vector<Pull> pulls =
       muscle.contraction.spread ? spread_pulls(prepared, topology, lines) : segment_pulls(muscle, prepared, lines);
-  const std::vector<Real> belly = belly_shares(prepared, topology);
+  const std::vector<Real> belly =
+      belly_shares(prepared.rest, topology, attached_particles(prepared), prepared.settings.tendon_length);
   std::vector<DistanceConstraint> constraints;
   std::vector<Real> squared_cosines;
   for (const Pull& pull : pulls) {
