@@ -182,7 +182,8 @@ void add_view_command(CLI::App& program, Command& chosen) {
   command->add_option("--size", options->size, "WIDTHxHEIGHT of the window (1280x720)");
   command->add_option("--pictures", options->window.pictures, "Folder that the key p writes pictures to (here)");
   command->add_option("--keys", options->keys,
-                      "Keys to press once everything is read, by their names in X, such as 'End c p q'; 2s waits");
+                      "Keys to press, by their names in X, such as 'End c p q': each as soon as nothing is still to "
+                      "come; after 2s: in 2 seconds");
   command
       ->add_option("--benchmark", options->window.benchmark,
                    "Plays a run as fast as it can for so many seconds, prints the frame rate and closes")

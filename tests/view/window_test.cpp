@@ -145,14 +145,61 @@ TEST_F(ViewCommand, colors_by_stretch_and_shows_its_scale) {
   EXPECT_LT(shot(2).count(240, 780, 150, 560, is_dark_red), shot(1).count(240, 780, 150, 560, is_dark_red) / 2);
 }
 
-TEST_F(ViewCommand, a_scene_follows_its_slider_while_the_window_stays_alive) {
+TEST_F(ViewCommand, zooms_by_the_wheel_and_moves_with_shift) {
+  FlexingLeg(3).written(folder.path() / "run");
+  drive(run(),
+        "key p; at 400 300; for i in 1 2 3; do xdotool click 5; done; key p; "
+        "xdotool keydown shift mousedown 1; at 440 340; at 460 360; xdotool mouseup 1 keyup shift; key p");
+  EXPECT_LT(shot(2).count(0, 800, 90, 560, is_dark_red), 0.8 * shot(1).count(0, 800, 90, 560, is_dark_red));
+  EXPECT_GT(difference(shot(2), shot(3)), 2000);
+  EXPECT_NEAR(shot(3).count(0, 800, 90, 560, is_dark_red), shot(2).count(0, 800, 90, 560, is_dark_red), 400);
+}
+
+TEST_F(ViewCommand, keys_show_edges_fibers_and_ghosts) {
+  FlexingLeg(21).written(folder.path() / "run");
+  drive(run(), "key End p s p s s f p g p");
+  EXPECT_GT(difference(shot(1), shot(2)), 1000);  // edges
+  EXPECT_GT(difference(shot(1), shot(3)), 2000);  // fibers, and muscles that one sees through
+  EXPECT_GT(difference(shot(3), shot(4)), 1000);  // the smaller muscle of the first frame
+}
+
+TEST_F(ViewCommand, jumps_to_the_frame_whose_number_is_typed) {
+  FlexingLeg(21).written(folder.path() / "run");
+  drive(run(), "key End p Home p j 2 0 Return p j 9 9 9 Return p");
+  EXPECT_GT(difference(shot(1), shot(2)), 2000);
+  EXPECT_LT(difference(shot(1), shot(3)), 300);
+  EXPECT_LT(difference(shot(1), shot(4)), 300);
+}
+
+TEST_F(ViewCommand, slices_the_distance_fields_of_bones) {
+  FlexingLeg(3).written(folder.path() / "run");
+  drive(run(), "key p x; sleep 4; key p; at 600 48; xdotool click 1; key p");
+  const auto blue = [](const Vec3& c) { return c.z() > c.x() + 60; };
+  EXPECT_GT(shot(2).count(240, 560, 90, 560, blue), shot(1).count(240, 560, 90, 560, blue) + 500);
+  EXPECT_GT(difference(shot(2), shot(3)), 1000);  // the slider moves the plane
+}
+
+TEST_F(ViewCommand, presses_the_keys_of_a_script) {
+  FlexingLeg(21).written(folder.path() / "run");
+  drive(run() + " --keys 'p End c p'", "sleep 3");
+  ASSERT_GT(shot(2).width, 0);
+  EXPECT_GT(difference(shot(1), shot(2)), 2000);
+}
+
+/// The demo: a slider is pulled, arrows are asked for, another slider is pulled, all is paused.
+TEST_F(ViewCommand, a_scene_follows_its_sliders_and_tells_what_constraints_moved) {
   // The first slider is hip_flexion_r: x from 574 to 784, 68 pixels below the upper edge.
   const std::string log = drive("demo",
                                 "for i in $(seq 90); do grep -q 'pull the sliders' log && break; sleep 1; done; key p; "
-                                "at 720 68; xdotool click 1; sleep 10; key p; key space p; sleep 2; key p");
+                                "at 720 68; xdotool click 1; sleep 10; key p; key space p; sleep 2; key p; "
+                                "key v p space; at 620 68; xdotool click 1; sleep 8; key space p v p");
   EXPECT_NE(log.find("pull the sliders"), std::string::npos);
   EXPECT_GT(difference(shot(1), shot(2)), 5000);
   EXPECT_LT(difference(shot(3), shot(4)), 300);  // paused
+  const auto green = [](const Vec3& c) { return c.y() > c.x() + 40 && c.y() > c.z() + 10; };
+  EXPECT_LT(shot(5).count(200, 570, 90, 560, green), 20);  // no arrows yet: nobody had asked for them
+  EXPECT_GT(shot(6).count(200, 570, 90, 560, green), 200);
+  EXPECT_GT(difference(shot(6), shot(7)), 500);  // the whole frame, and its first iteration
 }
 
 TEST(ViewCommandWithoutDisplay, says_what_to_do_instead) {

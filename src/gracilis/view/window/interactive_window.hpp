@@ -37,8 +37,9 @@ struct WindowOptions {
   std::optional<LiveControls> live;  ///< the window follows the last frame
   int expected_frames = 0;           ///< 0: nobody knows
   Real frames_per_second = 60;       ///< as it happened
-  std::vector<std::string> keys;     ///< pressed as soon as all expected frames are there; "2s" waits 2 seconds
-  Real benchmark = 0;                ///< s; above 0: plays as fast as it can for that long and closes
+  std::vector<std::string> keys;  ///< pressed one after the other as soon as nothing is still to come; "2s": the next
+                                  ///< one after 2 seconds, anyway
+  Real benchmark = 0;             ///< s; above 0: plays as fast as it can for that long and closes
   std::function<std::vector<DistanceField>()> bone_fields;  ///< called on another thread when they are first needed
 };
 

@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/anatomy/tendon.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/simulate/run.hpp>
 
@@ -19,6 +20,16 @@ namespace gracilis {
 static constexpr Real largest_turn = radians(1.25);
 static constexpr Real largest_shift = 0.001;  // m, of coordinates that are translations
 static constexpr Real largest_activation = 0.05;
+static constexpr int kept_passes = 60;  // steps; they are large
+
+/// What each vertex holds on to.
+static std::vector<HeldAt> held_vertices(const Muscle& muscle) {
+  std::vector<HeldAt> held(static_cast<std::size_t>(muscle.surface.vertex_count()), HeldAt::nothing);
+  for (const Attachment& attachment : muscle.attachments)
+    for (const Index v : attachment.vertices)
+      held[static_cast<std::size_t>(v)] = attachment.end == AttachmentEnd::origin ? HeldAt::origin : HeldAt::insertion;
+  return held;
+}
 
 LiveSimulation::LiveSimulation(const Scene& scene, ShapeHistory& history,
                                std::function<std::unique_ptr<DeformationMethod>()> make_method)
@@ -42,6 +53,11 @@ LiveSimulation::LiveSimulation(const Scene& scene, ShapeHistory& history,
     bones.push_back(bone.surface);
   }
   maker_.emplace(std::move(muscles), std::move(bones), shapes_);
+  for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
+    shapes_.held[m] = maker_->shown_of(m, held_vertices(scene.muscles[m]));
+    const std::vector<Real> belly = maker_->shown_of(m, belly_shares(scene.muscles[m]));
+    shapes_.belly[m].assign(belly.begin(), belly.end());
+  }
   wanted_ = {capture_coordinates(scene), std::vector<Real>(scene.muscles.size())};
   reached_ = wanted_;
   history_.append(shown(capture_frame(scene, pose_at(scene, reached_.coordinates))));
@@ -61,6 +77,7 @@ void LiveSimulation::aim(std::size_t coordinate, Real value) {
   const std::lock_guard lock(mutex_);
   wanted_.coordinates.at(coordinate) = value;
   motion_at_ = motion_.size();
+  if (status_ == "ready") status_ = "moving";
   changed_.notify_all();
 }
 
@@ -73,6 +90,7 @@ void LiveSimulation::activate(std::size_t muscle, Real activation) {
   const std::lock_guard lock(mutex_);
   wanted_.activations.at(muscle) = activation;
   motion_at_ = motion_.size();
+  if (status_ == "ready") status_ = "moving";
   changed_.notify_all();
 }
 
@@ -84,6 +102,7 @@ Real LiveSimulation::activation_of(std::size_t muscle) const {
 void LiveSimulation::play_motion() {
   const std::lock_guard lock(mutex_);
   motion_at_ = 0;
+  if (status_ == "ready") status_ = "moving";
   paused_ = false;
   changed_.notify_all();
 }
@@ -109,6 +128,7 @@ void LiveSimulation::step_once() {
 void LiveSimulation::look_again() {
   const std::lock_guard lock(mutex_);
   look_again_ = true;
+  if (status_ == "ready") status_ = "moving";
   changed_.notify_all();
 }
 
@@ -117,6 +137,7 @@ void LiveSimulation::reset() {
   wanted_ = {capture_coordinates(scene_), std::vector<Real>(scene_.muscles.size())};
   motion_at_ = motion_.size();
   reset_ = true;
+  if (status_ == "ready") status_ = "moving";
   changed_.notify_all();
 }
 
@@ -176,6 +197,22 @@ void LiveSimulation::prepare() {
   spdlog::info("ready: pull the sliders");
 }
 
+/// Collects what the next step moves, where somebody wants to see it.
+void LiveSimulation::watch_passes() {
+  passes_.clear();
+  if (!history_.wishes.passes) {
+    method_->watch_passes({});
+    return;
+  }
+  method_->watch_passes([this](const SolverPass& pass) {
+    ShownPass shown{pass.muscle, static_cast<int>(pass.kind), pass.iteration,
+                    picked(pass.moved, maker_->arrow_vertices(pass.muscle)).cast<float>()};
+    if (shown.moved.isZero(0)) return;
+    const std::lock_guard lock(passes_mutex_);
+    passes_.push_back(std::move(shown));
+  });
+}
+
 Frame LiveSimulation::next_frame(int number) {
   Frame frame;
   frame.number = number;
@@ -183,6 +220,7 @@ Frame LiveSimulation::next_frame(int number) {
   frame.pose.activations = reached_.activations;
   frame.pose.time = number / 60.0;
   const auto begin = std::chrono::steady_clock::now();
+  watch_passes();
   method_->advance(frame.pose);
   milliseconds_ = std::chrono::duration<Real, std::milli>(std::chrono::steady_clock::now() - begin).count();
   method_->write(frame);
@@ -218,6 +256,7 @@ void LiveSimulation::work() {
       if (task == Task::step || task == Task::reset) {
         last = next_frame(last.number + 1);
         history_.append(shown(last));
+        history_.forget_passes(last.number - kept_passes);
       }
       if (task == Task::look_again) history_.replace(last.number, shown(last));
     } catch (const Error& error) {
@@ -259,6 +298,7 @@ ShownFrame LiveSimulation::shown(const Frame& frame) {
   result.activation = frame.pose.activations;
   result.activation.resize(scene_.muscles.size());
   result.milliseconds = milliseconds_;
+  result.passes = passes_;
   return result;
 }
 

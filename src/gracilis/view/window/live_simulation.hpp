@@ -60,6 +60,7 @@ class LiveSimulation {
   Task next_task();
   bool approach();
   bool may_step();
+  void watch_passes();
   Frame next_frame(int number);
   ShownFrame shown(const Frame& frame);
   void tell(const std::string& status);
@@ -75,6 +76,8 @@ class LiveSimulation {
   std::optional<FiberTracker> tracker_;
   Wanted reached_;
   Real milliseconds_ = 0;  ///< of the last step
+  std::mutex passes_mutex_;
+  std::vector<ShownPass> passes_;  ///< of the last step
   // Of all, behind the lock.
   mutable std::mutex mutex_;
   std::condition_variable changed_;

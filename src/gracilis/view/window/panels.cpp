@@ -97,7 +97,12 @@ void add_color_bar(const ColorScale& scale, const Rectangle& bar, Overlay& overl
   overlay.add_text(bar.x, bar.y + bar.height + 7, scale.title, 15, ink);
   for (std::size_t i = 0; i < scale.ticks.size(); ++i) {
     const int x = bar.x + static_cast<int>(i) * bar.width / static_cast<int>(scale.ticks.size() - 1);
-    overlay.add_text_centered(std::clamp(x, bar.x + 12, bar.x + bar.width - 14), bar.y - 17, scale.ticks[i], 13, ink);
+    if (i == 0)
+      overlay.add_text(x, bar.y - 17, scale.ticks[i], 13, ink);
+    else if (i + 1 == scale.ticks.size())
+      overlay.add_text_right(x, bar.y - 17, scale.ticks[i], 13, ink);
+    else
+      overlay.add_text_centered(x, bar.y - 17, scale.ticks[i], 13, ink);
   }
 }
 

@@ -35,8 +35,22 @@ RunLoader::RunLoader(const RecordedRun& run, ShapeHistory& history)
   shapes_.muscles = run.muscles;
   shapes_.bones = run.bones;
   maker_.emplace(read_surfaces(run, run.muscles, 0), read_surfaces(run, run.bones, 0), shapes_);
+  for (std::size_t m = 0; m < run.muscles.size(); ++m) take_tissue(m);
   history_.append(read(0));
   thread_ = std::thread([this] { work(); });
+}
+
+void RunLoader::take_tissue(std::size_t muscle) {
+  const Points tissue = recorded_tissue(run_, run_.muscles[muscle]);
+  if (tissue.cols() == 0) return;
+  std::vector<HeldAt> held;
+  std::vector<float> belly;
+  for (const Vec3 vertex : tissue.colwise()) {
+    held.push_back(vertex.x() > 0 ? HeldAt::origin : vertex.y() > 0 ? HeldAt::insertion : HeldAt::nothing);
+    belly.push_back(static_cast<float>(vertex.z()));
+  }
+  shapes_.held[muscle] = maker_->shown_of(muscle, held);
+  shapes_.belly[muscle] = maker_->shown_of(muscle, belly);
 }
 
 RunLoader::~RunLoader() {

@@ -26,6 +26,7 @@ class RunLoader {
   const std::vector<TriangleMesh>& bones() const { return maker_->bones(); }
 
  private:
+  void take_tissue(std::size_t muscle);
   void work();
   ShownFrame read(int frame);
   int frame_without_depth() const;

@@ -20,6 +20,13 @@ void ShapeHistory::replace(int number, ShownFrame frame) {
   if (number >= begin_ && place < frames_.size()) frames_[place] = std::move(shared);
 }
 
+void ShapeHistory::forget_passes(int number) {
+  if (number < begin() || at(number)->passes.empty()) return;
+  ShownFrame frame = *at(number);
+  frame.passes.clear();
+  replace(number, std::move(frame));
+}
+
 int ShapeHistory::begin() const {
   const std::lock_guard lock(mutex_);
   return begin_;

@@ -72,6 +72,8 @@ class ShapeHistory {
   void append(ShownFrame frame);
   /// In place of a frame that is kept; nothing happens when it no longer is.
   void replace(int number, ShownFrame frame);
+  /// Of a frame that is kept.
+  void forget_passes(int number);
   /// The frames begin() ... end() - 1 are kept.
   int begin() const;
   int end() const;

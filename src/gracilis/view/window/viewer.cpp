@@ -67,6 +67,13 @@ WindowReport Viewer::run() {
   tick->SetClientData(this);
   tick->SetCallback([](vtkObject*, unsigned long, void* self, void*) { static_cast<Viewer*>(self)->tick(); });
   interactor_->AddObserver(vtkCommand::TimerEvent, tick);
+  // Whoever wants a picture, mouse or X, gets it with the next tick.
+  interactor_->EnableRenderOff();
+  vtkNew<vtkCallbackCommand> change;
+  change->SetClientData(this);
+  change->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void*) { static_cast<Viewer*>(self)->changed_ = true; });
+  interactor_->AddObserver(vtkCommand::RenderEvent, change);
   interactor_->CreateRepeatingTimer(tick_milliseconds);
   interactor_->Start();
   return report_;
@@ -111,15 +118,25 @@ void Viewer::follow_history() {
   history_.wishes.frame = player_.frame;
 }
 
+/// True while something that was asked for is still to come.
+bool Viewer::is_waiting() const {
+  if (history_.end() < options_.expected_frames) return true;
+  if (state_.slice != Slice::none && fields_.empty() && options_.bone_fields) return true;
+  const bool lacks_depth =
+      state_.color_by == WindowColor::contact_depth && history_.at(player_.frame)->contact_depth.empty();
+  if (!options_.live) return lacks_depth;
+  return (options_.live->status() == "preparing" || options_.live->status() == "moving");
+}
+
+/// Keys are pressed when nothing is still to come, or after a given time.
 void Viewer::press_scripted_keys() {
-  if (history_.end() < options_.expected_frames || now() < keys_wait_until_) return;
-  while (next_key_ < options_.keys.size()) {
+  while (next_key_ < options_.keys.size() && now() >= keys_wait_until_ && (keys_wait_until_ > 0 || !is_waiting())) {
     const std::string& key = options_.keys[next_key_++];
-    if (key.size() > 1 && key.back() == 's' && key.find_first_not_of("0123456789.") == key.size() - 1) {
+    keys_wait_until_ = 0;
+    if (key.size() > 1 && key.back() == 's' && key.find_first_not_of("0123456789.") == key.size() - 1)
       keys_wait_until_ = now() + std::stod(key);
-      return;
-    }
-    press(key);
+    else
+      press(key);
   }
 }
 
@@ -142,7 +159,7 @@ void Viewer::update_slice() {
   }
 }
 
-/// Smooth edges cost as much again as all the rest, so they come when nothing moves.
+/// Smooth edges and all layers of what one sees through cost more than all the rest, so they come when nothing moves.
 void Viewer::draw(bool smooth) {
   const Real begin = now();
   is_smooth_ = smooth;
@@ -151,7 +168,7 @@ void Viewer::draw(bool smooth) {
   const std::shared_ptr<const ShownFrame> frame = history_.at(player_.frame);
   depth_is_shown_ = !frame->contact_depth.empty();
   if (state_.slice != Slice::none) slice_ = bone_slice(shapes_, *frame, fields_, state_.slice, state_.slice_at);
-  scene_->show(player_.frame, state_, slice_);
+  scene_->show(player_.frame, state_, slice_, !smooth);
   write_status();
   scene_renderer_->ResetCameraClippingRange();
   window_->Render();

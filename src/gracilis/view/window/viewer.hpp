@@ -34,6 +34,7 @@ class Viewer {
   // viewer.cpp: what happens when
   void tick();
   void follow_history();
+  bool is_waiting() const;
   void press_scripted_keys();
   void run_benchmark();
   void update_slice();
@@ -60,6 +61,7 @@ class Viewer {
   void lay_out_left();
   void lay_out_right();
   void lay_out_track();
+  void lay_out_directions();
   int lay_out_scale(const ColorScale& scale, int bottom);
   std::vector<OptionEntry> options_shown();
   void write_status();

@@ -15,7 +15,8 @@
 
 namespace gracilis {
 
-static const Color ink = Color::Constant(0.1), faint = Color::Constant(0.38), accent(0.04, 0.36, 0.68);
+static const Color ink = Color::Constant(0.1), faint = Color::Constant(0.38), accent(0.04, 0.36, 0.68),
+                   background(0.96, 0.965, 0.97);
 static constexpr int margin = 16, right_width = 210, track_height = 66;
 
 void Viewer::lay_out() {
@@ -72,11 +73,15 @@ std::vector<OptionEntry> Viewer::options_shown() {
 }
 
 void Viewer::lay_out_left() {
+  overlay_.add_rectangle({0, track_height, right_width, height_ - track_height}, background, 0.7);
   overlay_.add_text(margin, height_ - 32, words_of(shapes_.title), 19, ink);
   std::vector<ListEntry> muscles;
   for (std::size_t m = 0; m < shapes_.muscles.size(); ++m) {
     const MuscleState shown = state_.muscles[m];
-    muscles.push_back({words_of(shapes_.muscles[m]), muscle_color(static_cast<Index>(m)),
+    // Where colors mean something else, the muscles' own would only confuse.
+    const Color color =
+        state_.color_by == WindowColor::muscle ? muscle_color(static_cast<Index>(m)) : Color(Color::Constant(0.6));
+    muscles.push_back({words_of(shapes_.muscles[m]), color,
                        shown == MuscleState::solid         ? 1
                        : shown == MuscleState::transparent ? 0.35
                                                            : 0,
@@ -97,6 +102,8 @@ int Viewer::lay_out_scale(const ColorScale& scale, int bottom) {
 
 void Viewer::lay_out_right() {
   const int left = width_ - margin - right_width;
+  // What lies behind the panel steps back.
+  overlay_.add_rectangle({left - 10, track_height, right_width + margin + 10, height_ - track_height}, background, 0.7);
   int bottom = track_height + 8;
   if (!window_scale(state_.color_by).colors.empty()) bottom = lay_out_scale(window_scale(state_.color_by), bottom);
   if (state_.color_by == WindowColor::tissue || state_.attachments) {
@@ -150,6 +157,7 @@ void Viewer::lay_out_right() {
 void Viewer::lay_out_track() {
   const bool runs = player_.playing || (options_.live && follows_ && !options_.live->is_paused());
   const int y = 20;
+  overlay_.add_rectangle({0, 0, width_, track_height}, background, 0.8);
   if (runs) {
     overlay_.add_rectangle({margin + 2, y - 5, 5, 16}, ink);
     overlay_.add_rectangle({margin + 11, y - 5, 5, 16}, ink);
@@ -175,7 +183,35 @@ void Viewer::lay_out_track() {
   speed_ = overlay_.add_text_right(width_ - margin, 46, "", 14, faint);
   const Real pixels_per_metre = height_ / (2 * scene_renderer_->GetActiveCamera()->GetParallelScale());
   add_scale_bar(margin, track_height + 14, pixels_per_metre, 150, overlay_);
-  overlay_.add_text_centered(width_ / 2, height_ - 30, view_.empty() ? "" : view_ + " view", 15, faint);
+  lay_out_directions();
+}
+
+/// "anterior" for what lies to the right in the picture, and so on, or two words where it lies between two.
+static std::string direction_word(const Vec3& direction, const AnatomicalAxes& axes) {
+  const std::array<std::pair<const char*, Vec3>, 6> words = {{{"anterior", axes.anterior},
+                                                              {"posterior", -axes.anterior},
+                                                              {"superior", axes.superior},
+                                                              {"inferior", -axes.superior},
+                                                              {"subject's right", axes.right()},
+                                                              {"subject's left", -axes.right()}}};
+  std::string text;
+  for (const auto& [word, axis] : words)
+    if (direction.dot(axis) > std::sin(radians(25))) text += (text.empty() ? "" : ", ") + std::string(word);
+  return text;
+}
+
+/// Which way is which, as at the edges of a radiograph.
+void Viewer::lay_out_directions() {
+  double up[3], back[3];
+  scene_renderer_->GetActiveCamera()->GetViewUp(up);
+  scene_renderer_->GetActiveCamera()->GetDirectionOfProjection(back);
+  const Vec3 looking(back), above = (Vec3(up) - Vec3(up).dot(looking) * looking).normalized();
+  const Vec3 right = looking.cross(above);
+  const int side = margin + right_width + 14, middle = (height_ + track_height) / 2;
+  overlay_.add_text(side, middle, direction_word(-right, shapes_.axes), 14, faint);
+  overlay_.add_text_right(width_ - side, middle, direction_word(right, shapes_.axes), 14, faint);
+  overlay_.add_text_centered(width_ / 2, height_ - 24, direction_word(above, shapes_.axes), 14, faint);
+  overlay_.add_text_centered(width_ / 2, track_height + 10, direction_word(-above, shapes_.axes), 14, faint);
 }
 
 /// What the user should know before anything else; empty: nothing.
@@ -198,7 +234,7 @@ std::string Viewer::hint() const {
 void Viewer::write_status() {
   const std::shared_ptr<const ShownFrame> frame = history_.at(player_.frame);
   const std::string hint_text = hint();
-  status_->SetInput(fmt::format("frame {} of {}    {}{}{}", player_.frame, total_frames() - 1, frame->caption,
+  status_->SetInput(fmt::format("frame {} of {}    {}{}{}", player_.frame, total_frames() - 1, words_of(frame->caption),
                                 hint_text.empty() ? "" : "    ", hint_text)
                         .c_str());
   std::string speed = fmt::format("drawn in {:.0f} ms", 1000 * draw_seconds_);

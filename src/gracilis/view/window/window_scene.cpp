@@ -50,7 +50,8 @@ WindowScene::WindowScene(const ShownShapes& shapes, const ShapeHistory& history,
 
 bool is_seen_through(std::size_t muscle, const WindowState& state) {
   return state.muscles[muscle] == MuscleState::transparent || state.fibers ||
-         state.color_by == WindowColor::fiber_strain || state.arrows != Arrows::none || state.slice != Slice::none;
+         state.color_by == WindowColor::fiber_strain || state.arrows != Arrows::none || state.slice != Slice::none ||
+         state.attachments;
 }
 
 static std::vector<Color> tissue_of(const ShownShapes& shapes, std::size_t muscle, std::size_t count) {
@@ -178,7 +179,7 @@ void WindowScene::show_arrows(const ShownFrame& frame, const WindowState& state)
   set_shape(arrow_mesh(displacements, arrow_scale_), arrows_);
 }
 
-void WindowScene::show(int number, const WindowState& state, const ColoredMesh& slice) {
+void WindowScene::show(int number, const WindowState& state, const ColoredMesh& slice, bool fast) {
   const std::shared_ptr<const ShownFrame> frame = history_.at(number);
   show_bones(*frame, state);
   for (std::size_t m = 0; m < muscles_.size(); ++m) {
@@ -194,7 +195,7 @@ void WindowScene::show(int number, const WindowState& state, const ColoredMesh& 
   for (std::size_t m = 0; m < muscles_.size(); ++m)
     translucent = translucent || (is_seen_through(m, state) && state.muscles[m] != MuscleState::hidden);
   renderer_.SetUseDepthPeeling(translucent);
-  renderer_.SetMaximumNumberOfPeels(4);
+  renderer_.SetMaximumNumberOfPeels(fast ? 1 : 4);
 }
 
 void look_from(const std::string& view, const ShownShapes& shapes, const ShapeHistory& history, const Rectangle& part,

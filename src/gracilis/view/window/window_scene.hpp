@@ -18,8 +18,8 @@ class WindowScene {
   /// Both must outlive this.
   WindowScene(const ShownShapes& shapes, const ShapeHistory& history, vtkRenderer& renderer);
 
-  /// Everything as it is in a frame.
-  void show(int frame, const WindowState& state, const ColoredMesh& slice);
+  /// Everything as it is in a frame; `fast`: of what one sees through, the nearest layer only.
+  void show(int frame, const WindowState& state, const ColoredMesh& slice, bool fast);
   /// How many times longer than the displacements the arrows are.
   Real arrow_scale() const { return arrow_scale_; }
 

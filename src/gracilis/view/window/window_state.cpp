@@ -2,9 +2,9 @@
 
 namespace gracilis {
 
-/// Apart, touching, inside: blue, light, red, like the other scales with a middle.
+/// What is apart stays pale, so that contact is what one sees.
 static ColorScale depth_scale() {
-  ColorScale scale = color_scale(ColorBy::edge_stretch);
+  ColorScale scale = color_scale(ColorBy::activation);
   scale.name = "contact-depth";
   scale.title = "contact depth, mm";
   scale.low = -0.002;

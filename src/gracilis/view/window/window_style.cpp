@@ -38,6 +38,8 @@ class WindowStyle : public vtkInteractorStyleTrackballCamera {
   }
   void OnKeyPress() override { events.key(Interactor->GetKeySym() ? Interactor->GetKeySym() : ""); }
   void OnChar() override {}
+  // VTK's would repeat the mouse's last motion at each tick of the window.
+  void OnTimer() override {}
 };
 
 vtkStandardNewMacro(WindowStyle)
