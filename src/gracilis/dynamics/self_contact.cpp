@@ -1,41 +1,128 @@
 #include <gracilis/dynamics/self_contact.hpp>
 
+#include <gracilis/geometry/point_triangle.hpp>
+
+#include <Eigen/Geometry>
+
 namespace gracilis {
 
-/// Parts of a surface that lie back to back farther apart than this at rest, in neighborhoods, meet from outside.
-static constexpr float thickest_sheet = 2;
+namespace {
+
+/// Parts of a surface that lie back to back farther apart than this at rest, in neighborhoods, may meet from outside.
+constexpr float thickest_sheet = 2;
+/// Cosine between normals above which two parts are the same side of a surface.
+constexpr float alike = 0.5f;
+/// The share of their distance at rest that neighbors keep when they fold onto each other.
+constexpr float kept_distance = 0.1f;
+
+/// One part of a surface and the way it faces.
+struct Part {
+  Eigen::Vector3f place, normal;
+};
+
+/// 1 when each is in front of the other, -1 when each is behind, 0 when they do not tell the same.
+float side_of(const Part& one, const Part& other) {
+  const Eigen::Vector3f away = other.place - one.place;
+  const float ahead = away.dot(one.normal), back = away.dot(other.normal);
+  return ahead > 0 && back < 0 ? 1.0f : ahead < 0 && back > 0 ? -1.0f : 0.0f;
+}
+
+/// What the places at rest decide for good; 0: nothing.
+float decided_at_rest(const Part& one, const Part& other, float neighborhood) {
+  const float side = side_of(one, other), cosine = one.normal.dot(other.normal);
+  if (side > 0) return cosine < 0 ? side : 0;
+  const bool is_sheet = (other.place - one.place).norm() < thickest_sheet * neighborhood;
+  return is_sheet && cosine < alike ? side : 0;
+}
+
+Eigen::Vector3f area_of(const Eigen::Matrix3Xf& points, const Eigen::Vector3i& face) {
+  const Eigen::Vector3f a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
+  return (b - a).cross(c - a);
+}
+
+Eigen::Vector3f sum_around(const ContactSurface& surface, const Eigen::Matrix3Xf& points, Index particle) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  const auto at = static_cast<std::size_t>(particle);
+  for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
+    sum += area_of(points, surface.faces.col(surface.fan[static_cast<std::size_t>(i)]));
+  return sum;
+}
+
+/// Whether a point is in front of or behind a triangle, right over it.
+bool is_over(const Eigen::Vector3f& p, const Eigen::Matrix3Xf& points, const Eigen::Vector3i& face) {
+  return nearest_barycentric(p, points.col(face[0]), points.col(face[1]), points.col(face[2])).minCoeff() > 0;
+}
+
+bool share_an_end(const std::array<Index, 2>& edge, const std::array<Index, 2>& other) {
+  return edge[0] == other[0] || edge[0] == other[1] || edge[1] == other[0] || edge[1] == other[1];
+}
+
+/// The corner of a face that is nearest to a point.
+Index nearest_corner(const Eigen::Vector3i& corners, const Eigen::Matrix3Xf& points, const Eigen::Vector3f& from) {
+  Index nearest = corners[0];
+  for (const Index corner : {corners[1], corners[2]})
+    if ((points.col(corner) - from).squaredNorm() < (points.col(nearest) - from).squaredNorm()) nearest = corner;
+  return nearest;
+}
+
+}  // namespace
 
 float SelfRule::side(Index particle, Index face) const {
   Eigen::Vector3f outward = Eigen::Vector3f::Zero();
   const auto at = static_cast<std::size_t>(particle);
   for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
     outward += face_area(surface, surface.fan[static_cast<std::size_t>(i)], particles);
-  return face_area(surface, face, particles).dot(outward) < 0 ? side_at_rest(particle, face) : 0;
+  return face_area(surface, face, particles).dot(outward) < 0 ? side_when_facing(particle, face) : 0;
 }
 
-float SelfRule::side_at_rest(Index particle, Index face) const {
+float SelfRule::side_when_facing(Index particle, Index face) const {
   const Eigen::Vector3i corners = surface.faces.col(face);
-  if (corners[0] == particle || corners[1] == particle || corners[2] == particle) return 0;
-  const auto own = rest_normals.col(particle);
-  Eigen::Vector3f away = rest.col(corners[0]) - rest.col(particle);  // to the nearest corner
-  // Most are neighbors on the same side.
-  if (away.squaredNorm() < neighborhood * neighborhood && own.dot(rest_normals.col(corners[0])) > 0.6f) return 0;
-  for (const Index corner : {corners[1], corners[2]}) {
-    const Eigen::Vector3f other = rest.col(corner) - rest.col(particle);
-    if (other.squaredNorm() < away.squaredNorm()) away = other;
-  }
-  const Eigen::Vector3f rest_facing =
-      rest_normals.col(corners[0]) + rest_normals.col(corners[1]) + rest_normals.col(corners[2]);
-  const float neighborhoods = away.norm() / neighborhood;
-  const bool through = away.dot(own) < 0 && away.dot(rest_facing) > 0 && neighborhoods < thickest_sheet;
-  const bool alike = rest_facing.dot(own) > 1.5f;
-  if (through && !alike) return -1;
-  return neighborhoods > 1 ? 1.0f : 0.0f;
+  if ((corners.array() == static_cast<int>(particle)).any()) return 0;
+  const Index corner = nearest_corner(corners, rest, rest.col(particle));
+  const Eigen::Vector3f facing =
+      (rest_normals.col(corners[0]) + rest_normals.col(corners[1]) + rest_normals.col(corners[2])) / 3;
+  const float decided =
+      decided_at_rest({rest.col(particle), rest_normals.col(particle)}, {rest.col(corner), facing}, neighborhood);
+  if (decided != 0) return decided;
+  const Eigen::Vector3f area = area_of(before, corners);
+  if (area.dot(sum_around(surface, before, particle)) < 0 && is_over(before.col(particle), before, corners))
+    return area.dot(before.col(particle) - before.col(corners[0])) < 0 ? -1.0f : 1.0f;
+  // What comes from afar comes from outside.
+  return (rest.col(corner) - rest.col(particle)).norm() > thickest_sheet * neighborhood ? 1.0f : 0.0f;
 }
 
-SelfRule self_rule(const SurfaceCrowd& crowd, const Particles& particles, Index surface) {
+float SelfRule::side(const std::array<Index, 2>& edge, const std::array<Index, 2>& other) const {
+  if (share_an_end(edge, other)) return 0;
+  const auto middle = [](const Eigen::Matrix3Xf& points, const std::array<Index, 2>& ends) {
+    return Eigen::Vector3f((points.col(ends[0]) + points.col(ends[1])) / 2);
+  };
+  const float decided = decided_at_rest({middle(rest, edge), middle(rest_normals, edge)},
+                                        {middle(rest, other), middle(rest_normals, other)}, neighborhood);
+  if (decided != 0) return decided;
+  const auto normal = [&](const std::array<Index, 2>& ends) {
+    return Eigen::Vector3f(sum_around(surface, before, ends[0]) + sum_around(surface, before, ends[1]));
+  };
+  const Eigen::Vector3f own = normal(edge), facing = normal(other);
+  if (!(own.dot(facing) < 0)) return 0;
+  const EdgeGap gap =
+      edge_gap(before.col(edge[0]), before.col(edge[1]), before.col(other[0]), before.col(other[1]), facing - own);
+  return !gap.crossing ? 0.0f : gap.distance < 0 ? -1.0f : 1.0f;
+}
+
+float SelfRule::most_gap(Index particle, Index face) const {
+  const Eigen::Vector3i corners = surface.faces.col(face);
+  const Index corner = nearest_corner(corners, rest, rest.col(particle));
+  return kept_distance * (rest.col(corner) - rest.col(particle)).norm();
+}
+
+float SelfRule::most_gap(const std::array<Index, 2>& edge, const std::array<Index, 2>& other) const {
+  return kept_distance / 2 * (rest.col(other[0]) + rest.col(other[1]) - rest.col(edge[0]) - rest.col(edge[1])).norm();
+}
+
+SelfRule self_rule(const SurfaceCrowd& crowd, const CrowdState& state, const Particles& particles, Index surface) {
   const auto at = static_cast<std::size_t>(surface);
-  return {crowd.surfaces[at], crowd.rest[at], crowd.rest_normals[at], particles, crowd.neighborhood[at]};
+  return {crowd.surfaces[at], crowd.rest[at], crowd.rest_normals[at],
+          state.before[at],   particles,      crowd.neighborhood[at]};
 }
 
 }  // namespace gracilis

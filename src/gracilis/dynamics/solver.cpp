@@ -74,6 +74,10 @@ const char* name_of(ConstraintKind kind) {
       return "stretch limit";
     case ConstraintKind::muscle_contact:
       return "muscle contact";
+    case ConstraintKind::slivers:
+      return "sliver";
+    case ConstraintKind::tight_places:
+      return "tight place";
     case ConstraintKind::bone_contact:
       return "bone contact";
   }
@@ -127,6 +131,12 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
     case ConstraintKind::stretch_limit:
       if (settings.stretch_limit > 0) limit_edges(system, settings.stretch_limit, state, report);
       break;
+    case ConstraintKind::slivers:
+      project_slivers(system.slivers, state.particles);
+      break;
+    case ConstraintKind::tight_places:
+      project_tight_places(system.tight_places, state.particles);
+      break;
     case ConstraintKind::bone_contact:
       project_contacts(system, placements, state, report);
       break;
@@ -172,7 +182,7 @@ void keep_listed(const SurfaceSolve& surface) {
     refresh_contacts(*surface.system, *surface.placements, *surface.state);
 }
 
-/// All of an iteration up to contact.
+/// All of an iteration up to contact between surfaces.
 void begin_iteration(SurfaceSolve& surface, Progress& progress, double elapsed,
                      const std::function<void(ConstraintKind)>& told) {
   const SolveSettings& settings = surface.settings;
@@ -184,8 +194,7 @@ void begin_iteration(SurfaceSolve& surface, Progress& progress, double elapsed,
     refresh_contacts(*surface.system, *surface.placements, *surface.state);
   else if (iteration % motion_check == 0)
     keep_listed(surface);
-  for (ConstraintKind kind : projection_order) {
-    if (kind == ConstraintKind::bone_contact) continue;
+  for (ConstraintKind kind : kinds_before_contact) {
     project_kind(kind, *surface.system, *surface.placements, settings, *surface.state, surface.report);
     told(kind);
   }
@@ -194,9 +203,10 @@ void begin_iteration(SurfaceSolve& surface, Progress& progress, double elapsed,
 void end_iteration(SurfaceSolve& surface, Progress& progress, const std::function<void(ConstraintKind)>& told) {
   const SolveSettings& settings = surface.settings;
   if (progress.last) keep_listed(surface);
-  project_kind(ConstraintKind::bone_contact, *surface.system, *surface.placements, settings, *surface.state,
-               surface.report);
-  told(ConstraintKind::bone_contact);
+  for (ConstraintKind kind : kinds_after_contact) {
+    project_kind(kind, *surface.system, *surface.placements, settings, *surface.state, surface.report);
+    told(kind);
+  }
   ++surface.report.iterations;
   progress.done =
       progress.last || (settings.stop_displacement > 0 &&
@@ -261,7 +271,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     };
     project(ConstraintKind::volume);
     couple();
-    project(ConstraintKind::bone_contact);
+    for (ConstraintKind kind : kinds_after_contact) project(kind);
   }
 }
 

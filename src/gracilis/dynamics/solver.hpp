@@ -4,9 +4,12 @@
 #include <gracilis/dynamics/field_contact.hpp>
 #include <gracilis/dynamics/particles.hpp>
 #include <gracilis/dynamics/projection.hpp>
+#include <gracilis/dynamics/slivers.hpp>
+#include <gracilis/dynamics/tight_places.hpp>
 
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace gracilis {
@@ -18,6 +21,8 @@ struct SurfaceSystem {
   DistanceSet contractions;  ///< segments that pull while the surface is active; empty for one that never is
   HingeSet hinges;
   VolumeSet volume;
+  SliverSet slivers;  ///< what a surface does where its data are too poor for contact with itself
+  std::vector<TightPlace> tight_places;
   FaceSet large_faces;  ///< those that contact tests between their edges, too
   std::vector<FieldContactSet> contacts;
 };
@@ -59,14 +64,20 @@ enum class ConstraintKind {
   volume,
   stretch_limit,
   muscle_contact,
+  slivers,
+  tight_places,
   bone_contact
 };
 
-/// The kinds that one surface alone has, in the order in which an iteration projects them; contact last, so that
-/// nothing pushes back into a bone. Contact between surfaces comes right before.
+/// The kinds that one surface alone has, in the order in which an iteration projects them. Contact between surfaces
+/// comes between `kinds_before_contact` and `kinds_after_contact`; bone contact is last, so that nothing pushes back
+/// into a bone.
 inline constexpr std::array projection_order = {ConstraintKind::distance,      ConstraintKind::contraction,
                                                 ConstraintKind::dihedral,      ConstraintKind::volume,
-                                                ConstraintKind::stretch_limit, ConstraintKind::bone_contact};
+                                                ConstraintKind::stretch_limit, ConstraintKind::slivers,
+                                                ConstraintKind::tight_places,  ConstraintKind::bone_contact};
+inline constexpr std::span<const ConstraintKind> kinds_before_contact = std::span(projection_order).first(5);
+inline constexpr std::span<const ConstraintKind> kinds_after_contact = std::span(projection_order).subspan(5);
 const char* name_of(ConstraintKind kind);
 
 struct SolveReport {
@@ -111,9 +122,9 @@ struct Coupling {
 using SolveWatch = std::function<void(std::size_t surface, ConstraintKind kind)>;
 
 /// Resets the multipliers and iterates over all surfaces in step: distances, contractions, hinges, volume, stretch
-/// limit, contact between surfaces, bone contact (XPBD; Macklin, Müller, Chentanez 2016). Free particles with a fixed
-/// neighborhood, coinciding ends and flat triangles are survived; they are counted as skipped. Surfaces that stop early
-/// wait for the others.
+/// limit, contact between surfaces, slivers, tight places, bone contact (XPBD; Macklin, Müller, Chentanez 2016). Free
+/// particles with a fixed neighborhood, coinciding ends and flat triangles are survived; they are counted as skipped.
+/// Surfaces that stop early wait for the others.
 void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch = {});
 
 /// The same for one surface alone.

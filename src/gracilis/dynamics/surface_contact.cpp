@@ -62,7 +62,7 @@ Contact contact_of(const PointTouch& touch, const Sides& sides, const Particles&
   }
   contact.normal = touch.side * gap.normal;
   contact.distance = touch.side * gap.distance;
-  contact.gap = sides.probe_gap[p];
+  contact.gap = std::min(sides.probe_gap[p], touch.most_gap);
   return contact;
 }
 
@@ -121,8 +121,8 @@ Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const Cr
   for (const EdgeTouch& touch : touches) {
     const auto& first = crowd.surfaces[a].edges[static_cast<std::size_t>(touch.first)].ends;
     const auto& second = crowd.surfaces[b].edges[static_cast<std::size_t>(touch.second)].ends;
-    const Eigen::Vector3f outward = state.normals[b].col(second[0]) + state.normals[b].col(second[1]) -
-                                    state.normals[a].col(first[0]) - state.normals[a].col(first[1]);
+    const Eigen::Vector3f outward = touch.side * (state.normals[b].col(second[0]) + state.normals[b].col(second[1]) -
+                                                  state.normals[a].col(first[0]) - state.normals[a].col(first[1]));
     const EdgeGap gap =
         edge_gap(particles[a]->position(first[0]) + pair.shift, particles[a]->position(first[1]) + pair.shift,
                  particles[b]->position(second[0]), particles[b]->position(second[1]), outward);
@@ -137,7 +137,8 @@ Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const Cr
     contact.target_weight = {1 - gap.t, gap.t, 0};
     contact.normal = gap.normal;
     contact.distance = gap.distance;
-    contact.gap = std::min(between(pair.first_gap, first, gap.s), between(pair.second_gap, second, gap.t));
+    contact.gap =
+        std::min({between(pair.first_gap, first, gap.s), between(pair.second_gap, second, gap.t), touch.most_gap});
     count += project(contact, crowd.settings, *start[a], *start[b], *particles[a], *particles[b]);
   }
   return count;

@@ -2,15 +2,15 @@
 
 #include <gracilis/dynamics/patch_tree.hpp>
 
+#include <limits>
 #include <vector>
 
 namespace gracilis {
 
 /// How surfaces meet.
 struct SurfaceContactSettings {
-  float self_reach = 0.001f;  ///< m, farthest that parts of one surface are looked for from each other, once per step
-  float friction = 0;         ///< largest tangential motion taken back, as a share of the push
-  float cohesion = 0;         ///< m, farthest that particles which touch at rest may part; 0: as they like
+  float friction = 0;  ///< largest tangential motion taken back, as a share of the push
+  float cohesion = 0;  ///< m, farthest that particles which touch at rest may part; 0: as they like
 };
 
 /// Two surfaces that must not pass through each other, or one with itself. A particle keeps its gap to the other
@@ -39,10 +39,14 @@ struct SurfaceCrowd {
 struct PointTouch {
   Index particle = 0, face = 0;
   float side = 1;
-  float distance = 0;  ///< m, on that side, when last looked at
+  float distance = 0;                                       ///< m, on that side, when last looked at
+  float most_gap = std::numeric_limits<float>::infinity();  ///< m, what neighbors leave each other
 };
+/// Two edges that cross closely, one of each surface; `side` as above.
 struct EdgeTouch {
   Index first = 0, second = 0;
+  float side = 1;
+  float most_gap = std::numeric_limits<float>::infinity();
 };
 
 /// What is near what; workspace of one step.
@@ -53,6 +57,8 @@ struct PairTouches {
   std::vector<EdgeTouch> edges;
 };
 struct CrowdState {
+  std::vector<Eigen::Matrix3Xf> before;  ///< per surface, where its particles were before the step, nothing through
+                                         ///< anything
   std::vector<PatchTree> trees;
   std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where something is near
   std::vector<PairTouches> touches;       ///< one per pair
@@ -63,6 +69,9 @@ void arrange_rounds(SurfaceCrowd& crowd);
 
 /// A state for surfaces at rest.
 CrowdState make_crowd_state(const SurfaceCrowd& crowd);
+
+/// Before a step moves anything: where everything is.
+void remember_places(const std::vector<const Particles*>& particles, CrowdState& state);
 
 /// Finds what is near what, from nothing but where the particles are: once per step, after the prediction.
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state);

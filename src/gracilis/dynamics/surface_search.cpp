@@ -1,3 +1,4 @@
+
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/self_contact.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
@@ -15,6 +16,7 @@ constexpr Index chunk = 256;
 constexpr float listed_within = 0.0015f;
 /// The same for edges, of which there are three times as many; between two looks they hardly come nearer by more.
 constexpr float edges_listed_within = 0.0008f;
+constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Walks each to its nearest face.
 void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Particles& probe, const Particles& target,
@@ -40,6 +42,7 @@ void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, con
           touch.distance = touch.side * gap.distance;
           if (touch.distance >= within) continue;
           if (self && self->side(touch.particle, touch.face) != touch.side) continue;
+          if (self) touch.most_gap = self->most_gap(touch.particle, touch.face);
           part.push_back(touch);
         }
       });
@@ -96,9 +99,9 @@ const PointTouch* touch_of(const std::vector<PointTouch>& near, Index particle) 
   return found != near.end() && found->particle == particle ? &*found : nullptr;
 }
 
-/// Pairs of edges, one of each surface, that cross closely.
+/// Pairs of edges, one of each surface, that cross closely. Within one surface `self` tells which parts may meet.
 void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::vector<const Particles*>& particles,
-                const std::vector<PointTouch>& near_second, std::vector<EdgeTouch>& found) {
+                const std::vector<PointTouch>& near_second, const SelfRule* self, std::vector<EdgeTouch>& found) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   const ContactSurface &first = crowd.surfaces[a], &second = crowd.surfaces[b];
   const std::vector<Index> edges = edges_around(near_second, first);
@@ -115,7 +118,9 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
       // An edge that crosses another closely has an end within half of its length and that.
       for (const Index particle : ends) {
         const PointTouch* touch = touch_of(near_second, particle);
-        if (touch && touch->distance < ball.radius + edges_listed_within) gather_edges(second, touch->face, candidates);
+        if (!touch || !(touch->distance < ball.radius + edges_listed_within)) continue;
+        if (self && self->side(particle, touch->face) != touch->side) continue;
+        gather_edges(second, touch->face, candidates);
       }
       if (candidates.empty()) continue;
       std::sort(candidates.begin(), candidates.end());
@@ -127,8 +132,12 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
         const EdgeBall other_ball = ball_around(b0, b1);
         const float near = ball.radius + other_ball.radius + edges_listed_within;
         if ((ball.center - other_ball.center).squaredNorm() > near * near) continue;
-        const EdgeGap gap = edge_gap(a0, a1, b0, b1, edge_normal(second, candidate, *particles[b]) - own_normal);
-        if (gap.crossing && std::abs(gap.distance) < edges_listed_within) part.push_back({e, candidate});
+        const float side = self ? self->side(ends, other) : 1.0f;
+        if (side == 0) continue;
+        const Eigen::Vector3f outward = side * (edge_normal(second, candidate, *particles[b]) - own_normal);
+        const EdgeGap gap = edge_gap(a0, a1, b0, b1, outward);
+        if (gap.crossing && std::abs(gap.distance) < edges_listed_within)
+          part.push_back({e, candidate, side, self ? self->most_gap(ends, other) : infinity});
       }
     }
   });
@@ -174,11 +183,17 @@ void make_normals(const SurfaceCrowd& crowd, const std::vector<const Particles*>
 
 CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
   CrowdState state;
+  state.before = crowd.rest;
   for (std::size_t s = 0; s < crowd.surfaces.size(); ++s)
     state.trees.push_back(build_patch_tree(crowd.surfaces[s], crowd.rest[s]));
   state.normals = crowd.rest_normals;
   state.touches.resize(crowd.pairs.size());
   return state;
+}
+
+void remember_places(const std::vector<const Particles*>& particles, CrowdState& state) {
+  for (std::size_t s = 0; s < particles.size(); ++s)
+    for (Index p = 0; p < particles[s]->count(); ++p) state.before[s].col(p) = particles[s]->position(p);
 }
 
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
@@ -192,8 +207,7 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     if (pair.is_self()) {
-      find_self(searched[a], self_rule(crowd, *particles[a], pair.first), crowd.settings.self_reach,
-                touches.near_second);
+      find_self(searched[a], self_rule(crowd, state, *particles[a], pair.first), pair.reach, touches.near_second);
     } else {
       find_near(searched[a], pair.shift, searched[b], pair.reach, touches.near_second);
       find_near(searched[b], -pair.shift, searched[a], pair.reach, touches.near_first);
@@ -221,9 +235,10 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     if (pair.is_self()) {
-      const SelfRule rule = self_rule(crowd, *particles[a], pair.first);
+      const SelfRule rule = self_rule(crowd, state, *particles[a], pair.first);
       list_near(touches.near_second, crowd.surfaces[a], state.normals[a], *particles[a], *particles[a],
                 Eigen::Vector3f::Zero(), listed_within, &rule, touches.on_second);
+      find_edges(crowd, pair, particles, touches.near_second, &rule, touches.edges);
       continue;
     }
     // Cohesion also looks at what has parted.
@@ -232,7 +247,7 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
               within, nullptr, touches.on_second);
     list_near(touches.near_first, crowd.surfaces[a], state.normals[a], *particles[b], *particles[a], -pair.shift,
               within, nullptr, touches.on_first);
-    find_edges(crowd, pair, particles, touches.near_second, touches.edges);
+    find_edges(crowd, pair, particles, touches.near_second, nullptr, touches.edges);
   }
   make_normals(
       crowd, particles,

@@ -114,7 +114,7 @@ void find_self(const SearchedSurface& surface, const SelfRule& rule, float reach
       surface, surface, reach, [](const PatchTree::Bounds& bounds) { return bounds; },
       [&](Index particle, const std::vector<Index>& patches) {
         return nearest_face(surface.particles.position(particle), surface, patches, reach, [&](Index face) {
-          return tree.areas.col(face).dot(tree.outward.col(particle)) < 0 ? rule.side_at_rest(particle, face) : 0;
+          return tree.areas.col(face).dot(tree.outward.col(particle)) < 0 ? rule.side_when_facing(particle, face) : 0;
         });
       },
       found);

@@ -17,6 +17,8 @@ constexpr float touching = 0.001f;
 constexpr float deepest_overlap = 0.006f;
 /// Mean edges around a place that belong to it and do not meet it.
 constexpr float neighborhood_edges = 4;
+/// How far parts of one surface are looked for from each other: mean edges, but m at least.
+constexpr float self_reach_edges = 0.5f, least_self_reach = 0.001f;
 
 float mean_edge(const SurfaceSystem& system) {
   double sum = 0;
@@ -77,7 +79,14 @@ SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<Prep
   for (Index first = 0; first < count; ++first)
     for (Index second = settings.self ? first : first + 1; second < count; ++second)
       crowd.pairs.push_back(pair_of(first, second, muscles, margin));
-  for (SurfacePair& pair : crowd.pairs) pair.reach = deepest_overlap + static_cast<float>(settings.reach);
+  const auto reach_of = [&](const SurfacePair& pair, float overlap) {
+    // Parts of one surface come near each other slowly, but edges may cross halfway between particles.
+    if (pair.is_self())
+      return std::max(least_self_reach,
+                      self_reach_edges / neighborhood_edges * crowd.neighborhood[static_cast<std::size_t>(pair.first)]);
+    return overlap + static_cast<float>(settings.reach);
+  };
+  for (SurfacePair& pair : crowd.pairs) pair.reach = reach_of(pair, deepest_overlap);
   arrange_rounds(crowd);
 
   CrowdState state = gracilis::make_crowd_state(crowd);
@@ -95,7 +104,7 @@ SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<Prep
       return gaps.empty() ? 0.0f : *std::min_element(gaps.begin(), gaps.end());
     };
     const float overlap = std::max(0.0f, -std::min(least(pair.first_gap), least(pair.second_gap)));
-    pair.reach = overlap + static_cast<float>(settings.reach);
+    pair.reach = reach_of(pair, overlap);
   }
   return crowd;
 }

@@ -19,6 +19,10 @@ namespace {
 /// Below this share of its stiffness an edge along the fibers would carry nothing and its compliance no finite number.
 constexpr Real smallest_anisotropy = 1e-6;
 constexpr Real smallest_mass_share = 1e-3;
+/// A triangle is a sliver when its tip is nearer to its longest side than this share of that, or of all sides' mean.
+constexpr float flattest = 0.1f;
+/// Parts of a muscle nearer to each other than this at rest are kept on their side one by one, m.
+constexpr Real tight = 1e-4;
 /// A face is large when the circle in it has a radius above this many cells of the bones' fields.
 constexpr Real large_radius = 2;
 
@@ -222,6 +226,11 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   prepared.system.volume =
       build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
                        enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
+  if (scene.contact.self && scene.contact.muscle == MuscleContact::surface) {
+    prepared.system.slivers = build_sliver_set(renumbered.surface.faces, prepared.system.rest, flattest);
+    prepared.system.tight_places =
+        find_tight_places(prepared.rest, renumbered.surface.faces, tight, prepared.system.rest);
+  }
   build_predictor(renumbered, topology, prepared);
   if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
   prepared.is_driven = drives(scene.activation, muscle.name);

@@ -12,8 +12,9 @@ namespace gracilis {
 
 /// The kinds of constraints whose displacements are shown, in the order in which an iteration projects them.
 inline constexpr std::array arrow_kinds = {
-    ConstraintKind::distance,      ConstraintKind::contraction,    ConstraintKind::dihedral,    ConstraintKind::volume,
-    ConstraintKind::stretch_limit, ConstraintKind::muscle_contact, ConstraintKind::bone_contact};
+    ConstraintKind::distance, ConstraintKind::contraction,   ConstraintKind::dihedral,
+    ConstraintKind::volume,   ConstraintKind::stretch_limit, ConstraintKind::muscle_contact,
+    ConstraintKind::slivers,  ConstraintKind::tight_places,  ConstraintKind::bone_contact};
 
 /// After Okabe and Ito (2008): told apart by color-blind readers, too.
 Color arrow_color(ConstraintKind kind);

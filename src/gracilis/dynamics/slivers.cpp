@@ -1,0 +1,112 @@
+#include <gracilis/dynamics/slivers.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace gracilis {
+
+namespace {
+
+struct Candidate {
+  Index tip, a, b;
+  float height;
+};
+
+/// A face seen from the corner opposite its longest side.
+Candidate candidate_of(const Eigen::Vector3i& face, const Particles& rest) {
+  Candidate flattest{0, 0, 0, 0};
+  float longest2 = -1;
+  for (int corner = 0; corner < 3; ++corner) {
+    const Index tip = face[corner], a = face[(corner + 1) % 3], b = face[(corner + 2) % 3];
+    const float length2 = (rest.position(b) - rest.position(a)).squaredNorm();
+    if (length2 > longest2) longest2 = length2, flattest = {tip, a, b, 0};
+  }
+  const Eigen::Vector3f side = rest.position(flattest.b) - rest.position(flattest.a);
+  if (longest2 > 0)
+    flattest.height = side.cross(rest.position(flattest.tip) - rest.position(flattest.a)).norm() / side.norm();
+  return flattest;
+}
+
+float mean_side(const Eigen::Matrix3Xi& faces, const Particles& rest) {
+  double sum = 0;
+  for (const auto& face : faces.colwise())
+    for (int corner = 0; corner < 3; ++corner)
+      sum += (rest.position(face[(corner + 1) % 3]) - rest.position(face[corner])).norm();
+  return faces.size() > 0 ? static_cast<float>(sum / static_cast<double>(faces.size())) : 0;
+}
+
+/// Columns: along the side, across it in the surface, out of the surface. False when they cannot be told apart.
+bool frame_of(const SliverSet& set, const SliverTip& tip, const Particles& particles, Eigen::Matrix3f& frame) {
+  const Eigen::Vector3f along = (particles.position(tip.b) - particles.position(tip.a)).stableNormalized();
+  Eigen::Vector3f out = Eigen::Vector3f::Zero();
+  for (Index i = tip.begin; i < tip.end; ++i) {
+    const Eigen::Vector3i& face = set.faces[static_cast<std::size_t>(i)];
+    const Eigen::Vector3f corner = particles.position(face[0]);
+    out += (particles.position(face[1]) - corner).cross(particles.position(face[2]) - corner);
+  }
+  out = (out - out.dot(along) * along).stableNormalized();
+  frame << along, out.cross(along), out;
+  return along.squaredNorm() > 0 && out.squaredNorm() > 0;
+}
+
+}  // namespace
+
+SliverSet build_sliver_set(const Eigen::Matrix3Xi& faces, const Particles& rest, float flattest) {
+  std::vector<Candidate> candidates;
+  const float mean = mean_side(faces, rest);
+  for (Index f = 0; f < faces.cols(); ++f) {
+    const Candidate candidate = candidate_of(faces.col(f), rest);
+    const float length = (rest.position(candidate.b) - rest.position(candidate.a)).norm();
+    const float mobility =
+        rest.inverse_mass(candidate.tip) + rest.inverse_mass(candidate.a) + rest.inverse_mass(candidate.b);
+    if (candidate.height < flattest * std::max(length, mean) && mobility > 0) candidates.push_back(candidate);
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& l, const Candidate& r) { return l.height > r.height; });
+  std::vector<std::vector<Index>> fans(static_cast<std::size_t>(rest.count()));
+  for (Index f = 0; f < faces.cols(); ++f)
+    for (const Index corner : faces.col(f)) fans[static_cast<std::size_t>(corner)].push_back(f);
+
+  SliverSet set;
+  for (const Candidate& candidate : candidates) {
+    SliverTip tip{candidate.tip, candidate.a, candidate.b};
+    tip.begin = static_cast<Index>(set.faces.size());
+    for (const Index end : {tip.a, tip.b})
+      for (const Index f : fans[static_cast<std::size_t>(end)])
+        if ((faces.col(f).array() != tip.particle).all()) set.faces.push_back(faces.col(f));
+    tip.end = static_cast<Index>(set.faces.size());
+    Eigen::Matrix3f frame;
+    if (!frame_of(set, tip, rest, frame)) continue;
+    const Eigen::Vector3f side = rest.position(tip.b) - rest.position(tip.a),
+                          from_a = rest.position(tip.particle) - rest.position(tip.a);
+    tip.share = std::clamp(from_a.dot(side) / side.squaredNorm(), 0.0f, 1.0f);
+    tip.offset = frame.transpose() * (from_a - tip.share * side);
+    set.tips.push_back(tip);
+  }
+  return set;
+}
+
+void project_slivers(const SliverSet& set, Particles& particles) {
+  for (const SliverTip& tip : set.tips) {
+    Eigen::Matrix3f frame;
+    if (!frame_of(set, tip, particles, frame)) continue;
+    const float w = particles.inverse_mass(tip.particle), wa = particles.inverse_mass(tip.a),
+                wb = particles.inverse_mass(tip.b);
+    const float rest = 1 - tip.share, weight = w + rest * rest * wa + tip.share * tip.share * wb;
+    if (!(weight > 0)) continue;
+    const Eigen::Vector3f beside = rest * particles.position(tip.a) + tip.share * particles.position(tip.b);
+    const Eigen::Vector2f now = frame.rightCols<2>().transpose() * (particles.position(tip.particle) - beside);
+    const Eigen::Vector2f toward = tip.offset.tail<2>().stableNormalized();
+    const float ahead = std::max(now.dot(toward), 0.5f * tip.offset.tail<2>().norm());
+    Eigen::Vector2f aside = now - now.dot(toward) * toward;
+    if (aside.norm() > ahead) aside *= ahead / aside.norm();
+    const Eigen::Vector2f missing = ahead * toward + aside - now;
+    if (missing.squaredNorm() == 0) continue;
+    const Eigen::Vector3f push = frame.rightCols<2>() * missing / weight;
+    particles.position(tip.particle) += w * push;
+    particles.position(tip.a) -= rest * wa * push;
+    particles.position(tip.b) -= tip.share * wb * push;
+  }
+}
+
+}  // namespace gracilis

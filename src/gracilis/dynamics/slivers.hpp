@@ -1,0 +1,32 @@
+#pragma once
+
+#include <gracilis/dynamics/particles.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// The tip of a triangle so flat that distances and angles do not keep it from turning over, held where it was at rest
+/// beside the opposite side a b: at a + share (b - a) + offset, the offset in a frame of the side and the surface's
+/// normal there.
+struct SliverTip {
+  Index particle = 0, a = 0, b = 0;
+  float share = 0;
+  Eigen::Vector3f offset = Eigen::Vector3f::Zero();  ///< m, along the side, across it in the surface, out of it
+  Index begin = 0, end = 0;                          ///< the faces that tell the normal
+};
+
+/// All of a surface, the flattest first.
+struct SliverSet {
+  std::vector<SliverTip> tips;
+  std::vector<Eigen::Vector3i> faces;
+};
+
+/// Tips that are nearer to the opposite, longest side than `flattest` times its length, one at most per particle. Those
+/// that cannot move because all three are fixed are left out.
+SliverSet build_sliver_set(const Eigen::Matrix3Xi& faces, const Particles& rest, float flattest);
+
+/// Puts every tip back beside its side, each moving by its inverse mass.
+void project_slivers(const SliverSet& set, Particles& particles);
+
+}  // namespace gracilis

@@ -1,0 +1,101 @@
+#include <gracilis/dynamics/slivers.hpp>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+namespace gracilis {
+
+/// A flat strip: two long triangles below and above the x axis; between them a sliver whose tip is particle 4, `height`
+/// above the middle of the side from 0 to 1.
+struct Strip {
+  Eigen::Matrix3Xi faces{3, 4};
+  Particles rest;
+
+  explicit Strip(Real height) {
+    faces << 0, 0, 4, 0,  //
+        2, 1, 1, 4,       //
+        1, 4, 3, 3;
+    Points points(3, 5);
+    points.col(0) = Vec3(0, 0, 0), points.col(1) = Vec3(0.01, 0, 0), points.col(2) = Vec3(0.005, -0.01, 0);
+    points.col(3) = Vec3(0.005, 0.01, 0), points.col(4) = Vec3(0.005, height, 0);
+    rest = make_particles(points, Eigen::VectorXd::Ones(5));
+  }
+};
+
+static Eigen::Vector3f center_of_mass(const Particles& particles) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (Index p = 0; p < particles.count(); ++p) sum += particles.position(p);
+  return sum / static_cast<float>(particles.count());
+}
+
+TEST(Slivers, are_triangles_flatter_than_asked_for) {
+  EXPECT_EQ(build_sliver_set(Strip(0.0005).faces, Strip(0.0005).rest, 0.1f).tips.size(), 1u);
+  EXPECT_TRUE(build_sliver_set(Strip(0.004).faces, Strip(0.004).rest, 0.1f).tips.empty());
+}
+
+TEST(Slivers, know_their_tip_by_the_opposite_longest_side) {
+  const Strip strip(0.0005);
+  const SliverTip tip = build_sliver_set(strip.faces, strip.rest, 0.1f).tips.at(0);
+  EXPECT_EQ(tip.particle, 4);
+  EXPECT_EQ(tip.a + tip.b, 1);
+  EXPECT_NEAR(tip.share, 0.5, 1e-6);
+  EXPECT_NEAR(tip.offset.norm(), 0.0005, 1e-8);
+}
+
+TEST(Slivers, at_rest_nothing_moves) {
+  const Strip strip(0.0005);
+  Particles particles = strip.rest;
+  project_slivers(build_sliver_set(strip.faces, strip.rest, 0.1f), particles);
+  EXPECT_EQ(largest_motion(strip.rest, particles), 0);
+}
+
+TEST(Slivers, a_tip_that_turned_over_its_side_comes_back_and_the_center_of_mass_stays) {
+  const Strip strip(0.0005);
+  const SliverSet set = build_sliver_set(strip.faces, strip.rest, 0.1f);
+  for (const Vec3& over : {Vec3(0, -0.001, 0), Vec3(0, -0.0005, 0.002), Vec3(0.001, -0.0008, -0.001)}) {
+    Particles particles = strip.rest;
+    particles.position(4) += over.cast<float>();
+    const Eigen::Vector3f center = center_of_mass(particles);
+    for (int round = 0; round < 20; ++round) project_slivers(set, particles);
+    EXPECT_NEAR((center_of_mass(particles) - center).norm(), 0, 1e-7);
+    const Eigen::Vector3f side = particles.position(1) - particles.position(0),
+                          up = particles.position(4) - particles.position(0);
+    EXPECT_GT(side.cross(up).dot(Eigen::Vector3f::UnitZ()), 0) << over.transpose();
+  }
+}
+
+TEST(Slivers, turn_with_the_surface) {
+  const Strip strip(0.0005);
+  const SliverSet set = build_sliver_set(strip.faces, strip.rest, 0.1f);
+  const Eigen::Matrix3f turn = Eigen::AngleAxisf(2, Eigen::Vector3f(1, 2, 3).normalized()).toRotationMatrix();
+  Particles turned = strip.rest;
+  for (Index p = 0; p < turned.count(); ++p) turned.position(p) = turn * strip.rest.position(p);
+  const Particles before = turned;
+  project_slivers(set, turned);
+  EXPECT_LT(largest_motion(before, turned), 1e-7);
+}
+
+TEST(Slivers, a_fixed_side_stays_and_a_sliver_of_fixed_particles_is_left_out) {
+  Strip strip(0.0005);
+  for (const Index end : {0, 1}) strip.rest.at(end)[3] = 0;
+  Particles particles = strip.rest;
+  particles.position(4).y() = -0.001f;
+  project_slivers(build_sliver_set(strip.faces, strip.rest, 0.1f), particles);
+  EXPECT_EQ(particles.position(0), strip.rest.position(0));
+  EXPECT_EQ(particles.position(1), strip.rest.position(1));
+  EXPECT_NEAR(particles.position(4).y(), 0.00025, 1e-7);
+  strip.rest.at(4)[3] = 0;
+  EXPECT_TRUE(build_sliver_set(strip.faces, strip.rest, 0.1f).tips.empty());
+}
+
+TEST(Slivers, of_no_length_at_all_are_survived) {
+  Strip strip(0);
+  strip.rest.position(1) = strip.rest.position(0);
+  strip.rest.position(4) = strip.rest.position(0);
+  Particles particles = strip.rest;
+  project_slivers(build_sliver_set(strip.faces, strip.rest, 0.1f), particles);
+  for (Index p = 0; p < particles.count(); ++p) EXPECT_TRUE(particles.position(p).allFinite());
+}
+
+}  // namespace gracilis
