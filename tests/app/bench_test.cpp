@@ -26,7 +26,7 @@ TEST(Bench, times_every_phase_of_every_muscle_and_whole_frames) {
     EXPECT_GT(entry.at("triangles").get<int>(), 0);
   }
   EXPECT_EQ(phases.size(), 7u) << "six muscles and all of them";
-  EXPECT_EQ(phases.at("all"), std::set<std::string>{"frame"});
+  EXPECT_EQ(phases.at("all"), (std::set<std::string>{"first_frame", "frame"}));
   EXPECT_EQ(phases.at("iliacus_r"),
             (std::set<std::string>{"iteration", "distance", "dihedral", "volume", "stretch_limit", "bone_contact"}));
 }

@@ -125,6 +125,6 @@ TEST(Presets, every_preset_lies_within_the_ranges_of_the_table) {
   }
 }
 
-TEST(Presets, an_unknown_preset_is_null) { EXPECT_EQ(find_preset("fast"), nullptr); }
+TEST(Presets, an_unknown_preset_is_null) { EXPECT_EQ(find_preset("faster"), nullptr); }
 
 }  // namespace gracilis

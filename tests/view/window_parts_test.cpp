@@ -156,7 +156,7 @@ struct Arrowed {
     frame.passes = {pass(ConstraintKind::distance, 0, 1e-3f), pass(ConstraintKind::distance, 1, 2e-3f),
                     pass(ConstraintKind::bone_contact, 1, -1e-3f)};
     state.muscles = {MuscleState::solid};
-    state.arrow_kinds.assign(8, true);
+    state.arrow_kinds.assign(static_cast<std::size_t>(ConstraintKind::bone_contact) + 1, true);
   }
 };
 
