@@ -10,11 +10,11 @@
 namespace gracilis {
 
 void require_display() {
-  Display* display = XOpenDisplay(nullptr);
+  // Stays open until the program ends: a server that loses its last client may reset, and drop the window's connection.
+  static const Display* const display = XOpenDisplay(nullptr);
   if (!display)
     throw Error(ExitCode::unsupported,
                 "there is no display to open a window on; 'gracilis render' and 'gracilis report' need none");
-  XCloseDisplay(display);
 }
 
 WindowReport show_window(const ShownShapes& shapes, ShapeHistory& history, const WindowOptions& options) {
