@@ -73,7 +73,6 @@ std::vector<OptionEntry> Viewer::options_shown() {
 }
 
 void Viewer::lay_out_left() {
-  overlay_.add_rectangle({0, track_height, right_width, height_ - track_height}, background, 0.7);
   overlay_.add_text(margin, height_ - 32, words_of(shapes_.title), 19, ink);
   std::vector<ListEntry> muscles;
   for (std::size_t m = 0; m < shapes_.muscles.size(); ++m) {
@@ -102,8 +101,12 @@ int Viewer::lay_out_scale(const ColorScale& scale, int bottom) {
 
 void Viewer::lay_out_right() {
   const int left = width_ - margin - right_width;
-  // What lies behind the panel steps back.
-  overlay_.add_rectangle({left - 10, track_height, right_width + margin + 10, height_ - track_height}, background, 0.7);
+  // What lies behind the panel steps back; it costs time, so only where there is a panel.
+  const bool has_panel =
+      options_.live || state_.color_by != WindowColor::muscle || state_.attachments || state_.slice != Slice::none;
+  if (has_panel)
+    overlay_.add_rectangle({left - 10, track_height, right_width + margin + 10, height_ - track_height}, background,
+                           0.7);
   int bottom = track_height + 8;
   if (!window_scale(state_.color_by).colors.empty()) bottom = lay_out_scale(window_scale(state_.color_by), bottom);
   if (state_.color_by == WindowColor::tissue || state_.attachments) {
