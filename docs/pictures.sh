@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes every picture in docs/pictures, all from the built-in hip: the previews of ./demo.sh in both settings, as they
-# are, and what `gracilis render` and `gracilis report` make of those runs.
+# are, what `gracilis render` and `gracilis report` make of those runs, and what `gracilis view` shows.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -21,6 +21,15 @@ $gracilis report out/demo out/demo_thesis_2024 --out out/report.html
 chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader \
   --hide-scrollbars --window-size=1400,860 --virtual-time-budget=4000 --screenshot=$pictures/report.png \
   "file://$PWD/out/report.html#frame=70&color=stretch" 2>/dev/null
+
+# The window presses its keys by itself: the scene's motion, color by edge stretch, a picture; then arrows from the
+# motion's last steps, and another.
+rm -rf out/window
+mkdir -p out/window
+xvfb-run -a -s '-screen 0 1280x800x24' $gracilis view demo --view posterolateral --pictures out/window \
+  --keys 'v m v v c c c c p c c c v p q'
+mv out/window/gracilis_0001.png $pictures/window.png
+mv out/window/gracilis_0002.png $pictures/window_arrows.png
 
 for picture in $pictures/*; do
   size=$(stat --format=%s "$picture")
