@@ -110,9 +110,12 @@ TEST_F(ViewCommand, shows_muscles_and_bones_steps_and_turns) {
 
 TEST_F(ViewCommand, plays_and_pauses_and_tells_how_fast) {
   FlexingLeg(40).written(folder.path() / "run");
-  const std::string log = drive(run(), "key p; key space; sleep 1.5; key space p p");
-  EXPECT_GT(difference(shot(1), shot(2)), 2000);
-  EXPECT_LT(difference(shot(2), shot(3)), 300);  // paused: only the time to draw may differ
+  // Several pictures while it plays: it plays in a circle, and one of them may happen to show the first frame again.
+  const std::string log = drive(run(), "key p; key space; key p p p p p; key space p p");
+  int most = 0;
+  for (int number = 2; number <= 6; ++number) most = std::max(most, difference(shot(1), shot(number)));
+  EXPECT_GT(most, 2000);
+  EXPECT_LT(difference(shot(7), shot(8)), 300);  // paused: only the time to draw may differ
   std::smatch match;
   ASSERT_TRUE(std::regex_search(log, match, std::regex("([0-9.]+) frames per second while playing"))) << log;
   EXPECT_GT(std::stod(match[1]), 0) << log;
