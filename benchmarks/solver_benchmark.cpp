@@ -74,7 +74,7 @@ void refresh(benchmark::State& timer, std::size_t index, int threads) {
     timer.SetIterationTime(std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count());
   }
   std::uint64_t hash = hash_seed;
-  for (const NearField& near : state.near) hash = hash_of(near.edges, hash_of(near.particles, hash));
+  for (const NearField& near : state.near) hash = hash_of(near.edges.a, hash_of(near.particles, hash));
   char text[32];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   timer.SetLabel(text);

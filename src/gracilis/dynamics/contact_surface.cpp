@@ -11,7 +11,7 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index chunk = 1024;
+constexpr Index chunk = 1024, listed_chunk = 128;
 /// Closer than this the direction from the nearest point is rounding (m).
 constexpr float same_place = 1e-7f;
 /// Steps of a walk; each comes nearer, so it ends anyway.
@@ -92,20 +92,12 @@ void particle_normals(const ContactSurface& surface, const Particles& particles,
 
 void particle_normals(const ContactSurface& surface, const Particles& particles, const std::vector<Index>& listed,
                       Eigen::Matrix3Xf& normals) {
-  parallel_for(static_cast<Index>(listed.size()), chunk, [&](Index begin, Index end) {
+  parallel_for(static_cast<Index>(listed.size()), listed_chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const Index p = listed[static_cast<std::size_t>(i)];
       normals.col(p) = particle_normal(p, surface, particles);
     }
   });
-}
-
-Eigen::Matrix3Xf face_areas(const ContactSurface& surface, const Particles& particles) {
-  Eigen::Matrix3Xf areas(3, surface.faces.cols());
-  parallel_for(surface.faces.cols(), chunk, [&](Index begin, Index end) {
-    for (Index f = begin; f < end; ++f) areas.col(f) = face_area(surface, f, particles);
-  });
-  return areas;
 }
 
 Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces) {

@@ -40,8 +40,6 @@ inline Eigen::Vector3f face_area(const ContactSurface& surface, Index face, cons
   return (particles.position(surface.faces(1, face)) - a)
       .cross(Eigen::Vector3f(particles.position(surface.faces(2, face)) - a));
 }
-/// Those of all faces.
-Eigen::Matrix3Xf face_areas(const ContactSurface& surface, const Particles& particles);
 /// At each particle the sum over its faces of what they have, one column each.
 Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces);
 

@@ -1,6 +1,7 @@
 #include <gracilis/dynamics/field_contact.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/field_contact_edges.hpp>
 #include <gracilis/dynamics/field_contact_guard.hpp>
 #include <gracilis/dynamics/field_contact_points.hpp>
 
@@ -15,60 +16,19 @@ namespace {
 
 constexpr Index chunk = 512;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-/// On the field's ridges the interpolated gradient fades; there is no way out to be read from it.
-constexpr float least_slope2 = 1e-4f;
 /// A distance exceeds its ceiling only by more than this, m.
 constexpr float rounding = 1e-7f;
-/// How the deepest point of an edge is followed: the step is the slope along the edge times this, at most a quarter of
-/// a cell.
-constexpr float follow_radius = 0.004f;
 
 }  // namespace
 
-Index project_edge_contacts(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
-                            NearField& near, Particles& particles) {
+Index project_edge_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
+                            Particles& particles) {
   std::atomic<Index> touching = 0;
   const float longest_step = safe_step(*set.field.field) / 2;
-  const std::vector<float>&sag = set.captured.edge_sag, &released = set.released.edge_sag;
-  for (const ColorRange& color : near.edge_colors)
+  for (const ColorRange& color : near.edges.colors)
     parallel_for(color.end - color.begin, chunk, [&](Index begin, Index end) {
-      Index count = 0;
-      for (Index i = color.begin + begin; i < color.begin + end; ++i) {
-        const auto slot = static_cast<std::size_t>(near.edges[static_cast<std::size_t>(i)]);
-        const Index a = distances.a[slot], b = distances.b[slot];
-        const float wa = particles.inverse_mass(a), wb = particles.inverse_mass(b);
-        DeepestPoint& deepest = near.edge_points[static_cast<std::size_t>(i)];
-        float& t = deepest.t;
-        const Eigen::Vector3f xa = particles.position(a), along = particles.position(b) - xa;
-        Eigen::Vector3f q = placement.to_obstacle(xa + (t == unknown_point ? 0.5f : t) * along);
-        if (!may_reach(deepest.seen, q, edge_reserve)) continue;
-        const float ga = near.gap[static_cast<std::size_t>(a)], gb = near.gap[static_cast<std::size_t>(b)];
-        const float low = lowest_share(wa), high = 1 - lowest_share(wb);
-        if (t == unknown_point) {
-          t = deepest_on_edge(set.field.grid, {placement.to_obstacle(xa), ga}, {placement.to_obstacle(xa + along), gb},
-                              low, high);
-          q = placement.to_obstacle(xa + t * along);
-        }
-        const FieldSample at = sample(set.field.grid, q);
-        const float slope2 = at.gradient.squaredNorm();
-        if (slope2 < least_slope2) continue;
-        const Eigen::Vector3f gradient = placement.rotation.transpose() * at.gradient;
-        const float depth =
-            ga + t * (gb - ga) + sag[slot] + placement.release * (released[slot] - sag[slot]) - at.distance;
-        deepest.seen = {q, -depth};
-        const float length2 = along.squaredNorm(), here = t;
-        if (length2 > 0) {
-          const float length = std::sqrt(length2), slope = (gradient.dot(along) - gb + ga) / length;
-          const float step = std::clamp(follow_radius * slope, -longest_step, longest_step) / length;
-          t = std::clamp(t - step, low, high);
-        }
-        if (!(depth > 0)) continue;
-        ++count;
-        const Eigen::Vector3f push = gradient * (depth / slope2 / (wa * (1 - here) * (1 - here) + wb * here * here));
-        particles.position(a) += wa * (1 - here) * push;
-        particles.position(b) += wb * here * push;
-      }
-      touching += count;
+      touching += project_near_edges(set.field.grid, placement, longest_step, {color.begin + begin, color.begin + end},
+                                     near.edges, particles);
     });
   return touching;
 }

@@ -60,14 +60,6 @@ struct Sighting {
   float distance = 0;
 };
 
-/// Where an edge is deepest: 0 at a, 1 at b, or `unknown_point`; and where that point was, and how far above its gap at
-/// least, when the obstacle was last asked.
-struct DeepestPoint {
-  float t = 0;
-  Sighting seen;
-};
-inline constexpr float unknown_point = -1;  ///< nobody has looked yet; `seen` is that of the middle
-
 /// A field's slope may exceed 1 by rounding and interpolation.
 inline constexpr float steepest = 1.1f;
 
@@ -77,13 +69,28 @@ inline bool may_reach(const Sighting& seen, const Eigen::Vector3f& q, float leve
   return left <= 0 || steepest * steepest * (q - seen.place).squaredNorm() >= left * left;
 }
 
+/// Edges near an obstacle, one per slot. Every color is padded to whole groups with edges between copies of the idle
+/// particle.
+struct NearEdges {
+  AlignedVector<Index> a, b;                    ///< particles
+  AlignedVector<float> gap_a, gap_b;            ///< m, that the ends keep, the edge's sag included
+  AlignedVector<float> t;                       ///< the deepest point, 0 at a, 1 at b; or unknown_point
+  AlignedVector<float> seen_x, seen_y, seen_z;  ///< where it was when the obstacle was last asked, m,
+  AlignedVector<float> seen_above;              ///< and how far above its gap at least, m
+  std::vector<ColorRange> colors;
+
+  Index count() const { return static_cast<Index>(a.size()); }
+};
+inline constexpr float unknown_point = -1;  ///< nobody has looked yet; what was seen is that of the middle
+
+/// Gradients shorter than this, squared, tell no way out: on a field's ridges they fade.
+inline constexpr float least_slope2 = 1e-4f;
+
 /// What is close enough to one obstacle to be tested in every iteration, found anew every few, and what is known about
 /// every particle.
 struct NearField {
   std::vector<Index> particles;
-  std::vector<Index> edges;                  ///< distance slots, grouped by color
-  std::vector<DeepestPoint> edge_points;     ///< one per listed edge
-  std::vector<ColorRange> edge_colors;       ///< ranges in `edges`
+  NearEdges edges;
   std::vector<Index> faces;                  ///< face slots, grouped by color
   std::vector<Eigen::Vector3f> face_points;  ///< barycentric
   std::vector<ColorRange> face_colors;
@@ -108,8 +115,8 @@ void find_near(const FieldContactSet& set, const DistanceSet& distances, const F
 
 /// Pushes the deepest points of edges, the deepest points of faces, and particles out along the field's gradient.
 /// Returns how many were touching. An edge's or face's deepest point is followed from iteration to iteration.
-Index project_edge_contacts(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
-                            NearField& near, Particles& particles);
+Index project_edge_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
+                            Particles& particles);
 Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
                             NearField& near, Particles& particles);
 Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,

@@ -1,6 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/coloring.hpp>
 #include <gracilis/dynamics/field_contact.hpp>
+#include <gracilis/dynamics/field_contact_edges.hpp>
 #include <gracilis/dynamics/field_contact_guard.hpp>
 #include <gracilis/dynamics/field_contact_points.hpp>
 
@@ -115,37 +116,48 @@ void remember_sides(const FieldContactSet& set, const FieldPlacement& placement,
   });
 }
 
-/// Where the edge is deepest, if it may be so near that it must be known at once.
-static DeepestPoint first_point(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
-                                const NearField& near, Index a, Index b, float least) {
-  const Eigen::Vector3f from = placement.to_obstacle(particles.position(a)),
-                        to = placement.to_obstacle(particles.position(b));
-  if (least > edge_reserve) return {unknown_point, {(from + to) / 2, least}};
-  const float ga = near.gap[static_cast<std::size_t>(a)], gb = near.gap[static_cast<std::size_t>(b)];
-  return {deepest_on_edge(set.field.grid, {from, ga}, {to, gb}, lowest_share(particles.inverse_mass(a)),
-                          1 - lowest_share(particles.inverse_mass(b))),
-          {}};
+static void list_edge(Index a, Index b, float sag, float least, const FieldPlacement& placement,
+                      const Particles& particles, NearField& near) {
+  NearEdges& edges = near.edges;
+  const Eigen::Vector3f middle = placement.to_obstacle((particles.position(a) + particles.position(b)) / 2);
+  edges.a.push_back(a), edges.b.push_back(b);
+  edges.gap_a.push_back(near.gap[static_cast<std::size_t>(a)] + sag);
+  edges.gap_b.push_back(near.gap[static_cast<std::size_t>(b)] + sag);
+  edges.t.push_back(unknown_point);
+  edges.seen_x.push_back(middle.x()), edges.seen_y.push_back(middle.y()), edges.seen_z.push_back(middle.z());
+  edges.seen_above.push_back(least);
+}
+
+static void clear(NearEdges& edges) {
+  edges.a.clear(), edges.b.clear();
+  for (AlignedVector<float>* each :
+       {&edges.gap_a, &edges.gap_b, &edges.t, &edges.seen_x, &edges.seen_y, &edges.seen_z, &edges.seen_above})
+    each->clear();
+  edges.colors.clear();
 }
 
 static void list_edges(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
                        const Particles& particles, NearField& near) {
   for (const ColorRange& color : distances.colors) {
-    const auto begin = static_cast<Index>(near.edges.size());
+    const Index begin = near.edges.count();
     for (Index slot = color.begin; slot < color.end; ++slot) {
-      const Index a = distances.a[static_cast<std::size_t>(slot)], b = distances.b[static_cast<std::size_t>(slot)];
+      const auto at = static_cast<std::size_t>(slot);
+      const Index a = distances.a[at], b = distances.b[at];
       const float clearances =
           near.clearance[static_cast<std::size_t>(a)] + near.clearance[static_cast<std::size_t>(b)];
       // Most are far away; this needs no position.
-      if (clearances > 2 * element_reach + 4 * steepest * distances.rest_length[static_cast<std::size_t>(slot)])
-        continue;
+      if (clearances > 2 * element_reach + 4 * steepest * distances.rest_length[at]) continue;
       if (!(particles.inverse_mass(a) + particles.inverse_mass(b) > 0)) continue;
       const float least = least_clearance(clearances, (particles.position(b) - particles.position(a)).norm());
       if (least > element_reach) continue;
-      near.edges.push_back(slot);
-      near.edge_points.push_back(first_point(set, placement, particles, near, a, b, least));
+      list_edge(a, b, blended(set.captured.edge_sag, set.released.edge_sag, at, placement.release), least, placement,
+                particles, near);
     }
-    near.edge_colors.push_back({begin, static_cast<Index>(near.edges.size())});
+    const Index idle = particles.count();
+    while (near.edges.count() % group_width != 0) list_edge(idle, idle, 0, infinity, placement, particles, near);
+    near.edges.colors.push_back({begin, near.edges.count()});
   }
+  find_deepest_points(set.field.grid, placement, particles, near.edges);
 }
 
 static void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
@@ -175,9 +187,7 @@ static void list_faces(const FieldContactSet& set, const FaceSet& faces, const F
 void find_near(const FieldContactSet& set, const DistanceSet& distances, const FaceSet& faces,
                const FieldPlacement& placement, float reach, Particles& particles, NearField& near) {
   near.particles.clear();
-  near.edges.clear();
-  near.edge_points.clear();
-  near.edge_colors.clear();
+  clear(near.edges);
   near.faces.clear();
   near.face_points.clear();
   near.face_colors.clear();

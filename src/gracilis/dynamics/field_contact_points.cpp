@@ -4,20 +4,6 @@
 
 namespace gracilis {
 
-float deepest_on_edge(const FieldGrid& field, const ContactCorner& a, const ContactCorner& b, float low, float high) {
-  const Eigen::Vector3f along = b.q - a.q;
-  const float rise = b.gap - a.gap;
-  float best = (low + high) / 2, deepest = std::numeric_limits<float>::infinity();
-  for (int step = 0; step < 4; ++step) {
-    const float t = (low + high) / 2;
-    const FieldSample at = sample(field, Eigen::Vector3f(a.q + t * along));
-    const float height = at.distance - a.gap - t * rise;
-    if (height < deepest) deepest = height, best = t;
-    (at.gradient.dot(along) > rise ? high : low) = t;
-  }
-  return best;
-}
-
 Eigen::Vector3f deepest_on_face(const FieldGrid& field, const std::array<ContactCorner, 3>& corners) {
   Eigen::Vector3f where = Eigen::Vector3f::Constant(1.0f / 3), best = where;
   float deepest = std::numeric_limits<float>::infinity();

@@ -8,6 +8,7 @@ namespace gracilis {
 
 namespace {
 
+/// A patch fills a pack of triangles.
 constexpr Index faces_per_patch = 4, faces_per_bundle = 32;
 constexpr Index chunk = 64;
 /// Cosines this near to 0 may be rounding.
@@ -27,6 +28,7 @@ class Builder {
     deal_out_particles(surface);
     tree_.bounds.resize(tree_.nodes.size());
     tree_.particle_bounds.resize(tree_.patches.size());
+    tree_.triangles.resize(tree_.patches.size());
   }
 
   PatchTree take() { return std::move(tree_); }
@@ -38,8 +40,9 @@ class Builder {
       in_bundle = true;
       tree_.bundle_offsets.push_back(static_cast<Index>(tree_.patches.size()));
     }
-    tree_.nodes.push_back({begin, end, 0, end - begin <= faces_per_patch});
-    if (tree_.nodes[node].is_patch) {
+    tree_.nodes.push_back({begin, end});
+    if (end - begin <= faces_per_patch) {
+      tree_.nodes[node].patch = static_cast<Index>(tree_.patches.size());
       tree_.patches.push_back(static_cast<Index>(node));
     } else {
       const Index middle = halve(begin, end);
@@ -84,23 +87,42 @@ class Builder {
   Eigen::Matrix3Xf centers_;
 };
 
-PatchTree::Bounds bounds_of_faces(const PatchTree& tree, const PatchTree::Node& node, const ContactSurface& surface,
-                                  const Particles& particles) {
+/// A particle's place with a fourth coordinate 0.
+Eigen::Array4f place_of(const Particles& particles, Index particle) {
+  return Eigen::Map<const Eigen::Array4f, Eigen::Aligned16>(particles.at(particle)) * Eigen::Array4f(1, 1, 1, 0);
+}
+
+/// Fits a patch to its faces: triangles, area vectors and bounds. Lanes beyond the last face repeat it.
+void refit_faces(const PatchTree::Node& node, const ContactSurface& surface, const Particles& particles,
+                 PatchTree& tree) {
   PatchTree::Bounds bounds;
-  for (Index i = node.begin; i < node.end; ++i) {
-    const Index face = tree.faces[static_cast<std::size_t>(i)];
-    for (const Index corner : surface.faces.col(face)) bounds.places.extend(particles.position(corner));
-    bounds.normals.extend(tree.areas.col(face).normalized());
+  std::array<TrianglePack::Rows, 3> corners;
+  for (int lane = 0; lane < faces_per_patch; ++lane) {
+    const Index face = tree.faces[static_cast<std::size_t>(std::min<Index>(node.begin + lane, node.end - 1))];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Eigen::Array4f place = place_of(particles, surface.faces(static_cast<Index>(k), face));
+      corners[k].col(lane) = place;
+      bounds.places.extend(place);
+    }
   }
-  return bounds;
+  TrianglePack& triangles = tree.triangles[static_cast<std::size_t>(node.patch)];
+  triangles = TrianglePack::of(corners[0], corners[1], corners[2]);
+  const TrianglePack::Vectors areas = triangles.areas();
+  const TrianglePack::Lanes length2 = areas.dot(areas);
+  const TrianglePack::Rows normals = areas.scaled((length2 > 0).select(length2.rsqrt(), 0.0f)).columns(),
+                           of_faces = areas.columns();
+  for (int lane = 0; lane < faces_per_patch; ++lane) bounds.normals.extend(Eigen::Array4f(normals.col(lane)));
+  for (Index i = node.begin; i < node.end; ++i)
+    tree.areas.col(tree.faces[static_cast<std::size_t>(i)]) = of_faces.col(i - node.begin).head<3>();
+  tree.bounds[static_cast<std::size_t>(tree.patches[static_cast<std::size_t>(node.patch)])] = bounds;
 }
 
 PatchTree::Bounds bounds_of_particles(const PatchTree& tree, std::size_t patch, const Particles& particles) {
   PatchTree::Bounds bounds;
   for (Index i = tree.particle_offsets[patch]; i < tree.particle_offsets[patch + 1]; ++i) {
     const Index p = tree.particles[static_cast<std::size_t>(i)];
-    bounds.places.extend(particles.position(p));
-    bounds.normals.extend(tree.outward.col(p).normalized());
+    bounds.places.extend(place_of(particles, p));
+    bounds.normals.extend(Eigen::Vector3f(tree.outward.col(p).normalized()));
   }
   return bounds;
 }
@@ -112,17 +134,19 @@ PatchTree build_patch_tree(const ContactSurface& surface, const Eigen::Matrix3Xf
 }
 
 void refit(const ContactSurface& surface, const Particles& particles, PatchTree& tree) {
-  tree.areas = face_areas(surface, particles);
-  tree.outward = sums_around_particles(surface, tree.areas);
-  parallel_for(static_cast<Index>(tree.patches.size()), chunk, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const auto patch = static_cast<std::size_t>(i), node = static_cast<std::size_t>(tree.patches[patch]);
-      tree.bounds[node] = bounds_of_faces(tree, tree.nodes[node], surface, particles);
-      tree.particle_bounds[patch] = bounds_of_particles(tree, patch, particles);
-    }
+  tree.areas.resize(3, surface.faces.cols());
+  const auto for_each_patch = [&](const auto& act) {
+    parallel_for(static_cast<Index>(tree.patches.size()), chunk, [&](Index begin, Index end) {
+      for (Index patch = begin; patch < end; ++patch) act(static_cast<std::size_t>(patch));
+    });
+  };
+  for_each_patch([&](std::size_t patch) {
+    refit_faces(tree.nodes[static_cast<std::size_t>(tree.patches[patch])], surface, particles, tree);
   });
+  tree.outward = sums_around_particles(surface, tree.areas);
+  for_each_patch([&](std::size_t patch) { tree.particle_bounds[patch] = bounds_of_particles(tree, patch, particles); });
   for (std::size_t node = tree.nodes.size(); node-- > 0;) {
-    if (tree.nodes[node].is_patch) continue;
+    if (tree.nodes[node].patch >= 0) continue;
     const PatchTree::Bounds &first = tree.bounds[node + 1],
                             &second = tree.bounds[static_cast<std::size_t>(tree.nodes[node + 1].skip)];
     tree.bounds[node] = first.merged(second);
@@ -130,8 +154,8 @@ void refit(const ContactSurface& surface, const Particles& particles, PatchTree&
 }
 
 bool may_meet(const PatchTree::Bounds& one, const PatchTree::Bounds& other, float reach) {
-  if ((one.places.low - reach > other.places.high).any() || (other.places.low - reach > one.places.high).any())
-    return false;
+  // By the largest gap along an axis; asking any() of a comparison would look at one coordinate after the other.
+  if ((one.places.low - other.places.high).max(other.places.low - one.places.high).maxCoeff() > reach) return false;
   // The least cosine between two vectors of the boxes, axis by axis.
   const Eigen::Array4f &a = one.normals.low, &b = one.normals.high, &c = other.normals.low, &d = other.normals.high;
   return (a * c).min(a * d).min((b * c).min(b * d)).sum() < least_cosine;
@@ -144,7 +168,7 @@ void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, floa
       node = static_cast<std::size_t>(at.skip);
       continue;
     }
-    if (at.is_patch) patches.push_back(static_cast<Index>(node));
+    if (at.patch >= 0) patches.push_back(static_cast<Index>(node));
     ++node;
   }
 }

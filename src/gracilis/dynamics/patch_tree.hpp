@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/dynamics/contact_surface.hpp>
+#include <gracilis/dynamics/triangle_pack.hpp>
 
 #include <limits>
 #include <vector>
@@ -16,17 +17,15 @@ struct PatchTree {
   struct Node {
     Index begin = 0, end = 0;  ///< in `faces`
     Index skip = 0;            ///< the first node that is not below this one; nodes stand in depth-first order
-    bool is_patch = false;     ///< nothing is below it
+    Index patch = -1;          ///< its number where it is a patch, with nothing below it
   };
   /// A box with a fourth coordinate, always 0, that lets one instruction compare a corner.
   struct Box {
     Eigen::Array4f low = Eigen::Array4f(infinity, infinity, infinity, 0);
     Eigen::Array4f high = Eigen::Array4f(-infinity, -infinity, -infinity, 0);
 
-    void extend(const Eigen::Vector3f& point) {
-      const Eigen::Array4f at(point.x(), point.y(), point.z(), 0);
-      low = low.min(at), high = high.max(at);
-    }
+    void extend(const Eigen::Array4f& point) { low = low.min(point), high = high.max(point); }
+    void extend(const Eigen::Vector3f& point) { extend(Eigen::Array4f(point.x(), point.y(), point.z(), 0)); }
     Box merged(const Box& other) const { return {low.min(other.low), high.max(other.high)}; }
     void move(const Eigen::Vector3f& by) {
       const Eigen::Array4f along(by.x(), by.y(), by.z(), 0);
@@ -52,6 +51,7 @@ struct PatchTree {
   // What changes with the surface.
   std::vector<Bounds> bounds;           ///< per node, of its faces
   std::vector<Bounds> particle_bounds;  ///< per patch, of its particles
+  std::vector<TrianglePack> triangles;  ///< per patch, its faces in their order
   Eigen::Matrix3Xf areas;               ///< area vectors of the faces
   Eigen::Matrix3Xf outward;             ///< at each particle the sum of those around it
 };

@@ -37,8 +37,7 @@ void project_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
                       SolveReport& report) {
   report.contacts = 0;
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
-    report.contacts +=
-        project_edge_contacts(system.contacts[i], system.distances, placements[i], state.near[i], state.particles);
+    report.contacts += project_edge_contacts(system.contacts[i], placements[i], state.near[i], state.particles);
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
     report.contacts +=
         project_face_contacts(system.contacts[i], system.large_faces, placements[i], state.near[i], state.particles);

@@ -68,23 +68,46 @@ Eigen::Vector3f edge_normal(const ContactSurface& surface, Index edge, const Par
   return sum;
 }
 
-/// An edge by its middle and half of its length.
+/// An edge by its ends, its middle and half of its length.
 struct EdgeBall {
-  Eigen::Vector3f center;
+  Eigen::Vector3f from, to, center;
   float radius;
 };
 
-EdgeBall ball_around(const Eigen::Vector3f& a, const Eigen::Vector3f& b) { return {(a + b) / 2, (b - a).norm() / 2}; }
+EdgeBall ball_around(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+  return {a, b, (a + b) / 2, (b - a).norm() / 2};
+}
 
-/// The edges with an end among the particles that are near, each once.
-std::vector<Index> edges_around(const std::vector<PointTouch>& near, const ContactSurface& surface) {
+/// Whether two edges come near each other between their ends; quick, because most do not.
+bool cross_closely(const EdgeBall& one, const EdgeBall& other) {
+  const float near = one.radius + other.radius + edges_listed_within;
+  if ((one.center - other.center).squaredNorm() > near * near) return false;
+  const Eigen::Vector3f a = one.to - one.from, b = other.to - other.from, between = one.from - other.from,
+                        across = a.cross(b);
+  const float across2 = across.squaredNorm(), s = b.cross(between).dot(across), t = a.cross(between).dot(across);
+  if (s < 0 || s > across2 || t < 0 || t > across2) return false;
+  const float apart = across.dot(between);
+  return apart * apart < edges_listed_within * edges_listed_within * across2;
+}
+
+/// Whether a particle is so near that an edge of this half length from it may cross another closely: one that does has
+/// an end within half of its length and that.
+bool is_near_enough(const PointTouch& touch, float half_length) {
+  return touch.distance < half_length + edges_listed_within;
+}
+
+/// The edges that may cross others closely by what their ends are near, each once.
+std::vector<Index> edges_around(const std::vector<PointTouch>& near, const ContactSurface& surface,
+                                const Particles& particles) {
   std::vector<Index> edges;
   for (const PointTouch& touch : near) {
     const auto at = static_cast<std::size_t>(touch.particle);
     for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
       for (const Index side : surface.sides.col(surface.fan[static_cast<std::size_t>(i)])) {
         const auto& ends = surface.edges[static_cast<std::size_t>(side)].ends;
-        if (ends[0] == touch.particle || ends[1] == touch.particle) edges.push_back(side);
+        if (ends[0] != touch.particle && ends[1] != touch.particle) continue;
+        const float length = (particles.position(ends[1]) - particles.position(ends[0])).norm();
+        if (is_near_enough(touch, length / 2)) edges.push_back(side);
       }
   }
   std::sort(edges.begin(), edges.end());
@@ -104,38 +127,38 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
                 const std::vector<PointTouch>& near_second, const SelfRule* self, std::vector<EdgeTouch>& found) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   const ContactSurface &first = crowd.surfaces[a], &second = crowd.surfaces[b];
-  const std::vector<Index> edges = edges_around(near_second, first);
+  const std::vector<Index> edges = edges_around(near_second, first, *particles[a]);
   const auto count = static_cast<Index>(edges.size());
   found = collect_in_order<EdgeTouch>(count, chunk, [&](Index begin, Index end, std::vector<EdgeTouch>& part) {
     std::vector<Index> candidates;
     for (Index i = begin; i < end; ++i) {
       const Index e = edges[static_cast<std::size_t>(i)];
       const auto& ends = first.edges[static_cast<std::size_t>(e)].ends;
-      const Eigen::Vector3f a0 = particles[a]->position(ends[0]) + pair.shift,
-                            a1 = particles[a]->position(ends[1]) + pair.shift;
-      const EdgeBall ball = ball_around(a0, a1);
+      const EdgeBall ball =
+          ball_around(particles[a]->position(ends[0]) + pair.shift, particles[a]->position(ends[1]) + pair.shift);
+      const auto ball_of = [&](Index other) {
+        const auto& its_ends = second.edges[static_cast<std::size_t>(other)].ends;
+        return ball_around(particles[b]->position(its_ends[0]), particles[b]->position(its_ends[1]));
+      };
       candidates.clear();
-      // An edge that crosses another closely has an end within half of its length and that.
       for (const Index particle : ends) {
         const PointTouch* touch = touch_of(near_second, particle);
-        if (!touch || !(touch->distance < ball.radius + edges_listed_within)) continue;
+        if (!touch || !is_near_enough(*touch, ball.radius)) continue;
         if (self && self->side(particle, touch->face) != touch->side) continue;
         gather_edges(second, touch->face, candidates);
       }
+      std::erase_if(candidates, [&](Index candidate) { return !cross_closely(ball, ball_of(candidate)); });
       if (candidates.empty()) continue;
       std::sort(candidates.begin(), candidates.end());
       candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
       const Eigen::Vector3f own_normal = edge_normal(first, e, *particles[a]);
       for (Index candidate : candidates) {
         const auto& other = second.edges[static_cast<std::size_t>(candidate)].ends;
-        const Eigen::Vector3f b0 = particles[b]->position(other[0]), b1 = particles[b]->position(other[1]);
-        const EdgeBall other_ball = ball_around(b0, b1);
-        const float near = ball.radius + other_ball.radius + edges_listed_within;
-        if ((ball.center - other_ball.center).squaredNorm() > near * near) continue;
         const float side = self ? self->side(ends, other) : 1.0f;
         if (side == 0) continue;
         const Eigen::Vector3f outward = side * (edge_normal(second, candidate, *particles[b]) - own_normal);
-        const EdgeGap gap = edge_gap(a0, a1, b0, b1, outward);
+        const EdgeBall its_ball = ball_of(candidate);
+        const EdgeGap gap = edge_gap(ball.from, ball.to, its_ball.from, its_ball.to, outward);
         if (gap.crossing && std::abs(gap.distance) < edges_listed_within)
           part.push_back({e, candidate, side, self ? self->most_gap(ends, other) : infinity});
       }

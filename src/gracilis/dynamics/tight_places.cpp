@@ -168,7 +168,7 @@ std::vector<TightPlace> find_tight_places(const Points& vertices, const Eigen::M
         std::vector<Index> patches;
         for (Index face = begin; face < end; ++face) {
           PatchTree::Bounds bounds;
-          for (const Index corner : faces.col(face)) bounds.places.extend(points.col(corner));
+          for (const Index corner : faces.col(face)) bounds.places.extend(Eigen::Vector3f(points.col(corner)));
           bounds.normals.low.setConstant(-1), bounds.normals.high.setConstant(1);  // whichever way they face
           patches.clear();
           gather_patches(tree, bounds, static_cast<float>(reach), patches);

@@ -1,7 +1,6 @@
 #include <gracilis/dynamics/touch_search.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/geometry/point_triangle.hpp>
 
 #include <algorithm>
 
@@ -14,15 +13,13 @@ constexpr Index bundles_per_task = 16;
 /// The nearest face of a patch to which `side_of` gives a side, if it is nearer than `least2` (m², squared). Ties go to
 /// the lower face, so that the answer does not depend on the tree.
 template <class SideOf>
-void consider_patch(const Eigen::Vector3f& p, const SearchedSurface& target, const PatchTree::Node& patch,
+void consider_patch(const Eigen::Vector3f& p, const PatchTree& tree, const PatchTree::Node& patch,
                     const SideOf& side_of, PointTouch& nearest, float& least2) {
+  const TrianglePack::Lanes distances2 = tree.triangles[static_cast<std::size_t>(patch.patch)].squared_distances(p);
+  if (distances2.minCoeff() > least2) return;
   for (Index i = patch.begin; i < patch.end; ++i) {
-    const Index face = target.tree.faces[static_cast<std::size_t>(i)];
-    const auto corners = target.surface.faces.col(face);
-    const Eigen::Vector3f a = target.particles.position(corners[0]), b = target.particles.position(corners[1]),
-                          c = target.particles.position(corners[2]);
-    const Eigen::Vector3f weights = nearest_barycentric(p, a, b, c);
-    const float distance2 = (weights[0] * a + weights[1] * b + weights[2] * c - p).squaredNorm();
+    const Index face = tree.faces[static_cast<std::size_t>(i)];
+    const float distance2 = distances2[i - patch.begin];
     if (distance2 > least2 || (distance2 == least2 && nearest.face >= 0 && face > nearest.face)) continue;
     const float side = side_of(face);
     if (side == 0) continue;
@@ -32,30 +29,32 @@ void consider_patch(const Eigen::Vector3f& p, const SearchedSurface& target, con
 }
 
 /// The nearest face in the patches within `reach` of p to which `side_of` gives a side. The nearest patch comes first,
-/// so that few others have to be looked into.
-template <class SideOf>
-PointTouch nearest_face(const Eigen::Vector3f& p, const SearchedSurface& target, const std::vector<Index>& patches,
-                        float reach, const SideOf& side_of) {
+/// so that few others have to be looked into, and none whose bounds `may_face` refuses. `distances2` is workspace.
+template <class SideOf, class MayFace>
+PointTouch nearest_face(const Eigen::Vector3f& p, const PatchTree& tree, const std::vector<Index>& patches, float reach,
+                        const SideOf& side_of, const MayFace& may_face, std::vector<float>& distances2) {
   const Eigen::Array4f place(p.x(), p.y(), p.z(), 0);
-  const auto distance2_of = [&](Index patch) {
-    return target.tree.bounds[static_cast<std::size_t>(patch)].places.squared_distance(place);
-  };
-  Index first = patches.front();
-  float first2 = distance2_of(first);
-  for (const Index patch : patches)
-    if (const float distance2 = distance2_of(patch); distance2 < first2) first2 = distance2, first = patch;
+  distances2.clear();
+  for (const Index patch : patches) {
+    const PatchTree::Bounds& bounds = tree.bounds[static_cast<std::size_t>(patch)];
+    distances2.push_back(may_face(bounds) ? bounds.places.squared_distance(place) : PatchTree::infinity);
+  }
+  const auto first = std::min_element(distances2.begin(), distances2.end());
   PointTouch nearest{-1, -1, 0};
   float least2 = reach * reach;
-  if (first2 > least2) return nearest;
-  consider_patch(p, target, target.tree.nodes[static_cast<std::size_t>(first)], side_of, nearest, least2);
-  for (const Index patch : patches)
-    if (patch != first && distance2_of(patch) <= least2)
-      consider_patch(p, target, target.tree.nodes[static_cast<std::size_t>(patch)], side_of, nearest, least2);
+  if (*first > least2) return nearest;
+  const auto consider = [&](std::size_t i) {
+    consider_patch(p, tree, tree.nodes[static_cast<std::size_t>(patches[i])], side_of, nearest, least2);
+  };
+  const auto begin = static_cast<std::size_t>(first - distances2.begin());
+  consider(begin);
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    if (i != begin && distances2[i] <= least2) consider(i);
   return nearest;
 }
 
-/// Calls see(bounds) for the bounds of particles, which may change them, and touch(particle, patches) for every
-/// particle that has patches of the target within reach; puts the touches with a face together.
+/// Calls see(bounds) for the bounds of particles, which may change them, and touch(particle, patches, workspace) for
+/// every particle that has patches of the target within reach; puts the touches with a face together.
 template <class See, class Touch>
 void search(const SearchedSurface& probe, const SearchedSurface& target, float reach, const See& see,
             const Touch& touch, std::vector<PointTouch>& found) {
@@ -64,6 +63,7 @@ void search(const SearchedSurface& probe, const SearchedSurface& target, float r
   found =
       collect_in_order<PointTouch>(count, bundles_per_task, [&](Index begin, Index end, std::vector<PointTouch>& part) {
         std::vector<Index> near_bundle, near;
+        std::vector<float> workspace;
         for (auto bundle = static_cast<std::size_t>(begin); bundle < static_cast<std::size_t>(end); ++bundle) {
           const auto first = static_cast<std::size_t>(tree.bundle_offsets[bundle]),
                      last = static_cast<std::size_t>(tree.bundle_offsets[bundle + 1]);
@@ -79,7 +79,7 @@ void search(const SearchedSurface& probe, const SearchedSurface& target, float r
             if (near.empty()) continue;
             for (Index i = tree.particle_offsets[patch]; i < tree.particle_offsets[patch + 1]; ++i) {
               const Index particle = tree.particles[static_cast<std::size_t>(i)];
-              PointTouch nearest = touch(particle, near);
+              PointTouch nearest = touch(particle, near, workspace);
               nearest.particle = particle;
               if (nearest.face >= 0) part.push_back(nearest);
             }
@@ -101,9 +101,10 @@ void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const
         bounds.normals.low.setConstant(-1), bounds.normals.high.setConstant(1);  // whichever way they face
         return bounds;
       },
-      [&](Index particle, const std::vector<Index>& patches) {
-        return nearest_face(probe.particles.position(particle) + shift, target, patches, reach,
-                            [](Index) { return 1.0f; });
+      [&](Index particle, const std::vector<Index>& patches, std::vector<float>& workspace) {
+        return nearest_face(
+            probe.particles.position(particle) + shift, target.tree, patches, reach, [](Index) { return 1.0f; },
+            [](const PatchTree::Bounds&) { return true; }, workspace);
       },
       found);
 }
@@ -112,10 +113,17 @@ void find_self(const SearchedSurface& surface, const SelfRule& rule, float reach
   const PatchTree& tree = surface.tree;
   search(
       surface, surface, reach, [](const PatchTree::Bounds& bounds) { return bounds; },
-      [&](Index particle, const std::vector<Index>& patches) {
-        return nearest_face(surface.particles.position(particle), surface, patches, reach, [&](Index face) {
+      [&](Index particle, const std::vector<Index>& patches, std::vector<float>& workspace) {
+        const auto side_of = [&](Index face) {
           return tree.areas.col(face).dot(tree.outward.col(particle)) < 0 ? rule.side_when_facing(particle, face) : 0;
-        });
+        };
+        const Eigen::Vector3f outward = tree.outward.col(particle);
+        const Eigen::Array4f along(outward.x(), outward.y(), outward.z(), 0);
+        // Whether any normal of a patch may point against the particle's.
+        const auto may_face = [&](const PatchTree::Bounds& bounds) {
+          return (along * bounds.normals.low).min(along * bounds.normals.high).sum() <= 0;
+        };
+        return nearest_face(surface.particles.position(particle), tree, patches, reach, side_of, may_face, workspace);
       },
       found);
 }
