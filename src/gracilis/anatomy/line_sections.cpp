@@ -1,17 +1,29 @@
 #include <gracilis/anatomy/line_sections.hpp>
 
+#include <gracilis/anatomy/line_path.hpp>
 #include <gracilis/geometry/polylines.hpp>
 
 #include <algorithm>
 
 namespace gracilis {
 
+/// As many bodies as the line needs.
+static std::size_t body_count(const ActionLine& line) {
+  Index last = 0;
+  for (const Index body : line.bodies) last = std::max(last, body);
+  for (const LinePoint& point : line.path.points) last = std::max(last, point.body);
+  for (const PlacedWrap& wrap : line.path.wraps) last = std::max(last, wrap.body);
+  return static_cast<std::size_t>(last) + 1;
+}
+
 LineSections line_sections(const Muscle& muscle) {
   LineSections result;
   result.line = muscle.action_line;
   const Points centers = subdivide_line(muscle.action_line.points, muscle.action_line.scaling);
-  result.length = polyline_length(centers);
   result.places = distances_along(centers);
+  // The line's points may cut the corners of its path.
+  result.length = polyline_length(line_at(muscle.action_line, capture_pose(body_count(muscle.action_line))));
+  for (Real& place : result.places) place *= result.length / polyline_length(centers);
   result.first_ray = muscle.surface.vertices.col(0) - centers.col(0);
   if (result.first_ray.norm() < 1e-9) result.first_ray = Vec3::UnitX();
   return result;
@@ -50,13 +62,9 @@ static std::vector<Real> places_on(const LineSections& sections, Real length) {
 }
 
 PlacedSections sections_at(const LineSections& sections, const Pose& pose) {
-  const ActionLine& line = sections.line;
-  Points points(3, line.points.cols());
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    points.col(i) =
-        pose.bodies[static_cast<std::size_t>(line.bodies[static_cast<std::size_t>(i)])] * line.points.col(i);
+  const Points points = line_at(sections.line, pose);
   const Points centers = points_along(points, places_on(sections, polyline_length(points)));
-  const Vec3 ray = pose.bodies[static_cast<std::size_t>(line.bodies[0])].linear() * sections.first_ray;
+  const Vec3 ray = pose.bodies[static_cast<std::size_t>(sections.line.bodies[0])].linear() * sections.first_ray;
   return {centers, section_frames(centers, ray)};
 }
 

@@ -8,7 +8,8 @@
 
 namespace gracilis {
 
-/// A muscle's sections across its action line, which moves with its bodies (Laclé 2014).
+/// A muscle's sections across its action line, which moves with its bodies (Laclé 2014): always as many, wherever the
+/// line runs.
 struct LineSections {
   ActionLine line;
   Real length = 0;                 ///< m, of the line in the capture pose
@@ -30,8 +31,8 @@ struct PlacedSections {
   RigidTransform frame(Eigen::Index k) const;
 };
 
-/// The line's points move with their bodies. In the tendons, which keep their lengths, sections keep their distance
-/// from the line's ends; elsewhere their share of the rest.
+/// On the line as it runs in this pose (line_at). In the tendons, which keep their lengths, sections keep their
+/// distance from the line's ends; elsewhere their share of the rest.
 PlacedSections sections_at(const LineSections& sections, const Pose& pose);
 
 }  // namespace gracilis

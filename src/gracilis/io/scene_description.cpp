@@ -181,6 +181,7 @@ static void read_action_line(TomlReader table, ActionLineDescription& descriptio
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3)) line.points = rows->transpose() / 1000;
   if (line.points.cols() != static_cast<Index>(description.bodies.size()))
     table.add_problem("bodies", "'bodies' must name a body for each of 'points_mm'");
+  description.path = read_line_path(table);
   table.reject_unknown_keys();
 }
 
@@ -369,8 +370,12 @@ static void check_references(const SceneDescription& scene, std::vector<Problem>
   }
   for (const MuscleDescription& muscle : scene.muscles) {
     reject_duplicates(muscle.attachments, "attachment", problems);
-    for (const std::string& body : muscle.action_line.bodies)
-      require_known(body, bodies, "body", muscle.place, problems);
+    const ActionLineDescription& line = muscle.action_line;
+    for (const auto* names : {&line.bodies, &line.path.point_bodies, &line.path.wrap_bodies})
+      for (const std::string& body : *names) require_known(body, bodies, "body", muscle.place, problems);
+    for (const auto& point : line.path.coordinates)
+      for (const std::string& coordinate : point)
+        if (!coordinate.empty()) require_known(coordinate, coordinates, "coordinate", muscle.place, problems);
     for (const AttachmentDescription& attachment : muscle.attachments) {
       for (const std::string& bone : attachment.bones) require_known(bone, bones, "bone", attachment.place, problems);
       require_known(attachment.body, bodies, "body", attachment.place, problems);

@@ -3,6 +3,7 @@
 #include <gracilis/anatomy/attachments.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/activation_samples.hpp>
+#include <gracilis/io/line_path_reader.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <array>
@@ -53,8 +54,9 @@ struct AttachmentDescription {
 
 /// The line of a muscle made of sections, with the bodies' names.
 struct ActionLineDescription {
-  ActionLine line;  ///< its bodies are empty
+  ActionLine line;  ///< its bodies and its path are empty
   std::vector<std::string> bodies;
+  LinePathDescription path;
 };
 
 struct MuscleDescription {

@@ -214,6 +214,8 @@ class SceneBuilder {
     muscle.action_line = description.action_line.line;
     for (const std::string& body : description.action_line.bodies)
       muscle.action_line.bodies.push_back(body_index(body));
+    muscle.action_line.path = place_line_path(description.action_line.path, result_.scene,
+                                              [this](const std::string& body) { return body_index(body); });
     if (!description.contraction_file.path.empty()) {
       read(description.contraction_file, [&](const fs::path& path) {
         muscle.given_surface_fibers = read_polylines(path, description.contraction_file.unit);

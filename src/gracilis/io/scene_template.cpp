@@ -119,6 +119,28 @@ threshold = 0.02
 # tendon_mm = 40                                 # optional: length at the insertion; origin_tendon_mm likewise
 # optimal_fiber_mm = 110                         # optional, with pennation_deg: for forces of 'export --to tetrahedra'
 # centers_mm = [[...], ...]                      # optional: of all sections, where they lie beside the line
+# optional: how the line runs in other poses, where its points do not stay on their bodies. A point that is there within
+# a range, or always; or that moves, each component with a coordinate (rows: degrees, mm, mm per degree) or not at all:
+# [[muscles.action_line.path]]
+# body = "femur_r"
+# point_mm = [-70, -200, 130]
+# condition = "knee_angle_r"    # optional, with range_deg (of a translation: range_mm)
+# range_deg = [-120, -40]
+# [[muscles.action_line.path]]
+# body = "tibia_r"
+# frame_mm = [-70, -420, 130]   # and orientation_xyz_rad: the frame that x, y and z are in
+# x = { coordinate = "knee_angle_r", curve_deg = [[-120, 20, 0.1], [0, 30, 0]] } # of a translation: curve_mm
+# y = { mm = -40 }
+# And surfaces that it runs around, between these of its points (counted from 0):
+# [[muscles.action_line.wraps]]
+# kind = "cylinder"             # "cylinder", "sphere", "ellipsoid", "torus"
+# body = "femur_r"
+# center_mm = [-70, -400, 130]  # and orientation_xyz_rad
+# radius_mm = 25                # of an ellipsoid radii_mm; of a torus also ring_radius_mm
+# length_mm = 100               # of a cylinder
+# side = "+x"                   # optional: on this side only
+# first_point = 0
+# last_point = 3
 
 # At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of four ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/geometry/wrapping.hpp>
 #include <gracilis/opensim/function.hpp>
 
 #include <array>
@@ -57,17 +58,10 @@ struct Coupler {
 };
 
 struct WrapObject {
-  enum class Kind { cylinder, sphere, ellipsoid, torus };
   std::string name;
-  Kind kind = Kind::cylinder;
   Index body = 0;
-  RigidTransform frame = RigidTransform::Identity();  ///< the axis of a cylinder or torus is its z
-  Real radius = 0, length = 0;                        ///< a torus' radius is that of its tube
-  Vec3 radii = Vec3::Zero();                          ///< of an ellipsoid
-  Real ring_radius = 0;                               ///< of the circle that a torus' tube lies about
-  int hand = 0;        ///< an obstacle is passed in this sense only: +1 counterclockwise about z, -1 clockwise
-  int side_axis = -1;  ///< 0, 1, 2: wraps on one side only, along this axis (OpenSim's quadrant)
-  int side_sign = 0;   ///< +1 or -1
+  RigidTransform frame = RigidTransform::Identity();
+  WrapSurface surface;
 };
 
 /// A point that a path goes through: always, within a range of a coordinate, or moving with coordinates.
@@ -85,6 +79,7 @@ struct PathPoint {
 struct PathWrap {
   Index object = 0;
   int first_point = -1, last_point = -1;  ///< counted from 1; below 1: the path's own ends
+  WrapSurface::Plane plane = WrapSurface::Plane::hybrid;
 };
 
 /// A muscle's way, through points and around wrap objects, or as a polynomial of coordinates.

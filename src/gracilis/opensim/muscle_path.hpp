@@ -1,24 +1,23 @@
 #pragma once
 
+#include <gracilis/geometry/wrapped_path.hpp>
 #include <gracilis/opensim/skeleton.hpp>
 
 #include <vector>
 
 namespace gracilis::opensim {
 
-/// A point that a path runs through now.
-struct CurrentPoint {
-  Index body = 0;
-  Vec3 place = Vec3::Zero();  ///< in the ground frame
-  int given = -1;             ///< index among Path::points; -1: where it meets or leaves a wrap object
-  int wrap = -1;              ///< index among Path::wraps; two neighbors of the same one have an arc between them
-  Real arc = 0;               ///< m, length on the wrap object up to this point; on the second of the two
-};
+/// Where a point lies in its body, and whether the path runs through it.
+Vec3 location_of(const PathPoint& point, const Eigen::VectorXd& coordinates);
+bool is_active(const PathPoint& point, const Eigen::VectorXd& coordinates);
+
+/// The surfaces that a path may run around, for the bodies at `poses`.
+std::vector<PlacedWrap> placed_wraps(const Model& model, const Path& path, const std::vector<RigidTransform>& poses);
 
 /// Where a path runs for the bodies at `poses` and these coordinates: its active points, and where it touches wrap
-/// objects. These are tried in order, up to eight times where there are several, as OpenSim does.
-std::vector<CurrentPoint> current_points(const Model& model, const Path& path, const std::vector<RigidTransform>& poses,
-                                         const Eigen::VectorXd& coordinates);
+/// objects (geometry/wrapped_path).
+std::vector<PathStop> current_points(const Model& model, const Path& path, const std::vector<RigidTransform>& poses,
+                                     const Eigen::VectorXd& coordinates);
 
 /// A path's length (m), and its moment arms: -dL/dq for every coordinate (m per rad, or per m), by virtual work of a
 /// unit tension (Sherman, Seth, Delp 2013). Coupled coordinates' arms are taken into those they depend on.

@@ -20,15 +20,19 @@ struct Line {
   std::vector<Index> bodies;
 };
 
+/// Points on wrap surfaces are 30 degrees apart at most; others less than 0.1 mm apart become one.
 static Line line_of(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                     const Eigen::VectorXd& coordinates) {
+  std::vector<Index> bodies;
+  const Points all = line_through(current_points(model, muscle.path, poses, coordinates),
+                                  placed_wraps(model, muscle.path, poses), radians(30), &bodies);
   Line line;
-  for (const CurrentPoint& point : current_points(model, muscle.path, poses, coordinates)) {
+  for (Eigen::Index i = 0; i < all.cols(); ++i) {
     const Eigen::Index n = line.points.cols();
-    if (n > 0 && (line.points.col(n - 1) - point.place).norm() < 1e-4) continue;
+    if (n > 0 && (line.points.col(n - 1) - all.col(i)).norm() < 1e-4) continue;
     line.points.conservativeResize(3, n + 1);
-    line.points.col(n) = point.place;
-    line.bodies.push_back(point.body);
+    line.points.col(n) = all.col(i);
+    line.bodies.push_back(bodies[static_cast<std::size_t>(i)]);
   }
   return line;
 }

@@ -13,14 +13,14 @@ namespace gracilis::opensim {
 static const char* const second_cylinder = "/V";
 
 /// "+x", "-y" ...: the side a path stays on; "all" is both.
-static void read_quadrant(const XmlContext& context, const pugi::xml_node& node, WrapObject& object) {
+static void read_quadrant(const XmlContext& context, const pugi::xml_node& node, WrapSurface& surface) {
   const std::string quadrant = context.text(node, "quadrant");
   if (quadrant.empty() || quadrant == "all" || quadrant == "Unassigned") return;
   const char axis = quadrant.back();
   if (quadrant.size() > 2 || axis < 'x' || axis > 'z')
     context.fail(node, fmt::format("<quadrant> is '{}'", quadrant), "use all, +x, -x, +y, -y, +z or -z");
-  object.side_axis = axis - 'x';
-  object.side_sign = quadrant[0] == '-' ? -1 : 1;
+  surface.side_axis = axis - 'x';
+  surface.side_sign = quadrant[0] == '-' ? -1 : 1;
 }
 
 static Real size_of(const XmlContext& context, const pugi::xml_node& node, const char* name, Real otherwise) {
@@ -43,38 +43,39 @@ static constexpr Real obstacle_share = 0.8;
 
 /// Radius and hand of an obstacle: "radius" and "wrapDirection", of the two of a double one "radiusUcyl" and so on.
 static void make_obstacle(const XmlContext& context, const pugi::xml_node& node, const std::string& radius,
-                          const std::string& hand, WrapObject& object) {
-  object.kind = WrapObject::Kind::cylinder;
-  object.radius = obstacle_share * size_of(context, node, radius.c_str(), 1);
-  object.hand = read_hand(context, node, hand.c_str());
-  object.length = 1e6;  // they are cylinders without end
+                          const std::string& hand, WrapSurface& surface) {
+  surface.kind = WrapSurface::Kind::cylinder;
+  surface.radius = obstacle_share * size_of(context, node, radius.c_str(), 1);
+  surface.hand = read_hand(context, node, hand.c_str());
+  surface.length = 1e6;  // they are cylinders without end
 }
 
 /// What an element of this kind is; false for a kind that is not known.
-static bool read_shape(const XmlContext& context, const pugi::xml_node& node, WrapObject& object) {
+static bool read_shape(const XmlContext& context, const pugi::xml_node& node, WrapSurface& surface) {
   const std::string_view kind = node.name();
   if (kind == "WrapCylinder") {
-    object.radius = size_of(context, node, "radius", 1);
-    object.length = context.number(node, "length", 1);
-    if (!(object.length >= 0)) context.fail(node, fmt::format("has the length {}", object.length), "give 0 or more");
+    surface.radius = size_of(context, node, "radius", 1);
+    surface.length = context.number(node, "length", 1);
+    if (!(surface.length >= 0)) context.fail(node, fmt::format("has the length {}", surface.length), "give 0 or more");
   } else if (kind == "WrapSphere" || kind == "WrapSphereObst") {
-    object.kind = WrapObject::Kind::sphere;
-    object.radius = (kind == "WrapSphere" ? 1 : obstacle_share) * size_of(context, node, "radius", 1);
+    surface.kind = WrapSurface::Kind::sphere;
+    surface.radius = (kind == "WrapSphere" ? 1 : obstacle_share) * size_of(context, node, "radius", 1);
   } else if (kind == "WrapEllipsoid") {
-    object.kind = WrapObject::Kind::ellipsoid;
-    object.radii = context.vector(node, "dimensions", Vec3::Constant(-1));
-    if (!(object.radii.minCoeff() > 0)) context.fail(node, "needs <dimensions> of three radii above zero", "give them");
+    surface.kind = WrapSurface::Kind::ellipsoid;
+    surface.radii = context.vector(node, "dimensions", Vec3::Constant(-1));
+    if (!(surface.radii.minCoeff() > 0))
+      context.fail(node, "needs <dimensions> of three radii above zero", "give them");
   } else if (kind == "WrapTorus") {
-    object.kind = WrapObject::Kind::torus;
-    object.radius = size_of(context, node, "inner_radius", -1);
-    object.ring_radius = size_of(context, node, "outer_radius", -1);
-    if (object.ring_radius <= object.radius)
-      context.fail(node, fmt::format("has the radii {} and {}", object.radius, object.ring_radius),
+    surface.kind = WrapSurface::Kind::torus;
+    surface.radius = size_of(context, node, "inner_radius", -1);
+    surface.ring_radius = size_of(context, node, "outer_radius", -1);
+    if (surface.ring_radius <= surface.radius)
+      context.fail(node, fmt::format("has the radii {} and {}", surface.radius, surface.ring_radius),
                    "the outer one must be larger");
   } else if (kind == "WrapCylinderObst") {
-    make_obstacle(context, node, "radius", "wrapDirection", object);
+    make_obstacle(context, node, "radius", "wrapDirection", surface);
   } else if (kind == "WrapDoubleCylinderObst") {
-    make_obstacle(context, node, "radiusUcyl", "wrapUcylDirection", object);
+    make_obstacle(context, node, "radiusUcyl", "wrapUcylDirection", surface);
   } else {
     return false;
   }
@@ -90,7 +91,7 @@ static void add_wrap_object(ModelReading& reading, const pugi::xml_node& node, W
 /// The second cylinder of a double obstacle may be on another body.
 static void add_second_cylinder(ModelReading& reading, const pugi::xml_node& node, WrapObject object) {
   const XmlContext& context = reading.context;
-  make_obstacle(context, node, "radiusVcyl", "wrapVcylDirection", object);
+  make_obstacle(context, node, "radiusVcyl", "wrapVcylDirection", object.surface);
   object.name += second_cylinder;
   const std::string body = context.text(node, "wrapVcylHomeBodyName");
   if (!body.empty() && body != "Unassigned") object.body = reading.frame(node, body, "").body;
@@ -107,12 +108,12 @@ void read_wrap_objects(ModelReading& reading, const pugi::xml_node& holder, cons
     object.body = frame.body;
     object.frame = frame.in_body * body_fixed_xyz(context.vector(node, "xyz_body_rotation", Vec3::Zero()),
                                                   context.vector(node, "translation", Vec3::Zero()));
-    if (!read_shape(context, node, object)) {
+    if (!read_shape(context, node, object.surface)) {
       reading.leave_out(node, "kind of wrap object not known; paths pass through it");
       continue;
     }
     if (!context.boolean(node, "active", true)) continue;
-    read_quadrant(context, node, object);
+    read_quadrant(context, node, object.surface);
     add_wrap_object(reading, node, object);
     if (std::string_view(node.name()) == "WrapDoubleCylinderObst") add_second_cylinder(reading, node, object);
   }
@@ -157,6 +158,14 @@ static PathPoint read_point(ModelReading& reading, const pugi::xml_node& node) {
   return point;
 }
 
+static WrapSurface::Plane read_plane(const XmlContext& context, const pugi::xml_node& node) {
+  const std::string method = context.text(node, "method");
+  if (method.empty() || method == "hybrid" || method == "Unassigned") return WrapSurface::Plane::hybrid;
+  if (method == "midpoint") return WrapSurface::Plane::midpoint;
+  if (method == "axial") return WrapSurface::Plane::axial;
+  context.fail(node, fmt::format("<method> is '{}'", method), "use hybrid, midpoint or axial");
+}
+
 static void read_wraps(ModelReading& reading, const pugi::xml_node& node, Path& path) {
   for (const pugi::xml_node& each : objects_of(node, "PathWrapSet")) {
     const std::string name = last_name(reading.context.text(each, "wrap_object"));
@@ -173,8 +182,9 @@ static void read_wraps(ModelReading& reading, const pugi::xml_node& node, Path& 
       wrap.first_point = number(range[0]);
       wrap.last_point = number(range[1]);
     }
-    const auto& object = reading.model.wrap_objects[static_cast<std::size_t>(wrap.object)];
-    path.approximate = path.approximate || object.kind != WrapObject::Kind::cylinder || object.hand != 0;
+    wrap.plane = read_plane(reading.context, each);
+    const WrapSurface& surface = reading.model.wrap_objects[static_cast<std::size_t>(wrap.object)].surface;
+    path.approximate = path.approximate || surface.kind != WrapSurface::Kind::cylinder || surface.hand != 0;
     path.wraps.push_back(wrap);
     wrap.object = index_of(reading.model.wrap_objects, name + second_cylinder);
     if (wrap.object >= 0) path.wraps.push_back(wrap);

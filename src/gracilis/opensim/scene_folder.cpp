@@ -4,6 +4,7 @@
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/mesh_writer.hpp>
 #include <gracilis/opensim/scene_joints.hpp>
+#include <gracilis/opensim/scene_lines.hpp>
 #include <gracilis/opensim/skeleton.hpp>
 
 #include <fmt/format.h>
@@ -47,7 +48,8 @@ static std::string joint_text(const Model& model, const Joint& joint, const Skel
   return text;
 }
 
-static std::string muscle_text(const Model& model, const std::string& name, const MuscleVolume& volume) {
+static std::string muscle_text(const Model& model, const std::string& name, const MuscleVolume& volume,
+                               const std::string& path) {
   std::string text =
       fmt::format("\n[[muscles]]\nname = {}\nfile = {}\n", quoted(name), quoted("muscles/" + name + ".vtp"));
   std::vector<std::string> bodies, points;
@@ -66,6 +68,7 @@ static std::string muscle_text(const Model& model, const std::string& name, cons
     for (const Vec3 center : line.centers.colwise()) centers.push_back(vector(1000 * center));
     text += fmt::format("centers_mm = [{}]\n", fmt::join(centers, ", "));
   }
+  text += path;
   for (std::size_t i = 0; i < volume.held.size(); ++i) {
     const HeldVertices& held = volume.held[i];
     const bool origin = held.end == AttachmentEnd::origin;
@@ -132,7 +135,7 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
       if (settings.volumes.surfaces.count(muscle->name) > 0 && volume.sections_on_surface == 0)
         left_out.push_back(fmt::format("muscle '{}': its surface is nowhere near its line", muscle->name));
       write_surface(folder / "muscles" / (name + ".vtp"), volume.surface.vertices, volume.surface.faces);
-      text += muscle_text(model, name, volume);
+      text += muscle_text(model, name, volume, line_path_text(model, *muscle, skeleton.poses(), coordinates, left_out));
     } catch (const InputError& error) {
       left_out.push_back(error.what());
     }

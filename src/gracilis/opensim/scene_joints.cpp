@@ -42,6 +42,17 @@ Real value_of(const SceneAxis& axis, const Eigen::VectorXd& coordinates) {
   return value(axis.axis->function, arguments);
 }
 
+std::optional<SceneCoordinate> scene_coordinate(const Model& model, Index coordinate) {
+  const Index joint = model.coordinates[static_cast<std::size_t>(coordinate)].joint;
+  for (const SceneAxis& axis : scene_axes(model, model.joints[static_cast<std::size_t>(joint)])) {
+    const Function& f = axis.axis->function;
+    if (axis.axis->coordinates != std::vector<Index>{coordinate} || f.kind != Function::Kind::linear) continue;
+    const Real slope = f.scale * f.coefficients[0];
+    if (slope != 0) return SceneCoordinate{axis.coordinate, slope, f.scale * f.coefficients[1], axis.translation};
+  }
+  return {};
+}
+
 Table scene_motion(const Model& model, const CoordinateMotion& motion, const std::string& name) {
   Table table;
   table.name = name;

@@ -116,10 +116,10 @@ class SkeletonFit {
 
   static void scale_wrap(WrapObject& object, const FittedBody& fit) {
     object.frame.translation() = fit.scale.asDiagonal() * object.frame.translation();
-    object.radius *= fit.size();
-    object.length *= fit.size();
-    object.radii *= fit.size();
-    object.ring_radius *= fit.size();
+    object.surface.radius *= fit.size();
+    object.surface.length *= fit.size();
+    object.surface.radii *= fit.size();
+    object.surface.ring_radius *= fit.size();
   }
 
   void scale_path(Path& path) {

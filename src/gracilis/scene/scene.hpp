@@ -1,13 +1,16 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
+#include <gracilis/geometry/hermite_curve.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/geometry/wrapped_path.hpp>
 #include <gracilis/scene/activation.hpp>
 #include <gracilis/scene/contraction_settings.hpp>
 #include <gracilis/scene/fiber_settings.hpp>
 #include <gracilis/scene/settings.hpp>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -51,6 +54,30 @@ struct Attachment {
   bool guessed = false;         ///< not measured: marked so in the run's manifest
 };
 
+/// A coordinate that a point of a line depends on.
+struct LineCoordinate {
+  Index index = -1;  ///< in Pose::coordinates; -1: none
+  Real capture = 0;  ///< its value in the capture pose, which poses without coordinates are
+};
+
+/// A point of a muscle's line: always there, or within a range of a coordinate; fixed to a body, or moving beside it.
+struct LinePoint {
+  Index body = 0;
+  Vec3 place = Vec3::Zero();  ///< world frame of the capture pose
+  LineCoordinate condition;   ///< there while it is within the range
+  Real range_min = 0, range_max = 0;
+  bool moving = false;  ///< then it is where `moves_to` says in `frame`, each component with a coordinate of its own
+  RigidTransform frame = RigidTransform::Identity();  ///< moves with the body, world frame of the capture pose
+  std::array<LineCoordinate, 3> moves_with;
+  std::array<HermiteCurve, 3> moves_to;  ///< m, over rad or m
+};
+
+/// How a muscle's line runs in any pose: through points, around surfaces (in the world frame of the capture pose).
+struct LinePath {
+  std::vector<LinePoint> points;
+  std::vector<PlacedWrap> wraps;
+};
+
 /// The line that a muscle pulls along, where its surface is made of sections across it (methods/cylinder).
 struct ActionLine {
   Points points = Points(3, 0);  ///< world frame of the capture pose, origin first
@@ -63,6 +90,8 @@ struct ActionLine {
   Points centers = Points(3, 0);
   Real optimal_fiber = 0;  ///< m; 0: not known
   Real pennation = 0;      ///< rad, at the optimal fiber length
+  /// How the line runs in other poses; without points, `points` move with their bodies.
+  LinePath path = {};
 };
 
 /// A corner of a muscle's section.

@@ -151,6 +151,41 @@ struct Validation {
     if (!known) add(where, "'slide_on_bone' names '" + name + "', but the scene has no such bone");
   }
 
+  void check_coordinate(const std::string& where, const LineCoordinate& coordinate) {
+    Index count = 0;
+    for (const Joint& joint : scene.joints) count += static_cast<Index>(joint.axes.size());
+    if (coordinate.index >= count || !std::isfinite(coordinate.capture))
+      add(where, "its line depends on a coordinate that does not exist");
+  }
+
+  void check_path(const std::string& where, const LinePath& path) {
+    if (path.points.size() == 1) add(where, "its line has a path of one point", "give two or more, or none");
+    for (const LinePoint& point : path.points) {
+      check_body(where, point.body);
+      check_coordinate(where, point.condition);
+      for (const LineCoordinate& coordinate : point.moves_with) check_coordinate(where, coordinate);
+      bool finite = point.place.allFinite() && point.frame.matrix().allFinite();
+      for (const HermiteCurve& curve : point.moves_to) {
+        const auto sound = [](Real x) { return std::isfinite(x); };
+        for (const auto* numbers : {&curve.knots, &curve.values, &curve.slopes})
+          finite =
+              finite && numbers->size() == curve.knots.size() && std::all_of(numbers->begin(), numbers->end(), sound);
+        finite = finite && std::is_sorted(curve.knots.begin(), curve.knots.end());
+      }
+      if (!finite) add(where, "a point of its line has no place", "correct [[muscles.action_line.path]]");
+    }
+    for (const PlacedWrap& wrap : path.wraps) {
+      check_body(where, wrap.body);
+      const WrapSurface& s = wrap.surface;
+      const bool ellipsoid = s.kind == WrapSurface::Kind::ellipsoid, torus = s.kind == WrapSurface::Kind::torus;
+      const Real least = ellipsoid ? s.radii.minCoeff()
+                         : torus   ? std::min(s.radius, s.ring_radius - s.radius)
+                                   : s.radius;
+      if (!wrap.frame.matrix().allFinite() || !(least > 0) || !s.radii.allFinite())
+        add(where, "a surface that its line runs around has no size", "correct [[muscles.action_line.wraps]]");
+    }
+  }
+
   /// The surface must have as many vertices as its sections ask for.
   void check_line(const std::string& where, const Muscle& muscle) {
     const ActionLine& line = muscle.action_line;
@@ -160,6 +195,7 @@ struct Validation {
       return;
     }
     for (const Index body : line.bodies) check_body(where, body);
+    check_path(where, line.path);
     if (line.rays < 6 || line.rays % 2 != 0) add(where, "its sections must have an even number of corners, 6 or more");
     if (!line.points.allFinite() || line.points.cols() < 2 ||
         line.points.cols() != static_cast<Index>(line.bodies.size()) || line.scaling < 0 || line.scaling > 16) {
