@@ -103,4 +103,20 @@ TEST(ImportCommand, a_missing_surface_is_named_and_fails_when_strict) {
   EXPECT_THAT(result.err, testing::HasSubstr("body 'rod': its surface 'rod.vtp' is not found"));
 }
 
+TEST(ImportCommand, a_joint_of_an_unknown_kind_is_named_and_fails_where_strict) {
+  const TestFolder folder;
+  const std::string text = opensim::document(
+      opensim::set("BodySet", opensim::body("rod")) +
+      opensim::set("JointSet", opensim::joint("ConveyorJoint", "belt", "/ground", "rod", opensim::coordinate("q"))) +
+      opensim::set("ForceSet", muscle("m", point("/ground", "0.1 0.1 0") + point("/bodyset/rod", "0.05 -0.3 0"))));
+  const std::string import =
+      "import " + folder.write("m.osim", text).string() + " --out " + (folder.path() / "scene").string();
+  const ProgramResult strict = run_program(import + " --strict");
+  EXPECT_EQ(strict.exit_code, 4);
+  EXPECT_THAT(strict.err, testing::HasSubstr("ConveyorJoint 'belt'"));
+  const ProgramResult free = run_program(import);
+  EXPECT_EQ(free.exit_code, 0);
+  EXPECT_THAT(free.err, testing::HasSubstr("ConveyorJoint 'belt'"));
+}
+
 }  // namespace gracilis

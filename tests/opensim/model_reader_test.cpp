@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace gracilis::opensim {
 
 using testing::HasSubstr;
@@ -60,7 +62,7 @@ TEST(ModelReader, entities_of_a_document_type_stay_unread) {
 TEST(ModelReader, lists_what_it_leaves_out) {
   const Model model = model_from(document(
       set("BodySet", body("rod", "<attached_geometry><Brick name=\"box\"/></attached_geometry>")) +
-      set("JointSet", joint("ScapulothoracicJoint", "gliding", "/ground", "rod", coordinate("swing"))) +
+      set("JointSet", joint("ConveyorJoint", "gliding", "/ground", "rod", coordinate("swing"))) +
       set("ForceSet", "<BushingForce name=\"bush\"/>") + set("ConstraintSet", "<PointConstraint name=\"loop\"/>")));
   EXPECT_THAT(model.unsupported, testing::UnorderedElementsAre(HasSubstr("Brick 'box'"), HasSubstr("'gliding'"),
                                                                HasSubstr("'bush'"), HasSubstr("'loop'")));
@@ -165,10 +167,51 @@ TEST(ModelReader, refuses_what_is_no_model) {
   EXPECT_THAT(complaint_about(pendulum(muscle("m", point("rod", "0 0 0")))), HasSubstr("less than two points"));
 }
 
+TEST(ModelReader, refuses_numbers_and_names_that_nothing_can_be_made_of) {
+  const std::string way = point("/ground", "1 0 0") + point("rod", "0 -1 0");
+  EXPECT_THAT(complaint_about(pendulum(muscle("m", point("/ground", "inf 0 0") + point("rod", "0 -1 0")))),
+              HasSubstr("'inf', which is not finite"));
+  EXPECT_THAT(complaint_about(
+                  document(set("BodySet", body("rod")) +
+                           set("JointSet", joint("PinJoint", "hinge", "/ground", "rod", coordinate("swing", "-Inf"))))),
+              HasSubstr("<default_value> holds '-Inf', which is not finite"));
+  EXPECT_THAT(complaint_about(pendulum(muscle("m", way, "<max_isometric_force>-1</max_isometric_force>"))),
+              HasSubstr("<max_isometric_force> is -1"));
+  EXPECT_THAT(complaint_about(pendulum(muscle("", way))), HasSubstr("has no name"));
+  EXPECT_EQ(model_from(pendulum(muscle("m", way, "<max_control>Inf</max_control>"))).muscles[0].max_control,
+            std::numeric_limits<Real>::infinity());
+}
+
+TEST(ModelReader, bytes_that_are_no_utf_8_become_characters_that_can_be_written_again) {
+  const Model model = model_from(pendulum(muscle("\xe9\xff", point("/ground", "1 0 0") + point("rod", "0 -1 0")) +
+                                          muscle("\xc3\xa9", point("/ground", "1 0 0") + point("rod", "0 -1 0"))));
+  EXPECT_EQ(model.muscles[0].name, "\xc3\xa9\xc3\xbf");
+  EXPECT_EQ(model.muscles[1].name, "\xc3\xa9");
+}
+
+TEST(ModelReader, a_document_of_a_later_version_is_read_and_told) {
+  const Model model = model_from(document(
+      set("BodySet", body("rod")) + set("JointSet", joint("WeldJoint", "fixed", "/ground", "rod", "")), "50000"));
+  ASSERT_EQ(model.unsupported.size(), 1u);
+  EXPECT_THAT(model.unsupported[0], HasSubstr("document version 50000"));
+}
+
+TEST(ModelReader, entities_stay_as_they_are_written) {
+  const std::string bomb =
+      "<!DOCTYPE x [<!ENTITY a \"aaaaaaaa\"><!ENTITY b \"&a;&a;&a;\"><!ENTITY f SYSTEM \"file:///etc/passwd\">]>" +
+      document(set("BodySet", body("&b;") + body("&f;")) +
+               set("JointSet",
+                   joint("WeldJoint", "j", "/ground", "&b;", "") + joint("WeldJoint", "k", "/ground", "&f;", "")))
+          .substr(std::string("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>").size());
+  const Model model = model_from(bomb);
+  EXPECT_EQ(model.bodies[1].name, "&b;");
+  EXPECT_EQ(model.bodies[2].name, "&f;");
+}
+
 TEST(ModelReader, refuses_wrap_objects_without_size) {
   const auto with = [](const std::string& object) {
-    return complaint_about(pendulum(muscle("m", point("/ground", "1 0 0") + point("rod", "0 -1 0")),
-                                    set("WrapObjectSet", object)));
+    return complaint_about(
+        pendulum(muscle("m", point("/ground", "1 0 0") + point("rod", "0 -1 0")), set("WrapObjectSet", object)));
   };
   EXPECT_THAT(with("<WrapSphere name=\"w\"><radius>0</radius></WrapSphere>"), HasSubstr("must be above zero"));
   EXPECT_THAT(with("<WrapCylinder name=\"w\"><radius>nan</radius></WrapCylinder>"), HasSubstr("radius"));

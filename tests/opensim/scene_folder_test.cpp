@@ -270,4 +270,38 @@ TEST(SceneFolder, the_cadaver_hip_becomes_a_scene_of_8_muscles) {
   EXPECT_TRUE(validate(loaded.scene).empty());
 }
 
+TEST(SceneFolder, muscles_that_no_volume_can_be_made_of_are_left_out_and_told) {
+  const TestFolder folder;
+  const auto with = [](const std::string& name, const std::string& end, const std::string& force) {
+    return muscle(name, point("/ground", "0.3 0 0") + point("/bodyset/rod", end),
+                  "<max_isometric_force>" + force + "</max_isometric_force>");
+  };
+  const Model model =
+      read_model(folder.write("m.osim", pendulum(with("fit", "0 -0.4 0", "500") + with("far", "0 -1e9 0", "500") +
+                                                 with("idle", "0 -0.4 0", "0") + with("thick", "0 -0.4 0", "1e12"))));
+  const std::vector<std::string> left_out =
+      write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", {{0}, default_coordinates(model).transpose(), {}}}},
+                         {}, folder.path() / "out");
+  EXPECT_THAT(left_out,
+              testing::ElementsAre(testing::HasSubstr("far: has a path of"), testing::HasSubstr("idle: has no force"),
+                                   testing::HasSubstr("thick: has a force of")));
+  const LoadedScene loaded = read_scene(folder.path() / "out/rest.toml");
+  ASSERT_EQ(loaded.scene.muscles.size(), 1u);
+  EXPECT_TRUE(validate(loaded.scene).empty());
+}
+
+TEST(SceneFolder, names_of_a_model_that_is_not_utf_8_make_a_scene_that_can_be_read) {
+  const TestFolder folder;
+  const std::string way = point("/ground", "0.3 0 0") + point("/bodyset/b\xe9\"", "0 -0.4 0");
+  std::string text =
+      document(set("BodySet", body("b\xe9&quot;")) +
+               set("JointSet", joint("PinJoint", "h\xfc", "/ground", "b\xe9&quot;", coordinate("\xe4"))) +
+               set("ForceSet", muscle("m\xff", way, "", "")));
+  for (std::size_t at; (at = text.find("b\xe9\"")) != std::string::npos;) text.replace(at, 3, "b\xe9&quot;");
+  const Model model = read_model(folder.write("m.osim", text));
+  write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", {{0}, default_coordinates(model).transpose(), {}}}}, {},
+                     folder.path() / "out");
+  EXPECT_EQ(read_scene(folder.path() / "out/rest.toml").scene.joints[0].axes[0].coordinate, "\xc3\xa4");
+}
+
 }  // namespace gracilis::opensim

@@ -172,9 +172,10 @@ static void read_action_line(TomlReader table, ActionLineDescription& descriptio
   ActionLine& line = description.line;
   line.rays = static_cast<Index>(table.required_number("rays", {6, 1000}).value_or(6));
   line.scaling = static_cast<int>(table.number("scaling", {0, 16}).value_or(0));
-  line.tendon = millimetres(table, "tendon_mm");
-  line.origin_tendon = millimetres(table, "origin_tendon_mm");
-  line.optimal_fiber = millimetres(table, "optimal_fiber_mm");
+  const auto length = [&](const char* key) { return table.number(key, {0, 10'000, "mm"}).value_or(0) / 1000; };
+  line.tendon = length("tendon_mm");
+  line.origin_tendon = length("origin_tendon_mm");
+  line.optimal_fiber = length("optimal_fiber_mm");
   line.pennation = radians(table.number("pennation_deg", {0, 89}).value_or(0));
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("centers_mm", 3)) line.centers = rows->transpose() / 1000;
   description.bodies = table.texts("bodies");

@@ -25,8 +25,12 @@ static Muscle read_muscle(ModelReading& reading, const pugi::xml_node& node) {
   muscle.applies_force = applies_force(context, node);
   muscle.path = read_path(reading, node);
   muscle.max_isometric_force = context.number(node, "max_isometric_force", muscle.max_isometric_force);
+  if (!(muscle.max_isometric_force >= 0))
+    context.fail(node, fmt::format("<max_isometric_force> is {}", muscle.max_isometric_force), "give 0 or more");
   muscle.optimal_fiber_length = positive(context, node, "optimal_fiber_length", muscle.optimal_fiber_length);
   muscle.tendon_slack_length = context.number(node, "tendon_slack_length", muscle.tendon_slack_length);
+  if (!(muscle.tendon_slack_length >= 0))
+    context.fail(node, fmt::format("<tendon_slack_length> is {}", muscle.tendon_slack_length), "give 0 or more");
   muscle.pennation_angle_at_optimal = context.number(node, "pennation_angle_at_optimal", 0);
   muscle.max_contraction_velocity =
       positive(context, node, "max_contraction_velocity", muscle.max_contraction_velocity);
@@ -75,6 +79,7 @@ void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char
   for (const pugi::xml_node& node : objects_of(holder, set)) {
     const std::string_view kind = node.name();
     const std::string name = name_of(node);
+    if (name.empty()) reading.context.fail(node, "has no name", "give every force its own name");
     if (index_of(reading.model.muscles, name) >= 0 || index_of(reading.model.actuators, name) >= 0)
       reading.context.fail(node, "occurs twice", "give every force its own name");
     if (kind.find("Muscle") != std::string_view::npos || node.child("max_isometric_force"))

@@ -102,6 +102,14 @@ Function sine(Real amplitude, Real angular_frequency, Real phase, Real offset) {
   return function;
 }
 
+Function product_of_sines(Real amplitude, const std::vector<Real>& phases) {
+  Function function;
+  function.kind = Function::Kind::product_of_sines;
+  function.coefficients = {amplitude};
+  function.coefficients.insert(function.coefficients.end(), phases.begin(), phases.end());
+  return function;
+}
+
 std::vector<std::vector<int>> monomials(int dimension, int order) {
   std::vector<std::vector<int>> powers = {{}};
   for (int argument = 0; argument < dimension; ++argument) {
@@ -147,6 +155,15 @@ static Real sine_derivative(const std::vector<Real>& c, Real x, int n) {
   return c[0] * std::pow(c[1], n) * std::sin(c[1] * x + c[2] + n * pi / 2) + (n == 0 ? c[3] : 0);
 }
 
+static Real sine_product(const std::vector<Real>& c, const std::vector<Real>& x, const std::vector<int>& by) {
+  Real product = c[0];
+  for (std::size_t i = 1; i < c.size(); ++i)
+    product *= std::sin(x[i - 1] + c[i] +
+                        static_cast<Real>(std::count(by.begin(), by.end(), static_cast<int>(i - 1))) * pi / 2);
+  const auto known = [&](int argument) { return argument + 1 < static_cast<int>(c.size()); };
+  return std::all_of(by.begin(), by.end(), known) ? product : 0;
+}
+
 static Real multivariate(const Function& function, const std::vector<Real>& arguments, const std::vector<int>& by) {
   Real sum = 0;
   std::size_t term = 0;
@@ -188,6 +205,8 @@ static Real unscaled(const Function& function, const std::vector<Real>& argument
     case Function::Kind::sine:
       if (std::any_of(by.begin(), by.end(), [](int argument) { return argument != 0; })) return 0;
       return sine_derivative(c, arguments[0], n);
+    case Function::Kind::product_of_sines:
+      return sine_product(c, arguments, by);
   }
   return 0;
 }

@@ -15,7 +15,8 @@ struct Function {
     multivariate,      ///< polynomial of several arguments up to a total power; see monomials()
     spline,            ///< polynomial pieces between knots, of half as high an order beyond them
     piecewise_linear,  ///< straight between knots and beyond them
-    sine               ///< coefficients: amplitude, angular frequency, phase, offset
+    sine,              ///< coefficients: amplitude, angular frequency, phase, offset
+    product_of_sines   ///< coefficients: amplitude, then a phase for each argument
   };
   Kind kind = Kind::constant;
   std::vector<Real> coefficients = {0};
@@ -39,6 +40,9 @@ Function natural_spline(const std::vector<Real>& x, const std::vector<Real>& y);
 Function piecewise_linear(const std::vector<Real>& x, const std::vector<Real>& y);
 
 Function sine(Real amplitude, Real angular_frequency, Real phase, Real offset);
+
+/// amplitude Π sin(x_i + phase_i).
+Function product_of_sines(Real amplitude, const std::vector<Real>& phases);
 
 /// The powers of a multivariate polynomial's terms, in the order of its coefficients: the last argument's power
 /// varies fastest, and their sum never exceeds `order`.

@@ -109,7 +109,9 @@ static void tell_angles(ModelReading& reading, const Joint& joint) {
 
 static void read_axes(ModelReading& reading, const pugi::xml_node& node, Joint& joint) {
   const auto plain = plain_joints.find(joint.type);
-  if (joint.type == "CustomJoint") {
+  if (joint.type == "EllipsoidJoint") {
+    read_ellipsoid_joint(reading, node, joint);
+  } else if (joint.type == "CustomJoint") {
     read_spatial_transform(reading, node, joint);
   } else if (plain != plain_joints.end()) {
     if (joint.coordinates.size() > plain->second.size())
@@ -151,6 +153,13 @@ static void read_joint(ModelReading& reading, const pugi::xml_node& node, const 
   }
   if (context.boolean(node, "reverse", false)) context.fail(node, "is reversed", "swap its parent and child");
   read_coordinates(reading, node, joint);
+  if (joint.type == "ScapulothoracicJoint") {
+    Joint wing = read_scapulothoracic_joint(reading, node, joint);
+    tell_angles(reading, joint);
+    reading.model.joints.push_back(std::move(joint));
+    reading.model.joints.push_back(std::move(wing));
+    return;
+  }
   read_axes(reading, node, joint);
   reading.model.joints.push_back(std::move(joint));
 }

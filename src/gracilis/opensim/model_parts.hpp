@@ -41,6 +41,13 @@ void read_joints(ModelReading& reading, const pugi::xml_node& model);
 /// moves along are chosen to suit. Throws InputError where a moving axis has no length or repeats another.
 void complete_axes(const ModelReading& reading, const pugi::xml_node& joint, TransformAxis* axes);
 
+/// A joint whose child's origin glides on an ellipsoid that is fixed to the parent, its z axis turned with it
+/// (EllipsoidJoint). The joint's coordinates are read already.
+void read_ellipsoid_joint(ModelReading& reading, const pugi::xml_node& node, Joint& joint);
+/// A scapula that glides on the thorax and turns about an axis in its own plane (ScapulothoracicJoint; Seth et al.
+/// 2016): becomes an ellipsoid joint of a body without mass and the hinge returned, which moves the child beside it.
+Joint read_scapulothoracic_joint(ModelReading& reading, const pugi::xml_node& node, Joint& joint);
+
 /// CoordinateCouplerConstraints.
 void read_constraints(ModelReading& reading, const pugi::xml_node& model);
 

@@ -10,6 +10,8 @@
 
 namespace gracilis::opensim {
 
+static constexpr int newest_version = 40600;
+
 template <class T>
 static std::vector<std::string> names(const std::vector<T>& things) {
   std::vector<std::string> result;
@@ -61,6 +63,9 @@ Model read_model(const std::filesystem::path& path) {
   Model model;
   model.name = name_of(root);
   model.version = file.version;
+  if (model.version > newest_version)
+    model.unsupported.push_back(fmt::format("document version {}; {} (OpenSim 4.6) is the newest that is known",
+                                            model.version, newest_version));
   ModelReading reading{{path, root.child("defaults"), file.version}, model};
   model.gravity = reading.context.vector(root, "gravity", model.gravity);
   read_bodies(reading, root);

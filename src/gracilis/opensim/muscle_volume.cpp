@@ -8,6 +8,8 @@
 #include <gracilis/methods/cylinder/spindle.hpp>
 #include <gracilis/opensim/muscle_path.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -81,6 +83,11 @@ MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::
   const Real length = line.points.cols() < 2 ? 0 : polyline_length(line.points);
   if (!(length > 1e-3))
     throw InputError({model.name, muscle.name, "has no path through space of 1 mm or more", "leave the muscle out"});
+  if (!(length < 10))
+    throw InputError({model.name, muscle.name, fmt::format("has a path of {:.3g} m", length),
+                      "longer than any muscle: check the places of its points"});
+  if (!(muscle.max_isometric_force > 0))
+    throw InputError({model.name, muscle.name, "has no force, so it has no volume", "leave the muscle out"});
   int scaling = 1;
   while (scaling < 8 && length / static_cast<Real>((line.points.cols() - 1) << scaling) > settings.section_distance)
     ++scaling;
@@ -89,6 +96,10 @@ MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::
   const Eigen::VectorXd positions = Eigen::VectorXd::Map(places.data(), fine.cols());
   const MuscleSize size{muscle.max_isometric_force, muscle.optimal_fiber_length, muscle.pennation_angle_at_optimal,
                         settings.specific_tension};
+  if (!(tendon_radius(size) < length / 4))
+    throw InputError({model.name, muscle.name,
+                      fmt::format("has a force of {:.3g} N on a line of {:.3g} m", muscle.max_isometric_force, length),
+                      "its tendon would be thicker than long: check the force"});
   const auto [origin_tendon, tendon] = tendons_on(muscle, length, settings.tendon);
 
   MuscleVolume volume;

@@ -6,6 +6,7 @@
 #include <gracilis/opensim/scene_joints.hpp>
 #include <gracilis/opensim/scene_lines.hpp>
 #include <gracilis/opensim/skeleton.hpp>
+#include <gracilis/opensim/toml_text.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,34 +17,23 @@ namespace gracilis::opensim {
 
 namespace fs = std::filesystem;
 
-/// A TOML string.
-static std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + "\"";
-}
-
-static std::string vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
-
 static std::string axis_text(const SceneAxis& axis, const Eigen::VectorXd& coordinates) {
   const Real unit = axis.translation ? 1000 : degrees(1);
   const char* suffix = axis.translation ? "mm" : "deg";
   return fmt::format("\n[[joints.axes]]\ncoordinate = {}\naxis = {}\n{}capture_{} = {}\nrange_{} = [{}, {}]\n",
-                     quoted(axis.coordinate), vector(axis.axis->axis), axis.translation ? "translation = true\n" : "",
-                     suffix, value_of(axis, coordinates) * unit, suffix, axis.range_min * unit, axis.range_max * unit);
+                     toml_text(axis.coordinate), toml_vector(axis.axis->axis),
+                     axis.translation ? "translation = true\n" : "", suffix, value_of(axis, coordinates) * unit, suffix,
+                     axis.range_min * unit, axis.range_max * unit);
 }
 
 static std::string joint_text(const Model& model, const Joint& joint, const Skeleton& skeleton,
                               const Eigen::VectorXd& coordinates) {
-  const auto name = [&](Index body) { return quoted(model.bodies[static_cast<std::size_t>(body)].name); };
+  const auto name = [&](Index body) { return toml_text(model.bodies[static_cast<std::size_t>(body)].name); };
   const RigidTransform frame = skeleton.poses()[static_cast<std::size_t>(joint.parent_body)] * joint.parent_frame;
   std::string text =
       fmt::format("\n[[joints]]\nname = {}\nparent = {}\nchild = {}\ncenter = {}\norientation_xyz_rad = {}\n",
-                  quoted(joint.name), name(joint.parent_body), name(joint.child_body), vector(frame.translation()),
-                  vector(frame.linear().eulerAngles(0, 1, 2)));
+                  toml_text(joint.name), name(joint.parent_body), name(joint.child_body),
+                  toml_vector(frame.translation()), toml_vector(frame.linear().eulerAngles(0, 1, 2)));
   for (const SceneAxis& axis : scene_axes(model, joint)) text += axis_text(axis, coordinates);
   return text;
 }
@@ -51,12 +41,12 @@ static std::string joint_text(const Model& model, const Joint& joint, const Skel
 static std::string muscle_text(const Model& model, const std::string& name, const MuscleVolume& volume,
                                const std::string& path) {
   std::string text =
-      fmt::format("\n[[muscles]]\nname = {}\nfile = {}\n", quoted(name), quoted("muscles/" + name + ".vtp"));
+      fmt::format("\n[[muscles]]\nname = {}\nfile = {}\n", toml_text(name), toml_text("muscles/" + name + ".vtp"));
   std::vector<std::string> bodies, points;
   for (const Index body : volume.line.bodies)
-    bodies.push_back(quoted(model.bodies[static_cast<std::size_t>(body)].name));
+    bodies.push_back(toml_text(model.bodies[static_cast<std::size_t>(body)].name));
   for (Eigen::Index i = 0; i < volume.line.points.cols(); ++i)
-    points.push_back(vector(1000 * volume.line.points.col(i)));
+    points.push_back(toml_vector(1000 * volume.line.points.col(i)));
   const ActionLine& line = volume.line;
   text += fmt::format(
       "\n[muscles.action_line]\nrays = {}\nscaling = {}\ntendon_mm = {}\norigin_tendon_mm = {}\n"
@@ -65,19 +55,20 @@ static std::string muscle_text(const Model& model, const std::string& name, cons
       degrees(line.pennation), fmt::join(bodies, ", "), fmt::join(points, ", "));
   if (line.centers.cols() > 0) {
     std::vector<std::string> centers;
-    for (const Vec3 center : line.centers.colwise()) centers.push_back(vector(1000 * center));
+    for (const Vec3 center : line.centers.colwise()) centers.push_back(toml_vector(1000 * center));
     text += fmt::format("centers_mm = [{}]\n", fmt::join(centers, ", "));
   }
   text += path;
   for (std::size_t i = 0; i < volume.held.size(); ++i) {
     const HeldVertices& held = volume.held[i];
     const bool origin = held.end == AttachmentEnd::origin;
-    text += fmt::format("\n[[muscles.attachments]]\nname = \"{}\"\nend = \"{}\"\nbody = {}\nvertices = [{}]\n",
-                        i == 0                        ? "origin"
-                        : i + 1 == volume.held.size() ? "insertion"
-                                                      : fmt::format("via_{}", i),
-                        origin ? "origin" : "insertion", quoted(model.bodies[static_cast<std::size_t>(held.body)].name),
-                        fmt::join(held.vertices, ", "));
+    text +=
+        fmt::format("\n[[muscles.attachments]]\nname = \"{}\"\nend = \"{}\"\nbody = {}\nvertices = [{}]\n",
+                    i == 0                        ? "origin"
+                    : i + 1 == volume.held.size() ? "insertion"
+                                                  : fmt::format("via_{}", i),
+                    origin ? "origin" : "insertion", toml_text(model.bodies[static_cast<std::size_t>(held.body)].name),
+                    fmt::join(held.vertices, ", "));
   }
   return text;
 }
@@ -88,7 +79,7 @@ static std::string head(const Model& model) {
       "# coordinates. Muscles are round about the model's lines, with the volumes that its forces and fiber\n"
       "# lengths ask for; lines run through each other, so contact between muscles is off.\n"
       "schema = 1\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n\n[contact]\nmuscle = \"none\"\n",
-      quoted(model.name));
+      toml_text(model.name));
 }
 
 /// The muscles asked for, in the model's order.
@@ -106,7 +97,7 @@ static void write_motion(const Model& model, const NamedMotion& motion, const fs
   write_sto(folder / (motion.name + ".sto"), scene_motion(model, motion.motion, motion.name));
   write_text_atomically(folder / (motion.name + ".toml"),
                         fmt::format("schema = 1\nname = {}\ninclude = \"model.toml\"\n\n[motion]\nfile = {}\n",
-                                    quoted(motion.name), quoted(motion.name + ".sto")));
+                                    toml_text(motion.name), toml_text(motion.name + ".sto")));
 }
 
 std::vector<std::string> write_scene_folder(const Model& model, const GeometryPlaces& places,
@@ -122,9 +113,9 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
   std::string text = head(model);
   for (const ModelBone& bone : bones.bones) {
     write_surface(folder / "bones" / (bone.name + ".vtp"), bone.surface.vertices, bone.surface.faces);
-    text += fmt::format("\n[[bones]]\nname = {}\nbody = {}\nfile = {}\n", quoted(bone.name),
-                        quoted(model.bodies[static_cast<std::size_t>(bone.body)].name),
-                        quoted("bones/" + bone.name + ".vtp"));
+    text += fmt::format("\n[[bones]]\nname = {}\nbody = {}\nfile = {}\n", toml_text(bone.name),
+                        toml_text(model.bodies[static_cast<std::size_t>(bone.body)].name),
+                        toml_text("bones/" + bone.name + ".vtp"));
   }
   for (const Joint& joint : model.joints) text += joint_text(model, joint, skeleton, coordinates);
   std::set<std::string> names;

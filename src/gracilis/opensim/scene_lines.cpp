@@ -2,6 +2,7 @@
 
 #include <gracilis/opensim/muscle_path.hpp>
 #include <gracilis/opensim/scene_joints.hpp>
+#include <gracilis/opensim/toml_text.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,11 +11,9 @@
 
 namespace gracilis::opensim {
 
-static std::string vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
-
 static std::string frame_text(const char* place, const RigidTransform& frame) {
-  return fmt::format("{} = {}\norientation_xyz_rad = {}\n", place, vector(1000 * frame.translation()),
-                     vector(frame.linear().eulerAngles(0, 1, 2)));
+  return fmt::format("{} = {}\norientation_xyz_rad = {}\n", place, toml_vector(1000 * frame.translation()),
+                     toml_vector(frame.linear().eulerAngles(0, 1, 2)));
 }
 
 /// Places at which cubic pieces between them, with the function's slopes, are the function, or hardly differ from it.
@@ -53,8 +52,8 @@ static std::string component_text(const Model& model, const Function& function, 
     rows.push_back(fmt::format("[{}, {}, {}]", unit * (scene->slope * row[0] + scene->offset), 1000 * row[1],
                                1000 * row[2] / scene->slope / unit));
   if (scene->slope < 0) std::reverse(rows.begin(), rows.end());
-  return fmt::format("{{ coordinate = \"{}\", curve_{} = [{}] }}", scene->name, scene->translation ? "mm" : "deg",
-                     fmt::join(rows, ", "));
+  return fmt::format("{{ coordinate = {}, curve_{} = [{}] }}", toml_text(scene->name),
+                     scene->translation ? "mm" : "deg", fmt::join(rows, ", "));
 }
 
 static std::string condition_text(const Model& model, const PathPoint& point) {
@@ -63,7 +62,7 @@ static std::string condition_text(const Model& model, const PathPoint& point) {
   const Real unit = scene->translation ? 1000 : degrees(1);
   Real low = scene->slope * point.range_min + scene->offset, high = scene->slope * point.range_max + scene->offset;
   if (scene->slope < 0) std::swap(low, high);
-  return fmt::format("condition = \"{}\"\nrange_{} = [{}, {}]\n", scene->name, scene->translation ? "mm" : "deg",
+  return fmt::format("condition = {}\nrange_{} = [{}, {}]\n", toml_text(scene->name), scene->translation ? "mm" : "deg",
                      unit * low, unit * high);
 }
 
@@ -83,10 +82,10 @@ static std::string wrap_text(const Model& model, const PlacedWrap& wrap) {
   static const char* planes[] = {"hybrid", "midpoint", "axial"};
   const WrapSurface& surface = wrap.surface;
   std::string text = fmt::format(
-      "\n[[muscles.action_line.wraps]]\nkind = \"{}\"\nbody = \"{}\"\n{}", kinds[static_cast<int>(surface.kind)],
-      model.bodies[static_cast<std::size_t>(wrap.body)].name, frame_text("center_mm", wrap.frame));
+      "\n[[muscles.action_line.wraps]]\nkind = \"{}\"\nbody = {}\n{}", kinds[static_cast<int>(surface.kind)],
+      toml_text(model.bodies[static_cast<std::size_t>(wrap.body)].name), frame_text("center_mm", wrap.frame));
   if (surface.kind == WrapSurface::Kind::ellipsoid)
-    text += fmt::format("radii_mm = {}\nplane = \"{}\"\n", vector(1000 * surface.radii),
+    text += fmt::format("radii_mm = {}\nplane = \"{}\"\n", toml_vector(1000 * surface.radii),
                         planes[static_cast<int>(wrap.plane)]);
   else
     text += fmt::format("radius_mm = {}\n", 1000 * surface.radius);
@@ -121,10 +120,10 @@ std::string line_path_text(const Model& model, const Muscle& muscle, const std::
       continue;
     }
     const auto body = static_cast<std::size_t>(point.body);
-    text += fmt::format("\n[[muscles.action_line.path]]\nbody = \"{}\"\n", model.bodies[body].name) + condition;
+    text += fmt::format("\n[[muscles.action_line.path]]\nbody = {}\n", toml_text(model.bodies[body].name)) + condition;
     const Vec3 location = location_of(point, coordinates);
     if (!point.moving) {
-      text += fmt::format("point_mm = {}\n", vector(1000 * (poses[body] * location)));
+      text += fmt::format("point_mm = {}\n", toml_vector(1000 * (poses[body] * location)));
       continue;
     }
     text += frame_text("frame_mm", poses[body]);

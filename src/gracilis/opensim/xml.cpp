@@ -12,8 +12,41 @@
 
 namespace gracilis::opensim {
 
+/// Length of the character of UTF-8 that begins here; 0: none does.
+static std::size_t character_at(const std::string& bytes, std::size_t i) {
+  const auto byte = [&](std::size_t k) { return k < bytes.size() ? static_cast<unsigned char>(bytes[k]) : 0u; };
+  const unsigned first = byte(i);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4) return 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte(i + k) & 0xc0) != 0x80) return 0;
+  if ((first == 0xe0 && byte(i + 1) < 0xa0) || (first == 0xed && byte(i + 1) > 0x9f) ||
+      (first == 0xf0 && byte(i + 1) < 0x90) || (first == 0xf4 && byte(i + 1) > 0x8f))
+    return 0;
+  return length;
+}
+
+/// What is not UTF-8 is taken for Latin-1, byte by byte, so that names stay apart and can be written again.
+static std::string valid_utf8(const std::string& bytes) {
+  std::string text;
+  text.reserve(bytes.size());
+  for (std::size_t i = 0; i < bytes.size();) {
+    const std::size_t length = character_at(bytes, i);
+    if (length > 0) {
+      text.append(bytes, i, length);
+    } else {
+      const auto byte = static_cast<unsigned char>(bytes[i]);
+      text += static_cast<char>(0xc0 | byte >> 6);
+      text += static_cast<char>(0x80 | (byte & 0x3f));
+    }
+    i += std::max<std::size_t>(length, 1);
+  }
+  return text;
+}
+
 XmlFile read_xml(const std::filesystem::path& path) {
-  const std::string bytes = read_text(path);
+  const std::string bytes = valid_utf8(read_text(path));
   XmlFile file{path, std::make_shared<pugi::xml_document>(), {}, 0};
   const pugi::xml_parse_result result =
       file.document->load_buffer(bytes.data(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
@@ -52,8 +85,14 @@ std::vector<Real> XmlContext::numbers(const pugi::xml_node& node, const char* na
   std::vector<Real> values;
   for (const std::string_view word : words_of(content)) {
     Real number = 0;
-    if (!parse_number(word, number) || std::isnan(number))
-      fail(node, fmt::format("<{}> holds '{}', which is not a number", name, word.substr(0, 40)), "correct it");
+    // Ranges and limits may have no end, everything else has a size.
+    const std::string_view key = name;
+    const bool endless = key == "range" || key == "min_control" || key == "max_control";
+    if (!parse_number(word, number) || std::isnan(number) || (std::isinf(number) && !endless))
+      fail(node,
+           fmt::format("<{}> holds '{}', which is {}", name, word.substr(0, 40),
+                       std::isinf(number) ? "not finite" : "not a number"),
+           "correct it");
     values.push_back(number);
   }
   return values;
