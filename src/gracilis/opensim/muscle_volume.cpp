@@ -68,7 +68,11 @@ static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const 
   volume.surface.faces = section_faces(static_cast<Index>(fine.cols()), settings.rays);
   const auto known = settings.surfaces.find(muscle.name);
   if (known == settings.surfaces.end()) {
-    volume.surface.vertices = section_vertices(fine, section_frames(fine, Vec3::UnitX()), round);
+    const ClearSections clear =
+        settings.bones ? clear_of_bones(fine, radii, settings.rays, *settings.bones) : ClearSections{fine, round};
+    volume.surface.vertices =
+        section_vertices(clear.centers, section_frames(clear.centers, Vec3::UnitX()), clear.radii);
+    if (clear.centers != fine) volume.line.centers = clear.centers;
     return;
   }
   const EnhancedSections sections = enhance(fine, Vec3::UnitX(), round, known->second, settings.more_rays);

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/opensim/bone_clearance.hpp>
 #include <gracilis/opensim/model.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <map>
+#include <memory>
 #include <string>
 
 namespace gracilis::opensim {
@@ -24,6 +26,7 @@ struct VolumeSettings {
   TendonPlace tendon = TendonPlace::half_at_insertion;
   /// Surfaces that are known, by the muscles' names, closed, in the ground frame: sections are brought onto them.
   std::map<std::string, TriangleMesh> surfaces;
+  std::shared_ptr<const std::vector<SolidBone>> bones;  ///< that the others keep out of; none: they do not
   int more_rays = 6;  ///< times as many rays as corners look for the surfaces' inside (Laclé's CSS)
 };
 
@@ -42,9 +45,9 @@ struct MuscleVolume {
 };
 
 /// A closed surface around a muscle's path for the bodies at `poses` (Laclé 2014, after the line's own points; radii by
-/// spindle_radii, or from the surface that is known, see enhance). The first sections are held by the origin's
-/// body and the last by the insertion's; sections at points between that lie in the tendon, by theirs. Throws
-/// InputError for a path by functions, which has no place, and for one without length.
+/// spindle_radii, outside of the bones, or from the surface that is known, see enhance). The first sections are held by
+/// the origin's body and the last by the insertion's; sections at points between that lie in the tendon, by theirs.
+/// Throws InputError for a path by functions, which has no place, and for one without length.
 MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                            const Eigen::VectorXd& coordinates, const VolumeSettings& settings);
 

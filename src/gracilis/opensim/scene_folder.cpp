@@ -118,10 +118,14 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
                         toml_text("bones/" + bone.name + ".vtp"));
   }
   for (const Joint& joint : model.joints) text += joint_text(model, joint, skeleton, coordinates);
+  VolumeSettings volumes = settings.volumes;
+  std::vector<SolidBone> solid;
+  for (const ModelBone& bone : bones.bones) solid.emplace_back(bone.surface);
+  volumes.bones = std::make_shared<const std::vector<SolidBone>>(std::move(solid));
   std::set<std::string> names;
   for (const Muscle* muscle : chosen(model, settings.muscles)) {
     try {
-      const MuscleVolume volume = muscle_volume(model, *muscle, skeleton.poses(), coordinates, settings.volumes);
+      const MuscleVolume volume = muscle_volume(model, *muscle, skeleton.poses(), coordinates, volumes);
       const std::string name = name_for_file(muscle->name, names);
       if (settings.volumes.surfaces.count(muscle->name) > 0 && volume.sections_on_surface == 0)
         left_out.push_back(fmt::format("muscle '{}': its surface is nowhere near its line", muscle->name));

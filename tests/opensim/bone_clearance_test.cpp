@@ -1,0 +1,64 @@
+#include <gracilis/geometry/mesh_inspection.hpp>
+#include <gracilis/geometry/section_frames.hpp>
+#include <gracilis/methods/cylinder/cylinder_surface.hpp>
+#include <gracilis/opensim/bone_clearance.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+namespace gracilis::opensim {
+
+static Points straight(const Vec3& from, const Vec3& to, Eigen::Index count) {
+  Points line(3, count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    line.col(k) = from + static_cast<Real>(k) / static_cast<Real>(count - 1) * (to - from);
+  return line;
+}
+
+static std::vector<SolidBone> shaft() {
+  std::vector<SolidBone> bones;
+  bones.emplace_back(shapes::box({-0.02, -0.02, -0.2}, {0.02, 0.02, 0.2}));
+  return bones;
+}
+
+static Points corners(const ClearSections& clear) {
+  return section_vertices(clear.centers, section_frames(clear.centers, Vec3::UnitX()), clear.radii);
+}
+
+TEST(BoneClearance, sections_far_from_bones_stay_as_they_are) {
+  const Points line = straight({0.1, 0, -0.15}, {0.1, 0, 0.15}, 21);
+  const Eigen::VectorXd radii = Eigen::VectorXd::Constant(21, 0.02);
+  const ClearSections clear = clear_of_bones(line, radii, 12, shaft());
+  EXPECT_EQ(clear.centers, line);
+  EXPECT_LT((clear.radii.array() - 0.02).abs().maxCoeff(), 1e-12);
+}
+
+TEST(BoneClearance, a_line_through_a_bone_is_brought_out_and_its_sections_lie_against_it) {
+  // Between two ends outside of the bone, 8 mm deep.
+  Points line = straight({0.012, 0.003, -0.15}, {0.012, 0.003, 0.15}, 21);
+  line(0, 0) = line(0, 20) = 0.025;
+  Eigen::VectorXd radii(21);
+  for (Eigen::Index k = 0; k < 21; ++k) radii[k] = 0.003 + 0.012 * std::sin(pi * static_cast<Real>(k) / 20);
+  const std::vector<SolidBone> bones = shaft();
+  const ClearSections clear = clear_of_bones(line, radii, 12, bones);
+  EXPECT_EQ(clear.centers.col(0), line.col(0));
+  EXPECT_EQ(clear.centers.col(20), line.col(20));
+  const Points vertices = corners(clear);
+  for (Eigen::Index v = 12; v < 20 * 12; ++v) EXPECT_GT(bones[0].distance.query(vertices.col(v)).distance, 0.0002) << v;
+  // Sections keep their areas, and go the short way out: to the side of x.
+  for (Eigen::Index k = 1; k < 20; ++k) {
+    Real area = 0;
+    for (Eigen::Index i = 0; i < 12; ++i) area += clear.radii(i, k) * clear.radii((i + 1) % 12, k);
+    EXPECT_NEAR(area / (12 * radii[k] * radii[k]), 1, 0.02) << k;
+    EXPECT_GT(clear.centers(0, k), 0.02);
+  }
+  // Softly: no part of the line turns by more than 40 degrees.
+  for (Eigen::Index k = 1; k < 20; ++k) {
+    const Vec3 before = clear.centers.col(k) - clear.centers.col(k - 1),
+               after = clear.centers.col(k + 1) - clear.centers.col(k);
+    EXPECT_GT(before.normalized().dot(after.normalized()), std::cos(radians(40))) << k;
+  }
+}
+
+}  // namespace gracilis::opensim
