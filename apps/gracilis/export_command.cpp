@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <numeric>
+#include <optional>
 
 namespace gracilis {
 
@@ -72,7 +73,10 @@ const std::vector<ExportFormat>& formats() {
        "the fibers' mean lengths as polynomials of the coordinates, which OpenSim 4.5 and later read as "
        "FunctionBasedPaths",
        [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
-         for (const std::string& line : opensim::export_function_paths(options.run, out)) spdlog::info("{}", line);
+         std::optional<opensim::Model> model;
+         if (!options.model.empty()) model = opensim::read_model(options.model);
+         for (const std::string& line : opensim::export_function_paths(options.run, out, model ? &*model : nullptr))
+           spdlog::info("{}", line);
        }},
       {"osim-points", "point_paths.osim",
        "the mean fibers as path points of the --model, a force set that OpenSim appends to it or puts in the place of "
@@ -113,7 +117,10 @@ void add_export_command(CLI::App& program, Command& chosen) {
                    "Force per physiological cross-section area, N/m² (tetrahedra)")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--model", options->model, "The OpenSim model that the run's scene was made of (osim-points)");
+  command->add_option(
+      "--model", options->model,
+      "The OpenSim model that the run's scene was made of (osim-points; osim-function then takes only coordinates "
+      "of joints that a muscle crosses)");
   command->add_option("--points", options->points, "Points of a path, its ends among them (osim-points)")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();

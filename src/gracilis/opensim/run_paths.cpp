@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/table.hpp>
+#include <gracilis/opensim/crossed_coordinates.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -69,7 +70,20 @@ static FittedMuscle fit_muscle(const Table& table, const std::set<std::string>& 
   return result;
 }
 
-std::vector<FittedMuscle> fit_run(const std::filesystem::path& run) {
+/// Those of the columns that the model's muscle of this name crosses; all where it has none or crosses none of them.
+static std::vector<Eigen::Index> crossed_columns(const Table& table, const Model& model, const std::string& muscle,
+                                                 const std::vector<Eigen::Index>& columns) {
+  const Index known = index_of(model.muscles, muscle);
+  if (known < 0) return columns;
+  std::vector<Eigen::Index> crossed;
+  for (const Index i : crossed_coordinates(model, model.muscles[static_cast<std::size_t>(known)].path))
+    for (const Eigen::Index column : columns)
+      if (table.columns[static_cast<std::size_t>(column)] == model.coordinates[static_cast<std::size_t>(i)].name)
+        crossed.push_back(column);
+  return crossed.empty() ? columns : crossed;
+}
+
+std::vector<FittedMuscle> fit_run(const std::filesystem::path& run, const Model* model) {
   const std::filesystem::path path = run / "fiber_lengths.sto";
   const Table table = read_table(path);
   const LengthColumns columns = columns_of(table, path);
@@ -80,7 +94,11 @@ std::vector<FittedMuscle> fit_run(const std::filesystem::path& run) {
     throw InputError({path.string(), "", "holds no motion to fit lengths to", "run a motion of several frames first"});
   std::vector<FittedMuscle> muscles;
   const std::set<std::string> translations = translations_of(run);
-  for (const Eigen::Index muscle : columns.muscles) muscles.push_back(fit_muscle(table, translations, moving, muscle));
+  for (const Eigen::Index muscle : columns.muscles) {
+    const std::string& name = table.columns[static_cast<std::size_t>(muscle)];
+    muscles.push_back(
+        fit_muscle(table, translations, model ? crossed_columns(table, *model, name, moving) : moving, muscle));
+  }
   return muscles;
 }
 
@@ -103,8 +121,9 @@ std::string function_path_set(const std::string& name, const std::vector<FittedM
   return text + "    </objects>\n    <groups />\n  </FunctionBasedPathSet>\n</OpenSimDocument>\n";
 }
 
-std::vector<std::string> export_function_paths(const std::filesystem::path& run, const std::filesystem::path& out) {
-  const std::vector<FittedMuscle> muscles = fit_run(run);
+std::vector<std::string> export_function_paths(const std::filesystem::path& run, const std::filesystem::path& out,
+                                               const Model* model) {
+  const std::vector<FittedMuscle> muscles = fit_run(run, model);
   write_text_atomically(out, function_path_set(run.filename().string(), muscles));
   std::vector<std::string> lines;
   for (const FittedMuscle& muscle : muscles)

@@ -5,6 +5,7 @@
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/recorded_run.hpp>
 #include <gracilis/opensim/coordinate_motion.hpp>
+#include <gracilis/opensim/crossed_coordinates.hpp>
 #include <gracilis/opensim/model_reader.hpp>
 #include <gracilis/opensim/muscle_path.hpp>
 
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gracilis::opensim {
 
@@ -64,7 +66,8 @@ static void follow(const std::vector<Real>& moving, const Points& places, FiberP
     for (std::size_t f = 0; f < moving.size(); ++f)
       left += std::pow(value(spline, {moving[f]}) - places(i, static_cast<Eigen::Index>(f)), 2);
   }
-  if (std::sqrt(left / static_cast<Real>(moving.size())) <= 0.7 * point.moves) point = moved;
+  moved.left = std::sqrt(left / static_cast<Real>(moving.size()));
+  if (moved.left <= 0.7 * point.moves) point = moved;
 }
 
 std::vector<FiberPoint> fit_points(const std::vector<Points>& fibers, const std::vector<Poses>& poses,
@@ -85,7 +88,9 @@ std::vector<FiberPoint> fit_points(const std::vector<Points>& fibers, const std:
       places = here;
     }
     point.location = places.rowwise().mean();
-    if (!moving.empty() && p > 0 && p + 1 < count && point.moves > 1e-5) follow(moving, places, point);
+    point.left = point.moves;
+    const bool end = p == 0 || p + 1 == count;
+    if (!moving.empty() && point.moves > (end ? 5e-4 : 1e-5)) follow(moving, places, point);
     result.push_back(std::move(point));
   }
   return result;
@@ -168,6 +173,13 @@ static Index most_moving(const CoordinateMotion& motion) {
   return range.size() > 0 && range.maxCoeff(&found) > 1e-4 ? static_cast<Index>(found) : -1;
 }
 
+static std::vector<Real> values_of(const CoordinateMotion& motion, Index coordinate, std::size_t frames) {
+  std::vector<Real> values;
+  for (std::size_t f = 0; f < frames && coordinate >= 0; ++f)
+    values.push_back(motion.values(static_cast<Eigen::Index>(f), coordinate));
+  return values;
+}
+
 /// How far a path's lengths are from those of the fibers, m: root mean square and largest.
 static std::pair<Real, Real> errors_of(const Model& model, const Path& path, const CoordinateMotion& motion,
                                        const std::vector<Points>& fibers) {
@@ -183,6 +195,30 @@ static std::pair<Real, Real> errors_of(const Model& model, const Path& path, con
   return {std::sqrt(sum / static_cast<Real>(fibers.size())), largest};
 }
 
+/// Points that move with that coordinate, of those that the muscle crosses and `otherwise`, whose path's lengths err
+/// least.
+static std::vector<FiberPoint> best_points(const Model& model, const Muscle* known, const CoordinateMotion& motion,
+                                           const std::vector<Points>& lines, const std::vector<Poses>& poses,
+                                           Index otherwise, Index& chosen) {
+  std::vector<Index> candidates;
+  if (known)
+    for (const Index i : crossed_coordinates(model, known->path))
+      if (motion.values.col(i).maxCoeff() - motion.values.col(i).minCoeff() > 1e-4) candidates.push_back(i);
+  candidates.push_back(otherwise);
+  std::vector<FiberPoint> best;
+  Real least = std::numeric_limits<Real>::infinity();
+  for (const Index candidate : candidates) {
+    std::vector<FiberPoint> points = fit_points(lines, poses, values_of(motion, candidate, lines.size()));
+    Real left = 0;
+    for (const FiberPoint& point : points) left += point.left * point.left;
+    if (!(left < least)) continue;
+    least = left;
+    best = std::move(points);
+    chosen = candidate;
+  }
+  return best;
+}
+
 std::vector<std::string> export_points(const std::filesystem::path& folder, const Model& model, Index count,
                                        const std::filesystem::path& out) {
   const RecordedRun run = open_recorded_run(folder);
@@ -195,9 +231,7 @@ std::vector<std::string> export_points(const std::filesystem::path& folder, cons
     skeleton.place(motion.values.row(f));
     poses.push_back(skeleton.poses());
   }
-  const Index coordinate = most_moving(motion);
-  std::vector<Real> moving;
-  for (int f = 0; f < run.frame_count && coordinate >= 0; ++f) moving.push_back(motion.values(f, coordinate));
+  const Index most = most_moving(motion);
 
   std::string text;
   std::vector<std::vector<Points>> fibers;
@@ -206,11 +240,14 @@ std::vector<std::string> export_points(const std::filesystem::path& folder, cons
     std::vector<Points> lines;
     for (int f = 0; f < run.frame_count; ++f) lines.push_back(mean_fiber(run, name, f, count));
     if (lines.front().cols() == 0) continue;
-    const std::vector<FiberPoint> points = fit_points(lines, poses, moving);
-    if (std::max(points.front().moves, points.back().moves) > 0.005)
+    const Index known = index_of(model.muscles, name);
+    Index coordinate = -1;
+    const std::vector<FiberPoint> points =
+        best_points(model, known < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(known)], motion, lines, poses,
+                    most, coordinate);
+    if (std::max(points.front().left, points.back().left) > 0.005)
       throw InputError({folder.string(), name, "has ends that move with no body of the model",
                         "name the model that the run's scene was made of"});
-    const Index known = index_of(model.muscles, name);
     Muscle muscle = known >= 0 ? model.muscles[static_cast<std::size_t>(known)] : Muscle{};
     muscle.name = name;
     muscle.path = path_of(points, coordinate);
