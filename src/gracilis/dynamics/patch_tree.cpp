@@ -11,8 +11,6 @@ namespace {
 /// A patch fills a pack of triangles.
 constexpr Index faces_per_patch = 4, faces_per_bundle = 32;
 constexpr Index chunk = 64;
-/// Cosines this near to 0 may be rounding.
-constexpr float least_cosine = 1e-5f;
 
 class Builder {
  public:
@@ -151,14 +149,6 @@ void refit(const ContactSurface& surface, const Particles& particles, PatchTree&
                             &second = tree.bounds[static_cast<std::size_t>(tree.nodes[node + 1].skip)];
     tree.bounds[node] = first.merged(second);
   }
-}
-
-bool may_meet(const PatchTree::Bounds& one, const PatchTree::Bounds& other, float reach) {
-  // By the largest gap along an axis; asking any() of a comparison would look at one coordinate after the other.
-  if ((one.places.low - other.places.high).max(other.places.low - one.places.high).maxCoeff() > reach) return false;
-  // The least cosine between two vectors of the boxes, axis by axis.
-  const Eigen::Array4f &a = one.normals.low, &b = one.normals.high, &c = other.normals.low, &d = other.normals.high;
-  return (a * c).min(a * d).min((b * c).min(b * d)).sum() < least_cosine;
 }
 
 void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches) {

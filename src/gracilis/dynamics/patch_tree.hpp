@@ -64,7 +64,14 @@ PatchTree build_patch_tree(const ContactSurface& surface, const Eigen::Matrix3Xf
 void refit(const ContactSurface& surface, const Particles& particles, PatchTree& tree);
 
 /// Whether something in one may be within `reach` (m) of something in the other and face against it.
-bool may_meet(const PatchTree::Bounds& one, const PatchTree::Bounds& other, float reach);
+inline bool may_meet(const PatchTree::Bounds& one, const PatchTree::Bounds& other, float reach) {
+  // By the largest gap along an axis; asking any() of a comparison would look at one coordinate after the other.
+  if ((one.places.low - other.places.high).max(other.places.low - one.places.high).maxCoeff() > reach) return false;
+  constexpr float least_cosine = 1e-5f;  // what is this near to 0 may be rounding
+  // The least cosine between two vectors of the boxes, axis by axis.
+  const Eigen::Array4f &a = one.normals.low, &b = one.normals.high, &c = other.normals.low, &d = other.normals.high;
+  return (a * c).min(a * d).min((b * c).min(b * d)).sum() < least_cosine;
+}
 
 /// Appends all nodes that are patches and may meet what is within `bounds`.
 void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches);

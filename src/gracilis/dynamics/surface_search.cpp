@@ -96,30 +96,50 @@ bool is_near_enough(const PointTouch& touch, float half_length) {
   return touch.distance < half_length + edges_listed_within;
 }
 
-/// The edges that may cross others closely by what their ends are near, each once.
-std::vector<Index> edges_around(const std::vector<PointTouch>& near, const ContactSurface& surface,
-                                const Particles& particles) {
-  std::vector<Index> edges;
-  for (const PointTouch& touch : near) {
-    const auto at = static_cast<std::size_t>(touch.particle);
-    for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
-      for (const Index side : surface.sides.col(surface.fan[static_cast<std::size_t>(i)])) {
-        const auto& ends = surface.edges[static_cast<std::size_t>(side)].ends;
-        if (ends[0] != touch.particle && ends[1] != touch.particle) continue;
-        const float length = (particles.position(ends[1]) - particles.position(ends[0])).norm();
-        if (is_near_enough(touch, length / 2)) edges.push_back(side);
-      }
+/// Looks up what a particle is near.
+class TouchTable {
+ public:
+  TouchTable(const std::vector<PointTouch>& near, Index particle_count)
+      : near_(near), at_(static_cast<std::size_t>(particle_count), -1) {
+    for (std::size_t i = 0; i < near.size(); ++i)
+      at_[static_cast<std::size_t>(near[i].particle)] = static_cast<Index>(i);
   }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  return edges;
-}
 
-/// What a particle is near, or null; touches are in the order of particles.
-const PointTouch* touch_of(const std::vector<PointTouch>& near, Index particle) {
-  const auto found = std::lower_bound(near.begin(), near.end(), particle,
-                                      [](const PointTouch& touch, Index p) { return touch.particle < p; });
-  return found != near.end() && found->particle == particle ? &*found : nullptr;
+  /// What this end of an edge is near if the edge may cross another closely by it, else null.
+  const PointTouch* near_enough(Index end, float half_length) const {
+    const Index at = at_[static_cast<std::size_t>(end)];
+    if (at < 0) return nullptr;
+    const PointTouch& touch = near_[static_cast<std::size_t>(at)];
+    return is_near_enough(touch, half_length) ? &touch : nullptr;
+  }
+
+ private:
+  const std::vector<PointTouch>& near_;
+  std::vector<Index> at_;
+};
+
+/// The edges that may cross others closely by what their ends are near, each once.
+std::vector<Index> edges_around(const std::vector<PointTouch>& near, const TouchTable& table,
+                                const ContactSurface& surface, const Particles& particles) {
+  return collect_in_order<Index>(
+      static_cast<Index>(near.size()), chunk, [&](Index begin, Index end, std::vector<Index>& part) {
+        for (Index i = begin; i < end; ++i) {
+          const PointTouch& touch = near[static_cast<std::size_t>(i)];
+          const auto at = static_cast<std::size_t>(touch.particle);
+          for (Index k = surface.fan_offsets[at]; k < surface.fan_offsets[at + 1]; ++k) {
+            const Index face = surface.fan[static_cast<std::size_t>(k)];
+            for (const Index side : surface.sides.col(face)) {
+              const auto& [ends, faces] = surface.edges[static_cast<std::size_t>(side)];
+              // By one of its faces, and by its first end unless that is too far away.
+              if (face != (faces[0] >= 0 ? faces[0] : faces[1])) continue;
+              if (ends[0] != touch.particle && ends[1] != touch.particle) continue;
+              const float half = (particles.position(ends[1]) - particles.position(ends[0])).norm() / 2;
+              if (!is_near_enough(touch, half)) continue;
+              if (ends[0] == touch.particle || !table.near_enough(ends[0], half)) part.push_back(side);
+            }
+          }
+        }
+      });
 }
 
 /// Pairs of edges, one of each surface, that cross closely. Within one surface `self` tells which parts may meet.
@@ -127,7 +147,8 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
                 const std::vector<PointTouch>& near_second, const SelfRule* self, std::vector<EdgeTouch>& found) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   const ContactSurface &first = crowd.surfaces[a], &second = crowd.surfaces[b];
-  const std::vector<Index> edges = edges_around(near_second, first, *particles[a]);
+  const TouchTable table(near_second, particles[a]->count());
+  const std::vector<Index> edges = edges_around(near_second, table, first, *particles[a]);
   const auto count = static_cast<Index>(edges.size());
   found = collect_in_order<EdgeTouch>(count, chunk, [&](Index begin, Index end, std::vector<EdgeTouch>& part) {
     std::vector<Index> candidates;
@@ -142,8 +163,8 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
       };
       candidates.clear();
       for (const Index particle : ends) {
-        const PointTouch* touch = touch_of(near_second, particle);
-        if (!touch || !is_near_enough(*touch, ball.radius)) continue;
+        const PointTouch* touch = table.near_enough(particle, ball.radius);
+        if (!touch) continue;
         if (self && self->side(particle, touch->face) != touch->side) continue;
         gather_edges(second, touch->face, candidates);
       }
@@ -163,6 +184,14 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
           part.push_back({e, candidate, side, self ? self->most_gap(ends, other) : infinity});
       }
     }
+  });
+}
+
+/// Calls act(i) for all numbers below `count`, possibly at the same time: most have little to do, some much.
+template <class Act>
+void for_each(std::size_t count, const Act& act) {
+  parallel_for(static_cast<Index>(count), 1, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) act(static_cast<std::size_t>(i));
   });
 }
 
@@ -193,13 +222,12 @@ void make_normals(const SurfaceCrowd& crowd, const std::vector<const Particles*>
   for (const Particles* each : particles) wanted.emplace_back(static_cast<std::size_t>(each->count()), 0);
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i)
     want(i, static_cast<std::size_t>(crowd.pairs[i].first), static_cast<std::size_t>(crowd.pairs[i].second), wanted);
-  std::vector<Index> listed;
-  for (std::size_t s = 0; s < wanted.size(); ++s) {
-    listed.clear();
+  for_each(wanted.size(), [&](std::size_t s) {
+    std::vector<Index> listed;
     for (std::size_t p = 0; p < wanted[s].size(); ++p)
       if (wanted[s][p]) listed.push_back(static_cast<Index>(p));
     particle_normals(crowd.surfaces[s], *particles[s], listed, state.normals[s]);
-  }
+  });
 }
 
 }  // namespace
@@ -221,11 +249,10 @@ void remember_places(const std::vector<const Particles*>& particles, CrowdState&
 
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
   std::vector<SearchedSurface> searched;
-  for (std::size_t s = 0; s < particles.size(); ++s) {
-    refit(crowd.surfaces[s], *particles[s], state.trees[s]);
+  for (std::size_t s = 0; s < particles.size(); ++s)
     searched.push_back({crowd.surfaces[s], *particles[s], state.trees[s]});
-  }
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+  for_each(particles.size(), [&](std::size_t s) { refit(crowd.surfaces[s], *particles[s], state.trees[s]); });
+  for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
@@ -235,17 +262,17 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
       find_near(searched[a], pair.shift, searched[b], pair.reach, touches.near_second);
       find_near(searched[b], -pair.shift, searched[a], pair.reach, touches.near_first);
     }
-  }
+  });
 }
 
 void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+  for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     walk(touches.near_second, crowd.surfaces[b], *particles[a], *particles[b], pair.shift);
     if (!pair.is_self()) walk(touches.near_first, crowd.surfaces[a], *particles[b], *particles[a], -pair.shift);
-  }
+  });
   make_normals(
       crowd, particles,
       [&](std::size_t i, std::size_t a, std::size_t b, Wanted& wanted) {
@@ -253,7 +280,7 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
         want_faces(state.touches[i].near_first, crowd.surfaces[a], wanted[a]);
       },
       state);
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+  for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
@@ -262,7 +289,7 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
       list_near(touches.near_second, crowd.surfaces[a], state.normals[a], *particles[a], *particles[a],
                 Eigen::Vector3f::Zero(), listed_within, &rule, touches.on_second);
       find_edges(crowd, pair, particles, touches.near_second, &rule, touches.edges);
-      continue;
+      return;
     }
     // Cohesion also looks at what has parted.
     const float within = listed_within + (crowd.settings.cohesion > 0 ? pair.reach : 0);
@@ -271,7 +298,7 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
     list_near(touches.near_first, crowd.surfaces[a], state.normals[a], *particles[b], *particles[a], -pair.shift,
               within, nullptr, touches.on_first);
     find_edges(crowd, pair, particles, touches.near_second, nullptr, touches.edges);
-  }
+  });
   make_normals(
       crowd, particles,
       [&](std::size_t i, std::size_t a, std::size_t b, Wanted& wanted) {
