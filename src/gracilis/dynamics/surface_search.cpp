@@ -51,10 +51,11 @@ void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, con
 /// The edges of a face and of the faces behind its sides.
 void gather_edges(const ContactSurface& surface, Index face, std::vector<Index>& edges) {
   for (int corner = 0; corner < 3; ++corner) {
-    edges.push_back(surface.sides(corner, face));
-    const Index behind = surface.across(corner, face);
+    const Index side = surface.sides(corner, face), behind = surface.across(corner, face);
+    edges.push_back(side);
     if (behind < 0) continue;
-    for (int side = 0; side < 3; ++side) edges.push_back(surface.sides(side, behind));
+    for (const Index other : surface.sides.col(behind))
+      if (other != side) edges.push_back(other);
   }
 }
 
@@ -68,32 +69,28 @@ Eigen::Vector3f edge_normal(const ContactSurface& surface, Index edge, const Par
   return sum;
 }
 
-/// An edge by its ends, its middle and half of its length.
-struct EdgeBall {
-  Eigen::Vector3f from, to, center;
-  float radius;
+/// The places of an edge's ends.
+struct Segment {
+  Eigen::Vector3f from, to;
+
+  float length2() const { return (to - from).squaredNorm(); }
 };
 
-EdgeBall ball_around(const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-  return {a, b, (a + b) / 2, (b - a).norm() / 2};
-}
-
 /// Whether two edges come near each other between their ends; quick, because most do not.
-bool cross_closely(const EdgeBall& one, const EdgeBall& other) {
-  const float near = one.radius + other.radius + edges_listed_within;
-  if ((one.center - other.center).squaredNorm() > near * near) return false;
+bool cross_closely(const Segment& one, const Segment& other) {
   const Eigen::Vector3f a = one.to - one.from, b = other.to - other.from, between = one.from - other.from,
                         across = a.cross(b);
-  const float across2 = across.squaredNorm(), s = b.cross(between).dot(across), t = a.cross(between).dot(across);
-  if (s < 0 || s > across2 || t < 0 || t > across2) return false;
-  const float apart = across.dot(between);
-  return apart * apart < edges_listed_within * edges_listed_within * across2;
+  const float across2 = across.squaredNorm(), apart = across.dot(between);
+  if (!(apart * apart < edges_listed_within * edges_listed_within * across2)) return false;
+  const float s = b.cross(between).dot(across), t = a.cross(between).dot(across);
+  return s >= 0 && s <= across2 && t >= 0 && t <= across2;
 }
 
-/// Whether a particle is so near that an edge of this half length from it may cross another closely: one that does has
-/// an end within half of its length and that.
-bool is_near_enough(const PointTouch& touch, float half_length) {
-  return touch.distance < half_length + edges_listed_within;
+/// Whether a particle is so near that an edge of this length from it may cross another closely: one that does has an
+/// end within half of its length and that.
+bool is_near_enough(const PointTouch& touch, float length2) {
+  const float beyond = touch.distance - edges_listed_within;
+  return beyond < 0 || 4 * beyond * beyond < length2;
 }
 
 /// Looks up what a particle is near.
@@ -106,11 +103,11 @@ class TouchTable {
   }
 
   /// What this end of an edge is near if the edge may cross another closely by it, else null.
-  const PointTouch* near_enough(Index end, float half_length) const {
+  const PointTouch* near_enough(Index end, float length2) const {
     const Index at = at_[static_cast<std::size_t>(end)];
     if (at < 0) return nullptr;
     const PointTouch& touch = near_[static_cast<std::size_t>(at)];
-    return is_near_enough(touch, half_length) ? &touch : nullptr;
+    return is_near_enough(touch, length2) ? &touch : nullptr;
   }
 
  private:
@@ -133,9 +130,9 @@ std::vector<Index> edges_around(const std::vector<PointTouch>& near, const Touch
               // By one of its faces, and by its first end unless that is too far away.
               if (face != (faces[0] >= 0 ? faces[0] : faces[1])) continue;
               if (ends[0] != touch.particle && ends[1] != touch.particle) continue;
-              const float half = (particles.position(ends[1]) - particles.position(ends[0])).norm() / 2;
-              if (!is_near_enough(touch, half)) continue;
-              if (ends[0] == touch.particle || !table.near_enough(ends[0], half)) part.push_back(side);
+              const float length2 = (particles.position(ends[1]) - particles.position(ends[0])).squaredNorm();
+              if (!is_near_enough(touch, length2)) continue;
+              if (ends[0] == touch.particle || !table.near_enough(ends[0], length2)) part.push_back(side);
             }
           }
         }
@@ -155,20 +152,19 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
     for (Index i = begin; i < end; ++i) {
       const Index e = edges[static_cast<std::size_t>(i)];
       const auto& ends = first.edges[static_cast<std::size_t>(e)].ends;
-      const EdgeBall ball =
-          ball_around(particles[a]->position(ends[0]) + pair.shift, particles[a]->position(ends[1]) + pair.shift);
-      const auto ball_of = [&](Index other) {
+      const Segment edge = {particles[a]->position(ends[0]) + pair.shift, particles[a]->position(ends[1]) + pair.shift};
+      const auto segment_of = [&](Index other) -> Segment {
         const auto& its_ends = second.edges[static_cast<std::size_t>(other)].ends;
-        return ball_around(particles[b]->position(its_ends[0]), particles[b]->position(its_ends[1]));
+        return {particles[b]->position(its_ends[0]), particles[b]->position(its_ends[1])};
       };
       candidates.clear();
       for (const Index particle : ends) {
-        const PointTouch* touch = table.near_enough(particle, ball.radius);
+        const PointTouch* touch = table.near_enough(particle, edge.length2());
         if (!touch) continue;
         if (self && self->side(particle, touch->face) != touch->side) continue;
         gather_edges(second, touch->face, candidates);
       }
-      std::erase_if(candidates, [&](Index candidate) { return !cross_closely(ball, ball_of(candidate)); });
+      std::erase_if(candidates, [&](Index candidate) { return !cross_closely(edge, segment_of(candidate)); });
       if (candidates.empty()) continue;
       std::sort(candidates.begin(), candidates.end());
       candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
@@ -178,8 +174,8 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
         const float side = self ? self->side(ends, other) : 1.0f;
         if (side == 0) continue;
         const Eigen::Vector3f outward = side * (edge_normal(second, candidate, *particles[b]) - own_normal);
-        const EdgeBall its_ball = ball_of(candidate);
-        const EdgeGap gap = edge_gap(ball.from, ball.to, its_ball.from, its_ball.to, outward);
+        const Segment its = segment_of(candidate);
+        const EdgeGap gap = edge_gap(edge.from, edge.to, its.from, its.to, outward);
         if (gap.crossing && std::abs(gap.distance) < edges_listed_within)
           part.push_back({e, candidate, side, self ? self->most_gap(ends, other) : infinity});
       }
