@@ -35,7 +35,7 @@ std::vector<HingeConstraint> hinges() {
 template <class Set>
 void expect_whole_groups_that_follow_each_other(const Set& set, std::size_t size) {
   Index end = 0;
-  for (const ColorRange& color : set.colors) {
+  for (const ColorRange& color : set.order.colors) {
     EXPECT_EQ(color.begin, end);
     EXPECT_GT(color.end, color.begin);
     EXPECT_EQ(color.end % group_width, 0);
@@ -52,6 +52,34 @@ std::set<Index> used_slots(const Set& set) {
 }
 
 }  // namespace
+
+TEST(DistanceSet, clusters_touch_no_particle_of_another_and_hold_most_constraints) {
+  const TriangleMesh mesh = shapes::sphere(Vec3::Zero(), 0.05, 6);
+  const std::vector<Index> order = breadth_first_order(build_topology(mesh.faces, mesh.vertex_count()).stars);
+  std::vector<Index> number(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) number[static_cast<std::size_t>(order[i])] = static_cast<Index>(i);
+  std::vector<DistanceConstraint> input;
+  for (const MeshEdge& e : build_topology(mesh.faces, mesh.vertex_count()).edges)
+    input.push_back({number[static_cast<std::size_t>(e.a)], number[static_cast<std::size_t>(e.b)], 1, 0});
+  const DistanceSet set = build_distance_set(input, mesh.vertex_count());
+  expect_whole_groups_that_follow_each_other(set, set.a.size());
+  EXPECT_EQ(used_slots(set).size(), input.size());
+  ASSERT_GT(set.order.cluster_count(), 1);
+  std::map<Index, Index> cluster_of;  // particles
+  Index inside = 0;
+  for (Index cluster = 0; cluster < set.order.cluster_count(); ++cluster)
+    for (Index color = set.order.clusters[static_cast<std::size_t>(cluster)];
+         color < set.order.clusters[static_cast<std::size_t>(cluster) + 1]; ++color) {
+      const ColorRange range = set.order.colors[static_cast<std::size_t>(color)];
+      for (auto slot = static_cast<std::size_t>(range.begin); slot < static_cast<std::size_t>(range.end); ++slot) {
+        if (set.a[slot] == mesh.vertex_count()) continue;  // padding
+        ++inside;
+        EXPECT_EQ(cluster_of.try_emplace(set.a[slot], cluster).first->second, cluster);
+        EXPECT_EQ(cluster_of.try_emplace(set.b[slot], cluster).first->second, cluster);
+      }
+    }
+  EXPECT_GT(inside, set.count * 3 / 4);
+}
 
 TEST(DistanceSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers) {
   const std::vector<DistanceConstraint> input = distances();
@@ -84,7 +112,7 @@ TEST(DistanceSet, pads_with_the_idle_particle) {
 
 TEST(DistanceSet, no_particle_but_the_idle_one_stands_twice_in_a_color) {
   const DistanceSet set = build_distance_set(distances(), ball().vertex_count());
-  for (const ColorRange& color : set.colors) {
+  for (const ColorRange& color : set.order.colors) {
     std::set<Index> seen;
     for (Index slot = color.begin; slot < color.end; ++slot)
       for (Index p : {set.a[static_cast<std::size_t>(slot)], set.b[static_cast<std::size_t>(slot)]})
@@ -118,10 +146,10 @@ TEST(HingeSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers) {
 TEST(ConstraintSets, of_nothing_are_empty) {
   const DistanceSet distance = build_distance_set({}, 5);
   EXPECT_TRUE(distance.a.empty());
-  EXPECT_TRUE(distance.colors.empty());
+  EXPECT_TRUE(distance.order.colors.empty());
   const HingeSet hinge = build_hinge_set({}, 5);
   EXPECT_TRUE(hinge.rest_angle.empty());
-  EXPECT_TRUE(hinge.colors.empty());
+  EXPECT_TRUE(hinge.order.colors.empty());
 }
 
 /// The neighbors in a volume set's ring of every particle that has one, without repetition at the end.

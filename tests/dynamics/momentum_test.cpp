@@ -54,7 +54,7 @@ const TriangleMesh& ball() {
 TEST(Momentum, is_kept_by_distances) {
   const SurfaceSystem system = system_of(ball());
   SurfaceState state = shaken(system);
-  for (const ColorRange& color : system.distances.colors)
+  for (const ColorRange& color : system.distances.order.colors)
     expect_no_gain(state.particles, [&] {
       project_distances(system.distances, color, state.target_length.data(), state.distance_lambda.data(), state.start,
                         state.particles, {});
@@ -69,7 +69,7 @@ TEST(Momentum, is_kept_by_hinges_with_and_without_their_limit) {
       parameters.hinge_limit = limit;
       parameters.arccos_hinges = arccos;
       SurfaceState state = shaken(system);
-      for (const ColorRange& color : system.hinges.colors)
+      for (const ColorRange& color : system.hinges.order.colors)
         expect_no_gain(state.particles, [&] {
           project_hinges(system.hinges, color, state.hinge_lambda.data(), state.start, state.particles, parameters);
         });
@@ -80,7 +80,7 @@ TEST(Momentum, is_kept_by_the_stretch_limit) {
   const SurfaceSystem system = system_of(ball());
   SurfaceState state = shaken(system);
   Index limited = 0;
-  for (const ColorRange& color : system.distances.colors)
+  for (const ColorRange& color : system.distances.order.colors)
     expect_no_gain(state.particles, [&] { limited += limit_stretch(system.distances, color, 1.01f, state.particles); });
   EXPECT_GT(limited, 100);
 }

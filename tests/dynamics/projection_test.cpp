@@ -72,7 +72,7 @@ TEST(DistanceProjection, agrees_with_plain_double_precision) {
     const Points before = positions_of(state.particles);
     reference::State expected = reference::state_of(state.particles, state.start, state.distance_lambda);
     reference::project_distances(scenario.system.distances, state.target_length, expected, parameters);
-    for (const ColorRange& color : scenario.system.distances.colors)
+    for (const ColorRange& color : scenario.system.distances.order.colors)
       project_distances(scenario.system.distances, color, state.target_length.data(), state.distance_lambda.data(),
                         state.start, state.particles, parameters);
     EXPECT_LT(deviation(before, state.particles, expected.x), 1e-5);
@@ -87,7 +87,7 @@ TEST(HingeProjection, agrees_with_plain_double_precision) {
     const Points before = positions_of(state.particles);
     reference::State expected = reference::state_of(state.particles, state.start, state.hinge_lambda);
     reference::project_hinges(scenario.system.hinges, expected, parameters);
-    for (const ColorRange& color : scenario.system.hinges.colors)
+    for (const ColorRange& color : scenario.system.hinges.order.colors)
       project_hinges(scenario.system.hinges, color, state.hinge_lambda.data(), state.start, state.particles,
                      parameters);
     EXPECT_LT(deviation(before, state.particles, expected.x), 1e-5);
@@ -110,8 +110,8 @@ Scenario one_hinge(Real angle, Real compliance) {
 }
 
 ProjectionCounts project_all(Scenario& scenario, const ProjectionParameters& parameters) {
-  return project_hinges(scenario.system.hinges, scenario.system.hinges.colors.at(0), scenario.state.hinge_lambda.data(),
-                        scenario.state.start, scenario.state.particles, parameters);
+  return project_hinges(scenario.system.hinges, scenario.system.hinges.order.colors.at(0),
+                        scenario.state.hinge_lambda.data(), scenario.state.start, scenario.state.particles, parameters);
 }
 
 }  // namespace
@@ -170,8 +170,8 @@ TEST(DistanceProjection, an_edge_without_length_is_skipped_and_counted_and_moves
     const DistanceSet set = build_distance_set({{0, 1, 0.005, 0.01}}, 2);
     AlignedVector<float> lambda(set.a.size(), 0);
     const AlignedVector<float> before = particles.xyzw;
-    const ProjectionCounts counts = project_distances(set, set.colors.at(0), set.rest_length.data(), lambda.data(),
-                                                      particles, particles, parameters);
+    const ProjectionCounts counts = project_distances(set, set.order.colors.at(0), set.rest_length.data(),
+                                                      lambda.data(), particles, particles, parameters);
     EXPECT_EQ(counts.skipped, 1);
     EXPECT_EQ(particles.xyzw, before);
     for (float value : lambda) EXPECT_TRUE(std::isfinite(value));
@@ -186,12 +186,12 @@ TEST(Projection, padding_and_fixed_particles_stay_where_they_are_and_never_turn_
       SurfaceState& state = scenario.state;
       const Particles before = state.particles;
       for (int repeat = 0; repeat < 5; ++repeat) {
-        for (const ColorRange& color : scenario.system.distances.colors) {
+        for (const ColorRange& color : scenario.system.distances.order.colors) {
           project_distances(scenario.system.distances, color, state.target_length.data(), state.distance_lambda.data(),
                             state.start, state.particles, parameters);
           limit_stretch(scenario.system.distances, color, 1.01f, state.particles);
         }
-        for (const ColorRange& color : scenario.system.hinges.colors)
+        for (const ColorRange& color : scenario.system.hinges.order.colors)
           project_hinges(scenario.system.hinges, color, state.hinge_lambda.data(), state.start, state.particles,
                          parameters);
       }
@@ -219,14 +219,14 @@ TEST(StretchLimit, shortens_what_is_too_long_to_the_limit_and_leaves_the_rest) {
   inverse_masses << 1, 3, 1, 1, 0, 2;
   Particles particles = make_particles(x, inverse_masses);
   const DistanceSet set = build_distance_set({{0, 1, 0.01, 0}, {2, 3, 0.01, 0}, {4, 5, 0.01, 0}}, 6);
-  ASSERT_EQ(set.colors.size(), 1u);
-  EXPECT_EQ(limit_stretch(set, set.colors[0], 2, particles), 2);
+  ASSERT_EQ(set.order.colors.size(), 1u);
+  EXPECT_EQ(limit_stretch(set, set.order.colors[0], 2, particles), 2);
   EXPECT_NEAR((particles.position(1) - particles.position(0)).norm(), 0.02, 1e-8);
   EXPECT_NEAR(particles.position(0).x(), 0.01 / 4, 1e-8);  // the lighter end gives three times as much
   EXPECT_NEAR((particles.position(5) - particles.position(4)).norm(), 0.02, 1e-8);
   EXPECT_EQ(particles.position(4).x(), 0);
   EXPECT_EQ(particles.position(3).x(), 0.019f);
-  EXPECT_EQ(limit_stretch(set, set.colors[0], 2.001f, particles), 0);
+  EXPECT_EQ(limit_stretch(set, set.order.colors[0], 2.001f, particles), 0);
 }
 
 }  // namespace gracilis

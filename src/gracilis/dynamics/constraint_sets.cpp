@@ -4,26 +4,48 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 
 namespace gracilis {
 
 namespace {
 
+/// Particles of a cluster, whose positions fit into a core's first cache, and constraints worth a task.
+constexpr Index cluster_particles = 2048, least_constraints = 2048;
+
 struct Layout {
-  std::vector<ColorRange> colors;
+  ColorOrder order;
   std::vector<Index> slot;
   Index size = 0;
 };
 
-/// Constraints of one color side by side, in an order that follows memory, each color padded to whole groups.
-Layout lay_out(const ConstraintGraph& graph) {
-  Layout layout;
-  const std::vector<Index> colors = color_constraints(graph);
+/// The cluster that a constraint lies in as a whole, or `cluster_count` where it lies across several.
+std::vector<Index> clusters_of(const ConstraintGraph& graph, Index cluster_count) {
+  std::vector<Index> clusters;
+  for (Index c = 0; c < graph.constraint_count(); ++c) {
+    const auto first = graph.particles.begin() + static_cast<std::ptrdiff_t>(c) * graph.arity;
+    const auto cluster_of = [&](Index particle) {
+      return static_cast<Index>(std::int64_t{particle} * cluster_count / std::max<Index>(graph.particle_count, 1));
+    };
+    const Index cluster = cluster_of(*first);
+    const bool whole = std::all_of(first, first + graph.arity, [&](Index p) { return cluster_of(p) == cluster; });
+    clusters.push_back(whole ? cluster : cluster_count);
+  }
+  return clusters;
+}
+
+/// Lays out some of a graph's constraints: those of one color side by side, in an order that follows memory, each color
+/// padded to whole groups.
+void lay_out(const ConstraintGraph& graph, const std::vector<Index>& constraints, Layout& layout) {
+  ConstraintGraph part{graph.arity, graph.particle_count, {}};
+  for (const Index c : constraints)
+    part.particles.insert(part.particles.end(), graph.particles.begin() + static_cast<std::ptrdiff_t>(c) * graph.arity,
+                          graph.particles.begin() + static_cast<std::ptrdiff_t>(c + 1) * graph.arity);
+  const std::vector<Index> colors = color_constraints(part);
   const Index color_count = colors.empty() ? 0 : *std::max_element(colors.begin(), colors.end()) + 1;
   std::vector<std::vector<Index>> members(static_cast<std::size_t>(color_count));
-  for (std::size_t c = 0; c < colors.size(); ++c)
-    members[static_cast<std::size_t>(colors[c])].push_back(static_cast<Index>(c));
-  layout.slot.resize(colors.size());
+  for (std::size_t i = 0; i < colors.size(); ++i)
+    members[static_cast<std::size_t>(colors[i])].push_back(constraints[i]);
   for (auto& color : members) {
     std::stable_sort(color.begin(), color.end(), [&](Index l, Index r) {
       return graph.particles[static_cast<std::size_t>(l * graph.arity)] <
@@ -33,8 +55,25 @@ Layout lay_out(const ConstraintGraph& graph) {
     for (std::size_t i = 0; i < color.size(); ++i)
       layout.slot[static_cast<std::size_t>(color[i])] = begin + static_cast<Index>(i);
     layout.size = begin + (static_cast<Index>(color.size()) + group_width - 1) / group_width * group_width;
-    layout.colors.push_back({begin, layout.size});
+    layout.order.colors.push_back({begin, layout.size});
   }
+}
+
+Layout lay_out(const ConstraintGraph& graph) {
+  const Index count = graph.constraint_count();
+  const Index cluster_count =
+      std::max<Index>(1, std::min(graph.particle_count / cluster_particles, count / least_constraints));
+  std::vector<std::vector<Index>> members(static_cast<std::size_t>(cluster_count) + 1);
+  const std::vector<Index> clusters = clusters_of(graph, cluster_count);
+  for (Index c = 0; c < count; ++c)
+    members[static_cast<std::size_t>(clusters[static_cast<std::size_t>(c)])].push_back(c);
+  Layout layout;
+  layout.slot.resize(static_cast<std::size_t>(count));
+  for (Index cluster = 0; cluster < cluster_count; ++cluster) {
+    lay_out(graph, members[static_cast<std::size_t>(cluster)], layout);
+    layout.order.clusters.push_back(static_cast<Index>(layout.order.colors.size()));
+  }
+  lay_out(graph, members.back(), layout);
   return layout;
 }
 
@@ -57,7 +96,7 @@ DistanceSet build_distance_set(const std::vector<DistanceConstraint>& constraint
     set.rest_length[at] = static_cast<float>(constraints[i].rest_length);
     set.compliance[at] = static_cast<float>(constraints[i].compliance);
   }
-  set.colors = std::move(layout.colors);
+  set.order = std::move(layout.order);
   set.slot = std::move(layout.slot);
   set.count = static_cast<Index>(constraints.size());
   return set;
@@ -81,7 +120,7 @@ HingeSet build_hinge_set(const std::vector<HingeConstraint>& constraints, Index 
     set.compliance[at] = static_cast<float>(constraints[i].compliance);
     set.edge_length[at] = static_cast<float>(constraints[i].edge_length);
   }
-  set.colors = std::move(layout.colors);
+  set.order = std::move(layout.order);
   set.slot = std::move(layout.slot);
   set.count = static_cast<Index>(constraints.size());
   return set;

@@ -17,12 +17,23 @@ struct ColorRange {
   Index begin = 0, end = 0;
 };
 
+/// In which order constraints are taken: the colors one after the other, which any number of threads may shorten.
+/// Colors [clusters[i], clusters[i + 1]) belong to cluster i, whose particles no other cluster touches, so that
+/// clusters run side by side, each within a cache; what lies across clusters comes after the last of them, color by
+/// color.
+struct ColorOrder {
+  std::vector<ColorRange> colors;
+  std::vector<Index> clusters = {0};
+
+  Index cluster_count() const { return static_cast<Index>(clusters.size()) - 1; }
+};
+
 /// Two particles keep a distance: C = |x_b - x_a| - length (Müller et al. 2007).
 struct DistanceSet {
   AlignedVector<Index> a, b;
   AlignedVector<float> rest_length;  ///< m, in the capture pose
   AlignedVector<float> compliance;   ///< m/N
-  std::vector<ColorRange> colors;
+  ColorOrder order;
   std::vector<Index> slot;  ///< where constraint i of the input went
   Index count = 0;          ///< without padding
 };
@@ -34,7 +45,7 @@ struct HingeSet {
   AlignedVector<float> rest_angle;   ///< rad
   AlignedVector<float> compliance;   ///< 1/(N·m)
   AlignedVector<float> edge_length;  ///< m, in the capture pose
-  std::vector<ColorRange> colors;
+  ColorOrder order;
   std::vector<Index> slot;
   Index count = 0;
 };
@@ -63,8 +74,8 @@ struct HingeConstraint {
   Real rest_angle = 0, compliance = 0, edge_length = 0;
 };
 
-/// Colors, groups and pads constraints over `particle_count` particles; particle number `particle_count` is the idle
-/// one.
+/// Clusters, colors, groups and pads constraints over `particle_count` particles; particle number `particle_count` is
+/// the idle one. Neighbors should have near numbers (breadth-first): clusters are ranges of numbers.
 DistanceSet build_distance_set(const std::vector<DistanceConstraint>& constraints, Index particle_count);
 HingeSet build_hinge_set(const std::vector<HingeConstraint>& constraints, Index particle_count);
 

@@ -138,7 +138,7 @@ static void clear(NearEdges& edges) {
 
 static void list_edges(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
                        const Particles& particles, NearField& near) {
-  for (const ColorRange& color : distances.colors) {
+  for (const ColorRange& color : distances.order.colors) {
     const Index begin = near.edges.count();
     for (Index slot = color.begin; slot < color.end; ++slot) {
       const auto at = static_cast<std::size_t>(slot);

@@ -20,15 +20,30 @@ constexpr int motion_check = 4;
 /// Iterations between two looks at what is near between surfaces, which walk and list with reserve.
 constexpr int coupling_refresh = 15;
 
+/// Calls project(range) for all slots: clusters side by side, then what lies across them, one color after the other.
 template <class Project>
-void project_colors(const std::vector<ColorRange>& colors, SolveReport& report, const Project& project) {
-  std::atomic<Index> limited = 0, skipped = 0;
-  for (const ColorRange& color : colors)
+void for_each_color(const ColorOrder& order, const Project& project) {
+  parallel_for(order.cluster_count(), 1, [&](Index begin, Index end) {
+    for (Index i = order.clusters[static_cast<std::size_t>(begin)]; i < order.clusters[static_cast<std::size_t>(end)];
+         ++i)
+      project(order.colors[static_cast<std::size_t>(i)]);
+  });
+  for (auto i = static_cast<std::size_t>(order.clusters.back()); i < order.colors.size(); ++i) {
+    const ColorRange color = order.colors[i];
     parallel_for(color.end - color.begin, slots_per_task, [&](Index begin, Index end) {
-      const ProjectionCounts counts = project(ColorRange{color.begin + begin, color.begin + end});
-      limited += counts.limited;
-      skipped += counts.skipped;
+      project(ColorRange{color.begin + begin, color.begin + end});
     });
+  }
+}
+
+template <class Project>
+void project_colors(const ColorOrder& order, SolveReport& report, const Project& project) {
+  std::atomic<Index> limited = 0, skipped = 0;
+  for_each_color(order, [&](ColorRange range) {
+    const ProjectionCounts counts = project(range);
+    limited += counts.limited;
+    skipped += counts.skipped;
+  });
   report.limited_hinges += limited;
   report.skipped_constraints += skipped;
 }
@@ -48,10 +63,8 @@ void project_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
 
 void limit_edges(const SurfaceSystem& system, float limit, SurfaceState& state, SolveReport& report) {
   std::atomic<Index> limited = 0;
-  for (const ColorRange& color : system.distances.colors)
-    parallel_for(color.end - color.begin, slots_per_task, [&](Index begin, Index end) {
-      limited += limit_stretch(system.distances, {color.begin + begin, color.begin + end}, limit, state.particles);
-    });
+  for_each_color(system.distances.order,
+                 [&](ColorRange range) { limited += limit_stretch(system.distances, range, limit, state.particles); });
   report.limited_edges += limited;
 }
 
@@ -105,20 +118,20 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
     case ConstraintKind::muscle_contact:  // is no one surface's
       break;
     case ConstraintKind::distance:
-      project_colors(system.distances.colors, report, [&](ColorRange range) {
+      project_colors(system.distances.order, report, [&](ColorRange range) {
         return project_distances(system.distances, range, state.target_length.data(), state.distance_lambda.data(),
                                  state.start, state.particles, settings.projection);
       });
       break;
     case ConstraintKind::contraction:
       if (!(settings.contraction > 0)) break;
-      project_colors(system.contractions.colors, report, [&](ColorRange range) {
+      project_colors(system.contractions.order, report, [&](ColorRange range) {
         return project_contractions(system.contractions, range, state.contraction_length.data(), settings.contraction,
                                     state.contraction_lambda.data(), state.particles, settings.projection);
       });
       break;
     case ConstraintKind::dihedral:
-      project_colors(system.hinges.colors, report, [&](ColorRange range) {
+      project_colors(system.hinges.order, report, [&](ColorRange range) {
         return project_hinges(system.hinges, range, state.hinge_lambda.data(), state.start, state.particles,
                               settings.projection);
       });
