@@ -103,12 +103,17 @@ class FreeFrames {
 
 }  // namespace
 
+/// Nearer to the capture pose than this a muscle comes back by no more than the recovery: the way through that pose is
+/// as smooth as any.
+static constexpr Real near_capture = radians(15);
+
 /// The share of their displacements that free particles keep from one pose to the next.
 static Real kept_share(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active) {
   const Real recovery = muscle.settings.shape_recovery;
   if (active || !(recovery > 0)) return 1 - recovery;
-  const Real away = turn_from_capture(muscle, before);
-  return (1 - recovery) * (away > 0 ? std::min(turn_from_capture(muscle, now) / away, Real{1}) : 1);
+  const auto far = [&](const Pose& pose) { return std::max(turn_from_capture(muscle, pose), near_capture); };
+  const Real nearer = far(now) / far(before);
+  return (1 - recovery) * std::min(nearer * nearer, Real{1});
 }
 
 void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, Particles& particles) {
