@@ -270,9 +270,11 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     couple();
   }
 
-  // What contact takes from the volume, or the volume presses into a neighbor, is shared out between them.
+  // What contact takes from the volume, or the volume presses into a neighbor, is shared out between them, by where
+  // everything is now.
   int rounds = 0;
   for (const SurfaceSolve& surface : surfaces) rounds = std::max(rounds, surface.settings.settling_rounds);
+  if (rounds > 0 && coupling.refresh) coupling.refresh();
   for (int round = 0; round < rounds; ++round) {
     const auto is_settling = [&](std::size_t i) { return round < surfaces[i].settings.settling_rounds; };
     const auto project = [&](ConstraintKind kind) {
