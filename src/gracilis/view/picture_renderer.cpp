@@ -154,11 +154,15 @@ static vtkSmartPointer<vtkTextActor> text_actor(const std::string& text, int pix
   return actor;
 }
 
+/// In the middle of a part, or as near to it as what takes up the part's first `taken` pixels allows.
 static void add_centered_text(const std::string& text, int pixels, bool bold, const Rectangle& part, int scale,
-                              vtkRenderer& renderer) {
+                              vtkRenderer& renderer, int taken = 0) {
   const vtkSmartPointer<vtkTextActor> actor = text_actor(text, pixels * scale, bold);
   actor->GetTextProperty()->SetJustificationToCentered();
-  actor->SetPosition(part.width * scale / 2.0, part.height * scale / 2.0);
+  double size[2] = {0, 0};
+  actor->GetSize(&renderer, size);
+  const Real nearest = taken > 0 ? (taken + 16) * scale + size[0] / 2 : 0;
+  actor->SetPosition(std::max(part.width * scale / 2.0, nearest), part.height * scale / 2.0);
   renderer.AddActor2D(actor);
 }
 
@@ -223,8 +227,8 @@ static void add_color_bar(const ColorBar& bar, const Rectangle& part, int scale,
   }
 }
 
-/// A line of a round length, at most a fifth of the panel, in the lower left corner.
-static void add_scale_bar(const PictureLayout& layout, int scale, vtkRenderer& renderer) {
+/// A line of a round length, at most a fifth of the panel, in the lower left corner. Returns where it ends, pixels.
+static int add_scale_bar(const PictureLayout& layout, int scale, vtkRenderer& renderer) {
   const Rectangle& part = layout.panels[0];
   const Real pixels_per_metre = part.height / (2 * layout.half_height);
   Real length = 0.001;
@@ -238,6 +242,7 @@ static void add_scale_bar(const PictureLayout& layout, int scale, vtkRenderer& r
   label->GetTextProperty()->SetJustificationToCentered();
   label->SetPosition((20 + width / 2.0) * scale, 28 * scale);
   renderer.AddActor2D(label);
+  return 20 + width;
 }
 
 void add_renderers(const Picture& picture, const PictureLayout& layout, int scale, vtkRenderWindow& window) {
@@ -256,8 +261,8 @@ void add_renderers(const Picture& picture, const PictureLayout& layout, int scal
     if (i == 0 && picture.scale_bar && layout.captions[i].height == 0) add_scale_bar(layout, scale, *renderer);
     if (layout.captions[i].height == 0) continue;
     const auto caption = renderer_in(layout.captions[i], picture, layout, window);
-    add_centered_text(panel.caption, 24, false, layout.captions[i], scale, *caption);
-    if (i == 0 && picture.scale_bar) add_scale_bar(layout, scale, *caption);
+    const int taken = i == 0 && picture.scale_bar ? add_scale_bar(layout, scale, *caption) : 0;
+    add_centered_text(panel.caption, 24, false, layout.captions[i], scale, *caption, taken);
   }
   if (layout.title.height > 0) {
     add_centered_text(picture.title, 30, true, layout.title, scale,
