@@ -3,6 +3,7 @@
 #include <gracilis/core/types.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -12,6 +13,14 @@ namespace gracilis {
 /// never depends on the number of threads, so a body that writes only to its own range gives the same bits with any
 /// number. `grain` is the size of a range; a count up to `grain` runs on the calling thread.
 void parallel_for(Index count, Index grain, const std::function<void(Index begin, Index end)>& body);
+
+/// Calls act(i) for every number below `count`, each a task of its own: for a few pieces of work of different size.
+template <class Act>
+void parallel_for_each(std::size_t count, const Act& act) {
+  parallel_for(static_cast<Index>(count), 1, [&](Index begin, Index end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) act(i);
+  });
+}
 
 /// What body(begin, end, part) appends to its part, for disjoint ranges that cover [0, count), in the order of ranges.
 template <class Item, class Body>

@@ -104,13 +104,8 @@ Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eige
   const auto count = static_cast<Index>(surface.fan_offsets.size()) - 1;
   Eigen::Matrix3Xf sums(3, count);
   parallel_for(count, chunk, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) {
-      Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-      for (Index i = surface.fan_offsets[static_cast<std::size_t>(p)];
-           i < surface.fan_offsets[static_cast<std::size_t>(p) + 1]; ++i)
-        sum += of_faces.col(surface.fan[static_cast<std::size_t>(i)]);
-      sums.col(p) = sum;
-    }
+    for (Index p = begin; p < end; ++p)
+      sums.col(p) = sum_around(surface, p, [&](Index face) { return of_faces.col(face); });
   });
   return sums;
 }

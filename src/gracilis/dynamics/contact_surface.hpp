@@ -40,6 +40,15 @@ inline Eigen::Vector3f face_area(const ContactSurface& surface, Index face, cons
   return (particles.position(surface.faces(1, face)) - a)
       .cross(Eigen::Vector3f(particles.position(surface.faces(2, face)) - a));
 }
+/// The sum over a particle's faces of of_face(face).
+template <class OfFace>
+Eigen::Vector3f sum_around(const ContactSurface& surface, Index particle, const OfFace& of_face) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  const auto at = static_cast<std::size_t>(particle);
+  for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
+    sum += of_face(surface.fan[static_cast<std::size_t>(i)]);
+  return sum;
+}
 /// At each particle the sum over its faces of what they have, one column each.
 Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces);
 

@@ -40,12 +40,9 @@ Eigen::Vector3f area_of(const Eigen::Matrix3Xf& points, const Eigen::Vector3i& f
   return (b - a).cross(c - a);
 }
 
-Eigen::Vector3f sum_around(const ContactSurface& surface, const Eigen::Matrix3Xf& points, Index particle) {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  const auto at = static_cast<std::size_t>(particle);
-  for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
-    sum += area_of(points, surface.faces.col(surface.fan[static_cast<std::size_t>(i)]));
-  return sum;
+/// Of the surface around a particle, its area vectors' sum.
+Eigen::Vector3f area_around(const ContactSurface& surface, const Eigen::Matrix3Xf& points, Index particle) {
+  return sum_around(surface, particle, [&](Index face) { return area_of(points, surface.faces.col(face)); });
 }
 
 /// Whether a point is in front of or behind a triangle, right over it.
@@ -68,10 +65,8 @@ Index nearest_corner(const Eigen::Vector3i& corners, const Eigen::Matrix3Xf& poi
 }  // namespace
 
 float SelfRule::side(Index particle, Index face) const {
-  Eigen::Vector3f outward = Eigen::Vector3f::Zero();
-  const auto at = static_cast<std::size_t>(particle);
-  for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
-    outward += face_area(surface, surface.fan[static_cast<std::size_t>(i)], particles);
+  const Eigen::Vector3f outward =
+      sum_around(surface, particle, [&](Index each) { return face_area(surface, each, particles); });
   return face_area(surface, face, particles).dot(outward) < 0 ? side_when_facing(particle, face) : 0;
 }
 
@@ -85,7 +80,7 @@ float SelfRule::side_when_facing(Index particle, Index face) const {
       decided_at_rest({rest.col(particle), rest_normals.col(particle)}, {rest.col(corner), facing}, neighborhood);
   if (decided != 0) return decided;
   const Eigen::Vector3f area = area_of(before, corners);
-  if (area.dot(sum_around(surface, before, particle)) < 0 && is_over(before.col(particle), before, corners))
+  if (area.dot(area_around(surface, before, particle)) < 0 && is_over(before.col(particle), before, corners))
     return area.dot(before.col(particle) - before.col(corners[0])) < 0 ? -1.0f : 1.0f;
   // What comes from afar comes from outside.
   return (rest.col(corner) - rest.col(particle)).norm() > thickest_sheet * neighborhood ? 1.0f : 0.0f;
@@ -100,7 +95,7 @@ float SelfRule::side(const std::array<Index, 2>& edge, const std::array<Index, 2
                                         {middle(rest, other), middle(rest_normals, other)}, neighborhood);
   if (decided != 0) return decided;
   const auto normal = [&](const std::array<Index, 2>& ends) {
-    return Eigen::Vector3f(sum_around(surface, before, ends[0]) + sum_around(surface, before, ends[1]));
+    return Eigen::Vector3f(area_around(surface, before, ends[0]) + area_around(surface, before, ends[1]));
   };
   const Eigen::Vector3f own = normal(edge), facing = normal(other);
   if (!(own.dot(facing) < 0)) return 0;

@@ -236,15 +236,13 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     progress[i].done = surfaces[i].settings.iterations <= 0;
   }
   const auto for_each = [&](const auto& wanted, const auto& act) {
-    parallel_for(static_cast<Index>(surfaces.size()), 1, [&](Index from, Index to) {
-      for (auto i = static_cast<std::size_t>(from); i < static_cast<std::size_t>(to); ++i) {
-        if (!wanted(i)) continue;
-        const Clock::time_point started = Clock::now();
-        act(surfaces[i], progress[i], [&, i](ConstraintKind kind) {
-          if (watch) watch(i, kind);
-        });
-        surfaces[i].report.milliseconds += milliseconds_since(started);
-      }
+    parallel_for_each(surfaces.size(), [&](std::size_t i) {
+      if (!wanted(i)) return;
+      const Clock::time_point started = Clock::now();
+      act(surfaces[i], progress[i], [&, i](ConstraintKind kind) {
+        if (watch) watch(i, kind);
+      });
+      surfaces[i].report.milliseconds += milliseconds_since(started);
     });
   };
   const auto couple = [&] {

@@ -156,19 +156,17 @@ Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const 
                       const std::vector<Particles*>& particles) {
   std::atomic<Index> count = 0;
   for (const std::vector<Index>& round : crowd.rounds)
-    parallel_for(static_cast<Index>(round.size()), 1, [&](Index begin, Index end) {
-      for (Index i = begin; i < end; ++i) {
-        const auto number = static_cast<std::size_t>(round[static_cast<std::size_t>(i)]);
-        const SurfacePair& pair = crowd.pairs[number];
-        const PairTouches& touches = state.touches[number];
-        const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-        Index pushed = project_edges(crowd, pair, state, touches.edges, start, particles);
-        pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, *start[a],
-                                 *start[b], *particles[a], *particles[b]);
-        pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, *start[b],
-                                 *start[a], *particles[b], *particles[a]);
-        count += pushed;
-      }
+    parallel_for_each(round.size(), [&](std::size_t i) {
+      const auto number = static_cast<std::size_t>(round[i]);
+      const SurfacePair& pair = crowd.pairs[number];
+      const PairTouches& touches = state.touches[number];
+      const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+      Index pushed = project_edges(crowd, pair, state, touches.edges, start, particles);
+      pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, *start[a],
+                               *start[b], *particles[a], *particles[b]);
+      pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, *start[b], *start[a],
+                               *particles[b], *particles[a]);
+      count += pushed;
     });
   return count;
 }

@@ -1,4 +1,3 @@
-
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/self_contact.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
@@ -183,14 +182,6 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
   });
 }
 
-/// Calls act(i) for all numbers below `count`, possibly at the same time: most have little to do, some much.
-template <class Act>
-void for_each(std::size_t count, const Act& act) {
-  parallel_for(static_cast<Index>(count), 1, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) act(static_cast<std::size_t>(i));
-  });
-}
-
 /// Which particles need normals, per surface.
 using Wanted = std::vector<std::vector<char>>;
 
@@ -218,7 +209,7 @@ void make_normals(const SurfaceCrowd& crowd, const std::vector<const Particles*>
   for (const Particles* each : particles) wanted.emplace_back(static_cast<std::size_t>(each->count()), 0);
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i)
     want(i, static_cast<std::size_t>(crowd.pairs[i].first), static_cast<std::size_t>(crowd.pairs[i].second), wanted);
-  for_each(wanted.size(), [&](std::size_t s) {
+  parallel_for_each(wanted.size(), [&](std::size_t s) {
     std::vector<Index> listed;
     for (std::size_t p = 0; p < wanted[s].size(); ++p)
       if (wanted[s][p]) listed.push_back(static_cast<Index>(p));
@@ -245,10 +236,9 @@ void remember_places(const std::vector<const Particles*>& particles, CrowdState&
 
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
   std::vector<SearchedSurface> searched;
-  for (std::size_t s = 0; s < particles.size(); ++s)
-    searched.push_back({crowd.surfaces[s], *particles[s], state.trees[s]});
-  for_each(particles.size(), [&](std::size_t s) { refit(crowd.surfaces[s], *particles[s], state.trees[s]); });
-  for_each(crowd.pairs.size(), [&](std::size_t i) {
+  for (std::size_t s = 0; s < particles.size(); ++s) searched.push_back({*particles[s], state.trees[s]});
+  parallel_for_each(particles.size(), [&](std::size_t s) { refit(crowd.surfaces[s], *particles[s], state.trees[s]); });
+  parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
@@ -262,7 +252,7 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
 }
 
 void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
-  for_each(crowd.pairs.size(), [&](std::size_t i) {
+  parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
@@ -276,7 +266,7 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
         want_faces(state.touches[i].near_first, crowd.surfaces[a], wanted[a]);
       },
       state);
-  for_each(crowd.pairs.size(), [&](std::size_t i) {
+  parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);

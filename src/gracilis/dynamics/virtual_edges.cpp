@@ -118,12 +118,10 @@ void adapt_distances(const VirtualEdgeCrowd& crowd, const std::vector<const Part
 Index project_virtual_edges(const VirtualEdgeCrowd& crowd, const std::vector<Particles*>& particles,
                             VirtualEdgeState& state) {
   for (const std::vector<Index>& round : crowd.rounds)
-    parallel_for(static_cast<Index>(round.size()), 1, [&](Index begin, Index end) {
-      for (Index i = begin; i < end; ++i) {
-        const auto number = static_cast<std::size_t>(round[static_cast<std::size_t>(i)]);
-        PairEdges& edges = state.pairs[number];
-        edges.pushes = project_pair(crowd, crowd.pairs[number], state.previous, particles, edges);
-      }
+    parallel_for_each(round.size(), [&](std::size_t i) {
+      const auto number = static_cast<std::size_t>(round[i]);
+      PairEdges& edges = state.pairs[number];
+      edges.pushes = project_pair(crowd, crowd.pairs[number], state.previous, particles, edges);
     });
   Index pushes = 0;
   for (const PairEdges& edges : state.pairs) pushes += edges.pushes;

@@ -2,6 +2,8 @@
 
 #include <gracilis/core/types.hpp>
 
+#include <array>
+
 namespace gracilis {
 
 /// A surface that lines run around (OpenSim's wrap objects), in a frame of its own.
@@ -17,6 +19,10 @@ struct WrapSurface {
   int side_axis = -1;           ///< 0, 1, 2: lines pass on one side only, along this axis (OpenSim's quadrant)
   int side_sign = 0;            ///< +1 or -1
 };
+
+/// As scene files have them, in the order of the enumerators.
+inline constexpr std::array<const char*, 4> wrap_kind_names = {"cylinder", "sphere", "ellipsoid", "torus"};
+inline constexpr std::array<const char*, 3> wrap_plane_names = {"hybrid", "midpoint", "axial"};
 
 /// A turn of an ellipse, climbing evenly: circles, ellipses and helices.
 struct Arc {

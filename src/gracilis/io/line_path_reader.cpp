@@ -70,12 +70,11 @@ static PlacedWrap read_wrap(TomlReader table, std::string& body) {
   body = table.required_text("body");
   WrapSurface& surface = wrap.surface;
   const std::string kind = table.required_text("kind");
-  static const std::vector<std::string> kinds = {"cylinder", "sphere", "ellipsoid", "torus"};
-  const auto known = std::find(kinds.begin(), kinds.end(), kind);
-  if (known == kinds.end())
+  const auto known = std::find(wrap_kind_names.begin(), wrap_kind_names.end(), kind);
+  if (known == wrap_kind_names.end())
     table.add_problem("kind", "'kind' must be \"cylinder\", \"sphere\", \"ellipsoid\" or \"torus\"");
   else
-    surface.kind = static_cast<WrapSurface::Kind>(known - kinds.begin());
+    surface.kind = static_cast<WrapSurface::Kind>(known - wrap_kind_names.begin());
   wrap.frame = frame_of(table, "center_mm");
   surface.radius = table.number("radius_mm", {0, 1e9}).value_or(0) / 1000;
   surface.length = table.number("length_mm", {0, 1e12}).value_or(0) / 1000;
@@ -89,10 +88,9 @@ static PlacedWrap read_wrap(TomlReader table, std::string& body) {
     surface.side_axis = std::clamp(side.back() - 'x', 0, 2);
     surface.side_sign = side[0] == '-' ? -1 : 1;
   }
-  const std::string plane = table.text("plane").value_or("hybrid");
-  wrap.plane = plane == "midpoint" ? WrapSurface::Plane::midpoint
-               : plane == "axial"  ? WrapSurface::Plane::axial
-                                   : WrapSurface::Plane::hybrid;
+  const std::string plane = table.text("plane").value_or("");
+  const auto named = std::find(wrap_plane_names.begin(), wrap_plane_names.end(), plane);
+  if (named != wrap_plane_names.end()) wrap.plane = static_cast<WrapSurface::Plane>(named - wrap_plane_names.begin());
   wrap.first_point = static_cast<int>(table.number("first_point", {0, 1e6}).value_or(0));
   wrap.last_point = static_cast<int>(table.number("last_point", {0, 1e6}).value_or(1e6));
   table.reject_unknown_keys();

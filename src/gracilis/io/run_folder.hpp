@@ -19,9 +19,9 @@ enum class ExistingRun { refuse, replace, resume };
 ///
 ///   run.json                       see run_manifest.hpp
 ///   run.pvd                        opens the animation in ParaView; always names frames that are there only
-///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits, and muscles'
-///   vertices
-///                                  in it tell whether they are of an origin or an insertion, and how much of a belly
+///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits
+///                                  and tells which of a muscle's vertices are of an origin, an
+///                                  insertion, and how much of a belly
 ///   measures.csv                   one row per frame and muscle; the units stand in the names of the columns
 ///   fiber_lengths.sto              one row per frame, see fiber_table.hpp
 ///   fibers/<muscle>_0000.vtp       one per frame and muscle with fibers, m

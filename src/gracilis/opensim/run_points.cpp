@@ -195,8 +195,8 @@ static std::pair<Real, Real> errors_of(const Model& model, const Path& path, con
   return {std::sqrt(sum / static_cast<Real>(fibers.size())), largest};
 }
 
-/// Points that move with that coordinate, of those that the muscle crosses and `otherwise`, whose path's lengths err
-/// least.
+/// Points that move with that coordinate, of those that the muscle crosses and `otherwise`, that leaves least of their
+/// movement.
 static std::vector<FiberPoint> best_points(const Model& model, const Muscle* known, const CoordinateMotion& motion,
                                            const std::vector<Points>& lines, const std::vector<Poses>& poses,
                                            Index otherwise, Index& chosen) {

@@ -78,15 +78,14 @@ static void tell_unknown(const Model& model, const Muscle& muscle, const PathPoi
 }
 
 static std::string wrap_text(const Model& model, const PlacedWrap& wrap) {
-  static const char* kinds[] = {"cylinder", "sphere", "ellipsoid", "torus"};
-  static const char* planes[] = {"hybrid", "midpoint", "axial"};
   const WrapSurface& surface = wrap.surface;
-  std::string text = fmt::format(
-      "\n[[muscles.action_line.wraps]]\nkind = \"{}\"\nbody = {}\n{}", kinds[static_cast<int>(surface.kind)],
-      toml_text(model.bodies[static_cast<std::size_t>(wrap.body)].name), frame_text("center_mm", wrap.frame));
+  std::string text = fmt::format("\n[[muscles.action_line.wraps]]\nkind = \"{}\"\nbody = {}\n{}",
+                                 wrap_kind_names[static_cast<std::size_t>(surface.kind)],
+                                 toml_text(model.bodies[static_cast<std::size_t>(wrap.body)].name),
+                                 frame_text("center_mm", wrap.frame));
   if (surface.kind == WrapSurface::Kind::ellipsoid)
     text += fmt::format("radii_mm = {}\nplane = \"{}\"\n", toml_vector(1000 * surface.radii),
-                        planes[static_cast<int>(wrap.plane)]);
+                        wrap_plane_names[static_cast<std::size_t>(wrap.plane)]);
   else
     text += fmt::format("radius_mm = {}\n", 1000 * surface.radius);
   if (surface.kind == WrapSurface::Kind::cylinder) text += fmt::format("length_mm = {}\n", 1000 * surface.length);

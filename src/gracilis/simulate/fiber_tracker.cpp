@@ -41,12 +41,7 @@ MuscleFibers FiberTracker::follow(std::size_t muscle, const Points& vertices) co
 
 std::vector<MuscleFibers> FiberTracker::follow(const Frame& frame) const {
   std::vector<MuscleFibers> all(muscles_.size());
-  parallel_for(static_cast<Index>(all.size()), 1, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const auto muscle = static_cast<std::size_t>(i);
-      all[muscle] = follow(muscle, frame.muscles[muscle].points);
-    }
-  });
+  parallel_for_each(all.size(), [&](std::size_t m) { all[m] = follow(m, frame.muscles[m].points); });
   return all;
 }
 

@@ -21,14 +21,12 @@ std::vector<MuscleStep> steps_of(const Level& level, const std::vector<Real>& ac
 /// Muscles that never meet need not wait for each other.
 void advance_each(const Level& level, const std::vector<MuscleStep>& steps, const Pose& before, const Pose& now) {
   std::vector<std::exception_ptr> failures(steps.size());
-  parallel_for(static_cast<Index>(steps.size()), 1, [&](Index begin, Index end) {
-    for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
-      try {
-        MuscleCrowdState nobody;
-        advance_together({steps[m]}, level.crowd, nobody, before, now);
-      } catch (const QualityError&) {
-        failures[m] = std::current_exception();
-      }
+  parallel_for_each(steps.size(), [&](std::size_t m) {
+    try {
+      MuscleCrowdState nobody;
+      advance_together({steps[m]}, level.crowd, nobody, before, now);
+    } catch (const QualityError&) {
+      failures[m] = std::current_exception();
     }
   });
   // The first in the scene's order, whichever thread was faster.
@@ -52,11 +50,9 @@ Level make_level(const Scene& scene, const std::vector<DistanceField>& fields, b
   Level level;
   level.muscles.resize(scene.muscles.size());
   level.states.resize(scene.muscles.size());
-  parallel_for(static_cast<Index>(level.muscles.size()), 1, [&](Index begin, Index end) {
-    for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
-      level.muscles[m] = prepare_muscle(scene, scene.muscles[m], fields);
-      level.states[m] = make_state(level.muscles[m].system);
-    }
+  parallel_for_each(level.muscles.size(), [&](std::size_t m) {
+    level.muscles[m] = prepare_muscle(scene, scene.muscles[m], fields);
+    level.states[m] = make_state(level.muscles[m].system);
   });
   if (meet) level.crowd = prepare_crowd(scene.contact, level.muscles);
   level.crowd_state = make_crowd_state(level.crowd);
@@ -86,11 +82,9 @@ void advance(Level& level, const Pose& before, const Pose& now, const std::vecto
 CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std::vector<DistanceField>& fields) {
   Scene copies = scene;
   std::vector<CoarserMuscle> coarser_muscles(scene.muscles.size());
-  parallel_for(static_cast<Index>(coarser_muscles.size()), 1, [&](Index begin, Index end) {
-    for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
-      coarser_muscles[m] = coarser_muscle(scene.muscles[m], scene.muscles[m].xpbd.simulated_edge);
-      copies.muscles[m] = coarser_muscles[m].muscle;
-    }
+  parallel_for_each(coarser_muscles.size(), [&](std::size_t m) {
+    coarser_muscles[m] = coarser_muscle(scene.muscles[m], scene.muscles[m].xpbd.simulated_edge);
+    copies.muscles[m] = coarser_muscles[m].muscle;
   });
   CoarserLevel coarser{make_level(copies, fields), {}};
   for (std::size_t m = 0; m < coarser_muscles.size(); ++m)
@@ -103,12 +97,10 @@ void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const 
             const std::vector<Real>& activations, std::vector<SurfaceState>& next_coarse,
             std::vector<SurfaceState>& next_full, std::vector<MuscleReport>& reports) {
   std::vector<Particles> placed(next_full.size());
-  parallel_for(static_cast<Index>(placed.size()), 1, [&](Index begin, Index end) {
-    for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
-      placed[m] = next_full[m].particles;
-      prolong(coarser.prolongations[m], coarser.level.muscles[m], next_coarse[m].particles, full.muscles[m], now,
-              placed[m]);
-    }
+  parallel_for_each(placed.size(), [&](std::size_t m) {
+    placed[m] = next_full[m].particles;
+    prolong(coarser.prolongations[m], coarser.level.muscles[m], next_coarse[m].particles, full.muscles[m], now,
+            placed[m]);
   });
   std::vector<MuscleReport> refined(reports.size());
   refine_together(steps_of(full, activations, next_full, refined), full.crowd, full.crowd_state, before, now, placed);

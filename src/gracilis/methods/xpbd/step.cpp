@@ -95,14 +95,6 @@ void place(const PreparedMuscle& muscle, Real activation, const Pose& pose, cons
   set_contraction_lengths(muscle, activation, state.contraction_length);
 }
 
-/// Calls act(i) for each of the steps, possibly at the same time.
-template <class Act>
-void for_each_step(const std::vector<MuscleStep>& steps, const Act& act) {
-  parallel_for(static_cast<Index>(steps.size()), 1, [&](Index begin, Index end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) act(i);
-  });
-}
-
 template <class Pointer>
 std::vector<Pointer> particles_of(const std::vector<MuscleStep>& steps) {
   std::vector<Pointer> particles;
@@ -178,7 +170,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
   if (!crowd.edges.pairs.empty()) remember_positions(particles_of<const Particles*>(steps), crowd_state.edges);
   if (!crowd.surfaces.pairs.empty()) remember_places(particles_of<const Particles*>(steps), crowd_state.surfaces);
   const VirtualEdgeState edges_before = crowd_state.edges;
-  for_each_step(steps, [&](std::size_t i) {
+  parallel_for_each(steps.size(), [&](std::size_t i) {
     const PreparedMuscle& muscle = *steps[i].muscle;
     SurfaceState& state = *steps[i].state;
     solves[i] = {&muscle.system, &placements[i], solve_settings(muscle.settings, substeps), &state, {}};
@@ -204,7 +196,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
     crowd_state.edges = edges_before;
     throw_failure(steps, find_failure(solves, predicted, steps, crowd, crowd_state));
   }
-  for_each_step(steps, [&](std::size_t i) {
+  parallel_for_each(steps.size(), [&](std::size_t i) {
     SurfaceState& state = *steps[i].state;
     if (!placed && steps[i].muscle->settings.time_mode == TimeMode::dynamic)
       take_velocities(static_cast<float>(solves[i].settings.time_step), state);

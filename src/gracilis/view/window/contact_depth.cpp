@@ -17,10 +17,7 @@ std::vector<std::vector<float>> ContactDepth::of(const std::vector<TriangleMesh>
                                                  const std::vector<std::vector<Index>>& vertices,
                                                  const std::vector<RigidTransform>& moved) const {
   std::vector<std::optional<SignedDistance>> others(muscles.size());
-  parallel_for(static_cast<Index>(muscles.size()), 1, [&](Index begin, Index end) {
-    for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m)
-      others[m].emplace(muscles[m]);
-  });
+  parallel_for_each(muscles.size(), [&](std::size_t m) { others[m].emplace(muscles[m]); });
   std::vector<RigidTransform> to_rest;
   for (const RigidTransform& motion : moved) to_rest.push_back(motion.inverse());
   const auto depth_at = [&](std::size_t muscle, const Vec3& point) {

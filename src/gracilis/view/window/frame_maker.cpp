@@ -14,14 +14,6 @@ static constexpr Index muscle_vertices = 12000, bone_vertices = 8000;
 static constexpr Index fewest_vertices = 250;  // of one surface
 static constexpr Index arrows_shown = 350, fibers_shown = 24;
 
-/// Calls act(i) for i = 0 ... count - 1, possibly at the same time.
-template <class Act>
-static void for_each_number(std::size_t count, const Act& act) {
-  parallel_for(static_cast<Index>(count), 1, [&](Index begin, Index end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) act(i);
-  });
-}
-
 /// How many vertices of each surface are drawn: their share of the budget.
 static std::vector<Index> vertex_shares(const std::vector<TriangleMesh>& surfaces, Index budget) {
   Index all = 0;
@@ -57,7 +49,7 @@ FrameMaker::FrameMaker(std::vector<TriangleMesh> muscles, std::vector<TriangleMe
   shapes.bone_faces.resize(bones_.size()), shapes.bone_points.resize(bones_.size());
   const std::vector<Index> muscle_shares = vertex_shares(muscles_, muscle_vertices);
   const std::vector<Index> bone_shares = vertex_shares(bones_, bone_vertices);
-  for_each_number(count + bones_.size(), [&](std::size_t i) {
+  parallel_for_each(count + bones_.size(), [&](std::size_t i) {
     if (i >= count) {
       const std::size_t b = i - count;
       const CoarseSurface coarse = decimate(bones_[b], bone_shares[b]);
@@ -80,7 +72,7 @@ void FrameMaker::fill(const std::vector<Points>& muscles, std::vector<RigidTrans
                       ShownFrame& frame) {
   const std::size_t count = muscles_.size();
   frame.muscles.resize(count), frame.stretch.resize(count), frame.volume.resize(count);
-  for_each_number(count, [&](std::size_t m) {
+  parallel_for_each(count, [&](std::size_t m) {
     frame.muscles[m] = picked(muscles[m], shown_[m]).cast<float>();
     const std::vector<Real> stretch = shown_of(m, stretch_[m].of(muscles[m]));
     frame.stretch[m].assign(stretch.begin(), stretch.end());

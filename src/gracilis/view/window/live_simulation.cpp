@@ -73,11 +73,16 @@ LiveSimulation::~LiveSimulation() {
   thread_.join();
 }
 
+/// Call it behind the lock.
+void LiveSimulation::expect_motion() {
+  if (status_ == "ready") status_ = "moving";
+}
+
 void LiveSimulation::aim(std::size_t coordinate, Real value) {
   const std::lock_guard lock(mutex_);
   wanted_.coordinates.at(coordinate) = value;
   motion_at_ = motion_.size();
-  if (status_ == "ready") status_ = "moving";
+  expect_motion();
   changed_.notify_all();
 }
 
@@ -90,7 +95,7 @@ void LiveSimulation::activate(std::size_t muscle, Real activation) {
   const std::lock_guard lock(mutex_);
   wanted_.activations.at(muscle) = activation;
   motion_at_ = motion_.size();
-  if (status_ == "ready") status_ = "moving";
+  expect_motion();
   changed_.notify_all();
 }
 
@@ -102,7 +107,7 @@ Real LiveSimulation::activation_of(std::size_t muscle) const {
 void LiveSimulation::play_motion() {
   const std::lock_guard lock(mutex_);
   motion_at_ = 0;
-  if (status_ == "ready") status_ = "moving";
+  expect_motion();
   paused_ = false;
   changed_.notify_all();
 }
@@ -128,7 +133,7 @@ void LiveSimulation::step_once() {
 void LiveSimulation::look_again() {
   const std::lock_guard lock(mutex_);
   look_again_ = true;
-  if (status_ == "ready") status_ = "moving";
+  expect_motion();
   changed_.notify_all();
 }
 
@@ -137,7 +142,7 @@ void LiveSimulation::reset() {
   wanted_ = {capture_coordinates(scene_), std::vector<Real>(scene_.muscles.size())};
   motion_at_ = motion_.size();
   reset_ = true;
-  if (status_ == "ready") status_ = "moving";
+  expect_motion();
   changed_.notify_all();
 }
 

@@ -60,6 +60,7 @@ class LiveSimulation {
   Task next_task();
   bool approach();
   bool may_step();
+  void expect_motion();
   void watch_passes();
   Frame next_frame(int number);
   ShownFrame shown(const Frame& frame);

@@ -15,10 +15,7 @@ namespace gracilis {
 static std::vector<TriangleMesh> read_surfaces(const RecordedRun& run, const std::vector<std::string>& names,
                                                int frame) {
   std::vector<TriangleMesh> surfaces(names.size());
-  parallel_for(static_cast<Index>(names.size()), 1, [&](Index begin, Index end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      surfaces[i] = recorded_surface(run, names[i], frame);
-  });
+  parallel_for_each(names.size(), [&](std::size_t i) { surfaces[i] = recorded_surface(run, names[i], frame); });
   return surfaces;
 }
 
