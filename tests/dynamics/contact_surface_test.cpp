@@ -72,6 +72,59 @@ TEST(ContactSurface, a_cube_s_corner_points_along_its_diagonal) {
   }
 }
 
+TEST(ContactSurface, a_fan_s_faces_go_around_the_particle_and_its_spokes_are_its_edges) {
+  const ContactSurface& surface = cube().surface;
+  std::vector<int> seen(surface.edges.size(), 0);
+  for (Index p = 0; p < 8; ++p) {
+    const auto at = static_cast<std::size_t>(p);
+    for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i) {
+      const Eigen::Vector3i corners = surface.faces.col(surface.fan[static_cast<std::size_t>(i)]);
+      const Eigen::Vector3i around(p, surface.fan_ends(0, i), surface.fan_ends(1, i));
+      EXPECT_TRUE(around == corners || around == corners({1, 2, 0}) || around == corners({2, 0, 1}));
+    }
+    for (Index i = surface.spoke_offsets[at]; i < surface.spoke_offsets[at + 1]; ++i) {
+      const Index edge = surface.spokes[static_cast<std::size_t>(i)];
+      const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
+      EXPECT_TRUE(ends[0] == p || ends[1] == p);
+      ++seen[static_cast<std::size_t>(edge)];
+    }
+  }
+  for (const int times : seen) EXPECT_EQ(times, 2) << "once at each end";
+}
+
+TEST(ContactSurface, normals_are_those_of_the_faces_weighted_by_their_angles) {
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> away(-0.2, 0.2);
+  TriangleMesh crumpled = shapes::sphere(Vec3::Zero(), 1, 2);
+  for (double& coordinate : crumpled.vertices.reshaped()) coordinate += away(generator);
+  const Body body = body_of(crumpled);
+  Points sums = Points::Zero(3, crumpled.vertex_count());
+  for (const auto face : crumpled.faces.colwise())
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 at = crumpled.vertices.col(face[k]), along = crumpled.vertices.col(face[(k + 1) % 3]) - at,
+                 back = crumpled.vertices.col(face[(k + 2) % 3]) - at;
+      sums.col(face[k]) += std::atan2(along.cross(back).norm(), along.dot(back)) * along.cross(back).normalized();
+    }
+  for (Index p = 0; p < crumpled.vertex_count(); ++p)
+    EXPECT_LT((body.normals.col(p).cast<double>() - sums.col(p).normalized()).norm(), 1e-5) << p;
+}
+
+TEST(ContactSurface, only_the_normals_that_are_listed_change) {
+  Body body = body_of(shapes::sphere(Vec3::Zero(), 1, 2));
+  const Eigen::Matrix3Xf made = body.normals;
+  body.normals.setZero();
+  particle_normals(body.surface, body.particles, {40, 3, 17}, body.normals);
+  for (Index p = 0; p < made.cols(); ++p) {
+    const bool listed = p == 40 || p == 3 || p == 17;
+    EXPECT_EQ(body.normals.col(p), listed ? Vector3f(made.col(p)) : Vector3f(Vector3f::Zero())) << p;
+  }
+}
+
+TEST(ContactSurface, a_particle_whose_faces_are_all_flat_has_no_normal) {
+  const Body flat = body_of(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}));
+  EXPECT_EQ(flat.normals, Eigen::Matrix3Xf::Zero(3, 3));
+}
+
 TEST(PointGap, over_a_face_is_the_height) {
   const PointGap gap = nearest_gap(cube(), {0.3f, 0.4f, 1.2f});
   EXPECT_NEAR(gap.distance, 0.2f, 1e-6f);
@@ -167,7 +220,7 @@ TEST(Walk, ends_at_the_nearest_face_of_a_sphere_wherever_it_begins) {
   std::uniform_int_distribution<Index> any_face(0, static_cast<Index>(ball.surface.faces.cols()) - 1);
   for (int i = 0; i < 200; ++i) {
     const Vector3f p = 1.2f * Vector3f(uniform(generator), uniform(generator), uniform(generator)).normalized();
-    const Index face = walk_to_nearest(p, ball.surface, any_face(generator), ball.particles);
+    const Index face = walk_to_nearest(p, ball.surface, any_face(generator), ball.particles).face;
     const PointGap found = point_gap(p, ball.surface, face, ball.particles, ball.normals);
     EXPECT_NEAR(found.distance, nearest_gap(ball, p).distance, 1e-5f);
   }
@@ -175,7 +228,7 @@ TEST(Walk, ends_at_the_nearest_face_of_a_sphere_wherever_it_begins) {
 
 TEST(Walk, stays_where_the_surface_ends) {
   const Body triangle = body_of(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
-  EXPECT_EQ(walk_to_nearest({5, 5, 5}, triangle.surface, 0, triangle.particles), 0);
+  EXPECT_EQ(walk_to_nearest({5, 5, 5}, triangle.surface, 0, triangle.particles).face, 0);
 }
 
 }  // namespace gracilis

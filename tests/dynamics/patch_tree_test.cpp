@@ -102,6 +102,23 @@ TEST(PatchTree, finds_all_that_face_against_each_other_on_a_flattened_and_crumpl
   EXPECT_LT(found.size(), all / 5) << "the tree hardly helps";
 }
 
+TEST(PatchTree, a_box_meets_any_patch_exactly_if_it_gathers_some) {
+  const Surface surface(shapes::sphere(Vec3::Zero(), 0.01, 3));
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<float> place(-0.02f, 0.02f);
+  int meetings = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    PatchTree::Bounds bounds;
+    bounds.places.extend(Eigen::Vector3f(place(generator), place(generator), place(generator)));
+    bounds.normals = surface.tree.bounds.front().normals;
+    std::vector<Index> gathered;
+    gather_patches(surface.tree, bounds, 0.001f, gathered);
+    EXPECT_EQ(meets_any_patch(surface.tree, bounds, 0.001f), !gathered.empty());
+    meetings += !gathered.empty();
+  }
+  EXPECT_TRUE(meetings > 50 && meetings < 950) << meetings;
+}
+
 TEST(PatchTree, survives_faces_without_area) {
   Surface surface(shapes::sphere(Vec3::Zero(), 0.01, 2));
   for (Index p = 0; p < surface.particles.count(); ++p) surface.particles.position(p).setConstant(0.001f);

@@ -11,7 +11,7 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index chunk = 1024, listed_chunk = 128;
+constexpr Index chunk = 1024;
 /// Closer than this the direction from the nearest point is rounding (m).
 constexpr float same_place = 1e-7f;
 /// Steps of a walk; each comes nearer, so it ends anyway.
@@ -26,14 +26,17 @@ Corners corners_of(const ContactSurface& surface, Index face, const Particles& p
           particles.position(surface.faces(2, face))};
 }
 
-/// The angle whose sine and cosine are in the ratio y : x, y not negative, rad to 1e-4 (Abramowitz and Stegun
-/// 1964, 4.4.47): it only weighs normals.
-float rough_angle(float y, float x) {
-  const float small = std::min(y, std::abs(x)), large = std::max(y, std::abs(x));
-  const float t = large > 0 ? small / large : 0, t2 = t * t;
-  const float angle = t * (0.9998660f + t2 * (-0.3302995f + t2 * (0.1801410f + t2 * (-0.0851330f + t2 * 0.0208351f))));
-  const float first = y > std::abs(x) ? 1.5707963f - angle : angle;
-  return x < 0 ? 3.1415927f - first : first;
+/// The edges at a particle, each by the first of its faces.
+void add_spokes(Index particle, ContactSurface& surface) {
+  const auto at = static_cast<std::size_t>(particle);
+  for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i) {
+    const Index face = surface.fan[static_cast<std::size_t>(i)];
+    for (const Index side : surface.sides.col(face)) {
+      const auto& [ends, faces] = surface.edges[static_cast<std::size_t>(side)];
+      const Index first = faces[0] >= 0 ? faces[0] : faces[1];
+      if (face == first && (ends[0] == particle || ends[1] == particle)) surface.spokes.push_back(side);
+    }
+  }
 }
 
 }  // namespace
@@ -61,43 +64,20 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
   for (Index corner : faces.reshaped()) ++surface.fan_offsets[static_cast<std::size_t>(corner) + 1];
   for (std::size_t p = 1; p < surface.fan_offsets.size(); ++p) surface.fan_offsets[p] += surface.fan_offsets[p - 1];
   surface.fan.resize(static_cast<std::size_t>(faces.size()));
+  surface.fan_ends.resize(2, faces.size());
   std::vector<Index> next(surface.fan_offsets.begin(), surface.fan_offsets.end() - 1);
   for (Index f = 0; f < faces.cols(); ++f)
-    for (Index corner : faces.col(f))
-      surface.fan[static_cast<std::size_t>(next[static_cast<std::size_t>(corner)]++)] = f;
-  return surface;
-}
-
-Eigen::Vector3f particle_normal(Index particle, const ContactSurface& surface, const Particles& particles) {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  const auto at = static_cast<std::size_t>(particle);
-  for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i) {
-    const Index face = surface.fan[static_cast<std::size_t>(i)];
-    const std::size_t corner = surface.faces(0, face) == particle ? 0 : surface.faces(1, face) == particle ? 1 : 2;
-    const Corners x = corners_of(surface, face, particles);
-    const Eigen::Vector3f along = x[(corner + 1) % 3] - x[corner], back = x[(corner + 2) % 3] - x[corner];
-    const Eigen::Vector3f normal = along.cross(back);
-    const float length = normal.norm();
-    if (length > 0) sum += rough_angle(length, along.dot(back)) / length * normal;
-  }
-  return sum.stableNormalized();
-}
-
-void particle_normals(const ContactSurface& surface, const Particles& particles, Eigen::Matrix3Xf& normals) {
-  normals.resize(3, particles.count());
-  parallel_for(particles.count(), chunk, [&](Index begin, Index end) {
-    for (Index p = begin; p < end; ++p) normals.col(p) = particle_normal(p, surface, particles);
-  });
-}
-
-void particle_normals(const ContactSurface& surface, const Particles& particles, const std::vector<Index>& listed,
-                      Eigen::Matrix3Xf& normals) {
-  parallel_for(static_cast<Index>(listed.size()), listed_chunk, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const Index p = listed[static_cast<std::size_t>(i)];
-      normals.col(p) = particle_normal(p, surface, particles);
+    for (int corner = 0; corner < 3; ++corner) {
+      const Index at = next[static_cast<std::size_t>(faces(corner, f))]++;
+      surface.fan[static_cast<std::size_t>(at)] = f;
+      surface.fan_ends.col(at) << faces((corner + 1) % 3, f), faces((corner + 2) % 3, f);
     }
-  });
+  surface.spoke_offsets.push_back(0);
+  for (Index p = 0; p < particle_count; ++p) {
+    add_spokes(p, surface);
+    surface.spoke_offsets.push_back(static_cast<Index>(surface.spokes.size()));
+  }
+  return surface;
 }
 
 Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces) {
@@ -155,7 +135,8 @@ EdgeGap edge_gap(const Eigen::Vector3f& a0, const Eigen::Vector3f& a1, const Eig
   return gap;
 }
 
-Index walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face, const Particles& particles) {
+NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,
+                            const Particles& particles) {
   const auto distance2_to = [&](Index f, Eigen::Vector3f& barycentric) {
     const Corners x = corners_of(surface, f, particles);
     barycentric = nearest_barycentric(p, x[0], x[1], x[2]);
@@ -187,7 +168,7 @@ Index walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, I
     face = next;
     barycentric = there;
   }
-  return face;
+  return {face, barycentric};
 }
 
 }  // namespace gracilis

@@ -19,7 +19,9 @@ struct ContactSurface {
   Eigen::Matrix3Xi across;  ///< face behind the side opposite to each corner; -1: none
   Eigen::Matrix3Xi sides;   ///< edge opposite to each corner
   std::vector<Edge> edges;
-  std::vector<Index> fan_offsets, fan;  ///< faces around each particle
+  std::vector<Index> fan_offsets, fan;       ///< faces around each particle
+  Eigen::Matrix2Xi fan_ends;                 ///< for each in `fan`, its other two corners, counter-clockwise
+  std::vector<Index> spoke_offsets, spokes;  ///< edges at each particle
 };
 
 /// Tables of a triangle list over `particle_count` particles.
@@ -28,8 +30,6 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
 /// Unit normals at the particles, sums of the faces' normals weighted by their angles there (Bærentzen and Aanæs 2005);
 /// zero where all faces are flat.
 void particle_normals(const ContactSurface& surface, const Particles& particles, Eigen::Matrix3Xf& normals);
-/// The normal of one particle.
-Eigen::Vector3f particle_normal(Index particle, const ContactSurface& surface, const Particles& particles);
 /// The same for the particles listed; the others keep what they have.
 void particle_normals(const ContactSurface& surface, const Particles& particles, const std::vector<Index>& listed,
                       Eigen::Matrix3Xf& normals);
@@ -80,7 +80,14 @@ struct EdgeGap {
 EdgeGap edge_gap(const Eigen::Vector3f& a0, const Eigen::Vector3f& a1, const Eigen::Vector3f& b0,
                  const Eigen::Vector3f& b1, const Eigen::Vector3f& outward);
 
+/// A face and the nearest point of it.
+struct NearestFace {
+  Index face = 0;
+  Eigen::Vector3f barycentric;
+};
+
 /// From `face` to neighbors as long as they come nearer to p: the nearest face, or one nearest among those around it.
-Index walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face, const Particles& particles);
+NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,
+                            const Particles& particles);
 
 }  // namespace gracilis

@@ -151,16 +151,34 @@ void refit(const ContactSurface& surface, const Particles& particles, PatchTree&
   }
 }
 
-void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches) {
+/// Calls visit(node) for all nodes that are patches and may meet what is within `bounds`, until it returns false.
+template <class Visit>
+static void visit_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, const Visit& visit) {
   for (std::size_t node = 0; node < tree.nodes.size();) {
     const PatchTree::Node& at = tree.nodes[node];
     if (!may_meet(bounds, tree.bounds[node], reach)) {
       node = static_cast<std::size_t>(at.skip);
       continue;
     }
-    if (at.patch >= 0) patches.push_back(static_cast<Index>(node));
+    if (at.patch >= 0 && !visit(static_cast<Index>(node))) return;
     ++node;
   }
+}
+
+void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches) {
+  visit_patches(tree, bounds, reach, [&](Index node) {
+    patches.push_back(node);
+    return true;
+  });
+}
+
+bool meets_any_patch(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach) {
+  bool any = false;
+  visit_patches(tree, bounds, reach, [&](Index) {
+    any = true;
+    return false;
+  });
+  return any;
 }
 
 }  // namespace gracilis

@@ -75,5 +75,7 @@ inline bool may_meet(const PatchTree::Bounds& one, const PatchTree::Bounds& othe
 
 /// Appends all nodes that are patches and may meet what is within `bounds`.
 void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches);
+/// Whether any patch may meet what is within `bounds`.
+bool meets_any_patch(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach);
 
 }  // namespace gracilis

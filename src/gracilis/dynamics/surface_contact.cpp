@@ -155,19 +155,24 @@ void arrange_rounds(SurfaceCrowd& crowd) {
 Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
                       const std::vector<Particles*>& particles) {
   std::atomic<Index> count = 0;
-  for (const std::vector<Index>& round : crowd.rounds)
-    parallel_for_each(round.size(), [&](std::size_t i) {
-      const auto number = static_cast<std::size_t>(round[i]);
-      const SurfacePair& pair = crowd.pairs[number];
-      const PairTouches& touches = state.touches[number];
-      const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-      Index pushed = project_edges(crowd, pair, state, touches.edges, start, particles);
-      pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, *start[a],
-                               *start[b], *particles[a], *particles[b]);
-      pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, *start[b], *start[a],
-                               *particles[b], *particles[a]);
-      count += pushed;
-    });
+  const auto project_pair = [&](Index number) {
+    const SurfacePair& pair = crowd.pairs[static_cast<std::size_t>(number)];
+    const PairTouches& touches = state.touches[static_cast<std::size_t>(number)];
+    const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+    Index pushed = project_edges(crowd, pair, state, touches.edges, start, particles);
+    pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, *start[a], *start[b],
+                             *particles[a], *particles[b]);
+    pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, *start[b], *start[a],
+                             *particles[b], *particles[a]);
+    count += pushed;
+  };
+  std::vector<Index> touching;
+  for (const std::vector<Index>& round : crowd.rounds) {
+    touching.clear();
+    for (const Index number : round)
+      if (!state.touches[static_cast<std::size_t>(number)].none_listed()) touching.push_back(number);
+    parallel_for_each(touching.size(), [&](std::size_t i) { project_pair(touching[i]); });
+  }
   return count;
 }
 

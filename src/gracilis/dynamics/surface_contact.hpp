@@ -39,7 +39,8 @@ struct SurfaceCrowd {
 struct PointTouch {
   Index particle = 0, face = 0;
   float side = 1;
-  float distance = 0;                                       ///< m, on that side, when last looked at
+  float distance = 0;        ///< m, on that side, when last looked at
+  bool inside_face = false;  ///< the nearest point is none of a side or corner, so the face alone tells the side
   float most_gap = std::numeric_limits<float>::infinity();  ///< m, what neighbors leave each other
 };
 /// Two edges that cross closely, one of each surface; `side` as above.
@@ -55,12 +56,13 @@ struct PairTouches {
                                                     ///< near the second and the other way
   std::vector<PointTouch> on_second, on_first;      ///< of these, what every iteration projects
   std::vector<EdgeTouch> edges;
+  bool none_listed() const { return on_second.empty() && on_first.empty() && edges.empty(); }
 };
 struct CrowdState {
   std::vector<Eigen::Matrix3Xf> before;  ///< per surface, where its particles were before the step, nothing through
                                          ///< anything
   std::vector<PatchTree> trees;
-  std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where something is near
+  std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where the next iterations ask
   std::vector<PairTouches> touches;       ///< one per pair
 };
 

@@ -1,4 +1,5 @@
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/edge_crossings.hpp>
 #include <gracilis/dynamics/self_contact.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
 #include <gracilis/dynamics/touch_search.hpp>
@@ -23,7 +24,9 @@ void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Pa
   parallel_for(static_cast<Index>(near.size()), chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       PointTouch& touch = near[static_cast<std::size_t>(i)];
-      touch.face = walk_to_nearest(probe.position(touch.particle) + shift, surface, touch.face, target);
+      const NearestFace nearest = walk_to_nearest(probe.position(touch.particle) + shift, surface, touch.face, target);
+      touch.face = nearest.face;
+      touch.inside_face = nearest.barycentric.minCoeff() > 0;
     }
   });
 }
@@ -68,23 +71,6 @@ Eigen::Vector3f edge_normal(const ContactSurface& surface, Index edge, const Par
   return sum;
 }
 
-/// The places of an edge's ends.
-struct Segment {
-  Eigen::Vector3f from, to;
-
-  float length2() const { return (to - from).squaredNorm(); }
-};
-
-/// Whether two edges come near each other between their ends; quick, because most do not.
-bool cross_closely(const Segment& one, const Segment& other) {
-  const Eigen::Vector3f a = one.to - one.from, b = other.to - other.from, between = one.from - other.from,
-                        across = a.cross(b);
-  const float across2 = across.squaredNorm(), apart = across.dot(between);
-  if (!(apart * apart < edges_listed_within * edges_listed_within * across2)) return false;
-  const float s = b.cross(between).dot(across), t = a.cross(between).dot(across);
-  return s >= 0 && s <= across2 && t >= 0 && t <= across2;
-}
-
 /// Whether a particle is so near that an edge of this length from it may cross another closely: one that does has an
 /// end within half of its length and that.
 bool is_near_enough(const PointTouch& touch, float length2) {
@@ -122,17 +108,13 @@ std::vector<Index> edges_around(const std::vector<PointTouch>& near, const Touch
         for (Index i = begin; i < end; ++i) {
           const PointTouch& touch = near[static_cast<std::size_t>(i)];
           const auto at = static_cast<std::size_t>(touch.particle);
-          for (Index k = surface.fan_offsets[at]; k < surface.fan_offsets[at + 1]; ++k) {
-            const Index face = surface.fan[static_cast<std::size_t>(k)];
-            for (const Index side : surface.sides.col(face)) {
-              const auto& [ends, faces] = surface.edges[static_cast<std::size_t>(side)];
-              // By one of its faces, and by its first end unless that is too far away.
-              if (face != (faces[0] >= 0 ? faces[0] : faces[1])) continue;
-              if (ends[0] != touch.particle && ends[1] != touch.particle) continue;
-              const float length2 = (particles.position(ends[1]) - particles.position(ends[0])).squaredNorm();
-              if (!is_near_enough(touch, length2)) continue;
-              if (ends[0] == touch.particle || !table.near_enough(ends[0], length2)) part.push_back(side);
-            }
+          for (Index k = surface.spoke_offsets[at]; k < surface.spoke_offsets[at + 1]; ++k) {
+            const Index edge = surface.spokes[static_cast<std::size_t>(k)];
+            const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
+            const float length2 = (particles.position(ends[1]) - particles.position(ends[0])).squaredNorm();
+            if (!is_near_enough(touch, length2)) continue;
+            // By its first end unless that is too far away.
+            if (ends[0] == touch.particle || !table.near_enough(ends[0], length2)) part.push_back(edge);
           }
         }
       });
@@ -157,13 +139,15 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
         return {particles[b]->position(its_ends[0]), particles[b]->position(its_ends[1])};
       };
       candidates.clear();
+      Index gathered = -1;
       for (const Index particle : ends) {
         const PointTouch* touch = table.near_enough(particle, edge.length2());
-        if (!touch) continue;
+        if (!touch || touch->face == gathered) continue;
         if (self && self->side(particle, touch->face) != touch->side) continue;
         gather_edges(second, touch->face, candidates);
+        gathered = touch->face;
       }
-      std::erase_if(candidates, [&](Index candidate) { return !cross_closely(edge, segment_of(candidate)); });
+      keep_crossing(edge, edges_listed_within, second, *particles[b], candidates);
       if (candidates.empty()) continue;
       std::sort(candidates.begin(), candidates.end());
       candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
@@ -182,39 +166,66 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
   });
 }
 
-/// Which particles need normals, per surface.
-using Wanted = std::vector<std::vector<char>>;
+/// Makes the normals that are asked for, each once. Others are those of some earlier time and nobody's business.
+class NormalMaker {
+ public:
+  NormalMaker(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state)
+      : crowd_(crowd), particles_(particles), state_(state), asked_(particles.size()), listed_(particles.size()) {
+    for (std::size_t s = 0; s < particles.size(); ++s)
+      asked_[s].resize(static_cast<std::size_t>(particles[s]->count()), 0);
+  }
 
-void want_faces(const std::vector<PointTouch>& near, const ContactSurface& target, std::vector<char>& wanted) {
-  for (const PointTouch& touch : near)
-    for (const Index corner : target.faces.col(touch.face)) wanted[static_cast<std::size_t>(corner)] = 1;
-}
+  void ask(std::size_t surface, Index particle) {
+    char& asked = asked_[surface][static_cast<std::size_t>(particle)];
+    if (!asked) listed_[surface].push_back(particle);
+    asked = 1;
+  }
+  void ask_corners(std::size_t surface, const PointTouch& touch) {
+    for (const Index corner : crowd_.surfaces[surface].faces.col(touch.face)) ask(surface, corner);
+  }
+  void ask_ends(std::size_t surface, Index edge) {
+    for (const Index end : crowd_.surfaces[surface].edges[static_cast<std::size_t>(edge)].ends) ask(surface, end);
+  }
 
-void want_edges(const std::vector<EdgeTouch>& edges, const ContactSurface& first, const ContactSurface& second,
-                std::vector<char>& first_wanted, std::vector<char>& second_wanted) {
-  for (const EdgeTouch& touch : edges) {
-    for (const Index end : first.edges[static_cast<std::size_t>(touch.first)].ends)
-      first_wanted[static_cast<std::size_t>(end)] = 1;
-    for (const Index end : second.edges[static_cast<std::size_t>(touch.second)].ends)
-      second_wanted[static_cast<std::size_t>(end)] = 1;
+  void make() {
+    parallel_for_each(listed_.size(), [&](std::size_t s) {
+      particle_normals(crowd_.surfaces[s], *particles_[s], listed_[s], state_.normals[s]);
+      listed_[s].clear();
+    });
+  }
+
+ private:
+  const SurfaceCrowd& crowd_;
+  const std::vector<const Particles*>& particles_;
+  CrowdState& state_;
+  std::vector<std::vector<char>> asked_;
+  std::vector<std::vector<Index>> listed_;
+};
+
+/// The normals that tell on which side of a surface those near it are.
+void ask_to_tell_sides(const SurfaceCrowd& crowd, const CrowdState& state, NormalMaker& normals) {
+  const auto ask = [&](std::size_t target, const std::vector<PointTouch>& near) {
+    for (const PointTouch& touch : near)
+      if (!touch.inside_face) normals.ask_corners(target, touch);
+  };
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+    ask(static_cast<std::size_t>(crowd.pairs[i].second), state.touches[i].near_second);
+    ask(static_cast<std::size_t>(crowd.pairs[i].first), state.touches[i].near_first);
   }
 }
 
-/// Calls want(i, a, b, wanted) for every pair i of surfaces a and b, then makes the normals asked for. Others are those
-/// of some earlier time and nobody's business.
-template <class Want>
-void make_normals(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, const Want& want,
-                  CrowdState& state) {
-  Wanted wanted;
-  for (const Particles* each : particles) wanted.emplace_back(static_cast<std::size_t>(each->count()), 0);
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i)
-    want(i, static_cast<std::size_t>(crowd.pairs[i].first), static_cast<std::size_t>(crowd.pairs[i].second), wanted);
-  parallel_for_each(wanted.size(), [&](std::size_t s) {
-    std::vector<Index> listed;
-    for (std::size_t p = 0; p < wanted[s].size(); ++p)
-      if (wanted[s][p]) listed.push_back(static_cast<Index>(p));
-    particle_normals(crowd.surfaces[s], *particles[s], listed, state.normals[s]);
-  });
+/// The normals that projecting what is listed may need.
+void ask_to_project(const SurfaceCrowd& crowd, const CrowdState& state, NormalMaker& normals) {
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+    const auto first = static_cast<std::size_t>(crowd.pairs[i].first),
+               second = static_cast<std::size_t>(crowd.pairs[i].second);
+    for (const PointTouch& touch : state.touches[i].on_second) normals.ask_corners(second, touch);
+    for (const PointTouch& touch : state.touches[i].on_first) normals.ask_corners(first, touch);
+    for (const EdgeTouch& touch : state.touches[i].edges) {
+      normals.ask_ends(first, touch.first);
+      normals.ask_ends(second, touch.second);
+    }
+  }
 }
 
 }  // namespace
@@ -259,13 +270,9 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
     walk(touches.near_second, crowd.surfaces[b], *particles[a], *particles[b], pair.shift);
     if (!pair.is_self()) walk(touches.near_first, crowd.surfaces[a], *particles[b], *particles[a], -pair.shift);
   });
-  make_normals(
-      crowd, particles,
-      [&](std::size_t i, std::size_t a, std::size_t b, Wanted& wanted) {
-        want_faces(state.touches[i].near_second, crowd.surfaces[b], wanted[b]);
-        want_faces(state.touches[i].near_first, crowd.surfaces[a], wanted[a]);
-      },
-      state);
+  NormalMaker normals(crowd, particles, state);
+  ask_to_tell_sides(crowd, state, normals);
+  normals.make();
   parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
@@ -285,12 +292,8 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
               within, nullptr, touches.on_first);
     find_edges(crowd, pair, particles, touches.near_second, nullptr, touches.edges);
   });
-  make_normals(
-      crowd, particles,
-      [&](std::size_t i, std::size_t a, std::size_t b, Wanted& wanted) {
-        want_edges(state.touches[i].edges, crowd.surfaces[a], crowd.surfaces[b], wanted[a], wanted[b]);
-      },
-      state);
+  ask_to_project(crowd, state, normals);
+  normals.make();
 }
 
 }  // namespace gracilis

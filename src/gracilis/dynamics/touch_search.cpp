@@ -64,13 +64,20 @@ void search(const SearchedSurface& probe, const SearchedSurface& target, float r
       collect_in_order<PointTouch>(count, bundles_per_task, [&](Index begin, Index end, std::vector<PointTouch>& part) {
         std::vector<Index> near_bundle, near;
         std::vector<float> workspace;
-        for (auto bundle = static_cast<std::size_t>(begin); bundle < static_cast<std::size_t>(end); ++bundle) {
-          const auto first = static_cast<std::size_t>(tree.bundle_offsets[bundle]),
-                     last = static_cast<std::size_t>(tree.bundle_offsets[bundle + 1]);
+        const auto bounds_of = [&](std::size_t first, std::size_t last) {
           PatchTree::Bounds bounds;
           for (std::size_t patch = first; patch < last; ++patch) bounds = bounds.merged(tree.particle_bounds[patch]);
+          return see(bounds);
+        };
+        const auto patch_of = [&](Index bundle) {
+          return static_cast<std::size_t>(tree.bundle_offsets[static_cast<std::size_t>(bundle)]);
+        };
+        // Most of two surfaces is nowhere near the other.
+        if (!meets_any_patch(target.tree, bounds_of(patch_of(begin), patch_of(end)), reach)) return;
+        for (Index bundle = begin; bundle < end; ++bundle) {
+          const std::size_t first = patch_of(bundle), last = patch_of(bundle + 1);
           near_bundle.clear();
-          gather_patches(target.tree, see(bounds), reach, near_bundle);
+          gather_patches(target.tree, bounds_of(first, last), reach, near_bundle);
           for (std::size_t patch = first; patch < last && !near_bundle.empty(); ++patch) {
             const PatchTree::Bounds own = see(tree.particle_bounds[patch]);
             near.clear();
