@@ -253,6 +253,22 @@ TEST_F(SceneReader, all_problems_are_listed_at_once) {
   EXPECT_THAT(text, HasSubstr("unknown key 'hold' in [sequence] (did you mean 'hold_frames'?)"));
 }
 
+TEST_F(SceneReader, a_wrap_s_kind_and_plane_must_be_known) {
+  const auto with_wrap = [](const std::string& kind, const std::string& plane) {
+    return with(
+        good_scene(), "[motion]",
+        "[muscles.action_line]\nrays = 6\nbodies = [\"pelvis\", \"femur\"]\npoints_mm = [[5, 5, 29], [5, 5, 11]]\n"
+        "[[muscles.action_line.wraps]]\nkind = \"" +
+            kind + "\"\nbody = \"femur\"\ncenter_mm = [5, 5, 5]\nradii_mm = [3, 2, 2]\nradius_mm = 3\nplane = \"" +
+            plane + "\"\n[motion]");
+  };
+  EXPECT_EQ(problems(with_wrap("ellipsoid", "axial")), "no problem");
+  EXPECT_THAT(problems(with_wrap("ellipsoid", "sideways")),
+              HasSubstr("'plane' must be \"hybrid\", \"midpoint\" or \"axial\""));
+  EXPECT_THAT(problems(with_wrap("cone", "axial")),
+              HasSubstr("'kind' must be \"cylinder\", \"sphere\", \"ellipsoid\" or \"torus\""));
+}
+
 TEST_F(SceneReader, wrong_types_and_missing_keys_are_named) {
   EXPECT_THAT(problems(with(good_scene(), "\"pelvis.ply\"", "7")),
               HasSubstr("scene.toml:5:8: 'file' must be a text in quotes"));

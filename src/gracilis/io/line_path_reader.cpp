@@ -2,7 +2,11 @@
 
 #include <gracilis/anatomy/joint_pose.hpp>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
+#include <iterator>
 
 namespace gracilis {
 
@@ -65,16 +69,22 @@ static LinePoint read_point(TomlReader table, std::string& body, std::array<std:
   return point;
 }
 
+/// The number of one of `names`, of which there are several; adds a problem when `text` is none of them.
+template <class Names>
+static int named(TomlReader& table, const char* key, const std::string& text, const Names& names) {
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found != names.end()) return static_cast<int>(found - names.begin());
+  const auto last = std::prev(names.end());
+  table.add_problem(key,
+                    fmt::format("'{}' must be \"{}\" or \"{}\"", key, fmt::join(names.begin(), last, "\", \""), *last));
+  return 0;
+}
+
 static PlacedWrap read_wrap(TomlReader table, std::string& body) {
   PlacedWrap wrap;
   body = table.required_text("body");
   WrapSurface& surface = wrap.surface;
-  const std::string kind = table.required_text("kind");
-  const auto known = std::find(wrap_kind_names.begin(), wrap_kind_names.end(), kind);
-  if (known == wrap_kind_names.end())
-    table.add_problem("kind", "'kind' must be \"cylinder\", \"sphere\", \"ellipsoid\" or \"torus\"");
-  else
-    surface.kind = static_cast<WrapSurface::Kind>(known - wrap_kind_names.begin());
+  surface.kind = static_cast<WrapSurface::Kind>(named(table, "kind", table.required_text("kind"), wrap_kind_names));
   wrap.frame = frame_of(table, "center_mm");
   surface.radius = table.number("radius_mm", {0, 1e9}).value_or(0) / 1000;
   surface.length = table.number("length_mm", {0, 1e12}).value_or(0) / 1000;
@@ -88,9 +98,8 @@ static PlacedWrap read_wrap(TomlReader table, std::string& body) {
     surface.side_axis = std::clamp(side.back() - 'x', 0, 2);
     surface.side_sign = side[0] == '-' ? -1 : 1;
   }
-  const std::string plane = table.text("plane").value_or("");
-  const auto named = std::find(wrap_plane_names.begin(), wrap_plane_names.end(), plane);
-  if (named != wrap_plane_names.end()) wrap.plane = static_cast<WrapSurface::Plane>(named - wrap_plane_names.begin());
+  if (const std::optional<std::string> plane = table.text("plane"))
+    wrap.plane = static_cast<WrapSurface::Plane>(named(table, "plane", *plane, wrap_plane_names));
   wrap.first_point = static_cast<int>(table.number("first_point", {0, 1e6}).value_or(0));
   wrap.last_point = static_cast<int>(table.number("last_point", {0, 1e6}).value_or(1e6));
   table.reject_unknown_keys();
