@@ -63,6 +63,7 @@ struct Finder {
 
   void look_at(Index first, Index second) {
     const Eigen::Vector3i a = faces.col(first), b = faces.col(second);
+    if (box_of(a).squaredExteriorDistance(box_of(b)) > reach * reach) return;
     for (const Index p : a)
       if (!has(b, p)) add_point(p, b);
     for (const Index p : b)
@@ -72,6 +73,11 @@ struct Finder {
   }
 
  private:
+  Eigen::AlignedBox3d box_of(const Eigen::Vector3i& face) const {
+    Eigen::AlignedBox3d box(vertices.col(face[0]));
+    return box.extend(vertices.col(face[1])).extend(vertices.col(face[2]));
+  }
+
   void add(TightPlace place, Real distance) {
     float mobility = 0;
     for (const Index p : place.probe)
