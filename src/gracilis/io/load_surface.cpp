@@ -1,6 +1,6 @@
 #include <gracilis/io/load_surface.hpp>
 
-#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/io/mesh_reader.hpp>
 
@@ -94,6 +94,18 @@ LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, 
 
 LoadedMesh load_surface(const std::filesystem::path& path, Real unit, SurfaceRole role) {
   return check_surface(read_mesh(path, unit), unit, role, path.string());
+}
+
+std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& files) {
+  std::vector<LoadOutcome> outcomes(files.size());
+  parallel_for_each(files.size(), [&](std::size_t i) {
+    try {
+      outcomes[i].loaded = load_surface(files[i].path, files[i].unit, files[i].role);
+    } catch (const InputError& error) {
+      outcomes[i].error = error;
+    }
+  });
+  return outcomes;
 }
 
 }  // namespace gracilis

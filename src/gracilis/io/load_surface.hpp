@@ -1,9 +1,11 @@
 #pragma once
 
+#include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,21 @@ struct LoadedMesh {
 /// this role, each with file, element and remedy; also when the bounding box shows that `unit` is wrong (a diagonal
 /// above 5 m or below 5 mm).
 LoadedMesh load_surface(const std::filesystem::path& path, Real unit, SurfaceRole role);
+
+/// A file and what its surface is for.
+struct SurfaceFile {
+  std::filesystem::path path;
+  Real unit = 1;  ///< length of the file's unit, m
+  SurfaceRole role = SurfaceRole::muscle;
+};
+/// What load_surface answers with or throws.
+struct LoadOutcome {
+  LoadedMesh loaded;
+  std::optional<InputError> error = {};
+};
+
+/// Loads several surfaces at the same time; answers in their order.
+std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& files);
 
 /// The same checks for a surface already in memory, whatever its origin; `name` stands for the file in messages.
 LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, const std::string& name);

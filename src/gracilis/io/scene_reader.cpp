@@ -141,27 +141,30 @@ class SceneBuilder {
 
   // ---- Files
 
-  /// The file beside the scene or in the data root; adds a problem when it is in neither.
-  fs::path find(const NamedFile& file) {
+  static fs::path beside_scene(const NamedFile& file) { return fs::path(file.place.file).parent_path() / file.path; }
+
+  /// The file beside the scene or in the data root; empty when it is in neither.
+  fs::path located(const NamedFile& file) const {
     std::error_code ignored;
-    const fs::path path(file.path);
-    const fs::path beside = fs::path(file.place.file).parent_path() / path;
-    fs::path found;
-    if (fs::exists(beside, ignored))
-      found = beside;
-    else if (path.is_relative() && !data_root_.empty() && fs::exists(data_root_ / path, ignored))
-      found = data_root_ / path;
+    if (const fs::path beside = beside_scene(file); fs::exists(beside, ignored)) return beside.lexically_normal();
+    if (fs::path(file.path).is_relative() && !data_root_.empty() && fs::exists(data_root_ / file.path, ignored))
+      return (data_root_ / file.path).lexically_normal();
+    return {};
+  }
+
+  /// The same; adds a problem when it is in neither.
+  fs::path find(const NamedFile& file) {
+    const fs::path found = located(file);
     if (!found.empty()) {
-      found = found.lexically_normal();
       if (std::find(result_.inputs.begin(), result_.inputs.end(), found) == result_.inputs.end()) {
         result_.inputs.push_back(found);
       }
       return found;
     }
-    std::string remedy = "looked for '" + beside.lexically_normal().string() + "'";
-    if (path.is_relative()) {
+    std::string remedy = "looked for '" + beside_scene(file).lexically_normal().string() + "'";
+    if (fs::path(file.path).is_relative()) {
       remedy += data_root_.empty() ? "; there is no data root: give --data DIR or set GRACILIS_DATA"
-                                   : " and '" + (data_root_ / path).lexically_normal().string() + "'";
+                                   : " and '" + (data_root_ / file.path).lexically_normal().string() + "'";
     }
     add_problem(file.place, "the file '" + file.path + "' does not exist", remedy);
     return {};
@@ -179,17 +182,36 @@ class SceneBuilder {
     }
   }
 
+  /// Loads all surfaces that must be fit for a role, side by side, before they are taken one by one.
+  void load_ahead() {
+    std::vector<const NamedFile*> named;
+    std::vector<SurfaceFile> files;
+    const auto add = [&](const auto& description, SurfaceRole role) {
+      const fs::path path = description.box ? fs::path() : located(description.file);
+      if (path.empty()) return;
+      named.push_back(&description.file);
+      files.push_back({path, description.file.unit, role});
+    };
+    for (const BoneDescription& bone : description_.bones) add(bone, SurfaceRole::bone);
+    for (const MuscleDescription& muscle : description_.muscles)
+      if (!stays_raw(muscle)) add(muscle, SurfaceRole::muscle);
+    std::vector<LoadOutcome> outcomes = load_surfaces(files);
+    for (std::size_t i = 0; i < files.size(); ++i) loaded_[named[i]] = std::move(outcomes[i]);
+  }
+
   /// A surface that is fit for its role; what had to be repaired becomes a warning. Tells whether anything had to.
   template <class Description>
-  bool read_surface(const Description& description, SurfaceRole role, TriangleMesh& surface) {
+  bool read_surface(const Description& description, TriangleMesh& surface) {
     if (description.box) {
       surface = box_mesh(description.box->low, description.box->high, description.box->cells);
       return false;
     }
     const NamedFile& file = description.file;
     bool repaired = false;
-    read(file, [&](const fs::path& path) {
-      LoadedMesh loaded = load_surface(path, file.unit, role);
+    read(file, [&](const fs::path&) {
+      LoadOutcome& outcome = loaded_.at(&file);
+      if (outcome.error) throw InputError(*outcome.error);
+      LoadedMesh loaded = std::move(outcome.loaded);
       surface = std::move(loaded.mesh);
       repaired = !loaded.repairs.empty();
       for (const auto* lines : {&loaded.repairs, &loaded.warnings}) {
@@ -197,6 +219,11 @@ class SceneBuilder {
       }
     });
     return repaired;
+  }
+
+  /// Whether the muscle's surface is taken as it is, to be prepared.
+  bool stays_raw(const MuscleDescription& description) const {
+    return (description_.prepare || raw_muscles_) && !description.box;
   }
 
   void read_muscle(const MuscleDescription& description) {
@@ -221,11 +248,11 @@ class SceneBuilder {
         muscle.given_surface_fibers = read_polylines(path, description.contraction_file.unit);
       });
     }
-    if ((description_.prepare || raw_muscles_) && !description.box) {
+    if (stays_raw(description)) {
       read(description.file, [&](const fs::path& path) { muscle.surface = read_mesh(path, description.file.unit); });
       return;
     }
-    if (!read_surface(description, SurfaceRole::muscle, muscle.surface)) return;
+    if (!read_surface(description, muscle.surface)) return;
     for (const AttachmentDescription& attachment : description.attachments) {
       if (attachment.vertices.empty()) continue;
       add_problem(attachment.place,
@@ -262,9 +289,10 @@ class SceneBuilder {
   }
 
   void read_files() {
+    load_ahead();
     for (const BoneDescription& bone : description_.bones) {
       result_.scene.bones.push_back({bone.name, body_index(bone.body), {}});
-      read_surface(bone, SurfaceRole::bone, result_.scene.bones.back().surface);
+      read_surface(bone, result_.scene.bones.back().surface);
     }
     for (const MuscleDescription& muscle : description_.muscles) read_muscle(muscle);
     if (!description_.landmarks.path.empty()) {
@@ -471,6 +499,7 @@ class SceneBuilder {
   bool raw_muscles_ = false;
   LoadedScene result_;
   std::vector<Problem> problems_;
+  std::map<const NamedFile*, LoadOutcome> loaded_;
   std::vector<LandmarkCloud> landmarks_;
   std::map<Index, std::unique_ptr<NearestTriangle>> trees_;
 };
