@@ -39,10 +39,8 @@ inline bool cadaver_is_there() {
 }
 
 inline BenchmarkHip with_fields(Scene scene) {
-  BenchmarkHip hip{std::move(scene), {}};
-  for (const Bone& bone : hip.scene.bones)
-    hip.fields.push_back(cached_bone_field(bone, hip.scene.distance_fields, default_cache_folder()));
-  return hip;
+  std::vector<DistanceField> fields = cached_bone_fields(scene, default_cache_folder());
+  return {std::move(scene), std::move(fields)};
 }
 
 inline const BenchmarkHip& builtin_benchmark_hip() {

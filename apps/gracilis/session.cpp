@@ -149,12 +149,8 @@ class Session {
   }
 
   std::vector<DistanceField> bone_fields() const {
-    std::vector<DistanceField> fields;
-    for (const Bone& bone : loaded_.scene.bones) {
-      spdlog::info("distance field of {}", bone.name);
-      fields.push_back(cached_bone_field(bone, loaded_.scene.distance_fields, default_cache_folder()));
-    }
-    return fields;
+    for (const Bone& bone : loaded_.scene.bones) spdlog::info("distance field of {}", bone.name);
+    return cached_bone_fields(loaded_.scene, default_cache_folder());
   }
 
   /// Says per muscle what was missed, limited or skipped over the whole run.

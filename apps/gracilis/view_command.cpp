@@ -120,13 +120,6 @@ LiveControls controls_of(const Scene& scene, LiveSimulation& simulation) {
   return controls;
 }
 
-std::vector<DistanceField> fields_of(const Scene& scene) {
-  std::vector<DistanceField> fields;
-  for (const Bone& bone : scene.bones)
-    fields.push_back(cached_bone_field(bone, scene.distance_fields, default_cache_folder()));
-  return fields;
-}
-
 /// Lets every muscle contract, also those that the scene's own plan leaves relaxed.
 void drive_all(Scene& scene) {
   for (const Muscle& muscle : scene.muscles)
@@ -139,11 +132,11 @@ void view_scene(Scene scene, const ViewOptions& options, std::chrono::steady_clo
   ShapeHistory history(kept_frames);
   LiveSimulation simulation(scene, history, [&scene] {
     return scene.method == MethodKind::cylinder ? make_cylinder_method(scene)
-                                                : make_xpbd_method(scene, fields_of(scene));
+                                                : make_xpbd_method(scene, cached_bone_fields(scene, default_cache_folder()));
   });
   WindowOptions window = options.window;
   window.live = controls_of(scene, simulation);
-  window.bone_fields = [&scene] { return fields_of(scene); };
+  window.bone_fields = [&scene] { return cached_bone_fields(scene, default_cache_folder()); };
   show(simulation.shapes(), history, window, begin);
 }
 

@@ -25,10 +25,7 @@ struct FiberRun {
 
 /// `observe` sees every frame.
 inline FiberRun run_with_fibers(const Scene& scene, const std::function<void(const FrameRecord&)>& observe = {}) {
-  std::vector<DistanceField> fields;
-  for (const Bone& bone : scene.bones)
-    fields.push_back(cached_bone_field(bone, scene.distance_fields, default_cache_folder()));
-  const auto method = make_xpbd_method(scene, std::move(fields));
+  const auto method = make_xpbd_method(scene, cached_bone_fields(scene, default_cache_folder()));
   const FiberTracker tracker(scene);
   const std::vector<std::string> names = coordinate_names(scene);
   const auto flexion = static_cast<std::size_t>(std::find(names.begin(), names.end(), "hip_flexion_r") - names.begin());

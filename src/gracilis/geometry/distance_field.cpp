@@ -10,7 +10,7 @@ namespace gracilis {
 
 namespace {
 
-/// Exact values are computed first on every fourth node.
+/// Exact values are computed first on every fourth node, then halving.
 constexpr Index coarse_step = 4;
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
@@ -19,7 +19,7 @@ Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
 
 Index rounded_up(Index cells) { return (cells + coarse_step - 1) / coarse_step * coarse_step; }
 
-/// The grid while it is filled: node positions, coarse pass, fine pass.
+/// The grid while it is filled, from coarse to fine: values far from the surface are interpolated.
 class Builder {
  public:
   Builder(const TriangleMesh& mesh, const FieldDomain& domain) : surface_(mesh) {
@@ -29,70 +29,70 @@ class Builder {
       field_.cell_size[axis] =
           domain.box.sizes()[axis] / static_cast<Real>(domain.cells[static_cast<std::size_t>(axis)]);
       field_.nodes[static_cast<std::size_t>(axis)] = cells + 1;
-      coarse_cells_[axis] = cells / coarse_step;
+      cells_[axis] = cells;
     }
     field_.values.resize(static_cast<std::size_t>(field_.nodes[0]) * static_cast<std::size_t>(field_.nodes[1]) *
                          static_cast<std::size_t>(field_.nodes[2]));
   }
 
   DistanceField build() {
-    // Slices of whole coarse cells, so that neighbors share work but never write to the same node.
-    parallel_for(coarse_cells_[2] + 1, 1, [&](Index k, Index) { fill_coarse_slice(k); });
-    parallel_for(coarse_cells_[2], 1, [&](Index k, Index) { fill_slab(k); });
+    parallel_for(cells_[2] / coarse_step + 1, 1, [&](Index k, Index) { fill_coarse_slice(k * coarse_step); });
+    // Slabs of whole cells, so that neighbors share what they start from but never write to the same node.
+    for (Index size = coarse_step; size > 1; size /= 2)
+      parallel_for(cells_[2] / size, 1, [&](Index k, Index) { refine_slab(k * size, size); });
     return std::move(field_);
   }
 
  private:
-  std::size_t node(Index i, Index j, Index k) const {
-    return static_cast<std::size_t>(i) +
-           static_cast<std::size_t>(field_.nodes[0]) *
-               (static_cast<std::size_t>(j) + static_cast<std::size_t>(field_.nodes[1]) * static_cast<std::size_t>(k));
+  float& value(const Eigen::Vector3i& node) {
+    return field_.values[static_cast<std::size_t>(node[0]) +
+                         static_cast<std::size_t>(field_.nodes[0]) *
+                             (static_cast<std::size_t>(node[1]) +
+                              static_cast<std::size_t>(field_.nodes[1]) * static_cast<std::size_t>(node[2]))];
   }
 
-  Vec3 position(Index i, Index j, Index k) const {
-    return field_.origin +
-           field_.cell_size.cwiseProduct(Vec3(static_cast<Real>(i), static_cast<Real>(j), static_cast<Real>(k)));
+  /// Sets a node to its exact value. `face`, the one nearest to a node close by, becomes the one nearest to this.
+  void set_exactly(const Eigen::Vector3i& node, Index& face) {
+    const Vec3 at = field_.origin + field_.cell_size.cwiseProduct(node.cast<Real>());
+    const SignedDistance::Answer answer = surface_.query_from(face, at);
+    value(node) = static_cast<float>(answer.distance);
+    face = answer.nearest.face;
   }
 
-  void fill_coarse_slice(Index k) {
-    for (Index j = 0; j <= coarse_cells_[1]; ++j)
-      for (Index i = 0; i <= coarse_cells_[0]; ++i) {
-        const Index x = i * coarse_step, y = j * coarse_step, z = k * coarse_step;
-        field_.values[node(x, y, z)] = static_cast<float>(surface_.query(position(x, y, z)).distance);
-      }
+  void fill_coarse_slice(Index z) {
+    Index face = 0;
+    for (Index y = 0; y <= cells_[1]; y += coarse_step)
+      for (Index x = 0; x <= cells_[0]; x += coarse_step) set_exactly({x, y, z}, face);
   }
 
-  void fill_slab(Index k) {
-    for (Index j = 0; j < coarse_cells_[1]; ++j)
-      for (Index i = 0; i < coarse_cells_[0]; ++i) fill_coarse_cell({i, j, k});
+  void refine_slab(Index z, Index size) {
+    Index face = 0;
+    for (Index y = 0; y < cells_[1]; y += size)
+      for (Index x = 0; x < cells_[0]; x += size) refine_cell({x, y, z}, size, face);
   }
 
-  /// Fills the nodes that coarse cell `cell` owns: those up to, not including, its far faces (except at the grid's
-  /// end).
-  void fill_coarse_cell(const Eigen::Vector3i& cell) {
+  /// Fills the nodes halfway between those of a cell of `size` grid cells which the cell owns: those up to, not
+  /// including, its far sides (except at the grid's end).
+  void refine_cell(const Eigen::Vector3i& cell, Index size, Index& face) {
     std::array<float, 8> corners;
-    for (int c = 0; c < 8; ++c)
-      corners[static_cast<std::size_t>(c)] =
-          field_.values[node((cell[0] + (c & 1)) * coarse_step, (cell[1] + (c >> 1 & 1)) * coarse_step,
-                             (cell[2] + (c >> 2)) * coarse_step)];
-    float nearest = std::abs(corners[0]);
-    for (float corner : corners) nearest = std::min(nearest, std::abs(corner));
-    const Real diagonal = coarse_step * field_.cell_size.norm();
-    const bool exact = nearest < 2 * diagonal;
-    Eigen::Vector3i end = Eigen::Vector3i::Constant(coarse_step);
-    for (int axis = 0; axis < 3; ++axis)
-      if (cell[axis] == coarse_cells_[axis] - 1) ++end[axis];
-    for (Index z = 0; z < end[2]; ++z)
-      for (Index y = 0; y < end[1]; ++y)
-        for (Index x = 0; x < end[0]; ++x) {
-          const bool on_coarse_grid = x % coarse_step == 0 && y % coarse_step == 0 && z % coarse_step == 0;
-          if (on_coarse_grid) continue;
-          const Index i = cell[0] * coarse_step + x, j = cell[1] * coarse_step + y, k = cell[2] * coarse_step + z;
-          field_.values[node(i, j, k)] =
-              exact ? static_cast<float>(surface_.query(position(i, j, k), nearest + diagonal).distance)
-                    : interpolated(corners, Eigen::Vector3f(static_cast<float>(x), static_cast<float>(y),
-                                                            static_cast<float>(z)) /
-                                                static_cast<float>(coarse_step));
+    float nearest = std::numeric_limits<float>::infinity();
+    for (int c = 0; c < 8; ++c) {
+      float& corner = corners[static_cast<std::size_t>(c)];
+      corner = value(cell + size * Eigen::Vector3i(c & 1, c >> 1 & 1, c >> 2));
+      nearest = std::min(nearest, std::abs(corner));
+    }
+    const bool exact = nearest < 2 * size * field_.cell_size.norm();
+    const Index half = size / 2;
+    const auto end = [&](int axis) { return cell[axis] + size == cells_[axis] ? size : half; };
+    for (Index z = 0; z <= end(2); z += half)
+      for (Index y = 0; y <= end(1); y += half)
+        for (Index x = 0; x <= end(0); x += half) {
+          const Eigen::Vector3i within(x, y, z);
+          if ((within.array() != half).all()) continue;  // a corner
+          if (exact)
+            set_exactly(cell + within, face);
+          else
+            value(cell + within) = interpolated(corners, within.cast<float>() / static_cast<float>(size));
         }
   }
 
@@ -106,7 +106,7 @@ class Builder {
 
   SignedDistance surface_;
   DistanceField field_;
-  Eigen::Vector3i coarse_cells_ = Eigen::Vector3i::Zero();
+  Eigen::Vector3i cells_ = Eigen::Vector3i::Zero();
 };
 
 }  // namespace

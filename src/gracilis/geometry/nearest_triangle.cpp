@@ -4,10 +4,44 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 namespace gracilis {
+
+namespace {
+
+/// The circle in a triangle's plane that holds it. A triangle without a plane has no normal.
+struct Disk {
+  Vec3 center, normal;
+  Real radius = 0;
+};
+
+Disk disk_around(const Vec3& a, const Vec3& b, const Vec3& c) {
+  Disk disk;
+  disk.center = (a + b + c) / 3;
+  disk.normal = (b - a).cross(c - a).stableNormalized();
+  disk.radius = std::sqrt(
+      std::max({(a - disk.center).squaredNorm(), (b - disk.center).squaredNorm(), (c - disk.center).squaredNorm()}));
+  return disk;
+}
+
+/// Whether no point of the disk is within `distance` of p: many triangles lie little farther than the nearest, and this
+/// knows them quickly.
+bool is_farther(const Disk& disk, const Vec3& p, Real distance) {
+  constexpr Real rounding = 1e-9;
+  const Vec3 away = p - disk.center;
+  const Real height = away.dot(disk.normal), along2 = std::max(away.squaredNorm() - height * height, 0.0),
+             beyond = std::max(std::sqrt(along2) - disk.radius, 0.0);
+  return height * height + beyond * beyond > (1 + rounding) * distance * distance;
+}
+
+}  // namespace
 
 struct NearestTriangle::Tree {
   TriangleMesh mesh;
+  std::vector<Disk> disks;  ///< around the faces
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -21,34 +55,57 @@ namespace {
 
 struct Query {
   const TriangleMesh& mesh;
+  const std::vector<Disk>& disks;
   Vec3 p;
   NearestPoint best;
 };
 
-/// Embree calls this for each triangle whose box meets the query sphere; shrinking the radius prunes the rest.
-bool consider_triangle(RTCPointQueryFunctionArguments* arguments) {
-  auto& query = *static_cast<Query*>(arguments->userPtr);
-  const auto face = static_cast<Index>(arguments->primID);
+/// Whether the face is the nearest so far. Ties go to the lower face, so that the answer does not depend on the tree.
+bool consider(Index face, Query& query) {
+  if (is_farther(query.disks[static_cast<std::size_t>(face)], query.p, query.best.distance)) return false;
   const Eigen::Vector3i corners = query.mesh.faces.col(face);
   const Vec3 a = query.mesh.vertices.col(corners[0]), b = query.mesh.vertices.col(corners[1]),
              c = query.mesh.vertices.col(corners[2]);
   const Vec3 barycentric = nearest_barycentric(query.p, a, b, c);
   const Vec3 point = barycentric[0] * a + barycentric[1] * b + barycentric[2] * c;
   const Real distance = (point - query.p).norm();
-  // Ties go to the lower face, so that the answer does not depend on the tree.
   if (distance > query.best.distance || (distance == query.best.distance && face > query.best.face)) return false;
   query.best = {face, barycentric, point, distance};
-  // The tree's boxes are rounded to float: stay a little generous.
-  const float radius = static_cast<float>(distance * (1 + 1e-5) + 1e-7);
+  return true;
+}
+
+/// What Embree has to look at for everything within `reach`: its boxes are rounded to float.
+float generous(Real reach) { return static_cast<float>(reach * (1 + 1e-5) + 1e-7); }
+
+/// Embree calls this for each triangle whose box meets the query sphere; shrinking the radius prunes the rest.
+bool consider_triangle(RTCPointQueryFunctionArguments* arguments) {
+  auto& query = *static_cast<Query*>(arguments->userPtr);
+  if (!consider(static_cast<Index>(arguments->primID), query)) return false;
+  const float radius = generous(query.best.distance);
   if (radius >= arguments->query->radius) return false;
   arguments->query->radius = radius;
   return true;
+}
+
+void search(RTCScene scene, Query& query) {
+  RTCPointQuery point_query;
+  point_query.x = static_cast<float>(query.p.x());
+  point_query.y = static_cast<float>(query.p.y());
+  point_query.z = static_cast<float>(query.p.z());
+  point_query.time = 0;
+  point_query.radius = generous(query.best.distance);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  rtcPointQuery(scene, &point_query, &context, nullptr, &query);
 }
 
 }  // namespace
 
 NearestTriangle::NearestTriangle(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
   tree_->mesh = mesh;
+  for (const auto face : mesh.faces.colwise())
+    tree_->disks.push_back(
+        disk_around(mesh.vertices.col(face[0]), mesh.vertices.col(face[1]), mesh.vertices.col(face[2])));
   tree_->device = rtcNewDevice(nullptr);  // any number of threads asked for here would hold for the whole program
   tree_->scene = rtcNewScene(tree_->device);
   rtcSetSceneFlags(tree_->scene, RTC_SCENE_FLAG_ROBUST);
@@ -73,19 +130,18 @@ NearestTriangle::NearestTriangle(NearestTriangle&&) noexcept = default;
 NearestTriangle& NearestTriangle::operator=(NearestTriangle&&) noexcept = default;
 
 NearestPoint NearestTriangle::query(const Vec3& p, Real reach) const {
-  Query query{tree_->mesh, p, {}};
+  Query query{tree_->mesh, tree_->disks, p, {}};
   query.best.distance = reach;
   query.best.face = std::numeric_limits<Index>::max();
-  RTCPointQuery point_query;
-  point_query.x = static_cast<float>(p.x());
-  point_query.y = static_cast<float>(p.y());
-  point_query.z = static_cast<float>(p.z());
-  point_query.time = 0;
-  point_query.radius = static_cast<float>(reach * (1 + 1e-5) + 1e-7);
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(tree_->scene, &point_query, &context, nullptr, &query);
+  search(tree_->scene, query);
   if (query.best.face == std::numeric_limits<Index>::max()) return {};
+  return query.best;
+}
+
+NearestPoint NearestTriangle::query_from(Index guess, const Vec3& p) const {
+  Query query{tree_->mesh, tree_->disks, p, {}};
+  consider(guess, query);
+  search(tree_->scene, query);
   return query.best;
 }
 

@@ -27,6 +27,8 @@ class NearestTriangle {
 
   /// The nearest point within `reach`, or face -1.
   NearestPoint query(const Vec3& p, Real reach = std::numeric_limits<Real>::infinity()) const;
+  /// The nearest point at any distance, found the faster the nearer the face `guess` is; the answer is the same.
+  NearestPoint query_from(Index guess, const Vec3& p) const;
 
  private:
   struct Tree;

@@ -53,14 +53,18 @@ Vec3 SignedDistance::pseudonormal(const NearestPoint& nearest) const {
   return face_normals_.col(nearest.face);
 }
 
+SignedDistance::Answer SignedDistance::with_sign(const NearestPoint& nearest, const Vec3& p) const {
+  if (nearest.face < 0) return {std::numeric_limits<Real>::infinity(), nearest};
+  const bool inside = winding_ ? winding_->query(p) > 0.5 : (p - nearest.point).dot(pseudonormal(nearest)) < 0;
+  return {inside ? -nearest.distance : nearest.distance, nearest};
+}
+
 SignedDistance::Answer SignedDistance::query(const Vec3& p, Real reach) const {
-  Answer answer;
-  answer.nearest = nearest_triangle_.query(p, reach);
-  if (answer.nearest.face < 0) return answer;
-  const bool inside =
-      winding_ ? winding_->query(p) > 0.5 : (p - answer.nearest.point).dot(pseudonormal(answer.nearest)) < 0;
-  answer.distance = inside ? -answer.nearest.distance : answer.nearest.distance;
-  return answer;
+  return with_sign(nearest_triangle_.query(p, reach), p);
+}
+
+SignedDistance::Answer SignedDistance::query_from(Index guess, const Vec3& p) const {
+  return with_sign(nearest_triangle_.query_from(guess, p), p);
 }
 
 }  // namespace gracilis

@@ -24,10 +24,14 @@ class SignedDistance {
   /// Answers with +infinity and face -1 when the surface is farther than `reach`.
   Answer query(const Vec3& p, Real reach = std::numeric_limits<Real>::infinity()) const;
 
+  /// The answer at any distance, found the faster the nearer the face `guess` is; the same with any.
+  Answer query_from(Index guess, const Vec3& p) const;
+
   bool closed() const { return !winding_; }
 
  private:
   Vec3 pseudonormal(const NearestPoint& nearest) const;
+  Answer with_sign(const NearestPoint& nearest, const Vec3& p) const;
 
   Eigen::Matrix3Xi faces_;
   NearestTriangle nearest_triangle_;

@@ -1,4 +1,5 @@
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
 #include <gracilis/io/field_cache.hpp>
@@ -14,7 +15,7 @@ namespace gracilis {
 namespace fs = std::filesystem;
 
 // Stands first in every file and in what is hashed: change it when fields are built or stored in another way.
-static constexpr char format_name[16] = "gracilis field1";
+static constexpr char format_name[16] = "gracilis field2";
 
 static std::string bytes_of(const void* data, std::size_t size) { return {static_cast<const char*>(data), size}; }
 
@@ -69,9 +70,14 @@ static void write_field(const fs::path& file, const DistanceField& field) {
     header.cell_size[axis] = field.cell_size[axis];
     header.nodes[axis] = field.nodes[static_cast<std::size_t>(axis)];
   }
-  std::string bytes = bytes_of(&header, sizeof header);
-  bytes += bytes_of(field.values.data(), sizeof(float) * field.values.size());
-  write_text_atomically(file, bytes);
+  write_file_atomically(file, [&](const fs::path& temporary) {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(&header), sizeof header);
+    stream.write(reinterpret_cast<const char*>(field.values.data()),
+                 static_cast<std::streamsize>(sizeof(float) * field.values.size()));
+    stream.close();
+    if (!stream) throw InputError({temporary.string(), "", "cannot be written", "check the free space of the disk"});
+  });
 }
 
 DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& settings, const fs::path& folder) {
@@ -89,6 +95,14 @@ DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& s
     // No room or no right to write: the field is as good without the file.
   }
   return field;
+}
+
+std::vector<DistanceField> cached_bone_fields(const Scene& scene, const fs::path& folder) {
+  std::vector<DistanceField> fields(scene.bones.size());
+  parallel_for_each(fields.size(), [&](std::size_t b) {
+    fields[b] = cached_bone_field(scene.bones[b], scene.distance_fields, folder);
+  });
+  return fields;
 }
 
 }  // namespace gracilis
