@@ -93,8 +93,14 @@ Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eige
 PointGap point_gap(const Eigen::Vector3f& p, const ContactSurface& surface, Index face, const Particles& particles,
                    const Eigen::Matrix3Xf& normals) {
   const Corners x = corners_of(surface, face, particles);
+  return point_gap(p, surface, NearestFace{face, nearest_barycentric(p, x[0], x[1], x[2])}, particles, normals);
+}
+
+PointGap point_gap(const Eigen::Vector3f& p, const ContactSurface& surface, const NearestFace& at,
+                   const Particles& particles, const Eigen::Matrix3Xf& normals) {
+  const Corners x = corners_of(surface, at.face, particles);
   PointGap gap;
-  gap.barycentric = nearest_barycentric(p, x[0], x[1], x[2]);
+  gap.barycentric = at.barycentric;
   const Eigen::Vector3f nearest = gap.barycentric[0] * x[0] + gap.barycentric[1] * x[1] + gap.barycentric[2] * x[2];
   if (gap.barycentric.minCoeff() > 0) {
     gap.normal = (x[1] - x[0]).cross(x[2] - x[0]).stableNormalized();
@@ -103,7 +109,7 @@ PointGap point_gap(const Eigen::Vector3f& p, const ContactSurface& surface, Inde
   }
   Eigen::Vector3f outward = Eigen::Vector3f::Zero();
   for (int corner = 0; corner < 3; ++corner)
-    outward += gap.barycentric[corner] * normals.col(surface.faces(corner, face));
+    outward += gap.barycentric[corner] * normals.col(surface.faces(corner, at.face));
   const Eigen::Vector3f away = p - nearest;
   const float distance = away.norm();
   if (distance < same_place) {

@@ -52,6 +52,12 @@ Eigen::Vector3f sum_around(const ContactSurface& surface, Index particle, const 
 /// At each particle the sum over its faces of what they have, one column each.
 Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces);
 
+/// A face and the nearest point of it.
+struct NearestFace {
+  Index face = 0;
+  Eigen::Vector3f barycentric;
+};
+
 /// Where a point stands against a triangle: the nearest point of the triangle, and the signed distance to it along
 /// `normal`, positive outside.
 struct PointGap {
@@ -65,6 +71,9 @@ struct PointGap {
 /// direction.
 PointGap point_gap(const Eigen::Vector3f& p, const ContactSurface& surface, Index face, const Particles& particles,
                    const Eigen::Matrix3Xf& normals);
+/// The same where the face's nearest point is known.
+PointGap point_gap(const Eigen::Vector3f& p, const ContactSurface& surface, const NearestFace& nearest,
+                   const Particles& particles, const Eigen::Matrix3Xf& normals);
 
 /// Where two edges stand against each other.
 struct EdgeGap {
@@ -79,12 +88,6 @@ struct EdgeGap {
 /// perpendicular lies nearly across `outward`.
 EdgeGap edge_gap(const Eigen::Vector3f& a0, const Eigen::Vector3f& a1, const Eigen::Vector3f& b0,
                  const Eigen::Vector3f& b1, const Eigen::Vector3f& outward);
-
-/// A face and the nearest point of it.
-struct NearestFace {
-  Index face = 0;
-  Eigen::Vector3f barycentric;
-};
 
 /// From `face` to neighbors as long as they come nearer to p: the nearest face, or one nearest among those around it.
 NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,

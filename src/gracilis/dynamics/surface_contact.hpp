@@ -39,8 +39,8 @@ struct SurfaceCrowd {
 struct PointTouch {
   Index particle = 0, face = 0;
   float side = 1;
-  float distance = 0;        ///< m, on that side, when last looked at
-  bool inside_face = false;  ///< the nearest point is none of a side or corner, so the face alone tells the side
+  float distance = 0;                                       ///< m, on that side, when last looked at
+  Eigen::Vector3f barycentric = Eigen::Vector3f::Zero();    ///< of the nearest point then
   float most_gap = std::numeric_limits<float>::infinity();  ///< m, what neighbors leave each other
 };
 /// Two edges that cross closely, one of each surface; `side` as above.

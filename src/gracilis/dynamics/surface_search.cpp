@@ -26,7 +26,7 @@ void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Pa
       PointTouch& touch = near[static_cast<std::size_t>(i)];
       const NearestFace nearest = walk_to_nearest(probe.position(touch.particle) + shift, surface, touch.face, target);
       touch.face = nearest.face;
-      touch.inside_face = nearest.barycentric.minCoeff() > 0;
+      touch.barycentric = nearest.barycentric;
     }
   });
 }
@@ -40,7 +40,8 @@ void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, con
       static_cast<Index>(near.size()), chunk, [&](Index begin, Index end, std::vector<PointTouch>& part) {
         for (Index i = begin; i < end; ++i) {
           PointTouch& touch = near[static_cast<std::size_t>(i)];
-          const PointGap gap = point_gap(probe.position(touch.particle) + shift, surface, touch.face, target, normals);
+          const PointGap gap = point_gap(probe.position(touch.particle) + shift, surface,
+                                         NearestFace{touch.face, touch.barycentric}, target, normals);
           touch.distance = touch.side * gap.distance;
           if (touch.distance >= within) continue;
           if (self && self->side(touch.particle, touch.face) != touch.side) continue;
@@ -125,6 +126,8 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
                 const std::vector<PointTouch>& near_second, const SelfRule* self, std::vector<EdgeTouch>& found) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   const ContactSurface &first = crowd.surfaces[a], &second = crowd.surfaces[b];
+  found.clear();
+  if (near_second.empty()) return;
   const TouchTable table(near_second, particles[a]->count());
   const std::vector<Index> edges = edges_around(near_second, table, first, *particles[a]);
   const auto count = static_cast<Index>(edges.size());
@@ -202,11 +205,11 @@ class NormalMaker {
   std::vector<std::vector<Index>> listed_;
 };
 
-/// The normals that tell on which side of a surface those near it are.
+/// The normals that tell on which side of a surface those near it are; over the inside of a face it tells alone.
 void ask_to_tell_sides(const SurfaceCrowd& crowd, const CrowdState& state, NormalMaker& normals) {
   const auto ask = [&](std::size_t target, const std::vector<PointTouch>& near) {
     for (const PointTouch& touch : near)
-      if (!touch.inside_face) normals.ask_corners(target, touch);
+      if (!(touch.barycentric.minCoeff() > 0)) normals.ask_corners(target, touch);
   };
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
     ask(static_cast<std::size_t>(crowd.pairs[i].second), state.touches[i].near_second);

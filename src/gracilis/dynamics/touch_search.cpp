@@ -34,10 +34,10 @@ template <class SideOf, class MayFace>
 PointTouch nearest_face(const Eigen::Vector3f& p, const PatchTree& tree, const std::vector<Index>& patches, float reach,
                         const SideOf& side_of, const MayFace& may_face, std::vector<float>& distances2) {
   const Eigen::Array4f place(p.x(), p.y(), p.z(), 0);
-  distances2.clear();
-  for (const Index patch : patches) {
-    const PatchTree::Bounds& bounds = tree.bounds[static_cast<std::size_t>(patch)];
-    distances2.push_back(may_face(bounds) ? bounds.places.squared_distance(place) : PatchTree::infinity);
+  distances2.resize(patches.size());
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const PatchTree::Bounds& bounds = tree.bounds[static_cast<std::size_t>(patches[i])];
+    distances2[i] = may_face(bounds) ? bounds.places.squared_distance(place) : PatchTree::infinity;
   }
   const auto first = std::min_element(distances2.begin(), distances2.end());
   PointTouch nearest{-1, -1, 0};
