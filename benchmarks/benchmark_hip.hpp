@@ -39,7 +39,7 @@ inline bool cadaver_is_there() {
 }
 
 inline BenchmarkHip with_fields(Scene scene) {
-  std::vector<DistanceField> fields = cached_bone_fields(scene, default_cache_folder());
+  std::vector<DistanceField> fields = cached_bone_fields(scene);
   return {std::move(scene), std::move(fields)};
 }
 

@@ -31,7 +31,7 @@ Outcome run(const std::filesystem::path& file, const SceneOptions& options, int 
   const Scene scene = read_scene(file, options).scene;
   std::vector<Pose> poses = pose_sequence(scene);
   if (frames > 0) poses.resize(std::min(poses.size(), static_cast<std::size_t>(frames) + 1));
-  const auto method = make_xpbd_method(scene, cached_bone_fields(scene, default_cache_folder()));
+  const auto method = make_xpbd_method(scene, cached_bone_fields(scene));
   Outcome outcome;
   std::vector<Real> times;
   for (std::size_t i = 1; i < poses.size(); ++i) {

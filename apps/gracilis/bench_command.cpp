@@ -179,7 +179,7 @@ int bench(Scene scene, BenchOptions options, Clock::time_point started) {
     if (thread_count() > 1) options.threads.push_back(thread_count());
   }
   const std::vector<Pose> poses = poses_until(scene, options.frame);
-  const std::vector<DistanceField> fields = cached_bone_fields(scene, default_cache_folder());
+  const std::vector<DistanceField> fields = cached_bone_fields(scene);
   const Clock::duration reading = Clock::now() - started;
   std::vector<BenchEntry> entries;
   if (options.muscles == 0)

@@ -150,7 +150,7 @@ class Session {
 
   std::vector<DistanceField> bone_fields() const {
     for (const Bone& bone : loaded_.scene.bones) spdlog::info("distance field of {}", bone.name);
-    return cached_bone_fields(loaded_.scene, default_cache_folder());
+    return cached_bone_fields(loaded_.scene);
   }
 
   /// Says per muscle what was missed, limited or skipped over the whole run.

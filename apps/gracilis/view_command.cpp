@@ -132,11 +132,11 @@ void view_scene(Scene scene, const ViewOptions& options, std::chrono::steady_clo
   ShapeHistory history(kept_frames);
   LiveSimulation simulation(scene, history, [&scene] {
     return scene.method == MethodKind::cylinder ? make_cylinder_method(scene)
-                                                : make_xpbd_method(scene, cached_bone_fields(scene, default_cache_folder()));
+                                                : make_xpbd_method(scene, cached_bone_fields(scene));
   });
   WindowOptions window = options.window;
   window.live = controls_of(scene, simulation);
-  window.bone_fields = [&scene] { return cached_bone_fields(scene, default_cache_folder()); };
+  window.bone_fields = [&scene] { return cached_bone_fields(scene); };
   show(simulation.shapes(), history, window, begin);
 }
 

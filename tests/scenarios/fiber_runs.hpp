@@ -25,7 +25,7 @@ struct FiberRun {
 
 /// `observe` sees every frame.
 inline FiberRun run_with_fibers(const Scene& scene, const std::function<void(const FrameRecord&)>& observe = {}) {
-  const auto method = make_xpbd_method(scene, cached_bone_fields(scene, default_cache_folder()));
+  const auto method = make_xpbd_method(scene, cached_bone_fields(scene));
   const FiberTracker tracker(scene);
   const std::vector<std::string> names = coordinate_names(scene);
   const auto flexion = static_cast<std::size_t>(std::find(names.begin(), names.end(), "hip_flexion_r") - names.begin());

@@ -69,7 +69,7 @@ inline WholeRun run_whole(const Scene& scene, int stride = 1,
   const std::vector<Pose> all = pose_sequence(scene);
   for (std::size_t i = 0; i < all.size(); ++i)
     if (i % static_cast<std::size_t>(stride) == 0 || i + 1 == all.size()) poses.push_back(all[i]);
-  const auto method = make_xpbd_method(scene, cached_bone_fields(scene, default_cache_folder()));
+  const auto method = make_xpbd_method(scene, cached_bone_fields(scene));
   WholeRun run;
   run.muscles.resize(scene.muscles.size());
   const std::atomic<bool> never = false;

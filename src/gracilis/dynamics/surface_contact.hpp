@@ -53,7 +53,8 @@ struct EdgeTouch {
 /// What is near what; workspace of one step.
 struct PairTouches {
   std::vector<PointTouch> near_second, near_first;  ///< found once per step, walked since: particles of the first
-                                                    ///< near the second and the other way
+                                                    ///< near the second and the other way; of a surface
+                                                    ///< with itself all in the first of the two
   std::vector<PointTouch> on_second, on_first;      ///< of these, what every iteration projects
   std::vector<EdgeTouch> edges;
   bool none_listed() const { return on_second.empty() && on_first.empty() && edges.empty(); }

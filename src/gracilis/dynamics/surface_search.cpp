@@ -5,6 +5,7 @@
 #include <gracilis/dynamics/touch_search.hpp>
 
 #include <algorithm>
+#include <optional>
 
 /// What is near what: the searches behind surface_contact.hpp.
 namespace gracilis {
@@ -271,7 +272,7 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     walk(touches.near_second, crowd.surfaces[b], *particles[a], *particles[b], pair.shift);
-    if (!pair.is_self()) walk(touches.near_first, crowd.surfaces[a], *particles[b], *particles[a], -pair.shift);
+    walk(touches.near_first, crowd.surfaces[a], *particles[b], *particles[a], -pair.shift);
   });
   NormalMaker normals(crowd, particles, state);
   ask_to_tell_sides(crowd, state, normals);
@@ -280,20 +281,16 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-    if (pair.is_self()) {
-      const SelfRule rule = self_rule(crowd, state, *particles[a], pair.first);
-      list_near(touches.near_second, crowd.surfaces[a], state.normals[a], *particles[a], *particles[a],
-                Eigen::Vector3f::Zero(), listed_within, &rule, touches.on_second);
-      find_edges(crowd, pair, particles, touches.near_second, &rule, touches.edges);
-      return;
-    }
+    std::optional<SelfRule> self;
+    if (pair.is_self()) self.emplace(self_rule(crowd, state, *particles[a], pair.first));
+    const SelfRule* rule = self ? &*self : nullptr;
     // Cohesion also looks at what has parted.
-    const float within = listed_within + (crowd.settings.cohesion > 0 ? pair.reach : 0);
+    const float within = listed_within + (crowd.settings.cohesion > 0 && !self ? pair.reach : 0);
     list_near(touches.near_second, crowd.surfaces[b], state.normals[b], *particles[a], *particles[b], pair.shift,
-              within, nullptr, touches.on_second);
+              within, rule, touches.on_second);
     list_near(touches.near_first, crowd.surfaces[a], state.normals[a], *particles[b], *particles[a], -pair.shift,
-              within, nullptr, touches.on_first);
-    find_edges(crowd, pair, particles, touches.near_second, nullptr, touches.edges);
+              within, rule, touches.on_first);
+    find_edges(crowd, pair, particles, touches.near_second, rule, touches.edges);
   });
   ask_to_project(crowd, state, normals);
   normals.make();

@@ -4,7 +4,9 @@
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace gracilis {
 

@@ -97,7 +97,8 @@ DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& s
   return field;
 }
 
-std::vector<DistanceField> cached_bone_fields(const Scene& scene, const fs::path& folder) {
+std::vector<DistanceField> cached_bone_fields(const Scene& scene) {
+  const fs::path folder = default_cache_folder();
   std::vector<DistanceField> fields(scene.bones.size());
   parallel_for_each(fields.size(), [&](std::size_t b) {
     fields[b] = cached_bone_field(scene.bones[b], scene.distance_fields, folder);
