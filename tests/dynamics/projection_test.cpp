@@ -229,4 +229,22 @@ TEST(StretchLimit, shortens_what_is_too_long_to_the_limit_and_leaves_the_rest) {
   EXPECT_EQ(limit_stretch(set, set.order.colors[0], 2.001f, particles), 0);
 }
 
+TEST(StretchLimit, looks_only_where_an_edge_came_near_it_when_distances_were_projected) {
+  const auto limited_after = [](double length) {
+    Points x = Points::Zero(3, 2);
+    x(0, 1) = length;
+    Particles particles = make_particles(x, Eigen::Vector2d(1, 1));
+    constexpr double soft = 1e9;  // so that projecting the distance moves nothing
+    const DistanceSet set = build_distance_set({{0, 1, 0.01, soft}}, 2);
+    AlignedVector<float> lambda(set.a.size(), 0);
+    StretchWatch watch{2, {0}};
+    project_distances(set, set.order.colors.at(0), set.rest_length.data(), lambda.data(), particles, particles, {},
+                      &watch);
+    particles.at(1)[0] = 0.03f;
+    return limit_stretch(set, set.order.colors.at(0), 2, particles, &watch);
+  };
+  EXPECT_EQ(limited_after(0.0194), 0);
+  EXPECT_EQ(limited_after(0.0196), 1);
+}
+
 }  // namespace gracilis

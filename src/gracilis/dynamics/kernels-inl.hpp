@@ -57,28 +57,29 @@ struct Scalar {
   static V inverse_sqrt(V x) { return 1 / std::sqrt(x); }
 };
 
+/// Goes by value: GCC writes to memory what is referred to, even where nobody reads it there.
 template <class V>
 struct Vector3 {
   V x, y, z;
 };
 template <class V>
-HWY_INLINE Vector3<V> operator+(const Vector3<V>& a, const Vector3<V>& b) {
+HWY_INLINE Vector3<V> operator+(Vector3<V> a, Vector3<V> b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
 template <class V>
-HWY_INLINE Vector3<V> operator-(const Vector3<V>& a, const Vector3<V>& b) {
+HWY_INLINE Vector3<V> operator-(Vector3<V> a, Vector3<V> b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class V>
-HWY_INLINE Vector3<V> scaled(V s, const Vector3<V>& a) {
+HWY_INLINE Vector3<V> scaled(V s, Vector3<V> a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 template <class Math, class V = typename Math::V>
-HWY_INLINE V dot(const Vector3<V>& a, const Vector3<V>& b) {
+HWY_INLINE V dot(Vector3<V> a, Vector3<V> b) {
   return Math::fma(a.x, b.x, Math::fma(a.y, b.y, a.z * b.z));
 }
 template <class V>
-HWY_INLINE Vector3<V> cross(const Vector3<V>& a, const Vector3<V>& b) {
+HWY_INLINE Vector3<V> cross(Vector3<V> a, Vector3<V> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
@@ -113,7 +114,7 @@ struct EdgeLength {
   Vector3<V> direction;
 };
 template <class Math, class V = typename Math::V>
-HWY_INLINE EdgeLength<V> edge_length(const Vector3<V>& a, const Vector3<V>& b) {
+HWY_INLINE EdgeLength<V> edge_length(Vector3<V> a, Vector3<V> b) {
   const Vector3<V> d = b - a;
   const V length2 = dot<Math>(d, d), tiny = Math::number(1e-24), zero = Math::number(0);
   const V inverse = Math::if_less(length2, tiny, zero, Math::inverse_sqrt(Math::max(length2, tiny)));
@@ -130,7 +131,7 @@ struct HingeAngle {
 
 /// Shares the apex gradients g2 and g3 among the edge's ends so that the gradient moves neither position nor direction.
 template <class Math, class V = typename Math::V>
-HWY_INLINE void balance_edge_ends(const Vector3<V>& e, const Vector3<V>& a, const Vector3<V>& b, V inverse_length2,
+HWY_INLINE void balance_edge_ends(Vector3<V> e, Vector3<V> a, Vector3<V> b, V inverse_length2,
                                   HingeAngle<V>& hinge) {
   const V ta = dot<Math>(a, e) * inverse_length2, tb = dot<Math>(b, e) * inverse_length2;
   const V one = Math::number(1), zero = Math::number(0);
@@ -141,8 +142,8 @@ HWY_INLINE void balance_edge_ends(const Vector3<V>& e, const Vector3<V>& a, cons
 /// θ = atan2((n1 × n2)·e/|e|, n1·n2) with e = x1 - x0, n1 = e × (x2 - x0), n2 = (x3 - x0) × e: 0 when flat, defined up
 /// to ±π (Bridson, Marino, Fedkiw 2003; gradients by differentiation).
 template <class Math, class V = typename Math::V>
-HWY_INLINE HingeAngle<V> hinge_angle(const Vector3<V>& x0, const Vector3<V>& x1, const Vector3<V>& x2,
-                                     const Vector3<V>& x3) {
+HWY_INLINE HingeAngle<V> hinge_angle(Vector3<V> x0, Vector3<V> x1, Vector3<V> x2,
+                                     Vector3<V> x3) {
   const Vector3<V> e = x1 - x0, a = x2 - x0, b = x3 - x0;
   const Vector3<V> n1 = cross(e, a), n2 = cross(b, e);
   const V length2 = dot<Math>(e, e), n1_squared = dot<Math>(n1, n1), n2_squared = dot<Math>(n2, n2);
@@ -164,8 +165,8 @@ HWY_INLINE HingeAngle<V> hinge_angle(const Vector3<V>& x0, const Vector3<V>& x1,
 /// The published variant: θ = arccos(n1·n2) of unit normals, without sign; its gradient has the factor 1/√(1 -
 /// (n1·n2)²) that is lost near flat and folded hinges, which are therefore skipped (Müller et al. 2007, appendix A).
 template <class Math, class V = typename Math::V>
-HWY_INLINE HingeAngle<V> hinge_angle_arccos(const Vector3<V>& x0, const Vector3<V>& x1, const Vector3<V>& x2,
-                                            const Vector3<V>& x3) {
+HWY_INLINE HingeAngle<V> hinge_angle_arccos(Vector3<V> x0, Vector3<V> x1, Vector3<V> x2,
+                                            Vector3<V> x3) {
   HingeAngle<V> hinge = hinge_angle<Math>(x0, x1, x2, x3);
   const V zero = Math::number(0);
   const V cosine_lost = Math::number(1e-3);  // below this angle float's 1 - cos θ has no digits left

@@ -37,7 +37,7 @@ HWY_INLINE LoadedParticles load_particles(const float* xyzw, const Index* indice
   return loaded;
 }
 
-HWY_INLINE void store_particles(float* xyzw, const Index* indices, const Point& x, V w) {
+HWY_INLINE void store_particles(float* xyzw, const Index* indices, Point x, V w) {
   HWY_ALIGN float lanes[4 * group_width];
   hn::StoreInterleaved4(x.x, x.y, x.z, w, D(), lanes);
   for (std::size_t lane = 0; lane < hn::Lanes(D()); ++lane)
@@ -91,7 +91,7 @@ HWY_INLINE LoadedParticles load_particles(const float* xyzw, const Index* indice
   return {{columns.r0, columns.r1, columns.r2}, columns.r3};
 }
 
-HWY_INLINE void store_particles(float* xyzw, const Index* indices, const Point& x, V w) {
+HWY_INLINE void store_particles(float* xyzw, const Index* indices, Point x, V w) {
   const D d;
   const Rows rows = transposed({x.x, x.y, x.z, w});
   store_every_fourth(d, rows.r0, xyzw, indices);

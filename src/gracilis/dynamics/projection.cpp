@@ -10,31 +10,15 @@ HWY_BEFORE_NAMESPACE();
 namespace gracilis::HWY_NAMESPACE {
 
 /// ∇C·(x - xⁿ) of one particle.
-HWY_INLINE V motion_along(const Point& gradient, const Point& x, const float* start, const Index* indices) {
+HWY_INLINE V motion_along(Point gradient, Point x, const float* start, const Index* indices) {
   return dot<Math>(gradient, x - load_particles(start, indices).x);
 }
 
-/// The ends of the edges in the slots from `at` on, one edge per lane.
-struct LoadedEdges {
-  const Index *ia, *ib;
-  LoadedParticles a, b;
-  V weight;  ///< sum of the inverse masses
-};
-
-HWY_INLINE LoadedEdges load_edges(const DistanceSet& set, std::size_t at, const Particles& particles) {
-  LoadedEdges edges;
-  edges.ia = set.a.data() + at, edges.ib = set.b.data() + at;
-  edges.a = load_particles(particles.xyzw.data(), edges.ia);
-  edges.b = load_particles(particles.xyzw.data(), edges.ib);
-  edges.weight = edges.a.w + edges.b.w;
-  return edges;
-}
-
-/// Moves the second end by `share` of `along` times its inverse mass, the first the other way by its own.
-HWY_INLINE void move_ends(const LoadedEdges& edges, const V& share, const Point& along, Particles& particles) {
-  const LoadedParticles &a = edges.a, &b = edges.b;
-  store_particles(particles.xyzw.data(), edges.ia, a.x - scaled(a.w * share, along), a.w);
-  store_particles(particles.xyzw.data(), edges.ib, b.x + scaled(b.w * share, along), b.w);
+/// Moves the second end of each edge by `share` of `along` times its inverse mass, the first the other way by its own.
+HWY_INLINE void move_ends(const Index* ia, const LoadedParticles& a, const Index* ib, const LoadedParticles& b,
+                          const V& share, Point along, Particles& particles) {
+  store_particles(particles.xyzw.data(), ia, a.x - scaled(a.w * share, along), a.w);
+  store_particles(particles.xyzw.data(), ib, b.x + scaled(b.w * share, along), b.w);
 }
 
 /// How many of the edges have ends that coincide, so that nothing tells where to, though one could move.
@@ -43,36 +27,55 @@ HWY_INLINE Index count_without_direction(const V& length, const V& weight) {
   return static_cast<Index>(hn::CountTrue(d, hn::And(hn::Lt(length, hn::Set(d, 1e-12f)), hn::Gt(weight, hn::Zero(d)))));
 }
 
-ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, const float* target_length, float* lambda,
-                                   const Particles& start, Particles& particles,
-                                   const ProjectionParameters& parameters) {
+/// What is left to the limit of stretch (m) when an edge may reach it within one iteration.
+constexpr float stretch_reserve = 0.0005f;
+
+template <bool dissipative>
+ProjectionCounts project_distance_range(const DistanceSet& set, ColorRange range, const float* target_length,
+                                        float* lambda, const Particles& start, Particles& particles,
+                                        const ProjectionParameters& parameters, StretchWatch* watch) {
   const D d;
   const float inverse_dt2 = 1 / (parameters.time_step * parameters.time_step);
-  const bool dissipative = parameters.rayleigh_beta > 0;
   const V tiny = hn::Set(d, 1e-30f), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const V limit = hn::Set(d, watch ? watch->limit : 0), reserve = hn::Set(d, stretch_reserve);
   ProjectionCounts counts;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
-    const LoadedEdges ends = load_edges(set, at, particles);
-    const EdgeLength<V> edge = edge_length<Math>(ends.a.x, ends.b.x);
+    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
+    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
+    const EdgeLength<V> edge = edge_length<Math>(a.x, b.x);
     const V c = edge.length - hn::LoadU(d, target_length + at);
     const V alpha = hn::LoadU(d, set.compliance.data() + at) * hn::Set(d, inverse_dt2);
     const V multiplier = hn::LoadU(d, lambda + at);
-    V weight = ends.weight;
+    const V moving_weight = a.w + b.w;
+    V weight = moving_weight;
     V numerator = c + alpha * multiplier;
-    if (dissipative) {
+    if constexpr (dissipative) {
       const V gamma = alpha * hn::Set(d, parameters.time_step * parameters.rayleigh_beta);
-      numerator = numerator + gamma * (motion_along(edge.direction, ends.b.x, start.xyzw.data(), ends.ib) -
-                                       motion_along(edge.direction, ends.a.x, start.xyzw.data(), ends.ia));
+      numerator = numerator + gamma * (motion_along(edge.direction, b.x, start.xyzw.data(), ib) -
+                                       motion_along(edge.direction, a.x, start.xyzw.data(), ia));
       weight = weight * (one + gamma);
     }
     // Between two fixed particles, and in padding, nothing moves.
-    const V step = hn::IfThenElse(hn::Gt(ends.weight, zero), (zero - numerator) * Math::reciprocal(hn::Max(weight + alpha, tiny)), zero);
-    counts.skipped += count_without_direction(edge.length, ends.weight);
+    const V step = hn::IfThenElse(hn::Gt(moving_weight, zero), (zero - numerator) * Math::reciprocal(hn::Max(weight + alpha, tiny)), zero);
+    counts.skipped += count_without_direction(edge.length, moving_weight);
+    if (watch) {
+      const V left = limit * hn::LoadU(d, set.rest_length.data() + at) - edge.length;
+      if (!hn::AllFalse(d, hn::And(hn::Lt(left, reserve), hn::Gt(moving_weight, zero))))
+        watch->groups[at / group_width] = 1;
+    }
     hn::StoreU(multiplier + step, d, lambda + at);
-    move_ends(ends, step, edge.direction, particles);
+    move_ends(ia, a, ib, b, step, edge.direction, particles);
   }
   return counts;
+}
+
+ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, const float* target_length, float* lambda,
+                                   const Particles& start, Particles& particles,
+                                   const ProjectionParameters& parameters, StretchWatch* watch) {
+  return parameters.rayleigh_beta > 0
+             ? project_distance_range<true>(set, range, target_length, lambda, start, particles, parameters, watch)
+             : project_distance_range<false>(set, range, target_length, lambda, start, particles, parameters, watch);
 }
 
 ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, const float* target_length,
@@ -84,37 +87,41 @@ ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, 
   ProjectionCounts counts;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
-    const LoadedEdges ends = load_edges(set, at, particles);
-    const EdgeLength<V> edge = edge_length<Math>(ends.a.x, ends.b.x);
-    const V c = edge.length - hn::LoadU(d, target_length + at), weight = ends.weight;
+    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
+    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
+    const EdgeLength<V> edge = edge_length<Math>(a.x, b.x);
+    const V c = edge.length - hn::LoadU(d, target_length + at), weight = a.w + b.w;
     const V alpha = hn::LoadU(d, set.compliance.data() + at) * softness;
     const V multiplier = hn::LoadU(d, lambda + at);
     const V wanted = multiplier - (c + alpha * multiplier) * Math::reciprocal(hn::Max(weight + alpha, tiny));
     // A pull has a negative multiplier; a push is none of this constraint's business.
     const V step = hn::IfThenElseZero(hn::Gt(weight, zero), hn::Min(wanted, zero) - multiplier);
-    counts.skipped += count_without_direction(edge.length, ends.weight);
+    counts.skipped += count_without_direction(edge.length, weight);
     hn::StoreU(multiplier + step, d, lambda + at);
-    move_ends(ends, step, edge.direction, particles);
+    move_ends(ia, a, ib, b, step, edge.direction, particles);
   }
   return counts;
 }
 
-Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles) {
+Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles,
+                    const StretchWatch* watch) {
   const D d;
   Index limited = 0;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
-    const LoadedEdges ends = load_edges(set, at, particles);
-    const Point along = ends.b.x - ends.a.x;
+    if (watch && !watch->groups[at / group_width]) continue;
+    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
+    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
+    const Point along = b.x - a.x;
     const V longest = hn::Set(d, limit) * hn::LoadU(d, set.rest_length.data() + at);
-    const V weight = ends.weight, length2 = dot<Math>(along, along);
+    const V weight = a.w + b.w, length2 = dot<Math>(along, along);
     const auto beyond = hn::And(hn::Gt(length2, longest * longest), hn::Gt(weight, hn::Zero(d)));
     if (hn::AllFalse(d, beyond)) continue;
     limited += static_cast<Index>(hn::CountTrue(d, beyond));
     const V length = hn::Sqrt(length2);
     // The share of the edge that each end gives up, per inverse mass; negative, as they come nearer.
     const V share = hn::IfThenElseZero(beyond, (longest - length) / hn::Max(length * weight, hn::Set(d, 1e-30f)));
-    move_ends(ends, share, along, particles);
+    move_ends(ia, a, ib, b, share, along, particles);
   }
   return limited;
 }
@@ -127,12 +134,12 @@ HWY_INLINE V wrapped(V angle) {
   return hn::IfThenElse(hn::Lt(angle, hn::Neg(half)), angle + turn, angle);
 }
 
-template <bool arccos>
+template <bool arccos, bool dissipative>
 ProjectionCounts project_hinge_range(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,
                                      Particles& particles, const ProjectionParameters& parameters) {
   const D d;
   const float inverse_dt2 = 1 / (parameters.time_step * parameters.time_step);
-  const bool dissipative = parameters.rayleigh_beta > 0, limiting = parameters.hinge_limit > 0;
+  const bool limiting = parameters.hinge_limit > 0;
   const V tiny = hn::Set(d, 1e-30f), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   ProjectionCounts counts;
   float* xyzw = particles.xyzw.data();
@@ -153,7 +160,7 @@ ProjectionCounts project_hinge_range(const HingeSet& set, ColorRange range, floa
     V weight = hn::MulAdd(p0.w, g0, hn::MulAdd(p1.w, g1, hn::MulAdd(p2.w, g2, p3.w * g3)));
     const auto movable = hn::And(hn::Gt(weight, zero), hn::Gt(hinge.valid, zero));
     V numerator = c + alpha * multiplier;
-    if (dissipative) {
+    if constexpr (dissipative) {
       const V gamma = alpha * hn::Set(d, parameters.time_step * parameters.rayleigh_beta);
       const float* from = start.xyzw.data();
       numerator = numerator +
@@ -185,8 +192,11 @@ ProjectionCounts project_hinge_range(const HingeSet& set, ColorRange range, floa
 
 ProjectionCounts project_hinges(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,
                                 Particles& particles, const ProjectionParameters& parameters) {
-  return parameters.arccos_hinges ? project_hinge_range<true>(set, range, lambda, start, particles, parameters)
-                                  : project_hinge_range<false>(set, range, lambda, start, particles, parameters);
+  const bool dissipative = parameters.rayleigh_beta > 0;
+  const auto project = parameters.arccos_hinges
+                           ? (dissipative ? project_hinge_range<true, true> : project_hinge_range<true, false>)
+                           : (dissipative ? project_hinge_range<false, true> : project_hinge_range<false, false>);
+  return project(set, range, lambda, start, particles, parameters);
 }
 
 const char* instruction_set() { return hwy::TargetName(HWY_TARGET); }
@@ -205,8 +215,8 @@ HWY_EXPORT(instruction_set);
 
 ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, const float* target_length, float* lambda,
                                    const Particles& start, Particles& particles,
-                                   const ProjectionParameters& parameters) {
-  return HWY_DYNAMIC_DISPATCH(project_distances)(set, range, target_length, lambda, start, particles, parameters);
+                                   const ProjectionParameters& parameters, StretchWatch* watch) {
+  return HWY_DYNAMIC_DISPATCH(project_distances)(set, range, target_length, lambda, start, particles, parameters, watch);
 }
 
 ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, const float* target_length,
@@ -215,8 +225,9 @@ ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, 
   return HWY_DYNAMIC_DISPATCH(project_contractions)(set, range, target_length, strength, lambda, particles, parameters);
 }
 
-Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles) {
-  return HWY_DYNAMIC_DISPATCH(limit_stretch)(set, range, limit, particles);
+Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles,
+                    const StretchWatch* watch) {
+  return HWY_DYNAMIC_DISPATCH(limit_stretch)(set, range, limit, particles, watch);
 }
 
 ProjectionCounts project_hinges(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,

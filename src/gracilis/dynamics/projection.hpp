@@ -16,6 +16,12 @@ struct ProjectionParameters {
   bool arccos_hinges = false;   ///< the published angle measure
 };
 
+/// Where edges came near a limit of stretch when distances were last projected.
+struct StretchWatch {
+  float limit = 0;           ///< as for limit_stretch
+  std::vector<char> groups;  ///< one entry per group_width slots; not 0 where one did
+};
+
 /// What one pass did besides moving particles.
 struct ProjectionCounts {
   Index limited = 0;  ///< hinges held back by the limit
@@ -23,11 +29,11 @@ struct ProjectionCounts {
 };
 
 /// Projects distance constraints of slots [begin, end), which belong to one color. `target_length` (m) and `lambda` (N
-/// s²) have one entry per slot; `start` are the particles at the substep's beginning. Vectorised for the machine it
-/// runs on.
+/// s²) have one entry per slot; `start` are the particles at the substep's beginning; what comes near
+/// the limit of `watch` is noted there. Vectorised for the machine it runs on.
 ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, const float* target_length, float* lambda,
-                                   const Particles& start, Particles& particles,
-                                   const ProjectionParameters& parameters);
+                                   const Particles& start, Particles& particles, const ProjectionParameters& parameters,
+                                   StretchWatch* watch = nullptr);
 
 /// Projects contractions of slots [begin, end), which belong to one color: distance constraints that only pull, C =
 /// target_length - |x_b - x_a| >= 0. A segment that is shorter than its target is left alone, except that it gives back
@@ -37,8 +43,10 @@ ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, 
                                       const ProjectionParameters& parameters);
 
 /// Shortens edges that are longer than `limit` times their rest length to that length, without compliance and without a
-/// multiplier: C = limit · length_rest - |x_b - x_a| >= 0. Returns how many were limited.
-Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles);
+/// multiplier: C = limit · length_rest - |x_b - x_a| >= 0. With a `watch`, looks only where
+/// that says. Returns how many were limited.
+Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles,
+                    const StretchWatch* watch = nullptr);
 
 /// Projects hinges of slots [begin, end), which belong to one color; `lambda` in N·m s².
 ProjectionCounts project_hinges(const HingeSet& set, ColorRange range, float* lambda, const Particles& start,

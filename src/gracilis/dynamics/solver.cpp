@@ -63,8 +63,9 @@ void project_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
 
 void limit_edges(const SurfaceSystem& system, float limit, SurfaceState& state, SolveReport& report) {
   std::atomic<Index> limited = 0;
-  for_each_color(system.distances.order,
-                 [&](ColorRange range) { limited += limit_stretch(system.distances, range, limit, state.particles); });
+  for_each_color(system.distances.order, [&](ColorRange range) {
+    limited += limit_stretch(system.distances, range, limit, state.particles, &state.stretched);
+  });
   report.limited_edges += limited;
 }
 
@@ -106,6 +107,7 @@ SurfaceState make_state(const SurfaceSystem& system) {
   state.distance_lambda.assign(system.distances.a.size(), 0);
   state.contraction_lambda.assign(system.contractions.a.size(), 0);
   state.hinge_lambda.assign(system.hinges.rest_angle.size(), 0);
+  state.stretched.groups.assign(system.distances.a.size() / group_width, 1);
   state.volume = system.volume.target;
   state.near.resize(system.contacts.size());
   return state;
@@ -118,9 +120,12 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
     case ConstraintKind::muscle_contact:  // is no one surface's
       break;
     case ConstraintKind::distance:
+      state.stretched.limit = settings.stretch_limit;
+      std::fill(state.stretched.groups.begin(), state.stretched.groups.end(), 0);
       project_colors(system.distances.order, report, [&](ColorRange range) {
         return project_distances(system.distances, range, state.target_length.data(), state.distance_lambda.data(),
-                                 state.start, state.particles, settings.projection);
+                                 state.start, state.particles, settings.projection,
+                                 settings.stretch_limit > 0 ? &state.stretched : nullptr);
       });
       break;
     case ConstraintKind::contraction:

@@ -39,6 +39,7 @@ struct SurfaceState {
   double volume = 0;                      ///< m³, before the last volume projection
   AlignedVector<float> volume_gradients;  ///< workspace
   std::vector<NearField> near;            ///< per contact set; workspace
+  StretchWatch stretched;                 ///< workspace
   Particles listed;                       ///< where the particles were when what is near was listed; workspace
 };
 
