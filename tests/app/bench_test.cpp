@@ -33,9 +33,11 @@ TEST(Bench, times_every_phase_of_every_muscle_and_whole_frames) {
 
 TEST(Bench, gives_the_same_hash_again_and_with_any_number_of_threads) {
   std::map<std::pair<std::string, std::string>, std::set<std::string>> hashes;
-  for (int run = 0; run < 2; ++run)
-    for (const auto& entry : bench("--frame 3 --threads 1,2,5").at("benchmarks"))
+  for (int run = 0; run < 2; ++run) {
+    const nlohmann::json answer = bench("--frame 3 --threads 1,2,5");
+    for (const auto& entry : answer.at("benchmarks"))
       hashes[{entry.at("muscle"), entry.at("phase")}].insert(entry.at("hash").get<std::string>());
+  }
   for (const auto& [what, found] : hashes) EXPECT_EQ(found.size(), 1u) << what.first << " " << what.second;
 }
 
