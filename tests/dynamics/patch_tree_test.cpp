@@ -1,3 +1,4 @@
+#include <gracilis/dynamics/bounds_lanes.hpp>
 #include <gracilis/dynamics/patch_tree.hpp>
 
 #include <shapes.hpp>
@@ -25,19 +26,23 @@ struct Surface {
   /// After particles moved.
   void look() { refit(contact, particles, tree); }
 
-  /// What the tree finds for the particles of each patch.
+  /// What the tree finds for each particle, by what it finds for the bundle.
   std::set<std::pair<Index, Index>> candidates(float reach) const {
     std::set<std::pair<Index, Index>> found;
-    std::vector<Index> near;
-    for (Index patch = 0; patch < static_cast<Index>(tree.patches.size()); ++patch) {
-      near.clear();
-      const auto at = static_cast<std::size_t>(patch);
-      gather_patches(tree, tree.particle_bounds[at], reach, near);
-      for (Index i = tree.particle_offsets[at]; i < tree.particle_offsets[at + 1]; ++i)
-        for (const Index node : near)
-          for (Index f = tree.nodes[static_cast<std::size_t>(node)].begin;
-               f < tree.nodes[static_cast<std::size_t>(node)].end; ++f)
-            found.insert({tree.particles[static_cast<std::size_t>(i)], tree.faces[static_cast<std::size_t>(f)]});
+    std::vector<Index> patches;
+    BoundsLanes lanes;
+    std::vector<NearPatch> near;
+    for (std::size_t bundle = 0; bundle < tree.particle_bounds.size(); ++bundle) {
+      patches.clear();
+      gather_patches(tree, tree.particle_bounds[bundle], reach, patches);
+      lanes.load(tree, patches);
+      for (const Index p : tree.particles_of(bundle)) {
+        find_near_patches(lanes, particles.position(p), tree.outward.col(p), reach, near);
+        for (const NearPatch& patch : near)
+          for (Index f = tree.nodes[static_cast<std::size_t>(patch.node)].begin;
+               f < tree.nodes[static_cast<std::size_t>(patch.node)].end; ++f)
+            found.insert({p, tree.faces[static_cast<std::size_t>(f)]});
+      }
     }
     return found;
   }
@@ -68,7 +73,7 @@ TEST(PatchTree, holds_every_face_and_every_particle_once) {
   EXPECT_EQ(static_cast<Index>(faces.size()), surface.contact.faces.cols());
   for (const Index p : surface.tree.particles) EXPECT_TRUE(particles.insert(p).second);
   EXPECT_EQ(static_cast<Index>(particles.size()), surface.particles.count());
-  EXPECT_EQ(surface.tree.particle_offsets.size(), surface.tree.patches.size() + 1);
+  EXPECT_EQ(surface.tree.particle_offsets.size(), surface.tree.particle_bounds.size() + 1);
 }
 
 TEST(PatchTree, of_nothing_is_empty) {
@@ -100,23 +105,6 @@ TEST(PatchTree, finds_all_that_face_against_each_other_on_a_flattened_and_crumpl
   const auto all =
       static_cast<std::size_t>(surface.particles.count()) * static_cast<std::size_t>(surface.contact.faces.cols());
   EXPECT_LT(found.size(), all / 5) << "the tree hardly helps";
-}
-
-TEST(PatchTree, a_box_meets_any_patch_exactly_if_it_gathers_some) {
-  const Surface surface(shapes::sphere(Vec3::Zero(), 0.01, 3));
-  std::mt19937 generator(3);
-  std::uniform_real_distribution<float> place(-0.02f, 0.02f);
-  int meetings = 0;
-  for (int trial = 0; trial < 1000; ++trial) {
-    PatchTree::Bounds bounds;
-    bounds.places.extend(Eigen::Vector3f(place(generator), place(generator), place(generator)));
-    bounds.normals = surface.tree.bounds.front().normals;
-    std::vector<Index> gathered;
-    gather_patches(surface.tree, bounds, 0.001f, gathered);
-    EXPECT_EQ(meets_any_patch(surface.tree, bounds, 0.001f), !gathered.empty());
-    meetings += !gathered.empty();
-  }
-  EXPECT_TRUE(meetings > 50 && meetings < 950) << meetings;
 }
 
 TEST(PatchTree, survives_faces_without_area) {

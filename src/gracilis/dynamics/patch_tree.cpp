@@ -10,7 +10,7 @@ namespace {
 
 /// A patch fills a pack of triangles.
 constexpr Index faces_per_patch = 4, faces_per_bundle = 32;
-constexpr Index chunk = 64;
+constexpr Index patches_per_task = 64, bundles_per_task = 8;
 
 class Builder {
  public:
@@ -22,10 +22,9 @@ class Builder {
       centers_.col(f) = (rest.col(corners[0]) + rest.col(corners[1]) + rest.col(corners[2])) / 3;
     }
     if (!tree_.faces.empty()) add(0, surface.faces.cols(), false);
-    tree_.bundle_offsets.push_back(static_cast<Index>(tree_.patches.size()));
     deal_out_particles(surface);
     tree_.bounds.resize(tree_.nodes.size());
-    tree_.particle_bounds.resize(tree_.patches.size());
+    tree_.particle_bounds.resize(bundles_.size());
     tree_.triangles.resize(tree_.patches.size());
   }
 
@@ -36,7 +35,7 @@ class Builder {
     const std::size_t node = tree_.nodes.size();
     if (!in_bundle && end - begin <= faces_per_bundle) {
       in_bundle = true;
-      tree_.bundle_offsets.push_back(static_cast<Index>(tree_.patches.size()));
+      bundles_.push_back(static_cast<Index>(node));
     }
     tree_.nodes.push_back({begin, end});
     if (end - begin <= faces_per_patch) {
@@ -69,7 +68,7 @@ class Builder {
   void deal_out_particles(const ContactSurface& surface) {
     std::vector<char> dealt(surface.fan_offsets.size(), 0);
     tree_.particle_offsets.push_back(0);
-    for (const Index node : tree_.patches) {
+    for (const Index node : bundles_) {
       for (Index i = tree_.nodes[static_cast<std::size_t>(node)].begin;
            i < tree_.nodes[static_cast<std::size_t>(node)].end; ++i)
         for (const Index p : surface.faces.col(tree_.faces[static_cast<std::size_t>(i)])) {
@@ -83,6 +82,7 @@ class Builder {
 
   PatchTree tree_;
   Eigen::Matrix3Xf centers_;
+  std::vector<Index> bundles_;  ///< nodes
 };
 
 /// A particle's place with a fourth coordinate 0.
@@ -107,7 +107,7 @@ void refit_faces(const PatchTree::Node& node, const ContactSurface& surface, con
   triangles = TrianglePack::of(corners[0], corners[1], corners[2]);
   const TrianglePack::Vectors areas = triangles.areas();
   const TrianglePack::Lanes length2 = areas.dot(areas);
-  const TrianglePack::Rows normals = areas.scaled((length2 > 0).select(length2.rsqrt(), 0.0f)).columns(),
+  const TrianglePack::Rows normals = areas.scaled((length2 > 0).select(length2.sqrt().inverse(), 0.0f)).columns(),
                            of_faces = areas.columns();
   for (int lane = 0; lane < faces_per_patch; ++lane) bounds.normals.extend(Eigen::Array4f(normals.col(lane)));
   for (Index i = node.begin; i < node.end; ++i)
@@ -115,10 +115,9 @@ void refit_faces(const PatchTree::Node& node, const ContactSurface& surface, con
   tree.bounds[static_cast<std::size_t>(tree.patches[static_cast<std::size_t>(node.patch)])] = bounds;
 }
 
-PatchTree::Bounds bounds_of_particles(const PatchTree& tree, std::size_t patch, const Particles& particles) {
+PatchTree::Bounds bounds_of_particles(const PatchTree& tree, std::size_t bundle, const Particles& particles) {
   PatchTree::Bounds bounds;
-  for (Index i = tree.particle_offsets[patch]; i < tree.particle_offsets[patch + 1]; ++i) {
-    const Index p = tree.particles[static_cast<std::size_t>(i)];
+  for (const Index p : tree.particles_of(bundle)) {
     bounds.places.extend(place_of(particles, p));
     bounds.normals.extend(Eigen::Vector3f(tree.outward.col(p).normalized()));
   }
@@ -133,16 +132,17 @@ PatchTree build_patch_tree(const ContactSurface& surface, const Eigen::Matrix3Xf
 
 void refit(const ContactSurface& surface, const Particles& particles, PatchTree& tree) {
   tree.areas.resize(3, surface.faces.cols());
-  const auto for_each_patch = [&](const auto& act) {
-    parallel_for(static_cast<Index>(tree.patches.size()), chunk, [&](Index begin, Index end) {
-      for (Index patch = begin; patch < end; ++patch) act(static_cast<std::size_t>(patch));
+  const auto for_each_of = [](const auto& all, Index chunk, const auto& act) {
+    parallel_for(static_cast<Index>(all.size()), chunk, [&](Index begin, Index end) {
+      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) act(i);
     });
   };
-  for_each_patch([&](std::size_t patch) {
+  for_each_of(tree.patches, patches_per_task, [&](std::size_t patch) {
     refit_faces(tree.nodes[static_cast<std::size_t>(tree.patches[patch])], surface, particles, tree);
   });
   tree.outward = sums_around_particles(surface, tree.areas);
-  for_each_patch([&](std::size_t patch) { tree.particle_bounds[patch] = bounds_of_particles(tree, patch, particles); });
+  for_each_of(tree.particle_bounds, bundles_per_task,
+              [&](std::size_t bundle) { tree.particle_bounds[bundle] = bounds_of_particles(tree, bundle, particles); });
   for (std::size_t node = tree.nodes.size(); node-- > 0;) {
     if (tree.nodes[node].patch >= 0) continue;
     const PatchTree::Bounds &first = tree.bounds[node + 1],
@@ -151,34 +151,13 @@ void refit(const ContactSurface& surface, const Particles& particles, PatchTree&
   }
 }
 
-/// Calls visit(node) for all nodes that are patches and may meet what is within `bounds`, until it returns false.
-template <class Visit>
-static void visit_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, const Visit& visit) {
+void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches) {
   for (std::size_t node = 0; node < tree.nodes.size();) {
     const PatchTree::Node& at = tree.nodes[node];
-    if (!may_meet(bounds, tree.bounds[node], reach)) {
-      node = static_cast<std::size_t>(at.skip);
-      continue;
-    }
-    if (at.patch >= 0 && !visit(static_cast<Index>(node))) return;
-    ++node;
+    const bool meets = may_meet(bounds, tree.bounds[node], reach);
+    if (meets && at.patch >= 0) patches.push_back(static_cast<Index>(node));
+    node = meets ? node + 1 : static_cast<std::size_t>(at.skip);
   }
-}
-
-void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches) {
-  visit_patches(tree, bounds, reach, [&](Index node) {
-    patches.push_back(node);
-    return true;
-  });
-}
-
-bool meets_any_patch(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach) {
-  bool any = false;
-  visit_patches(tree, bounds, reach, [&](Index) {
-    any = true;
-    return false;
-  });
-  return any;
 }
 
 }  // namespace gracilis

@@ -4,6 +4,7 @@
 #include <gracilis/dynamics/triangle_pack.hpp>
 
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace gracilis {
@@ -45,15 +46,18 @@ struct PatchTree {
   std::vector<Index> faces;
   std::vector<Node> nodes;
   std::vector<Index> patches;                      ///< the nodes that are patches
-  std::vector<Index> bundle_offsets;               ///< neighboring patches in bundles: offsets into `patches`
-  std::vector<Index> particle_offsets, particles;  ///< of each patch; every particle with a face is in one
+  std::vector<Index> particle_offsets, particles;  ///< of each bundle of patches; every particle with a face is in one
 
   // What changes with the surface.
   std::vector<Bounds> bounds;           ///< per node, of its faces
-  std::vector<Bounds> particle_bounds;  ///< per patch, of its particles
+  std::vector<Bounds> particle_bounds;  ///< per bundle, of its particles
   std::vector<TrianglePack> triangles;  ///< per patch, its faces in their order
   Eigen::Matrix3Xf areas;               ///< area vectors of the faces
   Eigen::Matrix3Xf outward;             ///< at each particle the sum of those around it
+
+  std::span<const Index> particles_of(std::size_t bundle) const {
+    return {particles.begin() + particle_offsets[bundle], particles.begin() + particle_offsets[bundle + 1]};
+  }
 };
 
 /// The tree of a surface whose particles are at the columns of `rest`, by halving along the longest axis; not fitted
@@ -63,19 +67,19 @@ PatchTree build_patch_tree(const ContactSurface& surface, const Eigen::Matrix3Xf
 /// Fits the tree to where the particles are now.
 void refit(const ContactSurface& surface, const Particles& particles, PatchTree& tree);
 
+/// The cosine between two normals below which they may face against each other; what is this near to 0 may be rounding.
+inline constexpr float facing_cosine = 1e-5f;
+
 /// Whether something in one may be within `reach` (m) of something in the other and face against it.
 inline bool may_meet(const PatchTree::Bounds& one, const PatchTree::Bounds& other, float reach) {
   // By the largest gap along an axis; asking any() of a comparison would look at one coordinate after the other.
   if ((one.places.low - other.places.high).max(other.places.low - one.places.high).maxCoeff() > reach) return false;
-  constexpr float least_cosine = 1e-5f;  // what is this near to 0 may be rounding
   // The least cosine between two vectors of the boxes, axis by axis.
   const Eigen::Array4f &a = one.normals.low, &b = one.normals.high, &c = other.normals.low, &d = other.normals.high;
-  return (a * c).min(a * d).min((b * c).min(b * d)).sum() < least_cosine;
+  return (a * c).min(a * d).min((b * c).min(b * d)).sum() < facing_cosine;
 }
 
 /// Appends all nodes that are patches and may meet what is within `bounds`.
 void gather_patches(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach, std::vector<Index>& patches);
-/// Whether any patch may meet what is within `bounds`.
-bool meets_any_patch(const PatchTree& tree, const PatchTree::Bounds& bounds, float reach);
 
 }  // namespace gracilis
