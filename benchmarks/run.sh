@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Times the solver on this machine and writes docs/performance.md. Needs a build (./demo.sh or cmake) and, for the
-# cadaver's hip, its data. Close everything else first: other programs show in the numbers.
+# Times the solver on this machine and writes docs/performance.md. Needs a build (./demo.sh or cmake) with the targets
+# gracilis_growth_chart for its charts and gracilis_peer_bullet for the peer, and, for the cadaver's hip, its data. Close everything else first: other programs show in the numbers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${GRACILIS_PROGRAM:-build/release/bin/gracilis}
@@ -11,6 +11,16 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 say() { printf '%s\n' "$@" >>"$work/page"; }
+
+# Draws the two columns given of a table of rows in a file as docs/pictures/NAME.svg and shows it.
+draw_growth() {
+  local name=$1 what=$2 size=$3 ms=$4 file=$5 chart
+  chart=$(dirname "$program")/gracilis_growth_chart
+  [ -x "$chart" ] || return 0
+  awk -F'|' -v s="$size" -v m="$ms" '{ print $(s + 1), $(m + 1) }' "$file" |
+    "$chart" "docs/pictures/$name.svg" "Growth with $what" "$what"
+  say "" "![Growth with $what](pictures/$name.svg)"
+}
 
 # Lines of `gracilis bench` of one phase as rows: muscle, triangles, threads, ms, hash.
 rows() { awk -v phase="$1" '$2 == phase { printf "| %s | %s | %s | %s | `%s` |\n", $1, $4, $3, $5, $6 }' "$2"; }
@@ -67,8 +77,10 @@ say "" "## Growth with muscles" "" "Copies of the built-in hip's muscles, each f
   "| muscles | triangles | ms per frame | ms per frame and muscle |" "| --- | --- | --- | --- |"
 for count in 1 2 4 8 16 32 64; do
   "$program" bench --muscles "$count" --frame 5 --threads "$(nproc)" |
-    awk -v n="$count" '$2 == "frame" { printf "| %s | %s | %.2f | %.3f |\n", n, $4, $5, $5 / n }' >>"$work/page"
+    awk -v n="$count" '$2 == "frame" { printf "| %s | %s | %.2f | %.3f |\n", n, $4, $5, $5 / n }' >>"$work/muscles"
 done
+cat "$work/muscles" >>"$work/page"
+draw_growth growth_with_muscles muscles 1 3 "$work/muscles"
 
 peer=$(dirname "$program")/gracilis_peer_bullet
 if [ -x "$peer" ]; then
@@ -86,8 +98,10 @@ say "" "## Growth with triangles" "" "Gluteus maximus, each triangle divided int
 for times in 0 1 2 3; do
   "$program" bench "${hip[@]}" --only gluteus_maximus_r --frame 5 --threads 1 --repeats 5 --subdivide "$times" --json |
     awk -F'[:,]' '/"triangles"/ { t = $2 } /"ms"/ { ms = $2 }
-      /peak_bytes/ { printf "| %d | %.3f | %.1f | %d |\n", t, ms, 1e6 * ms / t, $2 }' >>"$work/page"
+      /peak_bytes/ { printf "| %d | %.3f | %.1f | %d |\n", t, ms, 1e6 * ms / t, $2 }' >>"$work/triangles"
 done
+cat "$work/triangles" >>"$work/page"
+draw_growth growth_with_triangles triangles 1 2 "$work/triangles"
 
 mv "$work/page" "$page"
 echo "$page"
