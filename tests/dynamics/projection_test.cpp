@@ -243,8 +243,8 @@ TEST(StretchLimit, looks_only_where_an_edge_came_near_it_when_distances_were_pro
     particles.at(1)[0] = 0.03f;
     return limit_stretch(set, set.order.colors.at(0), 2, particles, &watch);
   };
-  EXPECT_EQ(limited_after(0.0194), 0);
-  EXPECT_EQ(limited_after(0.0196), 1);
+  EXPECT_EQ(limited_after(0.0179), 0);
+  EXPECT_EQ(limited_after(0.0181), 1);
 }
 
 }  // namespace gracilis

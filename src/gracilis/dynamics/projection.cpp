@@ -27,8 +27,8 @@ HWY_INLINE Index count_without_direction(const V& length, const V& weight) {
   return static_cast<Index>(hn::CountTrue(d, hn::And(hn::Lt(length, hn::Set(d, 1e-12f)), hn::Gt(weight, hn::Zero(d)))));
 }
 
-/// What is left to the limit of stretch (m) when an edge may reach it within one iteration.
-constexpr float stretch_reserve = 0.0005f;
+/// What is left to the limit of stretch (m) when an edge may reach it within one iteration, even of crushed needles.
+constexpr float stretch_reserve = 0.002f;
 
 template <bool dissipative>
 ProjectionCounts project_distance_range(const DistanceSet& set, ColorRange range, const float* target_length,
