@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Times the solver on this machine and writes docs/performance.md. Needs a build (./demo.sh or cmake) with the targets
-# gracilis_growth_chart for its charts and gracilis_peer_bullet for the peer, and, for the cadaver's hip, its data. Close everything else first: other programs show in the numbers.
+# gracilis_growth_chart for its charts and gracilis_peer_bullet for the peer, and, for the cadaver's hip, its data. Close
+# everything else first: other programs show in the numbers.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${GRACILIS_PROGRAM:-build/release/bin/gracilis}

@@ -6,21 +6,8 @@
 // After foreach_target.h, as Highway asks.
 #include <gracilis/dynamics/particle_lanes-inl.hpp>
 
-#include <bit>
-#include <cstdint>
-
 HWY_BEFORE_NAMESPACE();
 namespace gracilis::HWY_NAMESPACE {
-
-/// Calls act(lane) for the lanes of the mask, in order.
-template <class Act>
-HWY_INLINE void for_each_lane(hn::Mask<D> mask, const Act& act) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(D(), mask, bytes);
-  std::uint64_t bits = 0;
-  std::memcpy(&bits, bytes, sizeof(bits));
-  for (; bits != 0; bits &= bits - 1) act(static_cast<std::size_t>(std::countr_zero(bits)));
-}
 
 void find_meeting_patches(const BoundsLanes& bounds, const PatchTree::Bounds& near, float reach,
                           std::vector<Index>& patches) {

@@ -31,7 +31,6 @@ HWY_INLINE hn::Mask<D> crossing(const Segment& edge, float within, const Point& 
 
 void keep_crossing(const Segment& edge, float within, const ContactSurface& surface, const Particles& particles,
                    std::vector<Index>& candidates) {
-  const D d;
   constexpr std::size_t lanes = hn::MaxLanes(D());
   std::size_t kept = 0;
   for (std::size_t at = 0; at < candidates.size(); at += lanes) {
@@ -45,10 +44,7 @@ void keep_crossing(const Segment& edge, float within, const ContactSurface& surf
     const Point start = load_particles(particles.xyzw.data(), from).x;
     const Point along = load_particles(particles.xyzw.data(), to).x - start;
     const hn::Mask<D> crosses = crossing(edge, within, start, along);
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(d, crosses, bits);
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      if (bits[lane / 8] >> (lane % 8) & 1) candidates[kept++] = candidates[at + lane];
+    for_each_lane(crosses, [&](std::size_t lane) { candidates[kept++] = candidates[at + lane]; });
   }
   candidates.resize(kept);
 }

@@ -10,6 +10,8 @@
 #include <gracilis/dynamics/constraint_sets.hpp>
 #include <gracilis/dynamics/kernels-inl.hpp>
 
+#include <bit>
+#include <cstdint>
 #include <cstring>
 
 HWY_BEFORE_NAMESPACE();
@@ -101,6 +103,17 @@ HWY_INLINE void store_particles(float* xyzw, const Index* indices, Point x, V w)
 }
 
 #endif
+
+static_assert(group_width <= 16);
+
+/// Calls act(lane) for the lanes of the mask, in order.
+template <class Act>
+HWY_INLINE void for_each_lane(hn::Mask<D> mask, const Act& act) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(D(), mask, bytes);
+  unsigned bits = bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
+  for (; bits != 0; bits &= bits - 1) act(static_cast<std::size_t>(std::countr_zero(bits)));
+}
 
 }  // namespace gracilis::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

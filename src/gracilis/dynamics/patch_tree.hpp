@@ -32,9 +32,6 @@ struct PatchTree {
       const Eigen::Array4f along(by.x(), by.y(), by.z(), 0);
       low += along, high += along;
     }
-    float squared_distance(const Eigen::Array4f& point) const {
-      return (low - point).max(point - high).max(0.0f).square().sum();
-    }
   };
   /// Boxes around places (m) and unit normals.
   struct Bounds {

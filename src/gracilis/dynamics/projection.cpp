@@ -14,11 +14,24 @@ HWY_INLINE V motion_along(Point gradient, Point x, const float* start, const Ind
   return dot<Math>(gradient, x - load_particles(start, indices).x);
 }
 
-/// Moves the second end of each edge by `share` of `along` times its inverse mass, the first the other way by its own.
-HWY_INLINE void move_ends(const Index* ia, const LoadedParticles& a, const Index* ib, const LoadedParticles& b,
-                          const V& share, Point along, Particles& particles) {
-  store_particles(particles.xyzw.data(), ia, a.x - scaled(a.w * share, along), a.w);
-  store_particles(particles.xyzw.data(), ib, b.x + scaled(b.w * share, along), b.w);
+/// The ends of the edges in the slots from `at` on, one edge per lane.
+struct LoadedEdges {
+  const Index *ia, *ib;
+  LoadedParticles a, b;
+
+  HWY_INLINE V weight() const { return a.w + b.w; }
+};
+
+HWY_INLINE LoadedEdges load_edges(const DistanceSet& set, std::size_t at, const Particles& particles) {
+  const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
+  return {ia, ib, load_particles(particles.xyzw.data(), ia), load_particles(particles.xyzw.data(), ib)};
+}
+
+/// Moves the second end by `share` of `along` times its inverse mass, the first the other way by its own.
+HWY_INLINE void move_ends(const LoadedEdges& edges, V share, Point along, Particles& particles) {
+  const LoadedParticles &a = edges.a, &b = edges.b;
+  store_particles(particles.xyzw.data(), edges.ia, a.x - scaled(a.w * share, along), a.w);
+  store_particles(particles.xyzw.data(), edges.ib, b.x + scaled(b.w * share, along), b.w);
 }
 
 /// How many of the edges have ends that coincide, so that nothing tells where to, though one could move.
@@ -41,19 +54,18 @@ ProjectionCounts project_distance_range(const DistanceSet& set, ColorRange range
   ProjectionCounts counts;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
-    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
-    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
-    const EdgeLength<V> edge = edge_length<Math>(a.x, b.x);
+    const LoadedEdges edges = load_edges(set, at, particles);
+    const EdgeLength<V> edge = edge_length<Math>(edges.a.x, edges.b.x);
     const V c = edge.length - hn::LoadU(d, target_length + at);
     const V alpha = hn::LoadU(d, set.compliance.data() + at) * hn::Set(d, inverse_dt2);
     const V multiplier = hn::LoadU(d, lambda + at);
-    const V moving_weight = a.w + b.w;
+    const V moving_weight = edges.weight();
     V weight = moving_weight;
     V numerator = c + alpha * multiplier;
     if constexpr (dissipative) {
       const V gamma = alpha * hn::Set(d, parameters.time_step * parameters.rayleigh_beta);
-      numerator = numerator + gamma * (motion_along(edge.direction, b.x, start.xyzw.data(), ib) -
-                                       motion_along(edge.direction, a.x, start.xyzw.data(), ia));
+      numerator = numerator + gamma * (motion_along(edge.direction, edges.b.x, start.xyzw.data(), edges.ib) -
+                                       motion_along(edge.direction, edges.a.x, start.xyzw.data(), edges.ia));
       weight = weight * (one + gamma);
     }
     // Between two fixed particles, and in padding, nothing moves.
@@ -65,7 +77,7 @@ ProjectionCounts project_distance_range(const DistanceSet& set, ColorRange range
         watch->groups[at / group_width] = 1;
     }
     hn::StoreU(multiplier + step, d, lambda + at);
-    move_ends(ia, a, ib, b, step, edge.direction, particles);
+    move_ends(edges, step, edge.direction, particles);
   }
   return counts;
 }
@@ -87,10 +99,9 @@ ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, 
   ProjectionCounts counts;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
-    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
-    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
-    const EdgeLength<V> edge = edge_length<Math>(a.x, b.x);
-    const V c = edge.length - hn::LoadU(d, target_length + at), weight = a.w + b.w;
+    const LoadedEdges edges = load_edges(set, at, particles);
+    const EdgeLength<V> edge = edge_length<Math>(edges.a.x, edges.b.x);
+    const V c = edge.length - hn::LoadU(d, target_length + at), weight = edges.weight();
     const V alpha = hn::LoadU(d, set.compliance.data() + at) * softness;
     const V multiplier = hn::LoadU(d, lambda + at);
     const V wanted = multiplier - (c + alpha * multiplier) * Math::reciprocal(hn::Max(weight + alpha, tiny));
@@ -98,7 +109,7 @@ ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, 
     const V step = hn::IfThenElseZero(hn::Gt(weight, zero), hn::Min(wanted, zero) - multiplier);
     counts.skipped += count_without_direction(edge.length, weight);
     hn::StoreU(multiplier + step, d, lambda + at);
-    move_ends(ia, a, ib, b, step, edge.direction, particles);
+    move_ends(edges, step, edge.direction, particles);
   }
   return counts;
 }
@@ -110,18 +121,17 @@ Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Parti
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
     if (watch && !watch->groups[at / group_width]) continue;
-    const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
-    const LoadedParticles a = load_particles(particles.xyzw.data(), ia), b = load_particles(particles.xyzw.data(), ib);
-    const Point along = b.x - a.x;
+    const LoadedEdges edges = load_edges(set, at, particles);
+    const Point along = edges.b.x - edges.a.x;
     const V longest = hn::Set(d, limit) * hn::LoadU(d, set.rest_length.data() + at);
-    const V weight = a.w + b.w, length2 = dot<Math>(along, along);
+    const V weight = edges.weight(), length2 = dot<Math>(along, along);
     const auto beyond = hn::And(hn::Gt(length2, longest * longest), hn::Gt(weight, hn::Zero(d)));
     if (hn::AllFalse(d, beyond)) continue;
     limited += static_cast<Index>(hn::CountTrue(d, beyond));
     const V length = hn::Sqrt(length2);
     // The share of the edge that each end gives up, per inverse mass; negative, as they come nearer.
     const V share = hn::IfThenElseZero(beyond, (longest - length) / hn::Max(length * weight, hn::Set(d, 1e-30f)));
-    move_ends(ia, a, ib, b, share, along, particles);
+    move_ends(edges, share, along, particles);
   }
   return limited;
 }

@@ -29,11 +29,13 @@ void consider_patch(const Eigen::Vector3f& p, const PatchTree& tree, const Patch
   }
 }
 
-/// The nearest face in these patches within `reach` of p to which `side_of` gives a side. The nearest patch comes
-/// first, so that few others have to be looked into.
+/// The nearest face within `reach` of p, in those of the patches that may face against `outward`, to which `side_of`
+/// gives a side. The nearest patch comes first, so that few others have to be looked into. `patches` is workspace.
 template <class SideOf>
-PointTouch nearest_face(const Eigen::Vector3f& p, const PatchTree& tree, std::vector<NearPatch>& patches, float reach,
-                        const SideOf& side_of) {
+PointTouch nearest_face(const Eigen::Vector3f& p, const Eigen::Vector3f& outward, const PatchTree& tree,
+                        const BoundsLanes& bounds, float reach, const SideOf& side_of,
+                        std::vector<NearPatch>& patches) {
+  find_near_patches(bounds, p, outward, reach, patches);
   const auto first = std::min_element(patches.begin(), patches.end(),
                                       [](const NearPatch& l, const NearPatch& r) { return l.distance2 < r.distance2; });
   PointTouch nearest{-1, -1, 0};
@@ -46,9 +48,9 @@ PointTouch nearest_face(const Eigen::Vector3f& p, const PatchTree& tree, std::ve
   return nearest;
 }
 
-/// Calls touch(particle, bounds) for every particle that has patches of the target within reach, with the bounds of
-/// those around it; puts the touches with a face together. see(bounds) turns bounds of particles into what the target
-/// sees.
+/// Calls touch(particle, bounds, workspace) for every particle that has patches of the target within reach, with the
+/// bounds of those around it; puts the touches with a face together. see(bounds) turns bounds of particles into what
+/// the target sees.
 template <class See, class Touch>
 void search(const SearchedSurface& probe, const SearchedSurface& target, float reach, const See& see,
             const Touch& touch, std::vector<PointTouch>& found) {
@@ -91,10 +93,10 @@ void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const
         bounds.normals.low.setConstant(-1), bounds.normals.high.setConstant(1);  // whichever way they face
         return bounds;
       },
-      [&](Index particle, const BoundsLanes& bounds, std::vector<NearPatch>& near) {
-        const Eigen::Vector3f place = probe.particles.position(particle) + shift;
-        find_near_patches(bounds, place, Eigen::Vector3f::Zero(), reach, near);
-        return nearest_face(place, target.tree, near, reach, [](Index) { return 1.0f; });
+      [&](Index particle, const BoundsLanes& bounds, std::vector<NearPatch>& workspace) {
+        return nearest_face(
+            probe.particles.position(particle) + shift, Eigen::Vector3f::Zero(), target.tree, bounds, reach,
+            [](Index) { return 1.0f; }, workspace);
       },
       found);
 }
@@ -103,13 +105,12 @@ void find_self(const SearchedSurface& surface, const SelfRule& rule, float reach
   const PatchTree& tree = surface.tree;
   search(
       surface, surface, reach, [](const PatchTree::Bounds& bounds) { return bounds; },
-      [&](Index particle, const BoundsLanes& bounds, std::vector<NearPatch>& near) {
-        const Eigen::Vector3f place = surface.particles.position(particle), outward = tree.outward.col(particle);
-        find_near_patches(bounds, place, outward, reach, near);
+      [&](Index particle, const BoundsLanes& bounds, std::vector<NearPatch>& workspace) {
+        const Eigen::Vector3f outward = tree.outward.col(particle);
         const auto side_of = [&](Index face) {
           return tree.areas.col(face).dot(outward) < 0 ? rule.side_when_facing(particle, face) : 0;
         };
-        return nearest_face(place, tree, near, reach, side_of);
+        return nearest_face(surface.particles.position(particle), outward, tree, bounds, reach, side_of, workspace);
       },
       found);
 }
