@@ -199,6 +199,32 @@ TEST(FieldContact, pushes_an_edge_out_at_its_deepest_point_wherever_that_is) {
   }
 }
 
+TEST(FieldContact, an_edge_that_tips_over_from_one_ball_onto_another_is_pushed_out_there_once_its_points_are_found_anew) {
+  // Balls of 4 mm at x = -10 and 10 mm; the edge first touches the one, then is 0.4 mm deep in the other.
+  DistanceField balls = ball();
+  for (int k = 0; k < 101; ++k)
+    for (int j = 0; j < 101; ++j)
+      for (int i = 0; i < 101; ++i) {
+        const Vec3 at = balls.origin + 0.001 * Vec3(i, j, k), center(0.01, 0, 0);
+        balls.values[static_cast<std::size_t>(i + 101 * (j + 101 * k))] =
+            static_cast<float>(std::min((at - center).norm(), (at + center).norm()) - 0.004);
+      }
+  Scenario scenario = points_at({{-0.022, 0.003, 0}, {0.018, 0.0055, 0}}, {1, 1}, 0);
+  scenario.contact.field = bounded(balls);
+  scenario.distances = build_distance_set({{0, 1, 0.04, 0}}, 2);
+  scenario.contact.captured.edge_sag.assign(scenario.distances.a.size(), 0);
+  scenario.contact.released.edge_sag = scenario.contact.captured.edge_sag;
+  scenario.look();
+  scenario.push_edges();
+  scenario.particles.position(0) = Eigen::Vector3f(-0.018f, 0.0055f, 0);
+  scenario.particles.position(1) = Eigen::Vector3f(0.022f, 0.003f, 0);
+  find_edge_points(scenario.contact, scenario.placement, scenario.particles, scenario.near);
+  for (int i = 0; i < 20; ++i) scenario.push_edges();
+  const Eigen::Vector3f a = scenario.particles.position(0), b = scenario.particles.position(1);
+  const float share = (0.01f - a.x()) / (b.x() - a.x());
+  EXPECT_GT(a.y() + share * (b.y() - a.y()), 0.0039f);
+}
+
 TEST(FieldContact, an_edge_may_sag_as_at_rest_until_it_is_released) {
   Scenario scenario = edge_through_the_ball(1, 1);
   scenario.contact.captured.edge_sag.assign(scenario.distances.a.size(), -0.0016f);

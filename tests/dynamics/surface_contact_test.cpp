@@ -52,16 +52,24 @@ struct Meeting {
     return result;
   }
 
-  /// Looks for contacts and projects them. Returns the pushes of the last round.
-  Index solve(int rounds) {
+  void prepare() {
     arrange_rounds(crowd);
     state = make_crowd_state(crowd);
+  }
+  void find() { find_touches(crowd, pointers<const Particles*>(particles), state); }
+  void follow() { follow_touches(crowd, pointers<const Particles*>(particles), state); }
+  void move(std::size_t surface, const Vector3f& by) {
+    for (Index p = 0; p < particles[surface].count(); ++p) particles[surface].position(p) += by;
+  }
+
+  /// Looks for contacts and projects them. Returns the pushes of the last round.
+  Index solve(int rounds) {
+    prepare();
     if (start.empty()) start = particles;
-    const auto seen = pointers<const Particles*>(particles);
-    find_touches(crowd, seen, state);
+    find();
     Index pushes = 0;
     for (int i = 0; i < rounds; ++i) {
-      follow_touches(crowd, seen, state);
+      follow();
       pushes = project_touches(crowd, state, pointers<const Particles*>(start), pointers<Particles*>(particles));
     }
     return pushes;
@@ -283,6 +291,70 @@ TEST(SurfaceContact, a_sheet_pressed_through_itself_comes_back) {
     if (ball.vertices(2, p) < 0 && ball.vertices.col(p).head<2>().norm() < 0.001)
       back = std::min(back, meeting.particles[0].position(p).z());
   EXPECT_GT(meeting.particles[0].position(top).z(), back) << "front over back again";
+}
+
+TEST(SurfaceContact, what_was_found_is_trusted_until_something_has_drifted_by_two_fifths_of_the_reach) {
+  Meeting meeting = pressed_balls(-0.001);
+  meeting.prepare();
+  meeting.find();
+  const PairTouches& touches = meeting.state.touches[0];
+  const std::size_t found = touches.near_second.size();
+  EXPECT_GT(found, 10u);
+  meeting.move(1, {-0.0023f, 0, 0});
+  meeting.find();
+  EXPECT_EQ(touches.near_second.size(), found);
+  meeting.move(1, {-0.0002f, 0, 0});
+  meeting.find();
+  EXPECT_GT(touches.near_second.size(), found) << "what came near is found";
+  EXPECT_EQ(touches.drift, 0);
+}
+
+TEST(SurfaceContact, drifts_there_and_back_add_up) {
+  Meeting meeting = pressed_balls(-0.001);
+  meeting.prepare();
+  meeting.find();
+  for (const float way : {0.0013f, -0.0013f}) {
+    meeting.move(1, {0, way, 0});
+    meeting.follow();
+  }
+  EXPECT_NEAR(meeting.state.touches[0].drift, 0.0026, 1e-6);
+  meeting.find();
+  EXPECT_EQ(meeting.state.touches[0].drift, 0) << "it was searched again";
+}
+
+TEST(SurfaceContact, what_is_forgotten_is_searched_again) {
+  Meeting meeting = pressed_balls(-0.001);
+  meeting.prepare();
+  meeting.find();
+  const std::size_t found = meeting.state.touches[0].near_second.size();
+  meeting.move(1, {-0.001f, 0, 0});
+  forget_touches(meeting.state);
+  meeting.find();
+  EXPECT_GT(meeting.state.touches[0].near_second.size(), found);
+}
+
+TEST(SurfaceContact, within_a_step_lists_stay_where_hardly_anything_moves) {
+  Meeting meeting = pressed_balls(-0.001);
+  meeting.prepare();
+  meeting.find();
+  meeting.follow();
+  const std::vector<PointTouch>& listed = meeting.state.touches[0].on_second;
+  const auto nearest = [&] {
+    float least = 1;
+    for (const PointTouch& touch : listed) least = std::min(least, touch.distance);
+    return least;
+  };
+  EXPECT_NEAR(nearest(), 0.001, 1e-4);
+  meeting.move(1, {-0.0004f, 0, 0});
+  meeting.follow();
+  EXPECT_NEAR(nearest(), 0.001, 1e-4);
+  meeting.move(1, {-0.0004f, 0, 0});
+  meeting.follow();
+  EXPECT_NEAR(nearest(), 0.0002, 1e-4) << "0.8 mm in all";
+  meeting.move(1, {0.0004f, 0, 0});
+  meeting.find();
+  meeting.follow();
+  EXPECT_NEAR(nearest(), 0.0006, 1e-4) << "a new step looks again";
 }
 
 TEST(SurfaceContact, gives_the_same_bits_for_any_number_of_threads) {

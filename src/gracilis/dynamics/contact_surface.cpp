@@ -90,10 +90,15 @@ Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eige
   return sums;
 }
 
+NearestFace nearest_on_face(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,
+                            const Particles& particles) {
+  const Corners x = corners_of(surface, face, particles);
+  return {face, nearest_barycentric(p, x[0], x[1], x[2])};
+}
+
 PointGap point_gap(const Eigen::Vector3f& p, const ContactSurface& surface, Index face, const Particles& particles,
                    const Eigen::Matrix3Xf& normals) {
-  const Corners x = corners_of(surface, face, particles);
-  return point_gap(p, surface, NearestFace{face, nearest_barycentric(p, x[0], x[1], x[2])}, particles, normals);
+  return point_gap(p, surface, nearest_on_face(p, surface, face, particles), particles, normals);
 }
 
 PointGap point_gap(const Eigen::Vector3f& p, const ContactSurface& surface, const NearestFace& at,

@@ -58,6 +58,17 @@ struct NearestFace {
   Eigen::Vector3f barycentric;
 };
 
+/// Where on the face it is nearest to p.
+NearestFace nearest_on_face(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,
+                            const Particles& particles);
+
+/// That point, m.
+inline Eigen::Vector3f point_on(const ContactSurface& surface, const NearestFace& at, const Particles& particles) {
+  return at.barycentric[0] * particles.position(surface.faces(0, at.face)) +
+         at.barycentric[1] * particles.position(surface.faces(1, at.face)) +
+         at.barycentric[2] * particles.position(surface.faces(2, at.face));
+}
+
 /// Where a point stands against a triangle: the nearest point of the triangle, and the signed distance to it along
 /// `normal`, positive outside.
 struct PointGap {

@@ -113,6 +113,10 @@ inline constexpr float listed_motion = element_reach / steepest;
 void find_near(const FieldContactSet& set, const DistanceSet& distances, const FaceSet& faces,
                const FieldPlacement& placement, float reach, Particles& particles, NearField& near);
 
+/// Finds the deepest points of the edges that are near anew: others may have become deeper than those that are followed.
+void find_edge_points(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
+                      NearField& near);
+
 /// Pushes the deepest points of edges, the deepest points of faces, and particles out along the field's gradient.
 /// Returns how many were touching. An edge's or face's deepest point is followed from iteration to iteration.
 Index project_edge_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,

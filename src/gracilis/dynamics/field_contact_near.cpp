@@ -157,7 +157,6 @@ static void list_edges(const FieldContactSet& set, const DistanceSet& distances,
     while (near.edges.count() % group_width != 0) list_edge(idle, idle, 0, infinity, placement, particles, near);
     near.edges.colors.push_back({begin, near.edges.count()});
   }
-  find_deepest_points(set.field.grid, placement, particles, near.edges);
 }
 
 static void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
@@ -184,6 +183,11 @@ static void list_faces(const FieldContactSet& set, const FaceSet& faces, const F
   }
 }
 
+void find_edge_points(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
+                      NearField& near) {
+  find_deepest_points(set.field.grid, placement, particles, near.edges);
+}
+
 void find_near(const FieldContactSet& set, const DistanceSet& distances, const FaceSet& faces,
                const FieldPlacement& placement, float reach, Particles& particles, NearField& near) {
   near.particles.clear();
@@ -196,6 +200,7 @@ void find_near(const FieldContactSet& set, const DistanceSet& distances, const F
   for (Index i = 0; i < particles.count(); ++i)
     if (is_near[static_cast<std::size_t>(i)]) near.particles.push_back(i);
   if (!set.captured.edge_sag.empty()) list_edges(set, distances, placement, particles, near);
+  find_edge_points(set, placement, particles, near);
   if (!set.captured.face_sag.empty()) list_faces(set, faces, placement, particles, near);
 }
 

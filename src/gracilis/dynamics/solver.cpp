@@ -174,6 +174,11 @@ void remember_sides(const SurfaceSystem& system, const std::vector<FieldPlacemen
 
 namespace {
 
+void find_edge_points(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state) {
+  for (std::size_t i = 0; i < system.contacts.size(); ++i)
+    find_edge_points(system.contacts[i], placements[i], state.particles, state.near[i]);
+}
+
 using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point begin) {
@@ -277,9 +282,13 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   // everything is now.
   int rounds = 0;
   for (const SurfaceSolve& surface : surfaces) rounds = std::max(rounds, surface.settings.settling_rounds);
+  int round = 0;
+  const auto is_settling = [&](std::size_t i) { return round < surfaces[i].settings.settling_rounds; };
   if (rounds > 0 && coupling.refresh) coupling.refresh();
-  for (int round = 0; round < rounds; ++round) {
-    const auto is_settling = [&](std::size_t i) { return round < surfaces[i].settings.settling_rounds; };
+  for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>&) {
+    find_edge_points(*surface.system, *surface.placements, *surface.state);
+  });
+  for (; round < rounds; ++round) {
     const auto project = [&](ConstraintKind kind) {
       for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>& told) {
         project_kind(kind, *surface.system, *surface.placements, surface.settings, *surface.state, surface.report);

@@ -41,6 +41,7 @@ struct PointTouch {
   float side = 1;
   float distance = 0;                                       ///< m, on that side, when last looked at
   Eigen::Vector3f barycentric = Eigen::Vector3f::Zero();    ///< of the nearest point then
+  Eigen::Vector3f offset = Eigen::Vector3f::Zero();         ///< m, from the nearest point to the particle then
   float most_gap = std::numeric_limits<float>::infinity();  ///< m, what neighbors leave each other
 };
 /// Two edges that cross closely, one of each surface; `side` as above.
@@ -50,13 +51,18 @@ struct EdgeTouch {
   float most_gap = std::numeric_limits<float>::infinity();
 };
 
-/// What is near what; workspace of one step.
+/// What is near what; workspace.
 struct PairTouches {
-  std::vector<PointTouch> near_second, near_first;  ///< found once per step, walked since: particles of the first
+  std::vector<PointTouch> near_second, near_first;  ///< found by a search, walked since: particles of the first
                                                     ///< near the second and the other way; of a surface
                                                     ///< with itself all in the first of the two
   std::vector<PointTouch> on_second, on_first;      ///< of these, what every iteration projects
   std::vector<EdgeTouch> edges;
+  bool is_new = true;    ///< not looked at in this step
+  bool is_calm = false;  ///< so little moved that the last look's lists stay
+  float drift = std::numeric_limits<float>::infinity();  ///< m, at most, from the search to the last look: of what is
+                                                         ///< near against what it is near to
+  int steps = 0;                                         ///< since the search
   bool none_listed() const { return on_second.empty() && on_first.empty() && edges.empty(); }
 };
 struct CrowdState {
@@ -76,10 +82,16 @@ CrowdState make_crowd_state(const SurfaceCrowd& crowd);
 /// Before a step moves anything: where everything is.
 void remember_places(const std::vector<const Particles*>& particles, CrowdState& state);
 
-/// Finds what is near what, from nothing but where the particles are: once per step, after the prediction.
+/// Makes the next find_touches search everything.
+void forget_touches(CrowdState& state);
+
+/// Finds what is near what, after a step's prediction. A pair is searched, from nothing but where the particles are,
+/// when what was found before cannot be trusted: when anything near has moved too far against what it is near to, since
+/// what was not near may have come as far, or a few steps ago.
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state);
 
-/// Follows what was found to where it is now and lists what the next iterations have to project.
+/// Follows what was found to where it is now and lists what the next iterations have to project. Where hardly anything
+/// has moved within a step the lists stay.
 void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state);
 
 /// Projects all listed contacts: points against faces, then edges against edges, without compliance, each side moving

@@ -1,5 +1,5 @@
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/edge_crossings.hpp>
+#include <gracilis/dynamics/edge_search.hpp>
 #include <gracilis/dynamics/self_contact.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
 #include <gracilis/dynamics/touch_search.hpp>
@@ -15,9 +15,34 @@ namespace {
 constexpr Index chunk = 256;
 /// What comes nearer than this beyond its gap is projected until the next look (m).
 constexpr float listed_within = 0.0015f;
-/// The same for edges, of which there are three times as many; between two looks they hardly come nearer by more.
-constexpr float edges_listed_within = 0.0008f;
+/// Two surfaces in which nothing has drifted farther than this since the last look are not looked at again (m): what was
+/// too far away to be listed still is, even as an edge. One with itself always is: needles of hundredths of a millimeter
+/// turn over.
+constexpr float calm = 0.0005f;
+/// A pair is searched again when something has drifted by this share of its reach since the search.
+constexpr float trusted_share = 0.4f;
+/// And after so many steps anyway: what is out of reach drifts unseen.
+constexpr int trusted_steps = 3;
 constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// How far anything has moved at most, since the last look, against what it was near to then.
+float largest_drift(const std::vector<PointTouch>& near, const ContactSurface& surface, const Particles& probe,
+                    const Particles& target, const Eigen::Vector3f& shift) {
+  float largest2 = 0;
+  for (const PointTouch& touch : near) {
+    const Eigen::Vector3f then = point_on(surface, {touch.face, touch.barycentric}, target) + touch.offset;
+    largest2 = std::max(largest2, (probe.position(touch.particle) + shift - then).squaredNorm());
+  }
+  return std::sqrt(largest2);
+}
+
+/// The same for both sides of a pair.
+float largest_drift(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, const SurfacePair& pair,
+                    const PairTouches& touches) {
+  const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+  return std::max(largest_drift(touches.near_second, crowd.surfaces[b], *particles[a], *particles[b], pair.shift),
+                  largest_drift(touches.near_first, crowd.surfaces[a], *particles[b], *particles[a], -pair.shift));
+}
 
 /// Walks each to its nearest face.
 void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Particles& probe, const Particles& target,
@@ -25,9 +50,11 @@ void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Pa
   parallel_for(static_cast<Index>(near.size()), chunk, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       PointTouch& touch = near[static_cast<std::size_t>(i)];
-      const NearestFace nearest = walk_to_nearest(probe.position(touch.particle) + shift, surface, touch.face, target);
+      const Eigen::Vector3f p = probe.position(touch.particle) + shift;
+      const NearestFace nearest = walk_to_nearest(p, surface, touch.face, target);
       touch.face = nearest.face;
       touch.barycentric = nearest.barycentric;
+      touch.offset = p - point_on(surface, nearest, target);
     }
   });
 }
@@ -50,124 +77,6 @@ void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, con
           part.push_back(touch);
         }
       });
-}
-
-/// The edges of a face and of the faces behind its sides.
-void gather_edges(const ContactSurface& surface, Index face, std::vector<Index>& edges) {
-  for (int corner = 0; corner < 3; ++corner) {
-    const Index side = surface.sides(corner, face), behind = surface.across(corner, face);
-    edges.push_back(side);
-    if (behind < 0) continue;
-    for (const Index other : surface.sides.col(behind))
-      if (other != side) edges.push_back(other);
-  }
-}
-
-/// Sum of the unit normals of an edge's faces.
-Eigen::Vector3f edge_normal(const ContactSurface& surface, Index edge, const Particles& particles) {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const Index face : surface.edges[static_cast<std::size_t>(edge)].faces) {
-    if (face < 0) continue;
-    sum += face_area(surface, face, particles).normalized();
-  }
-  return sum;
-}
-
-/// Whether a particle is so near that an edge of this length from it may cross another closely: one that does has an
-/// end within half of its length and that.
-bool is_near_enough(const PointTouch& touch, float length2) {
-  const float beyond = touch.distance - edges_listed_within;
-  return beyond < 0 || 4 * beyond * beyond < length2;
-}
-
-/// Looks up what a particle is near.
-class TouchTable {
- public:
-  TouchTable(const std::vector<PointTouch>& near, Index particle_count)
-      : near_(near), at_(static_cast<std::size_t>(particle_count), -1) {
-    for (std::size_t i = 0; i < near.size(); ++i)
-      at_[static_cast<std::size_t>(near[i].particle)] = static_cast<Index>(i);
-  }
-
-  /// What this end of an edge is near if the edge may cross another closely by it, else null.
-  const PointTouch* near_enough(Index end, float length2) const {
-    const Index at = at_[static_cast<std::size_t>(end)];
-    if (at < 0) return nullptr;
-    const PointTouch& touch = near_[static_cast<std::size_t>(at)];
-    return is_near_enough(touch, length2) ? &touch : nullptr;
-  }
-
- private:
-  const std::vector<PointTouch>& near_;
-  std::vector<Index> at_;
-};
-
-/// The edges that may cross others closely by what their ends are near, each once.
-std::vector<Index> edges_around(const std::vector<PointTouch>& near, const TouchTable& table,
-                                const ContactSurface& surface, const Particles& particles) {
-  return collect_in_order<Index>(
-      static_cast<Index>(near.size()), chunk, [&](Index begin, Index end, std::vector<Index>& part) {
-        for (Index i = begin; i < end; ++i) {
-          const PointTouch& touch = near[static_cast<std::size_t>(i)];
-          const auto at = static_cast<std::size_t>(touch.particle);
-          for (Index k = surface.spoke_offsets[at]; k < surface.spoke_offsets[at + 1]; ++k) {
-            const Index edge = surface.spokes[static_cast<std::size_t>(k)];
-            const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
-            const float length2 = (particles.position(ends[1]) - particles.position(ends[0])).squaredNorm();
-            if (!is_near_enough(touch, length2)) continue;
-            // By its first end unless that is too far away.
-            if (ends[0] == touch.particle || !table.near_enough(ends[0], length2)) part.push_back(edge);
-          }
-        }
-      });
-}
-
-/// Pairs of edges, one of each surface, that cross closely. Within one surface `self` tells which parts may meet.
-void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::vector<const Particles*>& particles,
-                const std::vector<PointTouch>& near_second, const SelfRule* self, std::vector<EdgeTouch>& found) {
-  const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-  const ContactSurface &first = crowd.surfaces[a], &second = crowd.surfaces[b];
-  found.clear();
-  if (near_second.empty()) return;
-  const TouchTable table(near_second, particles[a]->count());
-  const std::vector<Index> edges = edges_around(near_second, table, first, *particles[a]);
-  const auto count = static_cast<Index>(edges.size());
-  found = collect_in_order<EdgeTouch>(count, chunk, [&](Index begin, Index end, std::vector<EdgeTouch>& part) {
-    std::vector<Index> candidates;
-    for (Index i = begin; i < end; ++i) {
-      const Index e = edges[static_cast<std::size_t>(i)];
-      const auto& ends = first.edges[static_cast<std::size_t>(e)].ends;
-      const Segment edge = {particles[a]->position(ends[0]) + pair.shift, particles[a]->position(ends[1]) + pair.shift};
-      const auto segment_of = [&](Index other) -> Segment {
-        const auto& its_ends = second.edges[static_cast<std::size_t>(other)].ends;
-        return {particles[b]->position(its_ends[0]), particles[b]->position(its_ends[1])};
-      };
-      candidates.clear();
-      Index gathered = -1;
-      for (const Index particle : ends) {
-        const PointTouch* touch = table.near_enough(particle, edge.length2());
-        if (!touch || touch->face == gathered) continue;
-        if (self && self->side(particle, touch->face) != touch->side) continue;
-        gather_edges(second, touch->face, candidates);
-        gathered = touch->face;
-      }
-      keep_crossing(edge, edges_listed_within, second, *particles[b], candidates);
-      if (candidates.empty()) continue;
-      std::sort(candidates.begin(), candidates.end());
-      candidates.erase(std::unique(candidates.begin(), candidates.end()), candidates.end());
-      const Eigen::Vector3f own_normal = edge_normal(first, e, *particles[a]);
-      for (Index candidate : candidates) {
-        const auto& other = second.edges[static_cast<std::size_t>(candidate)].ends;
-        const float side = self ? self->side(ends, other) : 1.0f;
-        if (side == 0) continue;
-        const Eigen::Vector3f outward = side * (edge_normal(second, candidate, *particles[b]) - own_normal);
-        const Segment its = segment_of(candidate);
-        const EdgeGap gap = edge_gap(edge.from, edge.to, its.from, its.to, outward);
-        if (gap.crossing && std::abs(gap.distance) < edges_listed_within)
-          part.push_back({e, candidate, side, self ? self->most_gap(ends, other) : infinity});
-      }
-    }
-  });
 }
 
 /// Makes the normals that are asked for, each once. Others are those of some earlier time and nobody's business.
@@ -213,6 +122,7 @@ void ask_to_tell_sides(const SurfaceCrowd& crowd, const CrowdState& state, Norma
       if (!(touch.barycentric.minCoeff() > 0)) normals.ask_corners(target, touch);
   };
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+    if (state.touches[i].is_calm) continue;
     ask(static_cast<std::size_t>(crowd.pairs[i].second), state.touches[i].near_second);
     ask(static_cast<std::size_t>(crowd.pairs[i].first), state.touches[i].near_first);
   }
@@ -221,6 +131,7 @@ void ask_to_tell_sides(const SurfaceCrowd& crowd, const CrowdState& state, Norma
 /// The normals that projecting what is listed may need.
 void ask_to_project(const SurfaceCrowd& crowd, const CrowdState& state, NormalMaker& normals) {
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+    if (state.touches[i].is_calm) continue;
     const auto first = static_cast<std::size_t>(crowd.pairs[i].first),
                second = static_cast<std::size_t>(crowd.pairs[i].second);
     for (const PointTouch& touch : state.touches[i].on_second) normals.ask_corners(second, touch);
@@ -249,13 +160,34 @@ void remember_places(const std::vector<const Particles*>& particles, CrowdState&
     for (Index p = 0; p < particles[s]->count(); ++p) state.before[s].col(p) = particles[s]->position(p);
 }
 
+void forget_touches(CrowdState& state) {
+  for (PairTouches& touches : state.touches) touches.drift = infinity;
+}
+
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
-  std::vector<SearchedSurface> searched;
-  for (std::size_t s = 0; s < particles.size(); ++s) searched.push_back({*particles[s], state.trees[s]});
-  parallel_for_each(particles.size(), [&](std::size_t s) { refit(crowd.surfaces[s], *particles[s], state.trees[s]); });
-  parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
-    const SurfacePair& pair = crowd.pairs[i];
+  std::vector<Index> lost;
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
     PairTouches& touches = state.touches[i];
+    touches.is_new = true;
+    const float drift = touches.drift + largest_drift(crowd, particles, crowd.pairs[i], touches);
+    const bool is_trusted = drift <= trusted_share * crowd.pairs[i].reach && ++touches.steps < trusted_steps;
+    if (!is_trusted) lost.push_back(static_cast<Index>(i));
+  }
+  std::vector<char> searched_for(particles.size(), 0);
+  for (const Index i : lost) {
+    const SurfacePair& pair = crowd.pairs[static_cast<std::size_t>(i)];
+    for (const Index surface : {pair.first, pair.second}) searched_for[static_cast<std::size_t>(surface)] = 1;
+  }
+  parallel_for_each(particles.size(), [&](std::size_t s) {
+    if (searched_for[s]) refit(crowd.surfaces[s], *particles[s], state.trees[s]);
+  });
+  std::vector<SearchedSurface> searched;
+  for (std::size_t s = 0; s < particles.size(); ++s)
+    searched.push_back({crowd.surfaces[s], *particles[s], state.trees[s]});
+  parallel_for_each(lost.size(), [&](std::size_t i) {
+    const auto number = static_cast<std::size_t>(lost[i]);
+    const SurfacePair& pair = crowd.pairs[number];
+    PairTouches& touches = state.touches[number];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     if (pair.is_self()) {
       find_self(searched[a], self_rule(crowd, state, *particles[a], pair.first), pair.reach, touches.near_second);
@@ -263,6 +195,7 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
       find_near(searched[a], pair.shift, searched[b], pair.reach, touches.near_second);
       find_near(searched[b], -pair.shift, searched[a], pair.reach, touches.near_first);
     }
+    touches.drift = 0, touches.steps = 0;
   });
 }
 
@@ -270,6 +203,11 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
   parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
+    const float drift = largest_drift(crowd, particles, pair, touches);
+    touches.is_calm = !touches.is_new && !pair.is_self() && drift <= calm;
+    if (touches.is_calm) return;
+    touches.drift += drift;
+    touches.is_new = false;
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     walk(touches.near_second, crowd.surfaces[b], *particles[a], *particles[b], pair.shift);
     walk(touches.near_first, crowd.surfaces[a], *particles[b], *particles[a], -pair.shift);
@@ -280,6 +218,7 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
   parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
+    if (touches.is_calm) return;
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     std::optional<SelfRule> self;
     if (pair.is_self()) self.emplace(self_rule(crowd, state, *particles[a], pair.first));

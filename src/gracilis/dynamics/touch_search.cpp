@@ -48,12 +48,19 @@ PointTouch nearest_face(const Eigen::Vector3f& p, const Eigen::Vector3f& outward
   return nearest;
 }
 
-/// Calls touch(particle, bounds, workspace) for every particle that has patches of the target within reach, with the
-/// bounds of those around it; puts the touches with a face together. see(bounds) turns bounds of particles into what
+/// Where the particle is over its nearest face.
+void look_at(const Eigen::Vector3f& p, const SearchedSurface& target, PointTouch& touch) {
+  const NearestFace nearest = nearest_on_face(p, target.surface, touch.face, target.particles);
+  touch.barycentric = nearest.barycentric;
+  touch.offset = p - point_on(target.surface, nearest, target.particles);
+}
+
+/// Calls touch(particle, p, bounds, workspace) for every particle that has patches of the target within reach, p in the
+/// target's coordinates, with the bounds of those around it; puts the touches with a face together. see(bounds) turns bounds of particles into what
 /// the target sees.
 template <class See, class Touch>
-void search(const SearchedSurface& probe, const SearchedSurface& target, float reach, const See& see,
-            const Touch& touch, std::vector<PointTouch>& found) {
+void search(const SearchedSurface& probe, const Eigen::Vector3f& shift, const SearchedSurface& target, float reach,
+            const See& see, const Touch& touch, std::vector<PointTouch>& found) {
   const PatchTree& tree = probe.tree;
   const auto count = static_cast<Index>(tree.particle_bounds.size());
   found =
@@ -72,9 +79,12 @@ void search(const SearchedSurface& probe, const SearchedSurface& target, float r
           if (patches.empty()) continue;
           of_bundle.load(target.tree, patches);
           for (const Index particle : tree.particles_of(bundle)) {
-            PointTouch nearest = touch(particle, of_bundle, workspace);
+            const Eigen::Vector3f p = probe.particles.position(particle) + shift;
+            PointTouch nearest = touch(particle, p, of_bundle, workspace);
+            if (nearest.face < 0) continue;
             nearest.particle = particle;
-            if (nearest.face >= 0) part.push_back(nearest);
+            look_at(p, target, nearest);
+            part.push_back(nearest);
           }
         }
       });
@@ -87,16 +97,15 @@ void search(const SearchedSurface& probe, const SearchedSurface& target, float r
 void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const SearchedSurface& target, float reach,
                std::vector<PointTouch>& found) {
   search(
-      probe, target, reach,
+      probe, shift, target, reach,
       [&](PatchTree::Bounds bounds) {
         bounds.places.move(shift);
         bounds.normals.low.setConstant(-1), bounds.normals.high.setConstant(1);  // whichever way they face
         return bounds;
       },
-      [&](Index particle, const BoundsLanes& bounds, std::vector<NearPatch>& workspace) {
+      [&](Index, const Eigen::Vector3f& p, const BoundsLanes& bounds, std::vector<NearPatch>& workspace) {
         return nearest_face(
-            probe.particles.position(particle) + shift, Eigen::Vector3f::Zero(), target.tree, bounds, reach,
-            [](Index) { return 1.0f; }, workspace);
+            p, Eigen::Vector3f::Zero(), target.tree, bounds, reach, [](Index) { return 1.0f; }, workspace);
       },
       found);
 }
@@ -104,13 +113,13 @@ void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const
 void find_self(const SearchedSurface& surface, const SelfRule& rule, float reach, std::vector<PointTouch>& found) {
   const PatchTree& tree = surface.tree;
   search(
-      surface, surface, reach, [](const PatchTree::Bounds& bounds) { return bounds; },
-      [&](Index particle, const BoundsLanes& bounds, std::vector<NearPatch>& workspace) {
+      surface, Eigen::Vector3f::Zero(), surface, reach, [](const PatchTree::Bounds& bounds) { return bounds; },
+      [&](Index particle, const Eigen::Vector3f& p, const BoundsLanes& bounds, std::vector<NearPatch>& workspace) {
         const Eigen::Vector3f outward = tree.outward.col(particle);
         const auto side_of = [&](Index face) {
           return tree.areas.col(face).dot(outward) < 0 ? rule.side_when_facing(particle, face) : 0;
         };
-        return nearest_face(surface.particles.position(particle), outward, tree, bounds, reach, side_of, workspace);
+        return nearest_face(p, outward, tree, bounds, reach, side_of, workspace);
       },
       found);
 }

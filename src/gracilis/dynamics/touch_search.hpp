@@ -6,6 +6,7 @@ namespace gracilis {
 
 /// One surface's part in a search; the tree is fitted to the particles.
 struct SearchedSurface {
+  const ContactSurface& surface;
   const Particles& particles;
   const PatchTree& tree;
 };

@@ -221,6 +221,8 @@ void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& c
                       const Pose& before, const Pose& now) {
   int substeps = 1;
   for (const MuscleStep& step : steps) substeps = std::max(substeps, substeps_of(*step.muscle, before, now));
+  // A run that goes on from here knows no more than where everything is, and has to come to the same.
+  forget_touches(crowd_state.surfaces);
   begin_edge_frame(crowd.edges, particles_of<const Particles*>(steps), crowd_state.edges);
   Pose reached = before;
   for (int substep = 1; substep <= substeps; ++substep) {
@@ -234,6 +236,7 @@ void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& c
 
 void refine_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                      const Pose& before, const Pose& now, const std::vector<Particles>& placed) {
+  forget_touches(crowd_state.surfaces);
   advance_substep(steps, crowd, crowd_state, 1, before, now, &placed);
 }
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <gracilis/dynamics/self_contact.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// Pairs of edges, one of each surface, that cross closely, by what the particles of the first are near
+/// (`near_second`). Within one surface `self` tells which parts may meet; null for two.
+void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::vector<const Particles*>& particles,
+                const std::vector<PointTouch>& near_second, const SelfRule* self, std::vector<EdgeTouch>& found);
+
+}  // namespace gracilis
