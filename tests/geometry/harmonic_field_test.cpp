@@ -33,6 +33,20 @@ TEST(HarmonicField, stays_between_its_fixed_values_and_sums_to_one_over_bodies) 
   for (Index v = 0; v < ball.vertex_count(); ++v) EXPECT_NEAR(fields.row(v).sum(), 1, 1e-9);
 }
 
+TEST(HarmonicField, of_a_solver_asked_again_is_what_a_new_one_finds) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.05, 3);
+  const MeshTopology topology = build_topology(ball.faces, ball.vertex_count());
+  Eigen::MatrixXd values(3, 1);
+  values << 1, 0, 0.5;
+  std::vector<Real> conductance(topology.edges.size(), 1);
+  for (std::size_t e = 0; e < conductance.size(); e += 3) conductance[e] = 7;
+  HarmonicSolver solver(ball.vertices, topology, {0, 1, 2});
+  EXPECT_EQ(solver.solve(values), harmonic_fields(ball.vertices, topology, {0, 1, 2}, values));
+  const Eigen::MatrixXd graded = harmonic_fields(ball.vertices, topology, {0, 1, 2}, values, conductance);
+  EXPECT_EQ(solver.solve(values, conductance), graded);
+  EXPECT_NE(solver.solve(values), graded);
+}
+
 TEST(HarmonicField, leaves_a_part_that_no_fixed_vertex_reaches_at_zero) {
   const TriangleMesh two =
       shapes::both(shapes::box(Vec3::Zero(), Vec3::Ones()), shapes::box(Vec3::Constant(2), Vec3::Constant(3)));

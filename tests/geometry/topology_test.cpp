@@ -1,3 +1,4 @@
+#include <gracilis/geometry/half_edges.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 
@@ -6,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
+#include <tuple>
 
 namespace gracilis {
 
@@ -34,6 +37,34 @@ TEST(Topology, a_surface_with_a_flipped_triangle_is_not_closed) {
   ASSERT_TRUE(is_closed(box.faces));
   std::swap(box.faces(0, 5), box.faces(1, 5));
   EXPECT_FALSE(is_closed(box.faces));
+}
+
+TEST(Topology, half_edges_come_by_their_vertices_and_faces_whatever_the_faces_are) {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<int> vertex(0, 30);
+  Eigen::Matrix3Xi soup(3, 300);
+  for (int& corner : soup.reshaped()) corner = vertex(random);
+  const std::vector<HalfEdge> half_edges = sorted_half_edges(soup);
+  const auto key = [](const HalfEdge& each) { return std::tie(each.low, each.high, each.face, each.forward); };
+  EXPECT_TRUE(std::is_sorted(half_edges.begin(), half_edges.end(),
+                             [&](const HalfEdge& l, const HalfEdge& r) { return key(l) < key(r); }));
+  std::size_t expected = 0;
+  for (Index f = 0; f < soup.cols(); ++f)
+    for (int k = 0; k < 3; ++k) expected += soup(k, f) != soup((k + 1) % 3, f);
+  EXPECT_EQ(half_edges.size(), expected);
+  for (const HalfEdge& each : half_edges) {
+    EXPECT_LT(each.low, each.high);
+    Eigen::Vector3i corners(each.low, each.high, each.apex), face = soup.col(each.face);
+    std::sort(corners.begin(), corners.end()), std::sort(face.begin(), face.end());
+    EXPECT_EQ(corners, face);
+  }
+  EXPECT_TRUE(sorted_half_edges(Eigen::Matrix3Xi(3, 0)).empty());
+}
+
+TEST(Topology, a_face_that_names_a_vertex_twice_closes_nothing) {
+  Eigen::Matrix3Xi faces(3, 1);
+  faces << 0, 0, 1;
+  EXPECT_FALSE(is_closed(faces));
 }
 
 TEST(Topology, breadth_first_order_is_a_permutation) {

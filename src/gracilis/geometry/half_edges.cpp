@@ -5,19 +5,38 @@
 
 namespace gracilis {
 
-std::vector<HalfEdge> sorted_half_edges(const Eigen::Matrix3Xi& faces) {
-  std::vector<HalfEdge> half_edges;
-  half_edges.reserve(static_cast<std::size_t>(faces.size()));
-  for (Index f = 0; f < static_cast<Index>(faces.cols()); ++f) {
-    for (Index k = 0; k < 3; ++k) {
-      const Index a = faces(k, f);
-      const Index b = faces((k + 1) % 3, f);
-      if (a != b) half_edges.push_back({std::min(a, b), std::max(a, b), f, a < b});
+namespace {
+
+/// Calls act(half_edge) for all, face by face.
+template <class Act>
+void for_each_half_edge(const Eigen::Matrix3Xi& faces, const Act& act) {
+  for (Index face = 0; face < static_cast<Index>(faces.cols()); ++face)
+    for (int k = 0; k < 3; ++k) {
+      const Index from = faces(k, face), to = faces((k + 1) % 3, face), apex = faces((k + 2) % 3, face);
+      if (from != to) act(HalfEdge{std::min(from, to), std::max(from, to), face, apex, from < to});
     }
-  }
-  std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& x, const HalfEdge& y) {
-    return std::tie(x.low, x.high, x.face, x.forward) < std::tie(y.low, y.high, y.face, y.forward);
+}
+
+}  // namespace
+
+std::vector<HalfEdge> sorted_half_edges(const Eigen::Matrix3Xi& faces) {
+  if (faces.size() == 0) return {};
+  // Dealt out by their lower vertex; then only those of one vertex are sorted.
+  std::vector<Index> end(static_cast<std::size_t>(faces.maxCoeff()) + 2, 0);
+  for_each_half_edge(faces, [&](const HalfEdge& each) { ++end[static_cast<std::size_t>(each.low) + 1]; });
+  for (std::size_t v = 1; v < end.size(); ++v) end[v] += end[v - 1];
+  std::vector<HalfEdge> half_edges(static_cast<std::size_t>(end.back()));
+  for_each_half_edge(faces, [&](const HalfEdge& each) {
+    half_edges[static_cast<std::size_t>(end[static_cast<std::size_t>(each.low)]++)] = each;
   });
+  auto begin = half_edges.begin();
+  for (std::size_t v = 0; v + 1 < end.size(); ++v) {
+    const auto last = half_edges.begin() + end[v];
+    std::sort(begin, last, [](const HalfEdge& l, const HalfEdge& r) {
+      return std::tie(l.high, l.face, l.forward) < std::tie(r.high, r.face, r.forward);
+    });
+    begin = last;
+  }
   return half_edges;
 }
 

@@ -11,11 +11,13 @@ namespace gracilis {
 struct HalfEdge {
   Index low = 0, high = 0;  ///< the edge's vertices, low < high
   Index face = 0;
+  Index apex = 0;       ///< the face's third vertex
   bool forward = true;  ///< the face runs from low to high
 };
 
 /// All half-edges sorted by (low, high, face), so that the sides of an edge lie together whatever their number. Faces
-/// that name a vertex twice have none of the edge between equal vertices.
+/// that name a vertex twice have none of the edge between equal vertices. No vertex may be negative. Takes time in
+/// proportion to faces and vertices where few edges meet in one vertex.
 std::vector<HalfEdge> sorted_half_edges(const Eigen::Matrix3Xi& faces);
 
 /// Calls body(sides) for every edge, in order.

@@ -2,9 +2,8 @@
 
 #include <gracilis/geometry/measures.hpp>
 
-#include <Eigen/SparseCholesky>
-
 #include <algorithm>
+#include <utility>
 
 namespace gracilis {
 
@@ -32,23 +31,25 @@ static std::vector<Index> number_unknowns(const MeshTopology& topology, const st
   return numbers;
 }
 
-Eigen::MatrixXd harmonic_fields(const Points& vertices, const MeshTopology& topology, const std::vector<Index>& fixed,
-                                const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance) {
-  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(vertices.cols(), fixed_values.cols());
-  for (std::size_t i = 0; i < fixed.size(); ++i) fields.row(fixed[i]) = fixed_values.row(static_cast<Index>(i));
+HarmonicSolver::HarmonicSolver(const Points& vertices, const MeshTopology& topology, std::vector<Index> fixed)
+    : vertices_(vertices), topology_(topology), fixed_(std::move(fixed)) {
+  numbers_ = number_unknowns(topology, fixed_, unknown_count_);
+}
 
-  Index unknown_count = 0;
-  const std::vector<Index> numbers = number_unknowns(topology, fixed, unknown_count);
-  if (unknown_count == 0) return fields;
+Eigen::MatrixXd HarmonicSolver::solve(const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance) {
+  Eigen::MatrixXd fields = Eigen::MatrixXd::Zero(vertices_.cols(), fixed_values.cols());
+  for (std::size_t i = 0; i < fixed_.size(); ++i) fields.row(fixed_[i]) = fixed_values.row(static_cast<Index>(i));
+  if (unknown_count_ == 0) return fields;
 
   std::vector<Eigen::Triplet<Real>> entries;
-  Eigen::MatrixXd right_side = Eigen::MatrixXd::Zero(unknown_count, fixed_values.cols());
-  for (std::size_t e = 0; e < topology.edges.size(); ++e) {
-    const MeshEdge& edge = topology.edges[e];
-    const Real length = std::max((vertices.col(edge.a) - vertices.col(edge.b)).norm(), shortest_edge);
+  entries.reserve(4 * topology_.edges.size());
+  Eigen::MatrixXd right_side = Eigen::MatrixXd::Zero(unknown_count_, fixed_values.cols());
+  for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
+    const MeshEdge& edge = topology_.edges[e];
+    const Real length = std::max((vertices_.col(edge.a) - vertices_.col(edge.b)).norm(), shortest_edge);
     const Real weight = (conductance.empty() ? 1 : conductance[e]) / length;
     for (const auto& [vertex, other] : {std::pair{edge.a, edge.b}, std::pair{edge.b, edge.a}}) {
-      const Index row = numbers[static_cast<std::size_t>(vertex)], column = numbers[static_cast<std::size_t>(other)];
+      const Index row = numbers_[static_cast<std::size_t>(vertex)], column = numbers_[static_cast<std::size_t>(other)];
       if (row < 0) continue;
       entries.emplace_back(row, row, weight);
       if (column >= 0) {
@@ -58,13 +59,20 @@ Eigen::MatrixXd harmonic_fields(const Points& vertices, const MeshTopology& topo
       }
     }
   }
-  Eigen::SparseMatrix<Real> laplacian(unknown_count, unknown_count);
+  Eigen::SparseMatrix<Real> laplacian(unknown_count_, unknown_count_);
   laplacian.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization(laplacian);
-  const Eigen::MatrixXd solution = factorization.solve(right_side);
-  for (Index v = 0; v < vertices.cols(); ++v)
-    if (numbers[static_cast<std::size_t>(v)] >= 0) fields.row(v) = solution.row(numbers[static_cast<std::size_t>(v)]);
+  if (!is_analyzed_) factorization_.analyzePattern(laplacian);
+  is_analyzed_ = true;
+  factorization_.factorize(laplacian);
+  const Eigen::MatrixXd solution = factorization_.solve(right_side);
+  for (Index v = 0; v < vertices_.cols(); ++v)
+    if (numbers_[static_cast<std::size_t>(v)] >= 0) fields.row(v) = solution.row(numbers_[static_cast<std::size_t>(v)]);
   return fields;
+}
+
+Eigen::MatrixXd harmonic_fields(const Points& vertices, const MeshTopology& topology, const std::vector<Index>& fixed,
+                                const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance) {
+  return HarmonicSolver(vertices, topology, fixed).solve(fixed_values, conductance);
 }
 
 Points face_gradients(const Points& vertices, const Eigen::Matrix3Xi& faces, const Eigen::VectorXd& field) {

@@ -3,9 +3,29 @@
 #include <gracilis/core/types.hpp>
 #include <gracilis/geometry/topology.hpp>
 
+#include <Eigen/SparseCholesky>
+
 #include <vector>
 
 namespace gracilis {
+
+/// Discrete harmonic fields on one surface with the same vertices fixed: what depends on neither their values nor the
+/// conductance is done once. See harmonic_fields.
+class HarmonicSolver {
+ public:
+  /// `vertices` and `topology` must outlive it.
+  HarmonicSolver(const Points& vertices, const MeshTopology& topology, std::vector<Index> fixed);
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance = {});
+
+ private:
+  const Points& vertices_;
+  const MeshTopology& topology_;
+  std::vector<Index> fixed_, numbers_;  ///< numbers: of the unknowns; -1 where nothing is to be found
+  Index unknown_count_ = 0;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization_;
+  bool is_analyzed_ = false;
+};
 
 /// Discrete harmonic fields on a surface, one per column of `fixed_values`: at every vertex of `fixed` the given value,
 /// at every other the mean of its neighbors weighted by 1 / edge length. The weights are positive, so values stay

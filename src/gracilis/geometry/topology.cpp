@@ -1,31 +1,10 @@
 #include <gracilis/geometry/topology.hpp>
 
-#include <algorithm>
-#include <tuple>
+#include <gracilis/geometry/half_edges.hpp>
 
 namespace gracilis {
 
 namespace {
-
-struct HalfEdge {
-  Index a, b;  ///< a < b
-  bool forward;
-  Index face, apex;
-};
-
-std::vector<HalfEdge> sorted_half_edges(const Eigen::Matrix3Xi& faces) {
-  std::vector<HalfEdge> half_edges;
-  half_edges.reserve(static_cast<std::size_t>(faces.size()));
-  for (Index face = 0; face < faces.cols(); ++face)
-    for (int k = 0; k < 3; ++k) {
-      const Index from = faces(k, face), to = faces((k + 1) % 3, face), apex = faces((k + 2) % 3, face);
-      half_edges.push_back({std::min(from, to), std::max(from, to), from < to, face, apex});
-    }
-  std::sort(half_edges.begin(), half_edges.end(), [](const HalfEdge& l, const HalfEdge& r) {
-    return std::tie(l.a, l.b, l.face) < std::tie(r.a, r.b, r.face);
-  });
-  return half_edges;
-}
 
 VertexStars stars_of(const std::vector<MeshEdge>& edges, Index vertex_count) {
   VertexStars stars;
@@ -49,32 +28,28 @@ VertexStars stars_of(const std::vector<MeshEdge>& edges, Index vertex_count) {
 
 MeshTopology build_topology(const Eigen::Matrix3Xi& faces, Index vertex_count) {
   MeshTopology topology;
-  for (const HalfEdge& half_edge : sorted_half_edges(faces)) {
-    auto& edges = topology.edges;
-    if (edges.empty() || edges.back().a != half_edge.a || edges.back().b != half_edge.b) {
-      edges.push_back({half_edge.a, half_edge.b, -1, -1, -1, -1});
+  for_each_edge(sorted_half_edges(faces), [&](std::span<const HalfEdge> sides) {
+    MeshEdge edge = {sides[0].low, sides[0].high, -1, -1, -1, -1};
+    for (const HalfEdge& side : sides) {
+      if (side.forward && edge.left < 0) {
+        edge.left = side.face, edge.left_apex = side.apex;
+      } else if (edge.right < 0) {
+        edge.right = side.face, edge.right_apex = side.apex;
+      }
     }
-    MeshEdge& edge = edges.back();
-    if (half_edge.forward && edge.left < 0) {
-      edge.left = half_edge.face, edge.left_apex = half_edge.apex;
-    } else if (edge.right < 0) {
-      edge.right = half_edge.face, edge.right_apex = half_edge.apex;
-    }
-  }
+    topology.edges.push_back(edge);
+  });
   topology.stars = stars_of(topology.edges, vertex_count);
   return topology;
 }
 
 bool is_closed(const Eigen::Matrix3Xi& faces) {
   const std::vector<HalfEdge> half_edges = sorted_half_edges(faces);
-  if (half_edges.size() % 2 != 0) return false;
-  for (std::size_t i = 0; i < half_edges.size(); i += 2) {
-    const HalfEdge &first = half_edges[i], &second = half_edges[i + 1];
-    const bool paired = first.a == second.a && first.b == second.b && first.forward != second.forward;
-    const bool crowded = i + 2 < half_edges.size() && half_edges[i + 2].a == first.a && half_edges[i + 2].b == first.b;
-    if (!paired || crowded) return false;
-  }
-  return true;
+  bool closed = static_cast<Eigen::Index>(half_edges.size()) == faces.size();  // no face names a vertex twice
+  for_each_edge(half_edges, [&](std::span<const HalfEdge> sides) {
+    closed = closed && sides.size() == 2 && sides[0].forward != sides[1].forward;
+  });
+  return closed;
 }
 
 std::vector<Index> breadth_first_order(const VertexStars& stars) {

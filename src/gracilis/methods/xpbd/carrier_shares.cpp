@@ -49,7 +49,8 @@ Eigen::MatrixXf carrier_shares(const TriangleMesh& surface, const MeshTopology& 
     for (Index k = 0; k < values.cols(); ++k)
       values(i, k) = fixed_body[static_cast<std::size_t>(fixed[static_cast<std::size_t>(i)])] ==
                      carriers[static_cast<std::size_t>(k)];
-  Eigen::MatrixXd fields = harmonic_fields(surface.vertices, topology, fixed, values);
+  HarmonicSolver solver(surface.vertices, topology, fixed);
+  Eigen::MatrixXd fields = solver.solve(values);
   if (!(tendon_length > 0) || carriers.size() < 2) return fields.transpose().cast<float>();
 
   const Eigen::VectorXd distances = edge_distances(length_graph(surface.vertices, topology), fixed);
@@ -58,7 +59,7 @@ Eigen::MatrixXf carrier_shares(const TriangleMesh& surface, const MeshTopology& 
     tendon.push_back(std::max(1 - (distances[edge.a] + distances[edge.b]) / 2 / tendon_length, Real{0}));
   for (int round = 0; round < grading_rounds; ++round) {
     grade(squared_gradients(surface, topology.edges, fields), tendon, conductance);
-    fields = harmonic_fields(surface.vertices, topology, fixed, values, conductance);
+    fields = solver.solve(values, conductance);
   }
   return fields.transpose().cast<float>();
 }
