@@ -199,7 +199,8 @@ TEST(FieldContact, pushes_an_edge_out_at_its_deepest_point_wherever_that_is) {
   }
 }
 
-TEST(FieldContact, an_edge_that_tips_over_from_one_ball_onto_another_is_pushed_out_there_once_its_points_are_found_anew) {
+TEST(FieldContact,
+     an_edge_that_tips_over_from_one_ball_onto_another_is_pushed_out_there_once_its_points_are_found_anew) {
   // Balls of 4 mm at x = -10 and 10 mm; the edge first touches the one, then is 0.4 mm deep in the other.
   DistanceField balls = ball();
   for (int k = 0; k < 101; ++k)

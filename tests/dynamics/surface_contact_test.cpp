@@ -2,8 +2,8 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
 
-#include <shapes.hpp>
 #include <gracilis/core/state_hash.hpp>
+#include <shapes.hpp>
 
 #include "systems_for_tests.hpp"
 

@@ -12,8 +12,8 @@ namespace gracilis {
 namespace {
 
 constexpr Index chunk = 256;
-/// Edges that cross as closely are listed (m). There are three times as many as particles; between two looks they hardly
-/// come nearer by more.
+/// Edges that cross as closely are listed (m). There are three times as many as particles; between two looks they
+/// hardly come nearer by more.
 constexpr float edges_listed_within = 0.0008f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 

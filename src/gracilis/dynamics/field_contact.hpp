@@ -113,7 +113,8 @@ inline constexpr float listed_motion = element_reach / steepest;
 void find_near(const FieldContactSet& set, const DistanceSet& distances, const FaceSet& faces,
                const FieldPlacement& placement, float reach, Particles& particles, NearField& near);
 
-/// Finds the deepest points of the edges that are near anew: others may have become deeper than those that are followed.
+/// Finds the deepest points of the edges that are near anew: others may have become deeper than those that are
+/// followed.
 void find_edge_points(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
                       NearField& near);
 

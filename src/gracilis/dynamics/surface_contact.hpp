@@ -58,8 +58,8 @@ struct PairTouches {
                                                     ///< with itself all in the first of the two
   std::vector<PointTouch> on_second, on_first;      ///< of these, what every iteration projects
   std::vector<EdgeTouch> edges;
-  bool is_new = true;    ///< not looked at in this step
-  bool is_calm = false;  ///< so little moved that the last look's lists stay
+  bool is_new = true;                                    ///< not looked at in this step
+  bool is_calm = false;                                  ///< so little moved that the last look's lists stay
   float drift = std::numeric_limits<float>::infinity();  ///< m, at most, from the search to the last look: of what is
                                                          ///< near against what it is near to
   int steps = 0;                                         ///< since the search

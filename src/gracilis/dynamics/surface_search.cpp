@@ -15,9 +15,9 @@ namespace {
 constexpr Index chunk = 256;
 /// What comes nearer than this beyond its gap is projected until the next look (m).
 constexpr float listed_within = 0.0015f;
-/// Two surfaces in which nothing has drifted farther than this since the last look are not looked at again (m): what was
-/// too far away to be listed still is, even as an edge. One with itself always is: needles of hundredths of a millimeter
-/// turn over.
+/// Two surfaces in which nothing has drifted farther than this since the last look are not looked at again (m): what
+/// was too far away to be listed still is, even as an edge. One with itself always is: needles of hundredths of a
+/// millimeter turn over.
 constexpr float calm = 0.0005f;
 /// A pair is searched again when something has drifted by this share of its reach since the search.
 constexpr float trusted_share = 0.4f;

@@ -56,8 +56,8 @@ void look_at(const Eigen::Vector3f& p, const SearchedSurface& target, PointTouch
 }
 
 /// Calls touch(particle, p, bounds, workspace) for every particle that has patches of the target within reach, p in the
-/// target's coordinates, with the bounds of those around it; puts the touches with a face together. see(bounds) turns bounds of particles into what
-/// the target sees.
+/// target's coordinates, with the bounds of those around it; puts the touches with a face together. see(bounds) turns
+/// bounds of particles into what the target sees.
 template <class See, class Touch>
 void search(const SearchedSurface& probe, const Eigen::Vector3f& shift, const SearchedSurface& target, float reach,
             const See& see, const Touch& touch, std::vector<PointTouch>& found) {
