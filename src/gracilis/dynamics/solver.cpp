@@ -291,7 +291,10 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   for (; round < rounds; ++round) {
     const auto project = [&](ConstraintKind kind) {
       for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>& told) {
+        const Index touching = surface.report.contacts;
         project_kind(kind, *surface.system, *surface.placements, surface.settings, *surface.state, surface.report);
+        // Where settling leaves nothing to push, what was pushed before still touches.
+        surface.report.contacts = std::max(surface.report.contacts, touching);
         told(kind);
       });
     };

@@ -83,7 +83,7 @@ const char* name_of(ConstraintKind kind);
 
 struct SolveReport {
   int iterations = 0;
-  Index contacts = 0;        ///< touching in the last iteration
+  Index contacts = 0;        ///< most that were touching in the last iteration or while settling
   Index limited_hinges = 0;  ///< sums over all iterations
   Index limited_edges = 0;
   Index skipped_constraints = 0;
