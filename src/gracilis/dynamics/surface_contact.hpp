@@ -86,8 +86,8 @@ void remember_places(const std::vector<const Particles*>& particles, CrowdState&
 void forget_touches(CrowdState& state);
 
 /// Finds what is near what, after a step's prediction. A pair is searched, from nothing but where the particles are,
-/// when what was found before cannot be trusted: when anything near has moved too far against what it is near to, since
-/// what was not near may have come as far, or a few steps ago.
+/// when what was found before cannot be trusted: when anything near has moved too far against what it is near to, for
+/// what was not near may have come as far, or when it was found a few steps ago.
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state);
 
 /// Follows what was found to where it is now and lists what the next iterations have to project. Where hardly anything

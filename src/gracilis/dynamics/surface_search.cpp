@@ -5,6 +5,7 @@
 #include <gracilis/dynamics/touch_search.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 /// What is near what: the searches behind surface_contact.hpp.
@@ -51,10 +52,7 @@ void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Pa
     for (Index i = begin; i < end; ++i) {
       PointTouch& touch = near[static_cast<std::size_t>(i)];
       const Eigen::Vector3f p = probe.position(touch.particle) + shift;
-      const NearestFace nearest = walk_to_nearest(p, surface, touch.face, target);
-      touch.face = nearest.face;
-      touch.barycentric = nearest.barycentric;
-      touch.offset = p - point_on(surface, nearest, target);
+      note_nearest(p, walk_to_nearest(p, surface, touch.face, target), surface, target, touch);
     }
   });
 }

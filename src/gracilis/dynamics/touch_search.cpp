@@ -48,13 +48,6 @@ PointTouch nearest_face(const Eigen::Vector3f& p, const Eigen::Vector3f& outward
   return nearest;
 }
 
-/// Where the particle is over its nearest face.
-void look_at(const Eigen::Vector3f& p, const SearchedSurface& target, PointTouch& touch) {
-  const NearestFace nearest = nearest_on_face(p, target.surface, touch.face, target.particles);
-  touch.barycentric = nearest.barycentric;
-  touch.offset = p - point_on(target.surface, nearest, target.particles);
-}
-
 /// Calls touch(particle, p, bounds, workspace) for every particle that has patches of the target within reach, p in the
 /// target's coordinates, with the bounds of those around it; puts the touches with a face together. see(bounds) turns
 /// bounds of particles into what the target sees.
@@ -83,7 +76,8 @@ void search(const SearchedSurface& probe, const Eigen::Vector3f& shift, const Se
             PointTouch nearest = touch(particle, p, of_bundle, workspace);
             if (nearest.face < 0) continue;
             nearest.particle = particle;
-            look_at(p, target, nearest);
+            note_nearest(p, nearest_on_face(p, target.surface, nearest.face, target.particles), target.surface,
+                         target.particles, nearest);
             part.push_back(nearest);
           }
         }

@@ -4,6 +4,14 @@
 
 namespace gracilis {
 
+/// Notes which point of the target is nearest to a touch's particle, which is at p in the target's coordinates.
+inline void note_nearest(const Eigen::Vector3f& p, const NearestFace& nearest, const ContactSurface& surface,
+                         const Particles& target, PointTouch& touch) {
+  touch.face = nearest.face;
+  touch.barycentric = nearest.barycentric;
+  touch.offset = p - point_on(surface, nearest, target);
+}
+
 /// One surface's part in a search; the tree is fitted to the particles.
 struct SearchedSurface {
   const ContactSurface& surface;
