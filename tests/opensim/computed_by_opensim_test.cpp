@@ -1,0 +1,81 @@
+#include <gracilis/io/table.hpp>
+#include <gracilis/opensim/model_reader.hpp>
+#include <gracilis/opensim/muscle_path.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+/// Lengths of muscles against those that OpenSim computed; reference/README.md says where they are from.
+namespace gracilis::opensim {
+
+namespace {
+
+struct Reference {
+  Model model;
+  Table table;
+
+  explicit Reference(const std::string& name) {
+    const std::filesystem::path folder = std::filesystem::path(GRACILIS_SOURCE_DIR) / "tests" / "opensim" / "reference";
+    model = read_model(folder / (name + ".osim"));
+    table = read_table(folder / (name + ".sto"));
+  }
+
+  Eigen::VectorXd coordinates(Eigen::Index row) const {
+    Eigen::VectorXd q = default_coordinates(model);
+    for (std::size_t c = 0; c < model.coordinates.size(); ++c)
+      if (const auto column = column_of(table, model.coordinates[c].name))
+        q[static_cast<Eigen::Index>(c)] = table.values(row, *column) * pi / 180;
+    apply_couplers(model, q);
+    return q;
+  }
+
+  /// Calls see(row, error, wraps touched) for every pose; the error is in m.
+  void compare(const Muscle& muscle, const std::function<void(Eigen::Index, Real, std::size_t)>& see) const {
+    const auto column = column_of(table, muscle.name);
+    ASSERT_TRUE(column) << muscle.name;
+    Skeleton skeleton(model);
+    for (Eigen::Index row = 0; row < table.values.rows(); ++row) {
+      const Eigen::VectorXd q = coordinates(row);
+      skeleton.place(q);
+      const Real length = measure_path(skeleton, muscle.path, q).length;
+      std::size_t wraps = 0;
+      for (const PathStop& stop : current_points(model, muscle.path, skeleton.poses(), q)) wraps += stop.wrap >= 0;
+      see(row, length - table.values(row, *column), wraps / 2);
+    }
+  }
+};
+
+}  // namespace
+
+TEST(ComputedByOpenSim, lines_with_fixed_conditional_and_moving_points_are_as_long) {
+  const Reference reference("gait1018_right");
+  ASSERT_EQ(reference.model.muscles.size(), 9u);
+  ASSERT_EQ(reference.table.values.rows(), 16);
+  for (const Muscle& muscle : reference.model.muscles)
+    reference.compare(muscle, [&](Eigen::Index row, Real error, std::size_t) {
+      EXPECT_LT(std::abs(error), 2e-7) << muscle.name << ", row " << row;
+    });
+}
+
+TEST(ComputedByOpenSim, lines_around_cylinders_are_as_long) {
+  const Reference reference("rajagopal18_right");
+  ASSERT_EQ(reference.model.muscles.size(), 9u);
+  ASSERT_EQ(reference.table.values.rows(), 17);
+  int once = 0, twice = 0;
+  for (const Muscle& muscle : reference.model.muscles) {
+    // What OpenSim takes for a tangent, README.md.
+    const Real tolerance = muscle.name == "psoas_r" ? 2e-6 : 1e-6;
+    reference.compare(muscle, [&](Eigen::Index row, Real error, std::size_t wraps) {
+      once += wraps == 1, twice += wraps > 1;
+      EXPECT_LT(std::abs(error), wraps > 1 ? 5e-3 : tolerance) << muscle.name << ", row " << row;
+    });
+  }
+  EXPECT_GT(once, 30);
+  EXPECT_EQ(twice, 10) << "where OpenSim's own lengths are not those of its ways, README.md";
+}
+
+}  // namespace gracilis::opensim
