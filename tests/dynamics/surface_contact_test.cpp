@@ -322,15 +322,19 @@ TEST(SurfaceContact, drifts_there_and_back_add_up) {
   EXPECT_EQ(meeting.state.touches[0].drift, 0) << "it was searched again";
 }
 
-TEST(SurfaceContact, what_is_forgotten_is_searched_again) {
+TEST(SurfaceContact, every_update_period_th_frame_searches_everything) {
   Meeting meeting = pressed_balls(-0.001);
+  meeting.crowd.settings.update_period = 2;
   meeting.prepare();
-  meeting.find();
-  const std::size_t found = meeting.state.touches[0].near_second.size();
+  const auto found = [&] {
+    begin_touch_frame(meeting.crowd, meeting.state);
+    meeting.find();
+    return meeting.state.touches[0].near_second.size();
+  };
+  const std::size_t first = found();
   meeting.move(1, {-0.001f, 0, 0});
-  forget_touches(meeting.state);
-  meeting.find();
-  EXPECT_GT(meeting.state.touches[0].near_second.size(), found);
+  EXPECT_EQ(found(), first) << "nothing drifted far";
+  EXPECT_GT(found(), first);
 }
 
 TEST(SurfaceContact, within_a_step_lists_stay_where_hardly_anything_moves) {
@@ -394,6 +398,28 @@ TEST(SurfaceContact, rounds_hold_no_surface_twice) {
     for (int count : used) EXPECT_LE(count, 1);
   }
   EXPECT_EQ(listed, 10u);
+}
+
+TEST(SurfaceContact, a_surface_that_cuts_itself_is_mended_and_says_so) {
+  Meeting meeting;
+  meeting.add(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  meeting.pair(0, 0, 0.0003f).reach = 0.001f;
+  meeting.prepare();
+  const auto mend = [&](int attempt) {
+    meeting.find();
+    meeting.follow();
+    return mend_self_cuts(meeting.crowd, meeting.state, attempt, meeting.pointers<Particles*>(meeting.particles));
+  };
+  const Particles whole = meeting.particles[0];
+  EXPECT_FALSE(mend(0));
+  EXPECT_EQ(largest_motion(whole, meeting.particles[0]), 0);
+  // Over and under its neighbors.
+  const Vector3f place = whole.position(7);
+  meeting.particles[0].position(7) = 0.95f * place + Vector3f(-place.y(), place.x(), 0).normalized() * 0.004f;
+  EXPECT_TRUE(mend(0));
+  for (int attempt = 1; attempt < 4 && mend(attempt);) ++attempt;
+  EXPECT_FALSE(mend(0)) << "all is mended";
+  EXPECT_LT(largest_motion(whole, meeting.particles[0]), 0.003f);
 }
 
 }  // namespace gracilis

@@ -198,7 +198,8 @@ TEST(RunFolder, a_run_that_is_there_already_is_refused_or_replaced) {
 
 TEST(RunFolder, an_interrupted_run_goes_on_after_its_last_whole_frame) {
   const TestFolder folder;
-  const TinyRun run;
+  TinyRun run;
+  run.scene.contact.muscle = MuscleContact::none;
   {
     RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
     for (int i = 0; i < 4; ++i) out.write_frame(run.record(i));
@@ -213,6 +214,27 @@ TEST(RunFolder, an_interrupted_run_goes_on_after_its_last_whole_frame) {
   EXPECT_FALSE(fs::exists(frame_file(folder.path(), "gluteus_maximus_r", 3)));
   out.write_frame(run.record(3));
   EXPECT_EQ(count_of(content(folder.path() / "measures.csv"), "\n"), 5);
+}
+
+TEST(RunFolder, an_interrupted_run_goes_on_from_where_contact_is_searched_anew) {
+  const TestFolder folder;
+  TinyRun run;
+  run.scene.contact.update_period = 2;
+  {
+    RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
+    for (int i = 0; i < 4; ++i) out.write_frame(run.record(i));
+  }
+  {
+    RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::resume);
+    ASSERT_TRUE(out.resume_point());
+    EXPECT_EQ(out.resume_point()->last.number, 2);
+    EXPECT_FALSE(fs::exists(frame_file(folder.path(), "femur_r", 3)));
+    EXPECT_EQ(count_of(content(folder.path() / "measures.csv"), "\n"), 4);
+    for (int i = 3; i < 5; ++i) out.write_frame(run.record(i));
+  }
+  run.scene.contact.update_period = 3;
+  EXPECT_EQ(RunFolder(folder.path(), run.scene, run.poses, ExistingRun::resume).frame_count(), 5)
+      << "nothing of a complete run is dropped";
 }
 
 TEST(RunFolder, velocities_are_kept_where_there_are_any) {

@@ -1,6 +1,7 @@
 #include <gracilis/simulate/moment_arms.hpp>
 
 #include "scenarios/active_runs.hpp"
+#include "scenarios/judged_run.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +16,11 @@ TEST(ActiveMuscle, iliacus_flexed_to_ninety_degrees_and_back_shortens_steadily_a
   keys(1, 0) = radians(90);
   scene.motion = motion_through({"hip_flexion_r", "hip_adduction_r", "hip_rotation_r"}, keys, radians(1), 1.0 / 60);
   scene.sequence.settle_frames = 30;
+  const JudgedRun judged = run_judged(scene, 3);
+  for (const contact_check::Measure measure : {contact_check::self_pairs, contact_check::folded_share})
+    EXPECT_FALSE(judged.worst[measure].missed)
+        << contact_check::measure_names()[measure] << ": " << judged.worst[measure].value << " in frame "
+        << judged.worst[measure].frame;
   const FiberRun run = run_with_fibers(scene);
   const std::size_t back = run.frames.size() - 1, last = back - 90, first = last - 90;
   ASSERT_NEAR(run.flexion[last], radians(90), 1e-9);

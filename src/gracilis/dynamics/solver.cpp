@@ -19,6 +19,8 @@ constexpr float contact_reach = 0.006f;
 constexpr int motion_check = 4;
 /// Iterations between two looks at what is near between surfaces, which walk and list with reserve.
 constexpr int coupling_refresh = 15;
+/// Most attempts at mending what cannot stay; what is crushed may resist them all.
+constexpr int mending_attempts = 4;
 
 /// Calls project(range) for all slots: clusters side by side, then what lies across them, one color after the other.
 template <class Project>
@@ -284,24 +286,31 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   for (const SurfaceSolve& surface : surfaces) rounds = std::max(rounds, surface.settings.settling_rounds);
   int round = 0;
   const auto is_settling = [&](std::size_t i) { return round < surfaces[i].settings.settling_rounds; };
-  if (rounds > 0 && coupling.refresh) coupling.refresh();
-  for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>&) {
-    find_edge_points(*surface.system, *surface.placements, *surface.state);
-  });
-  for (; round < rounds; ++round) {
-    const auto project = [&](ConstraintKind kind) {
-      for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>& told) {
-        const Index touching = surface.report.contacts;
-        project_kind(kind, *surface.system, *surface.placements, surface.settings, *surface.state, surface.report);
-        // Where settling leaves nothing to push, what was pushed before still touches.
-        surface.report.contacts = std::max(surface.report.contacts, touching);
-        told(kind);
-      });
-    };
-    project(ConstraintKind::volume);
-    couple();
-    for (ConstraintKind kind : kinds_after_contact) project(kind);
-  }
+  const auto project = [&](ConstraintKind kind) {
+    for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>& told) {
+      const Index touching = surface.report.contacts;
+      project_kind(kind, *surface.system, *surface.placements, surface.settings, *surface.state, surface.report);
+      // Where settling leaves nothing to push, what was pushed before still touches.
+      surface.report.contacts = std::max(surface.report.contacts, touching);
+      told(kind);
+    });
+  };
+  const auto settle = [&] {
+    if (coupling.refresh) coupling.refresh();
+    round = 0;
+    for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>&) {
+      keep_listed(surface);
+      find_edge_points(*surface.system, *surface.placements, *surface.state);
+    });
+    for (; round < rounds; ++round) {
+      project(ConstraintKind::volume);
+      couple();
+      for (ConstraintKind kind : kinds_after_contact) project(kind);
+    }
+  };
+  if (rounds == 0) return;
+  settle();
+  for (int attempt = 0; attempt < mending_attempts && coupling.mend && coupling.mend(attempt); ++attempt) settle();
 }
 
 SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,

@@ -115,8 +115,9 @@ struct SurfaceSolve {
 
 /// What acts between surfaces in each iteration; empty functions: nothing.
 struct Coupling {
-  std::function<void()> refresh;   ///< looks again at what is near what
-  std::function<Index()> project;  ///< returns how many contacts pushed
+  std::function<void()> refresh;               ///< looks again at what is near what
+  std::function<Index()> project;              ///< returns how many contacts pushed
+  std::function<bool(int attempt)> mend = {};  ///< what settled but cannot stay; whether there was any
 };
 
 /// Told after each projection of a kind on a surface.
@@ -125,7 +126,8 @@ using SolveWatch = std::function<void(std::size_t surface, ConstraintKind kind)>
 /// Resets the multipliers and iterates over all surfaces in step: distances, contractions, hinges, volume, stretch
 /// limit, contact between surfaces, slivers, tight places, bone contact (XPBD; Macklin, Müller, Chentanez 2016). Free
 /// particles with a fixed neighborhood, coinciding ends and flat triangles are survived; they are counted as skipped.
-/// Surfaces that stop early wait for the others.
+/// Surfaces that stop early wait for the others. At the end volume and
+/// contact alone settle, again after each of a few attempts at mending.
 void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch = {});
 
 /// The same for one surface alone.

@@ -9,8 +9,9 @@ namespace gracilis {
 
 /// How surfaces meet.
 struct SurfaceContactSettings {
-  float friction = 0;  ///< largest tangential motion taken back, as a share of the push
-  float cohesion = 0;  ///< m, farthest that particles which touch at rest may part; 0: as they like
+  float friction = 0;     ///< largest tangential motion taken back, as a share of the push
+  float cohesion = 0;     ///< m, farthest that particles which touch at rest may part; 0: as they like
+  int update_period = 5;  ///< frames after which everything is searched anew
 };
 
 /// Two surfaces that must not pass through each other, or one with itself. A particle keeps its gap to the other
@@ -71,6 +72,7 @@ struct CrowdState {
   std::vector<PatchTree> trees;
   std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where the next iterations ask
   std::vector<PairTouches> touches;       ///< one per pair
+  int frames = 0;                         ///< begun so far; every update_period-th searches anew
 };
 
 /// Groups the pairs into rounds. Call it once all pairs are there.
@@ -82,7 +84,11 @@ CrowdState make_crowd_state(const SurfaceCrowd& crowd);
 /// Before a step moves anything: where everything is.
 void remember_places(const std::vector<const Particles*>& particles, CrowdState& state);
 
-/// Makes the next find_touches search everything.
+/// At the beginning of a frame: every update_period-th forgets what was found, so that its first find_touches searches
+/// everything.
+void begin_touch_frame(const SurfaceCrowd& crowd, CrowdState& state);
+
+/// Makes the next find_touches search everything, and counts frames from here.
 void forget_touches(CrowdState& state);
 
 /// Finds what is near what, after a step's prediction. A pair is searched, from nothing but where the particles are,
@@ -99,5 +105,11 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
 /// Returns how many pushed.
 Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
                       const std::vector<Particles*>& particles);
+
+/// Mends every surface that keeps out of itself but cuts itself all the same, after a follow_touches: takes it to its
+/// shape at rest there, and in every other attempt, where that did not help, smooths it, the longer the later. Returns
+/// whether there was anything to mend; all has to settle again then.
+bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int attempt,
+                    const std::vector<Particles*>& particles);
 
 }  // namespace gracilis

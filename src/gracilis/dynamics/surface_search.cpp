@@ -158,8 +158,14 @@ void remember_places(const std::vector<const Particles*>& particles, CrowdState&
     for (Index p = 0; p < particles[s]->count(); ++p) state.before[s].col(p) = particles[s]->position(p);
 }
 
+void begin_touch_frame(const SurfaceCrowd& crowd, CrowdState& state) {
+  if (state.frames % crowd.settings.update_period == 0) forget_touches(state);
+  ++state.frames;
+}
+
 void forget_touches(CrowdState& state) {
   for (PairTouches& touches : state.touches) touches.drift = infinity;
+  state.frames = 0;
 }
 
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {

@@ -111,10 +111,15 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
   create_folders(folder_);
   if (existing == ExistingRun::resume) {
     frame_count_ = std::min(count_frames(folder_, scene), static_cast<int>(poses.size()));
+    const auto recorded = [&](int number) {
+      return read_frame(folder_, scene, number, poses[static_cast<std::size_t>(number)]);
+    };
+    // Before anything is dropped: it is a run of this scene.
+    if (frame_count_ > 0) recorded(frame_count_ - 1);
+    const bool is_complete = frame_count_ == static_cast<int>(poses.size());
+    if (frame_count_ > 0 && !is_complete) frame_count_ -= (frame_count_ - 1) % resume_period(scene);
     if (frame_count_ >= 2) {
-      const auto pose = [&](int number) { return poses[static_cast<std::size_t>(number)]; };
-      resume_point_ = ResumePoint{read_frame(folder_, scene, frame_count_ - 2, pose(frame_count_ - 2)),
-                                  read_frame(folder_, scene, frame_count_ - 1, pose(frame_count_ - 1))};
+      resume_point_ = ResumePoint{recorded(frame_count_ - 2), recorded(frame_count_ - 1)};
     } else {
       frame_count_ = 0;
     }

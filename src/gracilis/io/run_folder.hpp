@@ -30,9 +30,9 @@ enum class ExistingRun { refuse, replace, resume };
 class RunFolder {
  public:
   /// Creates the folder. `poses` are those of all frames to come (their times and coordinates). With `resume`, what
-  /// comes after the last frame that is there for every surface is dropped. Throws ConfigurationError when there is a
-  /// run already and `existing` says refuse; InputError when the folder cannot be written. Scene and poses must outlive
-  /// this.
+  /// comes after the last frame that is there for every surface is dropped, and what comes after the last that a run can
+  /// go on from (resume_period), unless the run is complete. Throws ConfigurationError when there is a run already and
+  /// `existing` says refuse; InputError when the folder cannot be written. Scene and poses must outlive this.
   RunFolder(std::filesystem::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing);
   /// Writes run.pvd if it is behind; failures are lost here, call finish() to see them.
   ~RunFolder();

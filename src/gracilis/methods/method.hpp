@@ -69,7 +69,8 @@ class DeformationMethod {
   virtual void watch_passes(PassWatch /*watch*/) {}
   /// The present shapes, into frame.muscles.
   virtual void write(Frame& frame) const = 0;
-  /// Continues from a recorded frame and the one before it, as if this method had made them.
+  /// Continues from a recorded frame and the one before it, as if this method had made them: to the same bits from a
+  /// frame whose number is a multiple of resume_period(scene).
   virtual void restore(const Frame& before, const Frame& last) = 0;
 };
 

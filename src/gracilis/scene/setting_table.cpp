@@ -165,10 +165,12 @@ std::span<const Setting<ContactSettings>> setting_table() {
       {"friction", &S::friction, "", 0, 10, "Coulomb's coefficient of friction between muscles."},
       {"cohesion", &S::cohesion, "m", 0, 0.1,
        "Farthest that parts of muscles which touch in the capture pose may part; 0 lets them."},
+      {"update_period", &S::update_period, "", 1, 100000,
+       "Frames after which everything is searched, or virtual edges seeded, from nothing but where the muscles are; "
+       "--resume goes on from such a frame. What comes near sooner is found sooner."},
       {"seed_reach", &S::seed_reach, "m", 0, 1,
        "Virtual edges: longest that one may be where it is seeded, from each vertex of one muscle to the nearest of "
        "another."},
-      {"update_period", &S::update_period, "", 1, 100000, "Virtual edges: frames after which they are seeded anew."},
       {"walk_steps", &S::walk_steps, "", 1, 100000,
        "Virtual edges: most steps of a walk over neighboring vertices to a shorter edge."},
       {"contact_distance", &S::contact_distance, "m", 0, 0.1,

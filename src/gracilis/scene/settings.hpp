@@ -80,15 +80,15 @@ enum class CoincidingEdges { keep, drop, reseed };
 /// Settings of contact between muscles and of a muscle with itself, for all muscles of a scene.
 struct ContactSettings {
   MuscleContact muscle = MuscleContact::surface;
-  bool self = true;      ///< a muscle keeps out of itself; surface contact only
-  Real margin = 0.0003;  ///< m, kept between muscles where the gap at rest allows
-  Real reach = 0.003;    ///< m, farthest that another muscle is looked for
-  Real friction = 0;     ///< Coulomb's coefficient
-  Real cohesion = 0;     ///< m, farthest that what touches at rest may part; 0: as it likes
+  bool self = true;       ///< a muscle keeps out of itself; surface contact only
+  Real margin = 0.0003;   ///< m, kept between muscles where the gap at rest allows
+  Real reach = 0.003;     ///< m, farthest that another muscle is looked for
+  Real friction = 0;      ///< Coulomb's coefficient
+  Real cohesion = 0;      ///< m, farthest that what touches at rest may part; 0: as it likes
+  int update_period = 5;  ///< frames after which contact is found from nothing but where everything is
 
   // Virtual edges only
   Real seed_reach = 0.02;          ///< m, longest that an edge may be where it is seeded
-  int update_period = 5;           ///< frames between two seedings
   int walk_steps = 100;            ///< of one walk at most
   Real contact_distance = 0.002;   ///< m, kept between vertices of different muscles
   bool adaptive_distance = false;  ///< raise it to what the ends came nearer in the step

@@ -11,6 +11,11 @@ Frame capture_frame(const Scene& scene, const Pose& pose) {
   return frame;
 }
 
+int resume_period(const Scene& scene) {
+  const bool remembers = scene.method == MethodKind::xpbd && scene.contact.muscle != MuscleContact::none;
+  return remembers ? scene.contact.update_period : 1;
+}
+
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
                  const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker) {

@@ -15,12 +15,16 @@ namespace gracilis {
 /// Everything that one frame of a run says.
 struct FrameRecord {
   Frame frame;
-  StepReport report;                     ///< empty muscles in frame 0
-  std::vector<MuscleMeasures> measures;  ///< in the scene's order
+  StepReport report;                      ///< empty muscles in frame 0
+  std::vector<MuscleMeasures> measures;   ///< in the scene's order
   std::vector<MuscleFibers> fibers = {};  ///< in the scene's order; empty where fibers are not followed
 };
 
-/// Where an interrupted run goes on: its last two recorded frames.
+/// An interrupted run goes on after a frame whose number is a multiple of this, because what finds contact remembers
+/// more than frames record in between.
+int resume_period(const Scene& scene);
+
+/// Where an interrupted run goes on: such a frame and the one before it.
 struct ResumePoint {
   Frame before, last;
 };

@@ -70,6 +70,7 @@ SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<Prep
   const auto margin = static_cast<float>(settings.margin);
   crowd.settings.friction = static_cast<float>(settings.friction);
   crowd.settings.cohesion = static_cast<float>(settings.cohesion);
+  crowd.settings.update_period = settings.update_period;
   const auto count = static_cast<Index>(muscles.size());
   std::vector<const Particles*> rest;
   for (const PreparedMuscle& muscle : muscles) {
@@ -167,6 +168,11 @@ MuscleCrowd prepare_crowd(const ContactSettings& settings, const std::vector<Pre
 
 MuscleCrowdState make_crowd_state(const MuscleCrowd& crowd) {
   return {gracilis::make_crowd_state(crowd.surfaces), make_virtual_edge_state(crowd.edges)};
+}
+
+void forget_contact(const MuscleCrowd& crowd, MuscleCrowdState& state) {
+  forget_touches(state.surfaces);
+  state.edges = make_virtual_edge_state(crowd.edges);
 }
 
 }  // namespace gracilis::xpbd

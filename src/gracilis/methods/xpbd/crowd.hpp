@@ -16,10 +16,11 @@ struct MuscleCrowd {
   bool meets() const { return !surfaces.pairs.empty() || !edges.pairs.empty(); }
 };
 
-/// What of it changes.
+/// What of it changes. Both go on for `update_period` frames, and then begin again with nothing but where the muscles
+/// are.
 struct MuscleCrowdState {
-  CrowdState surfaces;     ///< workspace of a step
-  VirtualEdgeState edges;  ///< goes on from frame to frame
+  CrowdState surfaces;
+  VirtualEdgeState edges;
 };
 
 /// Which muscles may meet and, in surface contact, with what gaps, measured at rest. No pairs when contact is switched
@@ -28,5 +29,8 @@ MuscleCrowd prepare_crowd(const ContactSettings& settings, const std::vector<Pre
 
 /// A state for muscles at rest.
 MuscleCrowdState make_crowd_state(const MuscleCrowd& crowd);
+
+/// As if no frame had begun yet.
+void forget_contact(const MuscleCrowd& crowd, MuscleCrowdState& state);
 
 }  // namespace gracilis::xpbd

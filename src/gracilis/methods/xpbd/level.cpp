@@ -61,7 +61,7 @@ Level make_level(const Scene& scene, const std::vector<DistanceField>& fields, b
 
 void reset(Level& level) {
   for (std::size_t m = 0; m < level.muscles.size(); ++m) level.states[m] = make_state(level.muscles[m].system);
-  level.crowd_state.edges = make_virtual_edge_state(level.crowd.edges);
+  forget_contact(level.crowd, level.crowd_state);
 }
 
 void advance(Level& level, const Pose& before, const Pose& now, const std::vector<Real>& activations,

@@ -109,7 +109,8 @@ Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const SurfaceC
   for (const MuscleStep& step : steps) start.push_back(&step.state->start);
   find_touches(crowd, seen, state);
   return {[&crowd, &state, seen] { follow_touches(crowd, seen, state); },
-          [&crowd, &state, start, particles] { return project_touches(crowd, state, start, particles); }};
+          [&crowd, &state, start, particles] { return project_touches(crowd, state, start, particles); },
+          [&crowd, &state, particles](int attempt) { return mend_self_cuts(crowd, state, attempt, particles); }};
 }
 
 Coupling couple_by_edges(const std::vector<MuscleStep>& steps, const VirtualEdgeCrowd& crowd, VirtualEdgeState& state) {
@@ -194,6 +195,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
   const auto is_lost = [](const MuscleStep& step) { return !is_finite(step.state->particles); };
   if (std::any_of(steps.begin(), steps.end(), is_lost)) {
     crowd_state.edges = edges_before;
+    forget_touches(crowd_state.surfaces);
     throw_failure(steps, find_failure(solves, predicted, steps, crowd, crowd_state));
   }
   parallel_for_each(steps.size(), [&](std::size_t i) {
@@ -221,8 +223,7 @@ void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& c
                       const Pose& before, const Pose& now) {
   int substeps = 1;
   for (const MuscleStep& step : steps) substeps = std::max(substeps, substeps_of(*step.muscle, before, now));
-  // A run that goes on from here knows no more than where everything is, and has to come to the same.
-  forget_touches(crowd_state.surfaces);
+  begin_touch_frame(crowd.surfaces, crowd_state.surfaces);
   begin_edge_frame(crowd.edges, particles_of<const Particles*>(steps), crowd_state.edges);
   Pose reached = before;
   for (int substep = 1; substep <= substeps; ++substep) {
@@ -236,7 +237,7 @@ void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& c
 
 void refine_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                      const Pose& before, const Pose& now, const std::vector<Particles>& placed) {
-  forget_touches(crowd_state.surfaces);
+  begin_touch_frame(crowd.surfaces, crowd_state.surfaces);
   advance_substep(steps, crowd, crowd_state, 1, before, now, &placed);
 }
 

@@ -112,7 +112,7 @@ class XpbdMethod final : public DeformationMethod {
       }
       full_.states[m] = std::move(state);
     }
-    full_.crowd_state.edges = make_virtual_edge_state(full_.crowd.edges);
+    forget_contact(full_.crowd, full_.crowd_state);
     if (coarser_) follow_full(full_, *coarser_);
     pose_ = last.pose;
   }

@@ -1,0 +1,48 @@
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/self_cuts.hpp>
+#include <gracilis/dynamics/surface_contact.hpp>
+
+#include <algorithm>
+
+/// What a surface does about cutting itself: the mending behind surface_contact.hpp.
+namespace gracilis {
+
+namespace {
+
+/// The faces that may cut each other: where the surface is folded, and where parts of it meet.
+std::vector<Index> suspects(const ContactSurface& surface, const PairTouches& touches, const Particles& particles) {
+  std::vector<Index> faces;
+  gather_folded(surface, particles, faces);
+  for (const PointTouch& touch : touches.on_second) {
+    const auto fan = surface.fan.begin(), at = surface.fan_offsets.begin() + touch.particle;
+    faces.insert(faces.end(), fan + at[0], fan + at[1]);
+    faces.push_back(touch.face);
+  }
+  for (const EdgeTouch& touch : touches.edges)
+    for (const Index edge : {touch.first, touch.second})
+      for (const Index face : surface.edges[static_cast<std::size_t>(edge)].faces)
+        if (face >= 0) faces.push_back(face);
+  return faces;
+}
+
+}  // namespace
+
+bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int attempt,
+                    const std::vector<Particles*>& particles) {
+  std::vector<char> mended(crowd.pairs.size(), 0);
+  parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
+    if (!crowd.pairs[i].is_self()) return;
+    const auto at = static_cast<std::size_t>(crowd.pairs[i].first);
+    const ContactSurface& surface = crowd.surfaces[at];
+    const std::vector<FacePair> cuts =
+        find_self_cuts(surface, crowd.rest[at], *particles[at], suspects(surface, state.touches[i], *particles[at]));
+    if (attempt % 2 == 0)
+      unfold(surface, crowd.rest[at], cuts, *particles[at]);
+    else
+      smooth(surface, cuts, attempt + 1, *particles[at]);
+    mended[i] = !cuts.empty();
+  });
+  return std::any_of(mended.begin(), mended.end(), [](char each) { return each != 0; });
+}
+
+}  // namespace gracilis

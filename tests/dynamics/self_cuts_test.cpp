@@ -1,0 +1,180 @@
+#include <contact_check/judge.hpp>
+#include <gracilis/dynamics/self_cuts.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <random>
+
+namespace gracilis {
+namespace {
+
+using Eigen::Vector3f;
+
+/// A surface and where its particles are, at first at rest.
+struct Sheet {
+  ContactSurface surface;
+  Eigen::Matrix3Xf rest;
+  Particles particles;
+
+  explicit Sheet(const TriangleMesh& mesh, Real inverse_mass = 1)
+      : surface(build_contact_surface(mesh.faces, mesh.vertex_count())),
+        rest(mesh.vertices.cast<float>()),
+        particles(make_particles(mesh.vertices, Eigen::VectorXd::Constant(mesh.vertex_count(), inverse_mass))) {}
+
+  std::vector<Index> all_faces() const {
+    std::vector<Index> faces(static_cast<std::size_t>(surface.faces.cols()));
+    std::iota(faces.begin(), faces.end(), 0);
+    return faces;
+  }
+  std::vector<FacePair> cuts() const { return find_self_cuts(surface, rest, particles, all_faces()); }
+  void carry(const Eigen::Matrix3f& linear, const Vector3f& by) {
+    for (Index p = 0; p < particles.count(); ++p) particles.position(p) = linear * rest.col(p) + by;
+  }
+};
+
+using Pairs = std::vector<FacePair>;
+
+/// A triangle in the plane z = 0 and one that stands on its tip in the middle of it, `depth` deep.
+TriangleMesh pierced(Real depth) {
+  return shapes::mesh_of({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, -depth}, {0.2, 0, 1}, {-0.2, 0, 1}},
+                         {{0, 1, 2}, {3, 4, 5}});
+}
+
+/// Two triangles with a corner in common; the side opposite to it goes through the other where `height` is above 0.
+TriangleMesh hinged(Real height) {
+  return shapes::mesh_of({{0, 0, 0}, {2, -1, 0}, {2, 1, 0}, {1, 0, -1}, {1, 0, height}}, {{0, 1, 2}, {0, 3, 4}});
+}
+
+constexpr float edge = 0.00155f;  // m, about, of a ball of 10 mm in four halvings of an icosahedron's edges
+
+}  // namespace
+
+TEST(SelfCuts, faces_that_pass_through_each_other_are_found_once_in_whichever_order_they_are_given) {
+  Sheet sheet(pierced(-0.1));
+  EXPECT_EQ(sheet.cuts(), Pairs());
+  sheet.particles.position(3).z() = -0.1f;
+  for (const std::vector<Index>& faces : {std::vector<Index>{0, 1}, {1, 0}, {1, 0, 1, 0}})
+    EXPECT_EQ(find_self_cuts(sheet.surface, sheet.rest, sheet.particles, faces), (Pairs{{0, 1}}));
+  EXPECT_EQ(find_self_cuts(sheet.surface, sheet.rest, sheet.particles, {0}), Pairs());
+}
+
+TEST(SelfCuts, faces_with_a_common_corner_cut_when_the_side_opposite_to_it_passes_through) {
+  Sheet sheet(hinged(-0.5));
+  EXPECT_EQ(sheet.cuts(), Pairs());
+  sheet.particles.position(4).z() = 0.5f;
+  EXPECT_EQ(sheet.cuts(), (Pairs{{0, 1}}));
+}
+
+TEST(SelfCuts, faces_with_a_common_side_never_cut_even_folded_flat) {
+  Sheet sheet(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}));
+  sheet.particles.position(3) = sheet.particles.position(2);
+  EXPECT_EQ(sheet.cuts(), Pairs());
+}
+
+TEST(SelfCuts, faces_that_only_touch_or_are_flat_do_not_cut) {
+  Sheet sheet(pierced(-0.1));
+  sheet.particles.position(3).z() = 0;
+  EXPECT_EQ(sheet.cuts(), Pairs());
+  for (const Index corner : {3, 4, 5}) sheet.particles.position(corner) = Vector3f(0, 0, -1);
+  EXPECT_EQ(sheet.cuts(), Pairs());
+}
+
+TEST(SelfCuts, what_cut_at_rest_and_what_cannot_move_are_left_out) {
+  EXPECT_EQ(Sheet(pierced(0.1)).cuts(), Pairs());
+  Sheet fixed(pierced(-0.1), 0);
+  fixed.particles.position(3).z() = -0.1f;
+  EXPECT_EQ(fixed.cuts(), Pairs());
+}
+
+TEST(SelfCuts, a_crumpled_ball_is_judged_as_by_an_independent_program) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.01, 3);
+  const contact_check::Judge judge({{"ball", ball, {}}}, {});
+  std::mt19937 random(7);
+  std::normal_distribution<float> offset(0, 0.0012f);
+  for (int trial = 0; trial < 10; ++trial) {
+    Sheet sheet(ball);
+    for (Index p = 0; p < sheet.particles.count(); ++p)
+      sheet.particles.position(p) += Vector3f(offset(random), offset(random), offset(random));
+    Points now(3, ball.vertex_count());
+    for (Index p = 0; p < now.cols(); ++p) now.col(p) = sheet.particles.position(p).cast<Real>();
+    const Index expected = judge.judge(0, {now}, {}).muscles[0].self_pairs;
+    EXPECT_GT(expected, 20);
+    EXPECT_EQ(static_cast<Index>(sheet.cuts().size()), expected);
+  }
+}
+
+TEST(SelfCuts, faces_around_edges_folded_beyond_a_right_angle_are_gathered) {
+  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  std::vector<Index> faces;
+  gather_folded(sheet.surface, sheet.particles, faces);
+  EXPECT_TRUE(faces.empty());
+  sheet.particles.position(7) += Vector3f(-sheet.rest(1, 7), sheet.rest(0, 7), 0).normalized() * 4 * edge;
+  gather_folded(sheet.surface, sheet.particles, faces);
+  for (Index i = sheet.surface.fan_offsets[7]; i < sheet.surface.fan_offsets[8]; ++i)
+    EXPECT_GT(std::count(faces.begin(), faces.end(), sheet.surface.fan[static_cast<std::size_t>(i)]), 0);
+  EXPECT_LT(faces.size(), 400u) << "and not the whole ball";
+}
+
+TEST(SelfCuts, unfolding_returns_a_spike_to_where_the_surface_around_it_was_carried) {
+  Eigen::Matrix3f stretch = Eigen::AngleAxisf(0.8f, Vector3f(1, 2, 2) / 3).toRotationMatrix();
+  stretch *= Vector3f(1.3f, 0.9f, 1).asDiagonal();
+  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  sheet.carry(stretch, {0.1f, 0, 0});
+  const Particles carried = sheet.particles;
+  EXPECT_EQ(sheet.cuts(), Pairs());
+  sheet.particles.position(7) += 2.2f * (Vector3f(0.1f, 0, 0) - sheet.particles.position(7));
+  const Pairs cuts = sheet.cuts();
+  ASSERT_FALSE(cuts.empty());
+  const float before = largest_motion(carried, sheet.particles);
+  for (int attempt = 0; attempt < 4 && !sheet.cuts().empty(); ++attempt)
+    unfold(sheet.surface, sheet.rest, sheet.cuts(), sheet.particles);
+  EXPECT_EQ(sheet.cuts(), Pairs());
+  EXPECT_LT(largest_motion(carried, sheet.particles), 0.1f * before);
+}
+
+TEST(SelfCuts, a_wrinkle_that_cuts_itself_is_unfolded_and_leaves_the_rest_of_the_surface_alone) {
+  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  std::mt19937 random(3);
+  std::normal_distribution<float> offset(0, edge);
+  const Vector3f top = sheet.rest.col(0);
+  const auto is_near = [&](Index p, float within) { return (sheet.rest.col(p) - top).norm() < within; };
+  for (Index p = 0; p < sheet.particles.count(); ++p)
+    if (is_near(p, 0.004f)) sheet.particles.position(p) += Vector3f(offset(random), offset(random), offset(random));
+  ASSERT_GT(sheet.cuts().size(), 5u);
+  for (int attempt = 0; attempt < 6 && !sheet.cuts().empty(); ++attempt)
+    unfold(sheet.surface, sheet.rest, sheet.cuts(), sheet.particles);
+  EXPECT_EQ(sheet.cuts(), Pairs());
+  for (Index p = 0; p < sheet.particles.count(); ++p)
+    if (!is_near(p, 0.010f)) {
+      EXPECT_EQ(Vector3f(sheet.particles.position(p)), Vector3f(sheet.rest.col(p)));
+    }
+}
+
+TEST(SelfCuts, smoothing_takes_particles_to_their_neighbors_middle_and_fixed_ones_nowhere) {
+  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  sheet.particles.position(7) *= -1.1f;
+  Index fixed = -1;
+  const Pairs cuts = sheet.cuts();
+  ASSERT_FALSE(cuts.empty());
+  for (const Index corner : sheet.surface.faces.col(cuts.front()[0]))
+    if (corner != 7) fixed = corner;
+  sheet.particles.at(fixed)[3] = 0;
+  const Vector3f stays = sheet.particles.position(fixed);
+  for (int rounds = 2; rounds < 20 && !sheet.cuts().empty(); rounds += 2)
+    smooth(sheet.surface, sheet.cuts(), rounds, sheet.particles);
+  EXPECT_EQ(sheet.cuts(), Pairs());
+  EXPECT_EQ(Vector3f(sheet.particles.position(fixed)), stays);
+}
+
+TEST(SelfCuts, with_nothing_to_mend_nothing_moves) {
+  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 3));
+  const Particles before = sheet.particles;
+  unfold(sheet.surface, sheet.rest, {}, sheet.particles);
+  smooth(sheet.surface, {}, 4, sheet.particles);
+  EXPECT_EQ(largest_motion(before, sheet.particles), 0);
+}
+
+}  // namespace gracilis
