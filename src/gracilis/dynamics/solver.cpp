@@ -295,7 +295,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       told(kind);
     });
   };
-  const auto settle = [&] {
+  const auto settle = [&](bool is_mended) {
     if (coupling.refresh) coupling.refresh();
     round = 0;
     for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>&) {
@@ -303,14 +303,16 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       find_edge_points(*surface.system, *surface.placements, *surface.state);
     });
     for (; round < rounds; ++round) {
+      // What was mended may have stretched edges.
+      if (is_mended) project(ConstraintKind::stretch_limit);
       project(ConstraintKind::volume);
       couple();
       for (ConstraintKind kind : kinds_after_contact) project(kind);
     }
   };
   if (rounds == 0) return;
-  settle();
-  for (int attempt = 0; attempt < mending_attempts && coupling.mend && coupling.mend(attempt); ++attempt) settle();
+  settle(false);
+  for (int attempt = 0; attempt < mending_attempts && coupling.mend && coupling.mend(attempt); ++attempt) settle(true);
 }
 
 SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,
