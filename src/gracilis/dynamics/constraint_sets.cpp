@@ -1,17 +1,17 @@
 #include <gracilis/dynamics/constraint_sets.hpp>
 
 #include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/dynamics/particle_order.hpp>
 
 #include <algorithm>
 #include <cassert>
-#include <cstdint>
 
 namespace gracilis {
 
 namespace {
 
-/// Particles of a cluster, whose positions fit into a core's first cache, and constraints worth a task.
-constexpr Index cluster_particles = 2048, least_constraints = 2048;
+/// Constraints worth a task.
+constexpr Index least_constraints = 2048;
 
 struct Layout {
   ColorOrder order;
@@ -24,11 +24,9 @@ std::vector<Index> clusters_of(const ConstraintGraph& graph, Index cluster_count
   std::vector<Index> clusters;
   for (Index c = 0; c < graph.constraint_count(); ++c) {
     const auto first = graph.particles.begin() + static_cast<std::ptrdiff_t>(c) * graph.arity;
-    const auto cluster_of = [&](Index particle) {
-      return static_cast<Index>(std::int64_t{particle} * cluster_count / std::max<Index>(graph.particle_count, 1));
-    };
-    const Index cluster = cluster_of(*first);
-    const bool whole = std::all_of(first, first + graph.arity, [&](Index p) { return cluster_of(p) == cluster; });
+    const auto cluster_at = [&](Index particle) { return cluster_of(particle, graph.particle_count, cluster_count); };
+    const Index cluster = cluster_at(*first);
+    const bool whole = std::all_of(first, first + graph.arity, [&](Index p) { return cluster_at(p) == cluster; });
     clusters.push_back(whole ? cluster : cluster_count);
   }
   return clusters;
@@ -62,7 +60,7 @@ void lay_out(const ConstraintGraph& graph, const std::vector<Index>& constraints
 Layout lay_out(const ConstraintGraph& graph) {
   const Index count = graph.constraint_count();
   const Index cluster_count =
-      std::max<Index>(1, std::min(graph.particle_count / cluster_particles, count / least_constraints));
+      std::max<Index>(1, std::min(cluster_count_of(graph.particle_count), count / least_constraints));
   std::vector<std::vector<Index>> members(static_cast<std::size_t>(cluster_count) + 1);
   const std::vector<Index> clusters = clusters_of(graph, cluster_count);
   for (Index c = 0; c < count; ++c)

@@ -1,6 +1,7 @@
 #include <gracilis/methods/xpbd/preparation.hpp>
 
 #include <gracilis/dynamics/hinge.hpp>
+#include <gracilis/dynamics/particle_order.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
@@ -36,7 +37,7 @@ struct Renumbered {
 Renumbered renumber(const Muscle& muscle) {
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   Renumbered result;
-  result.order = breadth_first_order(topology.stars);
+  result.order = particle_order(muscle.surface.vertices, topology.stars);
   std::vector<Index> particle_of(result.order.size());
   result.surface.vertices.resize(3, muscle.surface.vertex_count());
   for (std::size_t p = 0; p < result.order.size(); ++p) {
