@@ -42,7 +42,7 @@ Eigen::MatrixXd HarmonicSolver::solve(const Eigen::MatrixXd& fixed_values, const
   if (unknown_count_ == 0) return fields;
 
   std::vector<Eigen::Triplet<Real>> entries;
-  entries.reserve(4 * topology_.edges.size());
+  entries.reserve(3 * topology_.edges.size());
   Eigen::MatrixXd right_side = Eigen::MatrixXd::Zero(unknown_count_, fixed_values.cols());
   for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
     const MeshEdge& edge = topology_.edges[e];
@@ -53,7 +53,7 @@ Eigen::MatrixXd HarmonicSolver::solve(const Eigen::MatrixXd& fixed_values, const
       if (row < 0) continue;
       entries.emplace_back(row, row, weight);
       if (column >= 0) {
-        entries.emplace_back(row, column, -weight);
+        if (column < row) entries.emplace_back(row, column, -weight);  // all that the factorization reads
       } else {
         right_side.row(row) += weight * fields.row(other);
       }
@@ -61,6 +61,7 @@ Eigen::MatrixXd HarmonicSolver::solve(const Eigen::MatrixXd& fixed_values, const
   }
   Eigen::SparseMatrix<Real> laplacian(unknown_count_, unknown_count_);
   laplacian.setFromTriplets(entries.begin(), entries.end());
+  entries = std::vector<Eigen::Triplet<Real>>();  // gives the memory back
   if (!is_analyzed_) factorization_.analyzePattern(laplacian);
   is_analyzed_ = true;
   factorization_.factorize(laplacian);

@@ -222,6 +222,8 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   const Points directions = fiber_directions(prepared.rest, renumbered.surface.faces, topology, renumbered.attachments);
   prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin,
                                         inverse_masses(renumbered.surface, prepared.settings, prepared.fixed_body));
+  // Before the constraints are there: factorizing takes the most memory.
+  build_predictor(renumbered, topology, prepared);
   build_edges(renumbered, topology, directions, prepared);
   build_hinges(renumbered, topology, prepared);
   prepared.system.volume =
@@ -232,7 +234,6 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
     prepared.system.tight_places =
         find_tight_places(prepared.rest, renumbered.surface.faces, tight, prepared.system.rest);
   }
-  build_predictor(renumbered, topology, prepared);
   if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
   prepared.is_driven = drives(scene.activation, muscle.name);
   if (prepared.is_driven) build_contractions(muscle, topology, prepared);
