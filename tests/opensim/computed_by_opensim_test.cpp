@@ -1,4 +1,5 @@
 #include <gracilis/io/table.hpp>
+#include <gracilis/opensim/coordinate_motion.hpp>
 #include <gracilis/opensim/model_reader.hpp>
 #include <gracilis/opensim/muscle_path.hpp>
 
@@ -24,22 +25,14 @@ struct Reference {
     table = read_table(folder / (name + ".sto"));
   }
 
-  Eigen::VectorXd coordinates(Eigen::Index row) const {
-    Eigen::VectorXd q = default_coordinates(model);
-    for (std::size_t c = 0; c < model.coordinates.size(); ++c)
-      if (const auto column = column_of(table, model.coordinates[c].name))
-        q[static_cast<Eigen::Index>(c)] = table.values(row, *column) * pi / 180;
-    apply_couplers(model, q);
-    return q;
-  }
-
   /// Calls see(row, error, wraps touched) for every pose; the error is in m.
   void compare(const Muscle& muscle, const std::function<void(Eigen::Index, Real, std::size_t)>& see) const {
     const auto column = column_of(table, muscle.name);
     ASSERT_TRUE(column) << muscle.name;
+    const CoordinateMotion motion = coordinate_motion(model, table);
     Skeleton skeleton(model);
     for (Eigen::Index row = 0; row < table.values.rows(); ++row) {
-      const Eigen::VectorXd q = coordinates(row);
+      const Eigen::VectorXd q = motion.values.row(row);
       skeleton.place(q);
       const Real length = measure_path(skeleton, muscle.path, q).length;
       std::size_t wraps = 0;

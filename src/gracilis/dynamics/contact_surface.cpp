@@ -28,9 +28,7 @@ Corners corners_of(const ContactSurface& surface, Index face, const Particles& p
 
 /// The edges at a particle, each by the first of its faces.
 void add_spokes(Index particle, ContactSurface& surface) {
-  const auto at = static_cast<std::size_t>(particle);
-  for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i) {
-    const Index face = surface.fan[static_cast<std::size_t>(i)];
+  for (const Index face : surface.faces_around(particle)) {
     for (const Index side : surface.sides.col(face)) {
       const auto& [ends, faces] = surface.edges[static_cast<std::size_t>(side)];
       const Index first = faces[0] >= 0 ? faces[0] : faces[1];
@@ -171,9 +169,7 @@ NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surf
     } else if (zeros == 2) {
       Index corner;
       barycentric.maxCoeff(&corner);
-      const auto at = static_cast<std::size_t>(surface.faces(corner, face));
-      for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
-        consider(surface.fan[static_cast<std::size_t>(i)]);
+      for (const Index around : surface.faces_around(surface.faces(corner, face))) consider(around);
     }
     if (next == face) break;
     face = next;

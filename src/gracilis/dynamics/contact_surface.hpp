@@ -4,6 +4,7 @@
 #include <gracilis/dynamics/particles.hpp>
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace gracilis {
@@ -22,6 +23,15 @@ struct ContactSurface {
   std::vector<Index> fan_offsets, fan;       ///< faces around each particle
   Eigen::Matrix2Xi fan_ends;                 ///< for each in `fan`, its other two corners, counter-clockwise
   std::vector<Index> spoke_offsets, spokes;  ///< edges at each particle
+
+  std::span<const Index> faces_around(Index particle) const { return part(fan, fan_offsets, particle); }
+  std::span<const Index> edges_at(Index particle) const { return part(spokes, spoke_offsets, particle); }
+
+ private:
+  static std::span<const Index> part(const std::vector<Index>& all, const std::vector<Index>& offsets, Index particle) {
+    const auto at = static_cast<std::size_t>(particle);
+    return {all.begin() + offsets[at], all.begin() + offsets[at + 1]};
+  }
 };
 
 /// Tables of a triangle list over `particle_count` particles.
@@ -44,9 +54,7 @@ inline Eigen::Vector3f face_area(const ContactSurface& surface, Index face, cons
 template <class OfFace>
 Eigen::Vector3f sum_around(const ContactSurface& surface, Index particle, const OfFace& of_face) {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  const auto at = static_cast<std::size_t>(particle);
-  for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i)
-    sum += of_face(surface.fan[static_cast<std::size_t>(i)]);
+  for (const Index face : surface.faces_around(particle)) sum += of_face(face);
   return sum;
 }
 /// At each particle the sum over its faces of what they have, one column each.

@@ -74,9 +74,7 @@ std::vector<Index> edges_around(const std::vector<PointTouch>& near, const Touch
       static_cast<Index>(near.size()), chunk, [&](Index begin, Index end, std::vector<Index>& part) {
         for (Index i = begin; i < end; ++i) {
           const PointTouch& touch = near[static_cast<std::size_t>(i)];
-          const auto at = static_cast<std::size_t>(touch.particle);
-          for (Index k = surface.spoke_offsets[at]; k < surface.spoke_offsets[at + 1]; ++k) {
-            const Index edge = surface.spokes[static_cast<std::size_t>(k)];
+          for (const Index edge : surface.edges_at(touch.particle)) {
             const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
             const float length2 = (particles.position(ends[1]) - particles.position(ends[0])).squaredNorm();
             if (!is_near_enough(touch, length2)) continue;

@@ -38,10 +38,10 @@ bool passes_through(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Co
 /// Whether two faces cut each other where place(particle) tells the corners are.
 template <class Place>
 bool cut_each_other(const ContactSurface& surface, Index one, Index other, const Place& place) {
-  const auto corners_of = [&](Index face) -> Corners {
+  const auto places_of = [&](Index face) -> Corners {
     return {place(surface.faces(0, face)), place(surface.faces(1, face)), place(surface.faces(2, face))};
   };
-  const Corners a = corners_of(one), b = corners_of(other);
+  const Corners a = places_of(one), b = places_of(other);
   const auto side_passes = [](const Corners& of, int opposite, const Corners& through) {
     return passes_through(of[static_cast<std::size_t>((opposite + 1) % 3)],
                           of[static_cast<std::size_t>((opposite + 2) % 3)], through);
@@ -67,9 +67,8 @@ bool can_move(const ContactSurface& surface, const FacePair& pair, const Particl
 /// Calls act(neighbor) for each particle at the other end of an edge.
 template <class Act>
 void for_each_neighbor(const ContactSurface& surface, Index particle, const Act& act) {
-  const auto at = static_cast<std::size_t>(particle);
-  for (Index i = surface.spoke_offsets[at]; i < surface.spoke_offsets[at + 1]; ++i) {
-    const auto& ends = surface.edges[static_cast<std::size_t>(surface.spokes[static_cast<std::size_t>(i)])].ends;
+  for (const Index edge : surface.edges_at(particle)) {
+    const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
     act(ends[0] == particle ? ends[1] : ends[0]);
   }
 }
@@ -153,8 +152,8 @@ void gather_folded(const ContactSurface& surface, const Particles& particles, st
     const auto [left, right] = edge.faces;
     if (left < 0 || right < 0 || areas.col(left).dot(areas.col(right)) >= 0) continue;
     for (const Index end : edge.ends) {
-      const auto fan = surface.fan.begin(), at = surface.fan_offsets.begin() + end;
-      faces.insert(faces.end(), fan + at[0], fan + at[1]);
+      const std::span<const Index> around = surface.faces_around(end);
+      faces.insert(faces.end(), around.begin(), around.end());
     }
   }
 }

@@ -14,8 +14,8 @@ std::vector<Index> suspects(const ContactSurface& surface, const PairTouches& to
   std::vector<Index> faces;
   gather_folded(surface, particles, faces);
   for (const PointTouch& touch : touches.on_second) {
-    const auto fan = surface.fan.begin(), at = surface.fan_offsets.begin() + touch.particle;
-    faces.insert(faces.end(), fan + at[0], fan + at[1]);
+    const std::span<const Index> around = surface.faces_around(touch.particle);
+    faces.insert(faces.end(), around.begin(), around.end());
     faces.push_back(touch.face);
   }
   for (const EdgeTouch& touch : touches.edges)

@@ -114,10 +114,10 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
     const auto recorded = [&](int number) {
       return read_frame(folder_, scene, number, poses[static_cast<std::size_t>(number)]);
     };
-    // Before anything is dropped: it is a run of this scene.
-    if (frame_count_ > 0) recorded(frame_count_ - 1);
     const bool is_complete = frame_count_ == static_cast<int>(poses.size());
-    if (frame_count_ > 0 && !is_complete) frame_count_ -= (frame_count_ - 1) % resume_period(scene);
+    const int dropped = frame_count_ == 0 || is_complete ? 0 : (frame_count_ - 1) % resume_period(scene);
+    if (dropped > 0) recorded(frame_count_ - 1);  // throws where this is another scene's run
+    frame_count_ -= dropped;
     if (frame_count_ >= 2) {
       resume_point_ = ResumePoint{recorded(frame_count_ - 2), recorded(frame_count_ - 1)};
     } else {

@@ -237,7 +237,6 @@ void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& c
 
 void refine_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                      const Pose& before, const Pose& now, const std::vector<Particles>& placed) {
-  begin_touch_frame(crowd.surfaces, crowd_state.surfaces);
   advance_substep(steps, crowd, crowd_state, 1, before, now, &placed);
 }
 
