@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace gracilis {
 
@@ -63,16 +64,19 @@ SliverSet build_sliver_set(const Eigen::Matrix3Xi& faces, const Particles& rest,
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& l, const Candidate& r) { return l.height > r.height; });
-  std::vector<std::vector<Index>> fans(static_cast<std::size_t>(rest.count()));
-  for (Index f = 0; f < faces.cols(); ++f)
-    for (const Index corner : faces.col(f)) fans[static_cast<std::size_t>(corner)].push_back(f);
+  std::map<Index, std::vector<Index>> fans;  // of the few particles that are a side's ends
+  for (const Candidate& candidate : candidates)
+    for (const Index end : {candidate.a, candidate.b}) fans[end];
+  for (Index f = 0; f < faces.cols() && !fans.empty(); ++f)
+    for (const Index corner : faces.col(f))
+      if (const auto fan = fans.find(corner); fan != fans.end()) fan->second.push_back(f);
 
   SliverSet set;
   for (const Candidate& candidate : candidates) {
     SliverTip tip{candidate.tip, candidate.a, candidate.b};
     tip.begin = static_cast<Index>(set.faces.size());
     for (const Index end : {tip.a, tip.b})
-      for (const Index f : fans[static_cast<std::size_t>(end)])
+      for (const Index f : fans.at(end))
         if ((faces.col(f).array() != tip.particle).all()) set.faces.push_back(faces.col(f));
     tip.end = static_cast<Index>(set.faces.size());
     Eigen::Matrix3f frame;
@@ -90,11 +94,8 @@ void project_slivers(const SliverSet& set, Particles& particles) {
   for (const SliverTip& tip : set.tips) {
     Eigen::Matrix3f frame;
     if (!frame_of(set, tip, particles, frame)) continue;
-    const float w = particles.inverse_mass(tip.particle), wa = particles.inverse_mass(tip.a),
-                wb = particles.inverse_mass(tip.b);
-    const float rest = 1 - tip.share, weight = w + rest * rest * wa + tip.share * tip.share * wb;
-    if (!(weight > 0)) continue;
-    const Eigen::Vector3f beside = rest * particles.position(tip.a) + tip.share * particles.position(tip.b);
+    const float share_of_a = 1 - tip.share;
+    const Eigen::Vector3f beside = share_of_a * particles.position(tip.a) + tip.share * particles.position(tip.b);
     const Eigen::Vector2f now = frame.rightCols<2>().transpose() * (particles.position(tip.particle) - beside);
     const Eigen::Vector2f toward = tip.offset.tail<2>().stableNormalized();
     const float ahead = std::max(now.dot(toward), 0.5f * tip.offset.tail<2>().norm());
@@ -102,10 +103,16 @@ void project_slivers(const SliverSet& set, Particles& particles) {
     if (aside.norm() > ahead) aside *= ahead / aside.norm();
     const Eigen::Vector2f missing = ahead * toward + aside - now;
     if (missing.squaredNorm() == 0) continue;
-    const Eigen::Vector3f push = frame.rightCols<2>() * missing / weight;
-    particles.position(tip.particle) += w * push;
-    particles.position(tip.a) -= rest * wa * push;
-    particles.position(tip.b) -= tip.share * wb * push;
+    const Eigen::Vector3f push = frame.rightCols<2>() * missing;
+    if (particles.inverse_mass(tip.particle) > 0) {
+      particles.position(tip.particle) += push;
+      continue;
+    }
+    const float wa = particles.inverse_mass(tip.a), wb = particles.inverse_mass(tip.b);
+    const float weight = share_of_a * share_of_a * wa + tip.share * tip.share * wb;
+    if (!(weight > 0)) continue;
+    particles.position(tip.a) -= share_of_a * wa / weight * push;
+    particles.position(tip.b) -= tip.share * wb / weight * push;
   }
 }
 

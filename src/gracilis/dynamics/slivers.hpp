@@ -16,17 +16,18 @@ struct SliverTip {
   Index begin = 0, end = 0;                          ///< the faces that tell the normal
 };
 
-/// All of a surface, the flattest first.
+/// All of a surface, the flattest last: theirs is the last word.
 struct SliverSet {
   std::vector<SliverTip> tips;
   std::vector<Eigen::Vector3i> faces;
 };
 
-/// Tips that are nearer to the opposite, longest side than `flattest` times its length, one at most per particle. Those
-/// that cannot move because all three are fixed are left out.
+/// Tips that are nearer to the opposite, longest side than `flattest` times its length, or than `flattest` times the
+/// mean of all sides. Those that cannot move because all three are fixed are left out.
 SliverSet build_sliver_set(const Eigen::Matrix3Xi& faces, const Particles& rest, float flattest);
 
-/// Puts every tip back beside its side, each moving by its inverse mass.
+/// Puts every tip back beside its side. The tip alone moves, because slivers lie beside slivers, and to move a side
+/// that others share tears their shortest sides apart; only where the tip is fixed does the side come to it.
 void project_slivers(const SliverSet& set, Particles& particles);
 
 }  // namespace gracilis
