@@ -261,6 +261,23 @@ TEST(Wrapping, around_an_ellipsoid_the_way_lies_in_a_plane_and_is_hardly_longer_
   EXPECT_LT(longest, 1e-3);
 }
 
+TEST(Wrapping, held_on_the_other_half_of_an_ellipsoid_the_way_by_the_middle_goes_through_the_mirrored_point) {
+  WrapSurface surface = ellipsoid(Vec3(0.03, 0.04, 0.05));
+  surface.side_axis = 2, surface.side_sign = -1;
+  const Vec3 a(-0.11, -0.08, 0.012), b(0.09, 0.1, 0.016);
+  Vec3 mirrored = nearest_on_ellipsoid(surface.radii, [&] {
+    // The middle of the line's part within.
+    const Vec3 from = a.cwiseQuotient(surface.radii), along = (b - a).cwiseQuotient(surface.radii);
+    return Vec3(a - from.dot(along) / along.squaredNorm() * (b - a));
+  }());
+  ASSERT_GT(mirrored.z(), 0.01);
+  mirrored.z() *= -1;
+  const Wrap wrap = wrap_around(surface, a, b, WrapSurface::Plane::midpoint);
+  ASSERT_TRUE(wrap.touches());
+  const Vec3 across = (b - a).cross(mirrored - a).normalized();
+  for (const Real share : {0.0, 0.5, 1.0}) EXPECT_NEAR(across.dot(wrap.way.at(share) - a), 0, 1e-9);
+}
+
 TEST(Wrapping, the_way_around_an_ellipsoid_does_not_jump) {
   const Vec3 radii(0.03, 0.05, 0.08);
   Sweep sweep;

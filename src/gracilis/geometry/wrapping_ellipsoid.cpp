@@ -119,7 +119,7 @@ static Vec3 surface_point(const Cut& cut, const WrapSurface& surface, WrapSurfac
   if (surface.side_sign != 0 && (point[surface.side_axis] < 0 ? -1 : 1) != surface.side_sign) {
     // Onto the other half; as far as the fan chose it, onto its rim.
     point[surface.side_axis] *= -1;
-    const Real fan = std::min(1.0, 1 - axial);
+    const Real fan = plane == WrapSurface::Plane::hybrid ? std::min(1.0, 1 - axial) : 0;
     if (fan > 0) {
       point[surface.side_axis] *= 1 - fan;
       point = nearest_on_ellipsoid(cut.radii, point);
