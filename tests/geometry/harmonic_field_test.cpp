@@ -47,6 +47,22 @@ TEST(HarmonicField, of_a_solver_asked_again_is_what_a_new_one_finds) {
   EXPECT_NE(solver.solve(values), graded);
 }
 
+TEST(HarmonicField, by_conjugate_gradients_is_that_by_factorization) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.05, 4);
+  const MeshTopology topology = build_topology(ball.faces, ball.vertex_count());
+  Eigen::MatrixXd values(3, 2);
+  values << 1, 0, 0, 1, 0.5, 0.5;
+  std::vector<Real> conductance;
+  for (std::size_t e = 0; e < topology.edges.size(); ++e) conductance.push_back(e % 7 == 0 ? 100 : 1);
+  HarmonicSolver factorized(ball.vertices, topology, {0, 1, 2}), iterated(ball.vertices, topology, {0, 1, 2}, 0);
+  for (const std::vector<Real>& by : {std::vector<Real>(), conductance}) {
+    const Eigen::MatrixXd fields = iterated.solve(values, by);
+    EXPECT_LT((fields - factorized.solve(values, by)).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_GE(fields.minCoeff(), 0);
+    EXPECT_LE(fields.maxCoeff(), 1);
+  }
+}
+
 TEST(HarmonicField, leaves_a_part_that_no_fixed_vertex_reaches_at_zero) {
   const TriangleMesh two =
       shapes::both(shapes::box(Vec3::Zero(), Vec3::Ones()), shapes::box(Vec3::Constant(2), Vec3::Constant(3)));

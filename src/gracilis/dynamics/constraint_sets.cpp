@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
+#include <span>
 
 namespace gracilis {
 
@@ -130,43 +132,59 @@ namespace {
 /// are near each other in memory.
 constexpr std::ptrdiff_t sorting_window = 16 * group_width;
 
-/// The closed ring of every vertex; empty where it has no faces.
-std::vector<std::vector<Index>> closed_rings(const Eigen::Matrix3Xi& faces, Index particle_count) {
-  // Each face at v says: after neighbor `from` comes neighbor `to`. Chaining these gives the ring.
+/// Around each vertex, face by face: after neighbor `from` comes neighbor `to`.
+struct Turns {
   struct Step {
     Index from, to;
   };
-  std::vector<std::vector<Step>> steps(static_cast<std::size_t>(particle_count));
-  for (Index f = 0; f < faces.cols(); ++f)
-    for (int k = 0; k < 3; ++k)
-      steps[static_cast<std::size_t>(faces(k, f))].push_back({faces((k + 1) % 3, f), faces((k + 2) % 3, f)});
-  std::vector<std::vector<Index>> rings(steps.size());
-  for (std::size_t v = 0; v < steps.size(); ++v) {
-    const auto& star = steps[v];
-    if (star.empty()) continue;
-    Index next = star.front().from;
-    for (std::size_t i = 0; i < star.size(); ++i) {
-      rings[v].push_back(next);
-      const auto step = std::find_if(star.begin(), star.end(), [&](const Step& s) { return s.from == next; });
-      assert(step != star.end() && "the surface is not closed");
-      next = step->to;
-    }
-    rings[v].push_back(rings[v].front());
+  std::vector<Index> offsets;
+  std::vector<Step> steps;
+
+  std::span<const Step> around(Index vertex) const {
+    const auto at = static_cast<std::size_t>(vertex);
+    return {steps.begin() + offsets[at], steps.begin() + offsets[at + 1]};
   }
-  return rings;
+};
+
+Turns turns_of(const Eigen::Matrix3Xi& faces, Index particle_count) {
+  Turns turns;
+  turns.offsets.assign(static_cast<std::size_t>(particle_count) + 1, 0);
+  for (const Index v : faces.reshaped()) ++turns.offsets[static_cast<std::size_t>(v) + 1];
+  std::partial_sum(turns.offsets.begin(), turns.offsets.end(), turns.offsets.begin());
+  turns.steps.resize(static_cast<std::size_t>(faces.size()));
+  std::vector<Index> next(turns.offsets.begin(), turns.offsets.end() - 1);
+  for (const auto face : faces.colwise())
+    for (int k = 0; k < 3; ++k)
+      turns.steps[static_cast<std::size_t>(next[static_cast<std::size_t>(face[k])]++)] = {face[(k + 1) % 3],
+                                                                                          face[(k + 2) % 3]};
+  return turns;
+}
+
+/// The neighbors in turn, the first once more at the end; none where there are no faces.
+void chain(std::span<const Turns::Step> star, std::vector<Index>& ring) {
+  ring.clear();
+  if (star.empty()) return;
+  Index next = star.front().from;
+  for (std::size_t i = 0; i < star.size(); ++i) {
+    ring.push_back(next);
+    const auto step = std::find_if(star.begin(), star.end(), [&](const Turns::Step& s) { return s.from == next; });
+    assert(step != star.end() && "the surface is not closed");
+    next = step->to;
+  }
+  ring.push_back(ring.front());
 }
 
 }  // namespace
 
 VolumeSet build_volume_set(const Eigen::Matrix3Xi& faces, Index particle_count, Real target, Real compliance) {
-  const std::vector<std::vector<Index>> rings = closed_rings(faces, particle_count);
+  const Turns turns = turns_of(faces, particle_count);
+  const auto face_count = [&](Index p) { return turns.around(p).size(); };
   std::vector<Index> order;
   for (Index p = 0; p < particle_count; ++p)
-    if (!rings[static_cast<std::size_t>(p)].empty()) order.push_back(p);
-  const auto length = [&](Index p) { return rings[static_cast<std::size_t>(p)].size(); };
+    if (face_count(p) > 0) order.push_back(p);
   for (auto begin = order.begin(); begin != order.end();) {
     const auto end = begin + std::min(sorting_window, order.end() - begin);
-    std::stable_sort(begin, end, [&](Index l, Index r) { return length(l) < length(r); });
+    std::stable_sort(begin, end, [&](Index l, Index r) { return face_count(l) < face_count(r); });
     begin = end;
   }
   const auto width = static_cast<std::size_t>(group_width);
@@ -177,16 +195,19 @@ VolumeSet build_volume_set(const Eigen::Matrix3Xi& faces, Index particle_count, 
   set.compliance = compliance;
   set.particles.assign(order.begin(), order.end());
   set.ring_offsets.push_back(0);
+  std::array<std::vector<Index>, group_width> rings;
   for (std::size_t group = 0; group < order.size(); group += width) {
     std::size_t steps = 0;
-    for (std::size_t lane = 0; lane < width; ++lane)
-      if (order[group + lane] < particle_count) steps = std::max(steps, length(order[group + lane]));
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const Index p = order[group + lane];
+      if (p == particle_count)
+        rings[lane] = {p};  // idle
+      else
+        chain(turns.around(p), rings[lane]);
+      steps = std::max(steps, rings[lane].size());
+    }
     for (std::size_t step = 0; step < steps; ++step)
-      for (std::size_t lane = 0; lane < width; ++lane) {
-        const Index p = order[group + lane];
-        const bool idle = p == particle_count;
-        set.ring.push_back(idle ? p : rings[static_cast<std::size_t>(p)][std::min(step, length(p) - 1)]);
-      }
+      for (const std::vector<Index>& ring : rings) set.ring.push_back(ring[std::min(step, ring.size() - 1)]);
     set.ring_offsets.push_back(static_cast<Index>(set.ring.size() / width));
   }
   return set;

@@ -2,12 +2,16 @@
 
 #include <gracilis/geometry/measures.hpp>
 
+#include <Eigen/IterativeLinearSolvers>
+
 #include <algorithm>
 #include <utility>
 
 namespace gracilis {
 
 static constexpr Real shortest_edge = 1e-9;
+/// Of conjugate gradients, relative.
+static constexpr Real residual = 1e-8;
 
 /// Numbers the free vertices that a fixed vertex can reach; all others get -1.
 static std::vector<Index> number_unknowns(const MeshTopology& topology, const std::vector<Index>& fixed,
@@ -31,9 +35,48 @@ static std::vector<Index> number_unknowns(const MeshTopology& topology, const st
   return numbers;
 }
 
-HarmonicSolver::HarmonicSolver(const Points& vertices, const MeshTopology& topology, std::vector<Index> fixed)
-    : vertices_(vertices), topology_(topology), fixed_(std::move(fixed)) {
+HarmonicSolver::HarmonicSolver(const Points& vertices, const MeshTopology& topology, std::vector<Index> fixed,
+                               Index largest_factorized)
+    : vertices_(vertices), topology_(topology), fixed_(std::move(fixed)), largest_factorized_(largest_factorized) {
   numbers_ = number_unknowns(topology, fixed_, unknown_count_);
+}
+
+Eigen::SparseMatrix<Real> HarmonicSolver::empty_laplacian() const {
+  Eigen::VectorXi sizes = Eigen::VectorXi::Ones(unknown_count_);
+  for (const MeshEdge& edge : topology_.edges)
+    for (const auto& [vertex, other] : {std::pair{edge.a, edge.b}, std::pair{edge.b, edge.a}}) {
+      const Index row = number_of(vertex), column = number_of(other);
+      if (row >= 0 && column >= 0 && is_read(row, column)) ++sizes[column];
+    }
+  Eigen::SparseMatrix<Real> laplacian(unknown_count_, unknown_count_);
+  laplacian.reserve(sizes);
+  return laplacian;
+}
+
+void HarmonicSolver::factorize(const Eigen::SparseMatrix<Real>& laplacian) {
+  if (!is_analyzed_) factorization_.analyzePattern(laplacian);
+  is_analyzed_ = true;
+  factorization_.factorize(laplacian);
+}
+
+/// Each field from where the last one ended; where all sum to one, the last from what the others leave.
+void HarmonicSolver::iterate(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side,
+                             bool sums_to_one) {
+  Eigen::ConjugateGradient<Eigen::SparseMatrix<Real>, Eigen::Lower | Eigen::Upper> iteration(laplacian);
+  iteration.setTolerance(residual);
+  iteration.setMaxIterations(unknown_count_);
+  const Index last = static_cast<Index>(right_side.cols()) - 1;
+  if (iterated_.cols() != right_side.cols()) iterated_ = Eigen::MatrixXd::Zero(unknown_count_, right_side.cols());
+  for (Index k = 0; k <= last; ++k) {
+    if (k == last && sums_to_one) iterated_.col(k) = 1 - iterated_.leftCols(last).rowwise().sum().array();
+    iterated_.col(k) = iteration.solveWithGuess(right_side.col(k), iterated_.col(k)).eval();
+  }
+}
+
+/// Harmonic values lie between the fixed ones; what is iterated may miss that by the residual.
+static void keep_between(const Eigen::MatrixXd& fixed_values, Eigen::MatrixXd& fields) {
+  for (Index k = 0; k < fields.cols(); ++k)
+    fields.col(k) = fields.col(k).cwiseMax(fixed_values.col(k).minCoeff()).cwiseMin(fixed_values.col(k).maxCoeff());
 }
 
 Eigen::MatrixXd HarmonicSolver::solve(const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance) {
@@ -41,33 +84,31 @@ Eigen::MatrixXd HarmonicSolver::solve(const Eigen::MatrixXd& fixed_values, const
   for (std::size_t i = 0; i < fixed_.size(); ++i) fields.row(fixed_[i]) = fixed_values.row(static_cast<Index>(i));
   if (unknown_count_ == 0) return fields;
 
-  std::vector<Eigen::Triplet<Real>> entries;
-  entries.reserve(3 * topology_.edges.size());
+  Eigen::SparseMatrix<Real> laplacian = empty_laplacian();
   Eigen::MatrixXd right_side = Eigen::MatrixXd::Zero(unknown_count_, fixed_values.cols());
   for (std::size_t e = 0; e < topology_.edges.size(); ++e) {
     const MeshEdge& edge = topology_.edges[e];
     const Real length = std::max((vertices_.col(edge.a) - vertices_.col(edge.b)).norm(), shortest_edge);
     const Real weight = (conductance.empty() ? 1 : conductance[e]) / length;
     for (const auto& [vertex, other] : {std::pair{edge.a, edge.b}, std::pair{edge.b, edge.a}}) {
-      const Index row = numbers_[static_cast<std::size_t>(vertex)], column = numbers_[static_cast<std::size_t>(other)];
+      const Index row = number_of(vertex), column = number_of(other);
       if (row < 0) continue;
-      entries.emplace_back(row, row, weight);
-      if (column >= 0) {
-        if (column < row) entries.emplace_back(row, column, -weight);  // all that the factorization reads
-      } else {
+      laplacian.coeffRef(row, row) += weight;
+      if (column < 0)
         right_side.row(row) += weight * fields.row(other);
-      }
+      else if (is_read(row, column))
+        laplacian.coeffRef(row, column) -= weight;
     }
   }
-  Eigen::SparseMatrix<Real> laplacian(unknown_count_, unknown_count_);
-  laplacian.setFromTriplets(entries.begin(), entries.end());
-  entries = std::vector<Eigen::Triplet<Real>>();  // gives the memory back
-  if (!is_analyzed_) factorization_.analyzePattern(laplacian);
-  is_analyzed_ = true;
-  factorization_.factorize(laplacian);
-  const Eigen::MatrixXd solution = factorization_.solve(right_side);
+  laplacian.makeCompressed();
+  if (is_factorized())
+    factorize(laplacian);
+  else
+    iterate(laplacian, right_side, (fixed_values.rowwise().sum().array() == 1).all());
+  Eigen::MatrixXd solution = is_factorized() ? Eigen::MatrixXd(factorization_.solve(right_side)) : iterated_;
+  keep_between(fixed_values, solution);
   for (Index v = 0; v < vertices_.cols(); ++v)
-    if (numbers_[static_cast<std::size_t>(v)] >= 0) fields.row(v) = solution.row(numbers_[static_cast<std::size_t>(v)]);
+    if (number_of(v) >= 0) fields.row(v) = solution.row(number_of(v));
   return fields;
 }
 

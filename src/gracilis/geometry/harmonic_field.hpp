@@ -13,8 +13,10 @@ namespace gracilis {
 /// conductance is done once. See harmonic_fields.
 class HarmonicSolver {
  public:
-  /// `vertices` and `topology` must outlive it.
-  HarmonicSolver(const Points& vertices, const MeshTopology& topology, std::vector<Index> fixed);
+  /// Surfaces with more unknowns than `largest_factorized` are solved by conjugate gradients, each time from the last
+  /// fields: as fast there, in a fraction of the memory, to 1e-8. `vertices` and `topology` must outlive it.
+  HarmonicSolver(const Points& vertices, const MeshTopology& topology, std::vector<Index> fixed,
+                 Index largest_factorized = 60000);
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance = {});
 
@@ -22,9 +24,18 @@ class HarmonicSolver {
   const Points& vertices_;
   const MeshTopology& topology_;
   std::vector<Index> fixed_, numbers_;  ///< numbers: of the unknowns; -1 where nothing is to be found
-  Index unknown_count_ = 0;
+  Index unknown_count_ = 0, largest_factorized_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization_;
   bool is_analyzed_ = false;
+  Eigen::MatrixXd iterated_;  ///< the last solution by conjugate gradients
+
+  Index number_of(Index vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
+  bool is_factorized() const { return unknown_count_ <= largest_factorized_; }
+  /// The factorization reads no more than half of the matrix.
+  bool is_read(Index row, Index column) const { return row >= column || !is_factorized(); }
+  Eigen::SparseMatrix<Real> empty_laplacian() const;
+  void factorize(const Eigen::SparseMatrix<Real>& laplacian);
+  void iterate(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side, bool sums_to_one);
 };
 
 /// Discrete harmonic fields on a surface, one per column of `fixed_values`: at every vertex of `fixed` the given value,

@@ -93,10 +93,11 @@ Real edge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshEd
   return settings.distance_stiffness * std::clamp(shape, 1 / largest_shape, largest_shape);
 }
 
-void build_edges(const Renumbered& muscle, const MeshTopology& topology, const Points& directions,
-                 PreparedMuscle& prepared) {
+void build_edges(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
   const Points& x = muscle.surface.vertices;
+  const Points directions = fiber_directions(x, muscle.surface.faces, topology, muscle.attachments);
   std::vector<DistanceConstraint> constraints;
+  constraints.reserve(topology.edges.size());
   for (const MeshEdge& edge : topology.edges) {
     const Vec3 along = x.col(edge.b) - x.col(edge.a);
     const Real length = along.norm();
@@ -120,6 +121,7 @@ Real hinge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshE
 void build_hinges(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
   const Points& x = muscle.surface.vertices;
   std::vector<HingeConstraint> constraints;
+  constraints.reserve(topology.edges.size());
   for (const MeshEdge& edge : topology.edges) {
     if (edge.left < 0 || edge.right < 0) continue;
     HingeConstraint hinge;
@@ -218,22 +220,21 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   for (const Attachment& attachment : renumbered.attachments)
     for (Index v : attachment.vertices) prepared.fixed_body[static_cast<std::size_t>(v)] = attachment.body;
 
-  const MeshTopology topology = build_topology(renumbered.surface.faces, renumbered.surface.vertex_count());
-  const Points directions = fiber_directions(prepared.rest, renumbered.surface.faces, topology, renumbered.attachments);
   prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin,
                                         inverse_masses(renumbered.surface, prepared.settings, prepared.fixed_body));
-  // Before the constraints are there: factorizing takes the most memory.
-  build_predictor(renumbered, topology, prepared);
-  build_edges(renumbered, topology, directions, prepared);
-  build_hinges(renumbered, topology, prepared);
-  prepared.system.volume =
-      build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
-                       enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
+  // What takes the most memory while it is built comes first.
   if (scene.contact.self && scene.contact.muscle == MuscleContact::surface) {
     prepared.system.slivers = build_sliver_set(renumbered.surface.faces, prepared.system.rest, flattest);
     prepared.system.tight_places =
         find_tight_places(prepared.rest, renumbered.surface.faces, tight, prepared.system.rest);
   }
+  const MeshTopology topology = build_topology(renumbered.surface.faces, renumbered.surface.vertex_count());
+  build_predictor(renumbered, topology, prepared);
+  build_edges(renumbered, topology, prepared);
+  build_hinges(renumbered, topology, prepared);
+  prepared.system.volume =
+      build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
+                       enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
   if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
   prepared.is_driven = drives(scene.activation, muscle.name);
   if (prepared.is_driven) build_contractions(muscle, topology, prepared);
