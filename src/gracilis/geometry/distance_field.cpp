@@ -12,8 +12,10 @@ namespace gracilis {
 
 namespace {
 
-/// Exact values are computed first on every fourth node, then halving.
-constexpr Index coarse_step = 4;
+/// Exact values are computed first on every eighth node, then halving.
+constexpr Index coarse_step = 8;
+/// How far the distance in the middle of a cell may be from the interpolated one, m.
+constexpr float largest_bend = 6e-5f;
 
 Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
   return {mesh.vertices.rowwise().minCoeff(), mesh.vertices.rowwise().maxCoeff()};
@@ -83,19 +85,30 @@ class Builder {
       corner = value(cell + size * Eigen::Vector3i(c & 1, c >> 1 & 1, c >> 2));
       nearest = std::min(nearest, std::abs(corner));
     }
-    const bool exact = nearest < 2 * size * field_.cell_size.norm();
     const Index half = size / 2;
+    const Real reach = size * field_.cell_size.norm();
+    const bool is_doubtful = nearest >= reach && nearest < 2 * reach;
+    const bool exact = nearest < reach || (is_doubtful && !is_nearly_linear(cell, half, corners, face));
     const auto end = [&](int axis) { return cell[axis] + size == cells_[axis] ? size : half; };
     for (Index z = 0; z <= end(2); z += half)
       for (Index y = 0; y <= end(1); y += half)
         for (Index x = 0; x <= end(0); x += half) {
           const Eigen::Vector3i within(x, y, z);
-          if ((within.array() != half).all()) continue;  // a corner
+          if ((within.array() != half).all()) continue;                 // a corner
+          if (is_doubtful && (within.array() == half).all()) continue;  // the middle is known
           if (exact)
             set_exactly(cell + within, face);
           else
             value(cell + within) = interpolated(corners, within.cast<float>() / static_cast<float>(size));
         }
+  }
+
+  /// Whether interpolation in a cell would meet the exact value in its middle, which is set on the way.
+  bool is_nearly_linear(const Eigen::Vector3i& cell, Index half, const std::array<float, 8>& corners, Index& face) {
+    const Eigen::Vector3i middle = cell + Eigen::Vector3i::Constant(half);
+    set_exactly(middle, face);
+    const float between = interpolated(corners, Eigen::Vector3f::Constant(0.5f));
+    return std::abs(value(middle) - between) < largest_bend;
   }
 
   static float interpolated(const std::array<float, 8>& corners, const Eigen::Vector3f& t) {

@@ -35,10 +35,10 @@ FieldDomain domain_by_cell_size(const TriangleMesh& mesh, Real cell_size, Real m
 /// The published choice: the bounding box scaled by `factor` about its center, `resolution` cells along each axis.
 FieldDomain domain_by_resolution(const TriangleMesh& mesh, int resolution, Real factor);
 
-/// Samples the signed distance of `mesh` over `domain`. Within two coarse cells (four cells each) of the surface every
-/// node holds the exact distance; farther away, where only the sign and the order of magnitude matter, nodes between
-/// exact ones are interpolated. Signs as in SignedDistance, so surfaces with holes are welcome. Preconditions: at least
-/// one face, finite coordinates.
+/// Samples the signed distance of `mesh` over `domain`. Within three cells of the surface every node holds the exact
+/// distance; up to twice that where halving coarser cells would bend it by more than 0.06 mm; farther away, where only
+/// the sign and the order of magnitude matter, nodes between exact ones are interpolated. Signs as in SignedDistance,
+/// so surfaces with holes are welcome. Preconditions: at least one face, finite coordinates.
 DistanceField build_distance_field(const TriangleMesh& mesh, const FieldDomain& domain);
 
 /// A field as the solver asks it, in single precision like its positions; the field must outlive it.
