@@ -59,6 +59,11 @@ for iterations in 30 70; do
 done
 
 study=gluteus_maximus_r,gluteus_medius_r,iliacus_r,adductor_brevis_r
+say "" "## Gluteus maximus alone" "" "70 iterations per frame, one degree of flexion per frame." "" \
+  "| threads | ms | frames per second |" "| --- | --- | --- |"
+"$program" bench "${hip[@]}" --only gluteus_maximus_r --frame 45 --repeats 1 --set iterations=70 |
+  awk '$2 == "frame" { printf "| %s | %s | %.1f |\n", $3, $5, 1000 / $5 }' >>"$work/page"
+
 say "" "## The published study's four muscles, and the preset \`fast\`" "" \
   "61,354 triangles, one degree of flexion per frame, contact of all kinds; errors of \`fast\`: docs/convergence.md." "" \
   "| setting | threads | ms | frames per second | state |" "| --- | --- | --- | --- | --- |"
@@ -93,11 +98,12 @@ if [ -x "$peer" ]; then
   "$peer" >>"$work/page"
 fi
 
-say "" "## Growth with triangles" "" "Gluteus maximus, each triangle divided into four again and again; one thread. The last column is" \
+say "" "## Growth with triangles" "" "Gluteus maximus, two coarser copies, itself, and each triangle divided into four again and again; one thread. The last column is" \
   "what the process's peak of memory grew while the muscle was prepared and solved." "" \
   "| triangles | ms per iteration | ns per triangle | bytes per triangle |" "| --- | --- | --- | --- |"
-for times in 0 1 2 3; do
-  "$program" bench "${hip[@]}" --only gluteus_maximus_r --frame 5 --threads 1 --repeats 5 --subdivide "$times" --json |
+for size in "--coarsen 0.0086" "--coarsen 0.0045" "--subdivide 0" "--subdivide 1" "--subdivide 2" "--subdivide 3"; do
+  # shellcheck disable=SC2086  # an option and its value
+  "$program" bench "${hip[@]}" --only gluteus_maximus_r --frame 5 --threads 1 --repeats 15 $size --json |
     awk -F'[:,]' '/"triangles"/ { t = $2 } /"ms"/ { ms = $2 }
       /peak_bytes/ { printf "| %d | %.3f | %.1f | %d |\n", t, ms, 1e6 * ms / t, $2 }' >>"$work/triangles"
 done

@@ -3,6 +3,7 @@
 #include "scene_options.hpp"
 
 #include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/anatomy/coarser_muscle.hpp>
 #include <gracilis/anatomy/finer_muscle.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
@@ -36,7 +37,8 @@ struct BenchOptions {
   int frame = -1;  ///< -1: a quarter of the motion
   int repeats = 15;
   int subdivide = 0;
-  int muscles = 0;  ///< 0: those of the scene
+  double coarsen = 0;  ///< m
+  int muscles = 0;     ///< 0: those of the scene
   bool json = false;
 };
 
@@ -173,8 +175,11 @@ BenchEntry time_first_frame(const Scene& scene, std::vector<DistanceField> field
 
 int bench(Scene scene, BenchOptions options, Clock::time_point started) {
   if (options.muscles > 0) copy_muscles(scene, options.muscles);
-  for (Muscle& muscle : scene.muscles)
+  const bool is_resized = options.subdivide > 0 || options.coarsen > 0;
+  for (Muscle& muscle : scene.muscles) {
+    if (options.coarsen > 0) muscle = coarser_muscle(muscle, options.coarsen).muscle;
     for (int i = 0; i < options.subdivide; ++i) muscle = finer_muscle(muscle);
+  }
   if (options.threads.empty()) {
     options.threads = {1};
     if (thread_count() > 1) options.threads.push_back(thread_count());
@@ -185,9 +190,11 @@ int bench(Scene scene, BenchOptions options, Clock::time_point started) {
   std::vector<BenchEntry> entries;
   if (options.muscles == 0)
     for (const Muscle& muscle : scene.muscles) time_muscle(scene, muscle, fields, poses, options, entries);
-  for (const int threads : options.threads) entries.push_back(time_frames(scene, fields, poses, threads));
-  // Last, because it takes the fields, as a run does.
-  entries.push_back(time_first_frame(scene, std::move(fields), poses, reading));
+  if (!is_resized) {
+    for (const int threads : options.threads) entries.push_back(time_frames(scene, fields, poses, threads));
+    // Last, because it takes the fields, as a run does.
+    entries.push_back(time_first_frame(scene, std::move(fields), poses, reading));
+  }
   if (options.json)
     print_json(scene, static_cast<int>(poses.size()) - 1, entries);
   else
@@ -212,8 +219,13 @@ void add_bench_command(CLI::App& program, Command& chosen) {
       ->check(CLI::Range(1, 100000));
   command
       ->add_option("--subdivide", options->subdivide,
-                   "Divide every triangle of the muscles into four, so many times over, to see how time grows")
+                   "Divide every triangle of the muscles into four, so many times over, to see how the time of an "
+                   "iteration grows; frames are not timed")
       ->check(CLI::Range(0, 6));
+  command
+      ->add_option("--coarsen", options->coarsen,
+                   "Before that, take copies of the muscles with edges of about this length, m, to see how it shrinks")
+      ->check(CLI::Range(0.0, 1.0));
   command
       ->add_option("--muscles", options->muscles,
                    "Time frames of so many muscles, copies of the scene's in turn, to see how time grows")
@@ -222,6 +234,8 @@ void add_bench_command(CLI::App& program, Command& chosen) {
   command->callback([&chosen, options] {
     chosen = [options] {
       const Clock::time_point started = Clock::now();
+      if (options->file.empty() && !(options->scene.set.empty() && options->scene.only.empty()))
+        throw ConfigurationError({"", "--set, --only", "the built-in hip is timed as it is", "name a scene file"});
       return bench(options->file.empty() ? builtin_hip() : read_scene(options->file, options->scene).scene, *options,
                    started);
     };

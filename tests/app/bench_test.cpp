@@ -41,6 +41,23 @@ TEST(Bench, gives_the_same_hash_again_and_with_any_number_of_threads) {
   for (const auto& [what, found] : hashes) EXPECT_EQ(found.size(), 1u) << what.first << " " << what.second;
 }
 
+TEST(Bench, of_coarser_and_finer_copies_times_iterations_alone) {
+  const auto triangles = [](const std::string& options) {
+    int sum = 0;
+    for (const auto& entry : bench("--frame 1 --threads 1 " + options).at("benchmarks")) {
+      EXPECT_NE(entry.at("muscle"), "all");
+      if (entry.at("phase") == "iteration") sum += entry.at("triangles").get<int>();
+    }
+    return sum;
+  };
+  const int coarse = triangles("--coarsen 0.02");
+  EXPECT_GT(coarse, 100);
+  EXPECT_EQ(triangles("--coarsen 0.02 --subdivide 1"), 4 * coarse);
+  EXPECT_LT(coarse, triangles("--coarsen 0.01"));
+}
+
+TEST(Bench, what_chooses_from_a_scene_file_needs_one) { EXPECT_EQ(run_program("bench --only iliacus_r").exit_code, 2); }
+
 TEST(Bench, a_frame_beyond_the_motion_is_a_configuration_error) {
   const ProgramResult result = run_program("bench --frame 5000");
   EXPECT_EQ(result.exit_code, 2);
