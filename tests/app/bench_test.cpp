@@ -43,8 +43,9 @@ TEST(Bench, gives_the_same_hash_again_and_with_any_number_of_threads) {
 
 TEST(Bench, of_coarser_and_finer_copies_times_iterations_alone) {
   const auto triangles = [](const std::string& options) {
+    const nlohmann::json answer = bench("--frame 1 --threads 1 " + options);
     int sum = 0;
-    for (const auto& entry : bench("--frame 1 --threads 1 " + options).at("benchmarks")) {
+    for (const auto& entry : answer.at("benchmarks")) {
       EXPECT_NE(entry.at("muscle"), "all");
       if (entry.at("phase") == "iteration") sum += entry.at("triangles").get<int>();
     }
