@@ -12,7 +12,7 @@ static constexpr int most_steps = 512;
 static constexpr float least_headway = 0.01f;
 
 BoundedField bounded(const DistanceField& field) {
-  const auto [nx, ny, nz] = field.nodes;
+  const Index nx = field.nodes[0], ny = field.nodes[1], nz = field.nodes[2];
   float border = std::numeric_limits<float>::infinity();
   const auto see = [&](Index i, Index j, Index k) {
     const auto node = static_cast<std::size_t>(i) +
