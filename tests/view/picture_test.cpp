@@ -76,26 +76,52 @@ TEST(Picture, what_cannot_be_seen_is_a_configuration_error) {
   EXPECT_THROW(lay_out(not_finite), ConfigurationError);
 }
 
-TEST(Picture, surfaces_appear_in_their_colors_on_the_background) {
-  const std::filesystem::path path = testing::TempDir() + "surfaces_appear.png";
-  try {
-    render_picture(two_panels(), path);
-  } catch (const Error& error) {
-    ASSERT_EQ(error.code(), ExitCode::unsupported) << error.what();
-    GTEST_SKIP() << error.what();
+/// The picture of two panels as it is written.
+class DrawnPicture : public testing::Test {
+ protected:
+  void draw(const Picture& picture) {
+    const std::filesystem::path path = testing::TempDir() + "drawn_picture.png";
+    try {
+      render_picture(picture, path);
+    } catch (const Error& error) {
+      ASSERT_EQ(error.code(), ExitCode::unsupported) << error.what();
+      GTEST_SKIP() << error.what();
+    }
+    reader_->SetFileName(path.c_str());
+    reader_->Update();
+    std::filesystem::remove(path);
   }
-  vtkNew<vtkPNGReader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkImageData& image = *reader->GetOutput();
+  vtkImageData& image() { return *reader_->GetOutput(); }
+
+ private:
+  vtkNew<vtkPNGReader> reader_;
+};
+
+TEST_F(DrawnPicture, surfaces_appear_in_their_colors_on_the_background) {
+  draw(two_panels());
+  if (IsSkipped()) return;
   const PictureLayout layout = lay_out(two_panels());
-  ASSERT_EQ(image.GetDimensions()[0], layout.width);
-  ASSERT_EQ(image.GetDimensions()[1], layout.height);
+  ASSERT_EQ(image().GetDimensions()[0], layout.width);
+  ASSERT_EQ(image().GetDimensions()[1], layout.height);
   const int middle = layout.panels[0].y + 60;
-  EXPECT_GT(pixel(image, 100, middle).x(), 2 * pixel(image, 100, middle).z());
-  EXPECT_GT(pixel(image, 300, middle).z(), 2 * pixel(image, 300, middle).x());
-  EXPECT_EQ(pixel(image, 5, layout.height - 5), Vec3(255, 255, 255));
-  std::filesystem::remove(path);
+  EXPECT_GT(pixel(image(), 100, middle).x(), 2 * pixel(image(), 100, middle).z());
+  EXPECT_GT(pixel(image(), 300, middle).z(), 2 * pixel(image(), 300, middle).x());
+  EXPECT_EQ(pixel(image(), 5, layout.height - 5), Vec3(255, 255, 255));
+}
+
+TEST_F(DrawnPicture, a_long_caption_becomes_smaller_instead_of_being_cut_off) {
+  Picture picture = two_panels();
+  picture.panels[1].caption = "hip_flexion_r -21°, hip_adduction_r 5°, hip_rotation_r -12°";
+  draw(picture);
+  if (IsSkipped()) return;
+  const Rectangle strip = lay_out(picture).captions[1];
+  int inked = 0;
+  for (int y = strip.y; y < strip.y + strip.height; ++y) {
+    for (const int x : {strip.x + 2, strip.x + strip.width - 3})
+      EXPECT_EQ(pixel(image(), x, y), Vec3(255, 255, 255)) << x << " " << y;
+    for (int x = strip.x; x < strip.x + strip.width; ++x) inked += pixel(image(), x, y).x() < 150;
+  }
+  EXPECT_GT(inked, 100);
 }
 
 TEST(Picture, a_folder_that_cannot_be_written_is_named) {

@@ -154,15 +154,22 @@ static vtkSmartPointer<vtkTextActor> text_actor(const std::string& text, int pix
   return actor;
 }
 
-/// In the middle of a part, or as near to it as what takes up the part's first `taken` pixels allows.
+/// In the middle of a part, or as near to it as what takes up the part's first `taken` pixels allows; smaller where it
+/// would not find room.
 static void add_centered_text(const std::string& text, int pixels, bool bold, const Rectangle& part, int scale,
                               vtkRenderer& renderer, int taken = 0) {
+  constexpr int margin = 8;  // pixels
   const vtkSmartPointer<vtkTextActor> actor = text_actor(text, pixels * scale, bold);
   actor->GetTextProperty()->SetJustificationToCentered();
   double size[2] = {0, 0};
   actor->GetSize(&renderer, size);
-  const Real nearest = taken > 0 ? (taken + 16) * scale + size[0] / 2 : 0;
-  actor->SetPosition(std::max(part.width * scale / 2.0, nearest), part.height * scale / 2.0);
+  const int begin = taken > 0 ? taken + 2 * margin : margin;
+  const Real room = (part.width - margin - begin) * scale;
+  if (size[0] > room && room > 0) {
+    actor->GetTextProperty()->SetFontSize(static_cast<int>(pixels * scale * room / size[0]));
+    actor->GetSize(&renderer, size);
+  }
+  actor->SetPosition(std::max(part.width * scale / 2.0, begin * scale + size[0] / 2), part.height * scale / 2.0);
   renderer.AddActor2D(actor);
 }
 

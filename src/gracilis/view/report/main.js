@@ -53,10 +53,11 @@ const page = {
     this.state.playing = true;
     element('play').textContent = '❚❚';
     element('play').setAttribute('aria-label', 'Pause');
-    let last = performance.now(), exact = this.state.frame;
+    let last = null, exact = this.state.frame;
     const step = now => {
       if (!this.state.playing) return;
-      exact = (exact + (now - last) * 0.03) % runs[0].frame_count;  // 30 frames per second
+      // From the first image on: it was begun before the click, by its time.
+      exact = (exact + (now - (last ?? now)) * 0.03) % runs[0].frame_count;  // 30 frames per second
       last = now;
       this.state.frame = Math.floor(exact);
       this.update();
