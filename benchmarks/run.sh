@@ -58,12 +58,12 @@ for iterations in 30 70; do
   done
 done
 
-study=gluteus_maximus_r,gluteus_medius_r,iliacus_r,adductor_brevis_r
 say "" "## Gluteus maximus alone" "" "70 iterations per frame, one degree of flexion per frame." "" \
   "| threads | ms | frames per second |" "| --- | --- | --- |"
 "$program" bench "${hip[@]}" --only gluteus_maximus_r --frame 45 --repeats 1 --set iterations=70 |
   awk '$2 == "frame" { printf "| %s | %s | %.1f |\n", $3, $5, 1000 / $5 }' >>"$work/page"
 
+study=gluteus_maximus_r,gluteus_medius_r,iliacus_r,adductor_brevis_r
 say "" "## The published study's four muscles, and the preset \`fast\`" "" \
   "61,354 triangles, one degree of flexion per frame, contact of all kinds; errors of \`fast\`: docs/convergence.md." "" \
   "| setting | threads | ms | frames per second | state |" "| --- | --- | --- | --- | --- |"

@@ -77,9 +77,9 @@ TEST(ContactSurface, a_fan_s_faces_go_around_the_particle_and_its_spokes_are_its
   std::vector<int> seen(surface.edges.size(), 0);
   for (Index p = 0; p < 8; ++p) {
     const auto at = static_cast<std::size_t>(p);
-    for (Index i = surface.fan_offsets[at]; i < surface.fan_offsets[at + 1]; ++i) {
-      const Eigen::Vector3i corners = surface.faces.col(surface.fan[static_cast<std::size_t>(i)]);
-      const Eigen::Vector3i around(p, surface.fan_ends(0, i), surface.fan_ends(1, i));
+    for (Index i = surface.fans.offsets[at]; i < surface.fans.offsets[at + 1]; ++i) {
+      const Eigen::Vector3i corners = surface.faces.col(surface.fans.faces[static_cast<std::size_t>(i)]);
+      const Eigen::Vector3i around(p, surface.fans.ends(0, i), surface.fans.ends(1, i));
       EXPECT_TRUE(around == corners || around == corners({1, 2, 0}) || around == corners({2, 0, 1}));
     }
     for (Index i = surface.spoke_offsets[at]; i < surface.spoke_offsets[at + 1]; ++i) {

@@ -113,8 +113,8 @@ TEST(SelfCuts, faces_around_edges_folded_beyond_a_right_angle_are_gathered) {
   EXPECT_TRUE(faces.empty());
   sheet.particles.position(7) += Vector3f(-sheet.rest(1, 7), sheet.rest(0, 7), 0).normalized() * 4 * edge;
   gather_folded(sheet.surface, sheet.particles, faces);
-  for (Index i = sheet.surface.fan_offsets[7]; i < sheet.surface.fan_offsets[8]; ++i)
-    EXPECT_GT(std::count(faces.begin(), faces.end(), sheet.surface.fan[static_cast<std::size_t>(i)]), 0);
+  for (Index i = sheet.surface.fans.offsets[7]; i < sheet.surface.fans.offsets[8]; ++i)
+    EXPECT_GT(std::count(faces.begin(), faces.end(), sheet.surface.fans.faces[static_cast<std::size_t>(i)]), 0);
   EXPECT_LT(faces.size(), 400u) << "and not the whole ball";
 }
 

@@ -5,14 +5,14 @@
 namespace gracilis {
 
 static void expect_every_bar_held(const Scene& scene) {
-  EXPECT_EQ(scene.muscles.size(), 5u);
+  ASSERT_EQ(scene.muscles.size(), 5u);
   Real most = 0;
   for (const Pose& pose : pose_sequence(scene))
     for (const Real activation : pose.activations) most = std::max(most, activation);
   EXPECT_GT(most, 0.2) << "no muscle was ever active";
   const JudgedRun run = run_judged(scene, 3);
-  EXPECT_GT(run.judged_frames, 40);
-  EXPECT_FALSE(run.worst.empty());
+  ASSERT_GT(run.judged_frames, 40);
+  ASSERT_FALSE(run.worst.empty());
   for (std::size_t i = 0; i < run.worst.size(); ++i)
     EXPECT_FALSE(run.worst[i].missed) << contact_check::measure_names()[i] << ": " << run.worst[i].value << " in frame "
                                       << run.worst[i].frame << ", " << run.worst[i].where;

@@ -2,6 +2,8 @@
 #include <gracilis/view/picture.hpp>
 #include <gracilis/view/picture_layout.hpp>
 
+#include "io/test_files.hpp"
+
 #include <gtest/gtest.h>
 
 #include <vtkImageData.h>
@@ -80,7 +82,7 @@ TEST(Picture, what_cannot_be_seen_is_a_configuration_error) {
 class DrawnPicture : public testing::Test {
  protected:
   void draw(const Picture& picture) {
-    const std::filesystem::path path = testing::TempDir() + "drawn_picture.png";
+    const std::filesystem::path path = folder_.path() / "picture.png";
     try {
       render_picture(picture, path);
     } catch (const Error& error) {
@@ -89,11 +91,11 @@ class DrawnPicture : public testing::Test {
     }
     reader_->SetFileName(path.c_str());
     reader_->Update();
-    std::filesystem::remove(path);
   }
   vtkImageData& image() { return *reader_->GetOutput(); }
 
  private:
+  TestFolder folder_;
   vtkNew<vtkPNGReader> reader_;
 };
 

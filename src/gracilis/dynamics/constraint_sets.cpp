@@ -1,12 +1,11 @@
 #include <gracilis/dynamics/constraint_sets.hpp>
 
 #include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/dynamics/face_fans.hpp>
 #include <gracilis/dynamics/particle_order.hpp>
 
 #include <algorithm>
 #include <cassert>
-#include <numeric>
-#include <span>
 
 namespace gracilis {
 
@@ -132,53 +131,29 @@ namespace {
 /// are near each other in memory.
 constexpr std::ptrdiff_t sorting_window = 16 * group_width;
 
-/// Around each vertex, face by face: after neighbor `from` comes neighbor `to`.
-struct Turns {
-  struct Step {
-    Index from, to;
-  };
-  std::vector<Index> offsets;
-  std::vector<Step> steps;
-
-  std::span<const Step> around(Index vertex) const {
-    const auto at = static_cast<std::size_t>(vertex);
-    return {steps.begin() + offsets[at], steps.begin() + offsets[at + 1]};
-  }
-};
-
-Turns turns_of(const Eigen::Matrix3Xi& faces, Index particle_count) {
-  Turns turns;
-  turns.offsets.assign(static_cast<std::size_t>(particle_count) + 1, 0);
-  for (const Index v : faces.reshaped()) ++turns.offsets[static_cast<std::size_t>(v) + 1];
-  std::partial_sum(turns.offsets.begin(), turns.offsets.end(), turns.offsets.begin());
-  turns.steps.resize(static_cast<std::size_t>(faces.size()));
-  std::vector<Index> next(turns.offsets.begin(), turns.offsets.end() - 1);
-  for (const auto face : faces.colwise())
-    for (int k = 0; k < 3; ++k)
-      turns.steps[static_cast<std::size_t>(next[static_cast<std::size_t>(face[k])]++)] = {face[(k + 1) % 3],
-                                                                                          face[(k + 2) % 3]};
-  return turns;
-}
-
-/// The neighbors in turn, the first once more at the end; none where there are no faces.
-void chain(std::span<const Turns::Step> star, std::vector<Index>& ring) {
+/// The neighbors of a particle in turn, the first once more at the end; none where it has no faces.
+void chain(const FaceFans& fans, Index particle, std::vector<Index>& ring) {
   ring.clear();
-  if (star.empty()) return;
-  Index next = star.front().from;
-  for (std::size_t i = 0; i < star.size(); ++i) {
-    ring.push_back(next);
-    const auto step = std::find_if(star.begin(), star.end(), [&](const Turns::Step& s) { return s.from == next; });
-    assert(step != star.end() && "the surface is not closed");
-    next = step->to;
-  }
+  const Index begin = fans.offsets[static_cast<std::size_t>(particle)];
+  const auto count = static_cast<Index>(fans.around(particle).size());
+  if (count == 0) return;
+  // Each face says: after its first end comes its second.
+  const auto after = [&](Index neighbor) {
+    Index i = begin;
+    while (i < begin + count && fans.ends(0, i) != neighbor) ++i;
+    assert(i < begin + count && "the surface is not closed");
+    return fans.ends(1, i);
+  };
+  Index next = fans.ends(0, begin);
+  for (Index i = 0; i < count; ++i, next = after(next)) ring.push_back(next);
   ring.push_back(ring.front());
 }
 
 }  // namespace
 
 VolumeSet build_volume_set(const Eigen::Matrix3Xi& faces, Index particle_count, Real target, Real compliance) {
-  const Turns turns = turns_of(faces, particle_count);
-  const auto face_count = [&](Index p) { return turns.around(p).size(); };
+  const FaceFans fans = build_face_fans(faces, particle_count);
+  const auto face_count = [&](Index p) { return fans.around(p).size(); };
   std::vector<Index> order;
   for (Index p = 0; p < particle_count; ++p)
     if (face_count(p) > 0) order.push_back(p);
@@ -203,7 +178,7 @@ VolumeSet build_volume_set(const Eigen::Matrix3Xi& faces, Index particle_count, 
       if (p == particle_count)
         rings[lane] = {p};  // idle
       else
-        chain(turns.around(p), rings[lane]);
+        chain(fans, p, rings[lane]);
       steps = std::max(steps, rings[lane].size());
     }
     for (std::size_t step = 0; step < steps; ++step)

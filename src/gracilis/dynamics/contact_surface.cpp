@@ -28,7 +28,7 @@ Corners corners_of(const ContactSurface& surface, Index face, const Particles& p
 
 /// The edges at a particle, each by the first of its faces.
 void add_spokes(Index particle, ContactSurface& surface) {
-  for (const Index face : surface.faces_around(particle)) {
+  for (const Index face : surface.fans.around(particle)) {
     for (const Index side : surface.sides.col(face)) {
       const auto& [ends, faces] = surface.edges[static_cast<std::size_t>(side)];
       const Index first = faces[0] >= 0 ? faces[0] : faces[1];
@@ -58,18 +58,7 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
     enter(edge.left, edge.right);
     enter(edge.right, edge.left);
   }
-  surface.fan_offsets.assign(static_cast<std::size_t>(particle_count) + 1, 0);
-  for (Index corner : faces.reshaped()) ++surface.fan_offsets[static_cast<std::size_t>(corner) + 1];
-  for (std::size_t p = 1; p < surface.fan_offsets.size(); ++p) surface.fan_offsets[p] += surface.fan_offsets[p - 1];
-  surface.fan.resize(static_cast<std::size_t>(faces.size()));
-  surface.fan_ends.resize(2, faces.size());
-  std::vector<Index> next(surface.fan_offsets.begin(), surface.fan_offsets.end() - 1);
-  for (Index f = 0; f < faces.cols(); ++f)
-    for (int corner = 0; corner < 3; ++corner) {
-      const Index at = next[static_cast<std::size_t>(faces(corner, f))]++;
-      surface.fan[static_cast<std::size_t>(at)] = f;
-      surface.fan_ends.col(at) << faces((corner + 1) % 3, f), faces((corner + 2) % 3, f);
-    }
+  surface.fans = build_face_fans(faces, particle_count);
   surface.spoke_offsets.push_back(0);
   for (Index p = 0; p < particle_count; ++p) {
     add_spokes(p, surface);
@@ -79,7 +68,7 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
 }
 
 Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces) {
-  const auto count = static_cast<Index>(surface.fan_offsets.size()) - 1;
+  const auto count = static_cast<Index>(surface.fans.offsets.size()) - 1;
   Eigen::Matrix3Xf sums(3, count);
   parallel_for(count, chunk, [&](Index begin, Index end) {
     for (Index p = begin; p < end; ++p)
@@ -169,7 +158,7 @@ NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surf
     } else if (zeros == 2) {
       Index corner;
       barycentric.maxCoeff(&corner);
-      for (const Index around : surface.faces_around(surface.faces(corner, face))) consider(around);
+      for (const Index around : surface.fans.around(surface.faces(corner, face))) consider(around);
     }
     if (next == face) break;
     face = next;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
+#include <gracilis/dynamics/face_fans.hpp>
 #include <gracilis/dynamics/particles.hpp>
 
 #include <array>
@@ -20,17 +21,12 @@ struct ContactSurface {
   Eigen::Matrix3Xi across;  ///< face behind the side opposite to each corner; -1: none
   Eigen::Matrix3Xi sides;   ///< edge opposite to each corner
   std::vector<Edge> edges;
-  std::vector<Index> fan_offsets, fan;       ///< faces around each particle
-  Eigen::Matrix2Xi fan_ends;                 ///< for each in `fan`, its other two corners, counter-clockwise
+  FaceFans fans;
   std::vector<Index> spoke_offsets, spokes;  ///< edges at each particle
 
-  std::span<const Index> faces_around(Index particle) const { return part(fan, fan_offsets, particle); }
-  std::span<const Index> edges_at(Index particle) const { return part(spokes, spoke_offsets, particle); }
-
- private:
-  static std::span<const Index> part(const std::vector<Index>& all, const std::vector<Index>& offsets, Index particle) {
+  std::span<const Index> edges_at(Index particle) const {
     const auto at = static_cast<std::size_t>(particle);
-    return {all.begin() + offsets[at], all.begin() + offsets[at + 1]};
+    return {spokes.begin() + spoke_offsets[at], spokes.begin() + spoke_offsets[at + 1]};
   }
 };
 
@@ -54,7 +50,7 @@ inline Eigen::Vector3f face_area(const ContactSurface& surface, Index face, cons
 template <class OfFace>
 Eigen::Vector3f sum_around(const ContactSurface& surface, Index particle, const OfFace& of_face) {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const Index face : surface.faces_around(particle)) sum += of_face(face);
+  for (const Index face : surface.fans.around(particle)) sum += of_face(face);
   return sum;
 }
 /// At each particle the sum over its faces of what they have, one column each.

@@ -152,7 +152,7 @@ void gather_folded(const ContactSurface& surface, const Particles& particles, st
     const auto [left, right] = edge.faces;
     if (left < 0 || right < 0 || areas.col(left).dot(areas.col(right)) >= 0) continue;
     for (const Index end : edge.ends) {
-      const std::span<const Index> around = surface.faces_around(end);
+      const std::span<const Index> around = surface.fans.around(end);
       faces.insert(faces.end(), around.begin(), around.end());
     }
   }

@@ -1,8 +1,9 @@
 #include <gracilis/dynamics/slivers.hpp>
 
+#include <gracilis/dynamics/face_fans.hpp>
+
 #include <algorithm>
 #include <array>
-#include <map>
 
 namespace gracilis {
 
@@ -64,19 +65,14 @@ SliverSet build_sliver_set(const Eigen::Matrix3Xi& faces, const Particles& rest,
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& l, const Candidate& r) { return l.height > r.height; });
-  std::map<Index, std::vector<Index>> fans;  // of the few particles that are a side's ends
-  for (const Candidate& candidate : candidates)
-    for (const Index end : {candidate.a, candidate.b}) fans[end];
-  for (Index f = 0; f < faces.cols() && !fans.empty(); ++f)
-    for (const Index corner : faces.col(f))
-      if (const auto fan = fans.find(corner); fan != fans.end()) fan->second.push_back(f);
+  const FaceFans fans = build_face_fans(faces, rest.count());
 
   SliverSet set;
   for (const Candidate& candidate : candidates) {
     SliverTip tip{candidate.tip, candidate.a, candidate.b};
     tip.begin = static_cast<Index>(set.faces.size());
     for (const Index end : {tip.a, tip.b})
-      for (const Index f : fans.at(end))
+      for (const Index f : fans.around(end))
         if ((faces.col(f).array() != tip.particle).all()) set.faces.push_back(faces.col(f));
     tip.end = static_cast<Index>(set.faces.size());
     Eigen::Matrix3f frame;

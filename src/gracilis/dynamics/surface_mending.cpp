@@ -14,7 +14,7 @@ std::vector<Index> suspects(const ContactSurface& surface, const PairTouches& to
   std::vector<Index> faces;
   gather_folded(surface, particles, faces);
   for (const PointTouch& touch : touches.on_second) {
-    const std::span<const Index> around = surface.faces_around(touch.particle);
+    const std::span<const Index> around = surface.fans.around(touch.particle);
     faces.insert(faces.end(), around.begin(), around.end());
     faces.push_back(touch.face);
   }

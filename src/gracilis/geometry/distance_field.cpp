@@ -87,8 +87,13 @@ class Builder {
     }
     const Index half = size / 2;
     const Real reach = size * field_.cell_size.norm();
-    const bool is_doubtful = nearest >= reach && nearest < 2 * reach;
-    const bool exact = nearest < reach || (is_doubtful && !is_nearly_linear(cell, half, corners, face));
+    const bool is_near = nearest < reach, is_doubtful = !is_near && nearest < 2 * reach;
+    const Eigen::Vector3i middle = cell + Eigen::Vector3i::Constant(half);
+    if (is_doubtful) set_exactly(middle, face);
+    const auto bends = [&] {
+      return std::abs(value(middle) - interpolated(corners, Eigen::Vector3f::Constant(0.5f))) >= largest_bend;
+    };
+    const bool exact = is_near || (is_doubtful && bends());
     const auto end = [&](int axis) { return cell[axis] + size == cells_[axis] ? size : half; };
     for (Index z = 0; z <= end(2); z += half)
       for (Index y = 0; y <= end(1); y += half)
@@ -101,14 +106,6 @@ class Builder {
           else
             value(cell + within) = interpolated(corners, within.cast<float>() / static_cast<float>(size));
         }
-  }
-
-  /// Whether interpolation in a cell would meet the exact value in its middle, which is set on the way.
-  bool is_nearly_linear(const Eigen::Vector3i& cell, Index half, const std::array<float, 8>& corners, Index& face) {
-    const Eigen::Vector3i middle = cell + Eigen::Vector3i::Constant(half);
-    set_exactly(middle, face);
-    const float between = interpolated(corners, Eigen::Vector3f::Constant(0.5f));
-    return std::abs(value(middle) - between) < largest_bend;
   }
 
   static float interpolated(const std::array<float, 8>& corners, const Eigen::Vector3f& t) {

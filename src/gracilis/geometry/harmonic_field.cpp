@@ -53,24 +53,27 @@ Eigen::SparseMatrix<Real> HarmonicSolver::empty_laplacian() const {
   return laplacian;
 }
 
-void HarmonicSolver::factorize(const Eigen::SparseMatrix<Real>& laplacian) {
+Eigen::MatrixXd HarmonicSolver::factorized(const Eigen::SparseMatrix<Real>& laplacian,
+                                           const Eigen::MatrixXd& right_side) {
   if (!is_analyzed_) factorization_.analyzePattern(laplacian);
   is_analyzed_ = true;
   factorization_.factorize(laplacian);
+  return factorization_.solve(right_side);
 }
 
 /// Each field from where the last one ended; where all sum to one, the last from what the others leave.
-void HarmonicSolver::iterate(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side,
-                             bool sums_to_one) {
+Eigen::MatrixXd HarmonicSolver::iterated(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side,
+                                         bool sums_to_one) {
   Eigen::ConjugateGradient<Eigen::SparseMatrix<Real>, Eigen::Lower | Eigen::Upper> iteration(laplacian);
   iteration.setTolerance(residual);
   iteration.setMaxIterations(unknown_count_);
   const Index last = static_cast<Index>(right_side.cols()) - 1;
-  if (iterated_.cols() != right_side.cols()) iterated_ = Eigen::MatrixXd::Zero(unknown_count_, right_side.cols());
+  if (last_.cols() != right_side.cols()) last_ = Eigen::MatrixXd::Zero(unknown_count_, right_side.cols());
   for (Index k = 0; k <= last; ++k) {
-    if (k == last && sums_to_one) iterated_.col(k) = 1 - iterated_.leftCols(last).rowwise().sum().array();
-    iterated_.col(k) = iteration.solveWithGuess(right_side.col(k), iterated_.col(k)).eval();
+    if (k == last && sums_to_one) last_.col(k) = 1 - last_.leftCols(last).rowwise().sum().array();
+    last_.col(k) = iteration.solveWithGuess(right_side.col(k), last_.col(k)).eval();
   }
+  return last_;
 }
 
 /// Harmonic values lie between the fixed ones; what is iterated may miss that by the residual.
@@ -101,11 +104,9 @@ Eigen::MatrixXd HarmonicSolver::solve(const Eigen::MatrixXd& fixed_values, const
     }
   }
   laplacian.makeCompressed();
-  if (is_factorized())
-    factorize(laplacian);
-  else
-    iterate(laplacian, right_side, (fixed_values.rowwise().sum().array() == 1).all());
-  Eigen::MatrixXd solution = is_factorized() ? Eigen::MatrixXd(factorization_.solve(right_side)) : iterated_;
+  Eigen::MatrixXd solution = is_factorized()
+                                 ? factorized(laplacian, right_side)
+                                 : iterated(laplacian, right_side, (fixed_values.rowwise().sum().array() == 1).all());
   keep_between(fixed_values, solution);
   for (Index v = 0; v < vertices_.cols(); ++v)
     if (number_of(v) >= 0) fields.row(v) = solution.row(number_of(v));

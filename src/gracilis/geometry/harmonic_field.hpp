@@ -27,15 +27,16 @@ class HarmonicSolver {
   Index unknown_count_ = 0, largest_factorized_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization_;
   bool is_analyzed_ = false;
-  Eigen::MatrixXd iterated_;  ///< the last solution by conjugate gradients
+  Eigen::MatrixXd last_;  ///< solution by conjugate gradients
 
   Index number_of(Index vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
   bool is_factorized() const { return unknown_count_ <= largest_factorized_; }
   /// The factorization reads no more than half of the matrix.
   bool is_read(Index row, Index column) const { return row >= column || !is_factorized(); }
   Eigen::SparseMatrix<Real> empty_laplacian() const;
-  void factorize(const Eigen::SparseMatrix<Real>& laplacian);
-  void iterate(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side, bool sums_to_one);
+  Eigen::MatrixXd factorized(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side);
+  Eigen::MatrixXd iterated(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side,
+                           bool sums_to_one);
 };
 
 /// Discrete harmonic fields on a surface, one per column of `fixed_values`: at every vertex of `fixed` the given value,
