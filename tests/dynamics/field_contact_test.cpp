@@ -44,6 +44,7 @@ struct Scenario {
         std::count_if(near.edges.a.begin(), near.edges.a.end(), [&](Index a) { return a < particles.count(); }));
   }
   Index push_edges() { return project_edge_contacts(contact, placement, near, particles); }
+  Index push_faces() { return project_face_contacts(contact, faces, placement, near, particles); }
   Real radius_of(Index i) const { return (placement.rotation * particles.position(i) + placement.translation).norm(); }
 };
 
@@ -236,23 +237,47 @@ TEST(FieldContact, an_edge_may_sag_as_at_rest_until_it_is_released) {
   EXPECT_EQ(scenario.push_edges(), 1);
 }
 
-TEST(FieldContact, pushes_a_face_out_where_the_obstacle_pokes_through_between_its_edges) {
+/// A triangle wider than the ball whose plane lies `height` above the ball's center; its last corner is fixed.
+Scenario face_over_the_ball(Real height) {
   const Real width = 0.03;
   Points corners(3, 3);
   for (int k = 0; k < 3; ++k)
-    corners.col(k) = Vec3(width * std::cos(2 * pi * k / 3) + 0.003, 0.029, width * std::sin(2 * pi * k / 3));
+    corners.col(k) = Vec3(width * std::cos(2 * pi * k / 3) + 0.003, height, width * std::sin(2 * pi * k / 3));
   Scenario scenario = points_at({corners.col(0), corners.col(1), corners.col(2)}, {1, 1, 0}, 0.0005f);
   scenario.faces = build_face_set(Eigen::Vector3i(0, 1, 2), 3);
   scenario.contact.captured.face_sag = scenario.contact.released.face_sag = {0};
   scenario.look();
-  ASSERT_EQ(scenario.near.faces.size(), 1u);
-  for (int i = 0; i < 10; ++i)
-    project_face_contacts(scenario.contact, scenario.faces, scenario.placement, scenario.near, scenario.particles);
-  const Eigen::Vector3f where = scenario.near.face_points[0];
+  return scenario;
+}
+
+TEST(FieldContact, pushes_a_face_out_where_the_obstacle_pokes_through_between_its_edges) {
+  Scenario scenario = face_over_the_ball(0.029);
+  ASSERT_EQ(scenario.near.faces.count(), 1);
+  for (int i = 0; i < 10; ++i) scenario.push_faces();
+  const Eigen::Vector3f where = scenario.near.faces.where[0];
   Eigen::Vector3f deepest = Eigen::Vector3f::Zero();
   for (int k = 0; k < 3; ++k) deepest += where[k] * scenario.particles.position(k);
   EXPECT_NEAR(deepest.norm(), radius + 0.0005, 1e-4);
   EXPECT_EQ(scenario.particles.position(2).y(), 0.029f) << "a fixed corner";
+}
+
+TEST(FieldContact, a_face_that_was_clear_is_pushed_once_it_has_come_down) {
+  Scenario scenario = face_over_the_ball(radius + 0.0015);
+  ASSERT_EQ(scenario.near.faces.count(), 1);
+  EXPECT_EQ(scenario.push_faces(), 0);
+  for (int k = 0; k < 3; ++k) scenario.particles.position(k).y() -= 0.0008f;
+  EXPECT_EQ(scenario.push_faces(), 0) << "0.2 mm above its gap";
+  for (int k = 0; k < 3; ++k) scenario.particles.position(k).y() -= 0.0004f;
+  EXPECT_EQ(scenario.push_faces(), 1);
+}
+
+TEST(FieldContact, a_face_that_comes_in_from_outside_of_the_field_is_pushed) {
+  Scenario scenario = face_over_the_ball(0.058);
+  ASSERT_EQ(scenario.near.faces.count(), 1);
+  ASSERT_FALSE(std::isfinite(sample(scenario.contact.field.grid, {0, 0.058f, 0}).distance));
+  EXPECT_EQ(scenario.push_faces(), 0);
+  for (int k = 0; k < 3; ++k) scenario.particles.position(k).y() = 0.03f;
+  EXPECT_EQ(scenario.push_faces(), 1);
 }
 
 TEST(FieldContact, faces_of_one_color_share_no_particle) {

@@ -37,12 +37,13 @@ Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, co
                             NearField& near, Particles& particles) {
   std::atomic<Index> touching = 0;
   const std::vector<float>&sag = set.captured.face_sag, &released = set.released.face_sag;
-  for (const ColorRange& color : near.face_colors)
+  for (const ColorRange& color : near.faces.colors)
     parallel_for(color.end - color.begin, chunk, [&](Index begin, Index end) {
       Index count = 0;
       for (Index i = color.begin + begin; i < color.begin + end; ++i) {
-        const auto slot = static_cast<std::size_t>(near.faces[static_cast<std::size_t>(i)]);
-        const Eigen::Vector3f where = near.face_points[static_cast<std::size_t>(i)];
+        const auto slot = static_cast<std::size_t>(near.faces.slots[static_cast<std::size_t>(i)]);
+        const Eigen::Vector3f where = near.faces.where[static_cast<std::size_t>(i)];
+        Sighting& seen = near.faces.seen[static_cast<std::size_t>(i)];
         Eigen::Vector3f x = Eigen::Vector3f::Zero();
         float gap = sag[slot] + placement.release * (released[slot] - sag[slot]), sum = 0;
         for (int k = 0; k < 3; ++k) {
@@ -51,9 +52,13 @@ Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, co
           gap += where[k] * near.gap[static_cast<std::size_t>(p)];
           sum += where[k] * where[k] * particles.inverse_mass(p);
         }
-        const FieldSample at = sample(set.field.grid, placement.to_obstacle(x));
+        const Eigen::Vector3f q = placement.to_obstacle(x);
+        if (!may_reach(seen, q, 0)) continue;
+        const FieldSample at = sample(set.field.grid, q);
         const float slope2 = at.gradient.squaredNorm();
-        if (!(at.distance < gap) || slope2 < least_slope2 || !(sum > 0)) continue;
+        if (slope2 < least_slope2) continue;  // or out of the grid
+        seen = {q, at.distance - gap};
+        if (!(at.distance < gap) || !(sum > 0)) continue;
         ++count;
         const Eigen::Vector3f push =
             placement.rotation.transpose() * at.gradient * ((gap - at.distance) / slope2 / sum);

@@ -83,6 +83,16 @@ struct NearEdges {
 };
 inline constexpr float unknown_point = -1;  ///< nobody has looked yet; what was seen is that of the middle
 
+/// Large faces near an obstacle.
+struct NearFaces {
+  std::vector<Index> slots;            ///< in the face set, grouped by color
+  std::vector<Eigen::Vector3f> where;  ///< the deepest point, barycentric
+  std::vector<Sighting> seen;          ///< that point when the obstacle was last asked, and how far above its gap
+  std::vector<ColorRange> colors;
+
+  Index count() const { return static_cast<Index>(slots.size()); }
+};
+
 /// Gradients shorter than this, squared, tell no way out: on a field's ridges they fade.
 inline constexpr float least_slope2 = 1e-4f;
 
@@ -91,9 +101,7 @@ inline constexpr float least_slope2 = 1e-4f;
 struct NearField {
   std::vector<Index> particles;
   NearEdges edges;
-  std::vector<Index> faces;                  ///< face slots, grouped by color
-  std::vector<Eigen::Vector3f> face_points;  ///< barycentric
-  std::vector<ColorRange> face_colors;
+  NearFaces faces;
   std::vector<float> gap;        ///< m, per particle: the gap now; one more for the idle particle
   std::vector<float> clearance;  ///< m, per particle: least that its distance is above its gap; idle: infinite
   std::vector<Sighting> last;    ///< per particle: where it last was on the right side; empty: nothing is known yet
@@ -119,7 +127,8 @@ void find_edge_points(const FieldContactSet& set, const FieldPlacement& placemen
                       NearField& near);
 
 /// Pushes the deepest points of edges, the deepest points of faces, and particles out along the field's gradient.
-/// Returns how many were touching. An edge's or face's deepest point is followed from iteration to iteration.
+/// Returns how many were touching. An edge's deepest point is followed from iteration to iteration, a face's is that
+/// of the last listing.
 Index project_edge_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
                             Particles& particles);
 Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,

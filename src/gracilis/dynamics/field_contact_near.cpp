@@ -136,6 +136,11 @@ static void clear(NearEdges& edges) {
   edges.colors.clear();
 }
 
+static void clear(NearFaces& faces) {
+  faces.slots.clear(), faces.where.clear(), faces.seen.clear();
+  faces.colors.clear();
+}
+
 static void list_edges(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
                        const Particles& particles, NearField& near) {
   for (const ColorRange& color : distances.order.colors) {
@@ -162,7 +167,7 @@ static void list_edges(const FieldContactSet& set, const DistanceSet& distances,
 static void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
                        const Particles& particles, NearField& near) {
   for (const ColorRange& color : faces.colors) {
-    const auto first = static_cast<Index>(near.faces.size());
+    const Index first = near.faces.count();
     for (Index slot = color.begin; slot < color.end; ++slot) {
       std::array<ContactCorner, 3> corners;
       float longest2 = 0, clearance = infinity, mobility = 0;
@@ -176,10 +181,11 @@ static void list_faces(const FieldContactSet& set, const FaceSet& faces, const F
         longest2 = std::max(longest2, (corners[k].q - corners[(k + 1) % 3].q).squaredNorm());
       // No point of a triangle is farther from its nearest corner than this share of its longest edge.
       if (!(mobility > 0) || clearance > element_reach + 0.58f * steepest * std::sqrt(longest2)) continue;
-      near.faces.push_back(slot);
-      near.face_points.push_back(deepest_on_face(set.field.grid, corners));
+      near.faces.slots.push_back(slot);
+      near.faces.where.push_back(deepest_on_face(set.field.grid, corners));
+      near.faces.seen.emplace_back();
     }
-    near.face_colors.push_back({first, static_cast<Index>(near.faces.size())});
+    near.faces.colors.push_back({first, near.faces.count()});
   }
 }
 
@@ -192,9 +198,7 @@ void find_near(const FieldContactSet& set, const DistanceSet& distances, const F
                const FieldPlacement& placement, float reach, Particles& particles, NearField& near) {
   near.particles.clear();
   clear(near.edges);
-  near.faces.clear();
-  near.face_points.clear();
-  near.face_colors.clear();
+  clear(near.faces);
   std::vector<char> is_near(static_cast<std::size_t>(particles.count()), 0);
   see_particles(set, placement, reach, particles, near, is_near);
   for (Index i = 0; i < particles.count(); ++i)
