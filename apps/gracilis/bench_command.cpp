@@ -10,8 +10,8 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
 #include <gracilis/io/field_cache.hpp>
+#include <gracilis/methods/scene_method.hpp>
 #include <gracilis/methods/xpbd/under_way.hpp>
-#include <gracilis/methods/xpbd/xpbd_method.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -104,7 +104,7 @@ void time_muscle(const Scene& scene, const Muscle& which, const std::vector<Dist
 BenchEntry time_frames(const Scene& scene, const std::vector<DistanceField>& fields, const std::vector<Pose>& poses,
                        int threads) {
   const ThreadLimit limit(threads);
-  const auto method = make_xpbd_method(scene, fields);
+  const auto method = make_scene_method(scene, [&] { return fields; });
   double sum = 0;
   int count = 0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
@@ -162,7 +162,7 @@ void copy_muscles(Scene& scene, int count) {
 BenchEntry time_first_frame(const Scene& scene, std::vector<DistanceField> fields, const std::vector<Pose>& poses,
                             Clock::duration reading) {
   const Clock::time_point started = Clock::now();
-  const auto method = make_xpbd_method(scene, std::move(fields));
+  const auto method = make_scene_method(scene, [&] { return std::move(fields); });
   if (poses.size() > 1) method->advance(poses[1]);
   const std::chrono::duration<double, std::milli> elapsed = reading + (Clock::now() - started);
   BenchEntry entry{"all", "first_frame", thread_count(), 0, elapsed.count(), hash_seed, 0};
@@ -175,7 +175,11 @@ BenchEntry time_first_frame(const Scene& scene, std::vector<DistanceField> field
 
 int bench(Scene scene, BenchOptions options, Clock::time_point started) {
   if (options.muscles > 0) copy_muscles(scene, options.muscles);
-  const bool times_frames = options.muscles > 0 || (options.subdivide == 0 && options.coarsen == 0);
+  const bool iterates = scene.method == MethodKind::xpbd, is_resized = options.subdivide > 0 || options.coarsen > 0;
+  if (is_resized && !iterates)
+    throw ConfigurationError({"", "--subdivide, --coarsen",
+                              "the scene's method does not work on the muscles' triangles",
+                              "ask for --set method=xpbd, or leave these out"});
   for (Muscle& muscle : scene.muscles) {
     if (options.coarsen > 0) muscle = coarser_muscle(muscle, options.coarsen).muscle;
     for (int i = 0; i < options.subdivide; ++i) muscle = finer_muscle(muscle);
@@ -185,12 +189,12 @@ int bench(Scene scene, BenchOptions options, Clock::time_point started) {
     if (thread_count() > 1) options.threads.push_back(thread_count());
   }
   const std::vector<Pose> poses = poses_until(scene, options.frame);
-  std::vector<DistanceField> fields = cached_bone_fields(scene);
+  std::vector<DistanceField> fields = iterates ? cached_bone_fields(scene) : std::vector<DistanceField>();
   const Clock::duration reading = Clock::now() - started;
   std::vector<BenchEntry> entries;
-  if (options.muscles == 0)
+  if (iterates && options.muscles == 0)
     for (const Muscle& muscle : scene.muscles) time_muscle(scene, muscle, fields, poses, options, entries);
-  if (times_frames) {
+  if (options.muscles > 0 || !is_resized) {
     for (const int threads : options.threads) entries.push_back(time_frames(scene, fields, poses, threads));
     // Last, because it takes the fields, as a run does.
     entries.push_back(time_first_frame(scene, std::move(fields), poses, reading));
@@ -205,13 +209,15 @@ int bench(Scene scene, BenchOptions options, Clock::time_point started) {
 }  // namespace
 
 void add_bench_command(CLI::App& program, Command& chosen) {
-  CLI::App* command = program.add_subcommand(
-      "bench", "Time one iteration, its phases and whole frames of a scene; of the built-in hip without one");
+  CLI::App* command = program.add_subcommand("bench",
+                                             "Time one iteration, its phases and whole frames of a scene, frames alone "
+                                             "where the method does not iterate; of the built-in hip without one");
   const auto options = std::make_shared<BenchOptions>();
   add_scene_options(*command, options->file, options->scene);
   command->get_option("SCENE")->required(false);
   command->add_option("--threads", options->threads, "Numbers of threads, separated by commas (default: 1 and all)")
       ->delimiter(',')
+      ->allow_extra_args(false)  // or it takes the scene that follows for one
       ->check(CLI::Range(1, 1024));
   command->add_option("--frame", options->frame, "Frame of the motion to time at (default: a quarter of the way)")
       ->check(CLI::Range(0, 1000000));

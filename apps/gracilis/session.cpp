@@ -10,8 +10,7 @@
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/run_folder.hpp>
 #include <gracilis/io/scene_template.hpp>
-#include <gracilis/methods/cylinder/cylinder_method.hpp>
-#include <gracilis/methods/xpbd/xpbd_method.hpp>
+#include <gracilis/methods/scene_method.hpp>
 #include <gracilis/simulate/run.hpp>
 #include <gracilis/view/preview.hpp>
 #include <gracilis/view/run_charts.hpp>
@@ -89,8 +88,7 @@ class Session {
     describe_scene();
     spdlog::info("fibers");
     const FiberTracker tracker(loaded_.scene);
-    const auto method = loaded_.scene.method == MethodKind::cylinder ? make_cylinder_method(loaded_.scene)
-                                                                     : make_xpbd_method(loaded_.scene, bone_fields());
+    const auto method = make_scene_method(loaded_.scene, [this] { return bone_fields(); });
     write_manifest("running");
     const ResumePoint* resume = folder_.resume_point() ? &*folder_.resume_point() : nullptr;
     if (resume) spdlog::info("going on after frame {}", resume->last.number);

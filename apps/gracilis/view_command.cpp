@@ -8,8 +8,7 @@
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/recorded_run.hpp>
 #include <gracilis/io/scene_reader.hpp>
-#include <gracilis/methods/cylinder/cylinder_method.hpp>
-#include <gracilis/methods/xpbd/xpbd_method.hpp>
+#include <gracilis/methods/scene_method.hpp>
 #include <gracilis/view/run_picture.hpp>
 #include <gracilis/view/window/interactive_window.hpp>
 #include <gracilis/view/window/live_simulation.hpp>
@@ -130,10 +129,8 @@ void view_scene(Scene scene, const ViewOptions& options, std::chrono::steady_clo
   static constexpr int kept_frames = 1500;
   drive_all(scene);
   ShapeHistory history(kept_frames);
-  LiveSimulation simulation(scene, history, [&scene] {
-    return scene.method == MethodKind::cylinder ? make_cylinder_method(scene)
-                                                : make_xpbd_method(scene, cached_bone_fields(scene));
-  });
+  LiveSimulation simulation(
+      scene, history, [&scene] { return make_scene_method(scene, [&scene] { return cached_bone_fields(scene); }); });
   WindowOptions window = options.window;
   window.live = controls_of(scene, simulation);
   window.bone_fields = [&scene] { return cached_bone_fields(scene); };

@@ -56,6 +56,18 @@ TEST(ImportCommand, an_imported_model_runs_by_sections_and_goes_back_to_opensim)
   EXPECT_EQ(run_program("export " + run + " --to osim-points").exit_code, 2);
 }
 
+TEST(ImportCommand, frames_by_sections_are_timed_without_a_solver) {
+  const TestFolder folder;
+  ASSERT_EQ(import_swing(folder, "").exit_code, 0);
+  const std::string timed =
+      "bench --threads 1 " + (folder.path() / "scene/swing.toml").string() + " --set method=cylinder";
+  const ProgramResult frames = run_program(timed);
+  ASSERT_EQ(frames.exit_code, 0) << frames.err;
+  EXPECT_THAT(frames.out, testing::HasSubstr("first_frame"));
+  EXPECT_THAT(frames.out, testing::Not(testing::HasSubstr("iteration")));
+  EXPECT_EQ(run_program(timed + " --subdivide 1").exit_code, 2);
+}
+
 TEST(ImportCommand, the_pose_of_bones_and_surfaces_may_be_given) {
   const TestFolder folder;
   ASSERT_EQ(import_swing(folder, "--pose swing=20").exit_code, 0);
