@@ -10,8 +10,8 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
 #include <gracilis/io/field_cache.hpp>
-#include <gracilis/methods/scene_method.hpp>
 #include <gracilis/methods/xpbd/under_way.hpp>
+#include <gracilis/simulate/scene_method.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

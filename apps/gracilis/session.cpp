@@ -10,8 +10,8 @@
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/run_folder.hpp>
 #include <gracilis/io/scene_template.hpp>
-#include <gracilis/methods/scene_method.hpp>
 #include <gracilis/simulate/run.hpp>
+#include <gracilis/simulate/scene_method.hpp>
 #include <gracilis/view/preview.hpp>
 #include <gracilis/view/run_charts.hpp>
 

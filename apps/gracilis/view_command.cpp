@@ -8,7 +8,7 @@
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/recorded_run.hpp>
 #include <gracilis/io/scene_reader.hpp>
-#include <gracilis/methods/scene_method.hpp>
+#include <gracilis/simulate/scene_method.hpp>
 #include <gracilis/view/run_picture.hpp>
 #include <gracilis/view/window/interactive_window.hpp>
 #include <gracilis/view/window/live_simulation.hpp>

@@ -1,4 +1,4 @@
-#include <gracilis/methods/scene_method.hpp>
+#include <gracilis/simulate/scene_method.hpp>
 
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
