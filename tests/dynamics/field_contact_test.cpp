@@ -12,19 +12,8 @@ namespace {
 
 constexpr Real radius = 0.03;
 
-/// The exact distance to a ball about the origin.
 const DistanceField& ball() {
-  static const DistanceField field = [] {
-    DistanceField f;
-    f.nodes = {101, 101, 101};
-    f.origin = Vec3::Constant(-0.05);
-    f.cell_size = Vec3::Constant(0.001);
-    for (int k = 0; k < 101; ++k)
-      for (int j = 0; j < 101; ++j)
-        for (int i = 0; i < 101; ++i)
-          f.values.push_back(static_cast<float>((f.origin + 0.001 * Vec3(i, j, k)).norm() - radius));
-    return f;
-  }();
+  static const DistanceField field = field_of_ball(radius, 101);
   return field;
 }
 

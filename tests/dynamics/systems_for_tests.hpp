@@ -62,4 +62,18 @@ inline Points positions_of(const Particles& particles) {
   return points;
 }
 
+/// The exact distance to a ball about the origin, at so many nodes a side, one every millimetre.
+inline DistanceField field_of_ball(Real radius, Index nodes) {
+  constexpr Real cell = 0.001;
+  DistanceField field;
+  field.origin = Vec3::Constant(-cell * (nodes - 1) / 2);
+  field.cell_size = Vec3::Constant(cell);
+  field.nodes = {nodes, nodes, nodes};
+  for (Index k = 0; k < nodes; ++k)
+    for (Index j = 0; j < nodes; ++j)
+      for (Index i = 0; i < nodes; ++i)
+        field.values.push_back(static_cast<float>((field.origin + cell * Vec3(i, j, k)).norm() - radius));
+  return field;
+}
+
 }  // namespace gracilis

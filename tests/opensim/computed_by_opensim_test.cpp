@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -26,8 +25,10 @@ struct Reference {
     table = read_table(folder / (name + ".sto"));
   }
 
-  /// Calls see(row, error, wraps touched) for every pose; the error is in m.
-  void compare(const Muscle& muscle, const std::function<void(Eigen::Index, Real, std::size_t)>& see) const {
+  /// Calls see(row, skeleton, coordinates, its length by OpenSim in m) for every pose.
+  void for_each_pose(
+      const Muscle& muscle,
+      const std::function<void(Eigen::Index, const Skeleton&, const Eigen::VectorXd&, Real)>& see) const {
     const auto column = column_of(table, muscle.name);
     ASSERT_TRUE(column) << muscle.name;
     const CoordinateMotion motion = coordinate_motion(model, table);
@@ -35,11 +36,17 @@ struct Reference {
     for (Eigen::Index row = 0; row < table.values.rows(); ++row) {
       const Eigen::VectorXd q = motion.values.row(row);
       skeleton.place(q);
-      const Real length = measure_path(skeleton, muscle.path, q).length;
+      see(row, skeleton, q, table.values(row, *column));
+    }
+  }
+
+  /// Calls see(row, error, wraps touched) for every pose; the error is in m.
+  void compare(const Muscle& muscle, const std::function<void(Eigen::Index, Real, std::size_t)>& see) const {
+    for_each_pose(muscle, [&](Eigen::Index row, const Skeleton& skeleton, const Eigen::VectorXd& q, Real theirs) {
       std::size_t wraps = 0;
       for (const PathStop& stop : current_points(model, muscle.path, skeleton.poses(), q)) wraps += stop.wrap >= 0;
-      see(row, length - table.values(row, *column), wraps / 2);
-    }
+      see(row, measure_path(skeleton, muscle.path, q).length - theirs, wraps / 2);
+    });
   }
 };
 
@@ -106,22 +113,18 @@ TEST(ComputedByOpenSim, lines_around_cylinders_are_as_long) {
 TEST(ComputedByOpenSim, lines_around_two_cylinders_differ_by_what_it_sums) {
   const Reference reference("rajagopal18_right");
   const Model& model = reference.model;
-  const auto muscle = std::find_if(model.muscles.begin(), model.muscles.end(),
-                                   [](const Muscle& each) { return each.name == "med_gas_r"; });
-  ASSERT_NE(muscle, model.muscles.end());
-  const Eigen::VectorXd theirs = reference.table.values.col(*column_of(reference.table, muscle->name));
-  const CoordinateMotion motion = coordinate_motion(model, reference.table);
-  Skeleton skeleton(model);
+  const Index number = index_of(model.muscles, "med_gas_r");
+  ASSERT_GE(number, 0);
+  const Muscle& muscle = model.muscles[static_cast<std::size_t>(number)];
   int twice = 0;
-  for (Eigen::Index row = 0; row < theirs.size(); ++row) {
-    skeleton.place(motion.values.row(row));
-    const Path& path = muscle->path;
-    std::vector<PathStop> points = current_points(model, path, skeleton.poses(), motion.values.row(row));
-    if (std::erase_if(points, [](const PathStop& point) { return point.given < 0; }) < 4) continue;
-    ++twice;
-    const Real summed = summed_by_opensim(placed_wraps(model, path, skeleton.poses()), points);
-    EXPECT_NEAR(summed, theirs[row], 4e-6) << "row " << row;
-  }
+  reference.for_each_pose(
+      muscle, [&](Eigen::Index row, const Skeleton& skeleton, const Eigen::VectorXd& q, Real theirs) {
+        std::vector<PathStop> points = current_points(model, muscle.path, skeleton.poses(), q);
+        if (std::erase_if(points, [](const PathStop& point) { return point.given < 0; }) < 4) return;
+        ++twice;
+        EXPECT_NEAR(summed_by_opensim(placed_wraps(model, muscle.path, skeleton.poses()), points), theirs, 4e-6)
+            << "row " << row;
+      });
   EXPECT_EQ(twice, 10);
 }
 

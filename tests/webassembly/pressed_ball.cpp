@@ -10,23 +10,8 @@
 namespace gracilis {
 namespace {
 
-/// Distance to a ball about the origin.
-DistanceField field_of_ball(Real radius) {
-  constexpr Index nodes = 81;
-  constexpr Real cell = 0.001;
-  DistanceField field;
-  field.origin = Vec3::Constant(-cell * (nodes - 1) / 2);
-  field.cell_size = Vec3::Constant(cell);
-  field.nodes = {nodes, nodes, nodes};
-  for (Index k = 0; k < nodes; ++k)
-    for (Index j = 0; j < nodes; ++j)
-      for (Index i = 0; i < nodes; ++i)
-        field.values.push_back(static_cast<float>((field.origin + cell * Vec3(i, j, k)).norm() - radius));
-  return field;
-}
-
 void solve() {
-  const DistanceField obstacle = field_of_ball(0.02);
+  const DistanceField obstacle = field_of_ball(0.02, 81);
   const TriangleMesh soft = shapes::sphere({0, 0, 0.045}, 0.03, 4);
   SurfaceSystem system = system_of(soft);
   // Random numbers are not the same everywhere.

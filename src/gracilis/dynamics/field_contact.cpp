@@ -36,20 +36,19 @@ Index project_edge_contacts(const FieldContactSet& set, const FieldPlacement& pl
 Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
                             NearField& near, Particles& particles) {
   std::atomic<Index> touching = 0;
-  const std::vector<float>&sag = set.captured.face_sag, &released = set.released.face_sag;
   for (const ColorRange& color : near.faces.colors)
     parallel_for(color.end - color.begin, chunk, [&](Index begin, Index end) {
       Index count = 0;
       for (Index i = color.begin + begin; i < color.begin + end; ++i) {
         const auto slot = static_cast<std::size_t>(near.faces.slots[static_cast<std::size_t>(i)]);
         const Eigen::Vector3f where = near.faces.where[static_cast<std::size_t>(i)];
+        const float gap = near.faces.gap[static_cast<std::size_t>(i)];
         Sighting& seen = near.faces.seen[static_cast<std::size_t>(i)];
         Eigen::Vector3f x = Eigen::Vector3f::Zero();
-        float gap = sag[slot] + placement.release * (released[slot] - sag[slot]), sum = 0;
+        float sum = 0;
         for (int k = 0; k < 3; ++k) {
           const Index p = faces.particles[static_cast<std::size_t>(k)][slot];
           x += where[k] * particles.position(p);
-          gap += where[k] * near.gap[static_cast<std::size_t>(p)];
           sum += where[k] * where[k] * particles.inverse_mass(p);
         }
         const Eigen::Vector3f q = placement.to_obstacle(x);

@@ -87,6 +87,7 @@ inline constexpr float unknown_point = -1;  ///< nobody has looked yet; what was
 struct NearFaces {
   std::vector<Index> slots;            ///< in the face set, grouped by color
   std::vector<Eigen::Vector3f> where;  ///< the deepest point, barycentric
+  std::vector<float> gap;              ///< m, that it keeps, the face's sag included
   std::vector<Sighting> seen;          ///< that point when the obstacle was last asked, and how far above its gap
   std::vector<ColorRange> colors;
 

@@ -137,7 +137,7 @@ static void clear(NearEdges& edges) {
 }
 
 static void clear(NearFaces& faces) {
-  faces.slots.clear(), faces.where.clear(), faces.seen.clear();
+  faces.slots.clear(), faces.where.clear(), faces.gap.clear(), faces.seen.clear();
   faces.colors.clear();
 }
 
@@ -182,7 +182,12 @@ static void list_faces(const FieldContactSet& set, const FaceSet& faces, const F
       // No point of a triangle is farther from its nearest corner than this share of its longest edge.
       if (!(mobility > 0) || clearance > element_reach + 0.58f * steepest * std::sqrt(longest2)) continue;
       near.faces.slots.push_back(slot);
-      near.faces.where.push_back(deepest_on_face(set.field.grid, corners));
+      const Eigen::Vector3f where = deepest_on_face(set.field.grid, corners);
+      float gap =
+          blended(set.captured.face_sag, set.released.face_sag, static_cast<std::size_t>(slot), placement.release);
+      for (std::size_t k = 0; k < 3; ++k) gap += where[static_cast<Index>(k)] * corners[k].gap;
+      near.faces.where.push_back(where);
+      near.faces.gap.push_back(gap);
       near.faces.seen.emplace_back();
     }
     near.faces.colors.push_back({first, near.faces.count()});
