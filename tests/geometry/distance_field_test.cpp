@@ -56,6 +56,24 @@ TEST(SignedDistance, of_a_sphere_with_a_hole_still_tells_inside_from_outside) {
   EXPECT_GT(inside, 20);
 }
 
+TEST(SignedDistance, of_a_sphere_that_is_folded_over_itself_still_tells_inside_from_outside) {
+  TriangleMesh mesh = shapes::sphere(Vec3::Zero(), 0.05, 3);
+  // Points of the surface pulled across their neighbors: the triangles around them lie over others, or the other way
+  // up.
+  for (const Index v : {5, 100, 200}) {
+    const Vec3 along = Vec3(mesh.vertices.col(v)).unitOrthogonal();
+    mesh.vertices.col(v) += 0.014 * along - 0.001 * mesh.vertices.col(v).normalized();
+  }
+  const SignedDistance surface(mesh);
+  ASSERT_TRUE(surface.closed());
+  const Points points = random_points(20000, 0.08);
+  for (Index i = 0; i < points.cols(); ++i) {
+    const Vec3 p = points.col(i);
+    if (std::abs(p.norm() - 0.05) < 0.004) continue;
+    EXPECT_EQ(surface.query(p).distance < 0, p.norm() < 0.05) << p.transpose();
+  }
+}
+
 TEST(DistanceField, of_a_sphere_and_its_gradient_agree_with_the_closed_form) {
   const TriangleMesh mesh = shapes::sphere({0.01, -0.02, 0.03}, 0.04, 5);
   const DistanceField field = build_distance_field(mesh, domain_by_cell_size(mesh, 0.002, 0.02));

@@ -1,8 +1,8 @@
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/geometry/topology.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gracilis {
@@ -21,8 +21,34 @@ static int edge_in_face(const Eigen::Matrix3Xi& faces, Index face, Index a, Inde
   return 0;
 }
 
-SignedDistance::SignedDistance(const TriangleMesh& mesh) : faces_(mesh.faces), nearest_triangle_(mesh) {
-  if (!is_closed(mesh.faces)) {
+/// Triangles whose normals differ by more than this lie over each other, or nearly so; the cosine.
+static constexpr Real folded = -0.5;
+/// Rings of triangles around a fold that are part of it.
+static constexpr int fold_rings = 2;
+
+/// Where a triangle lies over others the wrong way up, points beyond it seem inside at any distance.
+void SignedDistance::find_folds(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges) {
+  std::vector<char> reached(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  for (const MeshEdge& edge : edges)
+    if (face_normals_.col(edge.left).dot(face_normals_.col(edge.right)) < folded)
+      reached[static_cast<std::size_t>(edge.a)] = reached[static_cast<std::size_t>(edge.b)] = 1;
+  const auto is_reached = [&](Index v) { return reached[static_cast<std::size_t>(v)] != 0; };
+  folded_.assign(static_cast<std::size_t>(mesh.face_count()), 0);
+  if (std::none_of(reached.begin(), reached.end(), [](char each) { return each != 0; })) return;
+  for (int ring = 0; ring < fold_rings; ++ring) {
+    for (Index face = 0; face < mesh.face_count(); ++face)
+      folded_[static_cast<std::size_t>(face)] =
+          std::any_of(mesh.faces.col(face).begin(), mesh.faces.col(face).end(), is_reached);
+    for (Index face = 0; face < mesh.face_count(); ++face)
+      if (folded_[static_cast<std::size_t>(face)])
+        for (const Index v : mesh.faces.col(face)) reached[static_cast<std::size_t>(v)] = 1;
+  }
+  winding_.emplace(mesh);
+}
+
+SignedDistance::SignedDistance(const TriangleMesh& mesh)
+    : faces_(mesh.faces), closed_(is_closed(mesh.faces)), nearest_triangle_(mesh) {
+  if (!closed_) {
     winding_.emplace(mesh);
     return;
   }
@@ -37,11 +63,13 @@ SignedDistance::SignedDistance(const TriangleMesh& mesh) : faces_(mesh.faces), n
       vertex_normals_.col(faces_(k, face)) += corner_angle(at, b, c) * face_normals_.col(face);
     }
   }
-  for (const MeshEdge& edge : build_topology(mesh.faces, mesh.vertex_count()).edges) {
+  const std::vector<MeshEdge> edges = build_topology(mesh.faces, mesh.vertex_count()).edges;
+  for (const MeshEdge& edge : edges) {
     const Vec3 normal = face_normals_.col(edge.left) + face_normals_.col(edge.right);
     edge_normals_.col(3 * edge.left + edge_in_face(faces_, edge.left, edge.a, edge.b)) = normal;
     edge_normals_.col(3 * edge.right + edge_in_face(faces_, edge.right, edge.a, edge.b)) = normal;
   }
+  find_folds(mesh, edges);
 }
 
 Vec3 SignedDistance::pseudonormal(const NearestPoint& nearest) const {
@@ -55,7 +83,8 @@ Vec3 SignedDistance::pseudonormal(const NearestPoint& nearest) const {
 
 SignedDistance::Answer SignedDistance::with_sign(const NearestPoint& nearest, const Vec3& p) const {
   if (nearest.face < 0) return {std::numeric_limits<Real>::infinity(), nearest};
-  const bool inside = winding_ ? winding_->query(p) > 0.5 : (p - nearest.point).dot(pseudonormal(nearest)) < 0;
+  const bool normals_tell = closed_ && !folded_[static_cast<std::size_t>(nearest.face)];
+  const bool inside = normals_tell ? (p - nearest.point).dot(pseudonormal(nearest)) < 0 : winding_->query(p) > 0.5;
   return {inside ? -nearest.distance : nearest.distance, nearest};
 }
 

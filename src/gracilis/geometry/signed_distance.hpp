@@ -2,15 +2,18 @@
 
 #include <gracilis/core/types.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
+#include <gracilis/geometry/topology.hpp>
 #include <gracilis/geometry/winding_number.hpp>
 
 #include <optional>
+#include <vector>
 
 namespace gracilis {
 
 /// Exact distance to a surface, negative inside. On closed, consistently oriented surfaces the sign is that of the
-/// angle-weighted pseudonormal at the nearest point (Bærentzen and Aanæs 2005); on others, which have holes, the point
-/// is inside where the generalized winding number exceeds 1/2.
+/// angle-weighted pseudonormal at the nearest point (Bærentzen and Aanæs 2005); on others, which have holes, and near
+/// places where the surface is folded over itself, the point is inside where the generalized winding number exceeds
+/// 1/2.
 class SignedDistance {
  public:
   /// Precondition: at least one face, finite coordinates, oriented outwards.
@@ -27,15 +30,19 @@ class SignedDistance {
   /// The answer at any distance, found the faster the nearer the face `guess` is; the same with any.
   Answer query_from(Index guess, const Vec3& p) const;
 
-  bool closed() const { return !winding_; }
+  bool closed() const { return closed_; }
 
  private:
   Vec3 pseudonormal(const NearestPoint& nearest) const;
   Answer with_sign(const NearestPoint& nearest, const Vec3& p) const;
 
+  void find_folds(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges);
+
   Eigen::Matrix3Xi faces_;
+  bool closed_ = false;
   NearestTriangle nearest_triangle_;
-  std::optional<WindingNumber> winding_;  ///< only for surfaces that are not closed
+  std::optional<WindingNumber> winding_;  ///< only where normals do not tell
+  std::vector<char> folded_;              ///< of a closed surface's faces: near a fold, whose normals do not tell
   Points face_normals_;                   ///< unit
   Points vertex_normals_;                 ///< angle-weighted
   Points edge_normals_;                   ///< column 3 f + k: edge k → k+1 of face f

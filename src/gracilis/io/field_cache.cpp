@@ -15,7 +15,7 @@ namespace gracilis {
 namespace fs = std::filesystem;
 
 // Stands first in every file and in what is hashed: change it when fields are built or stored in another way.
-static constexpr char format_name[16] = "gracilis field3";
+static constexpr char format_name[16] = "gracilis field4";
 
 static std::string bytes_of(const void* data, std::size_t size) { return {static_cast<const char*>(data), size}; }
 
