@@ -61,4 +61,18 @@ TEST(BoneClearance, a_line_through_a_bone_is_brought_out_and_its_sections_lie_ag
   }
 }
 
+TEST(BoneClearance, a_line_that_ends_in_a_bone_ends_on_its_surface) {
+  const Points line = straight({0.1, 0, 0}, {0.014, 0.003, 0}, 11);
+  const Eigen::VectorXd radii = Eigen::VectorXd::Constant(11, 0.003);
+  const std::vector<SolidBone> bones = shaft();
+  const ClearSections clear = clear_of_bones(line, radii, 12, bones);
+  EXPECT_EQ(clear.centers.col(0), line.col(0));
+  // As far out as its radius and a gap.
+  EXPECT_NEAR(clear.centers(0, 10), 0.0235, 1e-4);
+  EXPECT_LT((clear.centers.col(10) - line.col(10)).norm(), 0.0096);
+  const Points vertices = corners(clear);
+  for (const Vec3 vertex : vertices.leftCols(11 * 12).colwise())
+    EXPECT_GT(bones[0].distance.query(vertex).distance, 0.0002);
+}
+
 }  // namespace gracilis::opensim

@@ -122,7 +122,7 @@ TEST(SceneFolder, a_map_names_files_and_their_unit) {
   EXPECT_NEAR((first.col(1) - first.col(0)).norm(), 1, 1e-12);
 }
 
-TEST(SceneFolder, a_muscle_has_its_volume_and_is_held_at_its_ends_and_where_its_tendon_bends) {
+TEST(SceneFolder, a_muscle_has_its_volume_and_is_held_at_its_ends) {
   const Model model = model_from(knee_model());
   Skeleton skeleton(model);
   const Eigen::VectorXd q = default_coordinates(model);
@@ -130,12 +130,10 @@ TEST(SceneFolder, a_muscle_has_its_volume_and_is_held_at_its_ends_and_where_its_
   const MuscleVolume volume = muscle_volume(model, model.muscles[0], skeleton.poses(), q, {});
   const MeshReport report = inspect_mesh(volume.surface);
   EXPECT_TRUE(report.is_closed() && report.is_manifold() && report.is_oriented());
-  ASSERT_EQ(volume.held.size(), 3u);
   EXPECT_EQ(volume.held[0].body, 1);
-  EXPECT_EQ(volume.held[1].body, 1);
-  EXPECT_EQ(volume.held[1].vertices.size(), 12u);
-  EXPECT_EQ(volume.held[2].body, 2);
-  EXPECT_EQ(volume.held[2].vertices.size(), 13u);
+  EXPECT_EQ(volume.held[0].vertices.size(), 13u);
+  EXPECT_EQ(volume.held[1].body, 2);
+  EXPECT_EQ(volume.held[1].vertices.size(), 13u);
   // Belly and tendon; twelve corners instead of a circle take 4.5 % away.
   const MuscleSize size{800, 0.1, 0, 6.1e5};
   const Real tendon = pi * tendon_radius(size) * tendon_radius(size) * 0.2;

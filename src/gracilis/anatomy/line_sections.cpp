@@ -4,6 +4,7 @@
 #include <gracilis/geometry/polylines.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace gracilis {
 
@@ -33,6 +34,14 @@ Index section_of_vertex(const LineSections& sections, Index vertex) {
   const auto count = static_cast<Index>(sections.places.size());
   if (vertex < count * sections.line.rays) return vertex / sections.line.rays;
   return vertex == count * sections.line.rays ? 0 : count - 1;
+}
+
+Real distance_from_tendon(const LineSections& sections, Index section) {
+  const Real place = sections.places[static_cast<std::size_t>(section)];
+  Real distance = std::numeric_limits<Real>::infinity();
+  if (sections.line.origin_tendon > 0) distance = place - sections.line.origin_tendon;
+  if (sections.line.tendon > 0) distance = std::min(distance, sections.length - sections.line.tendon - place);
+  return distance;
 }
 
 RigidTransform PlacedSections::frame(Eigen::Index k) const {

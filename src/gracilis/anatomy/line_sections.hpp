@@ -23,6 +23,10 @@ LineSections line_sections(const Muscle& muscle);
 /// The section that a vertex of the muscle's surface belongs to; the two that close the ends belong to theirs.
 Index section_of_vertex(const LineSections& sections, Index vertex);
 
+/// How far a section is from the nearest tendon, along the line in the capture pose, m: 0 or less in one, whose
+/// sections keep their distance from the line's end; infinite where there is none.
+Real distance_from_tendon(const LineSections& sections, Index section);
+
 /// Where sections are, and their axes: first ray, the direction across it in the plane, the normal.
 struct PlacedSections {
   Points centers;

@@ -31,21 +31,21 @@ static Vec3 way_out(const SolidBone& bone, const Vec3& p, Real clearance) {
                              : Vec3((answer.distance - clearance) * to_surface);
 }
 
-/// A section in need goes its own way; the others follow their neighbors.
+/// A section in need goes its own way; the others follow their neighbors, but the ends stay.
 static Points clear_centers(const Points& line, const Eigen::VectorXd& radii, const std::vector<SolidBone>& bones) {
   Points shift = Points::Zero(3, line.cols());
   for (int round = 0; round < 60; ++round) {
     bool any = false;
     Points next = shift;
-    for (Eigen::Index k = 1; k + 1 < line.cols(); ++k) {
+    for (Eigen::Index k = 0; k < line.cols(); ++k) {
       Vec3 longest = Vec3::Zero();
       for (const SolidBone& bone : bones) {
         const Vec3 way = way_out(bone, line.col(k) + shift.col(k), std::min(center_clearance, radii[k]) + gap);
         if (way.squaredNorm() > longest.squaredNorm()) longest = way;
       }
       any = any || longest.norm() > 1e-6;
-      const Vec3 beside = (shift.col(k - 1) + shift.col(k + 1)) / 2;
-      next.col(k) = longest.norm() > 0 ? Vec3(shift.col(k) + longest) : Vec3((shift.col(k) + beside) / 2);
+      const bool alone = longest.norm() > 0 || k == 0 || k + 1 == line.cols();
+      next.col(k) += alone ? longest : Vec3((shift.col(k - 1) - 2 * shift.col(k) + shift.col(k + 1)) / 4);
       if (next.col(k).norm() > farthest) next.col(k) *= farthest / next.col(k).norm();
     }
     if (!any) break;
@@ -82,7 +82,7 @@ ClearSections clear_of_bones(const Points& line, const Eigen::VectorXd& radii, i
                              const std::vector<SolidBone>& bones) {
   ClearSections result{clear_centers(line, radii, bones), radii.transpose().replicate(rays, 1)};
   const SectionFrames frames = section_frames(result.centers, Vec3::UnitX());
-  for (Eigen::Index k = 1; k + 1 < line.cols(); ++k) {
+  for (Eigen::Index k = 0; k < line.cols(); ++k) {
     const Vec3 center = result.centers.col(k);
     Eigen::VectorXd room(rays);
     for (int i = 0; i < rays; ++i)

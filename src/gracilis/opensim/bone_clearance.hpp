@@ -22,7 +22,7 @@ struct ClearSections {
 /// Sections with these radii (m) along a line, brought out of the bones. Centers within a bone or closer to one than 4
 /// mm (or their radius) are pushed out, and their neighbors with them, so that the line bends softly; by 30 mm at most.
 /// Then corners are drawn in to 0.5 mm before a bone, and the others out, by 1.6 times at most, so that the sections
-/// keep their areas: the muscle lies against the bone. The first and the last section stay as they are.
+/// keep their areas: the muscle lies against the bone. A first or last section outside of the bones stays where it is.
 ClearSections clear_of_bones(const Points& line, const Eigen::VectorXd& radii, int rays,
                              const std::vector<SolidBone>& bones);
 

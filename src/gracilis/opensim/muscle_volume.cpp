@@ -116,15 +116,8 @@ MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::
   std::vector<Index> first_vertices = section(0, rays), last_vertices = section(last, rays);
   first_vertices.push_back(rays * sections);
   last_vertices.push_back(rays * sections + 1);
-  volume.held.push_back({AttachmentEnd::origin, line.bodies.front(), std::move(first_vertices)});
-  for (std::size_t i = 1; i + 1 < line.bodies.size(); ++i) {
-    const auto k = static_cast<Index>(i) << scaling;
-    if (positions[k] < origin_tendon)
-      volume.held.push_back({AttachmentEnd::origin, line.bodies[i], section(k, rays)});
-    else if (positions[k] > length - tendon)
-      volume.held.push_back({AttachmentEnd::insertion, line.bodies[i], section(k, rays)});
-  }
-  volume.held.push_back({AttachmentEnd::insertion, line.bodies.back(), std::move(last_vertices)});
+  volume.held = {HeldVertices{AttachmentEnd::origin, line.bodies.front(), std::move(first_vertices)},
+                 HeldVertices{AttachmentEnd::insertion, line.bodies.back(), std::move(last_vertices)}};
   return volume;
 }
 

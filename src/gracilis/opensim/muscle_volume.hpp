@@ -5,6 +5,7 @@
 #include <gracilis/opensim/model.hpp>
 #include <gracilis/scene/scene.hpp>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -39,14 +40,14 @@ struct HeldVertices {
 
 struct MuscleVolume {
   TriangleMesh surface;
-  ActionLine line;  ///< its bodies are the model's
-  std::vector<HeldVertices> held;
-  Index sections_on_surface = 0;  ///< of those brought onto a surface that is known
+  ActionLine line;                   ///< its bodies are the model's
+  std::array<HeldVertices, 2> held;  ///< origin and insertion
+  Index sections_on_surface = 0;     ///< of those brought onto a surface that is known
 };
 
 /// A closed surface around a muscle's path for the bodies at `poses` (Laclé 2014, after the line's own points; radii by
-/// spindle_radii, outside of the bones, or from the surface that is known, see enhance). The first sections are held by
-/// the origin's body and the last by the insertion's; sections at points between that lie in the tendon, by theirs.
+/// spindle_radii, outside of the bones, or from the surface that is known, see enhance). The first section is held by
+/// the origin's body and the last by the insertion's; a tendon slides past the points between.
 /// Throws InputError for a path by functions, which has no place, and for one without length.
 MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                            const Eigen::VectorXd& coordinates, const VolumeSettings& settings);

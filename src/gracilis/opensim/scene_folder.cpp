@@ -59,16 +59,11 @@ static std::string muscle_text(const Model& model, const std::string& name, cons
     text += fmt::format("centers_mm = [{}]\n", fmt::join(centers, ", "));
   }
   text += path;
-  for (std::size_t i = 0; i < volume.held.size(); ++i) {
-    const HeldVertices& held = volume.held[i];
-    const bool origin = held.end == AttachmentEnd::origin;
+  for (const HeldVertices& held : volume.held) {
+    const char* end = held.end == AttachmentEnd::origin ? "origin" : "insertion";
     text +=
-        fmt::format("\n[[muscles.attachments]]\nname = \"{}\"\nend = \"{}\"\nbody = {}\nvertices = [{}]\n",
-                    i == 0                        ? "origin"
-                    : i + 1 == volume.held.size() ? "insertion"
-                                                  : fmt::format("via_{}", i),
-                    origin ? "origin" : "insertion", toml_text(model.bodies[static_cast<std::size_t>(held.body)].name),
-                    fmt::join(held.vertices, ", "));
+        fmt::format("\n[[muscles.attachments]]\nname = \"{0}\"\nend = \"{0}\"\nbody = {1}\nvertices = [{2}]\n", end,
+                    toml_text(model.bodies[static_cast<std::size_t>(held.body)].name), fmt::join(held.vertices, ", "));
   }
   return text;
 }

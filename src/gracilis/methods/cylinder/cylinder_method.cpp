@@ -63,9 +63,7 @@ static CylinderShape shape_at(const CylinderMuscle& muscle, const Pose& pose) {
   result.ends.resize(3, 2);
   for (Eigen::Index k = 0; k < count; ++k) {
     Real growth = spacing[k] > 0 ? std::sqrt(muscle.spacing[k] / spacing[k]) : 1;
-    const LineSections& rest = muscle.sections;
-    const Real at = rest.places[static_cast<std::size_t>(k)];
-    if (at > rest.length - rest.line.tendon || at < rest.line.origin_tendon) growth = 1;
+    if (distance_from_tendon(muscle.sections, static_cast<Index>(k)) < 0) growth = 1;
     const Eigen::Matrix3d axes = sections.frames.axes(k) * Eigen::DiagonalMatrix<Real, 3>(growth, growth, 1);
     const Vec3 center = sections.centers.col(k);
     result.rings.corners.middleCols(k * muscle.rays, muscle.rays) =

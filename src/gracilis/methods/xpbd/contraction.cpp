@@ -95,8 +95,9 @@ void build_contractions(const Muscle& muscle, const MeshTopology& topology, Prep
   if (lines.count() == 0) return;
   const std::vector<Pull> pulls =
       muscle.contraction.spread ? spread_pulls(prepared, topology, lines) : segment_pulls(muscle, prepared, lines);
-  const std::vector<Real> belly =
+  std::vector<Real> belly =
       belly_shares(prepared.rest, topology, attached_particles(prepared), prepared.settings.tendon_length);
+  for (std::size_t p = 0; p < prepared.belly.size(); ++p) belly[p] *= prepared.belly[p];
   std::vector<DistanceConstraint> constraints;
   std::vector<Real> squared_cosines;
   for (const Pull& pull : pulls) {

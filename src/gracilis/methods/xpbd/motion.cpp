@@ -7,21 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace gracilis::xpbd {
 
 /// No edge aims at less than this share of its length at rest: no fiber shortens further (Gordon, Huxley, Julian 1966
 /// put the end of active shortening near half of the optimal length).
 static constexpr Real shortest_share = 0.4;
-
-void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles) {
-  for (Index p = 0; p < particles.count(); ++p) {
-    const Index body = muscle.fixed_body[static_cast<std::size_t>(p)];
-    if (body < 0) continue;
-    particles.position(p) =
-        (pose.bodies[static_cast<std::size_t>(body)] * muscle.rest.col(p) - muscle.origin).cast<float>();
-  }
-}
 
 Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& now) {
   const auto against_first = [&](const Pose& pose, Index body) -> Eigen::Matrix3d {
@@ -63,11 +55,12 @@ static bool shares_of(const PreparedMuscle& muscle, Index particle, std::vector<
 
 namespace {
 
-/// The frames that carry free particles from the capture pose to a pose, about the particles' origin: their sections'
-/// where the muscle is made of sections across a line, else blends of the bodies' motions.
-class FreeFrames {
+/// The frames that carry particles from the capture pose to a pose, about the particles' origin: their sections' where
+/// the muscle is made of sections across a line, else blends of the bodies' motions. Beside a line, too, what is
+/// attached moves with its body, but a tendon follows the line to its end.
+class CarryingFrames {
  public:
-  FreeFrames(const PreparedMuscle& muscle, const Pose& pose) : muscle_(muscle), pose_(pose) {
+  CarryingFrames(const PreparedMuscle& muscle, const Pose& pose) : muscle_(muscle), pose_(pose) {
     if (!muscle.line) {
       blend_ = carrier_transforms(muscle, pose);
       return;
@@ -85,8 +78,9 @@ class FreeFrames {
       const Index section = muscle_.section[static_cast<std::size_t>(particle)];
       const Index body = muscle_.fixed_body[static_cast<std::size_t>(particle)];
       const Eigen::Translation3d to_world(muscle_.origin);
-      frame = body < 0 ? sections_[static_cast<std::size_t>(section)]
-                       : to_world.inverse() * pose_.bodies[static_cast<std::size_t>(body)] * to_world;
+      const bool in_tendon = !(muscle_.belly[static_cast<std::size_t>(particle)] > 0);
+      frame = body < 0 || in_tendon ? sections_[static_cast<std::size_t>(section)]
+                                    : to_world.inverse() * pose_.bodies[static_cast<std::size_t>(body)] * to_world;
       return true;
     }
     if (!shares_of(muscle_, particle, shares)) return false;
@@ -103,6 +97,22 @@ class FreeFrames {
 
 }  // namespace
 
+void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles) {
+  const std::optional<CarryingFrames> frames =
+      muscle.line ? std::make_optional<CarryingFrames>(muscle, pose) : std::nullopt;
+  std::vector<Real> shares;
+  RigidTransform frame;
+  for (Index p = 0; p < particles.count(); ++p) {
+    const Index body = muscle.fixed_body[static_cast<std::size_t>(p)];
+    if (body < 0) continue;
+    if (frames && frames->of(p, shares, frame))
+      particles.position(p) = (frame * Vec3(muscle.rest.col(p) - muscle.origin)).cast<float>();
+    else
+      particles.position(p) =
+          (pose.bodies[static_cast<std::size_t>(body)] * muscle.rest.col(p) - muscle.origin).cast<float>();
+  }
+}
+
 /// Nearer to the capture pose than this a muscle comes back by no more than the recovery: the way through that pose is
 /// as smooth as any.
 static constexpr Real near_capture = radians(15);
@@ -118,7 +128,7 @@ static Real kept_share(const PreparedMuscle& muscle, const Pose& before, const P
 
 void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, Particles& particles) {
   if (muscle.carriers.empty()) return;
-  const FreeFrames from(muscle, before), to(muscle, now);
+  const CarryingFrames from(muscle, before), to(muscle, now);
   const Real kept = kept_share(muscle, before, now, active);
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(muscle.carriers.size());
@@ -128,7 +138,8 @@ void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& no
         continue;
       const Vec3 rest = muscle.rest.col(p) - muscle.origin;
       const Vec3 displaced = was.inverse() * particles.position(p).cast<Real>();
-      particles.position(p) = (is * Vec3(rest + kept * (displaced - rest))).cast<float>();
+      const Real belly = muscle.line ? muscle.belly[static_cast<std::size_t>(p)] : 1;
+      particles.position(p) = (is * Vec3(rest + belly * kept * (displaced - rest))).cast<float>();
     }
   });
 }
@@ -136,7 +147,7 @@ void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& no
 Points carried_rest(const PreparedMuscle& muscle, const Pose& pose) {
   Points carried = muscle.rest.colwise() - muscle.origin;
   if (muscle.carriers.empty()) return carried;
-  const FreeFrames frames(muscle, pose);
+  const CarryingFrames frames(muscle, pose);
   parallel_for(static_cast<Index>(carried.cols()), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(muscle.carriers.size());
     RigidTransform frame;

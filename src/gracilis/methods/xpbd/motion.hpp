@@ -6,7 +6,7 @@
 
 namespace gracilis::xpbd {
 
-/// Attached particles go where their bodies are: T_body x_rest.
+/// Attached particles go where their bodies are: T_body x_rest; the ends of tendons, where their lines end.
 void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles);
 
 /// The largest turn from one pose to another of a bone to which the muscle is attached, against another such bone, rad.
@@ -19,6 +19,8 @@ Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& 
 /// On the way back to the capture pose a relaxed muscle also keeps no more than in proportion to the turn of its bones
 /// from there: where they are as they were, so is the muscle. An active one is displaced by its own pull, too, which
 /// knows nothing of that.
+///
+/// The frames of a muscle made of sections across a line are its sections'; a tendon keeps no displacement.
 void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, Particles& particles);
 
 /// Places each obstacle's field where its bone is now.

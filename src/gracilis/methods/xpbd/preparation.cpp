@@ -20,6 +20,13 @@ namespace {
 /// Below this share of its stiffness an edge along the fibers would carry nothing and its compliance no finite number.
 constexpr Real smallest_anisotropy = 1e-6;
 constexpr Real smallest_mass_share = 1e-3;
+/// Inverse mass of a tendon's particles over that of the belly's: what pulls at a tendon moves the belly instead. Less
+/// folds tendons where their lines bend, more lets an active muscle draw them off these.
+constexpr Real tendon_mobility = 0.05;
+/// Stiffness of a tendon's edges over that of the belly's.
+constexpr Real tendon_stiffness = 200;
+/// A belly passes into its tendon over this length, m: in less its edges stretch there, over more it folds.
+constexpr Real tendon_border = 0.03;
 /// A triangle is a sliver when its tip is nearer to its longest side than this share of that, or of all sides' mean.
 constexpr float flattest = 0.1f;
 /// Parts of a muscle nearer to each other than this at rest are kept on their side one by one, m.
@@ -52,9 +59,24 @@ Renumbered renumber(const Muscle& muscle) {
   return result;
 }
 
-/// Mass of each vertex by its share of the surface, over all: density times volume.
-Eigen::VectorXd inverse_masses(const TriangleMesh& surface, const XpbdSettings& settings,
-                               const std::vector<Index>& fixed_body) {
+/// The section that carries each particle: its own, or, where the surface is a finer or coarser copy, the nearest.
+void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepared) {
+  prepared.line = line_sections(muscle);
+  const Points centers = sections_at(*prepared.line, capture_pose(scene.bodies.size())).centers;
+  const bool own = static_cast<Eigen::Index>(prepared.order.size()) == muscle.action_line.rays * centers.cols() + 2;
+  for (Index p = 0; p < static_cast<Index>(prepared.order.size()); ++p) {
+    Eigen::Index nearest = 0;
+    (centers.colwise() - prepared.rest.col(p)).colwise().squaredNorm().minCoeff(&nearest);
+    prepared.section.push_back(own ? section_of_vertex(*prepared.line, prepared.order[static_cast<std::size_t>(p)])
+                                   : static_cast<Index>(nearest));
+    const Real t = std::clamp(distance_from_tendon(*prepared.line, prepared.section.back()) / tendon_border, 0.0, 1.0);
+    prepared.belly.push_back(t * t * (3 - 2 * t));
+  }
+}
+
+/// Mass of each vertex by its share of the surface, over all: density times volume. Tendons are heavier.
+Eigen::VectorXd inverse_masses(const TriangleMesh& surface, const PreparedMuscle& prepared) {
+  const XpbdSettings& settings = prepared.settings;
   Eigen::VectorXd masses = Eigen::VectorXd::Ones(surface.vertex_count());
   if (!settings.unit_masses) {
     const Eigen::VectorXd areas = vertex_areas(surface.vertices, surface.faces);
@@ -63,8 +85,10 @@ Eigen::VectorXd inverse_masses(const TriangleMesh& surface, const XpbdSettings& 
     masses = settings.density * enclosed_volume(surface.vertices, surface.faces) / shares.sum() * shares;
   }
   Eigen::VectorXd inverse = masses.cwiseInverse();
+  for (std::size_t p = 0; p < prepared.belly.size(); ++p)
+    inverse[static_cast<Index>(p)] *= std::pow(tendon_mobility, 1 - prepared.belly[p]);
   for (Index p = 0; p < inverse.size(); ++p)
-    if (fixed_body[static_cast<std::size_t>(p)] >= 0) inverse[p] = 0;
+    if (prepared.fixed_body[static_cast<std::size_t>(p)] >= 0) inverse[p] = 0;
   return inverse;
 }
 
@@ -93,6 +117,14 @@ Real edge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshEd
   return settings.distance_stiffness * std::clamp(shape, 1 / largest_shape, largest_shape);
 }
 
+/// How much stiffer an edge is for being in a tendon.
+Real tendon_factor(const PreparedMuscle& prepared, const MeshEdge& edge) {
+  if (prepared.belly.empty()) return 1;
+  const Real belly =
+      (prepared.belly[static_cast<std::size_t>(edge.a)] + prepared.belly[static_cast<std::size_t>(edge.b)]) / 2;
+  return std::pow(tendon_stiffness, 1 - belly);
+}
+
 void build_edges(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
   const Points& x = muscle.surface.vertices;
   const Points directions = fiber_directions(x, muscle.surface.faces, topology, muscle.attachments);
@@ -102,8 +134,8 @@ void build_edges(const Renumbered& muscle, const MeshTopology& topology, Prepare
     const Vec3 along = x.col(edge.b) - x.col(edge.a);
     const Real length = along.norm();
     const Real cosine = length > 0 ? direction_at(edge, directions).dot(along) / length : 0;
-    const Real stiffness =
-        edge_stiffness(x, muscle.surface.faces, edge, prepared.settings) * anisotropy(cosine, prepared.settings);
+    const Real stiffness = edge_stiffness(x, muscle.surface.faces, edge, prepared.settings) *
+                           anisotropy(cosine, prepared.settings) * tendon_factor(prepared, edge);
     constraints.push_back({edge.a, edge.b, length, 1 / stiffness});
   }
   prepared.system.distances = build_distance_set(constraints, muscle.surface.vertex_count());
@@ -193,19 +225,6 @@ Points fiber_directions(const Points& vertices, const Eigen::Matrix3Xi& faces, c
   return directions;
 }
 
-/// The section that carries each particle: its own, or, where the surface is a finer or coarser copy, the nearest.
-static void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepared) {
-  prepared.line = line_sections(muscle);
-  const Points centers = sections_at(*prepared.line, capture_pose(scene.bodies.size())).centers;
-  const bool own = static_cast<Eigen::Index>(prepared.order.size()) == muscle.action_line.rays * centers.cols() + 2;
-  for (Index p = 0; p < static_cast<Index>(prepared.order.size()); ++p) {
-    Eigen::Index nearest = 0;
-    (centers.colwise() - prepared.rest.col(p)).colwise().squaredNorm().minCoeff(&nearest);
-    prepared.section.push_back(own ? section_of_vertex(*prepared.line, prepared.order[static_cast<std::size_t>(p)])
-                                   : static_cast<Index>(nearest));
-  }
-}
-
 PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
   PreparedMuscle prepared;
   prepared.name = muscle.name;
@@ -220,8 +239,9 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   for (const Attachment& attachment : renumbered.attachments)
     for (Index v : attachment.vertices) prepared.fixed_body[static_cast<std::size_t>(v)] = attachment.body;
 
-  prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin,
-                                        inverse_masses(renumbered.surface, prepared.settings, prepared.fixed_body));
+  if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
+  prepared.system.rest =
+      make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(renumbered.surface, prepared));
   // What takes the most memory while it is built comes first.
   if (scene.contact.self && scene.contact.muscle == MuscleContact::surface) {
     prepared.system.slivers = build_sliver_set(renumbered.surface.faces, prepared.system.rest, flattest);
@@ -235,7 +255,6 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   prepared.system.volume =
       build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
                        enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
-  if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
   prepared.is_driven = drives(scene.activation, muscle.name);
   if (prepared.is_driven) build_contractions(muscle, topology, prepared);
   build_large_faces(renumbered, fields, prepared);

@@ -66,6 +66,8 @@ Pose pose_between(const Pose& before, const Pose& now, Real share) {
     pose.bodies[b].linear() = from.slerp(share, to).toRotationMatrix();
     pose.bodies[b].translation() = (1 - share) * before.bodies[b].translation() + share * now.bodies[b].translation();
   }
+  for (std::size_t c = 0; c < std::min(before.coordinates.size(), now.coordinates.size()); ++c)
+    pose.coordinates[c] = (1 - share) * before.coordinates[c] + share * now.coordinates[c];
   return pose;
 }
 

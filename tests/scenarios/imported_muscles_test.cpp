@@ -1,0 +1,111 @@
+#include <io/test_files.hpp>
+#include "scenario_runs.hpp"
+
+#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/line_sections.hpp>
+#include <gracilis/opensim/coordinate_motion.hpp>
+#include <gracilis/opensim/model_reader.hpp>
+#include <gracilis/opensim/scene_folder.hpp>
+
+#include <gmock/gmock.h>
+
+namespace gracilis {
+
+using namespace opensim;
+
+/// The scene that import makes of a model and a motion, for XPBD.
+static Scene imported(const Model& model, const GeometryPlaces& places, const NamedMotion& motion,
+                      const SceneFolderSettings& settings = {}) {
+  const TestFolder folder;
+  EXPECT_THAT(write_scene_folder(model, places, {motion}, settings, folder.path()), testing::IsEmpty());
+  return read_scene(folder.path() / (motion.name + ".toml")).scene;
+}
+
+/// Every so many rows of a motion.
+static CoordinateMotion thinned(const CoordinateMotion& motion, Eigen::Index every) {
+  CoordinateMotion result = motion;
+  const Eigen::Index count = (motion.values.rows() + every - 1) / every;
+  result.values.resize(count, motion.values.cols());
+  result.times.clear();
+  for (Eigen::Index row = 0; row < count; ++row) {
+    result.values.row(row) = motion.values.row(row * every);
+    result.times.push_back(motion.times[static_cast<std::size_t>(row * every)]);
+  }
+  return result;
+}
+
+class ImportedHip : public testing::TestWithParam<const char*> {};
+
+TEST_P(ImportedHip, muscles_miss_no_gate_in_the_models_own_motion) {
+  SKIP_WITHOUT_DATA();
+  const auto hip = data_folder() / "lhdl-hip";
+  const auto coarse = [&](const char* file) { return hip / "coarse" / file; };
+  const GeometryPlaces places = {
+      {},
+      {},
+      {{"LHDL_pelvis.vtp", {{coarse("hip_bone_r.ply"), coarse("hip_bone_l.ply"), coarse("sacrum.ply")}, 0.001}},
+       {"LHDL_femur_r.vtp", {{coarse("femur_r.ply")}, 0.001}}}};
+  const Model model = read_model(hip / "motion/LHDL_hip_r.osim");
+  const CoordinateMotion motion =
+      coordinate_motion(model, read_table(hip / "motion" / (std::string(GetParam()) + ".mot")));
+  const Scene scene = imported(model, places, {GetParam(), motion});
+  ASSERT_EQ(scene.muscles.size(), 8u);
+  expect_gates(scene, run_whole(scene));
+}
+
+INSTANTIATE_TEST_SUITE_P(Motions, ImportedHip, testing::Values("hip_flexion", "hip_adduction", "hip_rotation"),
+                         [](const auto& motion) { return std::string(motion.param); });
+
+/// Muscles of the walking model that are easily led astray: tendons between the foot's bones and around the ankle, ends
+/// that move with the patella, points that come and go.
+static Scene walking(const std::vector<std::string>& muscles, Eigen::Index every) {
+  const auto folder = data_folder() / "opensim";
+  const auto path = folder / "subject01_simbody_adjusted_StaticOp.osim";
+  const Model model = read_model(path);
+  const CoordinateMotion motion = coordinate_motion(model, read_table(folder / "subject01_walk1_Kinematics.sto"));
+  SceneFolderSettings settings;
+  settings.muscles = muscles;
+  return imported(model, {folder, {folder / "geometry"}, {}}, {"walk", thinned(motion, every)}, settings);
+}
+
+TEST(ImportedWalk, muscles_miss_no_gate) {
+  SKIP_WITHOUT_DATA();
+  const Scene scene = walking({"ext_hal_r", "ext_hal_l", "per_long_r", "tib_post_l", "soleus_r", "med_gas_l",
+                               "vas_int_r", "vas_med_r", "rect_fem_r", "tfl_r", "semimem_r", "peri_r", "psoas_r"},
+                              100);
+  ASSERT_EQ(scene.muscles.size(), 13u);
+  expect_gates(scene, run_whole(scene));
+}
+
+/// How far the middles of a tendon's sections are beside where the line carries them, at most, m.
+static Real tendon_beside_line(const gracilis::Muscle& muscle, const FrameRecord& record, const Points& now) {
+  const LineSections line = line_sections(muscle);
+  const PlacedSections rest = sections_at(line, capture_pose(record.frame.pose.bodies.size())),
+                       carried = sections_at(line, record.frame.pose);
+  const auto middle = [&](const Points& points, Index k) -> Vec3 {
+    return points.middleCols(k * muscle.action_line.rays, muscle.action_line.rays).rowwise().mean();
+  };
+  Real farthest = 0;
+  for (Index k = 0; k < static_cast<Index>(line.places.size()); ++k) {
+    if (distance_from_tendon(line, k) >= 0) continue;
+    const Vec3 was = rest.frame(k).inverse() * middle(muscle.surface.vertices, k),
+               is = carried.frame(k).inverse() * middle(now, k);
+    farthest = std::max(farthest, (is - was).head<2>().norm());
+  }
+  return farthest;
+}
+
+TEST(ImportedWalk, active_muscles_do_not_draw_their_tendons_off_their_lines) {
+  SKIP_WITHOUT_DATA();
+  Scene scene = walking({"tib_ant_r", "ext_dig_r", "ext_hal_r", "per_long_r", "soleus_r"}, 100);
+  for (const gracilis::Muscle& muscle : scene.muscles) scene.activation.signals.push_back({muscle.name, {0}, {0.3}});
+  std::vector<Real> farthest(scene.muscles.size(), 0);
+  const auto observe = [&](const FrameRecord& record) {
+    for (std::size_t m = 0; m < scene.muscles.size(); ++m)
+      farthest[m] = std::max(farthest[m], tendon_beside_line(scene.muscles[m], record, record.frame.muscles[m].points));
+  };
+  expect_gates(scene, run_whole(scene, 1, observe));
+  for (std::size_t m = 0; m < scene.muscles.size(); ++m) EXPECT_LT(farthest[m], 0.01) << scene.muscles[m].name;
+}
+
+}  // namespace gracilis
