@@ -99,7 +99,7 @@ if [ -x "$peer" ]; then
 fi
 
 say "" "## Growth with triangles" "" "Gluteus maximus, two coarser copies, itself, and each triangle divided into four again and again; one thread. The last column is" \
-  "what the process's peak of memory grew while the muscle was prepared and solved." "" \
+  "what preparing and solving the muscle took beyond what the process held before, at its peak." "" \
   "| triangles | ms per iteration | ns per triangle | bytes per triangle |" "| --- | --- | --- | --- |"
 for size in "--coarsen 0.0086" "--coarsen 0.0045" "--subdivide 0" "--subdivide 1" "--subdivide 2" "--subdivide 3"; do
   # shellcheck disable=SC2086  # an option and its value

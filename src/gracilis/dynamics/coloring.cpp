@@ -25,59 +25,94 @@ Incidence incidence_of(const ConstraintGraph& graph) {
   return incidence;
 }
 
-/// Neighbors of each constraint: those that share a particle with it.
-Incidence conflicts_of(const ConstraintGraph& graph) {
-  const Incidence incidence = incidence_of(graph);
-  Incidence conflicts;
-  conflicts.offsets.push_back(0);
-  std::vector<Index> last_seen(static_cast<std::size_t>(graph.constraint_count()), -1);
-  for (Index c = 0; c < graph.constraint_count(); ++c) {
-    last_seen[static_cast<std::size_t>(c)] = c;
-    for (int k = 0; k < graph.arity; ++k) {
-      const auto p = static_cast<std::size_t>(graph.particles[static_cast<std::size_t>(c * graph.arity + k)]);
-      for (Index i = incidence.offsets[p]; i < incidence.offsets[p + 1]; ++i) {
-        const Index other = incidence.constraints[static_cast<std::size_t>(i)];
-        if (last_seen[static_cast<std::size_t>(other)] == c) continue;
-        last_seen[static_cast<std::size_t>(other)] = c;
-        conflicts.constraints.push_back(other);
+/// The constraints that share a particle with one, which is none of them. They are found anew each time: a list of all
+/// would be larger than what is colored.
+class Conflicts {
+ public:
+  explicit Conflicts(const ConstraintGraph& graph)
+      : graph_(graph),
+        incidence_(incidence_of(graph)),
+        last_seen_(static_cast<std::size_t>(graph.constraint_count()), -1) {}
+
+  Index constraint_count() const { return graph_.constraint_count(); }
+
+  template <class See>
+  void for_each(Index c, const See& see) {
+    ++time_;
+    last_seen_[static_cast<std::size_t>(c)] = time_;
+    for (int k = 0; k < graph_.arity; ++k) {
+      const auto p = static_cast<std::size_t>(graph_.particles[static_cast<std::size_t>(c * graph_.arity + k)]);
+      for (Index i = incidence_.offsets[p]; i < incidence_.offsets[p + 1]; ++i) {
+        const Index other = incidence_.constraints[static_cast<std::size_t>(i)];
+        if (last_seen_[static_cast<std::size_t>(other)] == time_) continue;
+        last_seen_[static_cast<std::size_t>(other)] = time_;
+        see(other);
       }
     }
-    conflicts.offsets.push_back(static_cast<Index>(conflicts.constraints.size()));
   }
-  return conflicts;
-}
+
+ private:
+  const ConstraintGraph& graph_;
+  Incidence incidence_;
+  std::vector<Index> last_seen_;  ///< the time of each
+  Index time_ = 0;
+};
+
+/// Constraints by degree; of those of one degree, the last that came to it is first.
+class Buckets {
+ public:
+  explicit Buckets(Index count)
+      : next_(static_cast<std::size_t>(count), -1), previous_(static_cast<std::size_t>(count), -1) {}
+
+  void put(Index c, Index degree) {
+    if (first_.size() <= static_cast<std::size_t>(degree)) first_.resize(static_cast<std::size_t>(degree) + 1, -1);
+    Index& first = first_[static_cast<std::size_t>(degree)];
+    next_[static_cast<std::size_t>(c)] = first;
+    previous_[static_cast<std::size_t>(c)] = -1;
+    if (first >= 0) previous_[static_cast<std::size_t>(first)] = c;
+    first = c;
+  }
+
+  void take(Index c, Index degree) {
+    const Index next = next_[static_cast<std::size_t>(c)], previous = previous_[static_cast<std::size_t>(c)];
+    (previous < 0 ? first_[static_cast<std::size_t>(degree)] : next_[static_cast<std::size_t>(previous)]) = next;
+    if (next >= 0) previous_[static_cast<std::size_t>(next)] = previous;
+  }
+
+  /// -1 where there is none.
+  Index first(Index degree) const { return first_[static_cast<std::size_t>(degree)]; }
+
+ private:
+  std::vector<Index> first_, next_, previous_;
+};
 
 /// Repeatedly takes away a constraint with the fewest remaining conflicts; the coloring order is the reverse.
-std::vector<Index> smallest_last_order(const Incidence& conflicts) {
-  const auto count = conflicts.offsets.size() - 1;
-  std::vector<Index> degree(count);
-  std::vector<std::vector<Index>> buckets;
-  for (std::size_t c = 0; c < count; ++c) {
-    degree[c] = conflicts.offsets[c + 1] - conflicts.offsets[c];
-    if (buckets.size() <= static_cast<std::size_t>(degree[c])) buckets.resize(static_cast<std::size_t>(degree[c]) + 1);
-    buckets[static_cast<std::size_t>(degree[c])].push_back(static_cast<Index>(c));
+std::vector<Index> smallest_last_order(Conflicts& conflicts) {
+  const Index count = conflicts.constraint_count();
+  std::vector<Index> degree(static_cast<std::size_t>(count), 0);
+  Buckets buckets(count);
+  for (Index c = 0; c < count; ++c) {
+    Index& own = degree[static_cast<std::size_t>(c)];
+    conflicts.for_each(c, [&](Index) { ++own; });
+    buckets.put(c, own);
   }
-  std::vector<char> taken(count, 0);
+  constexpr Index taken = -1;
   std::vector<Index> order;
-  order.reserve(count);
-  std::size_t lowest = 0;
-  while (order.size() < count) {
-    while (buckets[lowest].empty()) ++lowest;
-    const Index c = buckets[lowest].back();
-    buckets[lowest].pop_back();
-    // A constraint stays in its old buckets when its degree drops; those entries are stale.
-    if (taken[static_cast<std::size_t>(c)] || static_cast<std::size_t>(degree[static_cast<std::size_t>(c)]) != lowest)
-      continue;
-    taken[static_cast<std::size_t>(c)] = 1;
+  order.reserve(static_cast<std::size_t>(count));
+  Index lowest = 0;
+  while (static_cast<Index>(order.size()) < count) {
+    while (buckets.first(lowest) < 0) ++lowest;
+    const Index c = buckets.first(lowest);
+    buckets.take(c, lowest);
+    degree[static_cast<std::size_t>(c)] = taken;
     order.push_back(c);
-    for (Index i = conflicts.offsets[static_cast<std::size_t>(c)];
-         i < conflicts.offsets[static_cast<std::size_t>(c) + 1]; ++i) {
-      const auto other = static_cast<std::size_t>(conflicts.constraints[static_cast<std::size_t>(i)]);
-      if (taken[other]) continue;
-      --degree[other];
-      buckets[static_cast<std::size_t>(degree[other])].push_back(static_cast<Index>(other));
-      lowest = std::min(lowest, static_cast<std::size_t>(degree[other]));
-    }
+    conflicts.for_each(c, [&](Index other) {
+      Index& others = degree[static_cast<std::size_t>(other)];
+      if (others == taken) return;
+      buckets.take(other, others);
+      buckets.put(other, --others);
+      lowest = std::min(lowest, others);
+    });
   }
   std::reverse(order.begin(), order.end());
   return order;
@@ -87,15 +122,14 @@ std::vector<Index> smallest_last_order(const Incidence& conflicts) {
 
 std::vector<Index> color_constraints(const ConstraintGraph& graph) {
   if (graph.particles.empty()) return {};
-  const Incidence conflicts = conflicts_of(graph);
+  Conflicts conflicts(graph);
   std::vector<Index> colors(static_cast<std::size_t>(graph.constraint_count()), -1);
   std::vector<Index> used_by;  // per color: the last constraint that found it taken
   for (Index c : smallest_last_order(conflicts)) {
-    for (Index i = conflicts.offsets[static_cast<std::size_t>(c)];
-         i < conflicts.offsets[static_cast<std::size_t>(c) + 1]; ++i) {
-      const Index color = colors[static_cast<std::size_t>(conflicts.constraints[static_cast<std::size_t>(i)])];
+    conflicts.for_each(c, [&](Index other) {
+      const Index color = colors[static_cast<std::size_t>(other)];
       if (color >= 0) used_by[static_cast<std::size_t>(color)] = c;
-    }
+    });
     Index color = 0;
     while (color < static_cast<Index>(used_by.size()) && used_by[static_cast<std::size_t>(color)] == c) ++color;
     if (color == static_cast<Index>(used_by.size())) used_by.push_back(-1);

@@ -170,16 +170,24 @@ VolumeSet build_volume_set(const Eigen::Matrix3Xi& faces, Index particle_count, 
   set.compliance = compliance;
   set.particles.assign(order.begin(), order.end());
   set.ring_offsets.push_back(0);
+  const auto steps_of = [&](std::size_t group) {
+    std::size_t steps = 1;
+    for (std::size_t lane = 0; lane < width; ++lane)
+      if (order[group + lane] < particle_count) steps = std::max(steps, face_count(order[group + lane]) + 1);
+    return steps;
+  };
+  std::size_t all_steps = 0;
+  for (std::size_t group = 0; group < order.size(); group += width) all_steps += steps_of(group);
+  set.ring.reserve(all_steps * width);
   std::array<std::vector<Index>, group_width> rings;
   for (std::size_t group = 0; group < order.size(); group += width) {
-    std::size_t steps = 0;
+    const std::size_t steps = steps_of(group);
     for (std::size_t lane = 0; lane < width; ++lane) {
       const Index p = order[group + lane];
       if (p == particle_count)
         rings[lane] = {p};  // idle
       else
         chain(fans, p, rings[lane]);
-      steps = std::max(steps, rings[lane].size());
     }
     for (std::size_t step = 0; step < steps; ++step)
       for (const std::vector<Index>& ring : rings) set.ring.push_back(ring[std::min(step, ring.size() - 1)]);

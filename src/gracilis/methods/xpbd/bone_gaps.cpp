@@ -101,6 +101,14 @@ FieldContactSet bone_contact(const PreparedMuscle& prepared, const MeshTopology&
   FieldContactSet contact;
   contact.field = bounded(field);
   std::vector<char> keeps = grown_in(prepared, topology, distances);
+  const DistanceSet& edges = prepared.system.distances;
+  const FaceSet& faces = prepared.system.large_faces;
+  for (ContactGaps* gaps : {&contact.captured, &contact.released}) {
+    gaps->particle.reserve(distances.size());
+    if (!settings.edge_contact) continue;
+    gaps->edge_sag.reserve(edges.a.size());
+    gaps->face_sag.reserve(faces.particles[0].size());
+  }
   for (std::size_t p = 0; p < distances.size(); ++p) {
     keeps[p] |= prepared.fixed_body[p] >= 0;
     contact.captured.particle.push_back(settings.bone_rest_gap ? captured_gap(distances[p], margin) : margin);
@@ -119,11 +127,9 @@ FieldContactSet bone_contact(const PreparedMuscle& prepared, const MeshTopology&
       break;
   }
   if (!settings.edge_contact) return contact;
-  const DistanceSet& edges = prepared.system.distances;
   for (std::size_t slot = 0; slot < edges.a.size(); ++slot)
     add_sag<2>(prepared, contact, keeps, {edges.a[slot], edges.b[slot]}, contact.captured.edge_sag,
                contact.released.edge_sag);
-  const FaceSet& faces = prepared.system.large_faces;
   for (std::size_t slot = 0; slot < faces.particles[0].size(); ++slot)
     add_sag<3>(prepared, contact, keeps, {faces.particles[0][slot], faces.particles[1][slot], faces.particles[2][slot]},
                contact.captured.face_sag, contact.released.face_sag);

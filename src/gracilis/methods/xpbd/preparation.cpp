@@ -34,29 +34,28 @@ constexpr Real tight = 1e-4;
 /// A face is large when the circle in it has a radius above this many cells of the bones' fields.
 constexpr Real large_radius = 2;
 
-/// The muscle's surface and attachments in particle numbers.
-struct Renumbered {
-  TriangleMesh surface;
-  std::vector<Attachment> attachments;
-  std::vector<Index> order;
-};
-
-Renumbered renumber(const Muscle& muscle) {
-  const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
-  Renumbered result;
-  result.order = particle_order(muscle.surface.vertices, topology.stars);
-  std::vector<Index> particle_of(result.order.size());
-  result.surface.vertices.resize(3, muscle.surface.vertex_count());
-  for (std::size_t p = 0; p < result.order.size(); ++p) {
-    particle_of[static_cast<std::size_t>(result.order[p])] = static_cast<Index>(p);
-    result.surface.vertices.col(static_cast<Index>(p)) = muscle.surface.vertices.col(result.order[p]);
+/// Numbers the particles and puts the muscle's surface into their order; the attachments, in particle numbers.
+std::vector<Attachment> renumber(const Muscle& muscle, PreparedMuscle& prepared) {
+  {
+    const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
+    prepared.order = particle_order(muscle.surface.vertices, topology.stars);
   }
-  result.surface.faces =
-      muscle.surface.faces.unaryExpr([&](Index v) { return particle_of[static_cast<std::size_t>(v)]; });
-  result.attachments = muscle.attachments;
-  for (Attachment& attachment : result.attachments)
-    for (Index& v : attachment.vertices) v = particle_of[static_cast<std::size_t>(v)];
-  return result;
+  std::vector<Index> particle_of(prepared.order.size());
+  prepared.rest.resize(3, muscle.surface.vertex_count());
+  for (std::size_t p = 0; p < prepared.order.size(); ++p) {
+    particle_of[static_cast<std::size_t>(prepared.order[p])] = static_cast<Index>(p);
+    prepared.rest.col(static_cast<Index>(p)) = muscle.surface.vertices.col(prepared.order[p]);
+  }
+  const auto numbered = [&](Index v) { return particle_of[static_cast<std::size_t>(v)]; };
+  prepared.faces = muscle.surface.faces.unaryExpr(numbered);
+  prepared.fixed_body.assign(prepared.order.size(), -1);
+  std::vector<Attachment> attachments = muscle.attachments;
+  for (Attachment& attachment : attachments)
+    for (Index& v : attachment.vertices) {
+      v = numbered(v);
+      prepared.fixed_body[static_cast<std::size_t>(v)] = attachment.body;
+    }
+  return attachments;
 }
 
 /// The section that carries each particle: its own, or, where the surface is a finer or coarser copy, the nearest.
@@ -75,14 +74,14 @@ void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepa
 }
 
 /// Mass of each vertex by its share of the surface, over all: density times volume. Tendons are heavier.
-Eigen::VectorXd inverse_masses(const TriangleMesh& surface, const PreparedMuscle& prepared) {
+Eigen::VectorXd inverse_masses(const PreparedMuscle& prepared) {
   const XpbdSettings& settings = prepared.settings;
-  Eigen::VectorXd masses = Eigen::VectorXd::Ones(surface.vertex_count());
+  Eigen::VectorXd masses = Eigen::VectorXd::Ones(prepared.rest.cols());
   if (!settings.unit_masses) {
-    const Eigen::VectorXd areas = vertex_areas(surface.vertices, surface.faces);
+    const Eigen::VectorXd areas = vertex_areas(prepared.rest, prepared.faces);
     // A vertex among slivers would weigh next to nothing and fly.
     const Eigen::VectorXd shares = areas.cwiseMax(smallest_mass_share * areas.mean());
-    masses = settings.density * enclosed_volume(surface.vertices, surface.faces) / shares.sum() * shares;
+    masses = settings.density * enclosed_volume(prepared.rest, prepared.faces) / shares.sum() * shares;
   }
   Eigen::VectorXd inverse = masses.cwiseInverse();
   for (std::size_t p = 0; p < prepared.belly.size(); ++p)
@@ -125,20 +124,20 @@ Real tendon_factor(const PreparedMuscle& prepared, const MeshEdge& edge) {
   return std::pow(tendon_stiffness, 1 - belly);
 }
 
-void build_edges(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
-  const Points& x = muscle.surface.vertices;
-  const Points directions = fiber_directions(x, muscle.surface.faces, topology, muscle.attachments);
+void build_edges(const std::vector<Attachment>& attachments, const MeshTopology& topology, PreparedMuscle& prepared) {
+  const Points& x = prepared.rest;
+  const Points directions = fiber_directions(x, prepared.faces, topology, attachments);
   std::vector<DistanceConstraint> constraints;
   constraints.reserve(topology.edges.size());
   for (const MeshEdge& edge : topology.edges) {
     const Vec3 along = x.col(edge.b) - x.col(edge.a);
     const Real length = along.norm();
     const Real cosine = length > 0 ? direction_at(edge, directions).dot(along) / length : 0;
-    const Real stiffness = edge_stiffness(x, muscle.surface.faces, edge, prepared.settings) *
+    const Real stiffness = edge_stiffness(x, prepared.faces, edge, prepared.settings) *
                            anisotropy(cosine, prepared.settings) * tendon_factor(prepared, edge);
     constraints.push_back({edge.a, edge.b, length, 1 / stiffness});
   }
-  prepared.system.distances = build_distance_set(constraints, muscle.surface.vertex_count());
+  prepared.system.distances = build_distance_set(constraints, prepared.particle_count());
 }
 
 /// Stiffness of one hinge: the setting, scaled by 3 l²/A so that bending does not depend on how finely the surface is
@@ -150,8 +149,8 @@ Real hinge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshE
   return settings.dihedral_stiffness * (area > 0 ? std::min(3 * length2 / area, largest_shape) : largest_shape);
 }
 
-void build_hinges(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
-  const Points& x = muscle.surface.vertices;
+void build_hinges(const MeshTopology& topology, PreparedMuscle& prepared) {
+  const Points& x = prepared.rest;
   std::vector<HingeConstraint> constraints;
   constraints.reserve(topology.edges.size());
   for (const MeshEdge& edge : topology.edges) {
@@ -160,36 +159,36 @@ void build_hinges(const Renumbered& muscle, const MeshTopology& topology, Prepar
     hinge.particles = {edge.a, edge.b, edge.left_apex, edge.right_apex};
     hinge.rest_angle = dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex));
     if (prepared.settings.dihedral_formula == DihedralFormula::arccos) hinge.rest_angle = std::abs(hinge.rest_angle);
-    hinge.compliance = 1 / hinge_stiffness(x, muscle.surface.faces, edge, prepared.settings);
+    hinge.compliance = 1 / hinge_stiffness(x, prepared.faces, edge, prepared.settings);
     hinge.edge_length = (x.col(edge.b) - x.col(edge.a)).norm();
     constraints.push_back(hinge);
   }
-  prepared.system.hinges = build_hinge_set(constraints, muscle.surface.vertex_count());
+  prepared.system.hinges = build_hinge_set(constraints, prepared.particle_count());
 }
 
-void build_predictor(const Renumbered& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
+void build_predictor(const MeshTopology& topology, PreparedMuscle& prepared) {
   for (Index body : prepared.fixed_body)
     if (body >= 0 && std::find(prepared.carriers.begin(), prepared.carriers.end(), body) == prepared.carriers.end())
       prepared.carriers.push_back(body);
   std::sort(prepared.carriers.begin(), prepared.carriers.end());
-  prepared.carrier_shares =
-      carrier_shares(muscle.surface, topology, prepared.fixed_body, prepared.carriers, prepared.settings.tendon_length);
+  prepared.carrier_shares = carrier_shares({prepared.rest, prepared.faces}, topology, prepared.fixed_body,
+                                           prepared.carriers, prepared.settings.tendon_length);
 }
 
 /// Between the edges of these faces something as sharp as a bone can poke through.
-void build_large_faces(const Renumbered& muscle, const std::vector<DistanceField>& fields, PreparedMuscle& prepared) {
+void build_large_faces(const std::vector<DistanceField>& fields, PreparedMuscle& prepared) {
   Real cell = std::numeric_limits<Real>::infinity();
   for (const DistanceField& field : fields) cell = std::min(cell, field.cell_size.maxCoeff());
-  const Points& x = muscle.surface.vertices;
+  const Points& x = prepared.rest;
   std::vector<Index> large;
-  for (Index f = 0; f < muscle.surface.face_count(); ++f) {
-    const auto corners = muscle.surface.faces.col(f);
+  for (Index f = 0; f < static_cast<Index>(prepared.faces.cols()); ++f) {
+    const auto corners = prepared.faces.col(f);
     Real around = 0;
     for (int k = 0; k < 3; ++k) around += (x.col(corners[k]) - x.col(corners[(k + 1) % 3])).norm();
     // The radius of the circle in it: twice the area (here: the area vector's length) over the circumference.
     if (area_vector(x, corners).norm() > large_radius * cell * around) large.push_back(f);
   }
-  prepared.system.large_faces = build_face_set(muscle.surface.faces(Eigen::all, large), muscle.surface.vertex_count());
+  prepared.system.large_faces = build_face_set(prepared.faces(Eigen::all, large), prepared.particle_count());
 }
 
 void build_contacts(const Scene& scene, const MeshTopology& topology, const std::vector<DistanceField>& fields,
@@ -230,34 +229,25 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   prepared.name = muscle.name;
   prepared.settings = muscle.xpbd;
   prepared.contraction = muscle.contraction;
-  Renumbered renumbered = renumber(muscle);
-  prepared.order = renumbered.order;
-  prepared.rest = renumbered.surface.vertices;
-  prepared.faces = renumbered.surface.faces;
+  const std::vector<Attachment> attachments = renumber(muscle, prepared);
   prepared.origin = prepared.rest.rowwise().mean();
-  prepared.fixed_body.assign(renumbered.order.size(), -1);
-  for (const Attachment& attachment : renumbered.attachments)
-    for (Index v : attachment.vertices) prepared.fixed_body[static_cast<std::size_t>(v)] = attachment.body;
-
   if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
-  prepared.system.rest =
-      make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(renumbered.surface, prepared));
+  prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(prepared));
   // What takes the most memory while it is built comes first.
   if (scene.contact.self && scene.contact.muscle == MuscleContact::surface) {
-    prepared.system.slivers = build_sliver_set(renumbered.surface.faces, prepared.system.rest, flattest);
-    prepared.system.tight_places =
-        find_tight_places(prepared.rest, renumbered.surface.faces, tight, prepared.system.rest);
+    prepared.system.slivers = build_sliver_set(prepared.faces, prepared.system.rest, flattest);
+    prepared.system.tight_places = find_tight_places(prepared.rest, prepared.faces, tight, prepared.system.rest);
   }
-  const MeshTopology topology = build_topology(renumbered.surface.faces, renumbered.surface.vertex_count());
-  build_predictor(renumbered, topology, prepared);
-  build_edges(renumbered, topology, prepared);
-  build_hinges(renumbered, topology, prepared);
+  const MeshTopology topology = build_topology(prepared.faces, prepared.particle_count());
+  build_predictor(topology, prepared);
+  build_edges(attachments, topology, prepared);
+  build_hinges(topology, prepared);
   prepared.system.volume =
-      build_volume_set(renumbered.surface.faces, renumbered.surface.vertex_count(),
-                       enclosed_volume(prepared.rest, renumbered.surface.faces), prepared.settings.volume_compliance);
+      build_volume_set(prepared.faces, prepared.particle_count(), enclosed_volume(prepared.rest, prepared.faces),
+                       prepared.settings.volume_compliance);
   prepared.is_driven = drives(scene.activation, muscle.name);
   if (prepared.is_driven) build_contractions(muscle, topology, prepared);
-  build_large_faces(renumbered, fields, prepared);
+  build_large_faces(fields, prepared);
   build_contacts(scene, topology, fields, prepared);
   return prepared;
 }

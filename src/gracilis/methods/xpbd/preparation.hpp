@@ -36,6 +36,8 @@ struct PreparedMuscle {
   bool is_driven = false;             ///< the scene says how active it is
   AlignedVector<float> along_fibers;  ///< per contraction slot: squared cosine between it and the fibers
   std::vector<Index> contact_bodies;  ///< per contact set: the body of its bone
+
+  Index particle_count() const { return static_cast<Index>(rest.cols()); }
 };
 
 /// Builds tables, masses, predictor shares and contact gaps of a muscle, and contractions where the scene's activation
