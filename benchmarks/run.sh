@@ -73,10 +73,13 @@ for setting in iterations=70 preset=physical preset=fast; do
 done
 
 say "" "## Files to first frame" "" "The study's four muscles, from reading the scene to the first solved frame, all threads: with an empty" \
-  "cache of distance fields, and with a full one." "" "| cache | seconds |" "| --- | --- |"
+  "cache of distance fields, and with a full one; medians of three looks." "" "| cache | seconds |" "| --- | --- |"
 for cache in empty full; do
-  XDG_CACHE_HOME="$work/cache" "$program" bench "${hip[@]}" --only "$study" --frame 1 --repeats 1 |
-    awk -v c="$cache" '$2 == "first_frame" { printf "| %s | %.2f |\n", c, $5 / 1000 }' >>"$work/page"
+  for _ in 1 2 3; do
+    if [ "$cache" = empty ]; then rm -rf "$work/cache"; fi
+    XDG_CACHE_HOME="$work/cache" "$program" bench "${hip[@]}" --only "$study" --frame 1 --repeats 1 |
+      awk '$2 == "first_frame" { print $5 / 1000 }'
+  done | sort -n | awk -v c="$cache" 'NR == 2 { printf "| %s | %.2f |\n", c, $1 }' >>"$work/page"
 done
 
 say "" "## Growth with muscles" "" "Copies of the built-in hip's muscles, each for itself, all threads." "" \
