@@ -58,7 +58,8 @@ std::vector<Attachment> renumber(const Muscle& muscle, PreparedMuscle& prepared)
   return attachments;
 }
 
-/// The section that carries each particle: its own, or, where the surface is a finer or coarser copy, the nearest.
+/// The section that carries each particle, its own, or, where the surface is a finer or coarser copy, the nearest; and
+/// how far it is from the tendon.
 void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepared) {
   prepared.line = line_sections(muscle);
   const Points centers = sections_at(*prepared.line, capture_pose(scene.bodies.size())).centers;
