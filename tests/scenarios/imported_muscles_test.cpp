@@ -13,25 +13,12 @@ namespace gracilis {
 
 using namespace opensim;
 
-/// The scene that import makes of a model and a motion, for XPBD.
+/// The scene that import makes of a model and a motion, for XPBD, read with these options.
 static Scene imported(const Model& model, const GeometryPlaces& places, const NamedMotion& motion,
-                      const SceneFolderSettings& settings = {}) {
+                      const SceneFolderSettings& settings = {}, const SceneOptions& options = {}) {
   const TestFolder folder;
   EXPECT_THAT(write_scene_folder(model, places, {motion}, settings, folder.path()), testing::IsEmpty());
-  return read_scene(folder.path() / (motion.name + ".toml")).scene;
-}
-
-/// Every so many rows of a motion.
-static CoordinateMotion thinned(const CoordinateMotion& motion, Eigen::Index every) {
-  CoordinateMotion result = motion;
-  const Eigen::Index count = (motion.values.rows() + every - 1) / every;
-  result.values.resize(count, motion.values.cols());
-  result.times.clear();
-  for (Eigen::Index row = 0; row < count; ++row) {
-    result.values.row(row) = motion.values.row(row * every);
-    result.times.push_back(motion.times[static_cast<std::size_t>(row * every)]);
-  }
-  return result;
+  return read_scene(folder.path() / (motion.name + ".toml"), options).scene;
 }
 
 class ImportedHip : public testing::TestWithParam<const char*> {};
@@ -57,22 +44,23 @@ INSTANTIATE_TEST_SUITE_P(Motions, ImportedHip, testing::Values("hip_flexion", "h
                          [](const auto& motion) { return std::string(motion.param); });
 
 /// Muscles of the walking model that are easily led astray: tendons between the foot's bones and around the ankle, ends
-/// that move with the patella, points that come and go.
-static Scene walking(const std::vector<std::string>& muscles, Eigen::Index every) {
+/// that move with the patella, points that come and go. A frame every 0.1 s.
+static Scene walking(const std::vector<std::string>& muscles) {
   const auto folder = data_folder() / "opensim";
   const auto path = folder / "subject01_simbody_adjusted_StaticOp.osim";
   const Model model = read_model(path);
   const CoordinateMotion motion = coordinate_motion(model, read_table(folder / "subject01_walk1_Kinematics.sto"));
   SceneFolderSettings settings;
   settings.muscles = muscles;
-  return imported(model, {folder, {folder / "geometry"}, {}}, {"walk", thinned(motion, every)}, settings);
+  SceneOptions options;
+  options.set = {"motion.time_step=0.1"};
+  return imported(model, {folder, {folder / "geometry"}, {}}, {"walk", motion}, settings, options);
 }
 
 TEST(ImportedWalk, muscles_miss_no_gate) {
   SKIP_WITHOUT_DATA();
   const Scene scene = walking({"ext_hal_r", "ext_hal_l", "per_long_r", "tib_post_l", "soleus_r", "med_gas_l",
-                               "vas_int_r", "vas_med_r", "rect_fem_r", "tfl_r", "semimem_r", "peri_r", "psoas_r"},
-                              100);
+                               "vas_int_r", "vas_med_r", "rect_fem_r", "tfl_r", "semimem_r", "peri_r", "psoas_r"});
   ASSERT_EQ(scene.muscles.size(), 13u);
   expect_gates(scene, run_whole(scene));
 }
@@ -97,7 +85,7 @@ static Real tendon_beside_line(const gracilis::Muscle& muscle, const FrameRecord
 
 TEST(ImportedWalk, active_muscles_do_not_draw_their_tendons_off_their_lines) {
   SKIP_WITHOUT_DATA();
-  Scene scene = walking({"tib_ant_r", "ext_dig_r", "ext_hal_r", "per_long_r", "soleus_r"}, 100);
+  Scene scene = walking({"tib_ant_r", "ext_dig_r", "ext_hal_r", "per_long_r", "soleus_r"});
   for (const gracilis::Muscle& muscle : scene.muscles) scene.activation.signals.push_back({muscle.name, {0}, {0.3}});
   std::vector<Real> farthest(scene.muscles.size(), 0);
   const auto observe = [&](const FrameRecord& record) {

@@ -66,10 +66,10 @@ class CarryingFrames {
       return;
     }
     const Eigen::Translation3d to_world(muscle.origin);
-    const PlacedSections rest = sections_at(*muscle.line, capture_pose(pose.bodies.size()));
     const PlacedSections now = sections_at(*muscle.line, pose);
     for (Eigen::Index k = 0; k < now.centers.cols(); ++k)
-      sections_.push_back(to_world.inverse() * now.frame(k) * rest.frame(k).inverse() * to_world);
+      sections_.push_back(to_world.inverse() * now.frame(k) * muscle.to_sections[static_cast<std::size_t>(k)] *
+                          to_world);
   }
 
   /// Of one particle into `frame`; false where nothing carries it. `shares` is room to work in.

@@ -62,7 +62,9 @@ std::vector<Attachment> renumber(const Muscle& muscle, PreparedMuscle& prepared)
 /// how far it is from the tendon.
 void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepared) {
   prepared.line = line_sections(muscle);
-  const Points centers = sections_at(*prepared.line, capture_pose(scene.bodies.size())).centers;
+  const PlacedSections sections = sections_at(*prepared.line, capture_pose(scene.bodies.size()));
+  const Points& centers = sections.centers;
+  for (Eigen::Index k = 0; k < centers.cols(); ++k) prepared.to_sections.push_back(sections.frame(k).inverse());
   const bool own = static_cast<Eigen::Index>(prepared.order.size()) == muscle.action_line.rays * centers.cols() + 2;
   for (Index p = 0; p < static_cast<Index>(prepared.order.size()); ++p) {
     Eigen::Index nearest = 0;

@@ -31,7 +31,8 @@ struct PreparedMuscle {
   Eigen::MatrixXf carrier_shares;    ///< carriers × particles: harmonic shares of their motion, columns sum to 1
   std::optional<LineSections> line;  ///< where its surface is made of sections, whose frames carry it then
   std::vector<Index> section;        ///< per particle, where there is a line
-  std::vector<Real> belly;           ///< per particle, where there is a line: 0 in a tendon, 1 away from it
+  std::vector<RigidTransform> to_sections;  ///< from world to each section's frame, in the capture pose
+  std::vector<Real> belly;                  ///< per particle, where there is a line: 0 in a tendon, 1 away from it
   ContractionSettings contraction;
   bool is_driven = false;             ///< the scene says how active it is
   AlignedVector<float> along_fibers;  ///< per contraction slot: squared cosine between it and the fibers
