@@ -33,7 +33,7 @@ Scenario shaken(unsigned seed) {
   std::uniform_real_distribution<float> uniform(-1, 1);
   for (Index slot : scenario.system.distances.slot)
     scenario.state.distance_lambda[static_cast<std::size_t>(slot)] = 1e-6f * uniform(generator);
-  for (Index slot : scenario.system.hinges.slot)
+  for (Index slot : slots_of(scenario.system.hinges))
     scenario.state.hinge_lambda[static_cast<std::size_t>(slot)] = 1e-9f * uniform(generator);
   return scenario;
 }
@@ -137,7 +137,7 @@ TEST(HingeProjection, gives_back_the_multiplier_of_a_motion_held_back) {
   project_all(free, parameters);
   parameters.hinge_limit = 0.05f;
   project_all(held, parameters);
-  const auto slot = static_cast<std::size_t>(free.system.hinges.slot[0]);
+  const auto slot = static_cast<std::size_t>(slots_of(free.system.hinges)[0]);
   const Real motion_share =
       farthest(before, positions_of(held.state.particles)) / farthest(before, positions_of(free.state.particles));
   EXPECT_NEAR(held.state.hinge_lambda[slot] / free.state.hinge_lambda[slot], motion_share, 1e-5);
@@ -145,7 +145,7 @@ TEST(HingeProjection, gives_back_the_multiplier_of_a_motion_held_back) {
 
 TEST(HingeProjection, near_half_a_turn_takes_the_short_way_back) {
   Scenario scenario = one_hinge(-pi + 0.01, 0);
-  scenario.system.hinges.rest_angle[static_cast<std::size_t>(scenario.system.hinges.slot[0])] =
+  scenario.system.hinges.rest_angle[static_cast<std::size_t>(slots_of(scenario.system.hinges)[0])] =
       static_cast<float>(pi - 0.01);
   const Points before = positions_of(scenario.state.particles);
   project_all(scenario, {});
@@ -229,22 +229,52 @@ TEST(StretchLimit, shortens_what_is_too_long_to_the_limit_and_leaves_the_rest) {
   EXPECT_EQ(limit_stretch(set, set.order.colors[0], 2.001f, particles), 0);
 }
 
+/// Whether the first edge of a set is shortened that had the first length when distances were projected and has the
+/// second after.
+bool is_limited(const DistanceSet& set, double when_projected, float after) {
+  Points x = Points::Zero(3, 3);
+  x(0, 1) = when_projected;
+  Particles particles = make_particles(x, Eigen::Vector3d(1, 1, 0));
+  AlignedVector<float> lambda(set.a.size(), 0);
+  StretchWatch watch;
+  watch_stretch(set, 2, watch);
+  std::fill(watch.groups.begin(), watch.groups.end(), 0);
+  const Index group = set.slot[0] / group_width * group_width;
+  const ColorRange range{group, group + group_width};
+  project_distances(set, range, set.rest_length.data(), lambda.data(), particles, particles, {}, &watch);
+  particles.at(1)[0] = after;
+  return limit_stretch(set, range, 2, particles, &watch) > 0;
+}
+
+constexpr double soft = 1e9;  // so that projecting a distance moves nothing
+
 TEST(StretchLimit, looks_only_where_an_edge_came_near_it_when_distances_were_projected) {
-  const auto limited_after = [](double length) {
-    Points x = Points::Zero(3, 2);
-    x(0, 1) = length;
-    Particles particles = make_particles(x, Eigen::Vector2d(1, 1));
-    constexpr double soft = 1e9;  // so that projecting the distance moves nothing
-    const DistanceSet set = build_distance_set({{0, 1, 0.01, soft}}, 2);
-    AlignedVector<float> lambda(set.a.size(), 0);
-    StretchWatch watch{2, {0}};
-    project_distances(set, set.order.colors.at(0), set.rest_length.data(), lambda.data(), particles, particles, {},
-                      &watch);
-    particles.at(1)[0] = 0.03f;
-    return limit_stretch(set, set.order.colors.at(0), 2, particles, &watch);
-  };
-  EXPECT_EQ(limited_after(0.0179), 0);
-  EXPECT_EQ(limited_after(0.0181), 1);
+  const DistanceSet set = build_distance_set({{0, 1, 0.01, soft}}, 3);
+  EXPECT_FALSE(is_limited(set, 0.0179, 0.03f));
+  EXPECT_TRUE(is_limited(set, 0.0181, 0.03f));
+}
+
+TEST(StretchLimit, comes_near_within_half_of_the_edge_or_of_a_longer_one_beside_it) {
+  const DistanceSet alone = build_distance_set({{0, 1, 0.001, soft}}, 3);
+  EXPECT_FALSE(is_limited(alone, 0.00149, 0.003f));
+  EXPECT_TRUE(is_limited(alone, 0.00151, 0.003f));
+  DistanceSet beside = build_distance_set({{0, 1, 0.001, soft}, {1, 2, 0.003, soft}}, 3);
+  EXPECT_TRUE(is_limited(beside, 0.0006, 0.003f));
+  EXPECT_FALSE(is_limited(beside, 0.0004, 0.003f));
+}
+
+TEST(StretchWatch, begins_anew_only_for_another_limit) {
+  const DistanceSet set = build_distance_set({{0, 1, 0.001, soft}}, 2);
+  StretchWatch watch;
+  watch_stretch(set, 2, watch);
+  EXPECT_EQ(watch.groups, std::vector<char>{1});
+  EXPECT_FLOAT_EQ(watch.from[static_cast<std::size_t>(set.slot[0])], 0.0015f);
+  watch.groups = {0};
+  watch_stretch(set, 2, watch);
+  EXPECT_EQ(watch.groups, std::vector<char>{0});
+  watch_stretch(set, 3, watch);
+  EXPECT_EQ(watch.groups, std::vector<char>{1});
+  EXPECT_FLOAT_EQ(watch.from[static_cast<std::size_t>(set.slot[0])], 0.0025f);
 }
 
 }  // namespace gracilis

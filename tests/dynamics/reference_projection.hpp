@@ -1,5 +1,7 @@
 #pragma once
 
+#include "systems_for_tests.hpp"
+
 #include <gracilis/dynamics/hinge.hpp>
 #include <gracilis/dynamics/projection.hpp>
 
@@ -80,9 +82,7 @@ inline void project_distances(const DistanceSet& set, const AlignedVector<float>
 }
 
 inline void project_hinges(const HingeSet& set, State& state, const ProjectionParameters& parameters) {
-  std::vector<Index> slots = set.slot;
-  std::sort(slots.begin(), slots.end());
-  for (Index slot : slots) {
+  for (Index slot : slots_of(set)) {
     const auto at = static_cast<std::size_t>(slot);
     const std::vector<Index> members = {set.particles[0][at], set.particles[1][at], set.particles[2][at],
                                         set.particles[3][at]};

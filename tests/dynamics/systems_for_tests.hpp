@@ -46,6 +46,14 @@ inline SurfaceSystem system_of(const TriangleMesh& mesh, const SystemOptions& op
   return system;
 }
 
+/// Where a set's hinges are, ascending; padding has edges without length.
+inline std::vector<Index> slots_of(const HingeSet& set) {
+  std::vector<Index> slots;
+  for (std::size_t at = 0; at < set.edge_length.size(); ++at)
+    if (set.edge_length[at] > 0) slots.push_back(static_cast<Index>(at));
+  return slots;
+}
+
 /// Moves every particle that can move by up to `amount` (m) along each axis.
 inline void shake(Particles& particles, float amount, unsigned seed) {
   std::mt19937 generator(seed);

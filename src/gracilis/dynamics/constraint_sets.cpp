@@ -120,7 +120,6 @@ HingeSet build_hinge_set(const std::vector<HingeConstraint>& constraints, Index 
     set.edge_length[at] = static_cast<float>(constraints[i].edge_length);
   }
   set.order = std::move(layout.order);
-  set.slot = std::move(layout.slot);
   set.count = static_cast<Index>(constraints.size());
   return set;
 }

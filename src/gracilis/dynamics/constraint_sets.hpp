@@ -46,7 +46,6 @@ struct HingeSet {
   AlignedVector<float> compliance;   ///< 1/(N·m)
   AlignedVector<float> edge_length;  ///< m, in the capture pose
   ColorOrder order;
-  std::vector<Index> slot;
   Index count = 0;
 };
 

@@ -14,11 +14,6 @@ constexpr Index cluster_particles = 2048;
 /// Up to so many clusters, bands are wide enough.
 constexpr Index most_bands = 16;
 
-/// The first particle of a cluster.
-Index begin_of(Index cluster, Index particle_count, Index cluster_count) {
-  return static_cast<Index>((std::int64_t{cluster} * particle_count + cluster_count - 1) / cluster_count);
-}
-
 /// Cuts vertices into clusters, those of each in the order of their ranks.
 class ClusterCutter {
  public:
@@ -56,7 +51,9 @@ class ClusterCutter {
 
   Index count() const { return static_cast<Index>(order_.size()); }
   Index rank(Index vertex) const { return rank_[static_cast<std::size_t>(vertex)]; }
-  std::vector<Index>::iterator at(Index cluster) { return order_.begin() + begin_of(cluster, count(), clusters_); }
+  std::vector<Index>::iterator at(Index cluster) {
+    return order_.begin() + begin_of_cluster(cluster, count(), clusters_);
+  }
 
   const Points& vertices_;
   std::vector<Index>& order_;
@@ -67,6 +64,10 @@ class ClusterCutter {
 }  // namespace
 
 Index cluster_count_of(Index particle_count) { return std::max<Index>(1, particle_count / cluster_particles); }
+
+Index begin_of_cluster(Index cluster, Index particle_count, Index cluster_count) {
+  return static_cast<Index>((std::int64_t{cluster} * particle_count + cluster_count - 1) / cluster_count);
+}
 
 Index cluster_of(Index particle, Index particle_count, Index cluster_count) {
   return static_cast<Index>(std::int64_t{particle} * cluster_count / std::max<Index>(particle_count, 1));

@@ -9,6 +9,9 @@ namespace gracilis {
 /// How many clusters (ColorOrder) so many particles make; cluster i of n has the numbers from i/n to (i + 1)/n of all.
 Index cluster_count_of(Index particle_count);
 
+/// The first particle of a cluster; of cluster `cluster_count`, the end of all.
+Index begin_of_cluster(Index cluster, Index particle_count, Index cluster_count);
+
 /// The cluster of a particle.
 Index cluster_of(Index particle, Index particle_count, Index cluster_count);
 

@@ -1,5 +1,7 @@
 #include <gracilis/dynamics/projection.hpp>
 
+#include <hwy/cache_control.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "gracilis/dynamics/projection.cpp"
 #include <hwy/foreach_target.h>
@@ -40,9 +42,6 @@ HWY_INLINE Index count_without_direction(const V& length, const V& weight) {
   return static_cast<Index>(hn::CountTrue(d, hn::And(hn::Lt(length, hn::Set(d, 1e-12f)), hn::Gt(weight, hn::Zero(d)))));
 }
 
-/// What is left to the limit of stretch (m) when an edge may reach it within one iteration, even of crushed needles.
-constexpr float stretch_reserve = 0.002f;
-
 template <bool dissipative>
 ProjectionCounts project_distance_range(const DistanceSet& set, ColorRange range, const float* target_length,
                                         float* lambda, const Particles& start, Particles& particles,
@@ -50,7 +49,6 @@ ProjectionCounts project_distance_range(const DistanceSet& set, ColorRange range
   const D d;
   const float inverse_dt2 = 1 / (parameters.time_step * parameters.time_step);
   const V tiny = hn::Set(d, 1e-30f), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
-  const V limit = hn::Set(d, watch ? watch->limit : 0), reserve = hn::Set(d, stretch_reserve);
   ProjectionCounts counts;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
@@ -72,8 +70,8 @@ ProjectionCounts project_distance_range(const DistanceSet& set, ColorRange range
     const V step = hn::IfThenElse(hn::Gt(moving_weight, zero), (zero - numerator) * Math::reciprocal(hn::Max(weight + alpha, tiny)), zero);
     counts.skipped += count_without_direction(edge.length, moving_weight);
     if (watch) {
-      const V left = limit * hn::LoadU(d, set.rest_length.data() + at) - edge.length;
-      if (!hn::AllFalse(d, hn::And(hn::Lt(left, reserve), hn::Gt(moving_weight, zero))))
+      const auto is_near = hn::Gt(edge.length, hn::LoadU(d, watch->from.data() + at));
+      if (!hn::AllFalse(d, hn::And(is_near, hn::Gt(moving_weight, zero))))
         watch->groups[at / group_width] = 1;
     }
     hn::StoreU(multiplier + step, d, lambda + at);
@@ -117,10 +115,18 @@ ProjectionCounts project_contractions(const DistanceSet& set, ColorRange range, 
 Index limit_stretch(const DistanceSet& set, ColorRange range, float limit, Particles& particles,
                     const StretchWatch* watch) {
   const D d;
+  const auto is_watched = [watch](std::size_t at) { return !watch || watch->groups[at / group_width]; };
+  // Few of many, which no machine foresees.
+  for (auto at = static_cast<std::size_t>(range.begin); at < static_cast<std::size_t>(range.end); at += group_width)
+    if (is_watched(at)) {
+      hwy::Prefetch(set.a.data() + at);
+      hwy::Prefetch(set.b.data() + at);
+      hwy::Prefetch(set.rest_length.data() + at);
+    }
   Index limited = 0;
   for (Index slot = range.begin; slot < range.end; slot += static_cast<Index>(hn::Lanes(d))) {
     const auto at = static_cast<std::size_t>(slot);
-    if (watch && !watch->groups[at / group_width]) continue;
+    if (!is_watched(at)) continue;
     const LoadedEdges edges = load_edges(set, at, particles);
     const Point along = edges.b.x - edges.a.x;
     const V longest = hn::Set(d, limit) * hn::LoadU(d, set.rest_length.data() + at);

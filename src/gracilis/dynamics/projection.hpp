@@ -2,6 +2,7 @@
 
 #include <gracilis/dynamics/constraint_sets.hpp>
 #include <gracilis/dynamics/particles.hpp>
+#include <gracilis/dynamics/stretch_watch.hpp>
 
 namespace gracilis {
 
@@ -16,12 +17,6 @@ struct ProjectionParameters {
   bool arccos_hinges = false;   ///< the published angle measure
 };
 
-/// Where edges came near a limit of stretch when distances were last projected.
-struct StretchWatch {
-  float limit = 0;           ///< as for limit_stretch
-  std::vector<char> groups;  ///< one entry per group_width slots; not 0 where one did
-};
-
 /// What one pass did besides moving particles.
 struct ProjectionCounts {
   Index limited = 0;  ///< hinges held back by the limit
@@ -29,8 +24,8 @@ struct ProjectionCounts {
 };
 
 /// Projects distance constraints of slots [begin, end), which belong to one color. `target_length` (m) and `lambda` (N
-/// s²) have one entry per slot; `start` are the particles at the substep's beginning; what comes near
-/// the limit of `watch` is noted there. Vectorised for the machine it runs on.
+/// s²) have one entry per slot; `start` are the particles at the substep's beginning; where edges come
+/// near the limit is noted in `watch`. Vectorised for the machine it runs on.
 ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, const float* target_length, float* lambda,
                                    const Particles& start, Particles& particles, const ProjectionParameters& parameters,
                                    StretchWatch* watch = nullptr);

@@ -1,6 +1,9 @@
 #include <gracilis/dynamics/solver.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/particle_order.hpp>
+
+#include <hwy/cache_control.h>
 
 #include <algorithm>
 #include <atomic>
@@ -22,13 +25,24 @@ constexpr int coupling_refresh = 15;
 /// Most attempts at mending what cannot stay; what is crushed may resist them all.
 constexpr int mending_attempts = 4;
 
+/// Has the positions of particles brought near before constraints ask for them in an order that no machine foresees.
+void fetch(const Particles& particles, Index begin, Index end) {
+  constexpr Index particles_per_line = 4;
+  for (Index p = begin; p < end; p += particles_per_line) hwy::Prefetch(particles.at(p));
+}
+
 /// Calls project(range) for all slots: clusters side by side, then what lies across them, one color after the other.
 template <class Project>
-void for_each_color(const ColorOrder& order, const Project& project) {
-  parallel_for(order.cluster_count(), 1, [&](Index begin, Index end) {
-    for (Index i = order.clusters[static_cast<std::size_t>(begin)]; i < order.clusters[static_cast<std::size_t>(end)];
-         ++i)
-      project(order.colors[static_cast<std::size_t>(i)]);
+void for_each_color(const ColorOrder& order, const Particles& particles, const Project& project) {
+  const Index clusters = order.cluster_count();
+  parallel_for(clusters, 1, [&](Index begin, Index end) {
+    for (Index cluster = begin; cluster < end; ++cluster) {
+      fetch(particles, begin_of_cluster(cluster, particles.count(), clusters),
+            begin_of_cluster(cluster + 1, particles.count(), clusters));
+      for (Index color = order.clusters[static_cast<std::size_t>(cluster)];
+           color < order.clusters[static_cast<std::size_t>(cluster) + 1]; ++color)
+        project(order.colors[static_cast<std::size_t>(color)]);
+    }
   });
   for (auto i = static_cast<std::size_t>(order.clusters.back()); i < order.colors.size(); ++i) {
     const ColorRange color = order.colors[i];
@@ -39,9 +53,9 @@ void for_each_color(const ColorOrder& order, const Project& project) {
 }
 
 template <class Project>
-void project_colors(const ColorOrder& order, SolveReport& report, const Project& project) {
+void project_colors(const ColorOrder& order, const Particles& particles, SolveReport& report, const Project& project) {
   std::atomic<Index> limited = 0, skipped = 0;
-  for_each_color(order, [&](ColorRange range) {
+  for_each_color(order, particles, [&](ColorRange range) {
     const ProjectionCounts counts = project(range);
     limited += counts.limited;
     skipped += counts.skipped;
@@ -65,7 +79,7 @@ void project_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
 
 void limit_edges(const SurfaceSystem& system, float limit, SurfaceState& state, SolveReport& report) {
   std::atomic<Index> limited = 0;
-  for_each_color(system.distances.order, [&](ColorRange range) {
+  for_each_color(system.distances.order, state.particles, [&](ColorRange range) {
     limited += limit_stretch(system.distances, range, limit, state.particles, &state.stretched);
   });
   report.limited_edges += limited;
@@ -109,7 +123,6 @@ SurfaceState make_state(const SurfaceSystem& system) {
   state.distance_lambda.assign(system.distances.a.size(), 0);
   state.contraction_lambda.assign(system.contractions.a.size(), 0);
   state.hinge_lambda.assign(system.hinges.rest_angle.size(), 0);
-  state.stretched.groups.assign(system.distances.a.size() / group_width, 1);
   state.volume = system.volume.target;
   state.near.resize(system.contacts.size());
   return state;
@@ -122,9 +135,11 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
     case ConstraintKind::muscle_contact:  // is no one surface's
       break;
     case ConstraintKind::distance:
-      state.stretched.limit = settings.stretch_limit;
-      std::fill(state.stretched.groups.begin(), state.stretched.groups.end(), 0);
-      project_colors(system.distances.order, report, [&](ColorRange range) {
+      if (settings.stretch_limit > 0) {
+        watch_stretch(system.distances, settings.stretch_limit, state.stretched);
+        std::fill(state.stretched.groups.begin(), state.stretched.groups.end(), 0);
+      }
+      project_colors(system.distances.order, state.particles, report, [&](ColorRange range) {
         return project_distances(system.distances, range, state.target_length.data(), state.distance_lambda.data(),
                                  state.start, state.particles, settings.projection,
                                  settings.stretch_limit > 0 ? &state.stretched : nullptr);
@@ -132,13 +147,13 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
       break;
     case ConstraintKind::contraction:
       if (!(settings.contraction > 0)) break;
-      project_colors(system.contractions.order, report, [&](ColorRange range) {
+      project_colors(system.contractions.order, state.particles, report, [&](ColorRange range) {
         return project_contractions(system.contractions, range, state.contraction_length.data(), settings.contraction,
                                     state.contraction_lambda.data(), state.particles, settings.projection);
       });
       break;
     case ConstraintKind::dihedral:
-      project_colors(system.hinges.order, report, [&](ColorRange range) {
+      project_colors(system.hinges.order, state.particles, report, [&](ColorRange range) {
         return project_hinges(system.hinges, range, state.hinge_lambda.data(), state.start, state.particles,
                               settings.projection);
       });
@@ -148,7 +163,10 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
                                     state.volume_gradients, state.particles);
       break;
     case ConstraintKind::stretch_limit:
-      if (settings.stretch_limit > 0) limit_edges(system, settings.stretch_limit, state, report);
+      if (settings.stretch_limit > 0) {
+        watch_stretch(system.distances, settings.stretch_limit, state.stretched);
+        limit_edges(system, settings.stretch_limit, state, report);
+      }
       break;
     case ConstraintKind::slivers:
       project_slivers(system.slivers, state.particles);
