@@ -16,7 +16,7 @@ class HarmonicSolver {
   /// Surfaces with more unknowns than `largest_factorized` are solved by conjugate gradients, each time from the last
   /// fields: as fast there, in a fraction of the memory, to 1e-8. `vertices` and `topology` must outlive it.
   HarmonicSolver(const Points& vertices, const MeshTopology& topology, std::vector<Index> fixed,
-                 Index largest_factorized = 60000);
+                 Index largest_factorized = 30000);
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance = {});
 
