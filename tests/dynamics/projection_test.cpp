@@ -258,7 +258,7 @@ TEST(StretchLimit, comes_near_within_half_of_the_edge_or_of_a_longer_one_beside_
   const DistanceSet alone = build_distance_set({{0, 1, 0.001, soft}}, 3);
   EXPECT_FALSE(is_limited(alone, 0.00149, 0.003f));
   EXPECT_TRUE(is_limited(alone, 0.00151, 0.003f));
-  DistanceSet beside = build_distance_set({{0, 1, 0.001, soft}, {1, 2, 0.003, soft}}, 3);
+  const DistanceSet beside = build_distance_set({{0, 1, 0.001, soft}, {1, 2, 0.003, soft}}, 3);
   EXPECT_TRUE(is_limited(beside, 0.0006, 0.003f));
   EXPECT_FALSE(is_limited(beside, 0.0004, 0.003f));
 }

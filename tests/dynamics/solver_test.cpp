@@ -132,4 +132,34 @@ TEST(Solver, names_every_kind_of_constraint_by_a_name_of_its_own) {
   EXPECT_EQ(std::unique(names.begin(), names.end()), names.end());
 }
 
+TEST(Solver, limits_the_stretch_of_what_mending_moved_though_no_edge_came_near_the_limit_before) {
+  const SurfaceSystem system = system_of(shapes::sphere(Vec3::Zero(), 0.03, 3));
+  const auto longest = [&](const Particles& particles) {
+    float ratio = 0;
+    for (const Index slot : system.distances.slot) {
+      const auto at = static_cast<std::size_t>(slot);
+      const float length =
+          (particles.position(system.distances.b[at]) - particles.position(system.distances.a[at])).norm();
+      ratio = std::max(ratio, length / system.distances.rest_length[at]);
+    }
+    return ratio;
+  };
+  SurfaceState state = make_state(system);
+  SolveSettings settings = usual(3);
+  settings.settling_rounds = 4;
+  const std::vector<FieldPlacement> nowhere;
+  std::vector<SurfaceSolve> alone = {{&system, &nowhere, settings, &state, {}}};
+  Coupling coupling;
+  coupling.refresh = [] {};
+  coupling.project = [] { return Index{0}; };
+  coupling.mend = [&](int attempt) {
+    if (attempt > 0) return false;
+    state.particles.position(7) *= 1.5f;
+    EXPECT_GT(longest(state.particles), 2);
+    return true;
+  };
+  solve_together(alone, coupling);
+  EXPECT_LT(longest(state.particles), 1.01f * settings.stretch_limit);
+}
+
 }  // namespace gracilis

@@ -24,8 +24,8 @@ struct ProjectionCounts {
 };
 
 /// Projects distance constraints of slots [begin, end), which belong to one color. `target_length` (m) and `lambda` (N
-/// s²) have one entry per slot; `start` are the particles at the substep's beginning; where edges come
-/// near the limit is noted in `watch`. Vectorised for the machine it runs on.
+/// s²) have one entry per slot; `start` are the particles at the substep's beginning; where edges come near the limit
+/// is noted in `watch`. Vectorised for the machine it runs on.
 ProjectionCounts project_distances(const DistanceSet& set, ColorRange range, const float* target_length, float* lambda,
                                    const Particles& start, Particles& particles, const ProjectionParameters& parameters,
                                    StretchWatch* watch = nullptr);

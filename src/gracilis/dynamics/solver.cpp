@@ -319,6 +319,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>&) {
       keep_listed(surface);
       find_edge_points(*surface.system, *surface.placements, *surface.state);
+      if (is_mended) look_everywhere(surface.state->stretched);
     });
     for (; round < rounds; ++round) {
       // What was mended may have stretched edges.

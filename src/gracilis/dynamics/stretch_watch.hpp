@@ -18,4 +18,7 @@ struct StretchWatch {
 /// already.
 void watch_stretch(const DistanceSet& set, float limit, StretchWatch& watch);
 
+/// Has all groups looked at, until distances are projected again: something else moved the particles.
+void look_everywhere(StretchWatch& watch);
+
 }  // namespace gracilis
