@@ -238,7 +238,7 @@ bool is_limited(const DistanceSet& set, double when_projected, float after) {
   AlignedVector<float> lambda(set.a.size(), 0);
   StretchWatch watch;
   watch_stretch(set, 2, watch);
-  std::fill(watch.groups.begin(), watch.groups.end(), 0);
+  look_nowhere(watch);
   const Index group = set.slot[0] / group_width * group_width;
   const ColorRange range{group, group + group_width};
   project_distances(set, range, set.rest_length.data(), lambda.data(), particles, particles, {}, &watch);

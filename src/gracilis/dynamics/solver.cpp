@@ -77,10 +77,17 @@ void project_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
   project_squeezed(system.contacts, placements, state.near, state.particles);
 }
 
-void limit_edges(const SurfaceSystem& system, float limit, SurfaceState& state, SolveReport& report) {
+/// The watch on the limit of stretch, begun if need be; none where there is no limit.
+StretchWatch* stretch_watch(const SurfaceSystem& system, const SolveSettings& settings, SurfaceState& state) {
+  if (!(settings.stretch_limit > 0)) return nullptr;
+  watch_stretch(system.distances, settings.stretch_limit, state.stretched);
+  return &state.stretched;
+}
+
+void limit_edges(const SurfaceSystem& system, const StretchWatch& watch, SurfaceState& state, SolveReport& report) {
   std::atomic<Index> limited = 0;
   for_each_color(system.distances.order, state.particles, [&](ColorRange range) {
-    limited += limit_stretch(system.distances, range, limit, state.particles, &state.stretched);
+    limited += limit_stretch(system.distances, range, watch.limit, state.particles, &watch);
   });
   report.limited_edges += limited;
 }
@@ -134,17 +141,15 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
     case ConstraintKind::none:
     case ConstraintKind::muscle_contact:  // is no one surface's
       break;
-    case ConstraintKind::distance:
-      if (settings.stretch_limit > 0) {
-        watch_stretch(system.distances, settings.stretch_limit, state.stretched);
-        std::fill(state.stretched.groups.begin(), state.stretched.groups.end(), 0);
-      }
+    case ConstraintKind::distance: {
+      StretchWatch* const watch = stretch_watch(system, settings, state);
+      if (watch) look_nowhere(*watch);
       project_colors(system.distances.order, state.particles, report, [&](ColorRange range) {
         return project_distances(system.distances, range, state.target_length.data(), state.distance_lambda.data(),
-                                 state.start, state.particles, settings.projection,
-                                 settings.stretch_limit > 0 ? &state.stretched : nullptr);
+                                 state.start, state.particles, settings.projection, watch);
       });
       break;
+    }
     case ConstraintKind::contraction:
       if (!(settings.contraction > 0)) break;
       project_colors(system.contractions.order, state.particles, report, [&](ColorRange range) {
@@ -163,10 +168,8 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
                                     state.volume_gradients, state.particles);
       break;
     case ConstraintKind::stretch_limit:
-      if (settings.stretch_limit > 0) {
-        watch_stretch(system.distances, settings.stretch_limit, state.stretched);
-        limit_edges(system, settings.stretch_limit, state, report);
-      }
+      if (const StretchWatch* watch = stretch_watch(system, settings, state))
+        limit_edges(system, *watch, state, report);
       break;
     case ConstraintKind::slivers:
       project_slivers(system.slivers, state.particles);

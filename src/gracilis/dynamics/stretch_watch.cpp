@@ -37,6 +37,8 @@ void watch_stretch(const DistanceSet& set, float limit, StretchWatch& watch) {
   }
 }
 
+void look_nowhere(StretchWatch& watch) { std::fill(watch.groups.begin(), watch.groups.end(), 0); }
+
 void look_everywhere(StretchWatch& watch) { std::fill(watch.groups.begin(), watch.groups.end(), 1); }
 
 }  // namespace gracilis

@@ -18,6 +18,9 @@ struct StretchWatch {
 /// already.
 void watch_stretch(const DistanceSet& set, float limit, StretchWatch& watch);
 
+/// Has no group looked at, for what projecting distances will note.
+void look_nowhere(StretchWatch& watch);
+
 /// Has all groups looked at, until distances are projected again: something else moved the particles.
 void look_everywhere(StretchWatch& watch);
 
