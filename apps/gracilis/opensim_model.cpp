@@ -19,8 +19,9 @@ void report_unsupported(const opensim::Model& model, std::size_t first, bool str
     spdlog::warn("{}: not supported: {}", model.name, model.unsupported[i]);
   for (const opensim::Muscle& muscle : model.muscles)
     if (first == 0 && muscle.path.approximate)
-      spdlog::warn("{}: the path of {} wraps around what is no cylinder: its length is approximate", model.name,
-                   muscle.name);
+      spdlog::warn(
+          "{}: the path of {} wraps around several objects or one that is no cylinder: its length is approximate",
+          model.name, muscle.name);
   if (strict && model.unsupported.size() > first)
     throw Error(ExitCode::unsupported, fmt::format("{} of the model's elements are not supported (--strict)",
                                                    model.unsupported.size() - first));

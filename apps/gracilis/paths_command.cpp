@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 struct PathsOptions {
   fs::path model, motion, out;
-  std::string sweep, prefix;
+  std::string sweep, prefix, lengths = "opensim";
   bool strict = false;
 };
 
@@ -48,6 +48,19 @@ opensim::CoordinateMotion parse_sweep(const opensim::Model& model, const std::st
   return opensim::sweep(model, coordinate, begin * unit, end * unit, step * unit);
 }
 
+/// Names the muscles whose length by OpenSim is not that of the way that the moment arms are of.
+void warn_of_sums(const opensim::PathTables& tables) {
+  const Eigen::RowVectorXd apart = (tables.lengths.values - tables.way_lengths.values).cwiseAbs().colwise().maxCoeff();
+  for (std::size_t i = 0; i < tables.lengths.columns.size(); ++i) {
+    const Real most = apart[static_cast<Eigen::Index>(i)];
+    if (most > 1e-4)
+      spdlog::warn(
+          "{}: lengths are as OpenSim computes them, up to {:.1f} mm off those of the way around its wraps; "
+          "--lengths way gives the latter",
+          tables.lengths.columns[i], 1000 * most);
+  }
+}
+
 int write_paths(const PathsOptions& options) {
   if (options.motion.empty() == options.sweep.empty())
     throw ConfigurationError({"", "", "give either --motion FILE or --coord NAME=FROM:TO:STEP", ""});
@@ -70,7 +83,9 @@ int write_paths(const PathsOptions& options) {
     write_sto(path, table);
     fmt::print("{}\n", path.string());
   };
-  write("MuscleAnalysis_Length", tables.lengths);
+  const bool ways = options.lengths == "way";
+  if (!ways) warn_of_sums(tables);
+  write("MuscleAnalysis_Length", ways ? tables.way_lengths : tables.lengths);
   for (const auto& [coordinate, table] : tables.moment_arms) write("MuscleAnalysis_MomentArm_" + coordinate, table);
   if (options.motion.empty()) write("coordinates", opensim::coordinate_table(model, motion));
   return static_cast<int>(ExitCode::done);
@@ -86,6 +101,8 @@ void add_paths_command(CLI::App& program, Command& chosen) {
   command->add_option("--coord", options->sweep, "Or one coordinate, NAME=FROM:TO:STEP in degrees or m");
   command->add_option("--out", options->out, "Folder for the tables")->required();
   command->add_option("--prefix", options->prefix, "Start of the tables' names (default: the model's name)");
+  command->add_option("--lengths", options->lengths, "As 'opensim' computes them, or of the 'way' (default: opensim)")
+      ->check(CLI::IsMember({"opensim", "way"}));
   command->add_flag("--strict", options->strict, "Fail where the model holds what is not supported (exit code 4)");
   command->callback([&chosen, options] { chosen = [options] { return write_paths(*options); }; });
 }

@@ -31,6 +31,30 @@ TEST(PathsCommand, a_sweep_writes_lengths_moment_arms_and_the_coordinate) {
   EXPECT_NEAR(arms.values(2, 0), 0.3 * 0.4 / 0.5, 1e-14);
 }
 
+TEST(PathsCommand, lengths_are_opensims_or_the_ways) {
+  const TestFolder folder;
+  const std::string wrap =
+      "<WrapObjectSet><objects><WrapCylinder name=\"w\"><radius>0.1</radius><length>9</length><quadrant>+x</quadrant>"
+      "</WrapCylinder></objects></WrapObjectSet>";
+  const auto model = folder.write(
+      "tiny.osim", pendulum(muscle("m", point("/ground", "0.15 0 -0.3") + point("/bodyset/rod", "0.05 -0.2 0.4"), "",
+                                   "<PathWrap name=\"p\"><wrap_object>w</wrap_object></PathWrap>"),
+                            wrap));
+  const auto length = [&](const std::string& more, std::string& err) {
+    const ProgramResult result =
+        run_program("paths " + model.string() + " --coord swing=-80:-80:1 --out " + folder.path().string() + more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    err = result.err;
+    return read_table(folder.path() / "tiny_MuscleAnalysis_Length.sto").values(0, 0);
+  };
+  std::string of_opensim, of_way;
+  const Real longer = length("", of_opensim) - length(" --lengths way", of_way);
+  EXPECT_GT(longer, 1e-4);
+  EXPECT_LT(longer, 5e-3);
+  EXPECT_THAT(of_opensim, testing::HasSubstr("m: lengths are as OpenSim computes them"));
+  EXPECT_THAT(of_way, testing::Not(testing::HasSubstr("as OpenSim computes")));
+}
+
 TEST(PathsCommand, a_motion_in_degrees_is_turned_into_radians) {
   const TestFolder folder;
   const auto model = folder.write("tiny.osim", tiny);

@@ -1,7 +1,7 @@
 #include <gracilis/io/table.hpp>
 #include <gracilis/opensim/coordinate_motion.hpp>
+#include <gracilis/opensim/length_by_opensim.hpp>
 #include <gracilis/opensim/model_reader.hpp>
-#include <gracilis/opensim/muscle_path.hpp>
 
 #include <gtest/gtest.h>
 
@@ -40,46 +40,15 @@ struct Reference {
     }
   }
 
-  /// Calls see(row, error, wraps touched) for every pose; the error is in m.
+  /// Calls see(row, error, wraps touched) for every pose; the error of length_by_opensim is in m.
   void compare(const Muscle& muscle, const std::function<void(Eigen::Index, Real, std::size_t)>& see) const {
     for_each_pose(muscle, [&](Eigen::Index row, const Skeleton& skeleton, const Eigen::VectorXd& q, Real theirs) {
       std::size_t wraps = 0;
       for (const PathStop& stop : current_points(model, muscle.path, skeleton.poses(), q)) wraps += stop.wrap >= 0;
-      see(row, measure_path(skeleton, muscle.path, q).length - theirs, wraps / 2);
+      see(row, length_by_opensim(skeleton, muscle.path, q) - theirs, wraps / 2);
     });
   }
 };
-
-/// Lays the wrap around alone, without those that are there; its points get this number.
-void lay_one(const PlacedWrap& wrap, int number, std::vector<PathStop>& points) {
-  std::erase_if(points, [&](const PathStop& point) { return point.wrap == number; });
-  for (PathStop& point : points)
-    if (point.wrap >= 0) ++point.wrap;  // out of the way of the 0 that it gets
-  lay_around({wrap}, points);
-  for (PathStop& point : points) {
-    if (point.given >= 0) continue;
-    point.wrap = point.wrap == 0 ? number : point.wrap - 1;
-  }
-}
-
-/// What OpenSim 4 sums of a line around two wraps, README.md: the straight parts as its first round leaves them, the
-/// arcs as its third does, after which its sum does not change any more.
-Real summed_by_opensim(const std::vector<PlacedWrap>& wraps, std::vector<PathStop> points) {
-  const auto lay_both = [&] {
-    for (std::size_t i = 0; i < 2; ++i) lay_one(wraps[i], static_cast<int>(i), points);
-  };
-  const auto arcs = [&] {
-    Real sum = 0;
-    for (std::size_t i = 1; i < points.size(); ++i)
-      if (points[i].wrap >= 0 && points[i].wrap == points[i - 1].wrap) sum += points[i].around.length;
-    return sum;
-  };
-  lay_both();
-  const Real straight = length_of(points) - arcs();
-  lay_both();
-  lay_both();
-  return straight + arcs();
-}
 
 }  // namespace
 
@@ -99,33 +68,28 @@ TEST(ComputedByOpenSim, lines_around_cylinders_are_as_long) {
   ASSERT_EQ(reference.table.values.rows(), 17);
   int once = 0, twice = 0;
   for (const Muscle& muscle : reference.model.muscles) {
-    // What OpenSim takes for a tangent, README.md.
-    const Real tolerance = muscle.name == "psoas_r" ? 2e-6 : 1e-6;
     reference.compare(muscle, [&](Eigen::Index row, Real error, std::size_t wraps) {
       once += wraps == 1, twice += wraps > 1;
-      EXPECT_LT(std::abs(error), wraps > 1 ? 5e-3 : tolerance) << muscle.name << ", row " << row;
+      // Where there are several it is content with less than a tangent, README.md.
+      const Real tolerance = muscle.path.wraps.size() < 2 ? 2e-10 : wraps < 2 ? 1e-7 : 4e-6;
+      EXPECT_LT(std::abs(error), tolerance) << muscle.name << ", row " << row;
     });
   }
   EXPECT_GT(once, 30);
-  EXPECT_EQ(twice, 10) << "where OpenSim's own lengths are not those of its ways, README.md";
+  EXPECT_EQ(twice, 10);
 }
 
-TEST(ComputedByOpenSim, lines_around_two_cylinders_differ_by_what_it_sums) {
+TEST(ComputedByOpenSim, lengths_around_two_cylinders_are_not_those_of_a_way) {
   const Reference reference("rajagopal18_right");
-  const Model& model = reference.model;
-  const Index number = index_of(model.muscles, "med_gas_r");
+  const Index number = index_of(reference.model.muscles, "med_gas_r");
   ASSERT_GE(number, 0);
-  const Muscle& muscle = model.muscles[static_cast<std::size_t>(number)];
-  int twice = 0;
-  reference.for_each_pose(
-      muscle, [&](Eigen::Index row, const Skeleton& skeleton, const Eigen::VectorXd& q, Real theirs) {
-        std::vector<PathStop> points = current_points(model, muscle.path, skeleton.poses(), q);
-        if (std::erase_if(points, [](const PathStop& point) { return point.given < 0; }) < 4) return;
-        ++twice;
-        EXPECT_NEAR(summed_by_opensim(placed_wraps(model, muscle.path, skeleton.poses()), points), theirs, 4e-6)
-            << "row " << row;
-      });
-  EXPECT_EQ(twice, 10);
+  const Path& path = reference.model.muscles[static_cast<std::size_t>(number)].path;
+  Real most = 0;
+  reference.for_each_pose(reference.model.muscles[static_cast<std::size_t>(number)],
+                          [&](Eigen::Index, const Skeleton& skeleton, const Eigen::VectorXd& q, Real theirs) {
+                            most = std::max(most, measure_path(skeleton, path, q).length - theirs);
+                          });
+  EXPECT_NEAR(most, 4.4e-3, 1e-5);
 }
 
 TEST(ComputedByOpenSim, lines_around_ellipsoids_are_as_long_but_for_the_chords_that_it_sums) {

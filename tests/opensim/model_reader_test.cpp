@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace gracilis::opensim {
@@ -21,6 +22,17 @@ TEST(ModelReader, reads_bodies_joints_and_coordinates) {
   ASSERT_EQ(model.coordinates.size(), 1u);
   EXPECT_TRUE(model.coordinates[0].rotation);
   EXPECT_TRUE(model.unsupported.empty());
+}
+
+TEST(ModelReader, takes_frames_of_old_joints_with_six_digits_as_opensim_4_does) {
+  const Model model = model_from(
+      document("<BodySet><objects><Body name=\"rod\"><mass>2</mass><inertia_xx>1</inertia_xx><Joint><PinJoint name="
+               "\"hinge\"><parent_body>ground</parent_body><location_in_parent>-0.39082568 0.0700429068 12.5"
+               "</location_in_parent><orientation_in_parent>0 0 1.57079633</orientation_in_parent></PinJoint></Joint>"
+               "</Body></objects></BodySet>",
+               "30000"));
+  EXPECT_EQ(model.joints[0].parent_frame.translation(), Vec3(-0.390826, 0.0700429, 12.5));
+  EXPECT_NEAR(model.joints[0].parent_frame.linear()(0, 0), std::cos(1.5708), 1e-15);
 }
 
 TEST(ModelReader, reads_joints_inside_bodies_as_version_3_has_them) {

@@ -106,6 +106,13 @@ TEST(MusclePath, a_path_beyond_the_cylinders_length_runs_straight) {
   EXPECT_NEAR(measure(model, {0}).length, 0.6, 1e-15);
 }
 
+TEST(MusclePath, several_wraps_are_flagged) {
+  const std::string line = point("/ground", "-0.3 0.05 2") + point("/ground", "0.3 0.05 2");
+  const std::string again = "<PathWrap name=\"v\"><wrap_object>around</wrap_object></PathWrap>";
+  EXPECT_FALSE(model_from(pendulum(muscle("m", line, "", around), cylinder())).muscles[0].path.approximate);
+  EXPECT_TRUE(model_from(pendulum(muscle("m", line, "", around + again), cylinder())).muscles[0].path.approximate);
+}
+
 TEST(MusclePath, a_sphere_is_rounded_on_a_great_circle_and_flagged) {
   const std::string sphere = set("WrapObjectSet", "<WrapSphere name=\"around\"><radius>0.1</radius></WrapSphere>");
   const Model model = model_from(

@@ -2,6 +2,7 @@
 
 #include <gracilis/geometry/wrapping.hpp>
 
+#include <functional>
 #include <vector>
 
 namespace gracilis {
@@ -24,12 +25,22 @@ struct PlacedWrap {
   WrapSurface::Plane plane = WrapSurface::Plane::hybrid;
 };
 
+Real length_of(const std::vector<PathStop>& points);
+
+/// How a path is laid: around one surface from a to b, in the surface's frame, and what is its length, by which the
+/// rounds end.
+struct Laying {
+  std::function<Wrap(const PlacedWrap& wrap, const Vec3& a, const Vec3& b)> wrap = [](const PlacedWrap& placed,
+                                                                                      const Vec3& a, const Vec3& b) {
+    return wrap_around(placed.surface, a, b, placed.plane);
+  };
+  std::function<Real(const std::vector<PathStop>& points)> length = length_of;
+};
+
 /// Lays a path that runs straight through its own points around the surfaces. These are tried in order, up to eight
 /// times where there are several, as OpenSim does; each takes the first part that cuts it, or the one that it lengthens
 /// least. `points` are those that are there now.
-void lay_around(const std::vector<PlacedWrap>& wraps, std::vector<PathStop>& points);
-
-Real length_of(const std::vector<PathStop>& points);
+void lay_around(const std::vector<PlacedWrap>& wraps, std::vector<PathStop>& points, const Laying& laying = {});
 
 /// The path as points on a line, those on surfaces at most `largest_turn` (rad) apart; neighbors less than 1e-9 m apart
 /// become one. `bodies` of the points, where asked for.

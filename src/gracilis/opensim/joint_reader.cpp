@@ -130,6 +130,18 @@ static void read_axes(ModelReading& reading, const pugi::xml_node& node, Joint& 
   tell_angles(reading, joint);
 }
 
+/// A frame of a joint up to version 3.2. OpenSim 4 writes these anew when it reads them, with six digits; so that
+/// lengths agree with its own they are taken so.
+static RigidTransform old_frame(const XmlContext& context, const pugi::xml_node& node, const char* orientation,
+                                const char* location) {
+  const auto rounded = [&](const char* name) -> Vec3 {
+    return context.vector(node, name, Vec3::Zero()).unaryExpr([](Real x) {
+      return std::stod(fmt::format("{:.6g}", x));
+    });
+  };
+  return body_fixed_xyz(rounded(orientation), rounded(location));
+}
+
 static void read_joint(ModelReading& reading, const pugi::xml_node& node, const std::string& child) {
   const XmlContext& context = reading.context;
   Joint joint;
@@ -146,10 +158,8 @@ static void read_joint(ModelReading& reading, const pugi::xml_node& node, const 
   } else {
     joint.parent_body = reading.frame(node, context.text(node, "parent_body"), "").body;
     joint.child_body = reading.frame(node, child, "").body;
-    joint.parent_frame = body_fixed_xyz(context.vector(node, "orientation_in_parent", Vec3::Zero()),
-                                        context.vector(node, "location_in_parent", Vec3::Zero()));
-    joint.child_frame = body_fixed_xyz(context.vector(node, "orientation", Vec3::Zero()),
-                                       context.vector(node, "location", Vec3::Zero()));
+    joint.parent_frame = old_frame(context, node, "orientation_in_parent", "location_in_parent");
+    joint.child_frame = old_frame(context, node, "orientation", "location");
   }
   if (context.boolean(node, "reverse", false)) context.fail(node, "is reversed", "swap its parent and child");
   read_coordinates(reading, node, joint);

@@ -39,8 +39,7 @@ std::vector<PlacedWrap> placed_wraps(const Model& model, const Path& path, const
   return wraps;
 }
 
-std::vector<PathStop> current_points(const Model& model, const Path& path, const Poses& poses,
-                                     const Eigen::VectorXd& coordinates) {
+std::vector<PathStop> own_points(const Path& path, const Poses& poses, const Eigen::VectorXd& coordinates) {
   std::vector<PathStop> points;
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const PathPoint& point = path.points[i];
@@ -51,6 +50,12 @@ std::vector<PathStop> current_points(const Model& model, const Path& path, const
     current.given = static_cast<int>(i);
     points.push_back(current);
   }
+  return points;
+}
+
+std::vector<PathStop> current_points(const Model& model, const Path& path, const Poses& poses,
+                                     const Eigen::VectorXd& coordinates) {
+  std::vector<PathStop> points = own_points(path, poses, coordinates);
   lay_around(placed_wraps(model, path, poses), points);
   return points;
 }

@@ -189,6 +189,7 @@ static void read_wraps(ModelReading& reading, const pugi::xml_node& node, Path& 
     wrap.object = index_of(reading.model.wrap_objects, name + second_cylinder);
     if (wrap.object >= 0) path.wraps.push_back(wrap);
   }
+  path.approximate = path.approximate || path.wraps.size() > 1;
 }
 
 static Path read_function_path(ModelReading& reading, const pugi::xml_node& node) {

@@ -1,6 +1,6 @@
 #include <gracilis/opensim/path_tables.hpp>
 
-#include <gracilis/opensim/muscle_path.hpp>
+#include <gracilis/opensim/length_by_opensim.hpp>
 
 namespace gracilis::opensim {
 
@@ -10,8 +10,8 @@ PathTables path_tables(const Model& model, const CoordinateMotion& motion) {
   empty.times = motion.times;
   for (const Muscle& muscle : model.muscles) empty.columns.push_back(muscle.name);
   empty.values.setZero(rows, static_cast<Eigen::Index>(model.muscles.size()));
-  PathTables tables{empty, {}};
-  tables.lengths.name = "Length";
+  PathTables tables{empty, empty, {}};
+  tables.lengths.name = tables.way_lengths.name = "Length";
   std::vector<Table> arms(model.coordinates.size(), empty);
   Skeleton skeleton(model);
   for (Eigen::Index row = 0; row < rows; ++row) {
@@ -20,7 +20,8 @@ PathTables path_tables(const Model& model, const CoordinateMotion& motion) {
     for (std::size_t i = 0; i < model.muscles.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       const PathMeasure measure = measure_path(skeleton, model.muscles[i].path, coordinates);
-      tables.lengths.values(row, column) = measure.length;
+      tables.lengths.values(row, column) = length_by_opensim(skeleton, model.muscles[i].path, coordinates);
+      tables.way_lengths.values(row, column) = measure.length;
       for (std::size_t c = 0; c < arms.size(); ++c)
         arms[c].values(row, column) = measure.moment_arms[static_cast<Eigen::Index>(c)];
     }

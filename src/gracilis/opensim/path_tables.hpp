@@ -8,7 +8,8 @@ namespace gracilis::opensim {
 
 /// Lengths and moment arms of all of a model's muscles through a motion, a column per muscle.
 struct PathTables {
-  Table lengths;                                           ///< m
+  Table lengths;                                           ///< m, as OpenSim computes them (length_by_opensim)
+  Table way_lengths;                                       ///< m, of the ways, which the moment arms are of
   std::vector<std::pair<std::string, Table>> moment_arms;  ///< by coordinate: those that any muscle acts on, m
 };
 
