@@ -142,6 +142,8 @@ void add_import_command(CLI::App& program, Command& chosen) {
                    "Force per physiological cross-section area, N/m²")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command->add_flag("--apart", options->settings.apart,
+                    "Muscles keep out of each other in that pose: they share the room that lines leave them");
   command->add_option("--out", options->out, "Folder for the scene")->required();
   command->add_flag("--strict", options->strict, "Fail where something is left out (exit code 4)");
   command->callback([&chosen, options] { chosen = [options] { return import_model(*options); }; });

@@ -131,4 +131,18 @@ TEST(ImportCommand, a_joint_of_an_unknown_kind_is_named_and_fails_where_strict) 
   EXPECT_THAT(free.err, testing::HasSubstr("ConveyorJoint 'belt'"));
 }
 
+TEST(ImportCommand, a_muscle_that_has_no_room_apart_from_another_is_named) {
+  const TestFolder folder;
+  const std::string points = point("/ground", "0.1 0.1 0") + point("/bodyset/rod", "0.05 -0.3 0");
+  const std::string import =
+      "import " + folder.write("m.osim", pendulum(muscle("m", points) + muscle("n", points))).string();
+  const std::string told = "muscle 'm': between the others there is room for";
+  const ProgramResult within = run_program(import + " --out " + (folder.path() / "within").string());
+  EXPECT_EQ(within.exit_code, 0) << within.err;
+  EXPECT_THAT(within.err, testing::Not(testing::HasSubstr(told)));
+  const ProgramResult apart = run_program(import + " --apart --out " + (folder.path() / "apart").string());
+  EXPECT_EQ(apart.exit_code, 0) << apart.err;
+  EXPECT_THAT(apart.err, testing::HasSubstr(told));
+}
+
 }  // namespace gracilis

@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/io/scene_reader.hpp>
@@ -300,6 +301,43 @@ TEST(SceneFolder, names_of_a_model_that_is_not_utf_8_make_a_scene_that_can_be_re
   write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", {{0}, default_coordinates(model).transpose(), {}}}}, {},
                      folder.path() / "out");
   EXPECT_EQ(read_scene(folder.path() / "out/rest.toml").scene.joints[0].axes[0].coordinate, "\xc3\xa4");
+}
+
+/// How deep a vertex of one surface lies in the other, at most, m.
+static Real deepest(const TriangleMesh& one, const TriangleMesh& other) {
+  const SignedDistance distance(other);
+  Real deepest = 0;
+  for (const Vec3 vertex : one.vertices.colwise()) deepest = std::max(deepest, -distance.query(vertex).distance);
+  return deepest;
+}
+
+static Real volume_of(const TriangleMesh& mesh) { return enclosed_volume(mesh.vertices, mesh.faces); }
+
+TEST(SceneFolder, muscles_apart_lie_side_by_side_and_keep_their_volumes) {
+  const TestFolder folder;
+  const std::string size =
+      "<max_isometric_force>800</max_isometric_force><optimal_fiber_length>0.1</optimal_fiber_length>"
+      "<tendon_slack_length>0.1</tendon_slack_length>";
+  // 8 mm apart and 13 mm thick, on one body, so that nothing else is about.
+  const Model model =
+      model_from(pendulum(muscle("left", point("/ground", "0.5 0 0") + point("/ground", "0.5 -0.4 0"), size) +
+                          muscle("right", point("/ground", "0.508 0 0") + point("/ground", "0.508 -0.4 0.01"), size)));
+  const CoordinateMotion rest{{0}, default_coordinates(model).transpose(), {}};
+  const auto scene = [&](bool apart) {
+    SceneFolderSettings settings;
+    settings.apart = apart;
+    const std::filesystem::path out = folder.path() / (apart ? "apart" : "round");
+    EXPECT_THAT(write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", rest}}, settings, out),
+                testing::IsEmpty());
+    return read_scene(out / "rest.toml", {}).scene;
+  };
+  const Scene round = scene(false), apart = scene(true);
+  ASSERT_EQ(apart.muscles.size(), 2u);
+  EXPECT_GT(deepest(round.muscles[0].surface, round.muscles[1].surface), 0.005);
+  for (std::size_t m = 0; m < 2; ++m) {
+    EXPECT_LT(deepest(apart.muscles[m].surface, apart.muscles[1 - m].surface), 0.0005);
+    EXPECT_NEAR(volume_of(apart.muscles[m].surface) / volume_of(round.muscles[m].surface), 1, 0.03);
+  }
 }
 
 }  // namespace gracilis::opensim

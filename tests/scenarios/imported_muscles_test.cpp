@@ -17,14 +17,20 @@ using namespace opensim;
 static Scene imported(const Model& model, const GeometryPlaces& places, const NamedMotion& motion,
                       const SceneFolderSettings& settings = {}, const SceneOptions& options = {}) {
   const TestFolder folder;
-  EXPECT_THAT(write_scene_folder(model, places, {motion}, settings, folder.path()), testing::IsEmpty());
+  const std::vector<std::string> left_out = write_scene_folder(model, places, {motion}, settings, folder.path());
+  // What there is no room for between others.
+  if (settings.apart)
+    EXPECT_THAT(left_out, testing::ElementsAre(testing::HasSubstr("'glut_med1_r': between the others")));
+  else
+    EXPECT_THAT(left_out, testing::IsEmpty());
   return read_scene(folder.path() / (motion.name + ".toml"), options).scene;
 }
 
 class ImportedHip : public testing::TestWithParam<const char*> {};
 
-TEST_P(ImportedHip, muscles_miss_no_gate_in_the_models_own_motion) {
-  SKIP_WITHOUT_DATA();
+/// The hip model in one of its motions.
+static Scene imported_hip(const std::string& motion, const SceneFolderSettings& settings = {},
+                          const SceneOptions& options = {}) {
   const auto hip = data_folder() / "lhdl-hip";
   const auto coarse = [&](const char* file) { return hip / "coarse" / file; };
   const GeometryPlaces places = {
@@ -33,9 +39,24 @@ TEST_P(ImportedHip, muscles_miss_no_gate_in_the_models_own_motion) {
       {{"LHDL_pelvis.vtp", {{coarse("hip_bone_r.ply"), coarse("hip_bone_l.ply"), coarse("sacrum.ply")}, 0.001}},
        {"LHDL_femur_r.vtp", {{coarse("femur_r.ply")}, 0.001}}}};
   const Model model = read_model(hip / "motion/LHDL_hip_r.osim");
-  const CoordinateMotion motion =
-      coordinate_motion(model, read_table(hip / "motion" / (std::string(GetParam()) + ".mot")));
-  const Scene scene = imported(model, places, {GetParam(), motion});
+  const Table table = read_table(hip / "motion" / (motion + ".mot"));
+  return imported(model, places, {motion, coordinate_motion(model, table)}, settings, options);
+}
+
+TEST_P(ImportedHip, muscles_miss_no_gate_in_the_models_own_motion) {
+  SKIP_WITHOUT_DATA();
+  const Scene scene = imported_hip(GetParam());
+  ASSERT_EQ(scene.muscles.size(), 8u);
+  expect_gates(scene, run_whole(scene));
+}
+
+TEST_P(ImportedHip, muscles_that_lie_apart_keep_out_of_each_other_and_miss_no_gate) {
+  SKIP_WITHOUT_DATA();
+  SceneFolderSettings settings;
+  settings.apart = true;
+  SceneOptions options;
+  options.set = {"contact.muscle=surface"};
+  const Scene scene = imported_hip(GetParam(), settings, options);
   ASSERT_EQ(scene.muscles.size(), 8u);
   expect_gates(scene, run_whole(scene));
 }

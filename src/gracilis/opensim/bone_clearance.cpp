@@ -11,6 +11,7 @@ static constexpr Real gap = 0.0005;              // m
 static constexpr Real center_clearance = 0.004;  // m
 static constexpr Real farthest = 0.03;           // m, that a center goes
 static constexpr Real widest = 1.6;              // times its radius that a corner goes out
+static constexpr Real widest_beside = 2.2;       // the same beside other muscles
 static constexpr Real known = 0.06;              // m; no place in a bone is deeper
 
 SolidBone::SolidBone(const TriangleMesh& surface)
@@ -78,25 +79,88 @@ static Real area_of(const Eigen::VectorXd& radii) {
   return sum;
 }
 
-ClearSections clear_of_bones(const Points& line, const Eigen::VectorXd& radii, int rays,
-                             const std::vector<SolidBone>& bones) {
-  ClearSections result{clear_centers(line, radii, bones), radii.transpose().replicate(rays, 1)};
-  const SectionFrames frames = section_frames(result.centers, Vec3::UnitX());
-  for (Eigen::Index k = 0; k < line.cols(); ++k) {
-    const Vec3 center = result.centers.col(k);
-    Eigen::VectorXd room(rays);
-    for (int i = 0; i < rays; ++i)
-      room[i] = std::max(way_along(bones, center, frames.ray(k, i, rays), widest * radii[k]), gap);
-    const auto grown = [&](Real factor) -> Eigen::VectorXd { return room.cwiseMin(factor * radii[k]); };
+namespace {
+
+/// A muscle's sections, and how far their corners may go.
+struct Rooms {
+  const Eigen::VectorXd& radii;
+  Eigen::MatrixXd room;  ///< rays × sections, m
+  Real widest = 0;       ///< times its radius
+
+  /// The section with `more` times its round area, where there is room: corners as far out as one factor takes them.
+  Eigen::VectorXd filled(Eigen::Index k, Real more) const {
+    const auto grown = [&](Real factor) -> Eigen::VectorXd { return room.col(k).cwiseMin(factor * radii[k]); };
     // The area grows with the factor: bisection.
     Real low = 1, high = widest;
-    const Real wanted = rays * radii[k] * radii[k];
-    for (int step = 0; step < 30 && area_of(grown(1)) < wanted; ++step) {
+    const Real wanted = more * static_cast<Real>(room.rows()) * radii[k] * radii[k];
+    for (int step = 0; step < 30 && area_of(grown(low)) < wanted; ++step) {
       const Real middle = (low + high) / 2;
       (area_of(grown(middle)) < wanted ? low : high) = middle;
     }
-    result.radii.col(k) = grown(low);
+    return grown(low);
   }
+};
+
+}  // namespace
+
+/// Next to a section that is drawn in a corner goes out no steeper than this, or than the round muscle does there.
+static void soften(const Points& centers, const Eigen::VectorXd& round, Eigen::MatrixXd& radii) {
+  const Real steepest = 0.5;
+  const auto follow = [&](Eigen::Index k, Eigen::Index before) {
+    const Real rise =
+        std::max(steepest * (centers.col(k) - centers.col(before)).norm(), widest_beside * (round[k] - round[before]));
+    radii.col(k) = radii.col(k).cwiseMin((radii.col(before).array() + rise).matrix());
+  };
+  for (Eigen::Index k = 1; k < centers.cols(); ++k) follow(k, k - 1);
+  for (Eigen::Index k = centers.cols() - 1; k > 0; --k) follow(k - 1, k);
+}
+
+/// Of sections with these corners, over half the sine between rays.
+static Real volume_of(const Points& centers, const Eigen::MatrixXd& radii) {
+  Real sum = 0;
+  for (Eigen::Index k = 0; k + 1 < centers.cols(); ++k)
+    sum += (centers.col(k + 1) - centers.col(k)).norm() * (area_of(radii.col(k)) + area_of(radii.col(k + 1))) / 2;
+  return sum;
+}
+
+static Real round_volume(const Points& centers, const Rooms& rooms) {
+  return volume_of(centers, rooms.radii.transpose().replicate(rooms.room.rows(), 1));
+}
+
+/// Sections that take so many times their areas, 2 at most, that together they have their volume.
+static Eigen::MatrixXd share_out(const Points& centers, const Rooms& rooms) {
+  const auto taken = [&](Real more) {
+    Eigen::MatrixXd radii(rooms.room.rows(), rooms.room.cols());
+    for (Eigen::Index k = 0; k < radii.cols(); ++k) radii.col(k) = rooms.filled(k, more);
+    soften(centers, rooms.radii, radii);
+    return radii;
+  };
+  const Real wanted = round_volume(centers, rooms);
+  Real low = 1, high = 2;
+  for (int step = 0; step < 12; ++step) {
+    const Real middle = (low + high) / 2;
+    (volume_of(centers, taken(middle)) < wanted ? low : high) = middle;
+  }
+  return taken(high);
+}
+
+ClearSections clear_of_bones(const Points& line, const Eigen::VectorXd& radii, int rays,
+                             const std::vector<SolidBone>& bones, const RoomBeside& beside) {
+  ClearSections result{clear_centers(line, radii, bones), Eigen::MatrixXd(rays, line.cols())};
+  const SectionFrames frames = section_frames(result.centers, Vec3::UnitX());
+  Rooms rooms{radii, Eigen::MatrixXd(rays, line.cols()), beside ? widest_beside : widest};
+  for (Eigen::Index k = 0; k < line.cols(); ++k)
+    for (int i = 0; i < rays; ++i) {
+      const Vec3 center = result.centers.col(k), ray = frames.ray(k, i, rays);
+      Real room = way_along(bones, center, ray, rooms.widest * radii[k]);
+      if (beside) room = beside(center, ray, radii[k], room);
+      rooms.room(i, k) = std::max(room, gap);
+    }
+  if (beside)
+    result.radii = share_out(result.centers, rooms);
+  else
+    for (Eigen::Index k = 0; k < line.cols(); ++k) result.radii.col(k) = rooms.filled(k, 1);
+  result.volume_share = volume_of(result.centers, result.radii) / round_volume(result.centers, rooms);
   return result;
 }
 

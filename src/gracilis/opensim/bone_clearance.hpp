@@ -3,6 +3,9 @@
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
+#include <functional>
+#include <vector>
+
 namespace gracilis::opensim {
 
 /// A bone that muscles keep out of.
@@ -17,13 +20,20 @@ struct SolidBone {
 struct ClearSections {
   Points centers;
   Eigen::MatrixXd radii;
+  Real volume_share = 1;  ///< of the round sections' volume
 };
+
+/// How far one may go from a section's center along a unit ray for what is beside the muscle but bones, `length` (m) at
+/// most; `radius` is the round section's.
+using RoomBeside = std::function<Real(const Vec3& center, const Vec3& ray, Real radius, Real length)>;
 
 /// Sections with these radii (m) along a line, brought out of the bones. Centers within a bone or closer to one than 4
 /// mm (or their radius) are pushed out, and their neighbors with them, so that the line bends softly; by 30 mm at most.
 /// Then corners are drawn in to 0.5 mm before a bone, and the others out, by 1.6 times at most, so that the sections
 /// keep their areas: the muscle lies against the bone. A first or last section outside of the bones stays where it is.
+/// Where something is beside the muscle, corners are drawn in before that, too, and others go out by 2.2 times at most;
+/// what sections lack then the others take, up to twice their areas, so that the muscle keeps its volume.
 ClearSections clear_of_bones(const Points& line, const Eigen::VectorXd& radii, int rays,
-                             const std::vector<SolidBone>& bones);
+                             const std::vector<SolidBone>& bones, const RoomBeside& beside = {});
 
 }  // namespace gracilis::opensim

@@ -61,6 +61,14 @@ static std::pair<Real, Real> tendons_on(const Muscle& muscle, Real length, Tendo
   return {0, scaled / 2};
 }
 
+/// What the others leave to a muscle.
+static RoomBeside room_of(const Muscle& muscle, const std::map<std::string, RoundMuscle>& beside) {
+  std::vector<RoundMuscle> others;
+  for (const auto& [name, other] : beside)
+    if (name != muscle.name) others.push_back(other);
+  return others.empty() ? RoomBeside{} : room_beside(std::move(others));
+}
+
 /// Sections along the line, brought onto the muscle's own surface where it is known.
 static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const Muscle& muscle,
                         const VolumeSettings& settings, MuscleVolume& volume) {
@@ -69,7 +77,10 @@ static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const 
   const auto known = settings.surfaces.find(muscle.name);
   if (known == settings.surfaces.end()) {
     const ClearSections clear =
-        settings.bones ? clear_of_bones(fine, radii, settings.rays, *settings.bones) : ClearSections{fine, round};
+        settings.bones ? clear_of_bones(fine, radii, settings.rays, *settings.bones, room_of(muscle, settings.beside))
+                       : ClearSections{fine, round};
+    volume.round = {clear.centers, radii};
+    volume.volume_share = clear.volume_share;
     volume.surface.vertices =
         section_vertices(clear.centers, section_frames(clear.centers, Vec3::UnitX()), clear.radii);
     if (clear.centers != fine) volume.line.centers = clear.centers;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <gracilis/geometry/triangle_mesh.hpp>
-#include <gracilis/opensim/bone_clearance.hpp>
 #include <gracilis/opensim/model.hpp>
+#include <gracilis/opensim/neighbor_clearance.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <array>
@@ -28,6 +28,8 @@ struct VolumeSettings {
   /// Surfaces that are known, by the muscles' names, closed, in the ground frame: sections are brought onto them.
   std::map<std::string, TriangleMesh> surfaces;
   std::shared_ptr<const std::vector<SolidBone>> bones;  ///< that the others keep out of; none: they do not
+  std::map<std::string, RoundMuscle>
+      beside;         ///< muscles by name that the others keep out of, too, where there are bones
   int more_rays = 6;  ///< times as many rays as corners look for the surfaces' inside (Laclé's CSS)
 };
 
@@ -40,6 +42,8 @@ struct HeldVertices {
 
 struct MuscleVolume {
   TriangleMesh surface;
+  RoundMuscle round;                 ///< as it would be alone; empty where its surface is known
+  Real volume_share = 1;             ///< of the volume asked for that bones and other muscles left room for
   ActionLine line;                   ///< its bodies are the model's
   std::array<HeldVertices, 2> held;  ///< origin and insertion
   Index sections_on_surface = 0;     ///< of those brought onto a surface that is known

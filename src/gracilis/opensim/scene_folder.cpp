@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
 namespace gracilis::opensim {
 
@@ -68,13 +69,16 @@ static std::string muscle_text(const Model& model, const std::string& name, cons
   return text;
 }
 
-static std::string head(const Model& model) {
+/// Where muscles that keep out of each other have less of their volume than this it is told.
+static constexpr Real told_share = 0.75;
+
+static std::string head(const Model& model, bool apart) {
   return fmt::format(
       "# Made of the OpenSim model {} by 'gracilis import'. Bones and muscles in the pose of its default\n"
-      "# coordinates. Muscles are round about the model's lines, with the volumes that its forces and fiber\n"
-      "# lengths ask for; lines run through each other, so contact between muscles is off.\n"
+      "# coordinates. Muscles are {} about the model's lines, with the volumes that its forces and fiber\n"
+      "# lengths ask for{}; lines run through each other, so contact between muscles is off.\n"
       "schema = 1\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n\n[contact]\nmuscle = \"none\"\n",
-      toml_text(model.name));
+      toml_text(model.name), apart ? "side by side" : "round", apart ? " where there is room" : "");
 }
 
 /// The muscles asked for, in the model's order.
@@ -86,6 +90,22 @@ static std::vector<const Muscle*> chosen(const Model& model, const std::vector<s
   for (const Muscle& muscle : model.muscles)
     if (names.empty() || std::find(names.begin(), names.end(), muscle.name) != names.end()) muscles.push_back(&muscle);
   return muscles;
+}
+
+/// As each would be alone; those that have no volume are told of later.
+static std::map<std::string, RoundMuscle> round_muscles(const Model& model, const std::vector<const Muscle*>& muscles,
+                                                        const std::vector<RigidTransform>& poses,
+                                                        const Eigen::VectorXd& coordinates,
+                                                        const VolumeSettings& settings) {
+  std::map<std::string, RoundMuscle> round;
+  for (const Muscle* muscle : muscles) {
+    if (settings.surfaces.count(muscle->name) > 0) continue;
+    try {
+      round[muscle->name] = muscle_volume(model, *muscle, poses, coordinates, settings).round;
+    } catch (const InputError&) {
+    }
+  }
+  return round;
 }
 
 static void write_motion(const Model& model, const NamedMotion& motion, const fs::path& folder) {
@@ -105,7 +125,7 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
   std::vector<std::string> left_out = bones.missing;
   fs::create_directories(folder / "bones");
   fs::create_directories(folder / "muscles");
-  std::string text = head(model);
+  std::string text = head(model, settings.apart);
   for (const ModelBone& bone : bones.bones) {
     write_surface(folder / "bones" / (bone.name + ".vtp"), bone.surface.vertices, bone.surface.faces);
     text += fmt::format("\n[[bones]]\nname = {}\nbody = {}\nfile = {}\n", toml_text(bone.name),
@@ -117,13 +137,18 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
   std::vector<SolidBone> solid;
   for (const ModelBone& bone : bones.bones) solid.emplace_back(bone.surface);
   volumes.bones = std::make_shared<const std::vector<SolidBone>>(std::move(solid));
+  const std::vector<const Muscle*> muscles = chosen(model, settings.muscles);
+  if (settings.apart) volumes.beside = round_muscles(model, muscles, skeleton.poses(), coordinates, volumes);
   std::set<std::string> names;
-  for (const Muscle* muscle : chosen(model, settings.muscles)) {
+  for (const Muscle* muscle : muscles) {
     try {
       const MuscleVolume volume = muscle_volume(model, *muscle, skeleton.poses(), coordinates, volumes);
       const std::string name = name_for_file(muscle->name, names);
       if (settings.volumes.surfaces.count(muscle->name) > 0 && volume.sections_on_surface == 0)
         left_out.push_back(fmt::format("muscle '{}': its surface is nowhere near its line", muscle->name));
+      if (settings.apart && volume.volume_share < told_share)
+        left_out.push_back(fmt::format("muscle '{}': between the others there is room for {:.0f} % of its volume",
+                                       muscle->name, 100 * volume.volume_share));
       write_surface(folder / "muscles" / (name + ".vtp"), volume.surface.vertices, volume.surface.faces);
       text += muscle_text(model, name, volume, line_path_text(model, *muscle, skeleton.poses(), coordinates, left_out));
     } catch (const InputError& error) {

@@ -15,6 +15,7 @@ struct NamedMotion {
 struct SceneFolderSettings {
   VolumeSettings volumes;
   std::vector<std::string> muscles;  ///< to take; empty: all
+  bool apart = false;                ///< muscles whose surfaces are not known keep out of each other
 };
 
 /// Writes a folder that `gracilis run` understands, for the model with its coordinates at their default values:

@@ -1,0 +1,60 @@
+#include <gracilis/opensim/neighbor_clearance.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gracilis::opensim {
+
+/// Along z, beside the origin at x.
+static RoundMuscle upright(Real x, Real radius) {
+  RoundMuscle muscle{Points::Zero(3, 11), Eigen::VectorXd::Constant(11, radius)};
+  for (Eigen::Index k = 0; k < 11; ++k) muscle.centers.col(k) = Vec3(x, 0, 0.02 * static_cast<Real>(k) - 0.1);
+  return muscle;
+}
+
+TEST(NeighborClearance, muscles_of_one_size_meet_half_way) {
+  const RoomBeside room = room_beside({upright(0.03, 0.02)});
+  EXPECT_NEAR(room(Vec3::Zero(), Vec3::UnitX(), 0.02, 0.04), 0.015 - 0.00025, 1e-6);
+  EXPECT_EQ(room(Vec3::Zero(), -Vec3::UnitX(), 0.02, 0.04), 0.04);
+}
+
+TEST(NeighborClearance, a_thin_muscle_leaves_more_to_a_thick_one) {
+  const RoomBeside beside_thin = room_beside({upright(0.03, 0.01)}), beside_thick = room_beside({upright(0.03, 0.02)});
+  EXPECT_NEAR(beside_thin(Vec3::Zero(), Vec3::UnitX(), 0.02, 0.04), 0.02 - 0.00025, 1e-6);
+  EXPECT_NEAR(beside_thick(Vec3::Zero(), Vec3::UnitX(), 0.01, 0.04), 0.01 - 0.00025, 1e-6);
+}
+
+TEST(NeighborClearance, a_muscle_on_the_same_line_leaves_no_room_and_a_far_one_all) {
+  EXPECT_EQ(room_beside({upright(0, 0.02)})(Vec3::Zero(), Vec3::UnitX(), 0.02, 0.04), 0);
+  EXPECT_EQ(room_beside({upright(0.5, 0.02)})(Vec3::Zero(), Vec3::UnitX(), 0.02, 0.04), 0.04);
+  EXPECT_EQ(room_beside({})(Vec3::Zero(), Vec3::UnitX(), 0.02, 0.04), 0.04);
+}
+
+/// Of a polygon by its corners' distances from its center.
+static Real area(const Eigen::VectorXd& radii) {
+  const Eigen::Index n = radii.size();
+  Real sum = 0;
+  for (Eigen::Index i = 0; i < n; ++i) sum += radii[i] * radii[(i + 1) % n];
+  return sum * std::sin(2 * pi / static_cast<Real>(n)) / 2;
+}
+
+TEST(NeighborClearance, a_muscle_pressed_against_another_keeps_its_volume_and_gets_no_steps) {
+  const RoundMuscle muscle = upright(0, 0.02);
+  // It crosses the upper half, 10 mm away.
+  RoundMuscle other{Points(3, 2), Eigen::VectorXd::Constant(2, 0.02)};
+  other.centers << 0.01, 0.01, -0.1, 0.1, 0.06, 0.06;
+  const ClearSections clear = clear_of_bones(muscle.centers, muscle.radii, 12, {}, room_beside({other}));
+  EXPECT_EQ(clear.centers, muscle.centers);
+  EXPECT_NEAR(clear.volume_share, 1, 0.01);
+  Real volume = 0, smallest = 1;
+  for (Eigen::Index k = 0; k + 1 < 11; ++k) {
+    volume += 0.02 * (area(clear.radii.col(k)) + area(clear.radii.col(k + 1))) / 2;
+    smallest = std::min(smallest, clear.radii.col(k).minCoeff());
+    EXPECT_LE((clear.radii.col(k + 1) - clear.radii.col(k)).cwiseAbs().maxCoeff(), 0.5 * 0.02 + 1e-12) << k;
+  }
+  EXPECT_NEAR(volume / (0.2 * area(Eigen::VectorXd::Constant(12, 0.02))), 1, 0.01);
+  EXPECT_LT(smallest, 0.006);
+}
+
+}  // namespace gracilis::opensim
