@@ -159,7 +159,7 @@ std::span<const Setting<ContactSettings>> setting_table() {
       {"muscle", &S::muscle, "", 0, 0,
        "How muscles keep out of each other: 'surface' by nearest triangles and crossing edges, 'virtual-edges' as "
        "published, 'none' not at all."},
-      {"self", &S::self, "", 0, 0, "A muscle keeps out of itself; with 'surface' only."},
+      {"self", &S::self, "", 0, 0, "A muscle keeps out of itself; with 'surface' only. Not where it is made of sections across a line."},
       {"margin", &S::margin, "m", 0, 0.1, "Gap kept between muscles where the gap at rest allows."},
       {"reach", &S::reach, "m", 0, 0.1, "Farthest that another muscle is looked for, once per step; with 'surface' only."},
       {"friction", &S::friction, "", 0, 10, "Coulomb's coefficient of friction between muscles."},

@@ -26,9 +26,21 @@ float mean_edge(const SurfaceSystem& system) {
   return system.distances.count > 0 ? static_cast<float>(sum / system.distances.count) : 0;
 }
 
+/// The faces that others meet. The tendon of a muscle about a line is carried along that, through whatever the line
+/// runs through, so nothing could keep out of it.
+Eigen::Matrix3Xi met_faces(const PreparedMuscle& muscle) {
+  if (muscle.belly.empty()) return muscle.faces;
+  Eigen::Matrix3Xi met(3, muscle.faces.cols());
+  Eigen::Index count = 0;
+  for (const auto face : muscle.faces.colwise())
+    if (std::any_of(face.begin(), face.end(), [&](Index p) { return muscle.belly[static_cast<std::size_t>(p)] > 0; }))
+      met.col(count++) = face;
+  return met.leftCols(count);
+}
+
 void add_surface(const PreparedMuscle& muscle, SurfaceCrowd& crowd) {
   const Particles& rest = muscle.system.rest;
-  crowd.surfaces.push_back(build_contact_surface(muscle.faces, rest.count()));
+  crowd.surfaces.push_back(build_contact_surface(met_faces(muscle), rest.count()));
   Eigen::Matrix3Xf points(3, rest.count()), normals;
   for (Index p = 0; p < rest.count(); ++p) points.col(p) = rest.position(p);
   particle_normals(crowd.surfaces.back(), rest, normals);
@@ -78,8 +90,9 @@ SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<Prep
     rest.push_back(&muscle.system.rest);
   }
   for (Index first = 0; first < count; ++first)
-    for (Index second = settings.self ? first : first + 1; second < count; ++second)
-      crowd.pairs.push_back(pair_of(first, second, muscles, margin));
+    for (Index second = first; second < count; ++second)
+      if (second != first || muscles[static_cast<std::size_t>(first)].keeps_out_of_itself)
+        crowd.pairs.push_back(pair_of(first, second, muscles, margin));
   const auto reach_of = [&](const SurfacePair& pair, float overlap) {
     // Parts of one surface come near each other slowly, but edges may cross halfway between particles.
     if (pair.is_self())

@@ -237,7 +237,9 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
   prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(prepared));
   // What takes the most memory while it is built comes first.
-  if (scene.contact.self && scene.contact.muscle == MuscleContact::surface) {
+  prepared.keeps_out_of_itself =
+      scene.contact.self && scene.contact.muscle == MuscleContact::surface && prepared.belly.empty();
+  if (prepared.keeps_out_of_itself) {
     prepared.system.slivers = build_sliver_set(prepared.faces, prepared.system.rest, flattest);
     prepared.system.tight_places = find_tight_places(prepared.rest, prepared.faces, tight, prepared.system.rest);
   }
