@@ -76,9 +76,12 @@ static std::string head(const Model& model, bool apart) {
   return fmt::format(
       "# Made of the OpenSim model {} by 'gracilis import'. Bones and muscles in the pose of its default\n"
       "# coordinates. Muscles are {} about the model's lines, with the volumes that its forces and fiber\n"
-      "# lengths ask for{}; lines run through each other, so contact between muscles is off.\n"
-      "schema = 1\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n\n[contact]\nmuscle = \"none\"\n",
-      toml_text(model.name), apart ? "side by side" : "round", apart ? " where there is room" : "");
+      "# lengths ask for{}.\n"
+      "schema = 1\nanterior = [1, 0, 0]\nsuperior = [0, 1, 0]\n\n[contact]\nmuscle = {}\n",
+      toml_text(model.name), apart ? "side by side" : "round",
+      apart ? " where there is room, and their bellies keep out of each other"
+            : "; lines run through each other, so contact between muscles is off",
+      apart ? "\"surface\"" : "\"none\"");
 }
 
 /// The muscles asked for, in the model's order.

@@ -33,7 +33,7 @@ Eigen::Matrix3Xi met_faces(const PreparedMuscle& muscle) {
   Eigen::Matrix3Xi met(3, muscle.faces.cols());
   Eigen::Index count = 0;
   for (const auto face : muscle.faces.colwise())
-    if (std::any_of(face.begin(), face.end(), [&](Index p) { return muscle.belly[static_cast<std::size_t>(p)] > 0; }))
+    if (std::all_of(face.begin(), face.end(), [&](Index p) { return muscle.belly[static_cast<std::size_t>(p)] > 0.5; }))
       met.col(count++) = face;
   return met.leftCols(count);
 }
