@@ -49,7 +49,7 @@ opensim::CoordinateMotion parse_sweep(const opensim::Model& model, const std::st
 }
 
 /// Names the muscles whose length by OpenSim is not that of the way that the moment arms are of.
-void warn_of_sums(const opensim::PathTables& tables) {
+void warn_of_other_ways(const opensim::PathTables& tables) {
   const Eigen::RowVectorXd apart = (tables.lengths.values - tables.way_lengths.values).cwiseAbs().colwise().maxCoeff();
   for (std::size_t i = 0; i < tables.lengths.columns.size(); ++i) {
     const Real most = apart[static_cast<Eigen::Index>(i)];
@@ -84,7 +84,7 @@ int write_paths(const PathsOptions& options) {
     fmt::print("{}\n", path.string());
   };
   const bool ways = options.lengths == "way";
-  if (!ways) warn_of_sums(tables);
+  if (!ways) warn_of_other_ways(tables);
   write("MuscleAnalysis_Length", ways ? tables.way_lengths : tables.lengths);
   for (const auto& [coordinate, table] : tables.moment_arms) write("MuscleAnalysis_MomentArm_" + coordinate, table);
   if (options.motion.empty()) write("coordinates", opensim::coordinate_table(model, motion));

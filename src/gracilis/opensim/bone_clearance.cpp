@@ -90,10 +90,11 @@ struct Rooms {
   /// The section with `more` times its round area, where there is room: corners as far out as one factor takes them.
   Eigen::VectorXd filled(Eigen::Index k, Real more) const {
     const auto grown = [&](Real factor) -> Eigen::VectorXd { return room.col(k).cwiseMin(factor * radii[k]); };
+    const Real wanted = more * static_cast<Real>(room.rows()) * radii[k] * radii[k];
+    if (!(area_of(grown(1)) < wanted)) return grown(1);
     // The area grows with the factor: bisection.
     Real low = 1, high = widest;
-    const Real wanted = more * static_cast<Real>(room.rows()) * radii[k] * radii[k];
-    for (int step = 0; step < 30 && area_of(grown(low)) < wanted; ++step) {
+    for (int step = 0; step < 30; ++step) {
       const Real middle = (low + high) / 2;
       (area_of(grown(middle)) < wanted ? low : high) = middle;
     }

@@ -72,16 +72,17 @@ static Wrap lone_wrap(const PlacedWrap& wrap, const Vec3& a, const Vec3& b) {
 static bool is_obstacle(const PlacedWrap& wrap) { return wrap.surface.hand != 0; }
 
 Real length_by_opensim(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates) {
+  if (!path.function_coordinates.empty()) return measure_path(skeleton, path, coordinates).length;
   const std::vector<PlacedWrap> wraps = placed_wraps(skeleton.model(), path, skeleton.poses());
-  if (wraps.empty() || std::any_of(wraps.begin(), wraps.end(), is_obstacle))
-    return measure_path(skeleton, path, coordinates).length;
   std::vector<PathStop> points = own_points(path, skeleton.poses(), coordinates);
   SumOfRounds sum;
   Laying laying;
-  if (wraps.size() == 1) laying.wrap = lone_wrap;
-  laying.length = [&sum](const std::vector<PathStop>& now) { return sum(now); };
+  if (std::none_of(wraps.begin(), wraps.end(), is_obstacle)) {
+    if (wraps.size() == 1) laying.wrap = lone_wrap;
+    laying.length = [&sum](const std::vector<PathStop>& now) { return sum(now); };
+  }
   lay_around(wraps, points, laying);
-  return sum(points);
+  return laying.length(points);
 }
 
 }  // namespace gracilis::opensim
