@@ -33,7 +33,7 @@ static Vec3 way_out(const SolidBone& bone, const Vec3& p, Real clearance) {
 }
 
 /// A section in need goes its own way; the others follow their neighbors, but the ends stay.
-static Points clear_centers(const Points& line, const Eigen::VectorXd& radii, const std::vector<SolidBone>& bones) {
+Points clear_centers(const Points& line, const Eigen::VectorXd& radii, const std::vector<SolidBone>& bones) {
   Points shift = Points::Zero(3, line.cols());
   for (int round = 0; round < 60; ++round) {
     bool any = false;

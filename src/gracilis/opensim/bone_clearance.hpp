@@ -23,6 +23,9 @@ struct ClearSections {
   Real volume_share = 1;  ///< of the round sections' volume
 };
 
+/// Centers of sections with these radii (m) brought out of the bones, as clear_of_bones does first.
+Points clear_centers(const Points& line, const Eigen::VectorXd& radii, const std::vector<SolidBone>& bones);
+
 /// How far one may go from a section's center along a unit ray for what is beside the muscle but bones, `length` (m) at
 /// most; `radius` is the round section's.
 using RoomBeside = std::function<Real(const Vec3& center, const Vec3& ray, Real radius, Real length)>;

@@ -79,7 +79,6 @@ static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const 
     const ClearSections clear =
         settings.bones ? clear_of_bones(fine, radii, settings.rays, *settings.bones, room_of(muscle, settings.beside))
                        : ClearSections{fine, round};
-    volume.round = {clear.centers, radii};
     volume.volume_share = clear.volume_share;
     volume.surface.vertices =
         section_vertices(clear.centers, section_frames(clear.centers, Vec3::UnitX()), clear.radii);
@@ -92,8 +91,15 @@ static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const 
   volume.sections_on_surface = static_cast<Index>(std::count(sections.cut.begin(), sections.cut.end(), true));
 }
 
-MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
-                           const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
+/// A muscle before it gives way to anything: round sections along its line.
+struct Spindle {
+  ActionLine line;
+  Points fine;
+  Eigen::VectorXd radii;  ///< m
+};
+
+static Spindle spindle_of(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
+                          const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
   const Line line = line_of(model, muscle, poses, coordinates);
   const Real length = line.points.cols() < 2 ? 0 : polyline_length(line.points);
   if (!(length > 1e-3))
@@ -117,18 +123,34 @@ MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::
                       "its tendon would be thicker than long: check the force"});
   const auto [origin_tendon, tendon] = tendons_on(muscle, length, settings.tendon);
 
-  MuscleVolume volume;
-  volume.line = {line.points, line.bodies, settings.rays, scaling, tendon, origin_tendon};
-  volume.line.optimal_fiber = muscle.optimal_fiber_length;
-  volume.line.pennation = muscle.pennation_angle_at_optimal;
-  add_surface(fine, spindle_radii(size, positions, tendon, origin_tendon), muscle, settings, volume);
+  Spindle spindle{{line.points, line.bodies, settings.rays, scaling, tendon, origin_tendon},
+                  fine,
+                  spindle_radii(size, positions, tendon, origin_tendon)};
+  spindle.line.optimal_fiber = muscle.optimal_fiber_length;
+  spindle.line.pennation = muscle.pennation_angle_at_optimal;
+  return spindle;
+}
 
-  const Index rays = settings.rays, sections = static_cast<Index>(fine.cols()), last = sections - 1;
+RoundMuscle round_muscle(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
+                         const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
+  const Spindle spindle = spindle_of(model, muscle, poses, coordinates, settings);
+  if (!settings.bones) return {spindle.fine, spindle.radii};
+  return {clear_centers(spindle.fine, spindle.radii, *settings.bones), spindle.radii};
+}
+
+MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
+                           const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
+  const Spindle spindle = spindle_of(model, muscle, poses, coordinates, settings);
+  MuscleVolume volume;
+  volume.line = spindle.line;
+  add_surface(spindle.fine, spindle.radii, muscle, settings, volume);
+
+  const Index rays = settings.rays, sections = static_cast<Index>(spindle.fine.cols()), last = sections - 1;
   std::vector<Index> first_vertices = section(0, rays), last_vertices = section(last, rays);
   first_vertices.push_back(rays * sections);
   last_vertices.push_back(rays * sections + 1);
-  volume.held = {HeldVertices{AttachmentEnd::origin, line.bodies.front(), std::move(first_vertices)},
-                 HeldVertices{AttachmentEnd::insertion, line.bodies.back(), std::move(last_vertices)}};
+  volume.held = {HeldVertices{AttachmentEnd::origin, spindle.line.bodies.front(), std::move(first_vertices)},
+                 HeldVertices{AttachmentEnd::insertion, spindle.line.bodies.back(), std::move(last_vertices)}};
   return volume;
 }
 

@@ -42,7 +42,6 @@ struct HeldVertices {
 
 struct MuscleVolume {
   TriangleMesh surface;
-  RoundMuscle round;                 ///< as it would be alone; empty where its surface is known
   Real volume_share = 1;             ///< of the volume asked for that bones and other muscles left room for
   ActionLine line;                   ///< its bodies are the model's
   std::array<HeldVertices, 2> held;  ///< origin and insertion
@@ -55,5 +54,10 @@ struct MuscleVolume {
 /// Throws InputError for a path by functions, which has no place, and for one without length.
 MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                            const Eigen::VectorXd& coordinates, const VolumeSettings& settings);
+
+/// The muscle as others find it that keep out of it: round sections about its line, their centers outside of the bones.
+/// Throws InputError as muscle_volume does.
+RoundMuscle round_muscle(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
+                         const Eigen::VectorXd& coordinates, const VolumeSettings& settings);
 
 }  // namespace gracilis::opensim

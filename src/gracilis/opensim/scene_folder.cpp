@@ -104,7 +104,7 @@ static std::map<std::string, RoundMuscle> round_muscles(const Model& model, cons
   for (const Muscle* muscle : muscles) {
     if (settings.surfaces.count(muscle->name) > 0) continue;
     try {
-      round[muscle->name] = muscle_volume(model, *muscle, poses, coordinates, settings).round;
+      round[muscle->name] = round_muscle(model, *muscle, poses, coordinates, settings);
     } catch (const InputError&) {
     }
   }
