@@ -117,12 +117,15 @@ void time_muscle(const Scene& scene, const Muscle& which, const std::vector<Dist
   }
 }
 
+BoneFieldSource cached_fields_of(const Scene& scene) {
+  return [&scene](const DistanceFieldSettings& settings) { return cached_bone_fields(scene, settings); };
+}
+
 /// Whole frames with all contact: the mean over those of the second half of the way, because contact is looked for in
 /// some of them only.
-BenchEntry time_frames(const Scene& scene, const std::vector<DistanceField>& fields, const std::vector<Pose>& poses,
-                       int threads) {
+BenchEntry time_frames(const Scene& scene, const std::vector<Pose>& poses, int threads) {
   const ThreadLimit limit(threads);
-  const auto method = make_scene_method(scene, [&] { return fields; });
+  const auto method = make_scene_method(scene, cached_fields_of(scene));
   double sum = 0;
   int count = 0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
@@ -177,10 +180,9 @@ void copy_muscles(Scene& scene, int count) {
 
 /// From before the scene was read, which took `reading`, until the first frame is solved, with the fields as the cache
 /// has them.
-BenchEntry time_first_frame(const Scene& scene, std::vector<DistanceField> fields, const std::vector<Pose>& poses,
-                            Clock::duration reading) {
+BenchEntry time_first_frame(const Scene& scene, const std::vector<Pose>& poses, Clock::duration reading) {
   const Clock::time_point started = Clock::now();
-  const auto method = make_scene_method(scene, [&] { return std::move(fields); });
+  const auto method = make_scene_method(scene, cached_fields_of(scene));
   if (poses.size() > 1) method->advance(poses[1]);
   const std::chrono::duration<double, std::milli> elapsed = reading + (Clock::now() - started);
   BenchEntry entry{"all", "first_frame", thread_count(), 0, elapsed.count(), hash_seed, 0};
@@ -207,15 +209,14 @@ int bench(Scene scene, BenchOptions options, Clock::time_point started) {
     if (thread_count() > 1) options.threads.push_back(thread_count());
   }
   const std::vector<Pose> poses = poses_until(scene, options.frame);
-  std::vector<DistanceField> fields = iterates ? cached_bone_fields(scene) : std::vector<DistanceField>();
   const Clock::duration reading = Clock::now() - started;
+  const std::vector<DistanceField> fields = iterates ? cached_bone_fields(scene) : std::vector<DistanceField>();
   std::vector<BenchEntry> entries;
   if (iterates && options.muscles == 0)
     for (const Muscle& muscle : scene.muscles) time_muscle(scene, muscle, fields, poses, options, entries);
   if (options.muscles > 0 || !is_resized) {
-    for (const int threads : options.threads) entries.push_back(time_frames(scene, fields, poses, threads));
-    // Last, because it takes the fields, as a run does.
-    entries.push_back(time_first_frame(scene, std::move(fields), poses, reading));
+    for (const int threads : options.threads) entries.push_back(time_frames(scene, poses, threads));
+    entries.push_back(time_first_frame(scene, poses, reading));
   }
   if (options.json)
     print_json(scene, static_cast<int>(poses.size()) - 1, entries);

@@ -88,7 +88,7 @@ class Session {
     describe_scene();
     spdlog::info("fibers");
     const FiberTracker tracker(loaded_.scene);
-    const auto method = make_scene_method(loaded_.scene, [this] { return bone_fields(); });
+    const auto method = make_scene_method(loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
     write_manifest("running");
     const ResumePoint* resume = folder_.resume_point() ? &*folder_.resume_point() : nullptr;
     if (resume) spdlog::info("going on after frame {}", resume->last.number);
@@ -146,9 +146,9 @@ class Session {
     for (const std::string& warning : loaded_.warnings) warn(warning);
   }
 
-  std::vector<DistanceField> bone_fields() const {
+  std::vector<DistanceField> bone_fields(const DistanceFieldSettings& settings) const {
     for (const Bone& bone : loaded_.scene.bones) spdlog::info("distance field of {}", bone.name);
-    return cached_bone_fields(loaded_.scene);
+    return cached_bone_fields(loaded_.scene, settings);
   }
 
   /// Says per muscle what was missed, limited or skipped over the whole run.

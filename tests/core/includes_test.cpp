@@ -15,8 +15,8 @@
 namespace {
 
 const std::map<std::string, int> ranks = {{"core", 0},    {"geometry", 1}, {"dynamics", 2}, {"scene", 2},
-                                          {"anatomy", 3}, {"methods", 4},  {"simulate", 5}, {"io", 6},
-                                          {"prepare", 6}, {"opensim", 7},  {"view", 8},     {"apps", 9}};
+                                          {"anatomy", 3}, {"strings", 4},  {"methods", 5}, {"simulate", 6}, {"io", 7},
+                                          {"prepare", 7}, {"opensim", 8},  {"view", 9},     {"apps", 10}};
 
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
 const std::vector<std::string> toolkit_libraries = {"vtk",  "fmt/",     "spdlog/", "toml++/", "nlohmann/",

@@ -23,7 +23,7 @@ class Stepping final : public DeformationMethod {
     return {{MuscleReport{}}};
   }
   void write(Frame& frame) const override { frame.muscles = {{rest_.colwise() + Vec3(0.001 * steps_, 0, 0)}}; }
-  void restore(const Frame&, const Frame& last) override { steps_ = last.number; }
+  void restore(const std::vector<Pose>&, const Frame&, const Frame& last) override { steps_ = last.number; }
 
   int resets = 0;
 

@@ -98,10 +98,14 @@ DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& s
 }
 
 std::vector<DistanceField> cached_bone_fields(const Scene& scene) {
+  return cached_bone_fields(scene, scene.distance_fields);
+}
+
+std::vector<DistanceField> cached_bone_fields(const Scene& scene, const DistanceFieldSettings& settings) {
   const fs::path folder = default_cache_folder();
   std::vector<DistanceField> fields(scene.bones.size());
   parallel_for_each(fields.size(), [&](std::size_t b) {
-    fields[b] = cached_bone_field(scene.bones[b], scene.distance_fields, folder);
+    fields[b] = cached_bone_field(scene.bones[b], settings, folder);
   });
   return fields;
 }

@@ -15,7 +15,8 @@ std::filesystem::path default_cache_folder();
 /// written or a damaged file costs only the time to build. An empty folder keeps nothing.
 DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& settings,
                                 const std::filesystem::path& folder);
-/// Those of all bones of a scene, in their order; kept in the default folder.
+/// Those of all bones of a scene, in their order, by the scene's settings or by others; kept in the default folder.
 std::vector<DistanceField> cached_bone_fields(const Scene& scene);
+std::vector<DistanceField> cached_bone_fields(const Scene& scene, const DistanceFieldSettings& settings);
 
 }  // namespace gracilis

@@ -70,8 +70,9 @@ class DeformationMethod {
   /// The present shapes, into frame.muscles.
   virtual void write(Frame& frame) const = 0;
   /// Continues from a recorded frame and the one before it, as if this method had made them: to the same bits from a
-  /// frame whose number is a multiple of resume_period(scene).
-  virtual void restore(const Frame& before, const Frame& last) = 0;
+  /// frame whose number is a multiple of resume_period(scene). `poses` are those of all frames from the capture pose up
+  /// to the last, for what a method follows through them.
+  virtual void restore(const std::vector<Pose>& poses, const Frame& before, const Frame& last) = 0;
 };
 
 }  // namespace gracilis

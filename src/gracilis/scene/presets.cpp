@@ -29,6 +29,7 @@ static Preset thesis_2024() {
   xpbd.edge_contact = false;
   xpbd.tunnelling = TunnellingGuard::turned_direction;
   xpbd.predictor = false;
+  xpbd.skinning = Skinning::bodies;
   xpbd.tendon_length = 0;
   xpbd.step_turn = 0;
   xpbd.settling_rounds = 0;

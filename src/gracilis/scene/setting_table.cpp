@@ -64,6 +64,9 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"slide_reach", &S::slide_reach, "m", 0, 0.1, "Vertices this near to that bone in the capture pose slide on it."},
       {"predictor", &S::predictor, "", 0, 0,
        "Carries the free vertices with the bones before the solver relaxes them."},
+      {"skinning", &S::skinning, "", 0, 0,
+       "What carries them: 'strings', the muscle's fibers pulled tight among the bones, or 'bodies', a blend of the motions "
+       "of the bodies that the muscle is attached to."},
       {"tendon_length", &S::tendon_length, "m", 0, 1,
        "Distance from the attachments over which the surface is graded from tendon to belly, so that the bones' motion "
        "stretches the belly and not the triangles beside an attachment; 0 grades nothing."},

@@ -25,7 +25,7 @@ template <class Settings>
 struct Setting {
   using Member = std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*,
                               std::string Settings::*, TimeMode Settings::*, DihedralFormula Settings::*,
-                              FiberTemplate Settings::*, MuscleContact Settings::*, TunnellingGuard Settings::*,
+                              FiberTemplate Settings::*, MuscleContact Settings::*, TunnellingGuard Settings::*, Skinning Settings::*,
                               VirtualEdgeResolution Settings::*, CoincidingEdges Settings::*, SurfacePaths Settings::*>;
   std::string_view key;
   Member member;

@@ -23,6 +23,7 @@ static constexpr std::array<std::string_view, 3> choices_of(TunnellingGuard) {
   return {"none", "turned_direction", "kept_path"};
 }
 
+static constexpr std::array<std::string_view, 2> choices_of(Skinning) { return {"strings", "bodies"}; }
 static constexpr std::array<std::string_view, 2> choices_of(SurfacePaths) { return {"along_fibers", "nearest_joined"}; }
 
 template <class T>

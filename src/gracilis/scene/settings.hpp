@@ -12,6 +12,10 @@ enum class TimeMode { quasi_static, dynamic };
 /// Which angle measure the dihedral constraint uses: the stable atan2 or the published arccos.
 enum class DihedralFormula { atan2, arccos };
 
+/// What the predicted surface follows: the muscle's fibers, pulled tight among the bones like strings, or a blend of
+/// the motions of the bodies that it is attached to.
+enum class Skinning { strings, bodies };
+
 /// What keeps fast vertices from passing through bones: nothing; the published test of the direction to the surface; or
 /// a limit on the motion in each step along its path.
 enum class TunnellingGuard { none, turned_direction, kept_path };
@@ -57,6 +61,7 @@ struct XpbdSettings {
 
   // What this project adds to the published method
   bool predictor = true;           ///< carry free vertices with the bones before solving
+  Skinning skinning = Skinning::strings;  ///< what the predictor follows
   Real tendon_length = 0.03;       ///< m from attachments, graded from tendon to belly; 0: no tendons
   Real step_turn = radians(1.25);  ///< rad; a frame that turns bones further is taken in several steps; 0: in one
   int settling_rounds = 4;         ///< of volume and contact alone, after the last iteration

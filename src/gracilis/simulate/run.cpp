@@ -23,8 +23,8 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
   int next = 0;
   method.reset();
   if (resume) {
-    method.restore(resume->before, resume->last);
     next = resume->last.number + 1;
+    method.restore({poses.begin(), poses.begin() + next}, resume->before, resume->last);
   }
   for (; next < static_cast<int>(poses.size()); ++next) {
     if (stop) return RunEnd::interrupted;

@@ -2,12 +2,13 @@
 
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
+#include <gracilis/strings/bone_distances.hpp>
 
 namespace gracilis {
 
-std::unique_ptr<DeformationMethod> make_scene_method(const Scene& scene,
-                                                     const std::function<std::vector<DistanceField>()>& fields) {
-  return scene.method == MethodKind::cylinder ? make_cylinder_method(scene) : make_xpbd_method(scene, fields());
+std::unique_ptr<DeformationMethod> make_scene_method(const Scene& scene, const BoneFieldSource& fields) {
+  if (scene.method == MethodKind::cylinder) return make_cylinder_method(scene);
+  return make_xpbd_method(scene, fields(scene.distance_fields), fields(strings::far_field_settings()));
 }
 
 }  // namespace gracilis

@@ -10,9 +10,11 @@
 
 namespace gracilis {
 
-/// The method that a scene asks for. `fields`, one distance field per bone, are called for only where it looks at
-/// bones. Precondition: the scene is valid.
-std::unique_ptr<DeformationMethod> make_scene_method(const Scene& scene,
-                                                     const std::function<std::vector<DistanceField>()>& fields);
+/// Gives the distance fields of all bones of a scene, one each, with the settings asked for.
+using BoneFieldSource = std::function<std::vector<DistanceField>(const DistanceFieldSettings&)>;
+
+/// The method that a scene asks for. `fields` are called for only where it looks at bones. Precondition: the scene is
+/// valid.
+std::unique_ptr<DeformationMethod> make_scene_method(const Scene& scene, const BoneFieldSource& fields);
 
 }  // namespace gracilis

@@ -187,7 +187,7 @@ class CylinderMethod final : public DeformationMethod {
     for (std::size_t m = 0; m < muscles_.size(); ++m) frame.muscles[m] = {shapes_[m]};
   }
 
-  void restore(const Frame&, const Frame& last) override {
+  void restore(const std::vector<Pose>&, const Frame&, const Frame& last) override {
     for (std::size_t m = 0; m < muscles_.size(); ++m) shapes_[m] = last.muscles[m].points;
   }
 

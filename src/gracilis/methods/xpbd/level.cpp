@@ -11,7 +11,7 @@ namespace gracilis::xpbd {
 namespace {
 
 std::vector<MuscleStep> steps_of(const Level& level, const std::vector<Real>& activations,
-                                 std::vector<SurfaceState>& next, std::vector<MuscleReport>& reports) {
+                                 std::vector<MuscleState>& next, std::vector<MuscleReport>& reports) {
   std::vector<MuscleStep> steps;
   for (std::size_t m = 0; m < level.muscles.size(); ++m)
     steps.push_back({&level.muscles[m], &next[m], &reports[m], activations[m], m, &level.watch});
@@ -35,7 +35,7 @@ void advance_each(const Level& level, const std::vector<MuscleStep>& steps, cons
 }
 
 /// Velocities of the copy between its vertices.
-void prolong_velocities(const Prolongation& prolongation, SurfaceState& coarse, SurfaceState& full) {
+void prolong_velocities(const Prolongation& prolongation, MuscleState& coarse, MuscleState& full) {
   for (std::size_t p = 0; p < prolongation.corners.size(); ++p) {
     Eigen::Vector3f velocity = Eigen::Vector3f::Zero();
     for (std::size_t k = 0; k < 3; ++k)
@@ -46,13 +46,22 @@ void prolong_velocities(const Prolongation& prolongation, SurfaceState& coarse, 
 
 }  // namespace
 
-Level make_level(const Scene& scene, const std::vector<DistanceField>& fields, bool meet) {
+std::vector<CarryingStrings> carrying_strings(const Scene& scene, const strings::BoneDistances& bones) {
+  std::vector<CarryingStrings> carrying(scene.muscles.size());
+  parallel_for_each(carrying.size(),
+                    [&](std::size_t m) { carrying[m] = carrying_strings(scene, scene.muscles[m], bones); });
+  return carrying;
+}
+
+Level make_level(const Scene& scene, const std::vector<DistanceField>& fields,
+                 const std::vector<CarryingStrings>& carrying, bool meet) {
   Level level;
+  level.bodies = scene.bodies.size();
   level.muscles.resize(scene.muscles.size());
   level.states.resize(scene.muscles.size());
   parallel_for_each(level.muscles.size(), [&](std::size_t m) {
-    level.muscles[m] = prepare_muscle(scene, scene.muscles[m], fields);
-    level.states[m] = make_state(level.muscles[m].system);
+    level.muscles[m] = prepare_muscle(scene, scene.muscles[m], fields, carrying[m]);
+    level.states[m] = make_muscle_state(level.muscles[m], level.bodies);
   });
   if (meet) level.crowd = prepare_crowd(scene.contact, level.muscles);
   level.crowd_state = make_crowd_state(level.crowd);
@@ -60,12 +69,12 @@ Level make_level(const Scene& scene, const std::vector<DistanceField>& fields, b
 }
 
 void reset(Level& level) {
-  for (std::size_t m = 0; m < level.muscles.size(); ++m) level.states[m] = make_state(level.muscles[m].system);
+  for (std::size_t m = 0; m < level.muscles.size(); ++m) level.states[m] = make_muscle_state(level.muscles[m], level.bodies);
   forget_contact(level.crowd, level.crowd_state);
 }
 
 void advance(Level& level, const Pose& before, const Pose& now, const std::vector<Real>& activations,
-             std::vector<SurfaceState>& next, std::vector<MuscleReport>& reports) {
+             std::vector<MuscleState>& next, std::vector<MuscleReport>& reports) {
   const std::vector<MuscleStep> steps = steps_of(level, activations, next, reports);
   for (std::size_t m = 0; m < reports.size(); ++m)
     reports[m].triangles = static_cast<Index>(level.muscles[m].faces.cols());
@@ -79,6 +88,22 @@ void advance(Level& level, const Pose& before, const Pose& now, const std::vecto
   }
 }
 
+void replay_strings(const Level& level, const std::vector<Pose>& poses, std::vector<MuscleState>& states) {
+  std::vector<const PreparedMuscle*> all;
+  for (const PreparedMuscle& muscle : level.muscles) all.push_back(&muscle);
+  parallel_for_each(states.size(), [&](std::size_t m) {
+    const CarryingStrings& carrying = level.muscles[m].carrying;
+    if (!carrying.strings) return;
+    states[m].strings = strings::capture_state(*carrying.strings, level.bodies);
+    std::vector<const PreparedMuscle*> in_step = {&level.muscles[m]};
+    if (level.crowd.meets()) in_step = all;
+    for (std::size_t frame = 1; frame < poses.size(); ++frame)
+      for (const Pose& pose : substep_poses(in_step, poses[frame - 1], poses[frame]))
+        strings::follow(*carrying.strings, *carrying.bones, pose, states[m].strings);
+    skin_by_strings(level.muscles[m], states[m]);
+  });
+}
+
 CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std::vector<DistanceField>& fields) {
   Scene copies = scene;
   std::vector<CoarserMuscle> coarser_muscles(scene.muscles.size());
@@ -86,7 +111,9 @@ CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std
     coarser_muscles[m] = coarser_muscle(scene.muscles[m], scene.muscles[m].xpbd.simulated_edge);
     copies.muscles[m] = coarser_muscles[m].muscle;
   });
-  CoarserLevel coarser{make_level(copies, fields), {}};
+  std::vector<CarryingStrings> carrying;
+  for (const PreparedMuscle& muscle : full.muscles) carrying.push_back(muscle.carrying);
+  CoarserLevel coarser{make_level(copies, fields, carrying), {}};
   for (std::size_t m = 0; m < coarser_muscles.size(); ++m)
     coarser.prolongations.push_back(
         prepare_prolongation(coarser_muscles[m], full.muscles[m], coarser.level.muscles[m]));
@@ -94,12 +121,14 @@ CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std
 }
 
 void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const Pose& now,
-            const std::vector<Real>& activations, std::vector<SurfaceState>& next_coarse,
-            std::vector<SurfaceState>& next_full, std::vector<MuscleReport>& reports) {
+            const std::vector<Real>& activations, std::vector<MuscleState>& next_coarse,
+            std::vector<MuscleState>& next_full, std::vector<MuscleReport>& reports) {
   std::vector<Particles> placed(next_full.size());
   parallel_for_each(placed.size(), [&](std::size_t m) {
     placed[m] = next_full[m].particles;
-    prolong(coarser.prolongations[m], coarser.level.muscles[m], next_coarse[m].particles, full.muscles[m], now,
+    next_full[m].strings = next_coarse[m].strings;
+    skin_by_strings(full.muscles[m], next_full[m]);
+    prolong(coarser.prolongations[m], coarser.level.muscles[m], next_coarse[m], full.muscles[m], next_full[m], now,
             placed[m]);
   });
   std::vector<MuscleReport> refined(reports.size());
@@ -120,8 +149,10 @@ void follow_full(const Level& full, CoarserLevel& coarser) {
   reset(coarser.level);
   for (std::size_t m = 0; m < full.muscles.size(); ++m) {
     const Prolongation& prolongation = coarser.prolongations[m];
-    SurfaceState from = full.states[m];
-    SurfaceState& state = coarser.level.states[m];
+    MuscleState from = full.states[m];
+    MuscleState& state = coarser.level.states[m];
+    state.strings = from.strings;
+    skin_by_strings(coarser.level.muscles[m], state);
     restrict_to_copy(prolongation, full.muscles[m], from.particles, coarser.level.muscles[m], state.particles);
     restrict_to_copy(prolongation, full.muscles[m], from.start, coarser.level.muscles[m], state.start);
     for (std::size_t p = 0; p < prolongation.picked.size(); ++p)

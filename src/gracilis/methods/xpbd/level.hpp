@@ -13,14 +13,23 @@ namespace gracilis::xpbd {
 /// All muscles of a scene, whole or as coarser copies, as they are prepared and as they are now.
 struct Level {
   std::vector<PreparedMuscle> muscles;
-  std::vector<SurfaceState> states;
+  std::vector<MuscleState> states;
   MuscleCrowd crowd;
   MuscleCrowdState crowd_state;
-  PassWatch watch = {};  ///< told of every pass of the solver
+  std::size_t bodies = 0;  ///< of the scene
+  PassWatch watch = {};    ///< told of every pass of the solver
 };
 
-/// Prepares a level, at rest. `fields` as in prepare_muscle; muscles that do not `meet` have no crowd.
-Level make_level(const Scene& scene, const std::vector<DistanceField>& fields, bool meet = true);
+/// The strings that carry each muscle of a scene (carrying_strings).
+std::vector<CarryingStrings> carrying_strings(const Scene& scene, const strings::BoneDistances& bones);
+
+/// Prepares a level, at rest. `fields` as in prepare_muscle, `carrying` one per muscle; muscles that do not `meet` have
+/// no crowd.
+Level make_level(const Scene& scene, const std::vector<DistanceField>& fields,
+                 const std::vector<CarryingStrings>& carrying, bool meet = true);
+
+/// Takes the strings of muscles at rest through the frames of a run, in the same steps as `advance`.
+void replay_strings(const Level& level, const std::vector<Pose>& poses, std::vector<MuscleState>& states);
 
 /// Back to rest.
 void reset(Level& level);
@@ -28,7 +37,7 @@ void reset(Level& level);
 /// Moves `next`, a copy of the level's states, from one pose to the next. Throws QualityError; `next` is then of no use
 /// and the level as it was.
 void advance(Level& level, const Pose& before, const Pose& now, const std::vector<Real>& activations,
-             std::vector<SurfaceState>& next, std::vector<MuscleReport>& reports);
+             std::vector<MuscleState>& next, std::vector<MuscleReport>& reports);
 
 /// Coarser copies of a scene's muscles that are simulated in their place.
 struct CoarserLevel {
@@ -43,8 +52,8 @@ CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std
 /// Takes the whole surfaces (`next_full`, a copy of their states) to where the copies (`next_coarse`) are, refines them
 /// there, and puts the copies back onto them. Throws as `advance`.
 void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const Pose& now,
-            const std::vector<Real>& activations, std::vector<SurfaceState>& next_coarse,
-            std::vector<SurfaceState>& next_full, std::vector<MuscleReport>& reports);
+            const std::vector<Real>& activations, std::vector<MuscleState>& next_coarse,
+            std::vector<MuscleState>& next_full, std::vector<MuscleReport>& reports);
 
 /// Puts the copies' states where those of the whole surfaces are.
 void follow_full(const Level& full, CoarserLevel& coarser);

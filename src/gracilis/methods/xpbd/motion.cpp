@@ -53,14 +53,37 @@ static bool shares_of(const PreparedMuscle& muscle, Index particle, std::vector<
   return true;
 }
 
+MuscleState make_muscle_state(const PreparedMuscle& muscle, std::size_t bodies) {
+  MuscleState state{make_state(muscle.system), {}, {}};
+  if (!muscle.carrying.strings) return state;
+  state.strings = strings::capture_state(*muscle.carrying.strings, bodies);
+  skin_by_strings(muscle, state);
+  return state;
+}
+
+void skin_by_strings(const PreparedMuscle& muscle, MuscleState& state) {
+  if (!muscle.carrying.strings) return;
+  state.skinned = std::make_shared<const strings::SkinnedSurface>(
+      skinned_by_strings(*muscle.carrying.strings, muscle.skin, muscle.rest, muscle.faces, state.strings));
+}
+
+void follow_strings(const PreparedMuscle& muscle, const Pose& pose, MuscleState& state) {
+  if (!muscle.carrying.strings) return;
+  strings::follow(*muscle.carrying.strings, *muscle.carrying.bones, pose, state.strings);
+  skin_by_strings(muscle, state);
+}
+
 namespace {
 
-/// The frames that carry particles from the capture pose to a pose, about the particles' origin: their sections' where
-/// the muscle is made of sections across a line, else blends of the bodies' motions. Beside a line, too, what is
-/// attached moves with its body, but a tendon follows the line to its end.
+/// The frames that carry particles from the capture pose to a pose, about the particles' origin: those of the strings
+/// that carry the muscle; its sections' where it is made of sections across a line; else blends of the bodies' motions.
+/// What is attached moves with its body, but a tendon about a line follows that to its end.
 class CarryingFrames {
  public:
-  CarryingFrames(const PreparedMuscle& muscle, const Pose& pose) : muscle_(muscle), pose_(pose) {
+  CarryingFrames(const PreparedMuscle& muscle, const Pose& pose,
+                 std::shared_ptr<const strings::SkinnedSurface> skinned)
+      : muscle_(muscle), pose_(pose), skinned_(std::move(skinned)) {
+    if (skinned_) return;
     if (!muscle.line) {
       blend_ = carrier_transforms(muscle, pose);
       return;
@@ -74,6 +97,12 @@ class CarryingFrames {
 
   /// Of one particle into `frame`; false where nothing carries it. `shares` is room to work in.
   bool of(Index particle, std::vector<Real>& shares, RigidTransform& frame) const {
+    if (skinned_) {
+      frame.linear() = Eigen::Quaterniond(Eigen::Vector4d(skinned_->turns.col(particle))).toRotationMatrix();
+      frame.translation() = skinned_->vertices.col(particle) - muscle_.origin -
+                            frame.linear() * (muscle_.rest.col(particle) - muscle_.origin);
+      return true;
+    }
     if (muscle_.line) {
       const Index section = muscle_.section[static_cast<std::size_t>(particle)];
       const Index body = muscle_.fixed_body[static_cast<std::size_t>(particle)];
@@ -91,6 +120,7 @@ class CarryingFrames {
  private:
   const PreparedMuscle& muscle_;
   const Pose& pose_;
+  std::shared_ptr<const strings::SkinnedSurface> skinned_;
   RigidBlend blend_;
   std::vector<RigidTransform> sections_;
 };
@@ -99,7 +129,7 @@ class CarryingFrames {
 
 void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles) {
   const std::optional<CarryingFrames> frames =
-      muscle.line ? std::make_optional<CarryingFrames>(muscle, pose) : std::nullopt;
+      muscle.line ? std::make_optional<CarryingFrames>(muscle, pose, nullptr) : std::nullopt;
   std::vector<Real> shares;
   RigidTransform frame;
   for (Index p = 0; p < particles.count(); ++p) {
@@ -126,9 +156,12 @@ static Real kept_share(const PreparedMuscle& muscle, const Pose& before, const P
   return (1 - recovery) * std::min(nearer * nearer, Real{1});
 }
 
-void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, Particles& particles) {
+void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, MuscleState& state) {
   if (muscle.carriers.empty()) return;
-  const CarryingFrames from(muscle, before), to(muscle, now);
+  const CarryingFrames from(muscle, before, state.skinned);
+  follow_strings(muscle, now, state);
+  const CarryingFrames to(muscle, now, state.skinned);
+  Particles& particles = state.particles;
   const Real kept = kept_share(muscle, before, now, active);
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(muscle.carriers.size());
@@ -144,10 +177,11 @@ void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& no
   });
 }
 
-Points carried_rest(const PreparedMuscle& muscle, const Pose& pose) {
+Points carried_rest(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state) {
+  if (state.skinned) return state.skinned->vertices.colwise() - muscle.origin;
   Points carried = muscle.rest.colwise() - muscle.origin;
   if (muscle.carriers.empty()) return carried;
-  const CarryingFrames frames(muscle, pose);
+  const CarryingFrames frames(muscle, pose, nullptr);
   parallel_for(static_cast<Index>(carried.cols()), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(muscle.carriers.size());
     RigidTransform frame;
@@ -157,30 +191,31 @@ Points carried_rest(const PreparedMuscle& muscle, const Pose& pose) {
   return carried;
 }
 
-Points displacements(const PreparedMuscle& muscle, const Pose& pose, const Particles& particles) {
-  Points displaced(3, particles.count());
-  const RigidBlend transforms = carrier_transforms(muscle, pose);
-  parallel_for(particles.count(), 512, [&](Index begin, Index end) {
+Points displacements(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state) {
+  Points displaced(3, state.particles.count());
+  const CarryingFrames frames(muscle, pose, state.skinned);
+  parallel_for(state.particles.count(), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(muscle.carriers.size());
+    RigidTransform frame = RigidTransform::Identity();
     for (Index p = begin; p < end; ++p) {
-      displaced.col(p) = particles.position(p).cast<Real>();
-      if (shares_of(muscle, p, shares)) displaced.col(p) = blend(transforms, shares).inverse() * Vec3(displaced.col(p));
+      displaced.col(p) = state.particles.position(p).cast<Real>();
+      if (frames.of(p, shares, frame)) displaced.col(p) = frame.inverse() * Vec3(displaced.col(p));
       displaced.col(p) -= muscle.rest.col(p) - muscle.origin;
     }
   });
   return displaced;
 }
 
-void displace_carried(const PreparedMuscle& muscle, const Pose& pose, const Points& displacements,
-                      Particles& particles) {
-  const RigidBlend transforms = carrier_transforms(muscle, pose);
+void displace_carried(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state,
+                      const Points& displacements, Particles& particles) {
+  const CarryingFrames frames(muscle, pose, state.skinned);
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
     std::vector<Real> shares(muscle.carriers.size());
+    RigidTransform frame = RigidTransform::Identity();
     for (Index p = begin; p < end; ++p) {
       if (muscle.fixed_body[static_cast<std::size_t>(p)] >= 0) continue;
       const Vec3 displaced = muscle.rest.col(p) - muscle.origin + displacements.col(p);
-      particles.position(p) =
-          (shares_of(muscle, p, shares) ? Vec3(blend(transforms, shares) * displaced) : displaced).cast<float>();
+      particles.position(p) = (frames.of(p, shares, frame) ? Vec3(frame * displaced) : displaced).cast<float>();
     }
   });
   move_attached(muscle, pose, particles);
@@ -213,13 +248,14 @@ std::vector<FieldPlacement> place_fields(const PreparedMuscle& muscle, const Pos
   return placements;
 }
 
-void set_target_lengths(const PreparedMuscle& muscle, const Pose& pose, AlignedVector<float>& target_length) {
+void set_target_lengths(const PreparedMuscle& muscle, const Pose& pose, MuscleState& state) {
+  AlignedVector<float>& target_length = state.target_length;
   const DistanceSet& edges = muscle.system.distances;
   if (!muscle.settings.slack_uptake || muscle.carriers.size() < 2) {
     std::copy(edges.rest_length.begin(), edges.rest_length.end(), target_length.begin());
     return;
   }
-  Points carried = carried_rest(muscle, pose);
+  Points carried = carried_rest(muscle, pose, state);
   const Real swollen = enclosed_volume(carried, muscle.faces) / muscle.system.volume.target;
   if (swollen > 1) carried /= std::cbrt(swollen);
   const Real longest =

@@ -6,14 +6,30 @@
 
 namespace gracilis::xpbd {
 
+/// What of a muscle changes: a copy is a checkpoint. Beside the solver's state, where the strings are that carry it, and
+/// where they put its surface.
+struct MuscleState : SurfaceState {
+  strings::StringState strings;
+  std::shared_ptr<const strings::SkinnedSurface> skinned;  ///< by the strings; none: by bodies or a line
+};
+
+/// The state in the capture pose of a scene with so many bodies.
+MuscleState make_muscle_state(const PreparedMuscle& muscle, std::size_t bodies);
+
+/// Takes the strings that carry a muscle to a pose, and its skinned surface with them. Nothing where there are none.
+void follow_strings(const PreparedMuscle& muscle, const Pose& pose, MuscleState& state);
+
+/// The skinned surface for where the strings are.
+void skin_by_strings(const PreparedMuscle& muscle, MuscleState& state);
+
 /// Attached particles go where their bodies are: T_body x_rest; the ends of tendons, where their lines end.
 void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles);
 
 /// The largest turn from one pose to another of a bone to which the muscle is attached, against another such bone, rad.
 Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& now);
 
-/// The predictor: every free particle has a frame of its own, the blend of the bodies' motions by its harmonic shares.
-/// It keeps its displacement in that frame from `before` to `now`, less the share `shape_recovery`, so that the solver
+/// The predictor: every free particle has a frame of its own: that of the strings which carry the muscle, which are
+/// taken to the pose, or the blend of the bodies' motions by its harmonic shares. It keeps its displacement in that frame from `before` to `now`, less the share `shape_recovery`, so that the solver
 /// only has to relax and a muscle does not remember by which way it came.
 ///
 /// On the way back to the capture pose a relaxed muscle also keeps no more than in proportion to the turn of its bones
@@ -21,27 +37,27 @@ Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& 
 /// knows nothing of that.
 ///
 /// The frames of a muscle made of sections across a line are its sections'; a tendon keeps no displacement.
-void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, Particles& particles);
+void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, MuscleState& state);
 
 /// Places each obstacle's field where its bone is now.
 std::vector<FieldPlacement> place_fields(const PreparedMuscle& muscle, const Pose& pose);
 
-/// The carried surface: where the harmonic shares alone would put every particle, about the particles' origin, m. It
-/// knows neither volume nor contact but is as smooth as the surface at rest.
-Points carried_rest(const PreparedMuscle& muscle, const Pose& pose);
+/// The carried surface: where the strings, or the harmonic shares, alone would put every particle, about the particles'
+/// origin, m. It knows no contact but is as smooth as the surface at rest.
+Points carried_rest(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state);
 
 /// Every particle's displacement from where the bodies carry it, in its own frame at rest, m: what carry_free keeps.
 /// The motion of the bodies is taken out, so it varies little from one particle to its neighbors.
-Points displacements(const PreparedMuscle& muscle, const Pose& pose, const Particles& particles);
+Points displacements(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state);
 
-/// The inverse: carries the rest and displaces it. Attached particles go where their bodies are.
-void displace_carried(const PreparedMuscle& muscle, const Pose& pose, const Points& displacements,
-                      Particles& particles);
+/// The inverse: carries the rest and displaces it, into `particles`. Attached ones go where their bodies are.
+void displace_carried(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state,
+                      const Points& displacements, Particles& particles);
 
 /// Slack uptake: every edge aims at the length it has on the carried surface, between 0.4 and `stretch_limit` times its
 /// rest, so that a muscle may shorten in front and lengthen behind and nothing is left over to fold. Where the carried
 /// surface encloses more than the muscle's volume it is first shrunk to that, which leaves a stretched muscle taut.
 /// Without slack uptake, and where a single body carries the muscle, the targets are the lengths at rest.
-void set_target_lengths(const PreparedMuscle& muscle, const Pose& pose, AlignedVector<float>& target_length);
+void set_target_lengths(const PreparedMuscle& muscle, const Pose& pose, MuscleState& state);
 
 }  // namespace gracilis::xpbd

@@ -227,7 +227,19 @@ Points fiber_directions(const Points& vertices, const Eigen::Matrix3Xi& faces, c
   return directions;
 }
 
-PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones) {
+  const XpbdSettings& settings = muscle.xpbd;
+  const bool is_carried = settings.predictor || settings.slack_uptake;
+  if (settings.skinning != Skinning::strings || !is_carried || muscle.action_line.rays > 0) return {};
+  const auto other_body = [&](const Attachment& a) { return a.body != muscle.attachments.front().body; };
+  if (std::none_of(muscle.attachments.begin(), muscle.attachments.end(), other_body)) return {};
+  std::optional<strings::MuscleStrings> laid = strings::muscle_strings(scene, muscle, bones, {});
+  if (!laid) return {};
+  return {&bones, std::make_shared<const strings::MuscleStrings>(std::move(*laid))};
+}
+
+PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
+                              const CarryingStrings& carrying) {
   PreparedMuscle prepared;
   prepared.name = muscle.name;
   prepared.settings = muscle.xpbd;
@@ -235,6 +247,9 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   const std::vector<Attachment> attachments = renumber(muscle, prepared);
   prepared.origin = prepared.rest.rowwise().mean();
   if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
+  prepared.carrying = carrying;
+  if (carrying.strings)
+    prepared.skin = strings::bind_skin(*carrying.strings, {prepared.rest, prepared.faces}, prepared.fixed_body);
   prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(prepared));
   // What takes the most memory while it is built comes first.
   prepared.keeps_out_of_itself =

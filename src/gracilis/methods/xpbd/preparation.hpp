@@ -5,7 +5,9 @@
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/scene/scene.hpp>
+#include <gracilis/strings/string_skin.hpp>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,6 +17,12 @@ namespace gracilis::xpbd {
 inline constexpr Real largest_shape = 1e3;
 /// Share of its depth at rest in a bone or another muscle that a point gives back.
 inline constexpr Real overlap_given_back = 0.05;
+
+/// The strings that carry a muscle; none: the bodies that it is attached to do, by harmonic shares.
+struct CarryingStrings {
+  const strings::BoneDistances* bones = nullptr;  ///< must outlive the muscle
+  std::shared_ptr<const strings::MuscleStrings> strings;
+};
 
 /// A muscle prepared for the solver; constant during a run. Particles are renumbered breadth-first, so that neighbors
 /// on the surface are neighbors in memory: `order[particle]` is the scene's vertex.
@@ -29,6 +37,8 @@ struct PreparedMuscle {
   std::vector<Index> fixed_body;     ///< per particle: the body it is attached to, or -1
   std::vector<Index> carriers;       ///< bodies with attachments on this muscle
   Eigen::MatrixXf carrier_shares;    ///< carriers × particles: harmonic shares of their motion, columns sum to 1
+  CarryingStrings carrying;          ///< coarser copies share theirs with the whole surface
+  strings::StringSkin skin;          ///< of the particles, where there are strings
   std::optional<LineSections> line;  ///< where its surface is made of sections, whose frames carry it then
   std::vector<Index> section;        ///< per particle, where there is a line
   std::vector<RigidTransform> to_sections;  ///< from world to each section's frame, in the capture pose
@@ -45,7 +55,12 @@ struct PreparedMuscle {
 /// Builds tables, masses, predictor shares and contact gaps of a muscle, and contractions where the scene's activation
 /// plan drives it. `fields` has one distance field per bone of
 /// the scene and must outlive the result. Precondition: the scene is valid.
-PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields);
+PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
+                              const CarryingStrings& carrying = {});
+
+/// The strings that a muscle's settings ask for; none where it runs along a line, has no fibers from an origin to an
+/// insertion, or is attached to one body alone. `bones` must outlive the result.
+CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones);
 
 /// Fiber direction on each triangle, unit: the gradient of the harmonic coordinate that is 0 on origins and 1 on
 /// insertions (3 × faces; zero where there is none).

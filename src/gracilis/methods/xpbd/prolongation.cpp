@@ -2,7 +2,6 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/point_triangle.hpp>
-#include <gracilis/methods/xpbd/motion.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -79,9 +78,9 @@ Prolongation prepare_prolongation(const CoarserMuscle& copy, const PreparedMuscl
   return result;
 }
 
-void prolong(const Prolongation& prolongation, const PreparedMuscle& coarse, const Particles& coarse_particles,
-             const PreparedMuscle& full, const Pose& pose, Particles& particles) {
-  const Points known = displacements(coarse, pose, coarse_particles);
+void prolong(const Prolongation& prolongation, const PreparedMuscle& coarse, const MuscleState& coarse_state,
+             const PreparedMuscle& full, const MuscleState& full_state, const Pose& pose, Particles& particles) {
+  const Points known = displacements(coarse, pose, coarse_state);
   Points displaced(3, full.rest.cols());
   for (Index p = 0; p < displaced.cols(); ++p) {
     const auto& corners = prolongation.corners[static_cast<std::size_t>(p)];
@@ -89,7 +88,7 @@ void prolong(const Prolongation& prolongation, const PreparedMuscle& coarse, con
     displaced.col(p) =
         weights[0] * known.col(corners[0]) + weights[1] * known.col(corners[1]) + weights[2] * known.col(corners[2]);
   }
-  displace_carried(full, pose, displaced, particles);
+  displace_carried(full, pose, full_state, displaced, particles);
 }
 
 void restrict_to_copy(const Prolongation& prolongation, const PreparedMuscle& full, const Particles& particles,

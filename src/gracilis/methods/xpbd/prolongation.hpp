@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/anatomy/coarser_muscle.hpp>
-#include <gracilis/methods/xpbd/preparation.hpp>
+#include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/scene/pose.hpp>
 
 #include <array>
@@ -23,9 +23,10 @@ struct Prolongation {
 /// copy's vertices and the scene's belong together. The copy takes over the surface's carrier shares.
 Prolongation prepare_prolongation(const CoarserMuscle& copy, const PreparedMuscle& full, PreparedMuscle& coarse);
 
-/// Where the surface is when its copy is at `coarse_particles`. `particles` says which are free.
-void prolong(const Prolongation& prolongation, const PreparedMuscle& coarse, const Particles& coarse_particles,
-             const PreparedMuscle& full, const Pose& pose, Particles& particles);
+/// Where the surface is when its copy is in the state `coarse_state`, into `particles`, which say which are free.
+/// `full_state` says where strings carry the surface in this pose.
+void prolong(const Prolongation& prolongation, const PreparedMuscle& coarse, const MuscleState& coarse_state,
+             const PreparedMuscle& full, const MuscleState& full_state, const Pose& pose, Particles& particles);
 
 /// Puts the copy's particles where the surface's are.
 void restrict_to_copy(const Prolongation& prolongation, const PreparedMuscle& full, const Particles& particles,

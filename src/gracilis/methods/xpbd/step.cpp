@@ -73,27 +73,29 @@ Pose pose_between(const Pose& before, const Pose& now, Real share) {
 
 /// Moves the state to `pose` as far as bones and inertia alone tell.
 void predict(const PreparedMuscle& muscle, Real activation, const Pose& before, const Pose& pose, float time_step,
-             SurfaceState& state) {
+             MuscleState& state) {
   const XpbdSettings& settings = muscle.settings;
   state.start = state.particles;
   if (settings.predictor)
-    carry_free(muscle, before, pose, contraction_strength(muscle.contraction, activation) > 0, state.particles);
+    carry_free(muscle, before, pose, contraction_strength(muscle.contraction, activation) > 0, state);
+  else
+    follow_strings(muscle, pose, state);
   // Velocities are relative to the carried motion, so the predictor adds no momentum of its own.
   if (settings.predictor) state.start = state.particles;
   if (settings.time_mode == TimeMode::dynamic) coast(settings, time_step, state);
   move_attached(muscle, pose, state.particles);
   move_attached(muscle, pose, state.start);
-  set_target_lengths(muscle, pose, state.target_length);
+  set_target_lengths(muscle, pose, state);
   set_contraction_lengths(muscle, activation, state.contraction_length);
 }
 
 /// Moves the state to where a coarser copy put the surface.
 void place(const PreparedMuscle& muscle, Real activation, const Pose& pose, const Particles& placed,
-           SurfaceState& state) {
+           MuscleState& state) {
   state.particles = placed;
   state.start = placed;
   if (muscle.settings.full_iterations == 0) return;
-  set_target_lengths(muscle, pose, state.target_length);
+  set_target_lengths(muscle, pose, state);
   set_contraction_lengths(muscle, activation, state.contraction_length);
 }
 
@@ -175,7 +177,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
   const VirtualEdgeState edges_before = crowd_state.edges;
   parallel_for_each(steps.size(), [&](std::size_t i) {
     const PreparedMuscle& muscle = *steps[i].muscle;
-    SurfaceState& state = *steps[i].state;
+    MuscleState& state = *steps[i].state;
     solves[i] = {&muscle.system, &placements[i], solve_settings(muscle.settings, substeps), &state, {}};
     solves[i].settings.contraction = static_cast<float>(contraction_strength(muscle.contraction, steps[i].activation));
     placements[i] = place_fields(muscle, now);
@@ -221,16 +223,26 @@ void report_edges(const VirtualEdgeCrowd& crowd, const VirtualEdgeState& state, 
 
 }  // namespace
 
+std::vector<Pose> substep_poses(const std::vector<const PreparedMuscle*>& muscles, const Pose& before,
+                                const Pose& now) {
+  int substeps = 1;
+  for (const PreparedMuscle* muscle : muscles) substeps = std::max(substeps, substeps_of(*muscle, before, now));
+  std::vector<Pose> poses;
+  for (int substep = 1; substep <= substeps; ++substep)
+    poses.push_back(pose_between(before, now, static_cast<Real>(substep) / substeps));
+  return poses;
+}
+
 void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                       const Pose& before, const Pose& now) {
-  int substeps = 1;
-  for (const MuscleStep& step : steps) substeps = std::max(substeps, substeps_of(*step.muscle, before, now));
+  std::vector<const PreparedMuscle*> muscles;
+  for (const MuscleStep& step : steps) muscles.push_back(step.muscle);
+  const std::vector<Pose> poses = substep_poses(muscles, before, now);
   begin_touch_frame(crowd.surfaces, crowd_state.surfaces);
   begin_edge_frame(crowd.edges, particles_of<const Particles*>(steps), crowd_state.edges);
   Pose reached = before;
-  for (int substep = 1; substep <= substeps; ++substep) {
-    const Pose pose = pose_between(before, now, static_cast<Real>(substep) / substeps);
-    advance_substep(steps, crowd, crowd_state, substeps, reached, pose);
+  for (const Pose& pose : poses) {
+    advance_substep(steps, crowd, crowd_state, static_cast<int>(poses.size()), reached, pose);
     reached = pose;
   }
   end_edge_frame(crowd.edges, crowd_state.edges);

@@ -2,6 +2,7 @@
 
 #include <gracilis/methods/method.hpp>
 #include <gracilis/methods/xpbd/crowd.hpp>
+#include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 #include <gracilis/scene/pose.hpp>
 
@@ -12,12 +13,17 @@ namespace gracilis::xpbd {
 /// One of the muscles that are advanced in step.
 struct MuscleStep {
   const PreparedMuscle* muscle = nullptr;
-  SurfaceState* state = nullptr;
+  MuscleState* state = nullptr;
   MuscleReport* report = nullptr;
   Real activation = 0;
   std::size_t number = 0;            ///< of the muscle in the scene
   const PassWatch* watch = nullptr;  ///< told of every pass; an empty one, or none: nobody is
 };
+
+/// The poses that a frame of muscles which are advanced in step goes through: as many as the settings of the most
+/// demanding ask for, the last is `now`.
+std::vector<Pose> substep_poses(const std::vector<const PreparedMuscle*>& muscles, const Pose& before,
+                                const Pose& now);
 
 /// Moves the muscles from one pose to the next, in as many substeps as the most demanding of them asks for. `crowd`
 /// says how they meet, its surfaces in the order of `steps`; without pairs they do not. Throws QualityError that names

@@ -16,12 +16,12 @@ UnderWay under_way(const Scene& scene, const Muscle& muscle, const std::vector<D
   u.settings.projection.time_step = static_cast<float>(muscle.xpbd.time_step);
   u.settings.projection.hinge_limit = static_cast<float>(muscle.xpbd.hinge_limit);
   u.settings.stretch_limit = static_cast<float>(muscle.xpbd.stretch_limit);
-  u.state = make_state(u.muscle.system);
+  u.state = make_muscle_state(u.muscle, scene.bodies.size());
   Pose before = poses.front();
   for (const Pose& pose : poses) {
-    carry_free(u.muscle, before, pose, false, u.state.particles);
+    carry_free(u.muscle, before, pose, false, u.state);
     move_attached(u.muscle, pose, u.state.particles);
-    set_target_lengths(u.muscle, pose, u.state.target_length);
+    set_target_lengths(u.muscle, pose, u.state);
     u.state.start = u.state.particles;
     u.placements = place_fields(u.muscle, pose);
     SolveSettings settings = u.settings;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/methods/xpbd/preparation.hpp>
+#include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/scene/pose.hpp>
 
 #include <cstdint>
@@ -13,7 +13,7 @@ struct UnderWay {
   PreparedMuscle muscle;
   std::vector<FieldPlacement> placements;
   SolveSettings settings;
-  SurfaceState state;
+  MuscleState state;
 };
 
 /// Takes a muscle alone and relaxed through the poses, and stops after three iterations of the last. `fields` (one per

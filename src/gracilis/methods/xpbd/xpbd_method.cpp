@@ -14,7 +14,7 @@ namespace gracilis {
 namespace xpbd {
 
 /// Into the scene's order; nothing in quasi-static mode, which carries no velocity.
-static void write_velocities(const PreparedMuscle& muscle, const SurfaceState& state, Points& velocities) {
+static void write_velocities(const PreparedMuscle& muscle, const MuscleState& state, Points& velocities) {
   const bool carried = muscle.settings.time_mode == TimeMode::dynamic;
   velocities.resize(3, carried ? muscle.rest.cols() : 0);
   for (Index p = 0; p < velocities.cols(); ++p)
@@ -30,8 +30,11 @@ constexpr Real wanted_share = 0.5;
 
 class XpbdMethod final : public DeformationMethod {
  public:
-  XpbdMethod(const Scene& scene, std::vector<DistanceField> fields)
-      : fields_(std::move(fields)), pose_(capture_pose(scene.bodies.size())) {
+  XpbdMethod(const Scene& scene, std::vector<DistanceField> fields, std::vector<DistanceField> far_fields)
+      : fields_(std::move(fields)),
+        far_fields_(std::move(far_fields)),
+        bones_(strings::bone_distances(scene, far_fields_)),
+        pose_(capture_pose(scene.bodies.size())) {
     bool is_coarser = false;
     for (const Muscle& muscle : scene.muscles) {
       is_coarser |= muscle.xpbd.simulated_edge > 0;
@@ -39,7 +42,7 @@ class XpbdMethod final : public DeformationMethod {
       if (muscle.xpbd.target_fps > 0) pace_.budget = 1000 / std::max(muscle.xpbd.target_fps, target_fps());
     }
     // Copies meet in the surfaces' place, at a fraction of the time.
-    full_ = make_level(scene, fields_, !is_coarser);
+    full_ = make_level(scene, fields_, carrying_strings(scene, bones_), !is_coarser);
     if (is_coarser) coarser_ = make_coarser_level(scene, full_, fields_);
     asked_triangles_ = triangle_count(simulated());
     if (pace_.budget > 0) choose_level(scene);
@@ -59,10 +62,10 @@ class XpbdMethod final : public DeformationMethod {
     for (std::size_t m = 0; m < full_.muscles.size(); ++m) activations.push_back(activation_of(m, pose));
     for (std::size_t m = 0; m < full_.muscles.size(); ++m)
       simulated().muscles[m].settings.iterations = paced_iterations(pace_, asked_iterations_[m]);
-    std::vector<SurfaceState> next = simulated().states;
+    std::vector<MuscleState> next = simulated().states;
     xpbd::advance(simulated(), pose_, pose, activations, next, report.muscles);
     if (coarser_) {
-      std::vector<SurfaceState> next_full = full_.states;
+      std::vector<MuscleState> next_full = full_.states;
       refine(*coarser_, full_, pose_, pose, activations, next, next_full, report.muscles);
       full_.states = std::move(next_full);
     }
@@ -88,10 +91,13 @@ class XpbdMethod final : public DeformationMethod {
     }
   }
 
-  void restore(const Frame& before, const Frame& last) override {
+  void restore(const std::vector<Pose>& poses, const Frame& before, const Frame& last) override {
+    std::vector<MuscleState> states;
+    for (const PreparedMuscle& muscle : full_.muscles) states.push_back(make_muscle_state(muscle, full_.bodies));
+    replay_strings(coarser_ ? coarser_->level : full_, poses, states);
     for (std::size_t m = 0; m < full_.muscles.size(); ++m) {
       const PreparedMuscle& muscle = full_.muscles[m];
-      SurfaceState state = make_state(muscle.system);
+      MuscleState state = std::move(states[m]);
       const auto place = [&](const Frame& frame, Particles& particles) {
         for (Index p = 0; p < particles.count(); ++p)
           particles.position(p) =
@@ -105,9 +111,7 @@ class XpbdMethod final : public DeformationMethod {
               last.muscles[m].velocities.col(muscle.order[static_cast<std::size_t>(p)]).cast<float>();
       } else {
         // The mean over the frame is all that two shapes can tell.
-        if (muscle.settings.predictor)
-          carry_free(muscle, before.pose, last.pose, activation_of(m, last.pose) > muscle.contraction.threshold,
-                     state.start);
+        if (muscle.settings.predictor) carry_start(muscle, m, before.pose, last.pose, state);
         take_velocities(static_cast<float>(muscle.settings.time_step), state);
       }
       full_.states[m] = std::move(state);
@@ -118,6 +122,16 @@ class XpbdMethod final : public DeformationMethod {
   }
 
  private:
+  /// Takes `start` from one pose to the next with what carries the muscle.
+  void carry_start(const PreparedMuscle& muscle, std::size_t m, const Pose& before, const Pose& last,
+                   MuscleState& state) const {
+    MuscleState carried = make_muscle_state(muscle, full_.bodies);
+    carried.particles = state.start;
+    follow_strings(muscle, before, carried);
+    carry_free(muscle, before, last, activation_of(m, last) > muscle.contraction.threshold, carried);
+    state.start = carried.particles;
+  }
+
   Level& simulated() { return coarser_ ? coarser_->level : full_; }
 
   Real target_fps() const { return pace_.budget > 0 ? 1000 / pace_.budget : 0; }
@@ -169,7 +183,8 @@ class XpbdMethod final : public DeformationMethod {
     see_frame(pace_, milliseconds);
   }
 
-  std::vector<DistanceField> fields_;
+  std::vector<DistanceField> fields_, far_fields_;
+  strings::BoneDistances bones_;
   Level full_;
   std::optional<CoarserLevel> coarser_;
   Pose pose_;
@@ -180,8 +195,12 @@ class XpbdMethod final : public DeformationMethod {
 
 }  // namespace xpbd
 
-std::unique_ptr<DeformationMethod> make_xpbd_method(const Scene& scene, std::vector<DistanceField> fields) {
-  return std::make_unique<xpbd::XpbdMethod>(scene, std::move(fields));
+std::unique_ptr<DeformationMethod> make_xpbd_method(const Scene& scene, std::vector<DistanceField> fields,
+                                                    std::vector<DistanceField> far_fields) {
+  if (far_fields.empty())
+    for (const Bone& bone : scene.bones)
+      far_fields.push_back(build_bone_field(bone, strings::far_field_settings()));
+  return std::make_unique<xpbd::XpbdMethod>(scene, std::move(fields), std::move(far_fields));
 }
 
 DistanceField build_bone_field(const Bone& bone, const DistanceFieldSettings& settings) {

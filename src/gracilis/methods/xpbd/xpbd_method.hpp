@@ -10,8 +10,10 @@
 namespace gracilis {
 
 /// Extended position based dynamics on muscle surfaces (Havlíček 2024, with the additions that docs/architecture.md
-/// lists). `fields` has one distance field per bone. Precondition: the scene is valid.
-std::unique_ptr<DeformationMethod> make_xpbd_method(const Scene& scene, std::vector<DistanceField> fields);
+/// lists). `fields` has one distance field per bone, `far_fields` those by strings::far_field_settings, which are built
+/// where none are given and strings are asked for. Precondition: the scene is valid.
+std::unique_ptr<DeformationMethod> make_xpbd_method(const Scene& scene, std::vector<DistanceField> fields,
+                                                    std::vector<DistanceField> far_fields = {});
 
 /// The distance field of one bone by the scene's settings.
 DistanceField build_bone_field(const Bone& bone, const DistanceFieldSettings& settings);

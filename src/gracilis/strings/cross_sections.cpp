@@ -1,0 +1,34 @@
+#include <gracilis/strings/cross_sections.hpp>
+
+#include <Eigen/SVD>
+
+namespace gracilis::strings {
+
+std::vector<Eigen::Matrix3d> section_turns(const MuscleStrings& muscle, const Points& places) {
+  std::vector<Eigen::Matrix3d> turns;
+  for (Index i = 0; i < muscle.nodes; ++i) {
+    Vec3 center = Vec3::Zero(), rest_center = Vec3::Zero(), direction = Vec3::Zero(), rest_direction = Vec3::Zero();
+    for (Index s = 0; s < muscle.strings; ++s) {
+      center += places.col(muscle.node(s, i)) / muscle.strings;
+      rest_center += muscle.taut.col(muscle.node(s, i)) / muscle.strings;
+      direction += string_direction(muscle, places, s, i);
+      rest_direction += string_direction(muscle, muscle.taut, s, i);
+    }
+    Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
+    Real spread = 0;
+    for (Index s = 0; s < muscle.strings; ++s) {
+      const Vec3 rest = muscle.taut.col(muscle.node(s, i)) - rest_center;
+      correlation += (places.col(muscle.node(s, i)) - center) * rest.transpose();
+      spread += rest.squaredNorm();
+    }
+    // The direction counts as much as all nodes, so that sections stay across the strings.
+    correlation += spread * direction.normalized() * rest_direction.normalized().transpose();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Matrix3d u = svd.matrixU();
+    if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
+    turns.push_back(u * svd.matrixV().transpose());
+  }
+  return turns;
+}
+
+}  // namespace gracilis::strings

@@ -1,0 +1,120 @@
+#include <gracilis/strings/relaxation.hpp>
+
+#include <gracilis/geometry/rigid_blend.hpp>
+#include <gracilis/strings/node_forces.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace gracilis::strings {
+
+namespace {
+
+/// After so many iterations steps are damped, for strings that go to and fro between two bones.
+constexpr int undamped_iterations = 12;
+constexpr Real damping = 0.6;
+
+/// One step of Gauss-Newton for one string; how far a node would move, m.
+Real relax_string(NodeForces& forces, Index string, Points& places, StringSystem& system) {
+  const MuscleStrings& muscle = forces.muscle();
+  forces.assemble(string, places, system);
+  system.solve();
+  const StringSettings& settings = muscle.settings;
+  Real farthest = 0;
+  for (Index i = 1; i + 1 < muscle.nodes; ++i) {
+    const Vec3& move = system.solution[static_cast<std::size_t>(i)];
+    const Real length = move.norm();
+    farthest = std::max(farthest, length);
+    const Real share = length > settings.longest_move ? settings.longest_move / length : 1;
+    places.col(muscle.node(string, i)) += system.damping * share * move;
+  }
+  return farthest;
+}
+
+void relax(NodeForces& forces, int iterations, Points& places) {
+  const MuscleStrings& muscle = forces.muscle();
+  StringSystem system(muscle.nodes);
+  for (int iteration = 0; iteration < iterations; ++iteration) {
+    forces.begin_iteration(places);
+    system.damping = iteration > undamped_iterations ? damping : 1;
+    Real farthest = 0;
+    for (Index s = 0; s < muscle.strings; ++s) farthest = std::max(farthest, relax_string(forces, s, places, system));
+    if (farthest < muscle.settings.stop_move) return;
+  }
+}
+
+/// The largest turn of a body from one pose to another, rad.
+Real largest_turn(const std::vector<RigidTransform>& before, const std::vector<RigidTransform>& now) {
+  Real turn = 0;
+  for (std::size_t b = 0; b < now.size(); ++b)
+    turn = std::max(turn, Eigen::AngleAxisd(before[b].linear().transpose() * now[b].linear()).angle());
+  return turn;
+}
+
+/// The bodies a share of the way from one pose to another, each on its screw.
+std::vector<RigidTransform> bodies_between(const std::vector<RigidTransform>& before,
+                                           const std::vector<RigidTransform>& now, Real share) {
+  std::vector<RigidTransform> between;
+  for (std::size_t b = 0; b < now.size(); ++b)
+    between.push_back(blend(prepare_blend(std::array{before[b], now[b]}), std::array{1 - share, share}));
+  return between;
+}
+
+/// Where bodies carry the nodes that another pose left; held ones go with their bodies.
+void carry(const MuscleStrings& muscle, const std::vector<RigidTransform>& before,
+           const std::vector<RigidTransform>& now, Points& places) {
+  std::vector<RigidTransform> motions;
+  for (std::size_t b = 0; b < now.size(); ++b) motions.push_back(now[b] * before[b].inverse());
+  for (Index s = 0; s < muscle.strings; ++s)
+    for (Index i = 0; i < muscle.nodes; ++i) {
+      const Index p = muscle.node(s, i);
+      const auto string = static_cast<std::size_t>(s);
+      if (i <= muscle.first_held[string] || i >= muscle.last_held[string]) {
+        const Index body = i <= muscle.first_held[string] ? muscle.origin_bodies[string]
+                                                          : muscle.insertion_bodies[string];
+        places.col(p) = now[static_cast<std::size_t>(body)] * Vec3(muscle.taut.col(p));
+        continue;
+      }
+      Vec3 carried = Vec3::Zero();
+      for (Index b = 0; b < muscle.shares.rows(); ++b)
+        if (muscle.shares(b, p) > 0)
+          carried += muscle.shares(b, p) * (motions[static_cast<std::size_t>(b)] * Vec3(places.col(p)));
+      places.col(p) = carried;
+    }
+}
+
+}  // namespace
+
+Points pulled_tight(const MuscleStrings& muscle, const BoneDistances& bones) {
+  MuscleStrings bare = muscle;
+  bare.taut = muscle.fibers;
+  bare.ties.setZero();
+  for (std::vector<Index>& neighbors : bare.neighbors) neighbors.clear();
+  Points places = muscle.fibers;
+  const std::vector<RigidTransform> bodies(static_cast<std::size_t>(muscle.shares.rows()), RigidTransform::Identity());
+  NodeForces forces(bare, bones, bodies);
+  relax(forces, muscle.settings.rest_iterations, places);
+  return places;
+}
+
+StringState capture_state(const MuscleStrings& muscle, std::size_t bodies) {
+  return {muscle.taut, std::vector<RigidTransform>(bodies, RigidTransform::Identity())};
+}
+
+void follow(const MuscleStrings& muscle, const BoneDistances& bones, const Pose& pose, StringState& state) {
+  const Real turn = largest_turn(state.bodies, pose.bodies);
+  constexpr Real rounding = 1e-6;
+  const int steps = std::max(1, static_cast<int>(std::ceil(turn / muscle.settings.step_turn - rounding)));
+  const std::vector<RigidTransform> begun = state.bodies;
+  for (int step = 1; step <= steps; ++step) {
+    const std::vector<RigidTransform> bodies =
+        step == steps ? pose.bodies : bodies_between(begun, pose.bodies, static_cast<Real>(step) / steps);
+    carry(muscle, state.bodies, bodies, state.places);
+    NodeForces forces(muscle, bones, bodies);
+    relax(forces, muscle.settings.iterations, state.places);
+    state.bodies = bodies;
+  }
+}
+
+}  // namespace gracilis::strings

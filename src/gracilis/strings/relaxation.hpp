@@ -1,0 +1,30 @@
+#pragma once
+
+#include <gracilis/scene/pose.hpp>
+#include <gracilis/strings/muscle_strings.hpp>
+
+#include <vector>
+
+namespace gracilis::strings {
+
+/// Where a bone's distance has a smaller gradient than this it has no direction: within it, or beyond its field.
+inline constexpr Real least_slope = 0.1;
+
+/// Where a muscle's strings are, and the pose that they were relaxed in.
+struct StringState {
+  Points places;  ///< nodes, world, m
+  std::vector<RigidTransform> bodies;
+};
+
+/// The strings of the capture pose, pulled tight from their fibers: only supports and bones hold them.
+Points pulled_tight(const MuscleStrings& muscle, const BoneDistances& bones);
+
+/// The state in the capture pose.
+StringState capture_state(const MuscleStrings& muscle, std::size_t bodies);
+
+/// Moves the strings to a pose, in steps that turn no body by more than `step_turn`. Each string minimizes its energy
+/// (docs/mathematics.md, "Taut strings"): Gauss-Newton steps, begun where the bodies carry its nodes. The result
+/// depends on the way of the poses where a string has two equilibria.
+void follow(const MuscleStrings& muscle, const BoneDistances& bones, const Pose& pose, StringState& state);
+
+}  // namespace gracilis::strings

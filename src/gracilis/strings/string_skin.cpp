@@ -1,0 +1,257 @@
+#include <gracilis/strings/string_skin.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/measures.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace gracilis::strings {
+
+namespace {
+
+/// Fibers that a vertex follows.
+constexpr std::size_t bound_fibers = 16;
+/// Weights fall with the distance plus this, m.
+constexpr Real softening = 0.0005;
+/// Corrections at attachments fade over this distance, m, from so many of the nearest attached vertices.
+constexpr Real fading = 0.04;
+constexpr std::size_t correcting_vertices = 8;
+/// Narrowest and widest that a muscle becomes half-way between its ends: widths change by these shares.
+constexpr Real narrowest = -0.5, widest = 1;
+constexpr int volume_rounds = 4;
+
+struct NearestOnFiber {
+  Real distance = 0;
+  Index node = 0;  ///< that the segment begins at
+  Real share = 0;  ///< along the segment
+};
+
+NearestOnFiber nearest_on_fiber(const MuscleStrings& muscle, Index string, const Vec3& place) {
+  NearestOnFiber best{std::numeric_limits<Real>::infinity(), 0, 0};
+  for (Index i = 0; i + 1 < muscle.nodes; ++i) {
+    const Index p = muscle.node(string, i);
+    const Vec3 from = muscle.fibers.col(p), along = muscle.fibers.col(p + 1) - from;
+    const Real length2 = along.squaredNorm();
+    const Real share = length2 > 0 ? std::clamp((place - from).dot(along) / length2, 0.0, 1.0) : 0;
+    const Real distance = (from + share * along - place).norm();
+    if (distance < best.distance) best = {distance, p, share};
+  }
+  return best;
+}
+
+/// The nearest fibers, and their weights: falling with distance, 0 at the first fiber that is left out.
+std::vector<std::pair<NearestOnFiber, Real>> weighted_fibers(const MuscleStrings& muscle, const Vec3& place) {
+  std::vector<NearestOnFiber> all;
+  for (Index s = 0; s < muscle.strings; ++s) all.push_back(nearest_on_fiber(muscle, s, place));
+  std::sort(all.begin(), all.end(), [](const NearestOnFiber& a, const NearestOnFiber& b) {
+    return std::tie(a.distance, a.node) < std::tie(b.distance, b.node);
+  });
+  const std::size_t count = std::min(bound_fibers, all.size());
+  const Real cut = count < all.size() ? all[count].distance : all.back().distance * 1.1 + softening;
+  std::vector<std::pair<NearestOnFiber, Real>> weighted;
+  Real sum = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Real nearness = std::max(1 - all[k].distance / cut, 1e-6) / (all[k].distance + softening);
+    weighted.emplace_back(all[k], nearness * nearness);
+    sum += nearness * nearness;
+  }
+  for (auto& [fiber, weight] : weighted) weight /= sum;
+  return weighted;
+}
+
+struct VertexBinding {
+  std::vector<std::pair<Index, Real>> nodes;
+  Vec3 offset, direction;
+  Real along = 0;
+};
+
+VertexBinding bind_vertex(const MuscleStrings& muscle, const Vec3& place) {
+  VertexBinding binding{{}, place, Vec3::Zero(), 0};
+  for (const auto& [fiber, weight] : weighted_fibers(muscle, place)) {
+    const Index i = fiber.node % muscle.nodes, string = fiber.node / muscle.nodes;
+    binding.nodes.emplace_back(fiber.node, weight * (1 - fiber.share));
+    binding.nodes.emplace_back(fiber.node + 1, weight * fiber.share);
+    binding.direction += weight * ((1 - fiber.share) * string_direction(muscle, muscle.taut, string, i) +
+                                   fiber.share * string_direction(muscle, muscle.taut, string, i + 1));
+    binding.along += weight * (i + fiber.share) / static_cast<Real>(muscle.nodes - 1);
+  }
+  for (const auto& [node, weight] : binding.nodes) binding.offset -= weight * muscle.fibers.col(node);
+  binding.direction.normalize();
+  return binding;
+}
+
+/// Attached vertices near a free one, weighted by nearness and faded.
+std::vector<std::pair<Index, Real>> corrections_of(const Points& rest, const std::vector<Index>& attached,
+                                                   const Vec3& place) {
+  std::vector<std::pair<Real, Index>> near;
+  for (const Index v : attached)
+    if (const Real distance = (rest.col(v) - place).norm(); distance < fading) near.emplace_back(distance, v);
+  std::sort(near.begin(), near.end());
+  near.resize(std::min(near.size(), correcting_vertices));
+  Real sum = 0;
+  for (const auto& [distance, v] : near) sum += 1 / (distance + softening);
+  std::vector<std::pair<Index, Real>> corrections;
+  for (const auto& [distance, v] : near) {
+    const Real nearness = 1 - near.front().first / fading;
+    corrections.emplace_back(v, nearness * nearness / (distance + softening) / sum);
+  }
+  return corrections;
+}
+
+/// The sum of two shapes of a surface: at rest width, and by how much all of it moves per unit of widening.
+struct WidenedSurface {
+  Points narrow, widening;
+  Points at(Real share) const { return narrow + share * widening; }
+};
+
+/// The widening for which the surface encloses its volume at rest, by secants; the volume is a cubic in it.
+Real widening_to_volume(const WidenedSurface& surface, const Eigen::Matrix3Xi& faces, Real volume) {
+  const auto excess = [&](Real share) { return enclosed_volume(surface.at(share), faces) / volume - 1; };
+  Real before = 0, excess_before = excess(before);
+  Real now = std::clamp(-excess_before, narrowest, widest);
+  for (int round = 0; round < volume_rounds && now != before; ++round) {
+    const Real excess_now = excess(now);
+    const Real slope = (excess_now - excess_before) / (now - before);
+    before = now, excess_before = excess_now;
+    if (!(slope > 0)) break;
+    now = std::clamp(now - excess_now / slope, narrowest, widest);
+  }
+  return now;
+}
+
+}  // namespace
+
+StringSkin bind_skin(const MuscleStrings& muscle, const TriangleMesh& surface,
+                     const std::vector<Index>& attached_body) {
+  const Points& rest = surface.vertices;
+  const Index count = static_cast<Index>(rest.cols());
+  std::vector<Index> attached;
+  for (Index v = 0; v < count; ++v)
+    if (attached_body[static_cast<std::size_t>(v)] >= 0) attached.push_back(v);
+  std::vector<VertexBinding> bindings(static_cast<std::size_t>(count));
+  std::vector<std::vector<std::pair<Index, Real>>> corrections(bindings.size());
+  parallel_for(count, 64, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) {
+      bindings[static_cast<std::size_t>(v)] = bind_vertex(muscle, rest.col(v));
+      if (attached_body[static_cast<std::size_t>(v)] >= 0)
+        corrections[static_cast<std::size_t>(v)] = {{v, 1}};
+      else
+        corrections[static_cast<std::size_t>(v)] = corrections_of(rest, attached, rest.col(v));
+    }
+  });
+  StringSkin skin;
+  skin.offsets.resize(3, count), skin.directions.resize(3, count), skin.along.resize(count);
+  skin.attached_body = attached_body;
+  skin.volume = enclosed_volume(rest, surface.faces);
+  for (Index v = 0; v < count; ++v) {
+    const VertexBinding& binding = bindings[static_cast<std::size_t>(v)];
+    skin.begin.push_back(static_cast<Index>(skin.nodes.size()));
+    for (const auto& [node, weight] : binding.nodes) {
+      if (!(weight > 0)) continue;
+      skin.nodes.push_back(node);
+      skin.weights.push_back(static_cast<float>(weight));
+    }
+    skin.offsets.col(v) = binding.offset, skin.directions.col(v) = binding.direction, skin.along[v] = binding.along;
+    skin.correction_begin.push_back(static_cast<Index>(skin.correction_vertices.size()));
+    for (const auto& [other, weight] : corrections[static_cast<std::size_t>(v)]) {
+      skin.correction_vertices.push_back(other);
+      skin.correction_weights.push_back(static_cast<float>(weight));
+    }
+  }
+  skin.begin.push_back(static_cast<Index>(skin.nodes.size()));
+  skin.correction_begin.push_back(static_cast<Index>(skin.correction_vertices.size()));
+  return skin;
+}
+
+namespace {
+
+/// How far each node would move per unit of widening: away from its cross-section's center, across the fibers.
+Points node_widening(const MuscleStrings& muscle, const Points& fibers) {
+  Points widening(3, fibers.cols());
+  for (Index i = 0; i < muscle.nodes; ++i) {
+    Vec3 center = Vec3::Zero(), direction = Vec3::Zero();
+    for (Index s = 0; s < muscle.strings; ++s) {
+      center += fibers.col(muscle.node(s, i)) / muscle.strings;
+      direction += string_direction(muscle, fibers, s, i);
+    }
+    direction.normalize();
+    const Real share = std::sin(pi * i / (muscle.nodes - 1));
+    for (Index s = 0; s < muscle.strings; ++s) {
+      const Vec3 out = fibers.col(muscle.node(s, i)) - center;
+      widening.col(muscle.node(s, i)) = share * (out - direction * direction.dot(out));
+    }
+  }
+  return widening;
+}
+
+/// Weighted means over a vertex's nodes.
+struct Followed {
+  Vec3 place = Vec3::Zero(), widening = Vec3::Zero();
+  Eigen::Vector4d turn = Eigen::Vector4d::Zero();
+};
+
+Followed follow_nodes(const StringSkin& skin, Index vertex, const FiberFrames& frames, const Points& widening) {
+  const auto v = static_cast<std::size_t>(vertex);
+  Followed followed;
+  const Eigen::Vector4d first = frames.turns.col(skin.nodes[static_cast<std::size_t>(skin.begin[v])]);
+  Real sum = 0;
+  for (auto k = static_cast<std::size_t>(skin.begin[v]); k < static_cast<std::size_t>(skin.begin[v + 1]); ++k) {
+    const Real weight = static_cast<Real>(skin.weights[k]);
+    const Index node = skin.nodes[k];
+    followed.place += weight * frames.fibers.col(node);
+    followed.widening += weight * widening.col(node);
+    // q and -q are the same rotation; the mean wants them on one side.
+    followed.turn += (first.dot(frames.turns.col(node)) < 0 ? -weight : weight) * frames.turns.col(node);
+    sum += weight;
+  }
+  followed.place /= sum;
+  followed.turn.normalize();
+  return followed;
+}
+
+/// What attached vertices lack to where their bodies are is added to all near them.
+void correct_near_attachments(const StringSkin& skin, const Points& rest, const std::vector<RigidTransform>& bodies,
+                              Points& vertices) {
+  Points lacking = Points::Zero(3, vertices.cols());
+  for (Index v = 0; v < vertices.cols(); ++v)
+    if (const Index body = skin.attached_body[static_cast<std::size_t>(v)]; body >= 0)
+      lacking.col(v) = bodies[static_cast<std::size_t>(body)] * Vec3(rest.col(v)) - vertices.col(v);
+  for (Index vertex = 0; vertex < vertices.cols(); ++vertex) {
+    const auto v = static_cast<std::size_t>(vertex);
+    for (auto k = static_cast<std::size_t>(skin.correction_begin[v]);
+         k < static_cast<std::size_t>(skin.correction_begin[v + 1]); ++k)
+      vertices.col(vertex) +=
+          static_cast<Real>(skin.correction_weights[k]) * lacking.col(skin.correction_vertices[k]);
+  }
+}
+
+}  // namespace
+
+SkinnedSurface skinned_by_strings(const MuscleStrings& muscle, const StringSkin& skin, const Points& rest,
+                                  const Eigen::Matrix3Xi& faces, const StringState& state) {
+  const FiberFrames frames = fiber_frames(muscle, state);
+  const Points widening = node_widening(muscle, frames.fibers);
+  const Index count = static_cast<Index>(rest.cols());
+  SkinnedSurface skinned{Points(3, count), Eigen::Matrix4Xd(4, count)};
+  WidenedSurface widened{Points(3, count), Points(3, count)};
+  parallel_for(count, 512, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) {
+      const Followed followed = follow_nodes(skin, v, frames, widening);
+      const Eigen::Quaterniond turn(followed.turn);
+      const Vec3 offset = turn * Vec3(skin.offsets.col(v)), direction = turn * Vec3(skin.directions.col(v));
+      const Real share = std::sin(pi * skin.along[v]);
+      skinned.turns.col(v) = followed.turn;
+      widened.narrow.col(v) = followed.place + offset;
+      const bool is_free = skin.attached_body[static_cast<std::size_t>(v)] < 0;
+      widened.widening.col(v) =
+          is_free ? Vec3(followed.widening + share * (offset - direction * direction.dot(offset))) : Vec3::Zero();
+    }
+  });
+  correct_near_attachments(skin, rest, state.bodies, widened.narrow);
+  skinned.vertices = widened.at(widening_to_volume(widened, faces, skin.volume));
+  return skinned;
+}
+
+}  // namespace gracilis::strings
