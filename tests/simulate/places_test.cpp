@@ -135,17 +135,18 @@ TEST(Places, what_thickening_does_not_explain_counts) {
   const Scene scene = arm();
   const auto thick = [](const Vec3& p) -> Vec3 { return {0.013 + 1.3 * (p.x() - 0.013), 1.3 * p.y(), p.z()}; };
   const MuscleMeasures measures = measured(scene, frame_of(scene, thick));
-  EXPECT_GT(measures.belly_off_place, 0.001) << "as long as before, and thicker all the same";
-  EXPECT_LT(measures.belly_off_place, 0.003) << "0.3 of at most 10 mm";
+  EXPECT_GT(measures.belly_off_place, 0.0005) << "as long as before, and thicker all the same";
+  EXPECT_LT(measures.belly_off_place, 0.0027) << "0.3 of at most 9 mm";
 }
 
 TEST(Places, a_zigzag_20_percent_longer_is_not_taut) {
   const Scene scene = arm(240);
-  // Four waves to the sides; a wave of slope k tan makes a line longer by about a quarter of the square of its slope.
-  const Real amplitude = 0.0117;
+  // Two waves to the sides over nine tenths of the length. A sine whose steepest slope is 1 is 1.216 times as long as
+  // its axis (a complete elliptic integral).
+  const Real amplitude = 0.9 * 0.32 / (4 * pi);
   const MuscleMeasures measures = measured(scene, frame_of(scene, [&](const Vec3& p) -> Vec3 {
                                              const Real s = std::clamp((share_along(p) - 0.05) / 0.9, 0.0, 1.0);
-                                             return p + Vec3(0, amplitude * std::sin(8 * pi * s), 0);
+                                             return p + Vec3(0, amplitude * std::sin(4 * pi * s), 0);
                                            }));
   EXPECT_NEAR(measures.slack, 0.2, 0.03);
   EXPECT_THAT(missed_gates(measures, {}), testing::Contains(testing::HasSubstr("longer than taut")));
@@ -198,10 +199,13 @@ TEST(TautWays, keep_their_side_of_a_bone_through_a_jump_of_pose) {
   TautWays ways(space, 2, TrackedLines(scene, nullptr).rest());
   ways.follow(flexed(scene, radians(110)));  // backwards: the string is drawn over the front of the joint
   for (const TautWay& way : ways.of(0)) {
-    Real front = 0;
-    for (const Vec3 p : way.points.colwise())
-      if (p.z() > -0.29 && p.z() < -0.05) EXPECT_GT(p.x(), 0.0105), front = std::max(front, p.x());
-    EXPECT_GT(front, 0);
+    int beside_bone = 0;
+    for (const Vec3 p : way.points.colwise()) {
+      if (p.z() < -0.29 || p.z() > -0.05) continue;
+      ++beside_bone;
+      EXPECT_GT(p.x(), 0.0105) << "a cell's rounding of the edge within its front";
+    }
+    EXPECT_GT(beside_bone, 10);
     EXPECT_LT((way.points.leftCols(1) - way.rest_first).norm(), 1e-12);
   }
 }
