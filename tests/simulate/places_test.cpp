@@ -139,6 +139,30 @@ TEST(Places, what_thickening_does_not_explain_counts) {
   EXPECT_LT(measures.belly_off_place, 0.0027) << "0.3 of at most 9 mm";
 }
 
+TEST(Places, a_belly_that_lies_on_nothing_is_held_against_what_is_nearest) {
+  Scene scene = arm();
+  scene.muscles[0].surface.vertices.row(0).array() += 0.03;
+  const auto away = [](const Vec3& p) -> Vec3 { return p + Vec3(0.02 * std::sin(pi * share_along(p)), 0, 0); };
+  EXPECT_NEAR(measured(scene, frame_of(scene, away)).belly_off_place, 0.02 * 0.955, 0.002);
+}
+
+TEST(Places, a_belly_that_lay_on_another_muscle_may_follow_it_but_not_leave_it) {
+  Scene scene = arm();
+  scene.muscles.push_back(scene.muscles[0]);
+  scene.muscles[1].name = "over it";
+  scene.muscles[1].surface.vertices.row(0).array() += 0.031;
+  const auto lifted = [&](bool both) {
+    Frame frame = capture_frame(scene, flexed(scene, 0));
+    for (std::size_t m = both ? 0 : 1; m < 2; ++m)
+      for (auto p : frame.muscles[m].points.colwise()) p.x() += 0.03 * std::sin(pi * share_along(p));
+    return Measurer(scene).measure(frame);
+  };
+  EXPECT_NEAR(lifted(false)[1].belly_off_place, 0.03 * 0.955, 0.004);
+  EXPECT_EQ(lifted(false)[0].belly_off_place, 0) << "it lies on the bone as before";
+  EXPECT_LT(lifted(true)[1].belly_off_place, 0.001);
+  EXPECT_GT(lifted(true)[0].belly_off_place, 0.01) << "its side on the bone has come off";
+}
+
 TEST(Places, a_zigzag_20_percent_longer_is_not_taut) {
   const Scene scene = arm(240);
   // Two waves to the sides over nine tenths of the length. A sine whose steepest slope is 1 is 1.216 times as long as

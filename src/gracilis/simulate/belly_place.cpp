@@ -70,8 +70,11 @@ BellyPlace::BellyPlace(const Scene& scene, const std::vector<SignedDistance>& bo
   }
   // As it will be asked for, so that nothing has come off in the capture pose.
   parallel_for_each(contacts_.size(), [&](std::size_t m) {
-    for (Contact& contact : contacts_[m])
-      contact.rest_gap = gap(m, contact, rest, frame.muscles[m].points.col(contact.vertex));
+    for (Contact& contact : contacts_[m]) {
+      const Vec3 p = frame.muscles[m].points.col(contact.vertex);
+      contact.rest_gap = gap(m, contact, rest, p);
+      contact.carrier = nearest_bone(p);
+    }
   });
 }
 
@@ -91,6 +94,17 @@ Real BellyPlace::bone_gap(std::size_t bone, const Surroundings& around, const Ve
   return std::max(bones_[bone].query(around.to_local[bone] * p, bone_reach).distance, Real{0});
 }
 
+/// In the capture pose.
+std::optional<std::size_t> BellyPlace::nearest_bone(const Vec3& p) const {
+  std::optional<std::size_t> bone;
+  Real nearest = std::numeric_limits<Real>::infinity();
+  for (std::size_t b = 0; b < bones_.size(); ++b) {
+    const Real distance = bones_[b].query(p, nearest).distance;
+    if (distance < nearest) nearest = std::max(distance, Real{0}), bone = b;
+  }
+  return bone;
+}
+
 std::vector<BellyPlace::Contact> BellyPlace::contacts_of(std::size_t muscle, const Surroundings& rest) const {
   struct Candidate {
     Contact contact;
@@ -102,14 +116,20 @@ std::vector<BellyPlace::Contact> BellyPlace::contacts_of(std::size_t muscle, con
   Real area = 0;
   for (const Index v : belly_vertices(scene_.muscles[muscle])) {
     Candidate& candidate = candidates.emplace_back();
-    candidate.contact = {v, areas[v], far_away, {}, {}};
+    candidate.contact = {v, areas[v], far_away, {}, {}, {}};
     area += areas[v];
     const Vec3 p = surface.vertices.col(v);
-    for (std::size_t b = 0; b < bones_.size(); ++b) candidate.bone_gaps.push_back(bone_gap(b, rest, p, far_away));
-    for (std::size_t m = 0; m < rest.shapes.size(); ++m)
-      candidate.muscle_gaps.push_back(m == muscle ? far_away : rest.shapes[m]->gap(p));
-    for (const auto* gaps : {&candidate.bone_gaps, &candidate.muscle_gaps})
-      for (const Real gap : *gaps) candidate.contact.rest_gap = std::min(candidate.contact.rest_gap, gap);
+    // What is beyond both the reach and the nearest so far is not asked for: it counts as far away.
+    Real& nearest = candidate.contact.rest_gap;
+    for (std::size_t b = 0; b < bones_.size(); ++b) {
+      candidate.bone_gaps.push_back(std::min(bone_gap(b, rest, p, std::max(nearest, reach)), far_away));
+      nearest = std::min(nearest, candidate.bone_gaps.back());
+    }
+    for (std::size_t m = 0; m < rest.shapes.size(); ++m) {
+      const bool is_far = m == muscle || rest.shapes[m]->gap_to_box(p) > std::max(nearest, reach);
+      candidate.muscle_gaps.push_back(is_far ? far_away : rest.shapes[m]->gap(p));
+      nearest = std::min(nearest, candidate.muscle_gaps.back());
+    }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.contact.rest_gap < b.contact.rest_gap; });
@@ -131,9 +151,16 @@ std::vector<BellyPlace::Contact> BellyPlace::contacts_of(std::size_t muscle, con
 
 Real BellyPlace::gap(std::size_t muscle, const Contact& contact, const Surroundings& around, const Vec3& p) const {
   Real nearest = std::numeric_limits<Real>::infinity();
-  for (const std::size_t other : contact.muscles) nearest = std::min(nearest, around.shapes[other]->gap(p));
+  for (const std::size_t other : contact.muscles)
+    if (around.shapes[other]->gap_to_box(p) < nearest) nearest = std::min(nearest, around.shapes[other]->gap(p));
   for (const std::size_t bone : grounds_[muscle]) nearest = std::min(nearest, bone_gap(bone, around, p, nearest));
   return nearest;
+}
+
+/// How far a vertex is from where its carrier has taken it.
+Real BellyPlace::moved(std::size_t muscle, const Contact& contact, const Surroundings& around, const Vec3& p) const {
+  if (!contact.carrier) return std::numeric_limits<Real>::infinity();
+  return (around.to_local[*contact.carrier] * p - scene_.muscles[muscle].surface.vertices.col(contact.vertex)).norm();
 }
 
 std::vector<Real> BellyPlace::off_place(const Frame& frame, const std::vector<Real>& length_ratios) const {
@@ -143,8 +170,9 @@ std::vector<Real> BellyPlace::off_place(const Frame& frame, const std::vector<Re
     const Real thickening = std::max(std::sqrt(1 / length_ratios[m]), Real{1});
     Real sum = 0, area = 0;
     for (const Contact& contact : contacts_[m]) {
-      const Real now = gap(m, contact, around, frame.muscles[m].points.col(contact.vertex));
-      sum += contact.area * std::max(now - thickening * contact.rest_gap, Real{0});
+      const Vec3 p = frame.muscles[m].points.col(contact.vertex);
+      const Real come_off = gap(m, contact, around, p) - thickening * contact.rest_gap;
+      sum += contact.area * std::max(std::min(come_off, moved(m, contact, around, p)), Real{0});
       area += contact.area;
     }
     if (area > 0) off[m] = sum / area;

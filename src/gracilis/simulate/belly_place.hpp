@@ -27,9 +27,11 @@ class BellyPlace {
 
   /// Per muscle the mean over those vertices, by area, of how much further they are than at rest from the nearest of
   /// the other muscles that they lay on and the bones that any of them lay on, m; what is nearer counts as 0. A belly
-  /// may slide along them, and touch others in one place that it touched in another. `length_ratio` is per muscle the
-  /// length of its fibers over that at rest: a muscle that becomes shorter becomes thicker, by one over its root, and a
-  /// vertex may be further from its ground by as much. 0 for muscles without origin or insertion. Deterministic.
+  /// may slide along them, and touch others in one place that it touched in another. No vertex counts for more than it
+  /// has moved against the bone that was nearest to it: what stays is not off because others have left it.
+  /// `length_ratios` is per muscle the length of its fibers over that at rest: a muscle that becomes shorter becomes
+  /// thicker, by one over its root, and a vertex may be further from its ground by as much. 0 for muscles without
+  /// origin or insertion. Deterministic.
   std::vector<Real> off_place(const Frame& frame, const std::vector<Real>& length_ratios) const;
 
  private:
@@ -40,6 +42,7 @@ class BellyPlace {
     Real rest_gap = 0;               ///< m, from the nearest of what it lies on
     std::vector<std::size_t> bones;  ///< that it lies on
     std::vector<std::size_t> muscles;
+    std::optional<std::size_t> carrier;  ///< the nearest bone
   };
   /// Where bones and muscles are in a frame.
   struct Surroundings {
@@ -49,6 +52,8 @@ class BellyPlace {
 
   Surroundings surroundings(const Frame& frame, const std::vector<char>& asked) const;
   std::vector<Contact> contacts_of(std::size_t muscle, const Surroundings& rest) const;
+  std::optional<std::size_t> nearest_bone(const Vec3& p) const;
+  Real moved(std::size_t muscle, const Contact& contact, const Surroundings& around, const Vec3& p) const;
   Real bone_gap(std::size_t bone, const Surroundings& around, const Vec3& p, Real reach) const;
   Real gap(std::size_t muscle, const Contact& contact, const Surroundings& around, const Vec3& p) const;
 

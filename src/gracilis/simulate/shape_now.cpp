@@ -21,7 +21,11 @@ FacesAround faces_around(const Eigen::Matrix3Xi& faces, Index vertex_count) {
 }
 
 ShapeNow::ShapeNow(const Points& vertices, const Eigen::Matrix3Xi& faces, const FacesAround& around)
-    : vertices_(vertices), faces_(faces), around_(around), tree_(vertices) {}
+    : vertices_(vertices),
+      faces_(faces),
+      around_(around),
+      box_(vertices.rowwise().minCoeff(), vertices.rowwise().maxCoeff()),
+      tree_(vertices) {}
 
 Vec3 ShapeNow::normal_at(Index vertex) const {
   Vec3 normal = Vec3::Zero();

@@ -25,12 +25,16 @@ class ShapeNow {
   /// is told by the vertices' normals; further away these say little.
   Real gap(const Vec3& p) const;
 
+  /// At most the gap.
+  Real gap_to_box(const Vec3& p) const { return box_.exteriorDistance(p); }
+
  private:
   Vec3 normal_at(Index vertex) const;
 
   const Points& vertices_;
   const Eigen::Matrix3Xi& faces_;
   const FacesAround& around_;
+  Eigen::AlignedBox3d box_;
   NearestPoints tree_;
 };
 
