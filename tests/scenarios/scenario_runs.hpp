@@ -48,7 +48,9 @@ inline Scene cadaver_scene(const std::string& name, const std::vector<std::strin
 /// The worst of a muscle over a whole run, and its last frame.
 struct MuscleRun {
   Real volume_error = 0, vertex_depth = 0, midpoint_depth = 0, free_edge_ratio = 0;
+  Real belly_off_place = 0, wrong_side = 0, slack = 0;
   int volume_frame = 0, vertex_frame = 0, midpoint_frame = 0, edge_frame = 0;
+  int belly_frame = 0, side_frame = 0, slack_frame = 0;
   MuscleMeasures last;
 };
 
@@ -85,6 +87,9 @@ inline WholeRun run_whole(const Scene& scene, int stride = 1,
       keep_worst(now.vertex_depth_beyond_rest, frame, muscle.vertex_depth, muscle.vertex_frame);
       keep_worst(now.midpoint_depth_beyond_rest, frame, muscle.midpoint_depth, muscle.midpoint_frame);
       keep_worst(now.edge_ratio_max_free, frame, muscle.free_edge_ratio, muscle.edge_frame);
+      keep_worst(now.belly_off_place, frame, muscle.belly_off_place, muscle.belly_frame);
+      keep_worst(now.wrong_side, frame, muscle.wrong_side, muscle.side_frame);
+      keep_worst(now.slack, frame, muscle.slack, muscle.slack_frame);
       muscle.last = now;
     }
   };
@@ -103,6 +108,9 @@ inline void expect_gates(const Scene& scene, const WholeRun& run) {
     EXPECT_LE(muscle.vertex_depth, 1e-4) << name << ", frame " << muscle.vertex_frame;
     EXPECT_LE(muscle.midpoint_depth, 5e-4) << name << ", frame " << muscle.midpoint_frame;
     EXPECT_LE(muscle.free_edge_ratio, 3) << name << ", frame " << muscle.edge_frame;
+    EXPECT_LE(muscle.belly_off_place, 0.018) << name << ", frame " << muscle.belly_frame;
+    EXPECT_EQ(muscle.wrong_side, 0) << name << ", frame " << muscle.side_frame;
+    EXPECT_LE(muscle.slack, 0.15) << name << ", frame " << muscle.slack_frame;
   }
 }
 

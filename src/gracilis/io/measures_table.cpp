@@ -22,18 +22,20 @@ std::string measures_header(const Scene& scene) {
   return header +
          ",muscle,volume_ratio,edge_ratio_mean,edge_ratio_max,edge_ratio_max_free,dihedral_change_mean_deg,"
          "dihedral_change_max_deg,hinges_over_90,vertex_depth_mm,vertex_depth_beyond_rest_mm,"
-         "midpoint_depth_beyond_rest_mm,iterations,largest_correction_mm,contacts,limited_hinges,skipped_constraints,"
+         "midpoint_depth_beyond_rest_mm,belly_off_place_mm,wrong_side_share,slack,iterations,largest_correction_mm,"
+         "contacts,limited_hinges,skipped_constraints,"
          "milliseconds,activation,fiber_strain_mean,cross_section_cm2,physiological_cross_section_cm2,"
          "virtual_edges,virtual_pushes,coinciding_edges\n";
 }
 
 static std::string row_end(const MuscleMeasures& m, const MuscleReport& r) {
-  return fmt::format(",{:.6f},{:.6f},{:.4f},{:.4f},{:.3f},{:.3f},{},{:.4f},{:.4f},{:.4f},{},{:.4f},{},{},{},{:.3f}",
-                     m.volume_ratio, m.edge_ratio_mean, m.edge_ratio_max, m.edge_ratio_max_free,
-                     degrees(m.dihedral_change_mean), degrees(m.dihedral_change_max), m.hinges_over_90,
-                     1000 * m.vertex_depth, 1000 * m.vertex_depth_beyond_rest, 1000 * m.midpoint_depth_beyond_rest,
-                     r.iterations, 1000 * r.largest_correction, r.contacts, r.limited_hinges, r.skipped_constraints,
-                     r.milliseconds);
+  return fmt::format(
+      ",{:.6f},{:.6f},{:.4f},{:.4f},{:.3f},{:.3f},{},{:.4f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{},{:.4f},{},{},{},"
+      "{:.3f}",
+      m.volume_ratio, m.edge_ratio_mean, m.edge_ratio_max, m.edge_ratio_max_free, degrees(m.dihedral_change_mean),
+      degrees(m.dihedral_change_max), m.hinges_over_90, 1000 * m.vertex_depth, 1000 * m.vertex_depth_beyond_rest,
+      1000 * m.midpoint_depth_beyond_rest, 1000 * m.belly_off_place, m.wrong_side, m.slack, r.iterations,
+      1000 * r.largest_correction, r.contacts, r.limited_hinges, r.skipped_constraints, r.milliseconds);
 }
 
 /// Activation and fibers; nan where a muscle has no fibers.

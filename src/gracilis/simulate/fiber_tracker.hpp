@@ -30,6 +30,9 @@ class FiberTracker {
   /// The fibers of every muscle, in the scene's order; deterministic for any number of threads.
   std::vector<MuscleFibers> follow(const Frame& frame) const;
 
+  /// A muscle's fibers in the capture pose; empty for one without.
+  const Polylines& rest(std::size_t muscle) const { return muscles_[muscle].rest; }
+
  private:
   struct Bound {
     Polylines rest;

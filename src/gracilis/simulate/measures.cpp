@@ -36,6 +36,12 @@ Points midpoints(const std::vector<MeshEdge>& edges, const Points& x) {
   return middles;
 }
 
+std::vector<SignedDistance> distances_to_bones(const Scene& scene) {
+  std::vector<SignedDistance> distances;
+  for (const Bone& bone : scene.bones) distances.emplace_back(bone.surface);
+  return distances;
+}
+
 std::string millimetres(const char* what, Real metres, Real limit) {
   char text[120];
   std::snprintf(text, sizeof text, "%s %.3f mm beyond rest (limit %.1f mm)", what, metres * 1e3, limit * 1e3);
@@ -63,11 +69,26 @@ std::vector<std::string> missed_gates(const MuscleMeasures& measures, const Qual
                   measures.edge_ratio_max_free, gates.free_edge_ratio);
     missed.push_back(text);
   }
+  if (measures.belly_off_place > gates.belly_off_place) {
+    std::snprintf(text, sizeof text, "the belly is %.1f mm off its place (limit %.0f mm)",
+                  measures.belly_off_place * 1e3, gates.belly_off_place * 1e3);
+    missed.push_back(text);
+  }
+  if (measures.wrong_side > gates.wrong_side) {
+    std::snprintf(text, sizeof text, "%.0f %% of its lines pass a bone on the wrong side (limit %.0f %%)",
+                  measures.wrong_side * 100, gates.wrong_side * 100);
+    missed.push_back(text);
+  }
+  if (measures.slack > gates.slack) {
+    std::snprintf(text, sizeof text, "its lines are %.0f %% longer than taut (limit %.0f %%)", measures.slack * 100,
+                  gates.slack * 100);
+    missed.push_back(text);
+  }
   return missed;
 }
 
-Measurer::Measurer(const Scene& scene) : scene_(scene) {
-  for (const Bone& bone : scene.bones) bones_.emplace_back(bone.surface);
+Measurer::Measurer(const Scene& scene, const FiberTracker* tracker)
+    : scene_(scene), bones_(distances_to_bones(scene)), bellies_(scene, bones_), ways_(scene, bones_, tracker) {
   for (const Muscle& muscle : scene.muscles) muscles_.push_back(rest_of(muscle));
   last_.assign(muscles_.size(), std::vector<LastSeen>(2 * bones_.size()));
 }
@@ -142,35 +163,51 @@ void Measurer::measure_depths(const MuscleRest& rest, const Points& points, cons
   }
 }
 
-std::vector<MuscleMeasures> Measurer::measure(const Frame& frame) {
+MuscleMeasures Measurer::measure_shape(std::size_t muscle, const Points& x, const Pose& pose) {
+  const MuscleRest& rest = muscles_[muscle];
+  MuscleMeasures measures;
+  measures.finite = x.allFinite();
+  if (!measures.finite) return measures;
+  measures.volume_ratio = enclosed_volume(x, scene_.muscles[muscle].surface.faces) / rest.volume;
+  Real ratio_sum = 0, change_sum = 0;
+  for (std::size_t e = 0; e < rest.edges.size(); ++e) {
+    const MeshEdge& edge = rest.edges[e];
+    const Real ratio = rest.lengths[e] > 0 ? (x.col(edge.a) - x.col(edge.b)).norm() / rest.lengths[e] : 1;
+    ratio_sum += ratio;
+    measures.edge_ratio_max = std::max(measures.edge_ratio_max, ratio);
+    if (rest.far_edge[e]) measures.edge_ratio_max_free = std::max(measures.edge_ratio_max_free, ratio);
+    const Real angle = dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex));
+    const Real change = std::abs(std::remainder(angle - rest.angles[e], 2 * pi));
+    change_sum += change;
+    measures.dihedral_change_max = std::max(measures.dihedral_change_max, change);
+    measures.hinges_over_90 += change > pi / 2;
+  }
+  measures.edge_ratio_mean = ratio_sum / static_cast<Real>(rest.edges.size());
+  measures.dihedral_change_mean = change_sum / static_cast<Real>(rest.edges.size());
+  measure_depths(rest, x, pose, last_[muscle], measures);
+  return measures;
+}
+
+/// Where the muscles run and lie. A frame that is not finite has no places.
+void Measurer::measure_places(const Frame& frame, const std::vector<MuscleFibers>& fibers,
+                              std::vector<MuscleMeasures>& measures) {
+  ways_.follow(frame.pose);
+  if (!std::all_of(measures.begin(), measures.end(), [](const MuscleMeasures& m) { return m.finite; })) return;
+  const std::vector<MuscleWay> ways = ways_.measure(frame, fibers);
+  std::vector<Real> length_ratios;
+  for (const MuscleWay& way : ways) length_ratios.push_back(way.length_ratio);
+  const std::vector<Real> off_place = bellies_.off_place(frame, length_ratios);
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    measures[m].belly_off_place = off_place[m];
+    measures[m].wrong_side = ways[m].wrong_side;
+    measures[m].slack = ways[m].slack;
+  }
+}
+
+std::vector<MuscleMeasures> Measurer::measure(const Frame& frame, const std::vector<MuscleFibers>& fibers) {
   std::vector<MuscleMeasures> all(muscles_.size());
-  parallel_for(static_cast<Index>(muscles_.size()), 1, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const auto m = static_cast<std::size_t>(i);
-      const MuscleRest& rest = muscles_[m];
-      const Points& x = frame.muscles[m].points;
-      MuscleMeasures& measures = all[m];
-      measures.finite = x.allFinite();
-      if (!measures.finite) continue;
-      measures.volume_ratio = enclosed_volume(x, scene_.muscles[m].surface.faces) / rest.volume;
-      Real ratio_sum = 0, change_sum = 0;
-      for (std::size_t e = 0; e < rest.edges.size(); ++e) {
-        const MeshEdge& edge = rest.edges[e];
-        const Real ratio = rest.lengths[e] > 0 ? (x.col(edge.a) - x.col(edge.b)).norm() / rest.lengths[e] : 1;
-        ratio_sum += ratio;
-        measures.edge_ratio_max = std::max(measures.edge_ratio_max, ratio);
-        if (rest.far_edge[e]) measures.edge_ratio_max_free = std::max(measures.edge_ratio_max_free, ratio);
-        const Real angle = dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex));
-        const Real change = std::abs(std::remainder(angle - rest.angles[e], 2 * pi));
-        change_sum += change;
-        measures.dihedral_change_max = std::max(measures.dihedral_change_max, change);
-        measures.hinges_over_90 += change > pi / 2;
-      }
-      measures.edge_ratio_mean = ratio_sum / static_cast<Real>(rest.edges.size());
-      measures.dihedral_change_mean = change_sum / static_cast<Real>(rest.edges.size());
-      measure_depths(rest, x, frame.pose, last_[m], measures);
-    }
-  });
+  parallel_for_each(all.size(), [&](std::size_t m) { all[m] = measure_shape(m, frame.muscles[m].points, frame.pose); });
+  measure_places(frame, fibers, all);
   return all;
 }
 

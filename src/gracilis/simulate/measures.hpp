@@ -4,6 +4,8 @@
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/scene/frame.hpp>
 #include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/belly_place.hpp>
+#include <gracilis/simulate/way_measures.hpp>
 
 #include <vector>
 
@@ -22,6 +24,9 @@ struct MuscleMeasures {
   Real vertex_depth = 0;                ///< m, deepest free vertex in a bone
   Real vertex_depth_beyond_rest = 0;    ///< m, deepest beyond that vertex's depth in that bone at rest
   Real midpoint_depth_beyond_rest = 0;  ///< m, the same for midpoints of edges with a free end
+  Real belly_off_place = 0;             ///< m, see BellyPlace
+  Real wrong_side = 0;                  ///< share of the muscle's lines, see is_on_wrong_side
+  Real slack = 0;                       ///< mean over the muscle's lines, see slack_of
   bool finite = true;
 };
 
@@ -31,6 +36,9 @@ struct QualityGates {
   Real vertex_depth = 1e-4;    ///< m beyond rest
   Real midpoint_depth = 5e-4;  ///< m beyond rest
   Real free_edge_ratio = 3;
+  Real belly_off_place = 0.018;  ///< m
+  Real wrong_side = 0;           ///< share of lines
+  Real slack = 0.15;             ///< share of what the length must be
 };
 
 /// The gates that a muscle misses, in words; empty when it meets all.
@@ -40,9 +48,19 @@ std::vector<std::string> missed_gates(const MuscleMeasures& measures, const Qual
 /// precision.
 class Measurer {
  public:
-  explicit Measurer(const Scene& scene);
-  /// Measures one frame. Remembers where points were last measured, so frames in order are cheap.
-  std::vector<MuscleMeasures> measure(const Frame& frame);
+  /// With `tracker`, a muscle's way is measured along some of the fibers that it follows, otherwise along a few of its
+  /// own, which takes longer to prepare. Both must outlive this.
+  explicit Measurer(const Scene& scene, const FiberTracker* tracker = nullptr);
+  Measurer(const Measurer&) = delete;
+  Measurer& operator=(const Measurer&) = delete;
+
+  /// Measures one frame. Remembers where points were last measured, so frames in order are cheap, and the poses that it
+  /// went through, for the side on which taut ways pass the bones. `fibers` are what the tracker says of the frame; it
+  /// is asked where they are not given.
+  std::vector<MuscleMeasures> measure(const Frame& frame, const std::vector<MuscleFibers>& fibers = {});
+  /// Goes through the pose of a frame that was measured before, as a run that goes on does: what comes after is
+  /// measured as if this had measured them all.
+  void pass(const Pose& pose) { ways_.follow(pose); }
 
  private:
   struct MuscleRest {
@@ -66,8 +84,14 @@ class Measurer {
   void measure_depths(const MuscleRest& rest, const Points& points, const Pose& pose, std::vector<LastSeen>& last,
                       MuscleMeasures& measures) const;
 
+  MuscleMeasures measure_shape(std::size_t muscle, const Points& x, const Pose& pose);
+  void measure_places(const Frame& frame, const std::vector<MuscleFibers>& fibers,
+                      std::vector<MuscleMeasures>& measures);
+
   const Scene& scene_;
   std::vector<SignedDistance> bones_;
+  BellyPlace bellies_;
+  WayMeasures ways_;
   std::vector<MuscleRest> muscles_;
   std::vector<std::vector<LastSeen>> last_;  ///< per muscle: of vertices, then of midpoints, per bone
 };

@@ -19,12 +19,13 @@ int resume_period(const Scene& scene) {
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
                  const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker) {
-  Measurer measurer(scene);
+  Measurer measurer(scene, tracker);
   int next = 0;
   method.reset();
   if (resume) {
     next = resume->last.number + 1;
     method.restore({poses.begin(), poses.begin() + next}, resume->before, resume->last);
+    for (int i = 0; i < next; ++i) measurer.pass(poses[static_cast<std::size_t>(i)]);
   }
   for (; next < static_cast<int>(poses.size()); ++next) {
     if (stop) return RunEnd::interrupted;
@@ -43,8 +44,8 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
       method.write(now.frame);
     }
     now.frame.number = next;
-    now.measures = measurer.measure(now.frame);
     if (tracker) now.fibers = tracker->follow(now.frame);
+    now.measures = measurer.measure(now.frame, now.fibers);
     record(now);
   }
   return RunEnd::complete;

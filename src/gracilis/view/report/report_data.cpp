@@ -40,6 +40,9 @@ std::vector<ShownMeasure> shown_measures() {
        0,
        1,
        {1000 * gates.midpoint_depth}},
+      {"belly_off_place_mm", "Belly off its place", "mm", 0, 1, {1000 * gates.belly_off_place}},
+      {"wrong_side_share", "Lines on the wrong side of a bone", "%", 0, 100, {100 * gates.wrong_side}},
+      {"slack", "Lines longer than taut", "%", 0, 100, {100 * gates.slack}},
       {"activation", "Activation", "", 0, 1, {}},
       {"physiological_cross_section_cm2", "Physiological cross-section", "cm²", 0, 1, {}},
       {"milliseconds", "Time per frame", "ms", 0, 1, {}}};

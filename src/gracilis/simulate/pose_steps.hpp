@@ -1,0 +1,20 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// The share t of a rigid motion, along its screw: a turn about an axis that stays, and a slide along it (Chasles).
+/// Precondition: it turns by less than half a turn.
+RigidTransform share_of_screw(const RigidTransform& motion, Real t);
+
+/// Where bodies are on the way from one pose to another, each along its own screw, `to` itself last: as many steps as
+/// it takes for none to turn against another by more than `largest_turn` (rad), or to slide by more than
+/// `largest_slide` (m). At least one. Both have as many bodies.
+std::vector<std::vector<RigidTransform>> pose_steps(const std::vector<RigidTransform>& from,
+                                                    const std::vector<RigidTransform>& to, Real largest_turn,
+                                                    Real largest_slide);
+
+}  // namespace gracilis
