@@ -49,7 +49,7 @@ ImplicitSolid radius_body() {
                                            thick(-1, -195, 34, 8.5), thick(0, -220, 36, 10)});
   // Faces the ulna, turned forward by 30 degrees.
   const ImplicitSolid tuberosity =
-      thick_curve({thick(3, -36, 10, 4.5), thick(3.5, -45, 9.5, 5), thick(2.5, -58, 11, 4)});
+      thick_curve({thick(3, -36, 10, 4.5), thick(3.5, -45, 9.5, 5), thick(2.5, -60, 11.5, 4.5)});
   // clang-format off
   const ThickNet distal{2, 2, {
       thick(0, -222, 33, 9), thick(0, -222, 38, 9),

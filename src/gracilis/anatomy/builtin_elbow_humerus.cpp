@@ -4,8 +4,9 @@
 namespace gracilis::builtin_elbow_shapes {
 
 ImplicitSolid trochlea(Real margin) {
-  std::vector<ThickPoint> spool = {thick(0, 0, -23, 15), thick(0, 0, -19, 14),  thick(0, 0, -14, 11),
-                                   thick(0, 0, -9, 9.2), thick(0, 0, -4, 10.2), thick(0, 0, -1, 9.8),
+  // Balls along the axis fill the groove between them: it is drawn deeper than the 9 mm that it becomes.
+  std::vector<ThickPoint> spool = {thick(0, 0, -23, 15), thick(0, 0, -19, 13.5), thick(0, 0, -14, 9.8),
+                                   thick(0, 0, -9, 7.8), thick(0, 0, -4, 9.6),   thick(0, 0, -1, 9.8),
                                    thick(0, 0, 2, 7.6),  thick(0, 0, 6, 7)};
   for (ThickPoint& p : spool) p.radius += margin;
   const ImplicitSolid turned = thick_curve(spool);

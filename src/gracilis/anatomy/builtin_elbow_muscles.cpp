@@ -30,7 +30,7 @@ MusclePlan brachialis() {
       thick(14, -18, -2, 5), thick(14, -18, -7, 5.5), thick(14, -18, -12, 5),
       thick(9, -30, -3, 5), thick(9, -30, -7, 5.5), thick(9, -30, -11, 5),
       thick(5, -44, -4, 5), thick(5, -44, -7, 5.5), thick(5, -44, -9, 5),
-  }}, brachialis_volume, 2000, 0.0035, 0.58, 0.78, 30, humerus, ulna, 0, 0.68};
+  }}, brachialis_volume, 2000, 0.0035, 0.44, 0.78, 30, humerus, ulna, 0, 0.68};
 }
 
 /// Columns from the lateral to the medial side.
@@ -41,15 +41,15 @@ MusclePlan triceps_medial() {
       thick(-19, 105, 8, 8), thick(-24, 105, -6, 9), thick(-19, 105, -21, 8),
       thick(-20, 70, 10, 8), thick(-25, 70, -6, 9), thick(-20, 70, -24, 8),
       thick(-22, 42, 5, 7), thick(-26, 42, -6, 8), thick(-22, 42, -18, 7),
-      thick(-17, 22.5, 1, 6), thick(-19, 22.5, -8, 6), thick(-17, 22.5, -17, 6),
-  }}, triceps * other_share, 1800, 0.0035, 0.75, 0.88, 30, humerus, ulna, 0, 0.86};
+      thick(-17, 22, 2, 6.5), thick(-20, 22.5, -8, 6.5), thick(-17, 22, -18, 6.5),
+  }}, triceps * other_share, 1800, 0.0035, 0.6, 0.88, 30, humerus, ulna, 0, 0.86};
 }
 
 /// Over the humeral head and through the groove between its tubercles. Columns from the lateral to the medial side.
 MusclePlan biceps_long() {
   return {"biceps_brachii_long_r", {17, 2, {
-      thick(-20, 314, -50, 4.8), thick(-22, 314, -50, 4.8),
-      thick(-16, 314, -38, 4.8), thick(-18, 314, -39, 4.8),
+      thick(-17, 314, -51, 5), thick(-23, 314, -51, 5),
+      thick(-14, 314, -38, 4.8), thick(-19, 314, -39, 4.8),
       thick(-11, 314, -25, 4.2), thick(-12, 314, -26, 4.2),
       thick(3, 304, -7, 4.2), thick(2, 304, -8, 4.2),
       thick(16, 291, -1, 4.2), thick(16, 291, -2, 4.2),
@@ -63,9 +63,9 @@ MusclePlan biceps_long() {
       thick(36, 60, 10, 7.5), thick(37, 60, 6, 7.5),
       thick(33, 25, 9, 4.6), thick(33, 25, 7, 4.6),
       thick(26, -5, 9, 4.4), thick(26, -5, 8, 4.4),
-      thick(12, -29, 5.5, 4.6), thick(12, -29, 4.5, 4.6),
-      thick(7.5, -43, 4, 4.8), thick(7.5, -43, 3, 4.8),
-  }}, biceps / 2, 2600, 0.0025, 0.12, 0.9, 30, scapula, radius, 0.44, 0.79};
+      thick(12.5, -25, 6, 4.4), thick(10, -25, 4, 4.4),
+      thick(9.8, -41, 5.3, 5.2), thick(5.5, -41, 2.7, 5.2),
+  }}, biceps / 2, 3200, 0.0025, 0.12, 0.945, 30, scapula, radius, 0.44, 0.79};
 }
 
 /// Columns from the lateral to the medial side.
@@ -82,10 +82,10 @@ MusclePlan biceps_short() {
       thick(38, 60, -6, 7.5), thick(37, 60, -11, 7.5),
       thick(36, 25, -4, 4.8), thick(36, 25, -6, 4.8),
       thick(32, -6, -3, 4.4), thick(32, -6, -4, 4.4),
-      thick(22, -32, 0, 4.4), thick(22, -32, -1, 4.4),
-      thick(11, -49, 2.5, 4.6), thick(11, -49, 1.5, 4.6),
-      thick(6, -61, 5, 4.8), thick(6, -61, 4, 4.8),
-  }}, biceps / 2, 2600, 0.0025, 0.12, 0.9, 30, scapula, radius, 0.25, 0.67};
+      thick(23, -32, 0, 4.4), thick(23, -32, -1, 4.4),
+      thick(13, -44, 2.5, 4.6), thick(11.5, -44, 1, 4.6),
+      thick(9, -54.5, 5.3, 5.2), thick(5.5, -54.5, 3, 5.2),
+  }}, biceps / 2, 3200, 0.0025, 0.12, 0.9, 30, scapula, radius, 0.25, 0.67};
 }
 
 /// Columns from the lateral to the medial side.
@@ -133,7 +133,7 @@ MusclePlan brachioradialis() {
       thick(5, -205, 47, 4.5), thick(1, -205, 48, 4.5),
       thick(3, -222, 50, 4.8), thick(-1, -222, 51, 4.8),
       thick(2, -237, 53, 4.8), thick(-2, -237, 54, 4.8),
-  }}, brachioradialis_volume, 2200, 0.003, 0.28, 0.85, 30, humerus, radius, 0, 0.58};
+  }}, brachioradialis_volume, 2200, 0.003, 0.22, 0.85, 30, humerus, radius, 0, 0.58};
 }
 
 // clang-format on
