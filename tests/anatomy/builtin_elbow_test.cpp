@@ -8,7 +8,6 @@
 
 #include "builtin_scene_checks.hpp"
 
-#include <limits>
 #include <map>
 #include <set>
 

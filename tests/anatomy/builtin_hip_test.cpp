@@ -4,7 +4,6 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
-#include <gracilis/geometry/topology.hpp>
 
 #include <gtest/gtest.h>
 

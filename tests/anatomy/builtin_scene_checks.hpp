@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/scene/scene.hpp>
@@ -16,21 +17,6 @@
 
 /// What every built-in scene has to hold.
 namespace gracilis {
-
-inline int euler_characteristic(const TriangleMesh& mesh) {
-  return mesh.vertex_count() - static_cast<int>(build_topology(mesh.faces, mesh.vertex_count()).edges.size()) +
-         mesh.face_count();
-}
-
-inline bool is_manifold_at_every_vertex(const TriangleMesh& mesh) {
-  const MeshTopology topology = build_topology(mesh.faces, mesh.vertex_count());
-  std::vector<int> faces(mesh.vertex_count(), 0);
-  for (Index f = 0; f < mesh.face_count(); ++f)
-    for (int c = 0; c < 3; ++c) ++faces[mesh.faces(c, f)];
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    if (faces[v] != topology.stars.offsets[v + 1] - topology.stars.offsets[v]) return false;
-  return true;
-}
 
 /// The least signed distance from the vertices and edge midpoints of `mesh` to `other`.
 inline Real least_distance(const TriangleMesh& mesh, const SignedDistance& other) {
@@ -48,12 +34,12 @@ inline const Bone& bone_of(const Scene& scene, const std::string& name) {
 /// Closed, manifold, oriented outwards, of this genus, cutting itself nowhere, and no crumb: of at least this volume,
 /// m³.
 inline void expect_sound(const std::string& name, const TriangleMesh& mesh, int genus, Real least_volume = 5e-5) {
-  ASSERT_GT(mesh.face_count(), 1000) << name;
-  EXPECT_TRUE(mesh.vertices.allFinite()) << name;
-  EXPECT_TRUE(is_closed(mesh.faces)) << name;
-  EXPECT_TRUE(is_manifold_at_every_vertex(mesh)) << name;
-  EXPECT_EQ(euler_characteristic(mesh), 2 - 2 * genus) << name;
-  EXPECT_GT(enclosed_volume(mesh.vertices, mesh.faces), least_volume) << name;
+  const MeshReport report = inspect_mesh(mesh);
+  ASSERT_GT(report.face_count, 1000) << name;
+  EXPECT_TRUE(report.is_closed() && report.is_manifold() && report.is_oriented()) << name;
+  EXPECT_EQ(report.components, 1) << name;
+  EXPECT_EQ(report.genus, genus) << name;
+  EXPECT_GT(report.volume, least_volume) << name;
   EXPECT_TRUE(contact_check::self_intersecting_faces(mesh).empty()) << name;
 }
 

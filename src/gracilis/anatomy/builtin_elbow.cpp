@@ -41,10 +41,9 @@ Scene builtin_elbow(const BuiltinElbowOptions& options) {
   scene.name = "builtin_elbow";
   scene.bodies = {"scapula_r", "humerus_r", "ulna_r", "radius_r"};
   scene.joints = make_joints();
-  scene.muscles = make_muscles(muscle_plans(), skeleton, {options.bone_gap, options.muscle_gap});
+  scene.muscles = make_muscles(muscle_plans(), skeleton, {});
   scene.bones = std::move(skeleton.bones);
-  scene.motion =
-      ramp_from_zero("elbow flexion", "elbow_flexion", options.last_flexion, options.flexion_step, options.time_step);
+  scene.motion = ramp_from_zero("elbow flexion", "elbow_flexion", options.last_flexion, options.flexion_step, 1.0 / 60);
   return scene;
 }
 

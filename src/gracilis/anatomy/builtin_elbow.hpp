@@ -8,9 +8,6 @@ namespace gracilis {
 struct BuiltinElbowOptions {
   Real last_flexion = radians(130);  ///< rad; the motion flexes from 0 to here
   Real flexion_step = radians(2);    ///< rad per frame
-  Real time_step = 1.0 / 60;         ///< s between frames
-  Real bone_gap = 0.0018;            ///< m, between every muscle and every bone at rest
-  Real muscle_gap = 0.0015;          ///< m, between any two muscles at rest
 };
 
 /// A complete scene without any file: a right arm that hangs straight with the palm forward, modeled as implicit
@@ -22,7 +19,7 @@ struct BuiltinElbowOptions {
 /// shoulder_flexion (about z, positive forward); elbow_r about z by elbow_flexion (0 straight, positive flexes), whose
 /// axis runs through trochlea and capitulum; radioulnar_r about the line from the radial head to the ulna's by pro_sup
 /// (-90 degrees in the capture pose, positive pronates). Takes a few seconds; the same bits for any number of threads.
-/// Preconditions: last_flexion >= 0, flexion_step > 0, time_step > 0.
+/// Preconditions: last_flexion >= 0, flexion_step > 0.
 Scene builtin_elbow(const BuiltinElbowOptions& options = {});
 
 }  // namespace gracilis
