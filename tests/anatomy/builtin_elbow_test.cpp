@@ -123,7 +123,7 @@ TEST(BuiltinElbow, attachments_lie_where_anatomy_has_them) {
                         {"biceps_brachii_short_r", 0, millimetres(26, 300, -33)},    // coracoid process
                         {"biceps_brachii_long_r", 1, millimetres(9, -34, 6)},        // radial tuberosity
                         {"biceps_brachii_short_r", 1, millimetres(8, -51, 5)},       // and its lower part
-                        {"brachialis_r", 1, millimetres(6, -32, -7)},                // ulnar tuberosity
+                        {"brachialis_r", 1, millimetres(7, -28, -7)},                // ulnar tuberosity
                         {"brachioradialis_r", 1, millimetres(0, -228, 50)},          // above the styloid process
                         {"triceps_brachii_long_r", 0, millimetres(-37, 250, -58)},   // infraglenoid tubercle
                         {"triceps_brachii_long_r", 1, millimetres(-30, 3, -13)},     // olecranon

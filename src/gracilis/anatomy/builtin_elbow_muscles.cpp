@@ -27,9 +27,9 @@ MusclePlan brachialis() {
       thick(9, 55, 10, 8), thick(15, 55, -5, 11), thick(8, 55, -23, 10),
       thick(15, 22, 7, 8), thick(19, 22, -5, 10), thick(15, 22, -19, 9),
       thick(18, -3, 0, 6), thick(19, -3, -6, 7), thick(18, -3, -13, 6),
-      thick(14, -18, -2, 5), thick(14, -18, -7, 5.5), thick(14, -18, -12, 5),
-      thick(9, -30, -3, 5), thick(9, -30, -7, 5.5), thick(9, -30, -11, 5),
-      thick(5, -44, -4, 5), thick(5, -44, -7, 5.5), thick(5, -44, -9, 5),
+      thick(14, -15, -2, 5), thick(14, -15, -7, 5.5), thick(14, -15, -12, 5),
+      thick(10, -25, -3, 5), thick(10, -25, -7, 5.5), thick(10, -25, -11, 5),
+      thick(6, -35, -4, 5), thick(6, -35, -7, 5.5), thick(6, -35, -9, 5),
   }}, brachialis_volume, 2000, 0.0035, 0.44, 0.78, 30, humerus, ulna, 0, 0.68};
 }
 
@@ -65,7 +65,7 @@ MusclePlan biceps_long() {
       thick(26, -5, 9, 4.4), thick(26, -5, 8, 4.4),
       thick(12.5, -25, 6, 4.4), thick(10, -25, 4, 4.4),
       thick(9.8, -38.5, 5.3, 5), thick(5.5, -38.5, 2.7, 5),
-  }}, biceps / 2, 3200, 0.0025, 0.12, 0.945, 30, scapula, radius, 0.44, 0.79};
+  }}, biceps / 2, 3100, 0.0025, 0.12, 0.945, 30, scapula, radius, 0.44, 0.79};
 }
 
 /// Columns from the lateral to the medial side.
@@ -83,9 +83,9 @@ MusclePlan biceps_short() {
       thick(36, 25, -4, 4.8), thick(36, 25, -6, 4.8),
       thick(32, -6, -3, 4.4), thick(32, -6, -4, 4.4),
       thick(23, -32, 0, 4.4), thick(23, -32, -1, 4.4),
-      thick(15, -45, 2.5, 4.6), thick(13.5, -45, 1, 4.6),
-      thick(9, -55.5, 5.3, 5.4), thick(5.5, -55.5, 3, 5.4),
-  }}, biceps / 2, 3200, 0.0025, 0.12, 0.9, 30, scapula, radius, 0.25, 0.67};
+      thick(15, -43, 2.5, 4.6), thick(13.5, -43, 1, 4.6),
+      thick(9, -53, 5.3, 5.4), thick(5.5, -53, 3, 5.4),
+  }}, biceps / 2, 3100, 0.0025, 0.12, 0.9, 30, scapula, radius, 0.25, 0.67};
 }
 
 /// Columns from the lateral to the medial side.
