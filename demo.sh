@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds Gracilis and flexes the built-in hip: ./demo.sh [options of 'gracilis demo']
+# Installs what is missing, builds Gracilis and flexes the built-in hip, or elbow: ./demo.sh [elbow] [options of 'gracilis demo']
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source tools/set_up.sh
@@ -9,7 +9,7 @@ build release gracilis_program >&2
 build/release/bin/gracilis demo --out out/demo --force "$@" >/dev/null
 
 echo
-echo "The hip has moved."
+echo "The muscles have moved."
 echo "  A picture:                   $PWD/out/demo/preview.png"
 echo "  All frames, for ParaView:    $PWD/out/demo/run.pvd"
 echo "  What was measured:           $PWD/out/demo/measures.csv"

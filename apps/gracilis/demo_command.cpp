@@ -1,6 +1,7 @@
 #include "demo_command.hpp"
 #include "session.hpp"
 
+#include <gracilis/anatomy/builtin_elbow.hpp>
 #include <gracilis/anatomy/builtin_hip.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/scene/presets.hpp>
@@ -16,13 +17,30 @@ static void apply_preset(const Preset& preset, Scene& scene) {
   for (Muscle& muscle : scene.muscles) muscle.xpbd = preset.xpbd;
 }
 
+Scene demo_scene(const std::string& name, std::optional<Real> flexion) {
+  if (name == "elbow") {
+    BuiltinElbowOptions elbow;
+    elbow.last_flexion = flexion.value_or(elbow.last_flexion);
+    return builtin_elbow(elbow);
+  }
+  BuiltinHipOptions hip;
+  hip.last_flexion = flexion.value_or(hip.last_flexion);
+  return builtin_hip(hip);
+}
+
 void add_demo_command(CLI::App& program, const std::vector<std::string>& words, Command& chosen) {
-  CLI::App* command = program.add_subcommand("demo", "Flex the built-in hip by 90 degrees; no file needed");
+  CLI::App* command = program.add_subcommand(
+      "demo", "Flex the built-in hip by 90 degrees, or the built-in elbow by 130; no file needed");
   struct Options {
-    std::string preset = "physical", contact;
+    std::string scene = "hip", preset = "physical", contact;
+    std::optional<Real> flexion_deg;
     SessionOptions session;
   };
   const auto options = std::make_shared<Options>();
+  command->add_option("SCENE", options->scene, "Which joint: hip (default) or elbow")
+      ->check(CLI::IsMember({"hip", "elbow"}));
+  command->add_option("--flexion", options->flexion_deg, "How far to flex, degrees (hip 90, elbow 130)")
+      ->check(CLI::Range(0.0, 130.0));
   std::vector<std::string> names;
   for (const Preset& preset : presets()) names.emplace_back(preset.name);
   command
@@ -37,7 +55,8 @@ void add_demo_command(CLI::App& program, const std::vector<std::string>& words, 
   command->callback([&chosen, options] {
     chosen = [options] {
       LoadedScene loaded;
-      loaded.scene = builtin_hip();
+      const std::optional<Real>& flexion = options->flexion_deg;
+      loaded.scene = demo_scene(options->scene, flexion ? std::optional(radians(*flexion)) : std::nullopt);
       loaded.preset = options->preset;
       if (loaded.preset != "physical") apply_preset(*find_preset(loaded.preset), loaded.scene);
       if (!options->contact.empty())

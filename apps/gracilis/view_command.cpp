@@ -1,9 +1,9 @@
 #include "view_command.hpp"
 
 #include "console.hpp"
+#include "demo_command.hpp"
 #include "prepare_command.hpp"
 
-#include <gracilis/anatomy/builtin_hip.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/recorded_run.hpp>
@@ -152,8 +152,8 @@ int view(ViewOptions& options) {
   require_display();
   if (std::filesystem::is_directory(options.what)) {
     view_run(options);
-  } else if (options.what == "demo") {
-    view_scene(builtin_hip(), options, begin);
+  } else if (options.what == "demo" || options.what == "demo-elbow") {
+    view_scene(demo_scene(options.what == "demo" ? "hip" : "elbow"), options, begin);
   } else {
     const LoadedScene loaded = read_scene(options.what, options.scene);
     for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
@@ -169,7 +169,8 @@ void add_view_command(CLI::App& program, Command& chosen) {
   options->scene.prepare = scene_preparation();
   options->scene.say = log_lines;
   CLI::App* command = program.add_subcommand("view", "Look at a run, or move a scene, in a window");
-  command->add_option("WHAT", options->what, "A run folder, a scene file, or demo for the built-in hip")->required();
+  command->add_option("WHAT", options->what, "A run folder, a scene file, demo for the built-in hip, or demo-elbow")
+      ->required();
   command->add_option("--view", options->window.view, "From where at first (lateral)")
       ->check(CLI::IsMember(view_names()));
   command->add_option("--size", options->size, "WIDTHxHEIGHT of the window (1280x720)");

@@ -4,9 +4,10 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
-#include <gracilis/geometry/topology.hpp>
 
 #include <gtest/gtest.h>
+
+#include "builtin_scene_checks.hpp"
 
 #include <algorithm>
 #include <map>
@@ -20,33 +21,7 @@ const Scene& hip() {
   return scene;
 }
 
-int euler_characteristic(const TriangleMesh& mesh) {
-  return mesh.vertex_count() - static_cast<int>(build_topology(mesh.faces, mesh.vertex_count()).edges.size()) +
-         mesh.face_count();
-}
-
-bool is_manifold_at_every_vertex(const TriangleMesh& mesh) {
-  const MeshTopology topology = build_topology(mesh.faces, mesh.vertex_count());
-  std::vector<int> faces(mesh.vertex_count(), 0);
-  for (Index f = 0; f < mesh.face_count(); ++f)
-    for (int c = 0; c < 3; ++c) ++faces[mesh.faces(c, f)];
-  for (Index v = 0; v < mesh.vertex_count(); ++v)
-    if (faces[v] != topology.stars.offsets[v + 1] - topology.stars.offsets[v]) return false;
-  return true;
-}
-
-/// The least signed distance from the vertices and edge midpoints of `mesh` to `other`.
-Real least_distance(const TriangleMesh& mesh, const SignedDistance& other) {
-  Real least = 1;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) least = std::min(least, other.query(mesh.vertices.col(v)).distance);
-  for (const MeshEdge& e : build_topology(mesh.faces, mesh.vertex_count()).edges)
-    least = std::min(least, other.query((mesh.vertices.col(e.a) + mesh.vertices.col(e.b)) / 2).distance);
-  return least;
-}
-
-const Bone& bone(const std::string& name) {
-  return *std::find_if(hip().bones.begin(), hip().bones.end(), [&](const Bone& b) { return b.name == name; });
-}
+const Bone& bone(const std::string& name) { return bone_of(hip(), name); }
 
 TEST(BuiltinHip, has_two_bodies_four_bones_and_six_muscles_that_cross_the_hip) {
   EXPECT_EQ(hip().bodies, (std::vector<std::string>{"pelvis", "femur_r"}));
@@ -67,38 +42,19 @@ TEST(BuiltinHip, has_two_bodies_four_bones_and_six_muscles_that_cross_the_hip) {
 }
 
 TEST(BuiltinHip, every_surface_is_a_closed_manifold_that_looks_outwards) {
-  const auto check = [](const std::string& name, const TriangleMesh& mesh, int genus) {
-    ASSERT_GT(mesh.face_count(), 1000) << name;
-    EXPECT_TRUE(mesh.vertices.allFinite()) << name;
-    EXPECT_TRUE(is_closed(mesh.faces)) << name;
-    EXPECT_TRUE(is_manifold_at_every_vertex(mesh)) << name;
-    EXPECT_EQ(euler_characteristic(mesh), 2 - 2 * genus) << name;
-    EXPECT_GT(enclosed_volume(mesh.vertices, mesh.faces), 5e-5) << name;
-  };
   for (const Bone& b : hip().bones) {
-    check(b.name, b.surface, b.name.starts_with("hip_bone") ? 1 : 0);  // the obturator foramen
+    expect_sound(b.name, b.surface, b.name.starts_with("hip_bone") ? 1 : 0);  // the obturator foramen
     EXPECT_LT(b.surface.face_count(), 20000) << b.name;
   }
   for (const Muscle& m : hip().muscles) {
-    check(m.name, m.surface, 0);
+    expect_sound(m.name, m.surface, 0);
     EXPECT_GT(m.surface.face_count(), 1200) << m.name;
     EXPECT_LT(m.surface.face_count(), 3300) << m.name;
   }
 }
 
 TEST(BuiltinHip, triangles_of_muscles_are_even) {
-  for (const Muscle& m : hip().muscles) {
-    const auto edges = build_topology(m.surface.faces, m.surface.vertex_count()).edges;
-    Real shortest = 1, longest = 0, mean = 0;
-    for (const MeshEdge& e : edges) {
-      const Real length = (m.surface.vertices.col(e.a) - m.surface.vertices.col(e.b)).norm();
-      shortest = std::min(shortest, length);
-      longest = std::max(longest, length);
-      mean += length / static_cast<Real>(edges.size());
-    }
-    EXPECT_GT(shortest, 0.4 * mean) << m.name;
-    EXPECT_LT(longest, 1.7 * mean) << m.name;
-  }
+  for (const Muscle& m : hip().muscles) expect_even_triangles(m);
 }
 
 TEST(BuiltinHip, volumes_are_those_of_the_literature) {
@@ -112,27 +68,9 @@ TEST(BuiltinHip, volumes_are_those_of_the_literature) {
         << m.name;
 }
 
-TEST(BuiltinHip, muscles_keep_clear_of_bones_at_rest) {
-  for (const Bone& b : hip().bones) {
-    const SignedDistance distance(b.surface);
-    for (const Muscle& m : hip().muscles) {
-      EXPECT_GT(least_distance(m.surface, distance), 0.0008) << m.name << " and " << b.name;
-      const SignedDistance to_muscle(m.surface);
-      for (Index v = 0; v < b.surface.vertex_count(); ++v)
-        ASSERT_GT(to_muscle.query(b.surface.vertices.col(v), 0.02).distance, 0.0005) << m.name << " and " << b.name;
-    }
-  }
-}
+TEST(BuiltinHip, muscles_keep_clear_of_bones_at_rest) { expect_clear_of_bones(hip()); }
 
-TEST(BuiltinHip, muscles_keep_clear_of_each_other_at_rest) {
-  for (const Muscle& a : hip().muscles) {
-    const SignedDistance distance(a.surface);
-    for (const Muscle& b : hip().muscles)
-      if (&a != &b) {
-        EXPECT_GT(least_distance(b.surface, distance), 0.001) << b.name << " and " << a.name;
-      }
-  }
-}
+TEST(BuiltinHip, muscles_keep_clear_of_each_other_at_rest) { expect_clear_of_each_other(hip()); }
 
 TEST(BuiltinHip, attachments_are_areas_on_their_bones) {
   const SignedDistance hip_bone(bone("hip_bone_r").surface), sacrum(bone("sacrum").surface),
@@ -158,11 +96,6 @@ TEST(BuiltinHip, attachments_are_areas_on_their_bones) {
 }
 
 TEST(BuiltinHip, landmarks_lie_on_their_bones) {
-  struct Landmark {
-    const char* name;
-    const char* bone;
-    Vec3 point;
-  };
   using builtin_hip_shapes::millimetres;
   const Landmark landmarks[] = {{"anterior superior iliac spine", "hip_bone_r", millimetres(71, 70, 38)},
                                 {"posterior superior iliac spine", "hip_bone_r", millimetres(-78, 95, -46)},
@@ -172,9 +105,7 @@ TEST(BuiltinHip, landmarks_lie_on_their_bones) {
                                 {"lesser trochanter", "femur_r", millimetres(-20, -60, 12)},
                                 {"lateral epicondyle", "femur_r", millimetres(-4, -393, 42)},
                                 {"medial epicondyle", "femur_r", millimetres(-4, -393, -42)}};
-  for (const Landmark& landmark : landmarks)
-    EXPECT_LT(std::abs(SignedDistance(bone(landmark.bone).surface).query(landmark.point).distance), 0.008)
-        << landmark.name;
+  for (const Landmark& landmark : landmarks) expect_on_bone(landmark, bone(landmark.bone));
 }
 
 TEST(BuiltinHip, the_joint_turns_about_the_head_without_the_bones_touching) {
@@ -227,11 +158,7 @@ TEST(BuiltinHip, bones_of_one_body_do_not_overlap) {
 
 TEST(BuiltinHip, the_same_bits_for_any_number_of_threads) {
   const ThreadLimit limit(1);
-  const Scene one = builtin_hip();
-  for (std::size_t i = 0; i < one.muscles.size(); ++i) {
-    EXPECT_EQ(one.muscles[i].surface.vertices, hip().muscles[i].surface.vertices);
-    EXPECT_EQ(one.muscles[i].attachments[0].vertices, hip().muscles[i].attachments[0].vertices);
-  }
+  expect_same_surfaces(builtin_hip(), hip());
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/anatomy/builtin_shapes.hpp>
 #include <gracilis/core/types.hpp>
 #include <gracilis/geometry/implicit_surface.hpp>
 
@@ -10,6 +11,8 @@ namespace gracilis {
 /// in docs/bibliography.md, 'Built-in hip'.
 namespace builtin_hip_shapes {
 
+using namespace builtin_shapes;
+
 /// The median plane is z = median_plane.
 inline constexpr Real median_plane = -0.084;
 inline constexpr Real head_radius = 0.0245;    ///< of the femoral head
@@ -19,10 +22,6 @@ ImplicitSolid right_hip_bone();
 /// The sacrum with the coccyx, kept clear of the right hip bone and its mirror image.
 ImplicitSolid sacrum(const ImplicitSolid& right_hip_bone);
 ImplicitSolid right_femur();
-
-/// A point in millimetres with a radius in millimetres: anatomy is read and written in these.
-inline ThickPoint thick(Real x, Real y, Real z, Real radius) { return {1e-3 * Vec3(x, y, z), 1e-3 * radius}; }
-inline Vec3 millimetres(Real x, Real y, Real z) { return 1e-3 * Vec3(x, y, z); }
 
 }  // namespace builtin_hip_shapes
 }  // namespace gracilis

@@ -1,0 +1,21 @@
+#include "app/program.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace gracilis {
+
+TEST(DemoCommand, flexes_the_elbow_and_meets_the_quality_gates) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "gracilis_demo_command_test";
+  std::filesystem::remove_all(folder);
+  const ProgramResult result = run_program("demo elbow --flexion 6 --strict --out " + folder.string());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "frames" / "biceps_brachii_long_r_0003.vtp"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames" / "biceps_brachii_long_r_0004.vtp"));
+  std::filesystem::remove_all(folder);
+}
+
+TEST(DemoCommand, a_scene_that_is_not_built_in_is_a_usage_error) { EXPECT_EQ(run_program("demo knee").exit_code, 2); }
+
+}  // namespace gracilis
