@@ -2,6 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/geometry/winding_number.hpp>
 
 #include <Eigen/Geometry>
 
@@ -19,16 +20,26 @@ Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
   return box;
 }
 
-InsideVertices vertices_inside(const TriangleMesh& mesh, const SignedDistance& other, const Eigen::AlignedBox3d& box) {
+/// What a surface answers about points.
+struct Solid {
+  explicit Solid(const TriangleMesh& mesh) : distance(mesh), winding(mesh), box(box_of(mesh)) {}
+
+  SignedDistance distance;
+  WindingNumber winding;
+  Eigen::AlignedBox3d box;
+};
+
+InsideVertices vertices_inside(const TriangleMesh& mesh, const Solid& other) {
   InsideVertices inside;
   std::vector<Vec3> outward;
   Index face = -1;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 p = mesh.vertices.col(v);
-    if (!box.contains(p)) continue;
-    const SignedDistance::Answer answer = face < 0 ? other.query(p) : other.query_from(face, p);
+    if (!other.box.contains(p)) continue;
+    const SignedDistance::Answer answer = face < 0 ? other.distance.query(p) : other.distance.query_from(face, p);
     face = answer.nearest.face;
-    if (!(answer.distance < 0)) continue;
+    // Where a surface passes through itself, its nearest part may face the wrong way.
+    if (!(answer.distance < 0) || !(other.winding.query(p) > 0.5)) continue;
     inside.vertices.push_back(v);
     inside.depths.push_back(-answer.distance);
     outward.push_back((answer.nearest.point - p).stableNormalized());
@@ -41,24 +52,20 @@ InsideVertices vertices_inside(const TriangleMesh& mesh, const SignedDistance& o
 }  // namespace
 
 std::vector<RestOverlap> rest_overlaps(const std::vector<TriangleMesh>& surfaces) {
-  std::vector<std::optional<SignedDistance>> distances(surfaces.size());
-  std::vector<Eigen::AlignedBox3d> boxes(surfaces.size());
-  parallel_for_each(surfaces.size(), [&](std::size_t i) {
-    distances[i].emplace(surfaces[i]);
-    boxes[i] = box_of(surfaces[i]);
-  });
+  std::vector<std::optional<Solid>> solids(surfaces.size());
+  parallel_for_each(surfaces.size(), [&](std::size_t i) { solids[i].emplace(surfaces[i]); });
   std::vector<RestOverlap> overlaps;
   for (std::size_t first = 0; first < surfaces.size(); ++first)
     for (std::size_t second = first + 1; second < surfaces.size(); ++second)
-      if (boxes[first].intersects(boxes[second]))
+      if (solids[first]->box.intersects(solids[second]->box))
         overlaps.push_back({static_cast<Index>(first), static_cast<Index>(second), {}, {}});
   parallel_for_each(2 * overlaps.size(), [&](std::size_t i) {
     RestOverlap& overlap = overlaps[i / 2];
     const auto first = static_cast<std::size_t>(overlap.first), second = static_cast<std::size_t>(overlap.second);
     if (i % 2 == 0)
-      overlap.of_first = vertices_inside(surfaces[first], *distances[second], boxes[second]);
+      overlap.of_first = vertices_inside(surfaces[first], *solids[second]);
     else
-      overlap.of_second = vertices_inside(surfaces[second], *distances[first], boxes[first]);
+      overlap.of_second = vertices_inside(surfaces[second], *solids[first]);
   });
   std::erase_if(overlaps, [](const RestOverlap& overlap) {
     return overlap.of_first.vertices.empty() && overlap.of_second.vertices.empty();
