@@ -64,8 +64,9 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const OverlapRepor
   if (scene.method != MethodKind::xpbd || scene.contact.muscle != MuscleContact::surface) return warnings;
   for (const MuscleOverlap& pair : report.pairs)
     if (pair.is_left_out)
-      warnings.push_back("no contact between " + pair.first + " and " + pair.second + ": one passes through the other (" +
-                         millimeters(pair.deepest()) + " deep) in the capture pose");
+      warnings.push_back("no contact between " + pair.first + " and " + pair.second +
+                         ": one passes through the other (" + millimeters(pair.deepest()) +
+                         " deep) in the capture pose");
   return warnings;
 }
 

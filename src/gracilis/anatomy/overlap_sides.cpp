@@ -47,7 +47,8 @@ Side side_of(const InsideVertices& inside, const TriangleMesh& mesh) {
   const VertexStars stars = build_topology(mesh.faces, mesh.vertex_count()).stars;
   const Eigen::VectorXd areas = vertex_areas(mesh.vertices, mesh.faces);
   std::vector<char> is_inside(count, 0), is_outside(count, 1);
-  for (const Index v : inside.vertices) is_inside[static_cast<std::size_t>(v)] = 1, is_outside[static_cast<std::size_t>(v)] = 0;
+  for (const Index v : inside.vertices)
+    is_inside[static_cast<std::size_t>(v)] = 1, is_outside[static_cast<std::size_t>(v)] = 0;
   std::vector<int> region, piece;
   const auto regions = static_cast<std::size_t>(number_parts(stars, is_inside, region));
   const auto pieces = static_cast<std::size_t>(number_parts(stars, is_outside, piece));
@@ -90,8 +91,8 @@ Side side_of(const InsideVertices& inside, const TriangleMesh& mesh) {
   for (std::size_t r = 0; r < regions; ++r) area += region_area[r], clear_area += clear[r] ? region_area[r] : 0;
   side.is_clear = 2 * clear_area >= area;
   for (std::size_t v = 0; v < count; ++v)
-    side.astray[v] = region[v] >= 0 ? !clear[static_cast<std::size_t>(region[v])]
-                                    : cut_off[static_cast<std::size_t>(piece[v])];
+    side.astray[v] =
+        region[v] >= 0 ? !clear[static_cast<std::size_t>(region[v])] : cut_off[static_cast<std::size_t>(piece[v])];
   return side;
 }
 

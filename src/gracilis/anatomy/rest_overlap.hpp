@@ -11,8 +11,8 @@ namespace gracilis {
 
 /// The vertices of one surface that lie inside another.
 struct InsideVertices {
-  std::vector<Index> vertices;   ///< ascending
-  std::vector<Real> depths;      ///< m, above 0
+  std::vector<Index> vertices;    ///< ascending
+  std::vector<Real> depths;       ///< m, above 0
   Points outward = Points(3, 0);  ///< unit, from each to the nearest point of the other surface; 0 where it lies on it
 
   Real deepest() const { return depths.empty() ? 0 : *std::max_element(depths.begin(), depths.end()); }

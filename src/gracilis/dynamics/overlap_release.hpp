@@ -7,11 +7,11 @@ namespace gracilis {
 /// Bounds what a contact may ask for within a step by where the step began. What came in since then has to go out
 /// again; what was in before comes out by and by.
 struct OverlapRelease {
-  const ContactSurface& surface;        ///< that the particle is near to
-  const Particles &probe, &target;      ///< before the step
-  const Eigen::Matrix3Xf& normals;      ///< of the target
-  Eigen::Vector3f shift;                ///< from the probe's coordinates to the target's
-  const std::vector<char>& overlaps;    ///< which of the probe's particles lie in the target at rest; empty: none
+  const ContactSurface& surface;      ///< that the particle is near to
+  const Particles &probe, &target;    ///< before the step
+  const Eigen::Matrix3Xf& normals;    ///< of the target
+  Eigen::Vector3f shift;              ///< from the probe's coordinates to the target's
+  const std::vector<char>& overlaps;  ///< which of the probe's particles lie in the target at rest; empty: none
 
   bool overlapped_at_rest(Index particle) const {
     return !overlaps.empty() && overlaps[static_cast<std::size_t>(particle)];

@@ -53,7 +53,9 @@ Index nearest_corner(const Eigen::Vector3i& corners, const Eigen::Matrix3Xf& poi
 }  // namespace
 
 float SelfRule::side(Index particle, Index face) const {
-  return face_area(surface, face, particles).dot(area_around(surface, particles, particle)) < 0 ? side_when_facing(particle, face) : 0;
+  return face_area(surface, face, particles).dot(area_around(surface, particles, particle)) < 0
+             ? side_when_facing(particle, face)
+             : 0;
 }
 
 float SelfRule::side_when_facing(Index particle, Index face) const {

@@ -202,8 +202,8 @@ std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen:
   std::vector<FacePair> cuts;
   Index looks = most_looks * static_cast<Index>(surface.faces.cols());
   for (auto one = boxes.begin(); one != boxes.end() && looks > 0; ++one)
-    for (auto other = one + 1;
-         other != boxes.end() && other->box.min()[along] <= one->box.max()[along] && looks > 0; ++other, --looks) {
+    for (auto other = one + 1; other != boxes.end() && other->box.min()[along] <= one->box.max()[along] && looks > 0;
+         ++other, --looks) {
       const FacePair pair = {std::min(one->face, other->face), std::max(one->face, other->face)};
       if (one->box.intersects(other->box) && cut_each_other(surface, pair[0], pair[1], now) &&
           !cut_each_other(surface, pair[0], pair[1], then) && !cut_each_other(surface, pair[0], pair[1], earlier) &&

@@ -80,21 +80,21 @@ Eigen::Vector3f friction_of(const Contact& contact, float friction, float push, 
 
 /// What contacts move.
 struct Moved {
-  const Particles& start;   ///< where the step began
-  Particles& particles;     ///< where they are
-  Eigen::Matrix3Xf& pushed;  ///< by contacts since then, m
+  const Particles& start;  ///< where the step began
+  Particles& particles;    ///< where they are
 
-  /// Moves a particle, no further from where contacts found it than `most`.
-  void push(Index particle, Eigen::Vector3f by, float most) {
-    const Eigen::Vector3f so_far = pushed.col(particle);
-    Eigen::Vector3f then = so_far + by;
-    const float length = then.norm();
+  /// Moves a particle, but not away from where the step began once it is `most` from there.
+  void push(Index particle, const Eigen::Vector3f& by, float most) {
+    const Eigen::Vector3f from = particles.position(particle) - start.position(particle), to = from + by;
+    const float length = to.norm();
     if (length > most) {
-      then *= most / length;
-      by = then - so_far;
+      const float kept = std::max(most, from.norm());
+      if (length > kept) {
+        particles.position(particle) = start.position(particle) + kept / length * to;
+        return;
+      }
     }
     particles.position(particle) += by;
-    pushed.col(particle) = then;
   }
 };
 
@@ -178,14 +178,14 @@ void arrange_rounds(SurfaceCrowd& crowd) {
   crowd.rounds = rounds_of(pairs);
 }
 
-Index project_touches(const SurfaceCrowd& crowd, CrowdState& state, const std::vector<const Particles*>& start,
+Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
                       const std::vector<Particles*>& particles) {
   std::atomic<Index> count = 0;
   const auto project_pair = [&](Index number) {
     const SurfacePair& pair = crowd.pairs[static_cast<std::size_t>(number)];
     const PairTouches& touches = state.touches[static_cast<std::size_t>(number)];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-    const Moved first{*start[a], *particles[a], state.pushed[a]}, second{*start[b], *particles[b], state.pushed[b]};
+    const Moved first{*start[a], *particles[a]}, second{*start[b], *particles[b]};
     Index pushed = project_edges(crowd, pair, state, touches.edges, first, second);
     pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, first, second);
     pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, second, first);

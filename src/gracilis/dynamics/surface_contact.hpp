@@ -12,8 +12,8 @@ struct SurfaceContactSettings {
   float friction = 0;     ///< largest tangential motion taken back, as a share of the push
   float cohesion = 0;     ///< m, farthest that particles which touch at rest may part; 0: as they like
   int update_period = 5;  ///< frames after which everything is searched anew
-  float most_motion = std::numeric_limits<float>::infinity();  ///< m, that contacts move a particle within a step, all
-                                                               ///< together
+  /// m, that contacts take a particle away from where a step began
+  float most_motion = std::numeric_limits<float>::infinity();
 };
 
 /// Two surfaces that must not pass through each other, or one with itself. A particle keeps its gap to the other
@@ -25,7 +25,7 @@ struct SurfacePair {
   float reach = 0.006f;                      ///< m, farthest that one is looked for from the other, once per step
   std::vector<float> first_gap, second_gap;  ///< m, per particle
   std::vector<char> first_overlaps, second_overlaps;  ///< which particles lie in the other at rest; empty: none
-  std::vector<char> first_touches, second_touches;  ///< which particles touch the other at rest; for cohesion
+  std::vector<char> first_touches, second_touches;    ///< which particles touch the other at rest; for cohesion
   bool is_self() const { return first == second; }
 };
 
@@ -72,8 +72,7 @@ struct PairTouches {
   bool none_listed() const { return on_second.empty() && on_first.empty() && edges.empty(); }
 };
 struct CrowdState {
-  std::vector<Particles> before;        ///< per surface, where its particles were before the step
-  std::vector<Eigen::Matrix3Xf> pushed;  ///< per surface, what contacts moved its particles since then, m
+  std::vector<Particles> before;  ///< per surface, where its particles were before the step
   std::vector<PatchTree> trees;
   std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where the next iterations ask
   std::vector<PairTouches> touches;       ///< one per pair
@@ -107,9 +106,9 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
 
 /// Projects all listed contacts: points against faces, then edges against edges, without compliance, each side moving
 /// by its inverse masses so that momentum is kept. No particle goes further at once than twice what is missing from the
-/// gap, nor further than `most_motion` since the step began; momentum is lost where that holds one back. `start` are the
-/// particles where the step began, for friction. Returns how many pushed.
-Index project_touches(const SurfaceCrowd& crowd, CrowdState& state, const std::vector<const Particles*>& start,
+/// gap, nor further than `most_motion` from `start`, where the step began; momentum is lost where that holds one back.
+/// Returns how many pushed.
+Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
                       const std::vector<Particles*>& particles);
 
 /// Mends every surface that keeps out of itself but cuts itself all the same, after a follow_touches: takes it to its

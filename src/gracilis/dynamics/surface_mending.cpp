@@ -37,9 +37,8 @@ bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int atte
     if (!crowd.pairs[i].is_self()) return;
     const auto at = static_cast<std::size_t>(crowd.pairs[i].first);
     const ContactSurface& surface = crowd.surfaces[at];
-    const std::vector<FacePair> cuts =
-        find_self_cuts(surface, crowd.rest[at], state.before[at], *particles[at],
-                       suspects(surface, state.touches[i], *particles[at]));
+    const std::vector<FacePair> cuts = find_self_cuts(surface, crowd.rest[at], state.before[at], *particles[at],
+                                                      suspects(surface, state.touches[i], *particles[at]));
     const float most = mended_within * crowd.neighborhood[at];
     if (attempt % 2 == 0)
       unfold(surface, crowd.rest[at], cuts, most, *particles[at]);

@@ -157,10 +157,8 @@ void ask_to_project(const SurfaceCrowd& crowd, const CrowdState& state, NormalMa
 
 CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
   CrowdState state;
-  for (const Eigen::Matrix3Xf& rest : crowd.rest) {
+  for (const Eigen::Matrix3Xf& rest : crowd.rest)
     state.before.push_back(make_particles(rest.cast<Real>(), Eigen::VectorXd::Zero(rest.cols())));
-    state.pushed.push_back(Eigen::Matrix3Xf::Zero(3, rest.cols()));
-  }
   for (std::size_t s = 0; s < crowd.surfaces.size(); ++s)
     state.trees.push_back(build_patch_tree(crowd.surfaces[s], crowd.rest[s]));
   state.normals = crowd.rest_normals;
@@ -169,10 +167,7 @@ CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
 }
 
 void remember_places(const std::vector<const Particles*>& particles, CrowdState& state) {
-  for (std::size_t s = 0; s < particles.size(); ++s) {
-    state.before[s] = *particles[s];
-    state.pushed[s].setZero();
-  }
+  for (std::size_t s = 0; s < particles.size(); ++s) state.before[s] = *particles[s];
 }
 
 void begin_touch_frame(const SurfaceCrowd& crowd, CrowdState& state) {

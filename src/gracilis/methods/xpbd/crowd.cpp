@@ -81,15 +81,15 @@ SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<Prep
     }
   for (SurfacePair& pair : crowd.pairs)
     // Parts of one surface come near each other slowly, but edges may cross halfway between particles.
-    pair.reach = pair.is_self() ? std::max(least_self_reach, self_reach_edges / neighborhood_edges *
-                                                                 crowd.neighborhood[static_cast<std::size_t>(pair.first)])
-                                : static_cast<float>(overlaps.deepest(pair.first, pair.second) + settings.reach);
+    pair.reach = pair.is_self()
+                     ? std::max(least_self_reach, self_reach_edges / neighborhood_edges *
+                                                      crowd.neighborhood[static_cast<std::size_t>(pair.first)])
+                     : static_cast<float>(overlaps.deepest(pair.first, pair.second) + settings.reach);
   arrange_rounds(crowd);
 
   CrowdState state = gracilis::make_crowd_state(crowd);
   find_touches(crowd, rest, state);
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i)
-    measure_rest_gaps(state, rest, i, crowd);
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) measure_rest_gaps(state, rest, i, crowd);
   return crowd;
 }
 

@@ -41,8 +41,9 @@ struct RestSide {
   const std::vector<char>& overlaps;
 
   float distance(const PointTouch& touch) const {
-    return touch.side * point_gap(probe.position(touch.particle) + shift, target_surface, touch.face, target,
-                                  target_normals).distance;
+    return touch.side *
+           point_gap(probe.position(touch.particle) + shift, target_surface, touch.face, target, target_normals)
+               .distance;
   }
 };
 
@@ -70,11 +71,13 @@ void gather_grown_together(const std::vector<PointTouch>& near, const RestSide& 
     if (!(rest < 0)) continue;
     const auto lower = [rest](float& depth) { depth = std::min(depth, rest); };
     lower(of_probe[static_cast<std::size_t>(touch.particle)]);
-    for (const Index corner : side.target_surface.faces.col(touch.face)) lower(of_target[static_cast<std::size_t>(corner)]);
+    for (const Index corner : side.target_surface.faces.col(touch.face))
+      lower(of_target[static_cast<std::size_t>(corner)]);
   }
 }
 
-/// Lowers gaps around what has a depth: to that depth, and by `release_slope` of the way from there less (Dijkstra 1959).
+/// Lowers gaps around what has a depth: to that depth, and by `release_slope` of the way from there less (Dijkstra
+/// 1959).
 void fade_release(const ContactSurface& surface, const Particles& rest, std::vector<float> depth,
                   std::vector<float>& gaps) {
   using Item = std::pair<float, Index>;
@@ -91,7 +94,8 @@ void fade_release(const ContactSurface& surface, const Particles& rest, std::vec
       const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
       const Index other = ends[0] == p ? ends[1] : ends[0];
       const float there = reached + release_slope * (rest.position(other) - rest.position(p)).norm();
-      if (!(there < depth[static_cast<std::size_t>(other)]) || !(there < gaps[static_cast<std::size_t>(other)])) continue;
+      if (!(there < depth[static_cast<std::size_t>(other)]) || !(there < gaps[static_cast<std::size_t>(other)]))
+        continue;
       depth[static_cast<std::size_t>(other)] = there;
       open.emplace(there, other);
     }
