@@ -4,9 +4,11 @@
 #include "exit_handling.hpp"
 
 #include <gracilis/anatomy/attachments.hpp>
+#include <gracilis/anatomy/overlap_report.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/stop.hpp>
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/run_folder.hpp>
 #include <gracilis/io/scene_template.hpp>
@@ -19,6 +21,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 
 namespace gracilis {
 namespace {
@@ -84,11 +88,14 @@ class Session {
         folder_(out_folder(), loaded.scene, poses_, existing()) {}
 
   int run() {
-    stop_requested();  // from here on a signal ends the run after its present frame
+    stop_requested();  // from here on a signal ends the run, but not while a frame is written
     describe_scene();
-    spdlog::info("fibers");
-    const FiberTracker tracker(loaded_.scene);
-    const auto method = make_scene_method(loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
+    try {
+      prepare();
+    } catch (const Interrupted&) {
+      write_manifest("interrupted");
+      return close(RunEnd::interrupted);
+    }
     write_manifest("running");
     const ResumePoint* resume = folder_.resume_point() ? &*folder_.resume_point() : nullptr;
     if (resume) spdlog::info("going on after frame {}", resume->last.number);
@@ -97,24 +104,34 @@ class Session {
     Progress progress(resume ? resume->last.number : 0, last);
     try {
       end = run_scene(
-          loaded_.scene, poses_, *method, resume, stop_requested(),
+          loaded_.scene, poses_, *method_, resume, stop_requested(),
           [&](const FrameRecord& record) {
             folder_.write_frame(record);
             summary_.add(record);
             progress.show(record.frame.number);
           },
-          &tracker);
+          &*tracker_);
     } catch (const QualityError& error) {
       progress.clear();
       finish(std::string("failed: ") + error.what());
       throw;
     }
     progress.clear();
-    finish(end == RunEnd::complete ? "complete" : "interrupted");
+    end == RunEnd::complete ? finish("complete") : drop();
     return close(end);
   }
 
  private:
+  void prepare() {
+    const StopScope scope(&stop_requested());
+    overlaps_ = report_overlaps(loaded_.scene);
+    for (const std::string& warning : overlap_warnings(loaded_.scene, overlaps_)) warn(warning);
+    spdlog::info("fibers");
+    tracker_.emplace(loaded_.scene);
+    method_ = make_scene_method(
+        loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
+  }
+
   std::filesystem::path out_folder() const {
     return options_.out.empty() ? std::filesystem::path("runs") / loaded_.scene.name : options_.out;
   }
@@ -178,10 +195,18 @@ class Session {
     manifest.warnings = warnings_;
     for (const Muscle& muscle : loaded_.scene.muscles)
       if (muscle.action_line.rays > 0) manifest.lines.emplace_back(muscle.name, muscle.action_line);
+    manifest.overlaps = overlaps_;
     manifest.axes = loaded_.scene.axes;
     manifest.status = status;
     manifest.threads = thread_count();
     folder_.write_manifest(manifest);
+  }
+
+  /// Leaves what can be resumed, at once: no charts and no preview.
+  void drop() {
+    summarize();
+    folder_.finish();
+    write_manifest("interrupted");
   }
 
   void finish(const std::string& status) {
@@ -200,7 +225,10 @@ class Session {
 
   int close(RunEnd end) const {
     if (end == RunEnd::interrupted) {
-      spdlog::warn("stopped after frame {}; --resume goes on from there", folder_.frame_count() - 1);
+      if (folder_.frame_count() > 0)
+        spdlog::warn("stopped after frame {}; --resume goes on from there", folder_.frame_count() - 1);
+      else
+        spdlog::warn("stopped before the first frame; --resume begins it");
       return static_cast<int>(ExitCode::interrupted);
     }
     fmt::print("{}\n", folder_.path().string());
@@ -213,6 +241,9 @@ class Session {
   ThreadLimit threads_;
   RunFolder folder_;
   Summary summary_;
+  OverlapReport overlaps_;
+  std::optional<FiberTracker> tracker_;
+  std::unique_ptr<DeformationMethod> method_;
   std::vector<std::string> warnings_, guessed_;
 };
 

@@ -106,6 +106,21 @@ TEST_F(RunCommand, an_interrupted_run_exits_with_130_and_resumes_to_the_same_bit
   EXPECT_EQ(manifest()["frames"], 13);
 }
 
+TEST_F(RunCommand, SIGTERM_ends_a_run_within_a_second_in_the_middle_of_a_frame) {
+  // A frame of as many iterations would take hours.
+  const std::string command = "run " + folder.write("scene.toml", good_scene()).string() + " --set iterations=100000";
+  const ProgramResult stopped = run_program(
+      command + " --out " + out() + " 2>" + folder.path("log").string() + " & pid=$!; while kill -0 $pid && [ ! -e " +
+      frame_file(out(), "femur", 0).string() +
+      " ]; do sleep 0.05; done; sleep 0.5; kill -TERM $pid; sleep 1; kill -0 $pid 2>/dev/null && echo late; wait $pid");
+  EXPECT_EQ(stopped.exit_code, 130);
+  EXPECT_EQ(stopped.out, "");
+  EXPECT_EQ(manifest()["status"], "interrupted");
+  EXPECT_EQ(run_program("inspect " + out()).exit_code, 0);
+  EXPECT_EQ(run(good_scene(), "--resume").exit_code, 0);
+  EXPECT_EQ(manifest()["frames"], 13);
+}
+
 TEST_F(RunCommand, a_wrong_scene_exits_with_2_lists_every_problem_and_writes_nothing) {
   const ProgramResult result = run(good_scene() + "stepp = 1\n[settings]\niterations = 0\n");
   EXPECT_EQ(result.exit_code, 2);

@@ -1,11 +1,14 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/simulate/run.hpp>
 
-#include <scenes_for_tests.hpp>
 #include <gracilis/core/state_hash.hpp>
+#include <scenes_for_tests.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
 
 namespace gracilis {
 namespace {
@@ -103,6 +106,26 @@ TEST(RunScene, stops_between_frames_when_asked_to) {
   });
   EXPECT_EQ(end, RunEnd::interrupted);
   EXPECT_EQ(frames, 3);
+}
+
+TEST(RunScene, stops_within_a_second_in_the_middle_of_a_frame) {
+  XpbdSettings endless;
+  endless.iterations = 100000000;
+  const Scene scene = tube_scene(endless);
+  std::atomic<bool> stop = false;
+  std::chrono::steady_clock::time_point asked;
+  std::thread user([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    asked = std::chrono::steady_clock::now();
+    stop = true;
+  });
+  Recorder recorder;
+  const RunEnd end = run_scene(scene, poses_of(scene, 3), *xpbd_on_tube(scene), nullptr, stop, recorder.function());
+  const auto ended = std::chrono::steady_clock::now();
+  user.join();
+  EXPECT_EQ(end, RunEnd::interrupted);
+  EXPECT_EQ(recorder.records.size(), 1u) << "the capture pose; the frame under way is dropped";
+  EXPECT_LT(ended - asked, std::chrono::seconds(1));
 }
 
 TEST(RunScene, resumed_gives_the_frames_an_uninterrupted_run_gives) {

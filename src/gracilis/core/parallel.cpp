@@ -1,5 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 
+#include <gracilis/core/stop.hpp>
+
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
@@ -9,12 +11,19 @@
 namespace gracilis {
 
 void parallel_for(Index count, Index grain, const std::function<void(Index, Index)>& body) {
+  throw_if_stopped();
   if (count <= 0) return;
   const Index chunks = (count + grain - 1) / grain;
   if (chunks == 1) return body(0, count);
   // One task per fixed chunk: the cuts are a property of the work, not of the machine.
+  const std::atomic<bool>* const flag = stop_flag();
   tbb::parallel_for(
-      Index{0}, chunks, [&](Index chunk) { body(chunk * grain, std::min(count, (chunk + 1) * grain)); },
+      Index{0}, chunks,
+      [&](Index chunk) {
+        const StopScope scope(flag);
+        throw_if_stopped();
+        body(chunk * grain, std::min(count, (chunk + 1) * grain));
+      },
       tbb::simple_partitioner());
 }
 

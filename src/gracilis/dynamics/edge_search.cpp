@@ -2,10 +2,12 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/edge_crossings.hpp>
+#include <gracilis/dynamics/overlap_release.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace gracilis {
 
@@ -36,6 +38,30 @@ Eigen::Vector3f edge_normal(const ContactSurface& surface, Index edge, const Par
     sum += face_area(surface, face, particles).normalized();
   }
   return sum;
+}
+
+bool any_overlaps(const std::vector<char>& overlaps, const std::array<Index, 2>& ends) {
+  return !overlaps.empty() &&
+         (overlaps[static_cast<std::size_t>(ends[0])] || overlaps[static_cast<std::size_t>(ends[1])]);
+}
+
+float largest_gap(const std::vector<float>& gaps, const std::array<Index, 2>& ends) {
+  return std::max(gaps[static_cast<std::size_t>(ends[0])], gaps[static_cast<std::size_t>(ends[1])]);
+}
+
+/// What two edges at this distance from each other may be asked to keep in this step, m; nothing where they overlap at
+/// rest and did not cross before the step. `outward` is as edge_gap wants it.
+std::optional<float> most_gap(const SurfacePair& pair, float distance, const std::array<Index, 2>& first,
+                              const std::array<Index, 2>& second, const Particles& first_before,
+                              const Particles& second_before, const Eigen::Vector3f& outward) {
+  const bool overlapped = any_overlaps(pair.first_overlaps, first) || any_overlaps(pair.second_overlaps, second);
+  if (distance >= 0 && !overlapped) return infinity;
+  const EdgeGap before =
+      edge_gap(first_before.position(first[0]) + pair.shift, first_before.position(first[1]) + pair.shift,
+               second_before.position(second[0]), second_before.position(second[1]), outward);
+  if (!before.crossing) return overlapped ? std::nullopt : std::optional(infinity);
+  const float gap = std::max(largest_gap(pair.first_gap, first), largest_gap(pair.second_gap, second));
+  return released(before.distance, gap, overlapped);
 }
 
 /// Whether a particle is so near that an edge of this length from it may cross another closely: one that does has an
@@ -88,7 +114,8 @@ std::vector<Index> edges_around(const std::vector<PointTouch>& near, const Touch
 }  // namespace
 
 void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::vector<const Particles*>& particles,
-                const std::vector<PointTouch>& near_second, const SelfRule* self, std::vector<EdgeTouch>& found) {
+                const std::vector<Particles>& before, const std::vector<PointTouch>& near_second, const SelfRule* self,
+                std::vector<EdgeTouch>& found) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   const ContactSurface &first = crowd.surfaces[a], &second = crowd.surfaces[b];
   found.clear();
@@ -127,8 +154,12 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
         const Eigen::Vector3f outward = side * (edge_normal(second, candidate, *particles[b]) - own_normal);
         const Segment its = segment_of(candidate);
         const EdgeGap gap = edge_gap(edge.from, edge.to, its.from, its.to, outward);
-        if (gap.crossing && std::abs(gap.distance) < edges_listed_within)
-          part.push_back({e, candidate, side, self ? self->most_gap(ends, other) : infinity});
+        if (!gap.crossing || !(std::abs(gap.distance) < edges_listed_within)) continue;
+        EdgeTouch touch{e, candidate, side, self ? self->most_gap(ends, other) : infinity};
+        const std::optional<float> most = most_gap(pair, gap.distance, ends, other, before[a], before[b], outward);
+        if (!most) continue;
+        touch.most_gap = std::min(touch.most_gap, *most);
+        part.push_back(touch);
       }
     }
   });

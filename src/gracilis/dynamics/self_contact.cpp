@@ -1,7 +1,5 @@
 #include <gracilis/dynamics/self_contact.hpp>
 
-#include <gracilis/geometry/point_triangle.hpp>
-
 #include <Eigen/Geometry>
 
 namespace gracilis {
@@ -35,19 +33,9 @@ float decided_at_rest(const Part& one, const Part& other, float neighborhood) {
   return is_sheet && cosine < alike ? side : 0;
 }
 
-Eigen::Vector3f area_of(const Eigen::Matrix3Xf& points, const Eigen::Vector3i& face) {
-  const Eigen::Vector3f a = points.col(face[0]), b = points.col(face[1]), c = points.col(face[2]);
-  return (b - a).cross(c - a);
-}
-
 /// Of the surface around a particle, its area vectors' sum.
-Eigen::Vector3f area_around(const ContactSurface& surface, const Eigen::Matrix3Xf& points, Index particle) {
-  return sum_around(surface, particle, [&](Index face) { return area_of(points, surface.faces.col(face)); });
-}
-
-/// Whether a point is in front of or behind a triangle, right over it.
-bool is_over(const Eigen::Vector3f& p, const Eigen::Matrix3Xf& points, const Eigen::Vector3i& face) {
-  return nearest_barycentric(p, points.col(face[0]), points.col(face[1]), points.col(face[2])).minCoeff() > 0;
+Eigen::Vector3f area_around(const ContactSurface& surface, const Particles& particles, Index particle) {
+  return sum_around(surface, particle, [&](Index face) { return face_area(surface, face, particles); });
 }
 
 bool share_an_end(const std::array<Index, 2>& edge, const std::array<Index, 2>& other) {
@@ -65,9 +53,9 @@ Index nearest_corner(const Eigen::Vector3i& corners, const Eigen::Matrix3Xf& poi
 }  // namespace
 
 float SelfRule::side(Index particle, Index face) const {
-  const Eigen::Vector3f outward =
-      sum_around(surface, particle, [&](Index each) { return face_area(surface, each, particles); });
-  return face_area(surface, face, particles).dot(outward) < 0 ? side_when_facing(particle, face) : 0;
+  return face_area(surface, face, particles).dot(area_around(surface, particles, particle)) < 0
+             ? side_when_facing(particle, face)
+             : 0;
 }
 
 float SelfRule::side_when_facing(Index particle, Index face) const {
@@ -79,9 +67,11 @@ float SelfRule::side_when_facing(Index particle, Index face) const {
   const float decided =
       decided_at_rest({rest.col(particle), rest_normals.col(particle)}, {rest.col(corner), facing}, neighborhood);
   if (decided != 0) return decided;
-  const Eigen::Vector3f area = area_of(before, corners);
-  if (area.dot(area_around(surface, before, particle)) < 0 && is_over(before.col(particle), before, corners))
-    return area.dot(before.col(particle) - before.col(corners[0])) < 0 ? -1.0f : 1.0f;
+  const Eigen::Vector3f area = face_area(surface, face, before), p = before.position(particle);
+  // Whether it was in front of or behind the face, right over it.
+  if (area.dot(area_around(surface, before, particle)) < 0 &&
+      nearest_on_face(p, surface, face, before).barycentric.minCoeff() > 0)
+    return area.dot(p - before.position(corners[0])) < 0 ? -1.0f : 1.0f;
   // What comes from afar comes from outside.
   return (rest.col(corner) - rest.col(particle)).norm() > thickest_sheet * neighborhood ? 1.0f : 0.0f;
 }
@@ -99,8 +89,8 @@ float SelfRule::side(const std::array<Index, 2>& edge, const std::array<Index, 2
   };
   const Eigen::Vector3f own = normal(edge), facing = normal(other);
   if (!(own.dot(facing) < 0)) return 0;
-  const EdgeGap gap =
-      edge_gap(before.col(edge[0]), before.col(edge[1]), before.col(other[0]), before.col(other[1]), facing - own);
+  const EdgeGap gap = edge_gap(before.position(edge[0]), before.position(edge[1]), before.position(other[0]),
+                               before.position(other[1]), facing - own);
   return !gap.crossing ? 0.0f : gap.distance < 0 ? -1.0f : 1.0f;
 }
 

@@ -9,8 +9,8 @@ namespace gracilis {
 /// each other or lay back to back at rest stays so; elsewhere the places before the step tell.
 struct SelfRule {
   const ContactSurface& surface;
-  const Eigen::Matrix3Xf &rest, &rest_normals, &before;
-  const Particles& particles;
+  const Eigen::Matrix3Xf &rest, &rest_normals;
+  const Particles &before, &particles;
   float neighborhood;  ///< m
 
   /// For a particle and a face that face against each other now; 0 for others.

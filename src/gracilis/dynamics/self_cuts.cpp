@@ -4,6 +4,7 @@
 #include <Eigen/SVD>
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace gracilis {
 
@@ -15,6 +16,9 @@ constexpr float half = 0.5f;
 constexpr int fitted_rings = 3;
 /// Weight of the turn alone in the map, against what the places tell: a flat part tells nothing across itself.
 constexpr float turn_weight = 0.1f;
+
+/// Pairs that are looked at for each face of a surface.
+constexpr Index most_looks = 500;
 
 using Corners = std::array<Eigen::Vector3d, 3>;
 
@@ -89,18 +93,30 @@ std::vector<Index> with_neighbors(const ContactSurface& surface, const std::vect
   return grown;
 }
 
-/// The corners of cuts that hang together by common corners, each part sorted.
+/// The corners of cuts that hang together by common corners, each part sorted, in the order of their last cuts.
 std::vector<std::vector<Index>> parts_of(const ContactSurface& surface, const std::vector<FacePair>& cuts) {
-  std::vector<std::vector<Index>> parts;
-  for (const FacePair& cut : cuts) {
-    std::vector<Index> part = corners_of(surface, cut);
-    const auto is_apart = [corners = part](const std::vector<Index>& other) {
-      return std::none_of(corners.begin(), corners.end(),
-                          [&](Index corner) { return std::binary_search(other.begin(), other.end(), corner); });
-    };
-    const auto joined = std::stable_partition(parts.begin(), parts.end(), is_apart);
-    for (auto other = joined; other != parts.end(); ++other) part.insert(part.end(), other->begin(), other->end());
-    parts.erase(joined, parts.end());
+  std::vector<std::size_t> parent(cuts.size());
+  const auto root = [&](std::size_t cut) {
+    while (parent[cut] != cut) cut = parent[cut] = parent[parent[cut]];
+    return cut;
+  };
+  std::unordered_map<Index, std::size_t> cut_at;
+  for (std::size_t cut = 0; cut < cuts.size(); ++cut) {
+    parent[cut] = cut;
+    for (const Index corner : corners_of(surface, cuts[cut])) {
+      const auto [at, is_new] = cut_at.try_emplace(corner, cut);
+      // The later cut is the root, so that roots are the parts' last cuts.
+      if (!is_new) parent[root(at->second)] = cut, at->second = cut;
+    }
+  }
+  std::vector<std::vector<Index>> of_root(cuts.size()), parts;
+  for (std::size_t cut = 0; cut < cuts.size(); ++cut) {
+    const std::vector<Index> corners = corners_of(surface, cuts[cut]);
+    std::vector<Index>& part = of_root[root(cut)];
+    part.insert(part.end(), corners.begin(), corners.end());
+  }
+  for (std::vector<Index>& part : of_root) {
+    if (part.empty()) continue;
     keep_each_once(part);
     parts.push_back(std::move(part));
   }
@@ -138,9 +154,12 @@ AffineMap fit(const std::vector<Index>& listed, const Eigen::Matrix3Xf& rest, co
   return map;
 }
 
-void move_toward(const Eigen::Vector3f& goal, float share, Index particle, Particles& particles) {
-  if (particles.inverse_mass(particle) > 0)
-    particles.position(particle) += share * (goal - particles.position(particle));
+void move_toward(const Eigen::Vector3f& goal, float share, float most, Index particle, Particles& particles) {
+  if (!(particles.inverse_mass(particle) > 0)) return;
+  Eigen::Vector3f way = share * (goal - particles.position(particle));
+  const float length = way.norm();
+  if (length > most) way *= most / length;
+  particles.position(particle) += way;
 }
 
 }  // namespace
@@ -159,7 +178,7 @@ void gather_folded(const ContactSurface& surface, const Particles& particles, st
 }
 
 std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen::Matrix3Xf& rest,
-                                     const Particles& particles, std::vector<Index> faces) {
+                                     const Particles& before, const Particles& particles, std::vector<Index> faces) {
   keep_each_once(faces);
   struct FaceBox {
     Index face;
@@ -179,30 +198,35 @@ std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen:
                    [along](const FaceBox& l, const FaceBox& r) { return l.box.min()[along] < r.box.min()[along]; });
   const auto now = [&](Index p) -> Eigen::Vector3d { return particles.position(p).cast<double>(); };
   const auto then = [&](Index p) -> Eigen::Vector3d { return rest.col(p).cast<double>(); };
+  const auto earlier = [&](Index p) -> Eigen::Vector3d { return before.position(p).cast<double>(); };
   std::vector<FacePair> cuts;
-  for (auto one = boxes.begin(); one != boxes.end(); ++one)
-    for (auto other = one + 1; other != boxes.end() && other->box.min()[along] <= one->box.max()[along]; ++other) {
+  Index looks = most_looks * static_cast<Index>(surface.faces.cols());
+  for (auto one = boxes.begin(); one != boxes.end() && looks > 0; ++one)
+    for (auto other = one + 1; other != boxes.end() && other->box.min()[along] <= one->box.max()[along] && looks > 0;
+         ++other, --looks) {
       const FacePair pair = {std::min(one->face, other->face), std::max(one->face, other->face)};
       if (one->box.intersects(other->box) && cut_each_other(surface, pair[0], pair[1], now) &&
-          !cut_each_other(surface, pair[0], pair[1], then) && can_move(surface, pair, particles))
+          !cut_each_other(surface, pair[0], pair[1], then) && !cut_each_other(surface, pair[0], pair[1], earlier) &&
+          can_move(surface, pair, particles))
         cuts.push_back(pair);
     }
   std::sort(cuts.begin(), cuts.end());
   return cuts;
 }
 
-void unfold(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts,
+void unfold(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts, float most,
             Particles& particles) {
   for (const std::vector<Index>& part : parts_of(surface, cuts)) {
     std::vector<Index> fitted = part;
     for (int ring = 0; ring < fitted_rings; ++ring) fitted = with_neighbors(surface, fitted);
     const AffineMap map = fit(fitted, rest, particles);
     for (const Index p : with_neighbors(surface, part))
-      move_toward(map(rest.col(p)), std::binary_search(part.begin(), part.end(), p) ? 1 : half, p, particles);
+      move_toward(map(rest.col(p)), std::binary_search(part.begin(), part.end(), p) ? 1 : half, most, p, particles);
   }
 }
 
-void smooth(const ContactSurface& surface, const std::vector<FacePair>& cuts, int rounds, Particles& particles) {
+void smooth(const ContactSurface& surface, const std::vector<FacePair>& cuts, int rounds, float most,
+            Particles& particles) {
   std::vector<Index> corners;
   for (const FacePair& cut : cuts)
     for (const Index corner : corners_of(surface, cut)) corners.push_back(corner);
@@ -215,7 +239,7 @@ void smooth(const ContactSurface& surface, const std::vector<FacePair>& cuts, in
       for_each_neighbor(surface, smoothed[i], [&](Index neighbor) { sum += particles.position(neighbor), ++count; });
       middles[i] = sum / static_cast<float>(count);
     }
-    for (std::size_t i = 0; i < smoothed.size(); ++i) move_toward(middles[i], half, smoothed[i], particles);
+    for (std::size_t i = 0; i < smoothed.size(); ++i) move_toward(middles[i], half, most, smoothed[i], particles);
   }
 }
 

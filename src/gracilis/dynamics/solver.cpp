@@ -316,25 +316,25 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       told(kind);
     });
   };
-  const auto settle = [&](bool is_mended) {
+  const auto settle = [&] {
     if (coupling.refresh) coupling.refresh();
     round = 0;
     for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>&) {
       keep_listed(surface);
       find_edge_points(*surface.system, *surface.placements, *surface.state);
-      if (is_mended) look_everywhere(surface.state->stretched);
+      look_everywhere(surface.state->stretched);
     });
     for (; round < rounds; ++round) {
-      // What was mended may have stretched edges.
-      if (is_mended) project(ConstraintKind::stretch_limit);
+      // What contact or mending took to its place may have stretched edges.
+      project(ConstraintKind::stretch_limit);
       project(ConstraintKind::volume);
       couple();
       for (ConstraintKind kind : kinds_after_contact) project(kind);
     }
   };
   if (rounds == 0) return;
-  settle(false);
-  for (int attempt = 0; attempt < mending_attempts && coupling.mend && coupling.mend(attempt); ++attempt) settle(true);
+  settle();
+  for (int attempt = 0; attempt < mending_attempts && coupling.mend && coupling.mend(attempt); ++attempt) settle();
 }
 
 SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,

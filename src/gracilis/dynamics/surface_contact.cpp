@@ -22,6 +22,10 @@ struct Contact {
   bool bound = false;  ///< both touched at rest: cohesion holds them
 };
 
+/// How far a particle may go at once, over what is missing from the gap. Where a contact's other particles cannot move,
+/// one that has a small share in it would go as much further as its share is smaller.
+constexpr float most_leverage = 2;
+
 /// One side of a pair, seen from the other.
 struct Sides {
   const ContactSurface& target_surface;
@@ -74,48 +78,70 @@ Eigen::Vector3f friction_of(const Contact& contact, float friction, float push, 
                     : Eigen::Vector3f(Eigen::Vector3f::Zero());
 }
 
+/// What contacts move.
+struct Moved {
+  const Particles& start;  ///< where the step began
+  Particles& particles;    ///< where they are
+
+  /// Moves a particle, but not away from where the step began once it is `most` from there.
+  void push(Index particle, const Eigen::Vector3f& by, float most) {
+    const Eigen::Vector3f from = particles.position(particle) - start.position(particle), to = from + by;
+    const float length = to.norm();
+    if (length > most) {
+      const float kept = std::max(most, from.norm());
+      if (length > kept) {
+        particles.position(particle) = start.position(particle) + kept / length * to;
+        return;
+      }
+    }
+    particles.position(particle) += by;
+  }
+};
+
 /// Moves both sides until the gap is kept. True when it had to.
-bool project(const Contact& contact, const SurfaceContactSettings& settings, const Particles& probe_start,
-             const Particles& target_start, Particles& probe, Particles& target) {
+bool project(const Contact& contact, const SurfaceContactSettings& settings, Moved& probe, Moved& target) {
   float wanted = contact.gap - contact.distance;
   const bool parted = contact.bound && settings.cohesion > 0 && contact.distance > settings.cohesion;
   if (parted) wanted = settings.cohesion - contact.distance;
   if (!(wanted > 0) && !parted) return false;
-  float weight = 0;
+  float weight = 0, largest = 0;
   Eigen::Vector3f moved = Eigen::Vector3f::Zero();
-  const auto add = [&](Index particle, float share, const Particles& now, const Particles& start, float sign) {
+  const auto add = [&](Index particle, float share, const Moved& side, float sign) {
     if (particle < 0) return;
-    weight += share * share * now.inverse_mass(particle);
-    if (settings.friction > 0) moved += sign * share * (now.position(particle) - start.position(particle));
+    const float inverse_mass = side.particles.inverse_mass(particle);
+    weight += share * share * inverse_mass, largest = std::max(largest, share * inverse_mass);
+    if (settings.friction > 0)
+      moved += sign * share * (side.particles.position(particle) - side.start.position(particle));
   };
-  for (std::size_t i = 0; i < 2; ++i) add(contact.probe[i], contact.probe_weight[i], probe, probe_start, 1);
-  for (std::size_t i = 0; i < 3; ++i) add(contact.target[i], contact.target_weight[i], target, target_start, -1);
+  for (std::size_t i = 0; i < 2; ++i) add(contact.probe[i], contact.probe_weight[i], probe, 1);
+  for (std::size_t i = 0; i < 3; ++i) add(contact.target[i], contact.target_weight[i], target, -1);
+  weight = std::max(weight, largest / most_leverage);
   if (!(weight > 0)) return false;
   Eigen::Vector3f push = wanted * contact.normal;
   if (settings.friction > 0 && !parted) push += friction_of(contact, settings.friction, wanted, moved);
   push /= weight;
   for (std::size_t i = 0; i < 2; ++i) {
     const Index p = contact.probe[i];
-    if (p >= 0) probe.position(p) += probe.inverse_mass(p) * contact.probe_weight[i] * push;
+    if (p >= 0) probe.push(p, probe.particles.inverse_mass(p) * contact.probe_weight[i] * push, settings.most_motion);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const Index p = contact.target[i];
-    if (p >= 0) target.position(p) -= target.inverse_mass(p) * contact.target_weight[i] * push;
+    if (p >= 0)
+      target.push(p, -target.particles.inverse_mass(p) * contact.target_weight[i] * push, settings.most_motion);
   }
   return true;
 }
 
 Index project_points(const std::vector<PointTouch>& touches, const Sides& sides, const SurfaceContactSettings& settings,
-                     const Particles& probe_start, const Particles& target_start, Particles& probe, Particles& target) {
+                     Moved probe, Moved target) {
   Index count = 0;
   for (const PointTouch& touch : touches)
-    count += project(contact_of(touch, sides, probe, target), settings, probe_start, target_start, probe, target);
+    count += project(contact_of(touch, sides, probe.particles, target.particles), settings, probe, target);
   return count;
 }
 
 Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state,
-                    const std::vector<EdgeTouch>& touches, const std::vector<const Particles*>& start,
-                    const std::vector<Particles*>& particles) {
+                    const std::vector<EdgeTouch>& touches, Moved probe, Moved target) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   Index count = 0;
   for (const EdgeTouch& touch : touches) {
@@ -124,8 +150,8 @@ Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const Cr
     const Eigen::Vector3f outward = touch.side * (state.normals[b].col(second[0]) + state.normals[b].col(second[1]) -
                                                   state.normals[a].col(first[0]) - state.normals[a].col(first[1]));
     const EdgeGap gap =
-        edge_gap(particles[a]->position(first[0]) + pair.shift, particles[a]->position(first[1]) + pair.shift,
-                 particles[b]->position(second[0]), particles[b]->position(second[1]), outward);
+        edge_gap(probe.particles.position(first[0]) + pair.shift, probe.particles.position(first[1]) + pair.shift,
+                 target.particles.position(second[0]), target.particles.position(second[1]), outward);
     if (!gap.crossing) continue;
     const auto between = [](const std::vector<float>& gaps, const std::array<Index, 2>& ends, float t) {
       return (1 - t) * gaps[static_cast<std::size_t>(ends[0])] + t * gaps[static_cast<std::size_t>(ends[1])];
@@ -139,7 +165,7 @@ Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const Cr
     contact.distance = gap.distance;
     contact.gap =
         std::min({between(pair.first_gap, first, gap.s), between(pair.second_gap, second, gap.t), touch.most_gap});
-    count += project(contact, crowd.settings, *start[a], *start[b], *particles[a], *particles[b]);
+    count += project(contact, crowd.settings, probe, target);
   }
   return count;
 }
@@ -159,11 +185,10 @@ Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const 
     const SurfacePair& pair = crowd.pairs[static_cast<std::size_t>(number)];
     const PairTouches& touches = state.touches[static_cast<std::size_t>(number)];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-    Index pushed = project_edges(crowd, pair, state, touches.edges, start, particles);
-    pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, *start[a], *start[b],
-                             *particles[a], *particles[b]);
-    pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, *start[b], *start[a],
-                             *particles[b], *particles[a]);
+    const Moved first{*start[a], *particles[a]}, second{*start[b], *particles[b]};
+    Index pushed = project_edges(crowd, pair, state, touches.edges, first, second);
+    pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, first, second);
+    pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, second, first);
     count += pushed;
   };
   std::vector<Index> touching;

@@ -12,16 +12,20 @@ struct SurfaceContactSettings {
   float friction = 0;     ///< largest tangential motion taken back, as a share of the push
   float cohesion = 0;     ///< m, farthest that particles which touch at rest may part; 0: as they like
   int update_period = 5;  ///< frames after which everything is searched anew
+  /// m, that contacts take a particle away from where a step began
+  float most_motion = std::numeric_limits<float>::infinity();
 };
 
 /// Two surfaces that must not pass through each other, or one with itself. A particle keeps its gap to the other
-/// surface: the margin, or what there was at rest where that is less, negative where the data overlap.
+/// surface: the margin, or what there was at rest where that is less. Particles that lie in the other at rest come to
+/// their gap by and by (overlap_release.hpp).
 struct SurfacePair {
   Index first = 0, second = 0;                      ///< equal: self-contact
   Eigen::Vector3f shift = Eigen::Vector3f::Zero();  ///< from the first's coordinates to the second's, m
   float reach = 0.006f;                      ///< m, farthest that one is looked for from the other, once per step
   std::vector<float> first_gap, second_gap;  ///< m, per particle
-  std::vector<char> first_touches, second_touches;  ///< which particles touch the other at rest; for cohesion
+  std::vector<char> first_overlaps, second_overlaps;  ///< which particles lie in the other at rest; empty: none
+  std::vector<char> first_touches, second_touches;    ///< which particles touch the other at rest; for cohesion
   bool is_self() const { return first == second; }
 };
 
@@ -43,7 +47,8 @@ struct PointTouch {
   float distance = 0;                                       ///< m, on that side, when last looked at
   Eigen::Vector3f barycentric = Eigen::Vector3f::Zero();    ///< of the nearest point then
   Eigen::Vector3f offset = Eigen::Vector3f::Zero();         ///< m, from the nearest point to the particle then
-  float most_gap = std::numeric_limits<float>::infinity();  ///< m, what neighbors leave each other
+  float most_gap = std::numeric_limits<float>::infinity();  ///< m, what neighbors leave each other, or may be asked
+                                                            ///< for in this step
 };
 /// Two edges that cross closely, one of each surface; `side` as above.
 struct EdgeTouch {
@@ -67,8 +72,7 @@ struct PairTouches {
   bool none_listed() const { return on_second.empty() && on_first.empty() && edges.empty(); }
 };
 struct CrowdState {
-  std::vector<Eigen::Matrix3Xf> before;  ///< per surface, where its particles were before the step, nothing through
-                                         ///< anything
+  std::vector<Particles> before;  ///< per surface, where its particles were before the step
   std::vector<PatchTree> trees;
   std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where the next iterations ask
   std::vector<PairTouches> touches;       ///< one per pair
@@ -101,14 +105,16 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
 void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state);
 
 /// Projects all listed contacts: points against faces, then edges against edges, without compliance, each side moving
-/// by its inverse masses so that momentum is kept. `start` are the particles where the step began, for friction.
+/// by its inverse masses so that momentum is kept. No particle goes further at once than twice what is missing from the
+/// gap, nor further than `most_motion` from `start`, where the step began; momentum is lost where that holds one back.
 /// Returns how many pushed.
 Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
                       const std::vector<Particles*>& particles);
 
 /// Mends every surface that keeps out of itself but cuts itself all the same, after a follow_touches: takes it to its
-/// shape at rest there, and in every other attempt, where that did not help, smooths it, the longer the later. Returns
-/// whether there was anything to mend; all has to settle again then.
+/// shape at rest there, and in every other attempt, where that did not help, smooths it, the longer the later. What cut
+/// itself before the step resisted all attempts then and is left alone. Returns whether there was anything to mend; all
+/// has to settle again then.
 bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int attempt,
                     const std::vector<Particles*>& particles);
 

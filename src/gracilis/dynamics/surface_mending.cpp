@@ -9,6 +9,9 @@ namespace gracilis {
 
 namespace {
 
+/// How far a particle goes at once to be mended, in neighborhoods (of some edges each).
+constexpr float mended_within = 0.5f;
+
 /// The faces that may cut each other: where the surface is folded, and where parts of it meet.
 std::vector<Index> suspects(const ContactSurface& surface, const PairTouches& touches, const Particles& particles) {
   std::vector<Index> faces;
@@ -34,12 +37,13 @@ bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int atte
     if (!crowd.pairs[i].is_self()) return;
     const auto at = static_cast<std::size_t>(crowd.pairs[i].first);
     const ContactSurface& surface = crowd.surfaces[at];
-    const std::vector<FacePair> cuts =
-        find_self_cuts(surface, crowd.rest[at], *particles[at], suspects(surface, state.touches[i], *particles[at]));
+    const std::vector<FacePair> cuts = find_self_cuts(surface, crowd.rest[at], state.before[at], *particles[at],
+                                                      suspects(surface, state.touches[i], *particles[at]));
+    const float most = mended_within * crowd.neighborhood[at];
     if (attempt % 2 == 0)
-      unfold(surface, crowd.rest[at], cuts, *particles[at]);
+      unfold(surface, crowd.rest[at], cuts, most, *particles[at]);
     else
-      smooth(surface, cuts, attempt + 1, *particles[at]);
+      smooth(surface, cuts, attempt + 1, most, *particles[at]);
     mended[i] = !cuts.empty();
   });
   return std::any_of(mended.begin(), mended.end(), [](char each) { return each != 0; });

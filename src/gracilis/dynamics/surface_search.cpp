@@ -1,5 +1,6 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/edge_search.hpp>
+#include <gracilis/dynamics/overlap_release.hpp>
 #include <gracilis/dynamics/self_contact.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
 #include <gracilis/dynamics/touch_search.hpp>
@@ -57,11 +58,20 @@ void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Pa
   });
 }
 
+OverlapRelease release_of(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state,
+                          bool toward_second) {
+  const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+  if (toward_second)
+    return {crowd.surfaces[b], state.before[a], state.before[b], state.normals[b], pair.shift, pair.first_overlaps};
+  return {crowd.surfaces[a], state.before[b], state.before[a], state.normals[a], -pair.shift, pair.second_overlaps};
+}
+
 /// Lists those that could push before the next look. Within one surface a walk that ended among neighbors has found no
 /// contact.
 void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, const Eigen::Matrix3Xf& normals,
                const Particles& probe, const Particles& target, const Eigen::Vector3f& shift, float within,
-               const SelfRule* self, std::vector<PointTouch>& listed) {
+               const std::vector<float>& gaps, const OverlapRelease& release, const SelfRule* self,
+               std::vector<PointTouch>& listed) {
   listed = collect_in_order<PointTouch>(
       static_cast<Index>(near.size()), chunk, [&](Index begin, Index end, std::vector<PointTouch>& part) {
         for (Index i = begin; i < end; ++i) {
@@ -71,7 +81,9 @@ void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, con
           touch.distance = touch.side * gap.distance;
           if (touch.distance >= within) continue;
           if (self && self->side(touch.particle, touch.face) != touch.side) continue;
-          if (self) touch.most_gap = self->most_gap(touch.particle, touch.face);
+          const float own = self ? self->most_gap(touch.particle, touch.face) : infinity;
+          const float kept = std::min(own, gaps[static_cast<std::size_t>(touch.particle)]);
+          touch.most_gap = std::min(own, release.most_gap(touch, kept));
           part.push_back(touch);
         }
       });
@@ -145,7 +157,8 @@ void ask_to_project(const SurfaceCrowd& crowd, const CrowdState& state, NormalMa
 
 CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
   CrowdState state;
-  state.before = crowd.rest;
+  for (const Eigen::Matrix3Xf& rest : crowd.rest)
+    state.before.push_back(make_particles(rest.cast<Real>(), Eigen::VectorXd::Zero(rest.cols())));
   for (std::size_t s = 0; s < crowd.surfaces.size(); ++s)
     state.trees.push_back(build_patch_tree(crowd.surfaces[s], crowd.rest[s]));
   state.normals = crowd.rest_normals;
@@ -154,8 +167,7 @@ CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
 }
 
 void remember_places(const std::vector<const Particles*>& particles, CrowdState& state) {
-  for (std::size_t s = 0; s < particles.size(); ++s)
-    for (Index p = 0; p < particles[s]->count(); ++p) state.before[s].col(p) = particles[s]->position(p);
+  for (std::size_t s = 0; s < particles.size(); ++s) state.before[s] = *particles[s];
 }
 
 void begin_touch_frame(const SurfaceCrowd& crowd, CrowdState& state) {
@@ -230,10 +242,10 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
     // Cohesion also looks at what has parted.
     const float within = listed_within + (crowd.settings.cohesion > 0 && !self ? pair.reach : 0);
     list_near(touches.near_second, crowd.surfaces[b], state.normals[b], *particles[a], *particles[b], pair.shift,
-              within, rule, touches.on_second);
+              within, pair.first_gap, release_of(crowd, pair, state, true), rule, touches.on_second);
     list_near(touches.near_first, crowd.surfaces[a], state.normals[a], *particles[b], *particles[a], -pair.shift,
-              within, rule, touches.on_first);
-    find_edges(crowd, pair, particles, touches.near_second, rule, touches.edges);
+              within, pair.second_gap, release_of(crowd, pair, state, false), rule, touches.on_first);
+    find_edges(crowd, pair, particles, state.before, touches.near_second, rule, touches.edges);
   });
   ask_to_project(crowd, state, normals);
   normals.make();

@@ -2,6 +2,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/inspect_kinds.hpp>
+#include <gracilis/io/run_manifest.hpp>
 #include <gracilis/io/scene_reader.hpp>
 #include <gracilis/io/text_cells.hpp>
 #include <gracilis/io/value_reader.hpp>
@@ -127,6 +128,7 @@ Json inspect_scene(const fs::path& path) {
           {"bones", bones},
           {"coordinates", coordinates},
           {"muscles", muscles},
+          {"rest_overlaps", overlaps_json(report_overlaps(scene))},
           {"motion", scene.motion.name},
           {"motion_rows", scene.motion.times.size()},
           {"warnings", loaded.warnings}};

@@ -50,6 +50,18 @@ static nlohmann::ordered_json action_lines(const RunManifest& manifest) {
   return lines;
 }
 
+nlohmann::ordered_json overlaps_json(const OverlapReport& report) {
+  nlohmann::ordered_json pairs = nlohmann::json::array();
+  for (const MuscleOverlap& pair : report.pairs)
+    pairs.push_back({{"pair", pair.first + ", " + pair.second},
+                     {"vertices_of_first_inside", pair.first_vertices},
+                     {"vertices_of_second_inside", pair.second_vertices},
+                     {"first_deepest_mm", 1e3 * pair.first_deepest},
+                     {"second_deepest_mm", 1e3 * pair.second_deepest},
+                     {"left_out_of_contact", pair.is_left_out}});
+  return {{"vertices_inside", report.vertices}, {"of_vertices", report.of_vertices}, {"pairs", pairs}};
+}
+
 void write_manifest(const std::filesystem::path& path, const RunManifest& manifest) {
   nlohmann::ordered_json inputs = nlohmann::json::array();
   for (const std::filesystem::path& input : manifest.inputs) {
@@ -70,6 +82,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"processors", std::thread::hardware_concurrency()},
       {"axes", {{"anterior", components(manifest.axes.anterior)}, {"superior", components(manifest.axes.superior)}}},
       {"action_lines", action_lines(manifest)},
+      {"rest_overlaps", overlaps_json(manifest.overlaps)},
       {"guessed", manifest.guessed},
       {"warnings", manifest.warnings},
       {"inputs", inputs},

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <gracilis/anatomy/overlap_report.hpp>
 #include <gracilis/scene/scene.hpp>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <filesystem>
 #include <string>
@@ -19,12 +22,16 @@ struct RunManifest {
   std::vector<std::string> guessed;           ///< what was guessed rather than measured, e.g. "psoas_r origin"
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, ActionLine>> lines;  ///< of muscles that have one, by their names
+  OverlapReport overlaps;                                 ///< in the capture pose
   AnatomicalAxes axes;                                    ///< how the subject stands
   std::string status = "running";                         ///< running, complete, interrupted, or "failed: why"
   int threads = 1;
   int frames = 0;      ///< on disk
   double seconds = 0;  ///< spent on them
 };
+
+/// The report as `run.json` and `gracilis inspect` have it.
+nlohmann::ordered_json overlaps_json(const OverlapReport& report);
 
 /// Writes `path` (RUN/run.json), whole or not at all.
 void write_manifest(const std::filesystem::path& path, const RunManifest& manifest);

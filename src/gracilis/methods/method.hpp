@@ -61,7 +61,8 @@ class DeformationMethod {
   /// Back to the capture pose: frame 0.
   virtual void reset() = 0;
   /// To the next pose. Throws QualityError that names muscle and constraint when a coordinate stops being finite; the
-  /// state is then that before the call.
+  /// state is then that before the call. Throws Interrupted where a StopScope says so; only reset and restore make
+  /// sense then.
   virtual StepReport advance(const Pose& pose) = 0;
   /// Tells what happens inside of the steps to come, for pictures that explain a solver. Calls may come from several
   /// threads at once, each muscle's in their order. An empty function costs nothing. Methods without iterations have

@@ -32,7 +32,8 @@ struct ResumePoint {
 enum class RunEnd { complete, interrupted };
 
 /// Runs `method` through `poses` (pose 0 is the capture pose) and hands each frame to `record`, frame 0 with the input
-/// surfaces unchanged. Looks at `stop` between frames. With `resume`, starts after its last frame. Throws QualityError,
+/// surfaces unchanged. Ends soon after `stop` is set; the frame under way is dropped, and the method is of no use until
+/// its next reset or restore. With `resume`, starts after its last frame. Throws QualityError,
 /// naming the frame, when a coordinate stops being finite; all frames before it have been recorded then. With
 /// `tracker`, fibers are followed.
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,

@@ -2,6 +2,7 @@
 
 #include <gracilis/dynamics/coloring.hpp>
 #include <gracilis/geometry/topology.hpp>
+#include <gracilis/methods/xpbd/rest_gaps.hpp>
 
 #include <algorithm>
 
@@ -9,12 +10,6 @@ namespace gracilis::xpbd {
 
 namespace {
 
-/// A sheet may become this share of its thickness at rest.
-constexpr float thinnest_sheet = 0.25f;
-/// What is nearer than this at rest touches, m.
-constexpr float touching = 0.001f;
-/// Overlaps at rest are looked for as deep as this, m.
-constexpr float deepest_overlap = 0.006f;
 /// Mean edges around a place that belong to it and do not meet it.
 constexpr float neighborhood_edges = 4;
 /// How far parts of one surface are looked for from each other: mean edges, but m at least.
@@ -61,65 +56,40 @@ SurfacePair pair_of(Index first, Index second, const std::vector<PreparedMuscle>
   return pair;
 }
 
-/// Lowers the margin to what there is at rest.
-void measure_gaps(const std::vector<PointTouch>& near, const Particles& probe, const Eigen::Vector3f& shift,
-                  const ContactSurface& surface, const Particles& target, const Eigen::Matrix3Xf& normals,
-                  std::vector<float>& gaps, std::vector<char>& touches) {
-  for (const PointTouch& touch : near) {
-    const float rest =
-        touch.side * point_gap(probe.position(touch.particle) + shift, surface, touch.face, target, normals).distance;
-    float& gap = gaps[static_cast<std::size_t>(touch.particle)];
-    const float kept = rest < 0         ? rest * static_cast<float>(1 - overlap_given_back)
-                       : touch.side < 0 ? rest * thinnest_sheet
-                                        : rest;
-    gap = std::min(gap, kept);
-    touches[static_cast<std::size_t>(touch.particle)] = rest < touching;
-  }
-}
-
 SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
   SurfaceCrowd crowd;
   const auto margin = static_cast<float>(settings.margin);
   crowd.settings.friction = static_cast<float>(settings.friction);
   crowd.settings.cohesion = static_cast<float>(settings.cohesion);
   crowd.settings.update_period = settings.update_period;
+  crowd.settings.most_motion = static_cast<float>(settings.reach);
   const auto count = static_cast<Index>(muscles.size());
   std::vector<const Particles*> rest;
+  std::vector<TriangleMesh> meshes;
   for (const PreparedMuscle& muscle : muscles) {
     add_surface(muscle, crowd);
     rest.push_back(&muscle.system.rest);
+    meshes.push_back({muscle.rest, muscle.faces});
   }
+  const OverlapTable overlaps(meshes);
   for (Index first = 0; first < count; ++first)
-    for (Index second = first; second < count; ++second)
-      if (second != first || muscles[static_cast<std::size_t>(first)].keeps_out_of_itself)
-        crowd.pairs.push_back(pair_of(first, second, muscles, margin));
-  const auto reach_of = [&](const SurfacePair& pair, float overlap) {
+    for (Index second = first; second < count; ++second) {
+      if (second == first && !muscles[static_cast<std::size_t>(first)].keeps_out_of_itself) continue;
+      if (overlaps.is_left_out(first, second)) continue;
+      crowd.pairs.push_back(pair_of(first, second, muscles, margin));
+      overlaps.mark(crowd.pairs.back());
+    }
+  for (SurfacePair& pair : crowd.pairs)
     // Parts of one surface come near each other slowly, but edges may cross halfway between particles.
-    if (pair.is_self())
-      return std::max(least_self_reach,
-                      self_reach_edges / neighborhood_edges * crowd.neighborhood[static_cast<std::size_t>(pair.first)]);
-    return overlap + static_cast<float>(settings.reach);
-  };
-  for (SurfacePair& pair : crowd.pairs) pair.reach = reach_of(pair, deepest_overlap);
+    pair.reach = pair.is_self()
+                     ? std::max(least_self_reach, self_reach_edges / neighborhood_edges *
+                                                      crowd.neighborhood[static_cast<std::size_t>(pair.first)])
+                     : static_cast<float>(overlaps.deepest(pair.first, pair.second) + settings.reach);
   arrange_rounds(crowd);
 
   CrowdState state = gracilis::make_crowd_state(crowd);
   find_touches(crowd, rest, state);
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
-    SurfacePair& pair = crowd.pairs[i];
-    const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-    measure_gaps(state.touches[i].near_second, *rest[a], pair.shift, crowd.surfaces[b], *rest[b], state.normals[b],
-                 pair.first_gap, pair.first_touches);
-    measure_gaps(state.touches[i].near_first, *rest[b], -pair.shift, crowd.surfaces[a], *rest[a], state.normals[a],
-                 pair.second_gap, pair.second_touches);
-    if (pair.is_self()) pair.second_gap = pair.first_gap;
-    // What overlaps at rest must be seen there, too.
-    const auto least = [](const std::vector<float>& gaps) {
-      return gaps.empty() ? 0.0f : *std::min_element(gaps.begin(), gaps.end());
-    };
-    const float overlap = std::max(0.0f, -std::min(least(pair.first_gap), least(pair.second_gap)));
-    pair.reach = reach_of(pair, overlap);
-  }
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) measure_rest_gaps(state, rest, i, crowd);
   return crowd;
 }
 

@@ -4,6 +4,7 @@
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/anatomy/tendon.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/stop.hpp>
 #include <gracilis/simulate/run.hpp>
 
 #include <fmt/format.h>
@@ -252,6 +253,7 @@ LiveSimulation::Task LiveSimulation::next_task() {
 }
 
 void LiveSimulation::work() {
+  const StopScope scope(&stop_);
   Frame last = capture_frame(scene_, pose_at(scene_, reached_.coordinates));
   for (Task task = Task::step; task != Task::stop;) {
     try {
@@ -264,6 +266,8 @@ void LiveSimulation::work() {
         history_.forget_passes(last.number - kept_passes);
       }
       if (task == Task::look_again) history_.replace(last.number, shown(last));
+    } catch (const Interrupted&) {
+      return;
     } catch (const Error& error) {
       spdlog::error("the simulation has stopped: {}", error.what());
       std::unique_lock lock(mutex_);

@@ -6,6 +6,7 @@
 #include <gracilis/view/window/frame_maker.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 
+#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -85,7 +86,8 @@ class LiveSimulation {
   Wanted wanted_;
   std::size_t motion_at_;  ///< next pose of the motion; its end: it does not play
   int single_steps_ = 0;
-  bool paused_ = false, reset_ = false, look_again_ = false, stop_ = false;
+  bool paused_ = false, reset_ = false, look_again_ = false;
+  std::atomic<bool> stop_ = false;  ///< also without the lock, from within a step
   std::string status_ = "preparing";
   std::thread thread_;
 };

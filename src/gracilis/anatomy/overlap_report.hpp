@@ -1,0 +1,34 @@
+#pragma once
+
+#include <gracilis/scene/scene.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// How two muscles overlap in the capture pose, for people to read.
+struct MuscleOverlap {
+  std::string first, second;
+  Index first_vertices = 0, second_vertices = 0;  ///< of the one inside the other
+  Real first_deepest = 0, second_deepest = 0;     ///< m
+  bool is_left_out = false;  ///< contact between muscles' surfaces leaves them out: one passes through the other
+
+  Real deepest() const { return first_deepest > second_deepest ? first_deepest : second_deepest; }
+};
+
+/// What a scene's muscles do to each other in the capture pose.
+struct OverlapReport {
+  std::vector<MuscleOverlap> pairs;  ///< the deepest first
+  Index vertices = 0;                ///< that lie in at least one other muscle
+  Index of_vertices = 0;             ///< of all muscles
+};
+
+/// By exact distances (rest_overlap.hpp); takes about a second for 40,000 vertices. Precondition: the scene is valid.
+OverlapReport report_overlaps(const Scene& scene);
+
+/// What a user should know about it, one line each: how much overlaps and where most, and which pairs the scene's
+/// contact leaves out. Empty where nothing overlaps.
+std::vector<std::string> overlap_warnings(const Scene& scene, const OverlapReport& report);
+
+}  // namespace gracilis

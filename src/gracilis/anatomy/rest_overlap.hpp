@@ -1,0 +1,39 @@
+#pragma once
+
+#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// The vertices of one surface that lie inside another.
+struct InsideVertices {
+  std::vector<Index> vertices;    ///< ascending
+  std::vector<Real> depths;       ///< m, above 0
+  Points outward = Points(3, 0);  ///< unit, from each to the nearest point of the other surface; 0 where it lies on it
+
+  Real deepest() const { return depths.empty() ? 0 : *std::max_element(depths.begin(), depths.end()); }
+};
+
+/// Two surfaces of which at least one has vertices inside the other.
+struct RestOverlap {
+  Index first = 0, second = 0;  ///< surfaces, first < second
+  InsideVertices of_first, of_second;
+
+  Real deepest() const { return std::max(of_first.deepest(), of_second.deepest()); }
+};
+
+/// Which surfaces overlap, by exact distances in double precision (SignedDistance) and winding numbers, in the order of
+/// pairs. Overlaps without a vertex inside are not seen. Precondition: closed surfaces, oriented outwards, finite.
+std::vector<RestOverlap> rest_overlaps(const std::vector<TriangleMesh>& surfaces);
+
+/// The same of a scene's muscles in the capture pose.
+std::vector<RestOverlap> rest_overlaps(const Scene& scene);
+
+/// Of all surfaces together how many vertices lie in at least one other.
+Index count_inside(const std::vector<RestOverlap>& overlaps);
+
+}  // namespace gracilis

@@ -1,0 +1,165 @@
+#include <gracilis/methods/xpbd/rest_gaps.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/methods/xpbd/preparation.hpp>
+
+#include <algorithm>
+#include <queue>
+
+namespace gracilis::xpbd {
+
+namespace {
+
+/// A sheet may become this share of its thickness at rest.
+constexpr float thinnest_sheet = 0.25f;
+/// What is nearer than this at rest touches, m.
+constexpr float touching = 0.001f;
+/// The gap of what is not kept out of the other surface, m.
+constexpr float no_gap = -1;
+/// By how much of the way from an attachment that stays overlapped its surroundings are taken apart.
+constexpr float release_slope = 0.5f;
+
+void mark_side(const InsideVertices& inside, const std::vector<char>& astray, std::vector<float>& gaps,
+               std::vector<char>& overlaps) {
+  overlaps.assign(gaps.size(), 0);
+  for (const Index v : inside.vertices) overlaps[static_cast<std::size_t>(v)] = 1;
+  for (std::size_t v = 0; v < astray.size(); ++v)
+    if (astray[v]) gaps[v] = no_gap;
+}
+
+bool is_held(const ContactSurface& surface, Index face, const Particles& particles) {
+  const auto corners = surface.faces.col(face);
+  return std::none_of(corners.begin(), corners.end(), [&](Index p) { return particles.inverse_mass(p) > 0; });
+}
+
+/// One side of a pair at rest.
+struct RestSide {
+  const Particles &probe, &target;
+  const ContactSurface &probe_surface, &target_surface;
+  const Eigen::Matrix3Xf& target_normals;
+  Eigen::Vector3f shift;
+  const std::vector<char>& overlaps;
+
+  float distance(const PointTouch& touch) const {
+    return touch.side *
+           point_gap(probe.position(touch.particle) + shift, target_surface, touch.face, target, target_normals)
+               .distance;
+  }
+};
+
+void measure_side(const std::vector<PointTouch>& near, const RestSide& side, bool is_self, std::vector<float>& gaps,
+                  std::vector<char>& touches) {
+  for (const PointTouch& touch : near) {
+    const auto p = static_cast<std::size_t>(touch.particle);
+    const float rest = side.distance(touch);
+    touches[p] = rest < touching;
+    // What overlaps is released; a wrong sign at a fold is not an overlap.
+    if (!side.overlaps.empty() && side.overlaps[p]) continue;
+    const float kept = rest < 0 && is_self ? rest * static_cast<float>(1 - overlap_given_back)
+                       : touch.side < 0    ? rest * thinnest_sheet
+                                           : rest;
+    gaps[p] = std::min(gaps[p], kept);
+  }
+}
+
+/// The depth at which attachments lie in attachments of the other surface, on both; +infinity elsewhere.
+void gather_grown_together(const std::vector<PointTouch>& near, const RestSide& side, std::vector<float>& of_probe,
+                           std::vector<float>& of_target) {
+  for (const PointTouch& touch : near) {
+    if (side.probe.inverse_mass(touch.particle) > 0 || !is_held(side.target_surface, touch.face, side.target)) continue;
+    const float rest = side.distance(touch);
+    if (!(rest < 0)) continue;
+    const auto lower = [rest](float& depth) { depth = std::min(depth, rest); };
+    lower(of_probe[static_cast<std::size_t>(touch.particle)]);
+    for (const Index corner : side.target_surface.faces.col(touch.face))
+      lower(of_target[static_cast<std::size_t>(corner)]);
+  }
+}
+
+/// Lowers gaps around what has a depth: to that depth, and by `release_slope` of the way from there less (Dijkstra
+/// 1959).
+void fade_release(const ContactSurface& surface, const Particles& rest, std::vector<float> depth,
+                  std::vector<float>& gaps) {
+  using Item = std::pair<float, Index>;
+  std::priority_queue<Item, std::vector<Item>, std::greater<>> open;
+  for (std::size_t p = 0; p < depth.size(); ++p)
+    if (depth[p] < gaps[p]) open.emplace(depth[p], static_cast<Index>(p));
+  while (!open.empty()) {
+    const auto [reached, p] = open.top();
+    open.pop();
+    if (reached > depth[static_cast<std::size_t>(p)]) continue;
+    float& gap = gaps[static_cast<std::size_t>(p)];
+    gap = std::min(gap, reached);
+    for (const Index edge : surface.edges_at(p)) {
+      const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
+      const Index other = ends[0] == p ? ends[1] : ends[0];
+      const float there = reached + release_slope * (rest.position(other) - rest.position(p)).norm();
+      if (!(there < depth[static_cast<std::size_t>(other)]) || !(there < gaps[static_cast<std::size_t>(other)]))
+        continue;
+      depth[static_cast<std::size_t>(other)] = there;
+      open.emplace(there, other);
+    }
+  }
+}
+
+}  // namespace
+
+OverlapTable::OverlapTable(const std::vector<TriangleMesh>& meshes) {
+  std::vector<RestOverlap> overlaps = rest_overlaps(meshes);
+  std::vector<OverlapSides> sides(overlaps.size());
+  parallel_for_each(overlaps.size(), [&](std::size_t i) {
+    sides[i] = overlap_sides(overlaps[i], meshes[static_cast<std::size_t>(overlaps[i].first)],
+                             meshes[static_cast<std::size_t>(overlaps[i].second)]);
+  });
+  for (std::size_t i = 0; i < overlaps.size(); ++i) {
+    const std::pair<Index, Index> key(overlaps[i].first, overlaps[i].second);
+    entries_[key] = {std::move(overlaps[i]), std::move(sides[i])};
+  }
+}
+
+const OverlapTable::Entry* OverlapTable::find(Index first, Index second) const {
+  const auto at = entries_.find({first, second});
+  return at == entries_.end() ? nullptr : &at->second;
+}
+
+bool OverlapTable::is_left_out(Index first, Index second) const {
+  const Entry* entry = find(first, second);
+  return entry && entry->sides.is_through;
+}
+
+Real OverlapTable::deepest(Index first, Index second) const {
+  const Entry* entry = find(first, second);
+  return entry ? entry->overlap.deepest() : 0;
+}
+
+void OverlapTable::mark(SurfacePair& pair) const {
+  const Entry* entry = find(pair.first, pair.second);
+  if (!entry) return;
+  mark_side(entry->overlap.of_first, entry->sides.first_astray, pair.first_gap, pair.first_overlaps);
+  mark_side(entry->overlap.of_second, entry->sides.second_astray, pair.second_gap, pair.second_overlaps);
+}
+
+void measure_rest_gaps(const CrowdState& state, const std::vector<const Particles*>& rest, std::size_t number,
+                       SurfaceCrowd& crowd) {
+  SurfacePair& pair = crowd.pairs[number];
+  const PairTouches& touches = state.touches[number];
+  const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+  const RestSide first{*rest[a],         *rest[b],   crowd.surfaces[a],  crowd.surfaces[b],
+                       state.normals[b], pair.shift, pair.first_overlaps},
+      second{*rest[b],         *rest[a],    crowd.surfaces[b],   crowd.surfaces[a],
+             state.normals[a], -pair.shift, pair.second_overlaps};
+  measure_side(touches.near_second, first, pair.is_self(), pair.first_gap, pair.first_touches);
+  measure_side(touches.near_first, second, pair.is_self(), pair.second_gap, pair.second_touches);
+  if (pair.is_self()) {
+    pair.second_gap = pair.first_gap;
+    return;
+  }
+  const float none = std::numeric_limits<float>::infinity();
+  std::vector<float> depth_first(pair.first_gap.size(), none), depth_second(pair.second_gap.size(), none);
+  gather_grown_together(touches.near_second, first, depth_first, depth_second);
+  gather_grown_together(touches.near_first, second, depth_second, depth_first);
+  fade_release(crowd.surfaces[a], *rest[a], std::move(depth_first), pair.first_gap);
+  fade_release(crowd.surfaces[b], *rest[b], std::move(depth_second), pair.second_gap);
+}
+
+}  // namespace gracilis::xpbd

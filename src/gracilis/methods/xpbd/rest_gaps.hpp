@@ -1,0 +1,40 @@
+#pragma once
+
+#include <gracilis/anatomy/overlap_sides.hpp>
+#include <gracilis/dynamics/surface_contact.hpp>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace gracilis::xpbd {
+
+/// The muscles that overlap at rest, and what contact makes of that.
+class OverlapTable {
+ public:
+  /// `meshes` are the muscles at rest, in particle order (m).
+  explicit OverlapTable(const std::vector<TriangleMesh>& meshes);
+
+  /// Whether one of the two passes through the other, so that nothing tells how to take them apart.
+  bool is_left_out(Index first, Index second) const;
+  /// m; 0 where they do not overlap.
+  Real deepest(Index first, Index second) const;
+  /// Notes which particles overlap. Those that have no side to come out on are not kept out of the other.
+  void mark(SurfacePair& pair) const;
+
+ private:
+  struct Entry {
+    RestOverlap overlap;
+    OverlapSides sides;
+  };
+  const Entry* find(Index first, Index second) const;
+  std::map<std::pair<Index, Index>, Entry> entries_;
+};
+
+/// Lowers the gaps of a pair, which are the margin, to what there is at rest, but for what overlaps there: that is
+/// released. Around attachments that overlap attachments of the other the release fades, for those stay. `state` has
+/// what was found at `rest`.
+void measure_rest_gaps(const CrowdState& state, const std::vector<const Particles*>& rest, std::size_t pair,
+                       SurfaceCrowd& crowd);
+
+}  // namespace gracilis::xpbd

@@ -1,0 +1,129 @@
+#include <gracilis/anatomy/overlap_report.hpp>
+#include <gracilis/anatomy/overlap_sides.hpp>
+#include <gracilis/anatomy/rest_overlap.hpp>
+
+#include <scenes_for_tests.hpp>
+#include <shapes.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace gracilis {
+namespace {
+
+using testing::HasSubstr;
+
+TriangleMesh moved(TriangleMesh mesh, const Eigen::Affine3d& motion) {
+  mesh.vertices = motion * mesh.vertices;
+  return mesh;
+}
+
+/// A tube with radius 10 mm and length 100 mm about a line through `center`.
+TriangleMesh tube(const Vec3& center, const Vec3& along, Real radius = 0.01) {
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  motion.translate(center)
+      .rotate(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), along))
+      .translate(Vec3(0, 0, -0.05));
+  return moved(shapes::cylinder(radius, 0.1, 32, 40), motion);
+}
+
+OverlapSides sides_of(const TriangleMesh& a, const TriangleMesh& b) {
+  const std::vector<RestOverlap> overlaps = rest_overlaps({a, b});
+  EXPECT_EQ(overlaps.size(), 1u);
+  return overlaps.empty() ? OverlapSides() : overlap_sides(overlaps.front(), a, b);
+}
+
+long count(const std::vector<char>& flags) { return std::accumulate(flags.begin(), flags.end(), 0L); }
+
+}  // namespace
+
+TEST(RestOverlap, of_two_spheres_is_their_known_lens) {
+  // Triangles with a circumradius of 0.85 mm lie up to 18 µm within the sphere.
+  const Real radius = 0.02, distance = 0.036, flatness = 2e-5;
+  const TriangleMesh a = shapes::sphere(Vec3::Zero(), radius, 5), b = shapes::sphere({distance, 0, 0}, radius, 5);
+  const std::vector<RestOverlap> overlaps = rest_overlaps({a, b});
+  ASSERT_EQ(overlaps.size(), 1u);
+  EXPECT_EQ(overlaps[0].first, 0);
+  EXPECT_EQ(overlaps[0].second, 1);
+  Index expected = 0;
+  for (Index v = 0; v < a.vertex_count(); ++v)
+    expected += (Vec3(a.vertices.col(v)) - Vec3(distance, 0, 0)).norm() < radius - 1e-5;
+  EXPECT_NEAR(static_cast<Real>(overlaps[0].of_first.vertices.size()), static_cast<Real>(expected),
+              0.05 * static_cast<Real>(expected));
+  EXPECT_EQ(overlaps[0].of_first.vertices.size(), overlaps[0].of_second.vertices.size());
+  EXPECT_NEAR(overlaps[0].deepest(), 2 * radius - distance, flatness);
+  for (std::size_t i = 0; i < overlaps[0].of_first.vertices.size(); ++i) {
+    const Vec3 p = a.vertices.col(overlaps[0].of_first.vertices[i]);
+    EXPECT_NEAR(overlaps[0].of_first.depths[i], radius - (p - Vec3(distance, 0, 0)).norm(), flatness);
+  }
+}
+
+TEST(RestOverlap, surfaces_that_lie_apart_or_only_have_boxes_in_common_do_not_overlap) {
+  const TriangleMesh a = shapes::sphere(Vec3::Zero(), 0.02, 3);
+  EXPECT_TRUE(rest_overlaps({a, shapes::sphere({0.05, 0, 0}, 0.02, 3)}).empty());
+  EXPECT_TRUE(rest_overlaps({a, shapes::sphere({0.03, 0.03, 0}, 0.02, 3)}).empty());
+  EXPECT_TRUE(rest_overlaps(std::vector<TriangleMesh>{a}).empty());
+}
+
+TEST(RestOverlap, a_vertex_in_two_surfaces_counts_once) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.01, 2);
+  const std::vector<RestOverlap> overlaps =
+      rest_overlaps({ball, shapes::sphere(Vec3::Zero(), 0.02, 2), shapes::sphere(Vec3::Zero(), 0.03, 2)});
+  EXPECT_EQ(count_inside(overlaps), 2 * ball.vertex_count());
+}
+
+TEST(OverlapSides, tubes_that_lie_in_each_others_flanks_have_a_side) {
+  const TriangleMesh a = tube(Vec3::Zero(), Vec3::UnitZ());
+  for (const Vec3& along : {Vec3(0, 0, 1), Vec3(0, 1, 0)}) {
+    const OverlapSides sides = sides_of(a, tube({0.015, 0, 0}, along));
+    EXPECT_FALSE(sides.is_through);
+    EXPECT_EQ(count(sides.first_astray), 0);
+    EXPECT_EQ(count(sides.second_astray), 0);
+  }
+}
+
+TEST(OverlapSides, a_tube_through_another_has_none_however_thick_the_other_is) {
+  const TriangleMesh a = tube(Vec3::Zero(), Vec3::UnitZ());
+  for (const Real radius : {0.004, 0.01, 0.02}) {
+    const OverlapSides sides = sides_of(a, tube(Vec3::Zero(), Vec3::UnitX(), radius));
+    EXPECT_TRUE(sides.is_through) << radius;
+    EXPECT_GT(count(sides.first_astray), 0) << radius;
+  }
+}
+
+TEST(OverlapSides, a_tube_through_a_sheet_has_none) {
+  const TriangleMesh sheet = shapes::sphere(Vec3::Zero(), 0.04, 5);
+  Eigen::Affine3d flat = Eigen::Affine3d::Identity();
+  flat.scale(Vec3(1, 1, 0.05));
+  EXPECT_TRUE(sides_of(tube({0.005, 0, 0}, Vec3::UnitZ(), 0.006), moved(sheet, flat)).is_through);
+}
+
+TEST(OverlapReport, warns_with_counts_and_names_the_deepest_first) {
+  Scene scene;
+  const auto add = [&](const char* name, const TriangleMesh& mesh) {
+    scene.muscles.emplace_back();
+    scene.muscles.back().name = name;
+    scene.muscles.back().surface = mesh;
+  };
+  add("left", tube(Vec3::Zero(), Vec3::UnitZ()));
+  EXPECT_TRUE(overlap_warnings(scene, report_overlaps(scene)).empty());
+  add("right", tube({0.018, 0, 0}, Vec3::UnitZ()));
+  add("across", tube({0, 0, 0.03}, Vec3::UnitX()));
+  const OverlapReport report = report_overlaps(scene);
+  ASSERT_EQ(report.pairs.size(), 3u);
+  EXPECT_EQ(report.of_vertices, 3 * scene.muscles[0].surface.vertex_count());
+  EXPECT_EQ(report.pairs[2].first, "left");
+  EXPECT_EQ(report.pairs[2].second, "right");
+  EXPECT_NEAR(report.pairs[2].deepest(), 0.002, 1e-4);
+  const std::vector<std::string> warnings = overlap_warnings(scene, report);
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_THAT(warnings[0], HasSubstr("in 3 pairs"));
+  EXPECT_THAT(warnings[0], HasSubstr(std::to_string(report.vertices) + " of " + std::to_string(report.of_vertices)));
+  EXPECT_THAT(warnings[1] + warnings[2], HasSubstr("no contact between left and across"));
+  scene.contact.muscle = MuscleContact::none;
+  EXPECT_EQ(overlap_warnings(scene, report).size(), 1u) << "there is no contact to leave out of";
+}
+
+}  // namespace gracilis
