@@ -158,13 +158,15 @@ TEST_P(Method, reset_returns_to_the_capture_and_forgets_all) {
 
 TEST_P(Method, restored_goes_on_as_if_never_interrupted) {
   Frame before, last;
+  std::vector<Pose> poses = {at(0)};
   for (int degree = 1; degree <= 20; ++degree) {
-    method->advance(at(radians(degree)));
+    poses.push_back(at(radians(degree)));
+    method->advance(poses.back());
     before = last;
     last = frame_of(*method, at(radians(degree)), degree);
   }
   const auto resumed = GetParam().make(scene);
-  resumed->restore(before, last);
+  resumed->restore(poses, before, last);
   for (int degree = 21; degree <= 24; ++degree) {
     method->advance(at(radians(degree)));
     resumed->advance(at(radians(degree)));

@@ -106,7 +106,7 @@ TEST(RestOverlap, goes_on_being_released_in_a_resumed_run_to_the_same_bits) {
     whole->advance(flexed(scene, 0));
     frames.push_back(frame_of(*whole, flexed(scene, 0), number));
   }
-  resumed->restore(frames[3], frames[4]);
+  resumed->restore(std::vector<Pose>(6, flexed(scene, 0)), frames[3], frames[4]);
   for (int number = 6; number <= 8; ++number) resumed->advance(flexed(scene, 0));
   EXPECT_EQ(farthest(frame_of(*resumed, flexed(scene, 0), 8), frames[7]), 0);
 }

@@ -156,8 +156,9 @@ Scene tube_without_tendons() {
 
 std::vector<Aim> aims(const xpbd::PreparedMuscle& prepared, const Pose& pose) {
   const DistanceSet& edges = prepared.system.distances;
-  AlignedVector<float> target(edges.a.size(), 0);
-  xpbd::set_target_lengths(prepared, pose, target);
+  xpbd::MuscleState state = xpbd::make_muscle_state(prepared, pose.bodies.size());
+  xpbd::set_target_lengths(prepared, pose, state);
+  const AlignedVector<float>& target = state.target_length;
   std::vector<Aim> all;
   for (std::size_t slot = 0; slot < target.size(); ++slot) {
     if (edges.a[slot] >= prepared.rest.cols()) continue;
@@ -221,7 +222,7 @@ TEST(XpbdMotion, a_stretched_muscle_aims_at_a_longer_and_thinner_shape_of_its_ow
   farther.bodies[1].translation().z() -= 0.5 * 0.144;
   const Points& rest = prepared.rest;
   const Real volume =
-      enclosed_volume(xpbd::carried_rest(prepared, farther), prepared.faces) / enclosed_volume(rest, prepared.faces);
+      enclosed_volume(xpbd::carried_rest(prepared, farther, {}), prepared.faces) / enclosed_volume(rest, prepared.faces);
   EXPECT_NEAR(volume, 1 + 0.5 * 0.144 / 0.16, 1e-6);
   Index along = 0, across = 0;
   for (const Aim& aim : aims(prepared, farther)) {
@@ -245,14 +246,15 @@ TEST(XpbdMotion, carried_back_to_the_capture_pose_a_relaxed_muscle_gives_up_its_
   const Real kept = 1 - prepared.settings.shape_recovery, displacement = 0.004;
   const auto left = [&](Real from, Real to, bool active) {
     const auto carried = [&](Real angle) -> Points {
-      return xpbd::carried_rest(prepared, flexed(scene, radians(angle)));
+      return xpbd::carried_rest(prepared, flexed(scene, radians(angle)), {});
     };
-    Particles particles = prepared.system.rest;
+    xpbd::MuscleState state = xpbd::make_muscle_state(prepared, scene.bodies.size());
+    Particles& particles = state.particles;
     const Points before = carried(from), after = carried(to);
     for (Index p = 0; p < particles.count(); ++p)
       if (prepared.fixed_body[static_cast<std::size_t>(p)] < 0)
         particles.position(p) = (before.col(p) + Vec3(displacement, 0, 0)).cast<float>();
-    xpbd::carry_free(prepared, flexed(scene, radians(from)), flexed(scene, radians(to)), active, particles);
+    xpbd::carry_free(prepared, flexed(scene, radians(from)), flexed(scene, radians(to)), active, state);
     Real largest = 0;
     for (Index p = 0; p < particles.count(); ++p)
       if (prepared.fixed_body[static_cast<std::size_t>(p)] < 0)

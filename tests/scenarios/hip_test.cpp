@@ -34,7 +34,7 @@ TEST(BuiltinHip, crowded_it_resumes_to_the_same_bits) {
     Frame before, at, expected, found;
     for (int number = 1; number <= last; ++number) before = at, at = advance(*method, number);
     for (int number = last + 1; number <= end; ++number) expected = advance(*method, number);
-    resumed->restore(before, at);
+    resumed->restore({poses.begin(), poses.begin() + last + 1}, before, at);
     for (int number = last + 1; number <= end; ++number) found = advance(*resumed, number);
     for (std::size_t m = 0; m < scene.muscles.size(); ++m)
       EXPECT_EQ(hash_of(found.muscles[m].points), hash_of(expected.muscles[m].points)) << scene.muscles[m].name;

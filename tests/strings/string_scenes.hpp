@@ -16,14 +16,15 @@ inline Scene arm_scene(const Vec3& away = Vec3::Zero()) {
   Scene scene;
   scene.name = "arm";
   scene.bodies = {"upper", "lower"};
-  scene.bones = {{"upper", 0, shapes::box({-0.01, -0.01, 0.005}, {0.01, 0.01, 0.3})},
-                 {"lower", 1, shapes::box({-0.01, -0.01, -0.1}, {0.01, 0.01, -0.005})}};
+  scene.bones = {{"upper", 0, shapes::cylinder(0.01, 0.3, 24, 40)}, {"lower", 1, shapes::cylinder(0.01, 0.1, 24, 20)}};
+  scene.bones[0].surface.vertices.colwise() += Vec3(0, 0, 0.005);
+  scene.bones[1].surface.vertices.colwise() += Vec3(0, 0, -0.105);
   scene.joints = {{"hinge", 0, 1, RigidTransform::Identity(), {{"flexion", Vec3::UnitY(), 0, 0, radians(120)}}}};
   scene.joints[0].frame = Eigen::Translation3d(away) * RigidTransform::Identity();
   Muscle muscle;
   muscle.name = "flexor";
   muscle.surface = shapes::cylinder(0.012, 0.32, 24, 64);
-  muscle.surface.vertices.colwise() += Vec3(-0.024, 0, 0.12);
+  muscle.surface.vertices.colwise() += Vec3(-0.024, 0, -0.05);
   Attachment origin{"top", AttachmentEnd::origin, 0, {}, false};
   Attachment insertion{"bottom", AttachmentEnd::insertion, 1, {}, false};
   const Real top = muscle.surface.vertices.row(2).maxCoeff(), bottom = muscle.surface.vertices.row(2).minCoeff();

@@ -147,8 +147,8 @@ TEST(TautStrings, a_part_that_runs_away_from_the_other_end_goes_with_its_bone) {
   const Real top = muscle.surface.vertices.row(2).maxCoeff();
   // A fiber that leaves its origin upwards, against its way down.
   Points line(3, 5);
-  line.col(0) = Vec3(-0.02, 0, top - 0.03), line.col(1) = Vec3(-0.022, 0, top - 0.012);
-  line.col(2) = Vec3(-0.026, 0, top - 0.012), line.col(3) = Vec3(-0.026, 0, 0.1);
+  line.col(0) = Vec3(-0.018, 0, top - 0.045), line.col(1) = Vec3(-0.019, 0, top - 0.01);
+  line.col(2) = Vec3(-0.026, 0, top - 0.01), line.col(3) = Vec3(-0.026, 0, 0.1);
   line.col(4) = Vec3(-0.026, 0, muscle.surface.vertices.row(2).minCoeff() + 0.005);
   muscle.given_fibers.append(line);
   const Strung strung(scene);

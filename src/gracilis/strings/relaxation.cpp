@@ -32,7 +32,7 @@ Real relax_string(NodeForces& forces, Index string, Points& places, StringSystem
   return farthest;
 }
 
-void relax(NodeForces& forces, int iterations, Points& places) {
+void relax(NodeForces& forces, int iterations, Real stop_move, Points& places) {
   const MuscleStrings& muscle = forces.muscle();
   StringSystem system(muscle.nodes);
   for (int iteration = 0; iteration < iterations; ++iteration) {
@@ -40,7 +40,7 @@ void relax(NodeForces& forces, int iterations, Points& places) {
     system.damping = iteration > undamped_iterations ? damping : 1;
     Real farthest = 0;
     for (Index s = 0; s < muscle.strings; ++s) farthest = std::max(farthest, relax_string(forces, s, places, system));
-    if (farthest < muscle.settings.stop_move) return;
+    if (farthest < stop_move) return;
   }
 }
 
@@ -94,7 +94,7 @@ Points pulled_tight(const MuscleStrings& muscle, const BoneDistances& bones) {
   Points places = muscle.fibers;
   const std::vector<RigidTransform> bodies(static_cast<std::size_t>(muscle.shares.rows()), RigidTransform::Identity());
   NodeForces forces(bare, bones, bodies);
-  relax(forces, muscle.settings.rest_iterations, places);
+  relax(forces, muscle.settings.rest_iterations, muscle.settings.rest_stop_move, places);
   return places;
 }
 
@@ -112,7 +112,7 @@ void follow(const MuscleStrings& muscle, const BoneDistances& bones, const Pose&
         step == steps ? pose.bodies : bodies_between(begun, pose.bodies, static_cast<Real>(step) / steps);
     carry(muscle, state.bodies, bodies, state.places);
     NodeForces forces(muscle, bones, bodies);
-    relax(forces, muscle.settings.iterations, state.places);
+    relax(forces, muscle.settings.iterations, muscle.settings.stop_move, state.places);
     state.bodies = bodies;
   }
 }
