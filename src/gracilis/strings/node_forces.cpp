@@ -4,6 +4,8 @@
 #include <gracilis/strings/relaxation.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace gracilis::strings {
 
@@ -49,6 +51,8 @@ NodeForces::NodeForces(const MuscleStrings& muscle, const BoneDistances& bones,
   }
   seen_nodes_.resize(bones.fields.size() * static_cast<std::size_t>(count));
   seen_middles_ = seen_nodes_;
+  clear_ = Eigen::MatrixXd::Constant(static_cast<Index>(bones.fields.size()), muscle.strings, -1);
+  travelled_.assign(static_cast<std::size_t>(muscle.strings), std::numeric_limits<Real>::infinity());
 }
 
 void NodeForces::begin_iteration(const Points& places) {
@@ -59,6 +63,7 @@ void NodeForces::begin_iteration(const Points& places) {
 
 void NodeForces::assemble(Index string, const Points& places, StringSystem& system) {
   const auto s = static_cast<std::size_t>(string);
+  if (std::isinf(travelled_[s])) find_clear_bones(string, places);
   const Real segments = static_cast<Real>(muscle_.nodes - 1);
   system.tension = segments / muscle_.lengths[s];
   for (Index i = 1; i + 1 < muscle_.nodes; ++i) {
@@ -77,6 +82,24 @@ void NodeForces::assemble(Index string, const Points& places, StringSystem& syst
     hold_among_neighbors(node, system);
     keep_from_bones(node, places, system);
   }
+}
+
+/// Most bones are far from a string: until it has travelled, none of its nodes or middles can be near these.
+void NodeForces::find_clear_bones(Index string, const Points& places) {
+  Real longest = 0;
+  for (Index i = 0; i + 1 < muscle_.nodes; ++i) {
+    const Index p = muscle_.node(string, i);
+    longest = std::max(longest, (places.col(p + 1) - places.col(p)).norm());
+  }
+  for (std::size_t bone = 0; bone < bones_.fields.size(); ++bone) {
+    Real nearest = std::numeric_limits<Real>::infinity();
+    for (Index i = 0; i < muscle_.nodes; ++i) {
+      const Eigen::Vector3f local = to_bones_[bone] * places.col(muscle_.node(string, i)).cast<float>();
+      nearest = std::min(nearest, static_cast<Real>(sample_bounded(bones_.fields[bone], local).distance));
+    }
+    clear_(static_cast<Index>(bone), string) = nearest - longest / 2 - muscle_.settings.bone_gap;
+  }
+  travelled_[static_cast<std::size_t>(string)] = 0;
 }
 
 /// A part that turns back goes with its bone.
@@ -157,6 +180,7 @@ void NodeForces::keep_from_bones(const Node& node, const Points& places, StringS
   const Real k = settings.bone_stiffness * system.tension;
   const std::size_t count = static_cast<std::size_t>(places.cols());
   for (std::size_t bone = 0; bone < bones_.fields.size(); ++bone) {
+    if (clear_(static_cast<Index>(bone), node.string) > travelled_[static_cast<std::size_t>(node.string)]) continue;
     const auto rest = [&](Index p) {
       return std::min(muscle_.bone_distances(static_cast<Index>(bone), p), farthest_gap);
     };

@@ -18,6 +18,8 @@ class NodeForces {
   void begin_iteration(const Points& places);
   /// The Gauss-Newton system of one string.
   void assemble(Index string, const Points& places, StringSystem& system);
+  /// Says that no node of a string moved further than this since it was last assembled, m.
+  void string_moved(Index string, Real distance) { travelled_[static_cast<std::size_t>(string)] += distance; }
 
   const MuscleStrings& muscle() const { return muscle_; }
 
@@ -29,6 +31,7 @@ class NodeForces {
     float distance = 0;
   };
 
+  void find_clear_bones(Index string, const Points& places);
   bool bone_force(std::size_t bone, const Vec3& place, Real kept, Seen& seen, Real& depth, Vec3& normal) const;
   void hold(const Node& node, const Points& places, StringSystem& system) const;
   void tie(const Node& node, StringSystem& system) const;
@@ -43,6 +46,9 @@ class NodeForces {
   Points tied_to_, support_places_, support_normals_;  ///< per node
   Points before_;                              ///< places at the beginning of the iteration
   std::vector<Eigen::Matrix3d> section_turns_;  ///< of each cross-section, from the capture pose
+  /// Bones × strings: how far all nodes of a string may travel before one is near the bone, m; and how far they did.
+  Eigen::MatrixXd clear_;
+  std::vector<Real> travelled_;
   std::vector<Seen> seen_nodes_, seen_middles_;  ///< bone by bone
 };
 

@@ -29,6 +29,7 @@ Real relax_string(NodeForces& forces, Index string, Points& places, StringSystem
     const Real share = length > settings.longest_move ? settings.longest_move / length : 1;
     places.col(muscle.node(string, i)) += system.damping * share * move;
   }
+  forces.string_moved(string, std::min(farthest, settings.longest_move));
   return farthest;
 }
 
