@@ -1,7 +1,5 @@
-#include "motion_facts.hpp"
 #include "scenario_runs.hpp"
 
-#include <gracilis/anatomy/builtin_elbow.hpp>
 #include <gracilis/anatomy/inner_fibers.hpp>
 
 #include <gtest/gtest.h>

@@ -112,15 +112,21 @@ TEST(RunScene, stops_within_a_second_in_the_middle_of_a_frame) {
   XpbdSettings endless;
   endless.iterations = 100000000;
   const Scene scene = tube_scene(endless);
-  std::atomic<bool> stop = false;
+  std::atomic<bool> stop = false, captured = false;
   std::chrono::steady_clock::time_point asked;
   std::thread user([&] {
+    captured.wait(false);
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     asked = std::chrono::steady_clock::now();
     stop = true;
   });
   Recorder recorder;
-  const RunEnd end = run_scene(scene, poses_of(scene, 3), *xpbd_on_tube(scene), nullptr, stop, recorder.function());
+  const auto record = [&, add = recorder.function()](const FrameRecord& now) {
+    add(now);
+    captured = true;
+    captured.notify_all();
+  };
+  const RunEnd end = run_scene(scene, poses_of(scene, 3), *xpbd_on_tube(scene), nullptr, stop, record);
   const auto ended = std::chrono::steady_clock::now();
   user.join();
   EXPECT_EQ(end, RunEnd::interrupted);

@@ -121,12 +121,18 @@ Real contraction_strength(const ContractionSettings& settings, Real activation) 
   return (1 - contracted_share(settings, activation)) / (1 - settings.shortest);
 }
 
-void set_contraction_lengths(const PreparedMuscle& muscle, Real activation, AlignedVector<float>& contraction_length) {
+void set_contraction_lengths(const PreparedMuscle& muscle, Real activation, const strings::SkinnedSurface* skinned,
+                             AlignedVector<float>& contraction_length) {
   const auto share = static_cast<float>(contracted_share(muscle.contraction, activation));
   const DistanceSet& set = muscle.system.contractions;
   for (std::size_t slot = 0; slot < set.a.size(); ++slot) {
-    const float c2 = muscle.along_fibers[slot];
-    contraction_length[slot] = set.rest_length[slot] * std::sqrt(c2 * share * share + (1 - c2));
+    const float c2 = muscle.along_fibers[slot], rest = set.rest_length[slot];
+    float across = 1;
+    if (skinned && rest > 0 && set.a[slot] < muscle.particle_count() && set.b[slot] < muscle.particle_count()) {
+      const Real length = (skinned->vertices.col(set.b[slot]) - skinned->vertices.col(set.a[slot])).norm();
+      across = std::max(across, static_cast<float>(length) / rest);
+    }
+    contraction_length[slot] = rest * std::sqrt(c2 * share * share + (1 - c2) * across * across);
   }
 }
 

@@ -17,7 +17,8 @@ void build_contractions(const Muscle& muscle, const MeshTopology& topology, Prep
 Real contraction_strength(const ContractionSettings& settings, Real activation);
 
 /// Sets what the contractions aim at: along the fibers the contracted share of the length at rest, across them all of
-/// it.
-void set_contraction_lengths(const PreparedMuscle& muscle, Real activation, AlignedVector<float>& contraction_length);
+/// it, or what it is on the skinned surface (none: nullptr) where that is wider.
+void set_contraction_lengths(const PreparedMuscle& muscle, Real activation, const strings::SkinnedSurface* skinned,
+                             AlignedVector<float>& contraction_length);
 
 }  // namespace gracilis::xpbd

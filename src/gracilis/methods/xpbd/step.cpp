@@ -86,7 +86,7 @@ void predict(const PreparedMuscle& muscle, Real activation, const Pose& before, 
   move_attached(muscle, pose, state.particles);
   move_attached(muscle, pose, state.start);
   set_target_lengths(muscle, pose, state);
-  set_contraction_lengths(muscle, activation, state.contraction_length);
+  set_contraction_lengths(muscle, activation, state.skinned.get(), state.contraction_length);
 }
 
 /// Moves the state to where a coarser copy put the surface.
@@ -96,7 +96,7 @@ void place(const PreparedMuscle& muscle, Real activation, const Pose& pose, cons
   state.start = placed;
   if (muscle.settings.full_iterations == 0) return;
   set_target_lengths(muscle, pose, state);
-  set_contraction_lengths(muscle, activation, state.contraction_length);
+  set_contraction_lengths(muscle, activation, state.skinned.get(), state.contraction_length);
 }
 
 template <class Pointer>
