@@ -8,7 +8,7 @@ namespace gracilis {
 namespace {
 
 /// The share of an overlap at rest that is given back in each step, and the least of it, m.
-constexpr float given_back = 1.0f / 20, least_given_back = 0.00006f;
+constexpr float given_back = 1.0f / 25, least_given_back = 0.00005f;
 
 }  // namespace
 
