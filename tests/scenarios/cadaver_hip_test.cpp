@@ -5,7 +5,7 @@ namespace gracilis {
 
 TEST(CadaverHip, gluteus_maximus_survives_120_degrees_of_flexion) {
   SKIP_WITHOUT_DATA();
-  const Scene scene = cadaver_scene("flexion_120", {"gluteus_maximus_r"});
+  const Scene scene = cadaver_scene("flexion_120", {"gluteus_maximus_r"}, {"skinning=strings"});
   const WholeRun run = run_whole(scene);
   EXPECT_GT(run.frames, 120);
   expect_gates(scene, run);
