@@ -128,8 +128,8 @@ class Session {
     for (const std::string& warning : overlap_warnings(loaded_.scene, overlaps_)) warn(warning);
     spdlog::info("fibers");
     tracker_.emplace(loaded_.scene);
-    method_ = make_scene_method(
-        loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
+    method_ = make_scene_method(loaded_.scene,
+                                [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
   }
 
   std::filesystem::path out_folder() const {

@@ -129,11 +129,10 @@ void view_scene(Scene scene, const ViewOptions& options, std::chrono::steady_clo
   static constexpr int kept_frames = 1500;
   drive_all(scene);
   ShapeHistory history(kept_frames);
-  LiveSimulation simulation(
-      scene, history, [&scene] {
-        return make_scene_method(
-            scene, [&scene](const DistanceFieldSettings& settings) { return cached_bone_fields(scene, settings); });
-      });
+  LiveSimulation simulation(scene, history, [&scene] {
+    return make_scene_method(
+        scene, [&scene](const DistanceFieldSettings& settings) { return cached_bone_fields(scene, settings); });
+  });
   WindowOptions window = options.window;
   window.live = controls_of(scene, simulation);
   window.bone_fields = [&scene] { return cached_bone_fields(scene); };

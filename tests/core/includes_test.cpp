@@ -14,9 +14,9 @@
 /// not know each other.
 namespace {
 
-const std::map<std::string, int> ranks = {{"core", 0},    {"geometry", 1}, {"dynamics", 2}, {"scene", 2},
-                                          {"anatomy", 3}, {"strings", 4},  {"methods", 5}, {"simulate", 6}, {"io", 7},
-                                          {"prepare", 7}, {"opensim", 8},  {"view", 9},     {"apps", 10}};
+const std::map<std::string, int> ranks = {
+    {"core", 0},     {"geometry", 1}, {"dynamics", 2}, {"scene", 2},   {"anatomy", 3}, {"strings", 4}, {"methods", 5},
+    {"simulate", 6}, {"io", 7},       {"prepare", 7},  {"opensim", 8}, {"view", 9},    {"apps", 10}};
 
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
 const std::vector<std::string> toolkit_libraries = {"vtk",  "fmt/",     "spdlog/", "toml++/", "nlohmann/",

@@ -71,7 +71,8 @@ TEST(Contraction, sixteen_fibers_give_nearly_the_shape_that_a_hundred_give) {
     scene.muscles[0].xpbd.skinning = Skinning::bodies;
     return flexed_frame(scene, 20);
   };
-  const Frame relaxed = blended(tube_scene()), many = blended(active_tube(0.3)), few = blended(active_tube(0.3, {}, 16));
+  const Frame relaxed = blended(tube_scene()), many = blended(active_tube(0.3)),
+              few = blended(active_tube(0.3, {}, 16));
   const auto distance = [](const Frame& one, const Frame& other) {
     return std::sqrt((one.muscles[0].points - other.muscles[0].points).colwise().squaredNorm().mean());
   };

@@ -16,7 +16,8 @@ TEST(StringSystem, block_elimination_solves_what_a_dense_solver_does) {
   std::srand(1);
   for (Index i = 1; i <= inner; ++i) {
     const Eigen::Matrix3d a = Eigen::Matrix3d::Random();
-    system.stiffness[static_cast<std::size_t>(i)] = 2 * system.tension * Eigen::Matrix3d::Identity() + a * a.transpose();
+    system.stiffness[static_cast<std::size_t>(i)] =
+        2 * system.tension * Eigen::Matrix3d::Identity() + a * a.transpose();
     system.gradient[static_cast<std::size_t>(i)] = Vec3::Random();
     dense.block<3, 3>(3 * (i - 1), 3 * (i - 1)) = system.stiffness[static_cast<std::size_t>(i)];
     right.segment<3>(3 * (i - 1)) = -system.gradient[static_cast<std::size_t>(i)];
@@ -40,8 +41,8 @@ TEST(StringSystem, a_spring_adds_the_derivatives_of_its_energy) {
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3 along = step * Vec3::Unit(axis);
     EXPECT_NEAR(system.gradient[1][axis], (energy(along) - energy(-along)) / (2 * step), 1e-8);
-    EXPECT_NEAR(system.stiffness[1](axis, axis), (energy(along) - 2 * energy(Vec3::Zero()) + energy(-along)) / step / step,
-                1e-3);
+    EXPECT_NEAR(system.stiffness[1](axis, axis),
+                (energy(along) - 2 * energy(Vec3::Zero()) + energy(-along)) / step / step, 1e-3);
   }
 }
 

@@ -104,9 +104,8 @@ std::vector<DistanceField> cached_bone_fields(const Scene& scene) {
 std::vector<DistanceField> cached_bone_fields(const Scene& scene, const DistanceFieldSettings& settings) {
   const fs::path folder = default_cache_folder();
   std::vector<DistanceField> fields(scene.bones.size());
-  parallel_for_each(fields.size(), [&](std::size_t b) {
-    fields[b] = cached_bone_field(scene.bones[b], settings, folder);
-  });
+  parallel_for_each(fields.size(),
+                    [&](std::size_t b) { fields[b] = cached_bone_field(scene.bones[b], settings, folder); });
   return fields;
 }
 

@@ -23,10 +23,11 @@ using SettingValue = std::variant<bool, int, Real, Vec3, std::string>;
 /// A member of Settings that users may set.
 template <class Settings>
 struct Setting {
-  using Member = std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*,
-                              std::string Settings::*, TimeMode Settings::*, DihedralFormula Settings::*,
-                              FiberTemplate Settings::*, MuscleContact Settings::*, TunnellingGuard Settings::*, Skinning Settings::*,
-                              VirtualEdgeResolution Settings::*, CoincidingEdges Settings::*, SurfacePaths Settings::*>;
+  using Member =
+      std::variant<bool Settings::*, int Settings::*, Real Settings::*, Vec3 Settings::*, std::string Settings::*,
+                   TimeMode Settings::*, DihedralFormula Settings::*, FiberTemplate Settings::*,
+                   MuscleContact Settings::*, TunnellingGuard Settings::*, Skinning Settings::*,
+                   VirtualEdgeResolution Settings::*, CoincidingEdges Settings::*, SurfacePaths Settings::*>;
   std::string_view key;
   Member member;
   std::string_view unit;  ///< empty for numbers without one and for switches

@@ -60,9 +60,9 @@ struct XpbdSettings {
   Real slide_reach = 0.005;   ///< m; vertices this near to it at rest keep their distance
 
   // What this project adds to the published method
-  bool predictor = true;           ///< carry free vertices with the bones before solving
+  bool predictor = true;                  ///< carry free vertices with the bones before solving
   Skinning skinning = Skinning::strings;  ///< what the predictor follows
-  Real tendon_length = 0.03;       ///< m from attachments, graded from tendon to belly; 0: no tendons
+  Real tendon_length = 0.03;              ///< m from attachments, graded from tendon to belly; 0: no tendons
   Real step_turn = radians(1.25);  ///< rad; a frame that turns bones further is taken in several steps; 0: in one
   int settling_rounds = 4;         ///< of volume and contact alone, after the last iteration
   Real shape_recovery = 0.03;      ///< share of its displacement that a vertex gives up per step

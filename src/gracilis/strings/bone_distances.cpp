@@ -14,7 +14,7 @@ DistanceFieldSettings far_field_settings() {
 
 BoneDistances bone_distances(const Scene& scene, const std::vector<DistanceField>& far_fields) {
   BoneDistances bones;
-  for (std::size_t b = 0; b < scene.bones.size(); ++b) {
+  for (std::size_t b = 0; b < far_fields.size(); ++b) {
     bones.fields.push_back(bounded(far_fields[b]));
     bones.bodies.push_back(scene.bones[b].body);
   }

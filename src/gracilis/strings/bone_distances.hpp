@@ -16,7 +16,7 @@ struct BoneDistances {
 /// How fine and far such fields are: 2.5 mm cells, 45 mm around a bone.
 DistanceFieldSettings far_field_settings();
 
-/// Precondition: one field per bone of the scene.
+/// Precondition: one field per bone of the scene, or none, where no muscle is carried by strings.
 BoneDistances bone_distances(const Scene& scene, const std::vector<DistanceField>& far_fields);
 
 /// The distance (m) of a place in the capture pose to the nearest bone of a body; beyond the fields a lower bound,

@@ -71,8 +71,7 @@ void hold_what_turns_back(const BoneDistances& bones, MuscleStrings& result) {
       return nodes_near_body(from, turning, body, bones, settings.pinned_reach);
     };
     result.first_held.push_back(held(line, result.origin_bodies[static_cast<std::size_t>(s)]));
-    result.last_held.push_back(result.nodes - 1 -
-                               held(reversed, result.insertion_bodies[static_cast<std::size_t>(s)]));
+    result.last_held.push_back(result.nodes - 1 - held(reversed, result.insertion_bodies[static_cast<std::size_t>(s)]));
   }
 }
 
@@ -184,6 +183,12 @@ std::optional<MuscleStrings> muscle_strings(const Scene& scene, const Muscle& mu
   find_neighbors(result);
   result.taut = pulled_tight(result, bones);
   return result;
+}
+
+Index body_holding(const MuscleStrings& muscle, Index string, Index i) {
+  const auto s = static_cast<std::size_t>(string);
+  if (i <= muscle.first_held[s]) return muscle.origin_bodies[s];
+  return i >= muscle.last_held[s] ? muscle.insertion_bodies[s] : -1;
 }
 
 Vec3 string_direction(const MuscleStrings& muscle, const Points& places, Index string, Index i) {

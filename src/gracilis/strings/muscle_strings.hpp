@@ -26,10 +26,10 @@ struct NodeSupport {
 struct MuscleStrings {
   StringSettings settings;
   Index strings = 0;
-  Index nodes = 0;                    ///< of each string
-  Points fibers;                      ///< the fibers that the strings stand for
-  Points taut;                        ///< the strings, pulled tight over what holds the fibers
-  std::vector<Real> lengths;          ///< m, of each fiber
+  Index nodes = 0;                                     ///< of each string
+  Points fibers;                                       ///< the fibers that the strings stand for
+  Points taut;                                         ///< the strings, pulled tight over what holds the fibers
+  std::vector<Real> lengths;                           ///< m, of each fiber
   std::vector<Index> origin_bodies, insertion_bodies;  ///< of each string's ends
   /// Nodes up to the first and from the second on go with the bodies of the ends; of each string.
   std::vector<Index> first_held, last_held;
@@ -46,6 +46,9 @@ struct MuscleStrings {
 /// pose. Nothing for a muscle that has no fibers from an origin to an insertion. Precondition: the scene is valid.
 std::optional<MuscleStrings> muscle_strings(const Scene& scene, const Muscle& muscle, const BoneDistances& bones,
                                             const StringSettings& settings);
+
+/// The body that an end of a string, or a part that turns back, goes with; -1 for a node that is free.
+Index body_holding(const MuscleStrings& muscle, Index string, Index i);
 
 /// The unit direction of a string at a node, by its neighbors.
 Vec3 string_direction(const MuscleStrings& muscle, const Points& places, Index string, Index i);

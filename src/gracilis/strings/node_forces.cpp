@@ -20,9 +20,9 @@ static constexpr Real held_stiffness = 1e4;
 
 /// An inner node while its forces are summed.
 struct NodeForces::Node {
-  Index string, i, p;      ///< p: its column
-  Real length;             ///< m, of string that it stands for
-  Vec3 place, direction;   ///< of the string, unit
+  Index string, i, p;     ///< p: its column
+  Real length;            ///< m, of string that it stands for
+  Vec3 place, direction;  ///< of the string, unit
   Vec3 across(const Vec3& v) const { return v - direction * direction.dot(v); }
   Eigen::Matrix3d projection() const { return Eigen::Matrix3d::Identity() - direction * direction.transpose(); }
 };
@@ -69,16 +69,16 @@ void NodeForces::assemble(Index string, const Points& places, StringSystem& syst
   for (Index i = 1; i + 1 < muscle_.nodes; ++i) {
     const Index p = muscle_.node(string, i);
     const auto row = static_cast<std::size_t>(i);
-    const Node node{string, i, p, muscle_.lengths[s] / segments, places.col(p),
-                    string_direction(muscle_, places, string, i)};
+    const Node node{
+        string, i, p, muscle_.lengths[s] / segments, places.col(p), string_direction(muscle_, places, string, i)};
     system.stiffness[row] = 2 * system.tension * Eigen::Matrix3d::Identity();
     system.gradient[row] = system.tension * (2 * places.col(p) - places.col(p - 1) - places.col(p + 1));
-    if (i <= muscle_.first_held[s] || i >= muscle_.last_held[s]) {
-      hold(node, places, system);
+    if (const Index body = body_holding(muscle_, string, i); body >= 0) {
+      hold(node, body, system);
       continue;
     }
     tie(node, system);
-    support(node, places, system);
+    support(node, system);
     hold_among_neighbors(node, system);
     keep_from_bones(node, places, system);
   }
@@ -103,9 +103,7 @@ void NodeForces::find_clear_bones(Index string, const Points& places) {
 }
 
 /// A part that turns back goes with its bone.
-void NodeForces::hold(const Node& node, const Points&, StringSystem& system) const {
-  const auto s = static_cast<std::size_t>(node.string);
-  const Index body = node.i <= muscle_.first_held[s] ? muscle_.origin_bodies[s] : muscle_.insertion_bodies[s];
+void NodeForces::hold(const Node& node, Index body, StringSystem& system) const {
   const Vec3 place = bodies_[static_cast<std::size_t>(body)] * Vec3(muscle_.taut.col(node.p));
   const Real k = held_stiffness * system.tension;
   system.stiffness[static_cast<std::size_t>(node.i)] = k * Eigen::Matrix3d::Identity();
@@ -121,9 +119,9 @@ void NodeForces::tie(const Node& node, StringSystem& system) const {
   system.gradient[static_cast<std::size_t>(node.i)] += k * node.across(node.place - tied_to_.col(node.p));
 }
 
-/// What the fiber rested on: bones that it may slide over, at their distance at rest, and for the rest a plane that goes
-/// with the bodies.
-void NodeForces::support(const Node& node, const Points&, StringSystem& system) const {
+/// What the fiber rested on: bones that it may slide over, at their distance at rest, and for the rest a plane that
+/// goes with the bodies.
+void NodeForces::support(const Node& node, StringSystem& system) const {
   const NodeSupport& support = muscle_.supports[static_cast<std::size_t>(node.p)];
   if (support.normal.isZero(0)) return;
   const Real length = muscle_.settings.support_length;

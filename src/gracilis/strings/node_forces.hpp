@@ -14,7 +14,8 @@ class NodeForces {
   /// All must outlive this.
   NodeForces(const MuscleStrings& muscle, const BoneDistances& bones, const std::vector<RigidTransform>& bodies);
 
-  /// Neighbors pull towards where they were at the beginning of an iteration, so that strings do not wait for each other.
+  /// Neighbors pull towards where they were at the beginning of an iteration, so that strings do not wait for each
+  /// other.
   void begin_iteration(const Points& places);
   /// The Gauss-Newton system of one string.
   void assemble(Index string, const Points& places, StringSystem& system);
@@ -33,19 +34,19 @@ class NodeForces {
 
   void find_clear_bones(Index string, const Points& places);
   bool bone_force(std::size_t bone, const Vec3& place, Real kept, Seen& seen, Real& depth, Vec3& normal) const;
-  void hold(const Node& node, const Points& places, StringSystem& system) const;
+  void hold(const Node& node, Index body, StringSystem& system) const;
   void tie(const Node& node, StringSystem& system) const;
-  void support(const Node& node, const Points& places, StringSystem& system) const;
+  void support(const Node& node, StringSystem& system) const;
   void hold_among_neighbors(const Node& node, StringSystem& system) const;
   void keep_from_bones(const Node& node, const Points& places, StringSystem& system);
 
   const MuscleStrings& muscle_;
   const BoneDistances& bones_;
   const std::vector<RigidTransform>& bodies_;
-  std::vector<Eigen::Isometry3f> to_bones_;    ///< from the world to each bone's capture frame
+  std::vector<Eigen::Isometry3f> to_bones_;            ///< from the world to each bone's capture frame
   Points tied_to_, support_places_, support_normals_;  ///< per node
-  Points before_;                              ///< places at the beginning of the iteration
-  std::vector<Eigen::Matrix3d> section_turns_;  ///< of each cross-section, from the capture pose
+  Points before_;                                      ///< places at the beginning of the iteration
+  std::vector<Eigen::Matrix3d> section_turns_;         ///< of each cross-section, from the capture pose
   /// Bones × strings: how far all nodes of a string may travel before one is near the bone, m; and how far they did.
   Eigen::MatrixXd clear_;
   std::vector<Real> travelled_;

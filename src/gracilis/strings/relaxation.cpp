@@ -15,8 +15,8 @@ namespace {
 constexpr int undamped_iterations = 12;
 constexpr Real damping = 0.6;
 
-/// One step of Gauss-Newton for one string; how far a node would move, m.
-Real relax_string(NodeForces& forces, Index string, Points& places, StringSystem& system) {
+/// One step of Gauss-Newton for one string, of which a share is taken; how far a node would move, m.
+Real relax_string(NodeForces& forces, Index string, Real taken, Points& places, StringSystem& system) {
   const MuscleStrings& muscle = forces.muscle();
   forces.assemble(string, places, system);
   system.solve();
@@ -27,7 +27,7 @@ Real relax_string(NodeForces& forces, Index string, Points& places, StringSystem
     const Real length = move.norm();
     farthest = std::max(farthest, length);
     const Real share = length > settings.longest_move ? settings.longest_move / length : 1;
-    places.col(muscle.node(string, i)) += system.damping * share * move;
+    places.col(muscle.node(string, i)) += taken * share * move;
   }
   forces.string_moved(string, std::min(farthest, settings.longest_move));
   return farthest;
@@ -38,9 +38,10 @@ void relax(NodeForces& forces, int iterations, Real stop_move, Points& places) {
   StringSystem system(muscle.nodes);
   for (int iteration = 0; iteration < iterations; ++iteration) {
     forces.begin_iteration(places);
-    system.damping = iteration > undamped_iterations ? damping : 1;
+    const Real taken = iteration > undamped_iterations ? damping : 1;
     Real farthest = 0;
-    for (Index s = 0; s < muscle.strings; ++s) farthest = std::max(farthest, relax_string(forces, s, places, system));
+    for (Index s = 0; s < muscle.strings; ++s)
+      farthest = std::max(farthest, relax_string(forces, s, taken, places, system));
     if (farthest < stop_move) return;
   }
 }
@@ -70,10 +71,7 @@ void carry(const MuscleStrings& muscle, const std::vector<RigidTransform>& befor
   for (Index s = 0; s < muscle.strings; ++s)
     for (Index i = 0; i < muscle.nodes; ++i) {
       const Index p = muscle.node(s, i);
-      const auto string = static_cast<std::size_t>(s);
-      if (i <= muscle.first_held[string] || i >= muscle.last_held[string]) {
-        const Index body = i <= muscle.first_held[string] ? muscle.origin_bodies[string]
-                                                          : muscle.insertion_bodies[string];
+      if (const Index body = body_holding(muscle, s, i); body >= 0) {
         places.col(p) = now[static_cast<std::size_t>(body)] * Vec3(muscle.taut.col(p));
         continue;
       }

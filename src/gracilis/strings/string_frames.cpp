@@ -41,8 +41,7 @@ FiberFrames fiber_frames(const MuscleStrings& muscle, const StringState& state) 
       const Index node = static_cast<Index>(i), p = muscle.node(s, node);
       const Real share = static_cast<Real>(i) / static_cast<Real>(last);
       turns[i] = Eigen::AngleAxisd(share * twist, directions[i]) * turns[i];
-      if (node <= muscle.first_held[string]) turns[i] = origin;
-      if (node >= muscle.last_held[string]) turns[i] = insertion;
+      if (const Index held_by = body_holding(muscle, s, node); held_by >= 0) turns[i] = body(held_by);
       frames.turns.col(p) = turns[i].coeffs();
       frames.fibers.col(p) = state.places.col(p) + turns[i] * Vec3(muscle.fibers.col(p) - muscle.taut.col(p));
     }

@@ -6,7 +6,7 @@ namespace gracilis::strings {
 
 /// The fibers as their strings carry them, and how the muscle has turned about each node.
 struct FiberFrames {
-  Points fibers;            ///< nodes, world, m
+  Points fibers;           ///< nodes, world, m
   Eigen::Matrix4Xd turns;  ///< unit quaternions (x, y, z, w) per node, from the capture pose
 };
 

@@ -22,12 +22,12 @@ struct StringSettings {
   Real pinned_reach = 0.02;   ///< m from its bone, within which the part of a fiber that turns back goes with the bone
   Real pinned_least = 0.003;  ///< m that such a part runs away from the fiber's other end
 
-  int rest_iterations = 300;      ///< at most, until strings are taut in the capture pose ...
-  Real rest_stop_move = 1e-9;     ///< m ... where no node moves further: that pose must be at rest
-  int iterations = 8;             ///< in each step
-  Real step_turn = radians(3);    ///< rad; bones never turn further against each other in one step
-  Real longest_move = 0.004;      ///< m, of a node in one iteration
-  Real stop_move = 5e-6;          ///< m; iterations stop where no node moves further
+  int rest_iterations = 300;    ///< at most, until strings are taut in the capture pose ...
+  Real rest_stop_move = 1e-9;   ///< m ... where no node moves further: that pose must be at rest
+  int iterations = 8;           ///< in each step
+  Real step_turn = radians(3);  ///< rad; bones never turn further against each other in one step
+  Real longest_move = 0.004;    ///< m, of a node in one iteration
+  Real stop_move = 5e-6;        ///< m; iterations stop where no node moves further
 };
 
 }  // namespace gracilis::strings

@@ -222,8 +222,7 @@ void correct_near_attachments(const StringSkin& skin, const Points& rest, const 
     const auto v = static_cast<std::size_t>(vertex);
     for (auto k = static_cast<std::size_t>(skin.correction_begin[v]);
          k < static_cast<std::size_t>(skin.correction_begin[v + 1]); ++k)
-      vertices.col(vertex) +=
-          static_cast<Real>(skin.correction_weights[k]) * lacking.col(skin.correction_vertices[k]);
+      vertices.col(vertex) += static_cast<Real>(skin.correction_weights[k]) * lacking.col(skin.correction_vertices[k]);
   }
 }
 

@@ -15,8 +15,8 @@ struct StringSkin {
   Points offsets;              ///< from the weighted mean of its nodes' fibers to the vertex, at rest, m
   Points directions;           ///< of the fibers about each vertex at rest, unit
   Eigen::VectorXd along;       ///< place of each vertex along the fibers, 0 at origins to 1 at insertions
-  std::vector<Index> attached_body;      ///< per vertex, or -1
-  std::vector<Index> correction_begin;   ///< per vertex, as above: attached vertices whose correction it shares ...
+  std::vector<Index> attached_body;     ///< per vertex, or -1
+  std::vector<Index> correction_begin;  ///< per vertex, as above: attached vertices whose correction it shares ...
   std::vector<Index> correction_vertices;
   std::vector<float> correction_weights;  ///< ... fading to 0 with the distance from them
   Real volume = 0;                        ///< m³, enclosed at rest
@@ -24,8 +24,7 @@ struct StringSkin {
 
 /// Binds each vertex to its 16 nearest fibers, at its place along them. `attached_body`: per vertex the body that it is
 /// attached to, or -1.
-StringSkin bind_skin(const MuscleStrings& muscle, const TriangleMesh& surface,
-                     const std::vector<Index>& attached_body);
+StringSkin bind_skin(const MuscleStrings& muscle, const TriangleMesh& surface, const std::vector<Index>& attached_body);
 
 /// Where strings put the vertices of a surface, and how they turn them.
 struct SkinnedSurface {

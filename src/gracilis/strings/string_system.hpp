@@ -11,8 +11,7 @@ namespace gracilis::strings {
 struct StringSystem {
   explicit StringSystem(Index nodes);
 
-  Real tension = 0;                       ///< k, 1/m
-  Real damping = 1;                        ///< share of the solution that is taken
+  Real tension = 0;                        ///< k, 1/m
   std::vector<Eigen::Matrix3d> stiffness;  ///< H, per node
   std::vector<Vec3> gradient;              ///< g
   std::vector<Vec3> solution;              ///< x, m

@@ -69,7 +69,8 @@ Level make_level(const Scene& scene, const std::vector<DistanceField>& fields,
 }
 
 void reset(Level& level) {
-  for (std::size_t m = 0; m < level.muscles.size(); ++m) level.states[m] = make_muscle_state(level.muscles[m], level.bodies);
+  for (std::size_t m = 0; m < level.muscles.size(); ++m)
+    level.states[m] = make_muscle_state(level.muscles[m], level.bodies);
   forget_contact(level.crowd, level.crowd_state);
 }
 

@@ -80,8 +80,7 @@ namespace {
 /// What is attached moves with its body, but a tendon about a line follows that to its end.
 class CarryingFrames {
  public:
-  CarryingFrames(const PreparedMuscle& muscle, const Pose& pose,
-                 std::shared_ptr<const strings::SkinnedSurface> skinned)
+  CarryingFrames(const PreparedMuscle& muscle, const Pose& pose, std::shared_ptr<const strings::SkinnedSurface> skinned)
       : muscle_(muscle), pose_(pose), skinned_(std::move(skinned)) {
     if (skinned_) return;
     if (!muscle.line) {

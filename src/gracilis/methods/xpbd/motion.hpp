@@ -6,8 +6,8 @@
 
 namespace gracilis::xpbd {
 
-/// What of a muscle changes: a copy is a checkpoint. Beside the solver's state, where the strings are that carry it, and
-/// where they put its surface.
+/// What of a muscle changes: a copy is a checkpoint. Beside the solver's state, where the strings are that carry it,
+/// and where they put its surface.
 struct MuscleState : SurfaceState {
   strings::StringState strings;
   std::shared_ptr<const strings::SkinnedSurface> skinned;  ///< by the strings; none: by bodies or a line
@@ -29,8 +29,9 @@ void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& pa
 Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& now);
 
 /// The predictor: every free particle has a frame of its own: that of the strings which carry the muscle, which are
-/// taken to the pose, or the blend of the bodies' motions by its harmonic shares. It keeps its displacement in that frame from `before` to `now`, less the share `shape_recovery`, so that the solver
-/// only has to relax and a muscle does not remember by which way it came.
+/// taken to the pose, or the blend of the bodies' motions by its harmonic shares. It keeps its displacement in that
+/// frame from `before` to `now`, less the share `shape_recovery`, so that the solver only has to relax and a muscle
+/// does not remember by which way it came.
 ///
 /// On the way back to the capture pose a relaxed muscle also keeps no more than in proportion to the turn of its bones
 /// from there: where they are as they were, so is the muscle. An active one is displaced by its own pull, too, which

@@ -227,12 +227,16 @@ Points fiber_directions(const Points& vertices, const Eigen::Matrix3Xi& faces, c
   return directions;
 }
 
-CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones) {
+bool asks_for_strings(const Muscle& muscle) {
   const XpbdSettings& settings = muscle.xpbd;
   const bool is_carried = settings.predictor || settings.slack_uptake;
-  if (settings.skinning != Skinning::strings || !is_carried || muscle.action_line.rays > 0) return {};
+  if (settings.skinning != Skinning::strings || !is_carried || muscle.action_line.rays > 0) return false;
   const auto other_body = [&](const Attachment& a) { return a.body != muscle.attachments.front().body; };
-  if (std::none_of(muscle.attachments.begin(), muscle.attachments.end(), other_body)) return {};
+  return std::any_of(muscle.attachments.begin(), muscle.attachments.end(), other_body);
+}
+
+CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones) {
+  if (!asks_for_strings(muscle)) return {};
   std::optional<strings::MuscleStrings> laid = strings::muscle_strings(scene, muscle, bones, {});
   if (!laid) return {};
   return {&bones, std::make_shared<const strings::MuscleStrings>(std::move(*laid))};

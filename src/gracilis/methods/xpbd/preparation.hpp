@@ -58,8 +58,11 @@ struct PreparedMuscle {
 PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
                               const CarryingStrings& carrying = {});
 
-/// The strings that a muscle's settings ask for; none where it runs along a line, has no fibers from an origin to an
-/// insertion, or is attached to one body alone. `bones` must outlive the result.
+/// Whether a muscle's settings ask for strings; not where it runs along a line or is attached to one body alone.
+bool asks_for_strings(const Muscle& muscle);
+
+/// The strings that a muscle asks for; none where it has no fibers from an origin to an insertion. `bones` must outlive
+/// the result.
 CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones);
 
 /// Fiber direction on each triangle, unit: the gradient of the harmonic coordinate that is 0 on origins and 1 on

@@ -22,8 +22,7 @@ struct MuscleStep {
 
 /// The poses that a frame of muscles which are advanced in step goes through: as many as the settings of the most
 /// demanding ask for, the last is `now`.
-std::vector<Pose> substep_poses(const std::vector<const PreparedMuscle*>& muscles, const Pose& before,
-                                const Pose& now);
+std::vector<Pose> substep_poses(const std::vector<const PreparedMuscle*>& muscles, const Pose& before, const Pose& now);
 
 /// Moves the muscles from one pose to the next, in as many substeps as the most demanding of them asks for. `crowd`
 /// says how they meet, its surfaces in the order of `steps`; without pairs they do not. Throws QualityError that names

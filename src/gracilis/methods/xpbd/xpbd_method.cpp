@@ -197,10 +197,13 @@ class XpbdMethod final : public DeformationMethod {
 
 std::unique_ptr<DeformationMethod> make_xpbd_method(const Scene& scene, std::vector<DistanceField> fields,
                                                     std::vector<DistanceField> far_fields) {
-  if (far_fields.empty())
-    for (const Bone& bone : scene.bones)
-      far_fields.push_back(build_bone_field(bone, strings::far_field_settings()));
+  if (far_fields.empty() && needs_far_fields(scene))
+    for (const Bone& bone : scene.bones) far_fields.push_back(build_bone_field(bone, strings::far_field_settings()));
   return std::make_unique<xpbd::XpbdMethod>(scene, std::move(fields), std::move(far_fields));
+}
+
+bool needs_far_fields(const Scene& scene) {
+  return std::any_of(scene.muscles.begin(), scene.muscles.end(), xpbd::asks_for_strings);
 }
 
 DistanceField build_bone_field(const Bone& bone, const DistanceFieldSettings& settings) {
