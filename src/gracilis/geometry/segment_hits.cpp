@@ -37,9 +37,8 @@ SegmentHits::~SegmentHits() = default;
 SegmentHits::SegmentHits(SegmentHits&&) noexcept = default;
 SegmentHits& SegmentHits::operator=(SegmentHits&&) noexcept = default;
 
-bool SegmentHits::cut(const Vec3& a, const Vec3& b) const {
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+/// The segment as a ray of the length 1 in its own unit.
+static RTCRay ray_along(const Vec3& a, const Vec3& b) {
   const Eigen::Vector3f from = a.cast<float>(), along = (b - a).cast<float>();
   RTCRay ray{};
   ray.org_x = from.x();
@@ -50,8 +49,26 @@ bool SegmentHits::cut(const Vec3& a, const Vec3& b) const {
   ray.dir_z = along.z();
   ray.tfar = 1;
   ray.mask = 0xffffffffu;
+  return ray;
+}
+
+bool SegmentHits::cut(const Vec3& a, const Vec3& b) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray = ray_along(a, b);
   rtcOccluded1(tree_->scene, &context, &ray);
   return ray.tfar < 0;
+}
+
+std::optional<SegmentHits::Hit> SegmentHits::first(const Vec3& a, const Vec3& b) const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit seen{};
+  seen.ray = ray_along(a, b);
+  seen.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(tree_->scene, &context, &seen);
+  if (seen.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return Hit{static_cast<Index>(seen.hit.primID), a + static_cast<Real>(seen.ray.tfar) * (b - a)};
 }
 
 }  // namespace gracilis

@@ -2,6 +2,8 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/nearest_points.hpp>
+#include <gracilis/geometry/polylines.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +17,8 @@ namespace {
 constexpr std::size_t bound_fibers = 16;
 /// Weights fall with the distance plus this, m.
 constexpr Real softening = 0.0005;
-/// Corrections at attachments fade over this distance, m, from so many of the nearest attached vertices.
-constexpr Real fading = 0.04;
-constexpr std::size_t correcting_vertices = 8;
+/// What fibers say about places is smoothed over this length, m, and loses its say towards attachments from this far.
+constexpr Real smoothing = 0.02, fading = 0.02;
 /// Narrowest and widest that a muscle becomes half-way between its ends: widths change by these shares.
 constexpr Real narrowest = -0.5, widest = 1;
 constexpr int volume_rounds = 4;
@@ -82,22 +83,22 @@ VertexBinding bind_vertex(const MuscleStrings& muscle, const Vec3& place) {
   return binding;
 }
 
-/// Attached vertices near a free one, weighted by nearness and faded.
-std::vector<std::pair<Index, Real>> corrections_of(const Points& rest, const std::vector<Index>& attached,
-                                                   const Vec3& place) {
-  std::vector<std::pair<Real, Index>> near;
-  for (const Index v : attached)
-    if (const Real distance = (rest.col(v) - place).norm(); distance < fading) near.emplace_back(distance, v);
-  std::sort(near.begin(), near.end());
-  near.resize(std::min(near.size(), correcting_vertices));
-  Real sum = 0;
-  for (const auto& [distance, v] : near) sum += 1 / (distance + softening);
-  std::vector<std::pair<Index, Real>> corrections;
-  for (const auto& [distance, v] : near) {
-    const Real nearness = 1 - near.front().first / fading;
-    corrections.emplace_back(v, nearness * nearness / (distance + softening) / sum);
+/// How far the places that fibers give to vertices are trusted: not at all at attachments, fully this far from them.
+Eigen::VectorXd trust_beyond_attachments(const Points& rest, const std::vector<Index>& attached_body) {
+  Points attached(3, 0);
+  for (Index v = 0; v < rest.cols(); ++v) {
+    if (attached_body[static_cast<std::size_t>(v)] < 0) continue;
+    attached.conservativeResize(3, attached.cols() + 1);
+    attached.rightCols<1>() = rest.col(v);
   }
-  return corrections;
+  Eigen::VectorXd trust = Eigen::VectorXd::Ones(rest.cols());
+  if (attached.cols() == 0) return trust;
+  const NearestPoints nearest(attached);
+  for (Index v = 0; v < rest.cols(); ++v) {
+    const Real share = std::min((attached.col(nearest.nearest(rest.col(v))) - rest.col(v)).norm() / fading, Real{1});
+    trust[v] = share * share;
+  }
+  return trust;
 }
 
 /// The sum of two shapes of a surface: at rest width, and by how much all of it moves per unit of widening.
@@ -127,19 +128,9 @@ StringSkin bind_skin(const MuscleStrings& muscle, const TriangleMesh& surface,
                      const std::vector<Index>& attached_body) {
   const Points& rest = surface.vertices;
   const Index count = static_cast<Index>(rest.cols());
-  std::vector<Index> attached;
-  for (Index v = 0; v < count; ++v)
-    if (attached_body[static_cast<std::size_t>(v)] >= 0) attached.push_back(v);
   std::vector<VertexBinding> bindings(static_cast<std::size_t>(count));
-  std::vector<std::vector<std::pair<Index, Real>>> corrections(bindings.size());
   parallel_for(count, 64, [&](Index begin, Index end) {
-    for (Index v = begin; v < end; ++v) {
-      bindings[static_cast<std::size_t>(v)] = bind_vertex(muscle, rest.col(v));
-      if (attached_body[static_cast<std::size_t>(v)] >= 0)
-        corrections[static_cast<std::size_t>(v)] = {{v, 1}};
-      else
-        corrections[static_cast<std::size_t>(v)] = corrections_of(rest, attached, rest.col(v));
-    }
+    for (Index v = begin; v < end; ++v) bindings[static_cast<std::size_t>(v)] = bind_vertex(muscle, rest.col(v));
   });
   StringSkin skin;
   skin.offsets.resize(3, count), skin.directions.resize(3, count), skin.along.resize(count);
@@ -154,14 +145,12 @@ StringSkin bind_skin(const MuscleStrings& muscle, const TriangleMesh& surface,
       skin.weights.push_back(static_cast<float>(weight));
     }
     skin.offsets.col(v) = binding.offset, skin.directions.col(v) = binding.direction, skin.along[v] = binding.along;
-    skin.correction_begin.push_back(static_cast<Index>(skin.correction_vertices.size()));
-    for (const auto& [other, weight] : corrections[static_cast<std::size_t>(v)]) {
-      skin.correction_vertices.push_back(other);
-      skin.correction_weights.push_back(static_cast<float>(weight));
-    }
   }
   skin.begin.push_back(static_cast<Index>(skin.nodes.size()));
-  skin.correction_begin.push_back(static_cast<Index>(skin.correction_vertices.size()));
+  std::vector<char> is_attached;
+  for (const Index body : attached_body) is_attached.push_back(body >= 0);
+  skin.fit = std::make_shared<const GradientFit>(surface, is_attached, trust_beyond_attachments(rest, attached_body),
+                                                 smoothing);
   return skin;
 }
 
@@ -186,69 +175,94 @@ Points node_widening(const MuscleStrings& muscle, const Points& fibers) {
   return widening;
 }
 
+/// Length of each string over its length at rest.
+std::vector<Real> string_stretches(const MuscleStrings& muscle, const Points& places) {
+  std::vector<Real> stretches;
+  for (Index s = 0; s < muscle.strings; ++s) {
+    const Index first = muscle.node(s, 0);
+    stretches.push_back(polyline_length(places.middleCols(first, muscle.nodes)) /
+                        polyline_length(muscle.taut.middleCols(first, muscle.nodes)));
+  }
+  return stretches;
+}
+
 /// Weighted means over a vertex's nodes.
 struct Followed {
   Vec3 place = Vec3::Zero(), widening = Vec3::Zero();
   Eigen::Vector4d turn = Eigen::Vector4d::Zero();
+  Real stretch = 0;
 };
 
-Followed follow_nodes(const StringSkin& skin, Index vertex, const FiberFrames& frames, const Points& widening) {
+/// Where strings are, and what follows from it for their nodes.
+struct StringFrames {
+  FiberFrames frames;
+  Points widening;
+  std::vector<Real> stretches;
+};
+
+Followed follow_nodes(const MuscleStrings& muscle, const StringSkin& skin, Index vertex, const StringFrames& now) {
   const auto v = static_cast<std::size_t>(vertex);
   Followed followed;
-  const Eigen::Vector4d first = frames.turns.col(skin.nodes[static_cast<std::size_t>(skin.begin[v])]);
+  const Eigen::Vector4d first = now.frames.turns.col(skin.nodes[static_cast<std::size_t>(skin.begin[v])]);
   Real sum = 0;
   for (auto k = static_cast<std::size_t>(skin.begin[v]); k < static_cast<std::size_t>(skin.begin[v + 1]); ++k) {
     const Real weight = static_cast<Real>(skin.weights[k]);
     const Index node = skin.nodes[k];
-    followed.place += weight * frames.fibers.col(node);
-    followed.widening += weight * widening.col(node);
+    followed.place += weight * now.frames.fibers.col(node);
+    followed.widening += weight * now.widening.col(node);
+    followed.stretch += weight * now.stretches[static_cast<std::size_t>(node / muscle.nodes)];
     // q and -q are the same rotation; the mean wants them on one side.
-    followed.turn += (first.dot(frames.turns.col(node)) < 0 ? -weight : weight) * frames.turns.col(node);
+    followed.turn += (first.dot(now.frames.turns.col(node)) < 0 ? -weight : weight) * now.frames.turns.col(node);
     sum += weight;
   }
   followed.place /= sum;
+  followed.widening /= sum;
+  followed.stretch /= sum;
   followed.turn.normalize();
   return followed;
 }
 
-/// What attached vertices lack to where their bodies are is added to all near them.
-void correct_near_attachments(const StringSkin& skin, const Points& rest, const std::vector<RigidTransform>& bodies,
-                              Points& vertices) {
-  Points lacking = Points::Zero(3, vertices.cols());
-  for (Index v = 0; v < vertices.cols(); ++v)
-    if (const Index body = skin.attached_body[static_cast<std::size_t>(v)]; body >= 0)
-      lacking.col(v) = bodies[static_cast<std::size_t>(body)] * Vec3(rest.col(v)) - vertices.col(v);
-  for (Index vertex = 0; vertex < vertices.cols(); ++vertex) {
-    const auto v = static_cast<std::size_t>(vertex);
-    for (auto k = static_cast<std::size_t>(skin.correction_begin[v]);
-         k < static_cast<std::size_t>(skin.correction_begin[v + 1]); ++k)
-      vertices.col(vertex) += static_cast<Real>(skin.correction_weights[k]) * lacking.col(skin.correction_vertices[k]);
-  }
-}
+/// Places of vertices and gradients about them, in the capture pose's directions.
+struct Aim {
+  explicit Aim(Index count) : places(3, count), gradients(static_cast<std::size_t>(count)) {}
+  Points places;
+  std::vector<Eigen::Matrix3d> gradients;
+};
 
 }  // namespace
 
 SkinnedSurface skinned_by_strings(const MuscleStrings& muscle, const StringSkin& skin, const Points& rest,
                                   const Eigen::Matrix3Xi& faces, const StringState& state) {
-  const FiberFrames frames = fiber_frames(muscle, state);
-  const Points widening = node_widening(muscle, frames.fibers);
+  FiberFrames frames = fiber_frames(muscle, state);
+  Points node_widths = node_widening(muscle, frames.fibers);
+  const StringFrames now{std::move(frames), std::move(node_widths), string_stretches(muscle, state.places)};
   const Index count = static_cast<Index>(rest.cols());
   SkinnedSurface skinned{Points(3, count), Eigen::Matrix4Xd(4, count)};
-  WidenedSurface widened{Points(3, count), Points(3, count)};
+  Aim narrow(count), widening(count);
   parallel_for(count, 512, [&](Index begin, Index end) {
-    for (Index v = begin; v < end; ++v) {
-      const Followed followed = follow_nodes(skin, v, frames, widening);
-      const Eigen::Quaterniond turn(followed.turn);
-      const Vec3 offset = turn * Vec3(skin.offsets.col(v)), direction = turn * Vec3(skin.directions.col(v));
-      const Real share = std::sin(pi * skin.along[v]);
-      skinned.turns.col(v) = followed.turn;
-      widened.narrow.col(v) = followed.place + offset;
-      const bool is_free = skin.attached_body[static_cast<std::size_t>(v)] < 0;
-      widened.widening.col(v) =
-          is_free ? Vec3(followed.widening + share * (offset - direction * direction.dot(offset))) : Vec3::Zero();
+    for (Index vertex = begin; vertex < end; ++vertex) {
+      const auto v = static_cast<std::size_t>(vertex);
+      const Followed followed = follow_nodes(muscle, skin, vertex, now);
+      skinned.turns.col(vertex) = followed.turn;
+      if (const Index body = skin.attached_body[v]; body >= 0) {
+        const RigidTransform& moved = state.bodies[static_cast<std::size_t>(body)];
+        narrow.places.col(vertex) = moved * Vec3(rest.col(vertex)), narrow.gradients[v] = moved.linear();
+        widening.places.col(vertex).setZero(), widening.gradients[v].setZero();
+        continue;
+      }
+      const Eigen::Matrix3d turn = Eigen::Quaterniond(followed.turn).toRotationMatrix();
+      const Vec3 direction = skin.directions.col(vertex), offset = skin.offsets.col(vertex);
+      const Eigen::Matrix3d along = direction * direction.transpose();
+      const Eigen::Matrix3d turned_across = turn - turn * along;
+      const Real share = std::sin(pi * skin.along[vertex]);
+      narrow.places.col(vertex) = followed.place + turn * offset;
+      narrow.gradients[v] = followed.stretch * turn * along + turned_across / std::sqrt(followed.stretch);
+      widening.places.col(vertex) = followed.widening + share * turned_across * offset;
+      widening.gradients[v] = share * turned_across;
     }
   });
-  correct_near_attachments(skin, rest, state.bodies, widened.narrow);
+  const WidenedSurface widened{skin.fit->fitted(narrow.places, narrow.gradients),
+                               skin.fit->fitted(widening.places, widening.gradients)};
   skinned.vertices = widened.at(widening_to_volume(widened, faces, skin.volume));
   return skinned;
 }

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/geometry/gradient_fit.hpp>
 #include <gracilis/strings/string_frames.hpp>
 
+#include <memory>
 #include <vector>
 
 namespace gracilis::strings {
@@ -15,11 +16,9 @@ struct StringSkin {
   Points offsets;              ///< from the weighted mean of its nodes' fibers to the vertex, at rest, m
   Points directions;           ///< of the fibers about each vertex at rest, unit
   Eigen::VectorXd along;       ///< place of each vertex along the fibers, 0 at origins to 1 at insertions
-  std::vector<Index> attached_body;     ///< per vertex, or -1
-  std::vector<Index> correction_begin;  ///< per vertex, as above: attached vertices whose correction it shares ...
-  std::vector<Index> correction_vertices;
-  std::vector<float> correction_weights;  ///< ... fading to 0 with the distance from them
-  Real volume = 0;                        ///< m³, enclosed at rest
+  std::vector<Index> attached_body;        ///< per vertex, or -1
+  std::shared_ptr<const GradientFit> fit;  ///< smooths what the fibers say
+  Real volume = 0;                         ///< m³, enclosed at rest
 };
 
 /// Binds each vertex to its 16 nearest fibers, at its place along them. `attached_body`: per vertex the body that it is
@@ -32,8 +31,9 @@ struct SkinnedSurface {
   Eigen::Matrix4Xd turns;  ///< unit quaternions (x, y, z, w), from the capture pose
 };
 
-/// The surface in the strings' state: attached vertices move with their bodies, all others with their fibers, and the
-/// muscle is widened or narrowed half-way between its ends until it has its volume at rest. `faces` of the surface.
+/// The surface in the strings' state: attached vertices move with their bodies, all others with their fibers as
+/// smoothly as these allow, and the muscle is widened or narrowed half-way between its ends until it has its volume at
+/// rest. `faces` of the surface.
 SkinnedSurface skinned_by_strings(const MuscleStrings& muscle, const StringSkin& skin, const Points& rest,
                                   const Eigen::Matrix3Xi& faces, const StringState& state);
 

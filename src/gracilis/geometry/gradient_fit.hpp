@@ -1,0 +1,51 @@
+#pragma once
+
+#include <gracilis/geometry/triangle_mesh.hpp>
+
+#include <Eigen/SparseCholesky>
+
+#include <vector>
+
+namespace gracilis {
+
+/// Finds the surface whose edges come nearest to being turned and stretched as given while its vertices stay near given
+/// places: the screened Poisson equation of gradient-based mesh editing (Yu et al. 2004), which smooths what the places
+/// say over a length. Vertices that face each other through the body are linked as edges are, so that thin muscles keep
+/// their thickness.
+///
+/// It minimizes Σ w |x_b − x_a − G (r_b − r_a)|² + Σ (A t / l²) |x_v − p_v|², sums over links and vertices: r at rest,
+/// G the mean of the gradients at the ends, p the places, A a vertex's area, t how far its place is trusted, l the
+/// smoothing length; w is twice the link's area over its squared length, which makes the first sum the energy of
+/// Dirichlet.
+class GradientFit {
+ public:
+  /// `is_fixed` and `trust` (0 to 1) per vertex. Surfaces with more free vertices than `largest_factorized` are solved
+  /// by conjugate gradients, in a fraction of the memory. Preconditions: at least one face, all coordinates finite;
+  /// smoothing > 0 (m).
+  GradientFit(const TriangleMesh& rest, const std::vector<char>& is_fixed, const Eigen::VectorXd& trust, Real smoothing,
+              Index largest_factorized = 30000);
+
+  /// Fixed vertices are where `places` says. `gradients` per vertex, of the place now by the place at rest.
+  Points fitted(const Points& places, const std::vector<Eigen::Matrix3d>& gradients) const;
+
+ private:
+  struct Link {
+    Index a = 0, b = 0;
+    Real weight = 0;
+    Vec3 rest;  ///< from a to b
+  };
+  std::vector<Link> links_;
+  Eigen::VectorXd place_weights_;
+  std::vector<Index> numbers_;        ///< of the unknowns; -1: fixed
+  Eigen::SparseMatrix<Real> matrix_;  ///< for conjugate gradients
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization_;
+  Index unknowns_ = 0;
+  bool is_factorized_ = true;
+
+  Index number_of(Index vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
+  Eigen::SparseMatrix<Real> normal_matrix() const;
+  Points right_side(const Points& places, const std::vector<Eigen::Matrix3d>& gradients) const;
+  Eigen::VectorXd solved(const Eigen::VectorXd& right_side, const Eigen::VectorXd& guess) const;
+};
+
+}  // namespace gracilis
