@@ -187,6 +187,25 @@ TEST(SurfaceContact, edges_that_cross_while_every_particle_is_outside_are_pushed
   EXPECT_GT(gap(), 0.00019f);
 }
 
+TEST(SurfaceContact, lets_go_of_what_is_torn_from_its_neighbors_until_the_step_ends) {
+  Meeting meeting = pressed_balls(0.0005);
+  Index tip = 0;
+  for (Index p = 0; p < meeting.particles[0].count(); ++p)
+    if (meeting.particles[0].position(p).x() > meeting.particles[0].position(tip).x()) tip = p;
+  const Vector3f home = meeting.particles[0].position(tip), away = home + Vector3f(0.004f, 0, 0);
+  meeting.particles[0].position(tip) = away;
+  EXPECT_GT(meeting.solve(1), 0) << "the rest is pushed";
+  EXPECT_EQ(meeting.particles[0].position(tip), away);
+
+  meeting.particles[0].position(tip) = home;
+  const auto places = meeting.pointers<const Particles*>(meeting.particles);
+  meeting.follow();
+  EXPECT_TRUE(meeting.state.torn[0][static_cast<std::size_t>(tip)]) << "in this step";
+  remember_places(places, meeting.state);
+  meeting.follow();
+  EXPECT_FALSE(meeting.state.torn[0][static_cast<std::size_t>(tip)]) << "in the next";
+}
+
 TEST(SurfaceContact, an_overlap_that_is_allowed_stays) {
   Meeting meeting = pressed_balls(0.001);
   meeting.crowd.pairs[0].first_gap.assign(meeting.crowd.pairs[0].first_gap.size(), -0.0011f);

@@ -73,6 +73,7 @@ struct PairTouches {
 };
 struct CrowdState {
   std::vector<Particles> before;  ///< per surface, where its particles were before the step
+  std::vector<std::vector<char>> torn;  ///< per surface, which particles were torn in this step; contact lets go of them
   std::vector<PatchTree> trees;
   std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where the next iterations ask
   std::vector<PairTouches> touches;       ///< one per pair

@@ -3,6 +3,7 @@
 #include <gracilis/dynamics/overlap_release.hpp>
 #include <gracilis/dynamics/self_contact.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
+#include <gracilis/dynamics/torn_particles.hpp>
 #include <gracilis/dynamics/touch_search.hpp>
 
 #include <algorithm>
@@ -153,6 +154,29 @@ void ask_to_project(const SurfaceCrowd& crowd, const CrowdState& state, NormalMa
   }
 }
 
+/// Contact lets go of what is torn, so that it can come back to its neighbors.
+void leave_out_torn(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state, PairTouches& touches) {
+  const auto is_torn = [&](Index surface, Index particle) {
+    return state.torn[static_cast<std::size_t>(surface)][static_cast<std::size_t>(particle)] != 0;
+  };
+  const auto drop = [&](std::vector<PointTouch>& listed, Index probe, Index target) {
+    std::erase_if(listed, [&](const PointTouch& touch) {
+      const auto corners = crowd.surfaces[static_cast<std::size_t>(target)].faces.col(touch.face);
+      return is_torn(probe, touch.particle) ||
+             std::any_of(corners.begin(), corners.end(), [&](Index corner) { return is_torn(target, corner); });
+    });
+  };
+  drop(touches.on_second, pair.first, pair.second);
+  drop(touches.on_first, pair.second, pair.first);
+  const auto has_torn_end = [&](Index surface, Index edge) {
+    const auto& ends = crowd.surfaces[static_cast<std::size_t>(surface)].edges[static_cast<std::size_t>(edge)].ends;
+    return is_torn(surface, ends[0]) || is_torn(surface, ends[1]);
+  };
+  std::erase_if(touches.edges, [&](const EdgeTouch& touch) {
+    return has_torn_end(pair.first, touch.first) || has_torn_end(pair.second, touch.second);
+  });
+}
+
 }  // namespace
 
 CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
@@ -162,12 +186,17 @@ CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
   for (std::size_t s = 0; s < crowd.surfaces.size(); ++s)
     state.trees.push_back(build_patch_tree(crowd.surfaces[s], crowd.rest[s]));
   state.normals = crowd.rest_normals;
+  for (const Particles& particles : state.before)
+    state.torn.emplace_back(static_cast<std::size_t>(particles.count()), 0);
   state.touches.resize(crowd.pairs.size());
   return state;
 }
 
 void remember_places(const std::vector<const Particles*>& particles, CrowdState& state) {
-  for (std::size_t s = 0; s < particles.size(); ++s) state.before[s] = *particles[s];
+  for (std::size_t s = 0; s < particles.size(); ++s) {
+    state.before[s] = *particles[s];
+    std::fill(state.torn[s].begin(), state.torn[s].end(), 0);
+  }
 }
 
 void begin_touch_frame(const SurfaceCrowd& crowd, CrowdState& state) {
@@ -228,6 +257,9 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
     walk(touches.near_second, crowd.surfaces[b], *particles[a], *particles[b], pair.shift);
     walk(touches.near_first, crowd.surfaces[a], *particles[b], *particles[a], -pair.shift);
   });
+  parallel_for_each(particles.size(), [&](std::size_t s) {
+    add_torn(crowd.surfaces[s], crowd.rest[s], *particles[s], state.torn[s]);
+  });
   NormalMaker normals(crowd, particles, state);
   ask_to_tell_sides(crowd, state, normals);
   normals.make();
@@ -246,6 +278,7 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
     list_near(touches.near_first, crowd.surfaces[a], state.normals[a], *particles[b], *particles[a], -pair.shift,
               within, pair.second_gap, release_of(crowd, pair, state, false), rule, touches.on_first);
     find_edges(crowd, pair, particles, state.before, touches.near_second, rule, touches.edges);
+    leave_out_torn(crowd, pair, state, touches);
   });
   ask_to_project(crowd, state, normals);
   normals.make();

@@ -173,7 +173,8 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
   std::vector<std::vector<FieldPlacement>> placements(steps.size());
   std::vector<Particles> predicted(steps.size());
   if (!crowd.edges.pairs.empty()) remember_positions(particles_of<const Particles*>(steps), crowd_state.edges);
-  if (!crowd.surfaces.pairs.empty()) remember_places(particles_of<const Particles*>(steps), crowd_state.surfaces);
+  if (!crowd.surfaces.pairs.empty())
+    remember_places(particles_of<const Particles*>(steps), crowd_state.surfaces);
   const VirtualEdgeState edges_before = crowd_state.edges;
   parallel_for_each(steps.size(), [&](std::size_t i) {
     const PreparedMuscle& muscle = *steps[i].muscle;
