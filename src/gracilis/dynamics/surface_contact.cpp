@@ -82,6 +82,9 @@ Eigen::Vector3f friction_of(const Contact& contact, float friction, float push, 
 struct Moved {
   const Particles& start;  ///< where the step began
   Particles& particles;    ///< where they are
+  bool moves = true;       ///< whether it can be moved
+
+  float inverse_mass(Index particle) const { return moves ? particles.inverse_mass(particle) : 0; }
 
   /// Moves a particle, but not away from where the step began once it is `most` from there.
   void push(Index particle, const Eigen::Vector3f& by, float most) {
@@ -108,7 +111,7 @@ bool project(const Contact& contact, const SurfaceContactSettings& settings, Mov
   Eigen::Vector3f moved = Eigen::Vector3f::Zero();
   const auto add = [&](Index particle, float share, const Moved& side, float sign) {
     if (particle < 0) return;
-    const float inverse_mass = side.particles.inverse_mass(particle);
+    const float inverse_mass = side.inverse_mass(particle);
     weight += share * share * inverse_mass, largest = std::max(largest, share * inverse_mass);
     if (settings.friction > 0)
       moved += sign * share * (side.particles.position(particle) - side.start.position(particle));
@@ -122,12 +125,11 @@ bool project(const Contact& contact, const SurfaceContactSettings& settings, Mov
   push /= weight;
   for (std::size_t i = 0; i < 2; ++i) {
     const Index p = contact.probe[i];
-    if (p >= 0) probe.push(p, probe.particles.inverse_mass(p) * contact.probe_weight[i] * push, settings.most_motion);
+    if (p >= 0) probe.push(p, probe.inverse_mass(p) * contact.probe_weight[i] * push, settings.most_motion);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const Index p = contact.target[i];
-    if (p >= 0)
-      target.push(p, -target.particles.inverse_mass(p) * contact.target_weight[i] * push, settings.most_motion);
+    if (p >= 0) target.push(p, -target.inverse_mass(p) * contact.target_weight[i] * push, settings.most_motion);
   }
   return true;
 }
@@ -179,13 +181,13 @@ void arrange_rounds(SurfaceCrowd& crowd) {
 }
 
 Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
-                      const std::vector<Particles*>& particles) {
+                      const std::vector<Particles*>& particles, const Movers& movers) {
   std::atomic<Index> count = 0;
   const auto project_pair = [&](Index number) {
     const SurfacePair& pair = crowd.pairs[static_cast<std::size_t>(number)];
     const PairTouches& touches = state.touches[static_cast<std::size_t>(number)];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-    const Moved first{*start[a], *particles[a]}, second{*start[b], *particles[b]};
+    const Moved first{*start[a], *particles[a], movers.move(a)}, second{*start[b], *particles[b], movers.move(b)};
     Index pushed = project_edges(crowd, pair, state, touches.edges, first, second);
     pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, first, second);
     pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, second, first);
@@ -194,8 +196,10 @@ Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const 
   std::vector<Index> touching;
   for (const std::vector<Index>& round : crowd.rounds) {
     touching.clear();
-    for (const Index number : round)
-      if (!state.touches[static_cast<std::size_t>(number)].none_listed()) touching.push_back(number);
+    for (const Index number : round) {
+      const auto at = static_cast<std::size_t>(number);
+      if (any_moves(crowd.pairs[at], movers) && !state.touches[at].none_listed()) touching.push_back(number);
+    }
     parallel_for_each(touching.size(), [&](std::size_t i) { project_pair(touching[i]); });
   }
   return count;

@@ -215,10 +215,13 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
   });
 }
 
-void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
+void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state,
+                    const Movers& movers) {
   parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
+    touches.is_calm = !any_moves(pair, movers);
+    if (touches.is_calm) return;
     const float drift = largest_drift(crowd, particles, pair, touches);
     touches.is_calm = !touches.is_new && !pair.is_self() && drift <= calm;
     if (touches.is_calm) return;
