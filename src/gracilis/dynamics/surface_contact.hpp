@@ -48,14 +48,15 @@ struct PointTouch {
   float distance = 0;                                       ///< m, on that side, when last looked at
   Eigen::Vector3f barycentric = Eigen::Vector3f::Zero();    ///< of the nearest point then
   Eigen::Vector3f offset = Eigen::Vector3f::Zero();         ///< m, from the nearest point to the particle then
-  float most_gap = std::numeric_limits<float>::infinity();  ///< m, what neighbors leave each other, or may be asked
-                                                            ///< for in this step
+  float most_gap = std::numeric_limits<float>::infinity();  ///< m, the pair's gap, or less: what neighbors leave each
+                                                            ///< other, or may be asked for in this step
 };
 /// Two edges that cross closely, one of each surface; `side` as above.
 struct EdgeTouch {
   Index first = 0, second = 0;
   float side = 1;
-  float most_gap = std::numeric_limits<float>::infinity();
+  float most_gap = std::numeric_limits<float>::infinity();  ///< as above; of the gaps at the ends the largest
+  Eigen::Vector3f outward = Eigen::Vector3f::Zero();  ///< from the second when last looked at, as edge_gap wants it
 };
 
 /// What is near what; workspace.

@@ -83,7 +83,7 @@ void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, con
           if (self && self->side(touch.particle, touch.face) != touch.side) continue;
           const float own = self ? self->most_gap(touch.particle, touch.face) : infinity;
           const float kept = std::min(own, gaps[static_cast<std::size_t>(touch.particle)]);
-          touch.most_gap = std::min(own, release.most_gap(touch, kept));
+          touch.most_gap = std::min(kept, release.most_gap(touch, kept));
           part.push_back(touch);
         }
       });
@@ -151,6 +151,18 @@ void ask_to_project(const SurfaceCrowd& crowd, const CrowdState& state, NormalMa
       normals.ask_ends(second, touch.second);
     }
   }
+}
+
+/// Which way out each edge is from the other.
+void note_outward(const SurfacePair& pair, const SurfaceCrowd& crowd, const CrowdState& state,
+                  std::vector<EdgeTouch>& edges) {
+  const auto normal_at = [&](Index surface, Index edge) -> Eigen::Vector3f {
+    const auto at = static_cast<std::size_t>(surface);
+    const auto& ends = crowd.surfaces[at].edges[static_cast<std::size_t>(edge)].ends;
+    return state.normals[at].col(ends[0]) + state.normals[at].col(ends[1]);
+  };
+  for (EdgeTouch& touch : edges)
+    touch.outward = touch.side * (normal_at(pair.second, touch.second) - normal_at(pair.first, touch.first));
 }
 
 }  // namespace
@@ -252,6 +264,9 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
   });
   ask_to_project(crowd, state, normals);
   normals.make();
+  parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
+    if (!state.touches[i].is_calm) note_outward(crowd.pairs[i], crowd, state, state.touches[i].edges);
+  });
 }
 
 }  // namespace gracilis
