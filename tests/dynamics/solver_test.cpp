@@ -150,9 +150,9 @@ TEST(Solver, limits_the_stretch_of_what_mending_moved_though_no_edge_came_near_t
   const std::vector<FieldPlacement> nowhere;
   std::vector<SurfaceSolve> alone = {{&system, &nowhere, settings, &state, {}}};
   Coupling coupling;
-  coupling.refresh = [] {};
-  coupling.project = [] { return Index{0}; };
-  coupling.mend = [&](int attempt) {
+  coupling.refresh = [](const Movers&) {};
+  coupling.project = [](const Movers&) { return Index{0}; };
+  coupling.mend = [&](Movers&, int attempt) {
     if (attempt > 0) return false;
     state.particles.position(7) *= 1.5f;
     EXPECT_GT(longest(state.particles), 2);
@@ -160,6 +160,31 @@ TEST(Solver, limits_the_stretch_of_what_mending_moved_though_no_edge_came_near_t
   };
   solve_together(alone, coupling);
   EXPECT_LT(longest(state.particles), 1.01f * settings.stretch_limit);
+}
+
+TEST(Solver, only_what_was_mended_settles_again) {
+  const SurfaceSystem system = system_of(shapes::sphere(Vec3::Zero(), 0.03, 3));
+  std::vector<SurfaceState> states(2, make_state(system));
+  const std::vector<FieldPlacement> nowhere;
+  SolveSettings settings = usual(3);
+  settings.settling_rounds = 4;
+  std::vector<SurfaceSolve> both;
+  for (SurfaceState& state : states) both.push_back({&system, &nowhere, settings, &state, {}});
+  bool is_mended = false;
+  Coupling coupling;
+  coupling.refresh = [](const Movers&) {};
+  coupling.project = [](const Movers&) { return Index{0}; };
+  coupling.mend = [&](Movers& movers, int attempt) {
+    movers.listed = {0, 1};
+    is_mended = true;
+    return attempt == 0;
+  };
+  int settled[2] = {0, 0};
+  solve_together(both, coupling, [&](std::size_t surface, ConstraintKind kind) {
+    if (is_mended && kind == ConstraintKind::volume) ++settled[surface];
+  });
+  EXPECT_EQ(settled[0], 0);
+  EXPECT_EQ(settled[1], settings.settling_rounds);
 }
 
 }  // namespace gracilis

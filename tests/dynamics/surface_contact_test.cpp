@@ -427,7 +427,9 @@ TEST(SurfaceContact, a_surface_that_cuts_itself_is_mended_and_says_so) {
   const auto mend = [&](int attempt) {
     meeting.find();
     meeting.follow();
-    return mend_self_cuts(meeting.crowd, meeting.state, attempt, meeting.pointers<Particles*>(meeting.particles));
+    Movers movers;
+    return mend_self_cuts(meeting.crowd, meeting.state, attempt, meeting.pointers<Particles*>(meeting.particles),
+                          movers);
   };
   const Particles whole = meeting.particles[0];
   EXPECT_FALSE(mend(0));
@@ -439,6 +441,44 @@ TEST(SurfaceContact, a_surface_that_cuts_itself_is_mended_and_says_so) {
   for (int attempt = 1; attempt < 4 && mend(attempt);) ++attempt;
   EXPECT_FALSE(mend(0)) << "all is mended";
   EXPECT_LT(largest_motion(whole, meeting.particles[0]), 0.003f);
+}
+
+TEST(SurfaceContact, mending_leaves_only_what_was_mended_among_the_movers) {
+  Meeting meeting;
+  for (int i = 0; i < 3; ++i) {
+    meeting.add(shapes::sphere({0.1 * i, 0, 0}, 0.01, 4));
+    meeting.pair(i, i, 0.0003f).reach = 0.001f;
+  }
+  meeting.prepare();
+  const auto cut = [&](std::size_t surface) {
+    const Vector3f place = meeting.particles[surface].position(7);
+    meeting.particles[surface].position(7) =
+        place + Vector3f(-place.y(), place.x(), 0).normalized() * 0.004f - 0.0005f * Vector3f::UnitZ();
+  };
+  cut(0), cut(1);
+  meeting.find();
+  meeting.follow();
+  Movers movers{{1, 0, 1}};
+  const Particles left_alone = meeting.particles[1];
+  EXPECT_TRUE(mend_self_cuts(meeting.crowd, meeting.state, 0, meeting.pointers<Particles*>(meeting.particles), movers));
+  EXPECT_EQ(movers.listed, std::vector<char>({1, 0, 0}));
+  EXPECT_EQ(largest_motion(left_alone, meeting.particles[1]), 0);
+}
+
+TEST(SurfaceContact, a_mover_gives_way_alone_to_what_stays) {
+  Meeting meeting;
+  meeting.add(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  meeting.add(shapes::sphere({0.0199, 0, 0}, 0.01, 4));
+  meeting.pair(0, 1, 0.0003f);
+  meeting.prepare();
+  meeting.start = meeting.particles;
+  meeting.find();
+  meeting.follow();
+  EXPECT_GT(project_touches(meeting.crowd, meeting.state, meeting.pointers<const Particles*>(meeting.start),
+                            meeting.pointers<Particles*>(meeting.particles), {{1, 0}}),
+            0);
+  EXPECT_GT(largest_motion(meeting.start[0], meeting.particles[0]), 0);
+  EXPECT_EQ(largest_motion(meeting.start[1], meeting.particles[1]), 0);
 }
 
 }  // namespace gracilis

@@ -158,7 +158,8 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
         EdgeTouch touch{e, candidate, side, self ? self->most_gap(ends, other) : infinity};
         const std::optional<float> most = most_gap(pair, gap.distance, ends, other, before[a], before[b], outward);
         if (!most) continue;
-        touch.most_gap = std::min(touch.most_gap, *most);
+        touch.most_gap =
+            std::min({touch.most_gap, *most, largest_gap(pair.first_gap, ends), largest_gap(pair.second_gap, other)});
         part.push_back(touch);
       }
     }

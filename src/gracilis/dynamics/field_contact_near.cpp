@@ -141,8 +141,22 @@ static void clear(NearFaces& faces) {
   faces.colors.clear();
 }
 
+/// Whether an edge may come near, by the sum of the clearances at its ends and its length at rest, without any
+/// position.
+static bool may_come_near(float clearances, float length) {
+  return clearances <= 2 * element_reach + 4 * steepest * length;
+}
+
+/// Whether any edge may; most surfaces are far away from most obstacles.
+static bool any_may_come_near(const DistanceSet& distances, const NearField& near) {
+  if (near.clearance.empty() || distances.rest_length.empty()) return false;
+  return may_come_near(2 * *std::min_element(near.clearance.begin(), near.clearance.end()),
+                       *std::max_element(distances.rest_length.begin(), distances.rest_length.end()));
+}
+
 static void list_edges(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
                        const Particles& particles, NearField& near) {
+  if (!any_may_come_near(distances, near)) return;
   for (const ColorRange& color : distances.order.colors) {
     const Index begin = near.edges.count();
     for (Index slot = color.begin; slot < color.end; ++slot) {
@@ -151,7 +165,7 @@ static void list_edges(const FieldContactSet& set, const DistanceSet& distances,
       const float clearances =
           near.clearance[static_cast<std::size_t>(a)] + near.clearance[static_cast<std::size_t>(b)];
       // Most are far away; this needs no position.
-      if (clearances > 2 * element_reach + 4 * steepest * distances.rest_length[at]) continue;
+      if (!may_come_near(clearances, distances.rest_length[at])) continue;
       if (!(particles.inverse_mass(a) + particles.inverse_mass(b) > 0)) continue;
       const float least = least_clearance(clearances, (particles.position(b) - particles.position(a)).norm());
       if (least > element_reach) continue;

@@ -278,10 +278,11 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       surfaces[i].report.milliseconds += milliseconds_since(started);
     });
   };
+  Movers movers;
   const auto couple = [&] {
     if (!coupling.project) return;
     const Clock::time_point started = Clock::now();
-    coupling.project();
+    coupling.project(movers);
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
       if (watch) watch(i, ConstraintKind::muscle_contact);
       surfaces[i].report.milliseconds += milliseconds_since(started) / static_cast<double>(surfaces.size());
@@ -297,7 +298,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       if (!each.done) begin_iteration(surface, each, elapsed, told);
     });
     if (std::all_of(progress.begin(), progress.end(), is_done)) break;
-    if (coupling.project && iteration % coupling_refresh == 0) coupling.refresh();
+    if (coupling.project && iteration % coupling_refresh == 0) coupling.refresh(movers);
     couple();
   }
 
@@ -306,7 +307,9 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   int rounds = 0;
   for (const SurfaceSolve& surface : surfaces) rounds = std::max(rounds, surface.settings.settling_rounds);
   int round = 0;
-  const auto is_settling = [&](std::size_t i) { return round < surfaces[i].settings.settling_rounds; };
+  const auto is_settling = [&](std::size_t i) {
+    return movers.move(i) && round < surfaces[i].settings.settling_rounds;
+  };
   const auto project = [&](ConstraintKind kind) {
     for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>& told) {
       const Index touching = surface.report.contacts;
@@ -317,7 +320,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     });
   };
   const auto settle = [&] {
-    if (coupling.refresh) coupling.refresh();
+    if (coupling.refresh) coupling.refresh(movers);
     round = 0;
     for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>&) {
       keep_listed(surface);
@@ -334,7 +337,8 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   };
   if (rounds == 0) return;
   settle();
-  for (int attempt = 0; attempt < mending_attempts && coupling.mend && coupling.mend(attempt); ++attempt) settle();
+  for (int attempt = 0; attempt < mending_attempts && coupling.mend && coupling.mend(movers, attempt); ++attempt)
+    settle();
 }
 
 SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,

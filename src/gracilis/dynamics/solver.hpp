@@ -2,6 +2,7 @@
 
 #include <gracilis/dynamics/constraint_sets.hpp>
 #include <gracilis/dynamics/field_contact.hpp>
+#include <gracilis/dynamics/movers.hpp>
 #include <gracilis/dynamics/particles.hpp>
 #include <gracilis/dynamics/projection.hpp>
 #include <gracilis/dynamics/slivers.hpp>
@@ -113,11 +114,13 @@ struct SurfaceSolve {
   SolveReport report;
 };
 
-/// What acts between surfaces in each iteration; empty functions: nothing.
+/// What acts between surfaces in each iteration; empty functions: nothing. Those not among the movers have not moved
+/// since the last look and stay where they are.
 struct Coupling {
-  std::function<void()> refresh;               ///< looks again at what is near what
-  std::function<Index()> project;              ///< returns how many contacts pushed
-  std::function<bool(int attempt)> mend = {};  ///< what settled but cannot stay; whether there was any
+  std::function<void(const Movers&)> refresh;   ///< looks again at what is near what
+  std::function<Index(const Movers&)> project;  ///< returns how many contacts pushed
+  /// Mends those of the movers that settled but cannot stay, and leaves none else among them; whether there was any.
+  std::function<bool(Movers&, int attempt)> mend = {};
 };
 
 /// Told after each projection of a kind on a surface.
@@ -126,8 +129,8 @@ using SolveWatch = std::function<void(std::size_t surface, ConstraintKind kind)>
 /// Resets the multipliers and iterates over all surfaces in step: distances, contractions, hinges, volume, stretch
 /// limit, contact between surfaces, slivers, tight places, bone contact (XPBD; Macklin, Müller, Chentanez 2016). Free
 /// particles with a fixed neighborhood, coinciding ends and flat triangles are survived; they are counted as skipped.
-/// Surfaces that stop early wait for the others. At the end volume and
-/// contact alone settle, again after each of a few attempts at mending.
+/// Surfaces that stop early wait for the others. At the end volume and contact alone settle; after each of a few
+/// attempts at mending those that were mended do so again, among the others, which stay.
 void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch = {});
 
 /// The same for one surface alone.

@@ -2,10 +2,14 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/dynamics/pressing_touches.hpp>
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
+#include <optional>
+#include <span>
 
 namespace gracilis {
 
@@ -30,7 +34,6 @@ constexpr float most_leverage = 2;
 struct Sides {
   const ContactSurface& target_surface;
   const Eigen::Matrix3Xf& target_normals;
-  const std::vector<float>& probe_gap;
   const std::vector<char>&probe_touches, &target_touches;
   Eigen::Vector3f shift;  ///< from the probe's coordinates to the target's
   bool is_self = false;
@@ -38,14 +41,13 @@ struct Sides {
 
 Sides toward_second(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state) {
   const auto second = static_cast<std::size_t>(pair.second);
-  return {crowd.surfaces[second], state.normals[second], pair.first_gap,
-          pair.first_touches,     pair.second_touches,   pair.shift,
+  return {crowd.surfaces[second], state.normals[second], pair.first_touches, pair.second_touches, pair.shift,
           pair.is_self()};
 }
 
 Sides toward_first(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state) {
   const auto first = static_cast<std::size_t>(pair.first);
-  return {crowd.surfaces[first], state.normals[first], pair.second_gap, pair.second_touches,
+  return {crowd.surfaces[first], state.normals[first], pair.second_touches,
           pair.first_touches,    -pair.shift,          pair.is_self()};
 }
 
@@ -66,7 +68,7 @@ Contact contact_of(const PointTouch& touch, const Sides& sides, const Particles&
   }
   contact.normal = touch.side * gap.normal;
   contact.distance = touch.side * gap.distance;
-  contact.gap = std::min(sides.probe_gap[p], touch.most_gap);
+  contact.gap = touch.most_gap;
   return contact;
 }
 
@@ -82,6 +84,9 @@ Eigen::Vector3f friction_of(const Contact& contact, float friction, float push, 
 struct Moved {
   const Particles& start;  ///< where the step began
   Particles& particles;    ///< where they are
+  bool moves = true;       ///< whether it can be moved
+
+  float inverse_mass(Index particle) const { return moves ? particles.inverse_mass(particle) : 0; }
 
   /// Moves a particle, but not away from where the step began once it is `most` from there.
   void push(Index particle, const Eigen::Vector3f& by, float most) {
@@ -108,7 +113,7 @@ bool project(const Contact& contact, const SurfaceContactSettings& settings, Mov
   Eigen::Vector3f moved = Eigen::Vector3f::Zero();
   const auto add = [&](Index particle, float share, const Moved& side, float sign) {
     if (particle < 0) return;
-    const float inverse_mass = side.particles.inverse_mass(particle);
+    const float inverse_mass = side.inverse_mass(particle);
     weight += share * share * inverse_mass, largest = std::max(largest, share * inverse_mass);
     if (settings.friction > 0)
       moved += sign * share * (side.particles.position(particle) - side.start.position(particle));
@@ -122,52 +127,73 @@ bool project(const Contact& contact, const SurfaceContactSettings& settings, Mov
   push /= weight;
   for (std::size_t i = 0; i < 2; ++i) {
     const Index p = contact.probe[i];
-    if (p >= 0) probe.push(p, probe.particles.inverse_mass(p) * contact.probe_weight[i] * push, settings.most_motion);
+    if (p >= 0) probe.push(p, probe.inverse_mass(p) * contact.probe_weight[i] * push, settings.most_motion);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const Index p = contact.target[i];
-    if (p >= 0)
-      target.push(p, -target.particles.inverse_mass(p) * contact.target_weight[i] * push, settings.most_motion);
+    if (p >= 0) target.push(p, -target.inverse_mass(p) * contact.target_weight[i] * push, settings.most_motion);
   }
   return true;
 }
 
-Index project_points(const std::vector<PointTouch>& touches, const Sides& sides, const SurfaceContactSettings& settings,
-                     Moved probe, Moved target) {
+/// Calls act(touch) for those that press. A block is looked at when its turn comes, after the pushes of those before.
+template <class Touch, class Look, class Act>
+Index for_each_pressing(const std::vector<Touch>& touches, const Look& look, const Act& act) {
   Index count = 0;
-  for (const PointTouch& touch : touches)
-    count += project(contact_of(touch, sides, probe.particles, target.particles), settings, probe, target);
+  for (std::size_t begin = 0; begin < touches.size(); begin += touches_per_block) {
+    const auto block = std::span(touches).subspan(begin, std::min(touches_per_block, touches.size() - begin));
+    for (PressingBits bits = look(block); bits != 0; bits &= bits - 1)
+      count += act(block[static_cast<std::size_t>(std::countr_zero(bits))]);
+  }
   return count;
 }
 
-Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state,
-                    const std::vector<EdgeTouch>& touches, Moved probe, Moved target) {
+Index project_points(const std::vector<PointTouch>& touches, const Sides& sides, const SurfaceContactSettings& settings,
+                     Moved probe, Moved target) {
+  const auto look = [&](std::span<const PointTouch> block) {
+    // Cohesion also draws what has parted.
+    if (settings.cohesion > 0) return ~PressingBits{0} >> (32 - block.size());
+    return pressing_points(block, sides.target_surface, sides.shift, probe.particles, target.particles);
+  };
+  return for_each_pressing(touches, look, [&](const PointTouch& touch) {
+    return project(contact_of(touch, sides, probe.particles, target.particles), settings, probe, target);
+  });
+}
+
+/// Where two edges cross; nothing where they do not.
+std::optional<Contact> contact_of(const SurfaceCrowd& crowd, const SurfacePair& pair, const EdgeTouch& touch,
+                                  const Particles& probe, const Particles& target) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-  Index count = 0;
-  for (const EdgeTouch& touch : touches) {
-    const auto& first = crowd.surfaces[a].edges[static_cast<std::size_t>(touch.first)].ends;
-    const auto& second = crowd.surfaces[b].edges[static_cast<std::size_t>(touch.second)].ends;
-    const Eigen::Vector3f outward = touch.side * (state.normals[b].col(second[0]) + state.normals[b].col(second[1]) -
-                                                  state.normals[a].col(first[0]) - state.normals[a].col(first[1]));
-    const EdgeGap gap =
-        edge_gap(probe.particles.position(first[0]) + pair.shift, probe.particles.position(first[1]) + pair.shift,
-                 target.particles.position(second[0]), target.particles.position(second[1]), outward);
-    if (!gap.crossing) continue;
-    const auto between = [](const std::vector<float>& gaps, const std::array<Index, 2>& ends, float t) {
-      return (1 - t) * gaps[static_cast<std::size_t>(ends[0])] + t * gaps[static_cast<std::size_t>(ends[1])];
-    };
-    Contact contact;
-    contact.probe = first;
-    contact.probe_weight = {1 - gap.s, gap.s};
-    contact.target = {second[0], second[1], -1};
-    contact.target_weight = {1 - gap.t, gap.t, 0};
-    contact.normal = gap.normal;
-    contact.distance = gap.distance;
-    contact.gap =
-        std::min({between(pair.first_gap, first, gap.s), between(pair.second_gap, second, gap.t), touch.most_gap});
-    count += project(contact, crowd.settings, probe, target);
-  }
-  return count;
+  const auto& first = crowd.surfaces[a].edges[static_cast<std::size_t>(touch.first)].ends;
+  const auto& second = crowd.surfaces[b].edges[static_cast<std::size_t>(touch.second)].ends;
+  const EdgeGap gap = edge_gap(probe.position(first[0]) + pair.shift, probe.position(first[1]) + pair.shift,
+                               target.position(second[0]), target.position(second[1]), touch.outward);
+  if (!gap.crossing) return {};
+  const auto between = [](const std::vector<float>& gaps, const std::array<Index, 2>& ends, float t) {
+    return (1 - t) * gaps[static_cast<std::size_t>(ends[0])] + t * gaps[static_cast<std::size_t>(ends[1])];
+  };
+  Contact contact;
+  contact.probe = first;
+  contact.probe_weight = {1 - gap.s, gap.s};
+  contact.target = {second[0], second[1], -1};
+  contact.target_weight = {1 - gap.t, gap.t, 0};
+  contact.normal = gap.normal;
+  contact.distance = gap.distance;
+  contact.gap =
+      std::min({between(pair.first_gap, first, gap.s), between(pair.second_gap, second, gap.t), touch.most_gap});
+  return contact;
+}
+
+Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::vector<EdgeTouch>& touches,
+                    Moved probe, Moved target) {
+  const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+  const auto look = [&](std::span<const EdgeTouch> block) {
+    return pressing_edges(block, crowd.surfaces[a], crowd.surfaces[b], pair.shift, probe.particles, target.particles);
+  };
+  return for_each_pressing(touches, look, [&](const EdgeTouch& touch) {
+    const std::optional<Contact> contact = contact_of(crowd, pair, touch, probe.particles, target.particles);
+    return contact && project(*contact, crowd.settings, probe, target);
+  });
 }
 
 }  // namespace
@@ -179,14 +205,14 @@ void arrange_rounds(SurfaceCrowd& crowd) {
 }
 
 Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
-                      const std::vector<Particles*>& particles) {
+                      const std::vector<Particles*>& particles, const Movers& movers) {
   std::atomic<Index> count = 0;
   const auto project_pair = [&](Index number) {
     const SurfacePair& pair = crowd.pairs[static_cast<std::size_t>(number)];
     const PairTouches& touches = state.touches[static_cast<std::size_t>(number)];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-    const Moved first{*start[a], *particles[a]}, second{*start[b], *particles[b]};
-    Index pushed = project_edges(crowd, pair, state, touches.edges, first, second);
+    const Moved first{*start[a], *particles[a], movers.move(a)}, second{*start[b], *particles[b], movers.move(b)};
+    Index pushed = project_edges(crowd, pair, touches.edges, first, second);
     pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, first, second);
     pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, second, first);
     count += pushed;
@@ -194,8 +220,10 @@ Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const 
   std::vector<Index> touching;
   for (const std::vector<Index>& round : crowd.rounds) {
     touching.clear();
-    for (const Index number : round)
-      if (!state.touches[static_cast<std::size_t>(number)].none_listed()) touching.push_back(number);
+    for (const Index number : round) {
+      const auto at = static_cast<std::size_t>(number);
+      if (any_moves(crowd.pairs[at], movers) && !state.touches[at].none_listed()) touching.push_back(number);
+    }
     parallel_for_each(touching.size(), [&](std::size_t i) { project_pair(touching[i]); });
   }
   return count;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/dynamics/movers.hpp>
 #include <gracilis/dynamics/patch_tree.hpp>
 
 #include <limits>
@@ -47,14 +48,15 @@ struct PointTouch {
   float distance = 0;                                       ///< m, on that side, when last looked at
   Eigen::Vector3f barycentric = Eigen::Vector3f::Zero();    ///< of the nearest point then
   Eigen::Vector3f offset = Eigen::Vector3f::Zero();         ///< m, from the nearest point to the particle then
-  float most_gap = std::numeric_limits<float>::infinity();  ///< m, what neighbors leave each other, or may be asked
-                                                            ///< for in this step
+  float most_gap = std::numeric_limits<float>::infinity();  ///< m, the pair's gap, or less: what neighbors leave each
+                                                            ///< other, or may be asked for in this step
 };
 /// Two edges that cross closely, one of each surface; `side` as above.
 struct EdgeTouch {
   Index first = 0, second = 0;
   float side = 1;
-  float most_gap = std::numeric_limits<float>::infinity();
+  float most_gap = std::numeric_limits<float>::infinity();  ///< as above; of the gaps at the ends the largest
+  Eigen::Vector3f outward = Eigen::Vector3f::Zero();  ///< from the second when last looked at, as edge_gap wants it
 };
 
 /// What is near what; workspace.
@@ -80,6 +82,10 @@ struct CrowdState {
   int frames = 0;                         ///< begun so far; every update_period-th searches anew
 };
 
+inline bool any_moves(const SurfacePair& pair, const Movers& movers) {
+  return movers.move(static_cast<std::size_t>(pair.first)) || movers.move(static_cast<std::size_t>(pair.second));
+}
+
 /// Groups the pairs into rounds. Call it once all pairs are there.
 void arrange_rounds(SurfaceCrowd& crowd);
 
@@ -102,21 +108,22 @@ void forget_touches(CrowdState& state);
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state);
 
 /// Follows what was found to where it is now and lists what the next iterations have to project. Where hardly anything
-/// has moved within a step the lists stay.
-void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state);
+/// has moved within a step the lists stay. Pairs of which neither is among the movers have not moved since.
+void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state,
+                    const Movers& movers = {});
 
 /// Projects all listed contacts: points against faces, then edges against edges, without compliance, each side moving
 /// by its inverse masses so that momentum is kept. No particle goes further at once than twice what is missing from the
 /// gap, nor further than `most_motion` from `start`, where the step began; momentum is lost where that holds one back.
-/// Returns how many pushed.
+/// Only movers move; to them the others are as immovable as bones. Returns how many pushed.
 Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
-                      const std::vector<Particles*>& particles);
+                      const std::vector<Particles*>& particles, const Movers& movers = {});
 
-/// Mends every surface that keeps out of itself but cuts itself all the same, after a follow_touches: takes it to its
+/// Mends every mover that keeps out of itself but cuts itself all the same, after a follow_touches: takes it to its
 /// shape at rest there, and in every other attempt, where that did not help, smooths it, the longer the later. What cut
-/// itself before the step resisted all attempts then and is left alone. Returns whether there was anything to mend; all
-/// has to settle again then.
+/// itself before the step resisted all attempts then and is left alone. Returns whether there was anything to mend, and
+/// leaves among the movers what was: it has to settle again.
 bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int attempt,
-                    const std::vector<Particles*>& particles);
+                    const std::vector<Particles*>& particles, Movers& movers);
 
 }  // namespace gracilis

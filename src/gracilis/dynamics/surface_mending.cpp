@@ -31,11 +31,11 @@ std::vector<Index> suspects(const ContactSurface& surface, const PairTouches& to
 }  // namespace
 
 bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int attempt,
-                    const std::vector<Particles*>& particles) {
-  std::vector<char> mended(crowd.pairs.size(), 0);
+                    const std::vector<Particles*>& particles, Movers& movers) {
+  std::vector<char> mended(crowd.surfaces.size(), 0);
   parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
-    if (!crowd.pairs[i].is_self()) return;
     const auto at = static_cast<std::size_t>(crowd.pairs[i].first);
+    if (!crowd.pairs[i].is_self() || !movers.move(at)) return;
     const ContactSurface& surface = crowd.surfaces[at];
     const std::vector<FacePair> cuts = find_self_cuts(surface, crowd.rest[at], state.before[at], *particles[at],
                                                       suspects(surface, state.touches[i], *particles[at]));
@@ -44,9 +44,10 @@ bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int atte
       unfold(surface, crowd.rest[at], cuts, most, *particles[at]);
     else
       smooth(surface, cuts, attempt + 1, most, *particles[at]);
-    mended[i] = !cuts.empty();
+    mended[at] = !cuts.empty();
   });
-  return std::any_of(mended.begin(), mended.end(), [](char each) { return each != 0; });
+  movers.listed = std::move(mended);
+  return std::any_of(movers.listed.begin(), movers.listed.end(), [](char each) { return each != 0; });
 }
 
 }  // namespace gracilis

@@ -84,7 +84,7 @@ void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, con
           if (self && self->side(touch.particle, touch.face) != touch.side) continue;
           const float own = self ? self->most_gap(touch.particle, touch.face) : infinity;
           const float kept = std::min(own, gaps[static_cast<std::size_t>(touch.particle)]);
-          touch.most_gap = std::min(own, release.most_gap(touch, kept));
+          touch.most_gap = std::min(kept, release.most_gap(touch, kept));
           part.push_back(touch);
         }
       });
@@ -177,6 +177,18 @@ void leave_out_torn(const SurfaceCrowd& crowd, const SurfacePair& pair, const Cr
   });
 }
 
+/// Which way out each edge is from the other.
+void note_outward(const SurfacePair& pair, const SurfaceCrowd& crowd, const CrowdState& state,
+                  std::vector<EdgeTouch>& edges) {
+  const auto normal_at = [&](Index surface, Index edge) -> Eigen::Vector3f {
+    const auto at = static_cast<std::size_t>(surface);
+    const auto& ends = crowd.surfaces[at].edges[static_cast<std::size_t>(edge)].ends;
+    return state.normals[at].col(ends[0]) + state.normals[at].col(ends[1]);
+  };
+  for (EdgeTouch& touch : edges)
+    touch.outward = touch.side * (normal_at(pair.second, touch.second) - normal_at(pair.first, touch.first));
+}
+
 }  // namespace
 
 CrowdState make_crowd_state(const SurfaceCrowd& crowd) {
@@ -244,10 +256,13 @@ void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>
   });
 }
 
-void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
+void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state,
+                    const Movers& movers) {
   parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
     const SurfacePair& pair = crowd.pairs[i];
     PairTouches& touches = state.touches[i];
+    touches.is_calm = !any_moves(pair, movers);
+    if (touches.is_calm) return;
     const float drift = largest_drift(crowd, particles, pair, touches);
     touches.is_calm = !touches.is_new && !pair.is_self() && drift <= calm;
     if (touches.is_calm) return;
@@ -282,6 +297,9 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
   });
   ask_to_project(crowd, state, normals);
   normals.make();
+  parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
+    if (!state.touches[i].is_calm) note_outward(crowd.pairs[i], crowd, state, state.touches[i].edges);
+  });
 }
 
 }  // namespace gracilis

@@ -26,19 +26,14 @@ BoundedField bounded(const DistanceField& field) {
     for (Index i = 0; i < nx; ++i) see(i, 0, k), see(i, ny - 1, k);
     for (Index j = 0; j < ny; ++j) see(0, j, k), see(nx - 1, j, k);
   }
-  return {&field, grid_of(field), std::max(border, 0.0f)};
+  const Vec3 size((nx - 1) * field.cell_size.x(), (ny - 1) * field.cell_size.y(), (nz - 1) * field.cell_size.z());
+  return {&field, grid_of(field), std::max(border, 0.0f), field.origin.cast<float>(), size.cast<float>()};
 }
 
 FieldSample sample_bounded(const BoundedField& bounded, const Eigen::Vector3f& p) {
   FieldSample answer = sample(bounded.grid, p);
   if (std::isfinite(answer.distance)) return answer;
-  const DistanceField& field = *bounded.field;
-  const Eigen::Vector3f low = field.origin.cast<float>();
-  const Eigen::Vector3f size =
-      Vec3((field.nodes[0] - 1) * field.cell_size.x(), (field.nodes[1] - 1) * field.cell_size.y(),
-           (field.nodes[2] - 1) * field.cell_size.z())
-          .cast<float>();
-  const Eigen::Vector3f beyond = (low - p).cwiseMax(p - low - size).cwiseMax(0.0f);
+  const Eigen::Vector3f beyond = (bounded.low - p).cwiseMax(p - bounded.low - bounded.size).cwiseMax(0.0f);
   answer.distance = beyond.norm() + bounded.border;
   return answer;
 }

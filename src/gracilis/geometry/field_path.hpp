@@ -9,6 +9,7 @@ struct BoundedField {
   const DistanceField* field = nullptr;  ///< must outlive this
   FieldGrid grid;                        ///< the same, to be asked
   float border = 0;                      ///< m; least value on the border, at least 0
+  Eigen::Vector3f low, size;             ///< m; of the grid
 };
 
 BoundedField bounded(const DistanceField& field);

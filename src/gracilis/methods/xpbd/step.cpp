@@ -112,15 +112,20 @@ Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const SurfaceC
   std::vector<const Particles*> start;
   for (const MuscleStep& step : steps) start.push_back(&step.state->start);
   find_touches(crowd, seen, state);
-  return {[&crowd, &state, seen] { follow_touches(crowd, seen, state); },
-          [&crowd, &state, start, particles] { return project_touches(crowd, state, start, particles); },
-          [&crowd, &state, particles](int attempt) { return mend_self_cuts(crowd, state, attempt, particles); }};
+  return {[&crowd, &state, seen](const Movers& movers) { follow_touches(crowd, seen, state, movers); },
+          [&crowd, &state, start, particles](const Movers& movers) {
+            return project_touches(crowd, state, start, particles, movers);
+          },
+          [&crowd, &state, particles](Movers& movers, int attempt) {
+            return mend_self_cuts(crowd, state, attempt, particles, movers);
+          }};
 }
 
 Coupling couple_by_edges(const std::vector<MuscleStep>& steps, const VirtualEdgeCrowd& crowd, VirtualEdgeState& state) {
   const auto particles = particles_of<Particles*>(steps);
   adapt_distances(crowd, particles_of<const Particles*>(steps), state);
-  return {[] {}, [&crowd, &state, particles] { return project_virtual_edges(crowd, particles, state); }};
+  return {[](const Movers&) {},
+          [&crowd, &state, particles](const Movers&) { return project_virtual_edges(crowd, particles, state); }};
 }
 
 /// What acts between the muscles of a crowd, from where they are predicted.

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+namespace gracilis {
+
+/// Which of a crowd's surfaces move while others stay where they are; an empty list: all.
+struct Movers {
+  std::vector<char> listed;
+
+  bool move(std::size_t surface) const { return listed.empty() || listed[surface] != 0; }
+};
+
+}  // namespace gracilis
