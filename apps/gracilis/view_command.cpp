@@ -8,6 +8,7 @@
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/recorded_run.hpp>
 #include <gracilis/io/scene_reader.hpp>
+#include <gracilis/scene/scene_place.hpp>
 #include <gracilis/simulate/scene_method.hpp>
 #include <gracilis/view/run_picture.hpp>
 #include <gracilis/view/window/interactive_window.hpp>
@@ -127,6 +128,8 @@ void drive_all(Scene& scene) {
 
 void view_scene(Scene scene, const ViewOptions& options, std::chrono::steady_clock::time_point begin) {
   static constexpr int kept_frames = 1500;
+  const Vec3 place = place_of(scene);
+  scene = shifted(std::move(scene), -place);  // what is drawn is single precision
   drive_all(scene);
   ShapeHistory history(kept_frames);
   LiveSimulation simulation(scene, history, [&scene] {

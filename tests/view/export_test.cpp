@@ -91,6 +91,25 @@ TEST(ExportGltf, bones_turn_and_the_subject_stands_upright) {
   EXPECT_TRUE((upright * leg.scene.axes.anterior).isApprox(Vec3::UnitZ(), 1e-9));
 }
 
+TEST(ExportGltf, a_run_kilometres_away_keeps_its_shapes_and_stands_there) {
+  const TestFolder folder;
+  FlexingLeg leg(2);
+  const Vec3 far_away(5000.3, -3000.7, 8000.1);
+  for (Muscle& muscle : leg.scene.muscles) muscle.surface.vertices.colwise() += far_away;
+  for (Bone& bone : leg.scene.bones) bone.surface.vertices.colwise() += far_away;
+  export_gltf(leg.written(folder.path() / "run"), folder.path() / "run.glb");
+  const tinygltf::Model model = read_glb(folder.path() / "run.glb");
+  const tinygltf::Node& root = node_of(model, "flexing_leg");
+  const Eigen::Quaterniond turn(root.rotation.at(3), root.rotation.at(0), root.rotation.at(1), root.rotation.at(2));
+  const tinygltf::Primitive& shape =
+      model.meshes.at(static_cast<std::size_t>(node_of(model, "bulging_r").mesh)).primitives.at(0);
+  const Points points = floats(model, shape.attributes.at("POSITION")).cast<Real>();
+  const Points rest = leg.scene.muscles[0].surface.vertices;
+  for (Index v = 0; v < points.cols(); ++v)
+    EXPECT_LT((turn * points.col(v) + Eigen::Map<const Vec3>(root.translation.data()) - turn * rest.col(v)).norm(),
+              1e-6);
+}
+
 TEST(ExportGltf, keeps_to_the_frames_and_vertices_that_are_asked_for) {
   const TestFolder folder;
   GltfOptions options;
@@ -125,6 +144,16 @@ TEST(ExportObj, is_read_back_with_all_surfaces_of_the_frame) {
   EXPECT_TRUE(all.vertices.rightCols(last.cols()).isApprox(last, 1e-7));
   EXPECT_EQ(all.faces.rightCols(1).maxCoeff() < all.vertex_count(), true);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "obj/frame_0001.obj"));
+}
+
+TEST(ExportObj, tells_less_than_a_micrometre_kilometres_away) {
+  const TestFolder folder;
+  FlexingLeg leg(1);
+  leg.scene.muscles[1].surface.vertices.colwise() += Vec3(5000.3, -3000.7, 8000.1);
+  export_obj(leg.written(folder.path() / "run"), folder.path() / "obj", {0});
+  const Points last = leg.scene.muscles[1].surface.vertices;
+  const TriangleMesh all = read_mesh(folder.path() / "obj/frame_0000.obj", 1);
+  EXPECT_LT((all.vertices.rightCols(last.cols()) - last).cwiseAbs().maxCoeff(), 1e-9);
 }
 
 TEST(ExportCsv, holds_the_tables_and_the_points_that_are_asked_for) {

@@ -59,11 +59,13 @@ std::vector<Real> levels_of_equal_area(const Muscle& muscle, const Eigen::Vector
 /// The same closed line, beginning where its points lie nearest to those of `before`. Both have as many points.
 Points aligned(const Points& loop, const Points& before) {
   const Eigen::Index n = loop.cols();
+  // About their middles, so that no digits are lost where they are far from the origin.
+  const Points a = loop.colwise() - loop.rowwise().mean(), b = before.colwise() - before.rowwise().mean();
   Eigen::Index best = 0;
   Real largest = -std::numeric_limits<Real>::infinity();
   for (Eigen::Index shift = 0; shift < n; ++shift) {
-    const Real product = loop.rightCols(n - shift).cwiseProduct(before.leftCols(n - shift)).sum() +
-                         loop.leftCols(shift).cwiseProduct(before.rightCols(shift)).sum();
+    const Real product = a.rightCols(n - shift).cwiseProduct(b.leftCols(n - shift)).sum() +
+                         a.leftCols(shift).cwiseProduct(b.rightCols(shift)).sum();
     if (product > largest) largest = product, best = shift;
   }
   Points result(3, n);

@@ -1,6 +1,7 @@
 #include <gracilis/geometry/distance_field.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <algorithm>
@@ -16,10 +17,6 @@ namespace {
 constexpr Index coarse_step = 8;
 /// How far the distance in the middle of a cell may be from the interpolated one, m.
 constexpr float largest_bend = 6e-5f;
-
-Eigen::AlignedBox3d bounding_box(const TriangleMesh& mesh) {
-  return {mesh.vertices.rowwise().minCoeff(), mesh.vertices.rowwise().maxCoeff()};
-}
 
 Index rounded_up(Index cells) { return (cells + coarse_step - 1) / coarse_step * coarse_step; }
 
@@ -125,7 +122,7 @@ class Builder {
 
 FieldDomain domain_by_cell_size(const TriangleMesh& mesh, Real cell_size, Real margin) {
   FieldDomain domain;
-  domain.box = bounding_box(mesh);
+  domain.box = bounding_box(mesh.vertices);
   domain.box.min().array() -= margin;
   for (int axis = 0; axis < 3; ++axis) {
     const auto cells = static_cast<Index>(std::ceil((domain.box.sizes()[axis] + margin) / cell_size));
@@ -139,7 +136,7 @@ FieldDomain domain_by_cell_size(const TriangleMesh& mesh, Real cell_size, Real m
 
 FieldDomain domain_by_resolution(const TriangleMesh& mesh, int resolution, Real factor) {
   FieldDomain domain;
-  const Eigen::AlignedBox3d box = bounding_box(mesh);
+  const Eigen::AlignedBox3d box = bounding_box(mesh.vertices);
   const Vec3 half = (box.sizes() / 2 * factor).cwiseMax(1e-6);
   domain.box = {box.center() - half, box.center() + half};
   domain.cells.fill(resolution);

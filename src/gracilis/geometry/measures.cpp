@@ -2,6 +2,10 @@
 
 namespace gracilis {
 
+Eigen::AlignedBox3d bounding_box(const Points& points) {
+  return {points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
+}
+
 Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners) {
   const Vec3 a = vertices.col(corners[0]);
   return (vertices.col(corners[1]) - a).cross(vertices.col(corners[2]) - a);

@@ -6,6 +6,9 @@
 
 namespace gracilis {
 
+/// The smallest box along the axes that holds all points. Precondition: there are some.
+Eigen::AlignedBox3d bounding_box(const Points& points);
+
 /// Twice the area times the outward unit normal of face `face`: (b - a) × (c - a).
 Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners);
 

@@ -1,5 +1,6 @@
 #include <gracilis/geometry/nearest_triangle.hpp>
 
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/point_triangle.hpp>
 
 #include <embree3/rtcore.h>
@@ -41,7 +42,8 @@ bool is_farther(const Disk& disk, const Vec3& p, Real distance) {
 
 struct NearestTriangle::Tree {
   TriangleMesh mesh;
-  std::vector<Disk> disks;  ///< around the faces
+  std::vector<Disk> disks;    ///< around the faces
+  Vec3 place = Vec3::Zero();  ///< of Embree's origin: what is single precision is about here
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -87,11 +89,12 @@ bool consider_triangle(RTCPointQueryFunctionArguments* arguments) {
   return true;
 }
 
-void search(RTCScene scene, Query& query) {
+void search(RTCScene scene, const Vec3& place, Query& query) {
+  const Eigen::Vector3f p = (query.p - place).cast<float>();
   RTCPointQuery point_query;
-  point_query.x = static_cast<float>(query.p.x());
-  point_query.y = static_cast<float>(query.p.y());
-  point_query.z = static_cast<float>(query.p.z());
+  point_query.x = p.x();
+  point_query.y = p.y();
+  point_query.z = p.z();
   point_query.time = 0;
   point_query.radius = generous(query.best.distance);
   RTCPointQueryContext context;
@@ -103,6 +106,7 @@ void search(RTCScene scene, Query& query) {
 
 NearestTriangle::NearestTriangle(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
   tree_->mesh = mesh;
+  tree_->place = bounding_box(mesh.vertices).center();
   for (const auto face : mesh.faces.colwise())
     tree_->disks.push_back(
         disk_around(mesh.vertices.col(face[0]), mesh.vertices.col(face[1]), mesh.vertices.col(face[2])));
@@ -113,7 +117,8 @@ NearestTriangle::NearestTriangle(const TriangleMesh& mesh) : tree_(std::make_uni
   auto* vertices =
       static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                   3 * sizeof(float), static_cast<std::size_t>(mesh.vertex_count())));
-  Eigen::Map<Eigen::Matrix3Xf>(vertices, 3, mesh.vertex_count()) = mesh.vertices.cast<float>();
+  Eigen::Map<Eigen::Matrix3Xf>(vertices, 3, mesh.vertex_count()) =
+      (mesh.vertices.colwise() - tree_->place).cast<float>();
   auto* faces = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                3 * sizeof(unsigned),
                                                                static_cast<std::size_t>(mesh.face_count())));
@@ -133,7 +138,7 @@ NearestPoint NearestTriangle::query(const Vec3& p, Real reach) const {
   Query query{tree_->mesh, tree_->disks, p, {}};
   query.best.distance = reach;
   query.best.face = std::numeric_limits<Index>::max();
-  search(tree_->scene, query);
+  search(tree_->scene, tree_->place, query);
   if (query.best.face == std::numeric_limits<Index>::max()) return {};
   return query.best;
 }
@@ -141,7 +146,7 @@ NearestPoint NearestTriangle::query(const Vec3& p, Real reach) const {
 NearestPoint NearestTriangle::query_from(Index guess, const Vec3& p) const {
   Query query{tree_->mesh, tree_->disks, p, {}};
   consider(guess, query);
-  search(tree_->scene, query);
+  search(tree_->scene, tree_->place, query);
   return query.best;
 }
 

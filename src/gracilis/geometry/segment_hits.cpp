@@ -1,10 +1,13 @@
 #include <gracilis/geometry/segment_hits.hpp>
 
+#include <gracilis/geometry/measures.hpp>
+
 #include <embree3/rtcore.h>
 
 namespace gracilis {
 
 struct SegmentHits::Tree {
+  Vec3 place = Vec3::Zero();  ///< of Embree's origin: what is single precision is about here
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -15,6 +18,7 @@ struct SegmentHits::Tree {
 };
 
 SegmentHits::SegmentHits(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
+  tree_->place = bounding_box(mesh.vertices).center();
   tree_->device = rtcNewDevice(nullptr);
   tree_->scene = rtcNewScene(tree_->device);
   rtcSetSceneFlags(tree_->scene, RTC_SCENE_FLAG_ROBUST);
@@ -22,7 +26,8 @@ SegmentHits::SegmentHits(const TriangleMesh& mesh) : tree_(std::make_unique<Tree
   auto* vertices =
       static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                   3 * sizeof(float), static_cast<std::size_t>(mesh.vertex_count())));
-  Eigen::Map<Eigen::Matrix3Xf>(vertices, 3, mesh.vertex_count()) = mesh.vertices.cast<float>();
+  Eigen::Map<Eigen::Matrix3Xf>(vertices, 3, mesh.vertex_count()) =
+      (mesh.vertices.colwise() - tree_->place).cast<float>();
   auto* faces = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                                3 * sizeof(unsigned),
                                                                static_cast<std::size_t>(mesh.face_count())));
@@ -37,7 +42,7 @@ SegmentHits::~SegmentHits() = default;
 SegmentHits::SegmentHits(SegmentHits&&) noexcept = default;
 SegmentHits& SegmentHits::operator=(SegmentHits&&) noexcept = default;
 
-/// The segment as a ray of the length 1 in its own unit.
+/// The segment, about Embree's origin, as a ray of the length 1 in its own unit.
 static RTCRay ray_along(const Vec3& a, const Vec3& b) {
   const Eigen::Vector3f from = a.cast<float>(), along = (b - a).cast<float>();
   RTCRay ray{};
@@ -55,7 +60,7 @@ static RTCRay ray_along(const Vec3& a, const Vec3& b) {
 bool SegmentHits::cut(const Vec3& a, const Vec3& b) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  RTCRay ray = ray_along(a, b);
+  RTCRay ray = ray_along(a - tree_->place, b - tree_->place);
   rtcOccluded1(tree_->scene, &context, &ray);
   return ray.tfar < 0;
 }
@@ -64,7 +69,7 @@ std::optional<SegmentHits::Hit> SegmentHits::first(const Vec3& a, const Vec3& b)
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit seen{};
-  seen.ray = ray_along(a, b);
+  seen.ray = ray_along(a - tree_->place, b - tree_->place);
   seen.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(tree_->scene, &context, &seen);
   if (seen.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;

@@ -1,6 +1,7 @@
 #include <gracilis/io/recorded_run.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/fiber_table.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh_reader.hpp>
@@ -9,6 +10,7 @@
 #include <gracilis/io/run_folder.hpp>
 #include <gracilis/io/text_cells.hpp>
 #include <gracilis/io/value_reader.hpp>
+#include <gracilis/scene/scene_place.hpp>
 
 #include <Eigen/Geometry>
 
@@ -137,6 +139,7 @@ RecordedRun open_recorded_run(const fs::path& folder) {
   run.axes = axes_of(run.manifest);
   read_measures(folder / "measures.csv", run);
   find_surfaces(run);
+  run.place = place_of(bounding_box(recorded_surface(run, run.muscles.front(), 0).vertices));
   return run;
 }
 
@@ -153,6 +156,18 @@ TriangleMesh recorded_surface(const RecordedRun& run, const std::string& name, i
 Polylines recorded_fibers(const RecordedRun& run, const std::string& muscle, int frame) {
   const fs::path path = fiber_file(run.folder, muscle, frame);
   return fs::exists(path) ? read_polylines(path, 1) : Polylines{};
+}
+
+TriangleMesh placed_surface(const RecordedRun& run, const std::string& name, int frame) {
+  TriangleMesh surface = recorded_surface(run, name, frame);
+  surface.vertices.colwise() -= run.place;
+  return surface;
+}
+
+Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int frame) {
+  Polylines fibers = recorded_fibers(run, muscle, frame);
+  fibers.points.colwise() -= run.place;
+  return fibers;
 }
 
 Points recorded_tissue(const RecordedRun& run, const std::string& muscle) {

@@ -19,6 +19,7 @@ struct RecordedRun {
   AnatomicalAxes axes;                   ///< how the subject stands in the frames
   std::vector<std::string> muscles;      ///< in the scene's order
   std::vector<std::string> bones;        ///< all other surfaces, sorted
+  Vec3 place = Vec3::Zero();             ///< about where it lies (scene/scene_place.hpp)
   int frame_count = 0;                   ///< frames 0 ... frame_count - 1 are there for every surface and measured
   std::vector<Real> times;               ///< s, per frame
   std::vector<std::string> coordinates;  ///< with their units, as in hip_flexion_r_deg
@@ -38,6 +39,10 @@ TriangleMesh recorded_surface(const RecordedRun& run, const std::string& name, i
 
 /// A muscle's fibers in one frame, m; none when the run has none of it.
 Polylines recorded_fibers(const RecordedRun& run, const std::string& muscle, int frame);
+
+/// The same about the run's place, for what is drawn or written in single precision.
+TriangleMesh placed_surface(const RecordedRun& run, const std::string& name, int frame);
+Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int frame);
 
 /// Per vertex of a muscle: 1 where it is of an origin, 1 where of an insertion, share of belly against tendon (0 to 1).
 /// 3 × 0 when the run was made before runs told it.

@@ -6,10 +6,6 @@
 
 namespace gracilis {
 
-/// The share t of a rigid motion, along its screw: a turn about an axis that stays, and a slide along it (Chasles).
-/// Precondition: it turns by less than half a turn.
-RigidTransform share_of_screw(const RigidTransform& motion, Real t);
-
 /// Where bodies are on the way from one pose to another, each along its own screw, `to` itself last: as many steps as
 /// it takes for none to turn against another by more than `largest_turn` (rad), or to slide by more than
 /// `largest_slide` (m). At least one. Both have as many bodies.

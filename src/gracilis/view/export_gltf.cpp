@@ -107,14 +107,14 @@ void add_channel(Model& model, int node, const char* path, int times, int values
 
 int add_bone(Model& model, const RecordedRun& run, const std::string& name, const std::vector<int>& frames, int times,
              Index vertices) {
-  const TriangleMesh rest = recorded_surface(run, name, 0);
+  const TriangleMesh rest = placed_surface(run, name, 0);
   const CoarseSurface coarse = decimate(rest, vertices);
   const int mesh = add_mesh(model, name, picked(rest.vertices, coarse.vertices), coarse.faces, bone_color());
   const int node = model.add("nodes", {{"name", name}, {"mesh", mesh}});
   Eigen::MatrixXf turns(4, static_cast<Index>(frames.size())), shifts(3, turns.cols());
   Eigen::Quaternionf last = Eigen::Quaternionf::Identity();
   for (Index i = 0; i < turns.cols(); ++i) {
-    const TriangleMesh now = recorded_surface(run, name, frames[static_cast<std::size_t>(i)]);
+    const TriangleMesh now = placed_surface(run, name, frames[static_cast<std::size_t>(i)]);
     const RigidTransform motion = rigid_motion(rest.vertices, now.vertices);
     Eigen::Quaternionf turn(motion.linear().cast<float>());
     if (turn.dot(last) < 0) turn.coeffs() *= -1;  // the short way round
@@ -130,7 +130,7 @@ int add_bone(Model& model, const RecordedRun& run, const std::string& name, cons
 int add_muscle(Model& model, const RecordedRun& run, std::size_t number, const std::vector<int>& frames, int times,
                Index vertices) {
   const std::string& name = run.muscles[number];
-  const TriangleMesh rest = recorded_surface(run, name, 0);
+  const TriangleMesh rest = placed_surface(run, name, 0);
   const CoarseSurface coarse = decimate(rest, vertices);
   const Points points = picked(rest.vertices, coarse.vertices);
   const int mesh = add_mesh(model, name, points, coarse.faces, muscle_color(static_cast<Index>(number)));
@@ -139,7 +139,7 @@ int add_muscle(Model& model, const RecordedRun& run, std::size_t number, const s
   if (targets == 0) return node;
   Json morphs = Json::array();
   for (std::size_t i = 1; i < frames.size(); ++i) {
-    const Points now = picked(recorded_surface(run, name, frames[i]).vertices, coarse.vertices);
+    const Points now = picked(placed_surface(run, name, frames[i]).vertices, coarse.vertices);
     morphs.push_back({{"POSITION", model.add_points(now - points, array_buffer)}});
   }
   Json& written = model.list("meshes")[static_cast<std::size_t>(mesh)];
@@ -184,9 +184,12 @@ void export_gltf(const RecordedRun& run, const std::filesystem::path& path, cons
   Eigen::Matrix3d turn;
   turn << -run.axes.right().transpose(), run.axes.superior.transpose(), run.axes.anterior.transpose();
   const Eigen::Quaterniond upright(turn);
-  const int root = model.add("nodes", {{"name", run.manifest.value("scene", "run")},
-                                       {"rotation", {upright.x(), upright.y(), upright.z(), upright.w()}},
-                                       {"children", children}});
+  Json root_node = {{"name", run.manifest.value("scene", "run")},
+                    {"rotation", {upright.x(), upright.y(), upright.z(), upright.w()}},
+                    {"children", children}};
+  if (const Vec3 place = turn * run.place; !place.isZero())
+    root_node["translation"] = {place.x(), place.y(), place.z()};
+  const int root = model.add("nodes", root_node);
   model.json["scenes"] = Json::array({{{"nodes", {root}}}});
   model.json["buffers"] = Json::array({{{"byteLength", model.bytes.size()}}});
   const std::string json = padded(model.json.dump(-1, ' ', false, Json::error_handler_t::replace), ' ');

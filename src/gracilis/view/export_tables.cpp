@@ -25,7 +25,7 @@ static void create_folder(const fs::path& folder) {
 static void append_object(std::string& text, const std::string& name, const TriangleMesh& mesh, Index before) {
   auto out = std::back_inserter(text);
   fmt::format_to(out, "o {0}\nusemtl {0}\n", name);
-  for (const Vec3 v : mesh.vertices.colwise()) fmt::format_to(out, "v {:.9g} {:.9g} {:.9g}\n", v.x(), v.y(), v.z());
+  for (const Vec3 v : mesh.vertices.colwise()) fmt::format_to(out, "v {:.10f} {:.10f} {:.10f}\n", v.x(), v.y(), v.z());
   for (const Eigen::Vector3i f : mesh.faces.colwise())
     fmt::format_to(out, "f {} {} {}\n", f[0] + before + 1, f[1] + before + 1, f[2] + before + 1);
 }
@@ -78,7 +78,7 @@ void export_csv(const RecordedRun& run, const fs::path& folder, const std::vecto
     for (const int frame : frames) {
       const Points points = recorded_surface(run, muscle, frame).vertices;
       for (Index v = 0; v < points.cols(); ++v)
-        fmt::format_to(out, "{},{},{:.9g},{:.9g},{:.9g}\n", frame, v, points(0, v), points(1, v), points(2, v));
+        fmt::format_to(out, "{},{},{:.10f},{:.10f},{:.10f}\n", frame, v, points(0, v), points(1, v), points(2, v));
     }
     if (!frames.empty()) write_text_atomically(folder / ("points_" + muscle + ".csv"), text);
   }

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/screw.hpp>
 #include <gracilis/methods/xpbd/contraction.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/pass_recorder.hpp>
@@ -57,15 +58,13 @@ int substeps_of(const PreparedMuscle& muscle, const Pose& before, const Pose& no
   return settings.substeps * std::max(1, static_cast<int>(std::ceil(turn / settings.step_turn - rounding)));
 }
 
-/// Where the bodies are `share` of the way from one pose to the next, for substeps.
+/// Where the bodies are `share` of the way from one pose to the next, for substeps, each along its own screw: on a
+/// hinge it stays on the hinge, wherever the frame's origin is.
 Pose pose_between(const Pose& before, const Pose& now, Real share) {
   if (share >= 1) return now;
   Pose pose = now;
-  for (std::size_t b = 0; b < pose.bodies.size(); ++b) {
-    const Eigen::Quaterniond from(before.bodies[b].linear()), to(now.bodies[b].linear());
-    pose.bodies[b].linear() = from.slerp(share, to).toRotationMatrix();
-    pose.bodies[b].translation() = (1 - share) * before.bodies[b].translation() + share * now.bodies[b].translation();
-  }
+  for (std::size_t b = 0; b < pose.bodies.size(); ++b)
+    pose.bodies[b] = share_of_screw(now.bodies[b] * before.bodies[b].inverse(), share) * before.bodies[b];
   for (std::size_t c = 0; c < std::min(before.coordinates.size(), now.coordinates.size()); ++c)
     pose.coordinates[c] = (1 - share) * before.coordinates[c] + share * now.coordinates[c];
   return pose;

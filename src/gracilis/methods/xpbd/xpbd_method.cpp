@@ -1,9 +1,11 @@
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/xpbd/level.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/pace.hpp>
+#include <gracilis/scene/scene_place.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -199,7 +201,12 @@ std::unique_ptr<DeformationMethod> make_xpbd_method(const Scene& scene, std::vec
                                                     std::vector<DistanceField> far_fields) {
   if (far_fields.empty() && needs_far_fields(scene))
     for (const Bone& bone : scene.bones) far_fields.push_back(build_bone_field(bone, strings::far_field_settings()));
-  return std::make_unique<xpbd::XpbdMethod>(scene, std::move(fields), std::move(far_fields));
+  const Vec3 place = place_of(scene);
+  if (place.isZero()) return std::make_unique<xpbd::XpbdMethod>(scene, std::move(fields), std::move(far_fields));
+  for (std::vector<DistanceField>* each : {&fields, &far_fields})
+    for (DistanceField& field : *each) field.origin -= place;
+  return placed_method(
+      place, std::make_unique<xpbd::XpbdMethod>(shifted(scene, -place), std::move(fields), std::move(far_fields)));
 }
 
 bool needs_far_fields(const Scene& scene) {

@@ -62,7 +62,7 @@ static void append_faces(const Eigen::Matrix3Xi& faces, Json& description, std::
 
 static Json muscle_surface(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
                            Index most_vertices, std::string& bytes) {
-  const TriangleMesh rest = recorded_surface(run, name, 0);
+  const TriangleMesh rest = placed_surface(run, name, 0);
   const CoarseSurface coarse = decimate(rest, most_vertices);
   const VertexStretch stretch_around(rest);
   std::vector<Points> points(frames.size());
@@ -70,7 +70,7 @@ static Json muscle_surface(const RecordedRun& run, const std::string& name, cons
   parallel_for(static_cast<Index>(frames.size()), 1, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      const Points now = recorded_surface(run, name, frames[k]).vertices;
+      const Points now = placed_surface(run, name, frames[k]).vertices;
       points[k] = picked(now, coarse.vertices);
       const std::vector<Real> all = stretch_around.of(now);
       for (std::size_t v = 0; v < coarse.vertices.size(); ++v)
@@ -86,12 +86,12 @@ static Json muscle_surface(const RecordedRun& run, const std::string& name, cons
 
 static Json bone_surface(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
                          Index most_vertices, std::string& bytes) {
-  const TriangleMesh rest = recorded_surface(run, name, 0);
+  const TriangleMesh rest = placed_surface(run, name, 0);
   const CoarseSurface coarse = decimate(rest, most_vertices);
   std::vector<float> motions(7 * frames.size());
   parallel_for(static_cast<Index>(frames.size()), 1, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      const Points now = recorded_surface(run, name, frames[static_cast<std::size_t>(i)]).vertices;
+      const Points now = placed_surface(run, name, frames[static_cast<std::size_t>(i)]).vertices;
       const RigidTransform motion = rigid_motion(rest.vertices, now);
       const Eigen::Quaternionf turn(motion.linear().cast<float>());
       const Eigen::Vector3f shift = motion.translation().cast<float>();
@@ -116,13 +116,13 @@ static Polylines some_lines(const Polylines& lines) {
 /// Null where the run has no fibers of this muscle, or not the same number in every frame.
 static Json muscle_fibers(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
                           std::string& bytes) {
-  const Polylines rest = some_lines(recorded_fibers(run, name, 0));
+  const Polylines rest = some_lines(placed_fibers(run, name, 0));
   if (rest.count() == 0) return nullptr;
   const std::vector<Real> rest_lengths = polyline_lengths(rest);
   std::vector<Points> points;
   std::vector<std::uint8_t> strain;
   for (const int frame : frames) {
-    const Polylines now = some_lines(recorded_fibers(run, name, frame));
+    const Polylines now = some_lines(placed_fibers(run, name, frame));
     if (now.offsets != rest.offsets) return nullptr;
     points.push_back(now.points);
     const std::vector<Real> lengths = polyline_lengths(now);

@@ -15,7 +15,7 @@ namespace gracilis {
 static std::vector<TriangleMesh> read_surfaces(const RecordedRun& run, const std::vector<std::string>& names,
                                                int frame) {
   std::vector<TriangleMesh> surfaces(names.size());
-  parallel_for_each(names.size(), [&](std::size_t i) { surfaces[i] = recorded_surface(run, names[i], frame); });
+  parallel_for_each(names.size(), [&](std::size_t i) { surfaces[i] = placed_surface(run, names[i], frame); });
   return surfaces;
 }
 
@@ -92,7 +92,7 @@ ShownFrame RunLoader::read(int number) {
   maker_->fill(muscles, std::move(bones), with_depth, frame);
   has_depth_[static_cast<std::size_t>(number)] = with_depth;
   std::vector<Polylines> fibers;
-  for (const std::string& name : run_.muscles) fibers.push_back(recorded_fibers(run_, name, number));
+  for (const std::string& name : run_.muscles) fibers.push_back(placed_fibers(run_, name, number));
   maker_->fill_fibers(fibers, frame);
   for (Index m = 0; m < static_cast<Index>(run_.muscles.size()); ++m) {
     frame.activation.push_back(activations_.size() > 0 ? activations_(number, m) : 0);

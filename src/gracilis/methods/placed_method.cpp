@@ -1,0 +1,55 @@
+#include <gracilis/methods/placed_method.hpp>
+
+#include <utility>
+
+namespace gracilis {
+
+namespace {
+
+Pose shifted(Pose pose, const Vec3& by) {
+  for (RigidTransform& body : pose.bodies) body = Eigen::Translation3d(by) * body * Eigen::Translation3d(-by);
+  return pose;
+}
+
+void shift_shapes(Frame& frame, const Vec3& by) {
+  for (MuscleShape& shape : frame.muscles) shape.points.colwise() += by;
+}
+
+Frame shifted(Frame frame, const Vec3& by) {
+  frame.pose = shifted(std::move(frame.pose), by);
+  shift_shapes(frame, by);
+  return frame;
+}
+
+class PlacedMethod final : public DeformationMethod {
+ public:
+  PlacedMethod(const Vec3& place, std::unique_ptr<DeformationMethod> method)
+      : place_(place), method_(std::move(method)) {}
+
+  void reset() override { method_->reset(); }
+  StepReport advance(const Pose& pose) override { return method_->advance(shifted(pose, -place_)); }
+  void watch_passes(PassWatch watch) override { method_->watch_passes(std::move(watch)); }
+
+  void write(Frame& frame) const override {
+    method_->write(frame);
+    shift_shapes(frame, place_);
+  }
+
+  void restore(const std::vector<Pose>& poses, const Frame& before, const Frame& last) override {
+    std::vector<Pose> near;
+    for (const Pose& pose : poses) near.push_back(shifted(pose, -place_));
+    method_->restore(near, shifted(before, -place_), shifted(last, -place_));
+  }
+
+ private:
+  Vec3 place_;
+  std::unique_ptr<DeformationMethod> method_;
+};
+
+}  // namespace
+
+std::unique_ptr<DeformationMethod> placed_method(const Vec3& place, std::unique_ptr<DeformationMethod> method) {
+  return std::make_unique<PlacedMethod>(place, std::move(method));
+}
+
+}  // namespace gracilis
