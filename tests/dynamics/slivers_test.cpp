@@ -90,6 +90,20 @@ TEST(Slivers, a_side_comes_to_a_fixed_tip) {
   for (const Index end : {0, 1}) EXPECT_NEAR(particles.position(end).y(), 0.00025, 1e-7);
 }
 
+TEST(Slivers, where_tip_and_near_end_are_fixed_the_far_end_is_not_thrown_away) {
+  Strip strip(0.0005);
+  strip.rest.position(4).x() = 0.0097f;  // 3 % of the side from particle 1
+  strip.rest.at(4)[3] = strip.rest.at(1)[3] = 0;
+  Particles particles = strip.rest;
+  const Eigen::Vector3f lifted(0, 0.001f, 0);
+  particles.position(0) += lifted, particles.position(1) += lifted;
+  const Eigen::Vector3f before = particles.position(0);
+  project_slivers(build_sliver_set(strip.faces, strip.rest, 0.1f), particles);
+  const float moved = (particles.position(0) - before).norm();
+  EXPECT_GT(moved, 0.0005f);
+  EXPECT_LT(moved, 0.0021f) << "twice what is missing; 33 times would serve the tip at once";
+}
+
 TEST(Slivers, of_no_length_at_all_are_survived) {
   Strip strip(0);
   strip.rest.position(1) = strip.rest.position(0);

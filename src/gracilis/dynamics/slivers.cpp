@@ -11,6 +11,10 @@ namespace gracilis {
 
 namespace {
 
+/// How far an end of a side may go at once, over what is missing: where the other is fixed, too, one near which the tip
+/// is not would have to go as much further as its share is smaller, and would be thrown to and fro.
+constexpr float most_leverage = 2;
+
 struct Candidate {
   Index tip, a, b;
   float height;
@@ -112,7 +116,8 @@ void project_slivers(const SliverSet& set, Particles& particles) {
       continue;
     }
     const float wa = particles.inverse_mass(tip.a), wb = particles.inverse_mass(tip.b);
-    const float weight = share_of_a * share_of_a * wa + tip.share * tip.share * wb;
+    const float weight = std::max({share_of_a * share_of_a * wa + tip.share * tip.share * wb,
+                                   share_of_a * wa / most_leverage, tip.share * wb / most_leverage});
     if (!(weight > 0)) continue;
     particles.position(tip.a) -= share_of_a * wa / weight * push;
     particles.position(tip.b) -= tip.share * wb / weight * push;
