@@ -15,6 +15,11 @@ namespace {
 /// is not would have to go as much further as its share is smaller, and would be thrown to and fro.
 constexpr float most_leverage = 2;
 
+/// How far anything may go at once, over the length of the side. Tips lie nearer to their sides than a tenth of that:
+/// what is missing beyond has been torn away, not turned over, and comes back by and by, or slivers and the limit of
+/// stretch would throw it to and fro.
+constexpr float longest_push = 0.02f;
+
 struct Candidate {
   Index tip, a, b;
   float height;
@@ -110,7 +115,8 @@ void project_slivers(const SliverSet& set, Particles& particles) {
     if (aside.norm() > ahead) aside *= ahead / aside.norm();
     const Eigen::Vector2f missing = ahead * toward + aside - now;
     if (missing.squaredNorm() == 0) continue;
-    const Eigen::Vector3f push = frame.rightCols<2>() * missing;
+    const float longest = longest_push * (particles.position(tip.b) - particles.position(tip.a)).norm();
+    const Eigen::Vector3f push = std::min(1.0f, longest / missing.norm()) * (frame.rightCols<2>() * missing);
     if (particles.inverse_mass(tip.particle) > 0) {
       particles.position(tip.particle) += push;
       continue;
