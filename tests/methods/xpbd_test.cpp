@@ -221,8 +221,8 @@ TEST(XpbdMotion, a_stretched_muscle_aims_at_a_longer_and_thinner_shape_of_its_ow
   Pose farther = flexed(scene, 0);
   farther.bodies[1].translation().z() -= 0.5 * 0.144;
   const Points& rest = prepared.rest;
-  const Real volume =
-      enclosed_volume(xpbd::carried_rest(prepared, farther, {}), prepared.faces) / enclosed_volume(rest, prepared.faces);
+  const Real volume = enclosed_volume(xpbd::carried_rest(prepared, farther, {}), prepared.faces) /
+                      enclosed_volume(rest, prepared.faces);
   EXPECT_NEAR(volume, 1 + 0.5 * 0.144 / 0.16, 1e-6);
   Index along = 0, across = 0;
   for (const Aim& aim : aims(prepared, farther)) {
@@ -240,7 +240,8 @@ TEST(XpbdMotion, a_stretched_muscle_aims_at_a_longer_and_thinner_shape_of_its_ow
   EXPECT_GT(across, 300);
 }
 
-TEST(XpbdMotion, carried_back_to_the_capture_pose_a_relaxed_muscle_gives_up_its_displacement_by_the_square_of_the_turn) {
+TEST(XpbdMotion,
+     carried_back_to_the_capture_pose_a_relaxed_muscle_gives_up_its_displacement_by_the_square_of_the_turn) {
   const Scene scene = tube_without_tendons();
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
   const Real kept = 1 - prepared.settings.shape_recovery, displacement = 0.004;
@@ -347,6 +348,29 @@ TEST(BoneGaps, an_overlap_that_reaches_an_attachment_stays) {
     EXPECT_EQ(prepared.system.contacts[0].released.particle[p], prepared.system.contacts[0].captured.particle[p]);
   }
   EXPECT_GT(kept, 5);
+}
+
+TEST(BoneGaps, an_edge_out_of_an_overlap_that_stays_lets_its_middle_no_deeper_than_at_rest) {
+  Scene scene = tube_scene();
+  scene.muscles[0].surface.vertices.row(0).array() -= 0.001;
+  const std::vector<DistanceField> fields = fields_of(scene);
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], fields);
+  const FieldContactSet& contact = prepared.system.contacts[0];
+  const auto distance = [&](const Vec3& p) { return sample(fields[0], Eigen::Vector3f(p.cast<float>())).distance; };
+  const DistanceSet& edges = prepared.system.distances;
+  Index leaving = 0;
+  for (std::size_t slot = 0; slot < edges.a.size(); ++slot) {
+    const Index a = edges.a[slot], b = edges.b[slot];
+    if (std::max(a, b) >= prepared.rest.cols()) continue;
+    const Vec3 one = prepared.rest.col(a), other = prepared.rest.col(b);
+    if ((distance(one) < 0) == (distance(other) < 0) || one.z() < 0.01) continue;
+    ++leaving;
+    const float allowed = std::min(0.0f, distance((one + other) / 2));
+    for (const ContactGaps* gaps : {&contact.captured, &contact.released})
+      EXPECT_GE((gaps->particle[static_cast<std::size_t>(a)] + gaps->particle[static_cast<std::size_t>(b)]) / 2,
+                allowed - 1e-6f);
+  }
+  EXPECT_GT(leaving, 5);
 }
 
 TEST(Xpbd, overlaps_far_from_attachments_are_gone_after_the_first_degree) {

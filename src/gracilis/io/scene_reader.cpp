@@ -1,5 +1,7 @@
 #include <gracilis/anatomy/activation.hpp>
+#include <gracilis/anatomy/attachment_reach.hpp>
 #include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/geometry/box_mesh.hpp>
 #include <gracilis/io/activation_samples.hpp>
@@ -16,6 +18,8 @@
 #include <gracilis/io/table.hpp>
 #include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/validate.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -54,6 +58,7 @@ class SceneBuilder {
     std::vector<Problem> invalid = validate(result_.scene);
     for (Problem& problem : invalid) problem.file = description_.files.front().string();
     if (!invalid.empty()) throw ConfigurationError(std::move(invalid));
+    let_go_of_attachments();
     for (std::string& warning : warnings_about(result_.scene)) result_.warnings.push_back(std::move(warning));
     return std::move(result_);
   }
@@ -469,7 +474,8 @@ class SceneBuilder {
   void attach(std::size_t index) {
     Muscle& muscle = result_.scene.muscles[index];
     for (const AttachmentDescription& description : description_.muscles[index].attachments) {
-      Attachment attachment{description.name, description.end, 0, {}, description.guessed};
+      Attachment attachment{
+          description.name, description.end, 0, {}, description.guessed, !description.vertices.empty()};
       std::vector<const NearestTriangle*> trees;
       std::string body = description.body;
       for (const std::string& bone : description.bones) {
@@ -491,6 +497,16 @@ class SceneBuilder {
       }
       muscle.attachments.push_back(std::move(attachment));
     }
+  }
+
+  /// Distances to a bone take vertices that could not follow it, too.
+  void let_go_of_attachments() {
+    for (const LetGo& each : let_go_beyond_reach(result_.scene, pose_sequence(result_.scene)))
+      result_.warnings.push_back(
+          fmt::format("{}: attachment '{}' lets go of {} of its {} vertices, because the motion takes '{}' {:.1f} "
+                      "times as far from "
+                      "them as at rest (at most {:g}); list its vertices to hold them all",
+                      each.muscle, each.attachment, each.vertices, each.of, each.other, each.stretch, longest_reach));
   }
 
   const SceneDescription& description_;

@@ -52,6 +52,7 @@ struct Attachment {
   Index body = 0;
   std::vector<Index> vertices;  ///< of the muscle's surface, ascending
   bool guessed = false;         ///< not measured: marked so in the run's manifest
+  bool listed = false;          ///< its vertices were named one by one, so they are held whatever that takes
 };
 
 /// A coordinate that a point of a line depends on.
