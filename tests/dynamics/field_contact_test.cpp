@@ -65,6 +65,29 @@ Scenario edge_through_the_ball(Real inverse_mass_a, Real inverse_mass_b) {
 
 }  // namespace
 
+TEST(FieldContact, the_middle_of_an_edge_keeps_its_own_gap_though_an_end_stays_inside) {
+  Scenario scenario = points_at({{0, 0.028, 0}, {0.004, 0.0302, 0}}, {0, 1}, -0.01f);
+  scenario.contact.middles = {{0, 1, 0}};
+  const Eigen::Vector3f inside = scenario.particles.position(0);
+  const auto height = [&] {
+    return ((scenario.particles.position(0) + scenario.particles.position(1)) / 2).norm() - radius;
+  };
+  EXPECT_LT(height(), -5e-4);
+  for (int pass = 0; pass < 5; ++pass)
+    project_middle_contacts(scenario.contact, scenario.placement, scenario.near, scenario.particles);
+  EXPECT_NEAR(height(), 0, 1e-5);
+  EXPECT_EQ(scenario.particles.position(0), inside);
+  EXPECT_EQ(project_middle_contacts(scenario.contact, scenario.placement, scenario.near, scenario.particles), 0);
+}
+
+TEST(FieldContact, both_ends_of_an_edge_go_as_its_middle_has_to) {
+  Scenario scenario = points_at({{-0.004, 0.029, 0}, {0.004, 0.029, 0}}, {1, 1}, -0.01f);
+  scenario.contact.middles = {{0, 1, -0.0002f}};
+  for (int pass = 0; pass < 5; ++pass)
+    project_middle_contacts(scenario.contact, scenario.placement, scenario.near, scenario.particles);
+  for (const Index end : {0, 1}) EXPECT_NEAR(scenario.particles.position(end).y(), radius - 0.0002, 2e-5);
+}
+
 TEST(FieldContact, pushes_a_particle_straight_out_to_its_gap) {
   Scenario scenario = points_at({{0.025, 0.0125, 0.00625}, {0, 0, -0.0301}}, {1, 5}, 0.0005f);
   scenario.look();

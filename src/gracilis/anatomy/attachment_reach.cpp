@@ -16,7 +16,7 @@ std::vector<const Pose*> evenly(const std::vector<Pose>& poses) {
   std::vector<const Pose*> taken;
   const std::size_t step = (poses.size() + most_poses - 1) / most_poses;
   for (std::size_t i = 0; i < poses.size(); i += step) taken.push_back(&poses[i]);
-  if (!poses.empty()) taken.push_back(&poses.back());
+  taken.push_back(&poses.back());
   return taken;
 }
 
@@ -98,6 +98,7 @@ std::vector<LetGo> let_go_beyond_reach(Muscle& muscle, const std::vector<const P
 }  // namespace
 
 std::vector<LetGo> let_go_beyond_reach(Scene& scene, const std::vector<Pose>& poses) {
+  if (poses.empty()) return {};
   const std::vector<const Pose*> taken = evenly(poses);
   std::vector<std::vector<LetGo>> each(scene.muscles.size());
   parallel_for_each(scene.muscles.size(),

@@ -33,6 +33,29 @@ Index project_edge_contacts(const FieldContactSet& set, const FieldPlacement& pl
   return touching;
 }
 
+Index project_middle_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
+                              Particles& particles) {
+  Index touching = 0;
+  near.middles.resize(set.middles.size());
+  for (std::size_t i = 0; i < set.middles.size(); ++i) {
+    const EdgeMiddle& middle = set.middles[i];
+    const Eigen::Vector3f q = placement.to_obstacle((particles.position(middle.a) + particles.position(middle.b)) / 2);
+    if (!may_reach(near.middles[i], q, 0)) continue;
+    const FieldSample at = sample(set.field.grid, q);
+    const float slope2 = at.gradient.squaredNorm();
+    if (slope2 < least_slope2) continue;  // or out of the grid
+    near.middles[i] = {q, at.distance - middle.gap};
+    if (!(at.distance < middle.gap)) continue;
+    ++touching;
+    const float wa = particles.inverse_mass(middle.a), wb = particles.inverse_mass(middle.b);
+    const Eigen::Vector3f push =
+        placement.rotation.transpose() * at.gradient * (2 * (middle.gap - at.distance) / slope2 / (wa + wb));
+    particles.position(middle.a) += wa * push;
+    particles.position(middle.b) += wb * push;
+  }
+  return touching;
+}
+
 Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
                             NearField& near, Particles& particles) {
   std::atomic<Index> touching = 0;

@@ -34,6 +34,12 @@ struct FaceSet {
 
 FaceSet build_face_set(const Eigen::Matrix3Xi& faces, Index particle_count);
 
+/// The middle of an edge that keeps a gap of its own, m, whatever its ends keep.
+struct EdgeMiddle {
+  Index a, b;  ///< particles, one at least can move
+  float gap;
+};
+
 /// Keeps particles, edges (those of the distance constraints) and large faces out of a rigid obstacle: C = d(x) - gap
 /// >= 0, without compliance.
 struct FieldContactSet {
@@ -41,6 +47,7 @@ struct FieldContactSet {
   ContactGaps captured;        ///< in the capture pose
   ContactGaps released;        ///< once the obstacle has moved against the surface
   std::vector<float> ceiling;  ///< m, one per particle: the largest distance it may have; empty: none
+  std::vector<EdgeMiddle> middles;
   MotionGuard guard = MotionGuard::kept_path;
 };
 
@@ -106,6 +113,8 @@ struct NearField {
   std::vector<float> gap;        ///< m, per particle: the gap now; one more for the idle particle
   std::vector<float> clearance;  ///< m, per particle: least that its distance is above its gap; idle: infinite
   std::vector<Sighting> last;    ///< per particle: where it last was on the right side; empty: nothing is known yet
+  std::vector<Sighting>
+      middles;  ///< per middle: where it was when the obstacle was last asked, and how far above its gap
 };
 
 /// Where the particles are before obstacles and particles move: that side of the surface is theirs.
@@ -127,11 +136,13 @@ void find_near(const FieldContactSet& set, const DistanceSet& distances, const F
 void find_edge_points(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,
                       NearField& near);
 
-/// Pushes the deepest points of edges, the deepest points of faces, and particles out along the field's gradient.
-/// Returns how many were touching. An edge's deepest point is followed from iteration to iteration, a face's is that
-/// of the last listing.
+/// Pushes the deepest points of edges, the middles that keep a gap of their own, the deepest points of faces, and
+/// particles out along the field's gradient. Returns how many were touching. An edge's deepest point is followed from
+/// iteration to iteration, a face's is that of the last listing.
 Index project_edge_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
                             Particles& particles);
+Index project_middle_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
+                              Particles& particles);
 Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
                             NearField& near, Particles& particles);
 Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,

@@ -22,6 +22,11 @@ constexpr float contact_reach = 0.006f;
 constexpr int motion_check = 4;
 /// Iterations between two looks at what is near between surfaces, which walk and list with reserve.
 constexpr int coupling_refresh = 15;
+/// Passes over edges beyond the limit of stretch before contact and volume settle.
+constexpr int limit_passes = 10;
+/// Rounds in which a surface goes on settling while contact changes its volume by more than this share in a round.
+constexpr int further_rounds = 8;
+constexpr double unsettled_volume = 1e-3;
 /// Most attempts at mending what cannot stay; what is crushed may resist them all.
 constexpr int mending_attempts = 4;
 
@@ -69,6 +74,8 @@ void project_contacts(const SurfaceSystem& system, const std::vector<FieldPlacem
   report.contacts = 0;
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
     report.contacts += project_edge_contacts(system.contacts[i], placements[i], state.near[i], state.particles);
+  for (std::size_t i = 0; i < system.contacts.size(); ++i)
+    report.contacts += project_middle_contacts(system.contacts[i], placements[i], state.near[i], state.particles);
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
     report.contacts +=
         project_face_contacts(system.contacts[i], system.large_faces, placements[i], state.near[i], state.particles);
@@ -258,6 +265,22 @@ void end_iteration(SurfaceSolve& surface, Progress& progress, const std::functio
                         largest_motion(progress.before, surface.state->particles) < settings.stop_displacement);
 }
 
+/// Whether contact has changed its volume since the last round but one.
+bool is_unsettled(const SurfaceSolve& surface) {
+  const VolumeSet& volume = surface.system->volume;
+  const double target = surface.settings.pressure * volume.target;
+  return volume.compliance == 0 && surface.settings.settling_rounds > 0 &&
+         std::abs(surface.state->volume - target) > unsettled_volume * target;
+}
+
+/// Leaves those movers that have not settled; false when there are none.
+bool keep_unsettled(const std::vector<SurfaceSolve>& surfaces, Movers& movers) {
+  std::vector<char> unsettled;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) unsettled.push_back(movers.move(i) && is_unsettled(surfaces[i]));
+  movers.listed = std::move(unsettled);
+  return std::any_of(movers.listed.begin(), movers.listed.end(), [](char each) { return each != 0; });
+}
+
 }  // namespace
 
 void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch) {
@@ -308,7 +331,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   for (const SurfaceSolve& surface : surfaces) rounds = std::max(rounds, surface.settings.settling_rounds);
   int round = 0;
   const auto is_settling = [&](std::size_t i) {
-    return movers.move(i) && round < surfaces[i].settings.settling_rounds;
+    return movers.move(i) && (round >= rounds || round < surfaces[i].settings.settling_rounds);
   };
   const auto project = [&](ConstraintKind kind) {
     for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>& told) {
@@ -319,6 +342,15 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       told(kind);
     });
   };
+  const auto settle_once = [&] {
+    project(ConstraintKind::volume);
+    couple();
+    project(ConstraintKind::stretch_limit);
+    for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>&) {
+      keep_listed(surface);
+    });
+    for (ConstraintKind kind : kinds_after_contact) project(kind);
+  };
   const auto settle = [&] {
     if (coupling.refresh) coupling.refresh(movers);
     round = 0;
@@ -327,13 +359,12 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       find_edge_points(*surface.system, *surface.placements, *surface.state);
       look_everywhere(surface.state->stretched);
     });
-    for (; round < rounds; ++round) {
-      // What contact or mending took to its place may have stretched edges.
-      project(ConstraintKind::stretch_limit);
-      project(ConstraintKind::volume);
-      couple();
-      for (ConstraintKind kind : kinds_after_contact) project(kind);
-    }
+    // What mending took to its place may have stretched edges far, and what contact does in each round some.
+    for (int pass = 0; pass < limit_passes; ++pass) project(ConstraintKind::stretch_limit);
+    for (; round < rounds; ++round) settle_once();
+    const Movers settled = movers;
+    for (; round < rounds + further_rounds && keep_unsettled(surfaces, movers); ++round) settle_once();
+    movers = settled;
   };
   if (rounds == 0) return;
   settle();

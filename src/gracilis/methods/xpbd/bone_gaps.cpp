@@ -45,25 +45,26 @@ float captured_gap(float distance, float margin) {
   return std::min(margin, distance < 0 ? distance * static_cast<float>(1 - overlap_given_back) : distance);
 }
 
-/// Where a muscle grows out of a bone it leaves as steeply as at rest: the free end of an edge whose other end stays
-/// inside keeps so far away that the middle is no deeper than at rest, or the edge would be in the bone by half of
-/// that.
-void lift_beside(const PreparedMuscle& prepared, const DistanceField& field, const std::vector<float>& distances,
-                 const std::vector<char>& keeps, ContactGaps& gaps) {
-  const std::vector<float> before = gaps.particle;
-  const auto lift = [&](Index inside, Index outside) {
-    const auto in = static_cast<std::size_t>(inside), out = static_cast<std::size_t>(outside);
-    if (!keeps[in] || keeps[out] || !(before[in] < 0)) return;
-    const Vec3 middle = (prepared.rest.col(inside) + prepared.rest.col(outside)) / 2;
-    const float allowed = std::min(0.0f, sample(field, Eigen::Vector3f(middle.cast<float>())).distance);
-    gaps.particle[out] = std::max(gaps.particle[out], std::min(distances[out], 2 * allowed - before[in]));
+/// Where a muscle grows out of a bone it leaves as steeply as at rest: between ends inside, or one inside and one free,
+/// the middle of an edge would be deep in the bone on the line between their gaps.
+std::vector<EdgeMiddle> middles_of_kept(const PreparedMuscle& prepared, const DistanceField& field,
+                                        const std::vector<float>& gaps, const std::vector<char>& keeps) {
+  std::vector<EdgeMiddle> middles;
+  const auto stays_inside = [&](Index p) {
+    return keeps[static_cast<std::size_t>(p)] && gaps[static_cast<std::size_t>(p)] < 0;
   };
+  const auto is_free = [&](Index p) { return prepared.fixed_body[static_cast<std::size_t>(p)] < 0; };
   const DistanceSet& edges = prepared.system.distances;
   for (std::size_t slot = 0; slot < edges.a.size(); ++slot) {
     const Index a = edges.a[slot], b = edges.b[slot];
     if (std::max(a, b) >= prepared.rest.cols()) continue;  // padding
-    lift(a, b), lift(b, a);
+    if (!(stays_inside(a) || stays_inside(b)) || !(is_free(a) || is_free(b))) continue;
+    const Vec3 middle = (prepared.rest.col(a) + prepared.rest.col(b)) / 2;
+    const float gap = captured_gap(sample(field, Eigen::Vector3f(middle.cast<float>())).distance, 0);
+    if (gap > (gaps[static_cast<std::size_t>(a)] + gaps[static_cast<std::size_t>(b)]) / 2)
+      middles.push_back({a, b, gap});
   }
+  return middles;
 }
 
 /// How far the segment or triangle between `corners` comes below the plane of its corners' gaps at rest, at most 0.
@@ -135,9 +136,6 @@ FieldContactSet bone_contact(const PreparedMuscle& prepared, const MeshTopology&
     contact.captured.particle.push_back(settings.bone_rest_gap ? captured_gap(distances[p], margin) : margin);
     contact.released.particle.push_back(keeps[p] ? contact.captured.particle.back() : margin);
   }
-  if (settings.bone_rest_gap)
-    for (ContactGaps* gaps : {&contact.captured, &contact.released})
-      lift_beside(prepared, field, distances, keeps, *gaps);
   contact.ceiling = ceilings(prepared, distances, bone);
   switch (settings.tunnelling) {
     case TunnellingGuard::none:
@@ -151,6 +149,7 @@ FieldContactSet bone_contact(const PreparedMuscle& prepared, const MeshTopology&
       break;
   }
   if (!settings.edge_contact) return contact;
+  if (settings.bone_rest_gap) contact.middles = middles_of_kept(prepared, field, contact.captured.particle, keeps);
   for (std::size_t slot = 0; slot < edges.a.size(); ++slot)
     add_sag<2>(prepared, contact, keeps, {edges.a[slot], edges.b[slot]}, contact.captured.edge_sag,
                contact.released.edge_sag);
