@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+
 namespace gracilis {
 
 /// A flat strip: two long triangles below and above the x axis; between them a sliver whose tip is particle 4, `height`
@@ -118,6 +120,46 @@ TEST(Slivers, a_tip_that_was_torn_away_comes_back_by_a_fiftieth_of_its_side_at_o
   EXPECT_NEAR(particles.position(4).y(), -0.0198f, 1e-7);
   for (int time = 0; time < 150; ++time) project_slivers(set, particles);
   EXPECT_GT(particles.position(4).y(), 0);
+}
+
+/// A net of flat triangles, crumpled as far as asked for: many slivers beside each other.
+Particles crumpled_net(Index columns, Index rows, float by, Eigen::Matrix3Xi& faces) {
+  faces.resize(3, 2 * (columns - 1) * (rows - 1));
+  Points points(3, columns * rows);
+  for (Index row = 0; row < rows; ++row)
+    for (Index column = 0; column < columns; ++column) {
+      const Index p = row * columns + column;
+      points.col(p) = Vec3(0.002 * static_cast<Real>(column) + 0.0009 * static_cast<Real>(row % 2),
+                           0.00012 * static_cast<Real>(row), 0);
+      if (row + 1 == rows || column + 1 == columns) continue;
+      const Index face = 2 * (row * (columns - 1) + column);
+      faces.col(face) << p, p + 1, p + columns;
+      faces.col(face + 1) << p + 1, p + columns + 1, p + columns;
+    }
+  Eigen::VectorXd inverse_masses = Eigen::VectorXd::Ones(points.cols());
+  for (Index p = 0; p < points.cols(); p += 7) inverse_masses[p] = 0;
+  Particles particles = make_particles(points, inverse_masses);
+  for (Index p = 0; p < particles.count(); ++p)
+    particles.position(p) +=
+        by * Eigen::Vector3f(std::sin(37.0f * static_cast<float>(p)), std::sin(91.0f * static_cast<float>(p)),
+                             std::sin(53.0f * static_cast<float>(p)));
+  return particles;
+}
+
+TEST(Slivers, in_groups_give_bit_by_bit_what_they_give_one_after_the_other) {
+  Eigen::Matrix3Xi faces;
+  const Particles rest = crumpled_net(30, 30, 0, faces);
+  const SliverSet set = build_sliver_set(faces, rest, 0.1f);
+  EXPECT_GT(set.tips.size(), 1000u);
+  EXPECT_LT(set.groups.size(), set.tips.size() / 4);
+  for (const float by : {1e-6f, 1e-5f, 1e-4f, 1e-3f}) {
+    Particles grouped = crumpled_net(30, 30, by, faces), alone = grouped;
+    for (int time = 0; time < 10; ++time) {
+      project_slivers(set, grouped);
+      for (const SliverTip& tip : set.tips) project_sliver(set, tip, alone);
+    }
+    EXPECT_EQ(grouped.xyzw, alone.xyzw) << by;
+  }
 }
 
 TEST(Slivers, of_no_length_at_all_are_survived) {

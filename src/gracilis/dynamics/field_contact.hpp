@@ -5,6 +5,7 @@
 #include <gracilis/geometry/field_path.hpp>
 
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace gracilis {
@@ -104,6 +105,13 @@ struct NearFaces {
 /// Gradients shorter than this, squared, tell no way out: on a field's ridges they fade.
 inline constexpr float least_slope2 = 1e-4f;
 
+/// A lower bound of how far a whole surface is away from an obstacle.
+struct Away {
+  float distance = -std::numeric_limits<float>::infinity();  ///< m
+  float largest_gap = 0;                                     ///< m, that any of its particles ever keeps
+  FieldPlacement placement;                                  ///< where the obstacle was then
+};
+
 /// What is close enough to one obstacle to be tested in every iteration, found anew every few, and what is known about
 /// every particle.
 struct NearField {
@@ -113,9 +121,19 @@ struct NearField {
   std::vector<float> gap;        ///< m, per particle: the gap now; one more for the idle particle
   std::vector<float> clearance;  ///< m, per particle: least that its distance is above its gap; idle: infinite
   std::vector<Sighting> last;    ///< per particle: where it last was on the right side; empty: nothing is known yet
-  std::vector<Sighting>
-      middles;  ///< per middle: where it was when the obstacle was last asked, and how far above its gap
+  std::vector<Sighting> middles;  ///< each when the obstacle was last asked, and how far above its gap
+  Away away;                      ///< when all particles were last seen, less what they moved since
 };
+
+/// Empties the lists of what is near.
+void clear_near(NearField& near);
+
+/// Within what distance from its gap, m, a particle may be listed, or an edge or a face at it; faces are not much
+/// larger than edges.
+float listing_reach(const DistanceSet& distances, float reach);
+
+/// What is known to be farther away than this need not be seen before every step, m.
+inline constexpr float far_away = 0.02f;
 
 /// Where the particles are before obstacles and particles move: that side of the surface is theirs.
 void remember_sides(const FieldContactSet& set, const FieldPlacement& placement, const Particles& particles,

@@ -83,8 +83,7 @@ HWY_INLINE Mask may_have_come_down(const NearEdges& edges, std::size_t at, const
   const Point moved = {q.x - hn::LoadU(d, edges.seen_x.data() + at), q.y - hn::LoadU(d, edges.seen_y.data() + at),
                        q.z - hn::LoadU(d, edges.seen_z.data() + at)};
   const V left = hn::LoadU(d, edges.seen_above.data() + at) - number(edge_reserve);
-  return hn::Or(hn::Le(left, hn::Zero(d)),
-                hn::Ge(number(steepest * steepest) * dot<Math>(moved, moved), left * left));
+  return hn::Or(hn::Le(left, hn::Zero(d)), hn::Ge(number(steepest * steepest) * dot<Math>(moved, moved), left * left));
 }
 
 HWY_INLINE void remember_seen(NearEdges& edges, std::size_t at, Mask seen, const Point& q, const V& above) {
@@ -141,6 +140,22 @@ Index project_near_edges(const FieldGrid& grid, const FieldPlacement& placement,
   return touching;
 }
 
+void gather_low_edges(const DistanceSet& distances, ColorRange color, const std::vector<float>& clearance, float reach,
+                      float per_length, std::vector<Index>& slots) {
+  const D d;
+  const hn::RebindToSigned<D> di;
+  constexpr float beyond_rounding = 1.00001f;
+  const V most = number(beyond_rounding * reach), factor = number(beyond_rounding * per_length);
+  for (Index slot = color.begin; slot < color.end; slot += static_cast<Index>(hn::Lanes(d))) {
+    const auto at = static_cast<std::size_t>(slot);
+    const V at_a = hn::GatherIndex(d, clearance.data(), hn::LoadU(di, distances.a.data() + at)),
+            at_b = hn::GatherIndex(d, clearance.data(), hn::LoadU(di, distances.b.data() + at));
+    const V length = hn::LoadU(d, distances.rest_length.data() + at);
+    for_each_lane(hn::Le(at_a + at_b, hn::MulAdd(factor, length, most)),
+                  [&](std::size_t lane) { slots.push_back(slot + static_cast<Index>(lane)); });
+  }
+}
+
 }  // namespace gracilis::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -149,6 +164,7 @@ namespace gracilis {
 
 HWY_EXPORT(find_deepest_points);
 HWY_EXPORT(project_near_edges);
+HWY_EXPORT(gather_low_edges);
 
 void find_deepest_points(const FieldGrid& grid, const FieldPlacement& placement, const Particles& particles,
                          NearEdges& edges) {
@@ -158,6 +174,11 @@ void find_deepest_points(const FieldGrid& grid, const FieldPlacement& placement,
 Index project_near_edges(const FieldGrid& grid, const FieldPlacement& placement, float longest_step, ColorRange range,
                          NearEdges& edges, Particles& particles) {
   return HWY_DYNAMIC_DISPATCH(project_near_edges)(grid, placement, longest_step, range, edges, particles);
+}
+
+void gather_low_edges(const DistanceSet& distances, ColorRange color, const std::vector<float>& clearance, float reach,
+                      float per_length, std::vector<Index>& slots) {
+  HWY_DYNAMIC_DISPATCH(gather_low_edges)(distances, color, clearance, reach, per_length, slots);
 }
 
 }  // namespace gracilis

@@ -17,4 +17,9 @@ void find_deepest_points(const FieldGrid& grid, const FieldPlacement& placement,
 Index project_near_edges(const FieldGrid& grid, const FieldPlacement& placement, float longest_step, ColorRange range,
                          NearEdges& edges, Particles& particles);
 
+/// Appends the slots of a color of which the clearances at both ends together are at most `reach` and `per_length`
+/// times the length at rest; by rounding some more.
+void gather_low_edges(const DistanceSet& distances, ColorRange color, const std::vector<float>& clearance, float reach,
+                      float per_length, std::vector<Index>& slots);
+
 }  // namespace gracilis

@@ -1,6 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/coloring.hpp>
 #include <gracilis/dynamics/field_contact.hpp>
+#include <gracilis/dynamics/field_contact_away.hpp>
 #include <gracilis/dynamics/field_contact_edges.hpp>
 #include <gracilis/dynamics/field_contact_guard.hpp>
 #include <gracilis/dynamics/field_contact_points.hpp>
@@ -15,8 +16,6 @@ namespace {
 
 constexpr Index chunk = 512;
 constexpr float infinity = std::numeric_limits<float>::infinity();
-/// What is known to be farther away than this need not be seen before every step, m.
-constexpr float far_away = 0.02f;
 
 /// Cosine of the turn by which the published test knows a vertex that passed through a bone.
 const float turned_cosine = static_cast<float>(std::cos(radians(135)));
@@ -141,31 +140,30 @@ static void clear(NearFaces& faces) {
   faces.colors.clear();
 }
 
-/// Whether an edge may come near, by the sum of the clearances at its ends and its length at rest, without any
-/// position.
-static bool may_come_near(float clearances, float length) {
-  return clearances <= 2 * element_reach + 4 * steepest * length;
-}
+/// An edge may come near where the sum of the clearances at its ends is at most this and so many times its length at
+/// rest; that needs no position.
+static constexpr float low_sum = 2 * element_reach, low_per_length = 4 * steepest;
 
 /// Whether any edge may; most surfaces are far away from most obstacles.
 static bool any_may_come_near(const DistanceSet& distances, const NearField& near) {
   if (near.clearance.empty() || distances.rest_length.empty()) return false;
-  return may_come_near(2 * *std::min_element(near.clearance.begin(), near.clearance.end()),
-                       *std::max_element(distances.rest_length.begin(), distances.rest_length.end()));
+  return 2 * *std::min_element(near.clearance.begin(), near.clearance.end()) <=
+         low_sum + low_per_length * *std::max_element(distances.rest_length.begin(), distances.rest_length.end());
 }
 
 static void list_edges(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
                        const Particles& particles, NearField& near) {
   if (!any_may_come_near(distances, near)) return;
+  std::vector<Index> slots;
   for (const ColorRange& color : distances.order.colors) {
     const Index begin = near.edges.count();
-    for (Index slot = color.begin; slot < color.end; ++slot) {
+    slots.clear();
+    gather_low_edges(distances, color, near.clearance, low_sum, low_per_length, slots);
+    for (const Index slot : slots) {
       const auto at = static_cast<std::size_t>(slot);
       const Index a = distances.a[at], b = distances.b[at];
       const float clearances =
           near.clearance[static_cast<std::size_t>(a)] + near.clearance[static_cast<std::size_t>(b)];
-      // Most are far away; this needs no position.
-      if (!may_come_near(clearances, distances.rest_length[at])) continue;
       if (!(particles.inverse_mass(a) + particles.inverse_mass(b) > 0)) continue;
       const float least = least_clearance(clearances, (particles.position(b) - particles.position(a)).norm());
       if (least > element_reach) continue;
@@ -213,13 +211,24 @@ void find_edge_points(const FieldContactSet& set, const FieldPlacement& placemen
   find_deepest_points(set.field.grid, placement, particles, near.edges);
 }
 
-void find_near(const FieldContactSet& set, const DistanceSet& distances, const FaceSet& faces,
-               const FieldPlacement& placement, float reach, Particles& particles, NearField& near) {
+void clear_near(NearField& near) {
   near.particles.clear();
   clear(near.edges);
   clear(near.faces);
+}
+
+float listing_reach(const DistanceSet& distances, float reach) {
+  const float longest =
+      distances.rest_length.empty() ? 0 : *std::max_element(distances.rest_length.begin(), distances.rest_length.end());
+  return std::max(reach, element_reach + low_per_length * longest);
+}
+
+void find_near(const FieldContactSet& set, const DistanceSet& distances, const FaceSet& faces,
+               const FieldPlacement& placement, float reach, Particles& particles, NearField& near) {
+  clear_near(near);
   std::vector<char> is_near(static_cast<std::size_t>(particles.count()), 0);
   see_particles(set, placement, reach, particles, near, is_near);
+  near.away = seen_away(set, placement, near);
   for (Index i = 0; i < particles.count(); ++i)
     if (is_near[static_cast<std::size_t>(i)]) near.particles.push_back(i);
   if (!set.captured.edge_sag.empty()) list_edges(set, distances, placement, particles, near);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 
 namespace gracilis {
 
@@ -51,7 +52,7 @@ float mean_side(const Eigen::Matrix3Xi& faces, const Particles& rest) {
 /// Columns: along the side, across it in the surface, out of the surface. False when they cannot be told apart.
 bool frame_of(const SliverSet& set, const SliverTip& tip, const Particles& particles, Eigen::Matrix3f& frame) {
   const Eigen::Vector3f along = (particles.position(tip.b) - particles.position(tip.a)).stableNormalized();
-  // Four numbers at once, the masses with the places: this is where slivers take their time.
+  // Four numbers at once, the masses with the places.
   const auto row = [&](Index particle) {
     return Eigen::Map<const Eigen::Vector4f, Eigen::Aligned16>(particles.at(particle));
   };
@@ -99,35 +100,44 @@ SliverSet build_sliver_set(const Eigen::Matrix3Xi& faces, const Particles& rest,
     tip.offset = frame.transpose() * (from_a - tip.share * side);
     set.tips.push_back(tip);
   }
+  set.groups = group_slivers(set, fans, rest);
   return set;
 }
 
-void project_slivers(const SliverSet& set, Particles& particles) {
-  for (const SliverTip& tip : set.tips) {
-    Eigen::Matrix3f frame;
-    if (!frame_of(set, tip, particles, frame)) continue;
-    const float share_of_a = 1 - tip.share;
-    const Eigen::Vector3f beside = share_of_a * particles.position(tip.a) + tip.share * particles.position(tip.b);
-    const Eigen::Vector2f now = frame.rightCols<2>().transpose() * (particles.position(tip.particle) - beside);
-    const Eigen::Vector2f toward = tip.offset.tail<2>().stableNormalized();
-    const float ahead = std::max(now.dot(toward), 0.5f * tip.offset.tail<2>().norm());
-    Eigen::Vector2f aside = now - now.dot(toward) * toward;
-    if (aside.norm() > ahead) aside *= ahead / aside.norm();
-    const Eigen::Vector2f missing = ahead * toward + aside - now;
-    if (missing.squaredNorm() == 0) continue;
-    const float longest = longest_push * (particles.position(tip.b) - particles.position(tip.a)).norm();
-    const Eigen::Vector3f push = std::min(1.0f, longest / missing.norm()) * (frame.rightCols<2>() * missing);
-    if (particles.inverse_mass(tip.particle) > 0) {
-      particles.position(tip.particle) += push;
-      continue;
-    }
-    const float wa = particles.inverse_mass(tip.a), wb = particles.inverse_mass(tip.b);
-    const float weight = std::max({share_of_a * share_of_a * wa + tip.share * tip.share * wb,
-                                   share_of_a * wa / most_leverage, tip.share * wb / most_leverage});
-    if (!(weight > 0)) continue;
-    particles.position(tip.a) -= share_of_a * wa / weight * push;
-    particles.position(tip.b) -= tip.share * wb / weight * push;
+float least_ahead(const SliverTip& tip) { return 0.5f * tip.offset.tail<2>().norm(); }
+
+void project_sliver(const SliverSet& set, const SliverTip& tip, Particles& particles) {
+  Eigen::Matrix3f frame;
+  if (!frame_of(set, tip, particles, frame)) return;
+  const float share_of_a = 1 - tip.share;
+  const Eigen::Vector3f beside = share_of_a * particles.position(tip.a) + tip.share * particles.position(tip.b);
+  const Eigen::Vector2f now = frame.rightCols<2>().transpose() * (particles.position(tip.particle) - beside);
+  const Eigen::Vector2f toward = tip.offset.tail<2>().stableNormalized();
+  const float ahead = now.dot(toward), least = least_ahead(tip);
+  const Eigen::Vector2f aside = now - ahead * toward;
+  if (ahead >= least && aside.norm() <= ahead) return;
+  const float kept = std::max(ahead, least);
+  const Eigen::Vector2f missing = kept * toward + std::min(1.0f, kept / aside.norm()) * aside - now;
+  const float longest = longest_push * (particles.position(tip.b) - particles.position(tip.a)).norm();
+  const Eigen::Vector3f push = std::min(1.0f, longest / missing.norm()) * (frame.rightCols<2>() * missing);
+  if (particles.inverse_mass(tip.particle) > 0) {
+    particles.position(tip.particle) += push;
+    return;
   }
+  const float wa = particles.inverse_mass(tip.a), wb = particles.inverse_mass(tip.b);
+  const float weight = std::max({share_of_a * share_of_a * wa + tip.share * tip.share * wb,
+                                 share_of_a * wa / most_leverage, tip.share * wb / most_leverage});
+  if (!(weight > 0)) return;
+  particles.position(tip.a) -= share_of_a * wa / weight * push;
+  particles.position(tip.b) -= tip.share * wb / weight * push;
+}
+
+void project_slivers(const SliverSet& set, Particles& particles) {
+  for (const SliverGroup& group : set.groups)
+    for (std::uint32_t lost = lost_tips(group, particles); lost != 0; lost &= lost - 1)
+      project_sliver(
+          set, set.tips[static_cast<std::size_t>(group.members[static_cast<std::size_t>(std::countr_zero(lost))])],
+          particles);
 }
 
 }  // namespace gracilis

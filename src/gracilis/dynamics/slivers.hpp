@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/dynamics/particles.hpp>
+#include <gracilis/dynamics/sliver_groups.hpp>
 
 #include <vector>
 
@@ -20,14 +21,21 @@ struct SliverTip {
 struct SliverSet {
   std::vector<SliverTip> tips;
   std::vector<Eigen::Vector3i> faces;
+  std::vector<SliverGroup> groups;
 };
+
+/// How far the tip has to be from its side in the direction where it was at rest, m: half as far as there.
+float least_ahead(const SliverTip& tip);
 
 /// Tips that are nearer to the opposite, longest side than `flattest` times its length, or than `flattest` times the
 /// mean of all sides. Those that cannot move because all three are fixed are left out.
 SliverSet build_sliver_set(const Eigen::Matrix3Xi& faces, const Particles& rest, float flattest);
 
-/// Puts every tip back beside its side. The tip alone moves, because slivers lie beside slivers, and to move a side
+/// Puts a tip back beside its side. The tip alone moves, because slivers lie beside slivers, and to move a side
 /// that others share tears their shortest sides apart; only where the tip is fixed does the side come to it.
+void project_sliver(const SliverSet& set, const SliverTip& tip, Particles& particles);
+
+/// All of them, in order.
 void project_slivers(const SliverSet& set, Particles& particles);
 
 }  // namespace gracilis

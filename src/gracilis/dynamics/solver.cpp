@@ -1,6 +1,7 @@
 #include <gracilis/dynamics/solver.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/field_contact_away.hpp>
 #include <gracilis/dynamics/particle_order.hpp>
 
 #include <hwy/cache_control.h>
@@ -191,15 +192,26 @@ void project_kind(ConstraintKind kind, const SurfaceSystem& system, const std::v
 }
 
 void refresh_contacts(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state) {
-  for (std::size_t i = 0; i < system.contacts.size(); ++i)
-    find_near(system.contacts[i], system.distances, system.large_faces, placements[i], contact_reach, state.particles,
-              state.near[i]);
+  const SurfaceMotion motion = surface_motion(state.listed, state.particles);
+  const float reach = listing_reach(system.distances, contact_reach);
+  for (std::size_t i = 0; i < system.contacts.size(); ++i) {
+    NearField& near = state.near[i];
+    near.away.distance = away_after(motion, placements[i], near.away);
+    near.away.placement = placements[i];
+    if (near.away.distance - near.away.largest_gap > reach && system.contacts[i].ceiling.empty())
+      clear_near(near);
+    else
+      find_near(system.contacts[i], system.distances, system.large_faces, placements[i], contact_reach, state.particles,
+                near);
+  }
   state.listed = state.particles;
 }
 
 void remember_sides(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements, SurfaceState& state) {
+  const SurfaceMotion motion = surface_motion(state.listed, state.particles);
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
-    remember_sides(system.contacts[i], placements[i], state.particles, state.near[i]);
+    if (!(away_after(motion, placements[i], state.near[i].away) > far_away))
+      remember_sides(system.contacts[i], placements[i], state.particles, state.near[i]);
 }
 
 namespace {

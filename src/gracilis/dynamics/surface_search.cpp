@@ -222,11 +222,15 @@ void forget_touches(CrowdState& state) {
 }
 
 void find_touches(const SurfaceCrowd& crowd, const std::vector<const Particles*>& particles, CrowdState& state) {
+  std::vector<float> drifts(crowd.pairs.size());
+  parallel_for_each(drifts.size(), [&](std::size_t i) {
+    drifts[i] = state.touches[i].drift + largest_drift(crowd, particles, crowd.pairs[i], state.touches[i]);
+  });
   std::vector<Index> lost;
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
     PairTouches& touches = state.touches[i];
     touches.is_new = true;
-    const float drift = touches.drift + largest_drift(crowd, particles, crowd.pairs[i], touches);
+    const float drift = drifts[i];
     const bool is_trusted = drift <= trusted_share * crowd.pairs[i].reach && ++touches.steps < trusted_steps;
     if (!is_trusted) lost.push_back(static_cast<Index>(i));
   }
@@ -272,9 +276,8 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
     walk(touches.near_second, crowd.surfaces[b], *particles[a], *particles[b], pair.shift);
     walk(touches.near_first, crowd.surfaces[a], *particles[b], *particles[a], -pair.shift);
   });
-  parallel_for_each(particles.size(), [&](std::size_t s) {
-    add_torn(crowd.surfaces[s], crowd.rest[s], *particles[s], state.torn[s]);
-  });
+  parallel_for_each(particles.size(),
+                    [&](std::size_t s) { add_torn(crowd.surfaces[s], crowd.rest[s], *particles[s], state.torn[s]); });
   NormalMaker normals(crowd, particles, state);
   ask_to_tell_sides(crowd, state, normals);
   normals.make();

@@ -30,14 +30,6 @@ BoundedField bounded(const DistanceField& field) {
   return {&field, grid_of(field), std::max(border, 0.0f), field.origin.cast<float>(), size.cast<float>()};
 }
 
-FieldSample sample_bounded(const BoundedField& bounded, const Eigen::Vector3f& p) {
-  FieldSample answer = sample(bounded.grid, p);
-  if (std::isfinite(answer.distance)) return answer;
-  const Eigen::Vector3f beyond = (bounded.low - p).cwiseMax(p - bounded.low - bounded.size).cwiseMax(0.0f);
-  answer.distance = beyond.norm() + bounded.border;
-  return answer;
-}
-
 float safe_step(const DistanceField& field) { return static_cast<float>(field.cell_size.minCoeff()) / 2; }
 
 Eigen::Vector3f kept_path(const BoundedField& bounded, const Eigen::Vector3f& from, const Eigen::Vector3f& to,

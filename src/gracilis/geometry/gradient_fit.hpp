@@ -45,7 +45,8 @@ class GradientFit {
   Index number_of(Index vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
   Eigen::SparseMatrix<Real> normal_matrix() const;
   Points right_side(const Points& places, const std::vector<Eigen::Matrix3d>& gradients) const;
-  Eigen::VectorXd solved(const Eigen::VectorXd& right_side, const Eigen::VectorXd& guess) const;
+  Points solved(const Points& right_side) const;
+  Points iterated(const Points& right_side, const Points& guess) const;
 };
 
 }  // namespace gracilis

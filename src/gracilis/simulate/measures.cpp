@@ -36,6 +36,16 @@ Points midpoints(const std::vector<MeshEdge>& edges, const Points& x) {
   return middles;
 }
 
+Eigen::AlignedBox3d box_of(const Points& points) { return {points.rowwise().minCoeff(), points.rowwise().maxCoeff()}; }
+
+/// A box that holds all that a transform makes of another.
+Eigen::AlignedBox3d box_of_corners(const RigidTransform& transform, const Eigen::AlignedBox3d& box) {
+  Eigen::AlignedBox3d moved;
+  for (int corner = 0; corner < 8; ++corner)
+    moved.extend(transform * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+  return moved;
+}
+
 std::vector<SignedDistance> distances_to_bones(const Scene& scene) {
   std::vector<SignedDistance> distances;
   for (const Bone& bone : scene.bones) distances.emplace_back(bone.surface);
@@ -89,6 +99,7 @@ std::vector<std::string> missed_gates(const MuscleMeasures& measures, const Qual
 
 Measurer::Measurer(const Scene& scene, const FiberTracker* tracker)
     : scene_(scene), bones_(distances_to_bones(scene)), bellies_(scene, bones_), ways_(scene, bones_, tracker) {
+  for (const Bone& bone : scene.bones) bone_boxes_.push_back(box_of(bone.surface.vertices));
   for (const Muscle& muscle : scene.muscles) muscles_.push_back(rest_of(muscle));
   last_.assign(muscles_.size(), std::vector<LastSeen>(2 * bones_.size()));
 }
@@ -141,9 +152,11 @@ Eigen::VectorXd Measurer::depths_in(std::size_t bone, const Points& points, Last
 
 void Measurer::measure_depths(const MuscleRest& rest, const Points& points, const Pose& pose,
                               std::vector<LastSeen>& last, MuscleMeasures& measures) const {
+  const Eigen::AlignedBox3d box = box_of(points);
   for (std::size_t b = 0; b < bones_.size(); ++b) {
     const auto column = static_cast<Index>(b);
     const RigidTransform to_capture = pose.bodies[static_cast<std::size_t>(scene_.bones[b].body)].inverse();
+    if (!box_of_corners(to_capture, box).intersects(bone_boxes_[b])) continue;  // nothing of it can be inside
     const Points local = (to_capture.linear() * points).colwise() + to_capture.translation();
     const Eigen::VectorXd vertex_depths = depths_in(b, local, last[2 * b]);
     for (Index v = 0; v < local.cols(); ++v) {

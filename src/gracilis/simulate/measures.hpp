@@ -90,6 +90,7 @@ class Measurer {
 
   const Scene& scene_;
   std::vector<SignedDistance> bones_;
+  std::vector<Eigen::AlignedBox3d> bone_boxes_;  ///< in the capture pose
   BellyPlace bellies_;
   WayMeasures ways_;
   std::vector<MuscleRest> muscles_;

@@ -1,15 +1,18 @@
 #include <gracilis/simulate/run.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
 #include <gracilis/core/stop.hpp>
+
+#include <algorithm>
+#include <future>
 
 namespace gracilis {
 
 namespace {
 
-/// Everything about one frame. Throws Interrupted where it shall stop.
-FrameRecord make_frame(const Scene& scene, const Pose& pose, int number, DeformationMethod& method, Measurer& measurer,
-                       const FiberTracker* tracker) {
+/// One frame, not measured yet. Throws Interrupted where it shall stop.
+FrameRecord make_frame(const Scene& scene, const Pose& pose, int number, DeformationMethod& method) {
   throw_if_stopped();
   FrameRecord now;
   if (number == 0) {
@@ -25,9 +28,45 @@ FrameRecord make_frame(const Scene& scene, const Pose& pose, int number, Deforma
     method.write(now.frame);
   }
   now.frame.number = number;
-  if (tracker) now.fibers = tracker->follow(now.frame);
-  now.measures = measurer.measure(now.frame, now.fibers);
   return now;
+}
+
+/// Measures frames and hands them on, one after the other, each beside whatever its caller does next: the solver alone
+/// leaves cores idle now and then. What it begins it brings to an end, however the run is stopped.
+class FrameRecorder {
+ public:
+  FrameRecorder(Measurer& measurer, const FiberTracker* tracker, const std::function<void(const FrameRecord&)>& record,
+                bool beside)
+      : measurer_(measurer), tracker_(tracker), record_(record), beside_(beside) {}
+
+  void begin(FrameRecord now) {
+    finish();
+    pending_ = std::async(beside_ ? std::launch::async : std::launch::deferred, [this, now = std::move(now)]() mutable {
+      const StopScope whole(nullptr);  // a frame is recorded whole or not at all
+      if (tracker_) now.fibers = tracker_->follow(now.frame);
+      now.measures = measurer_.measure(now.frame, now.fibers);
+      record_(now);
+    });
+    if (!beside_) finish();
+  }
+
+  /// Waits until everything is recorded; throws what that threw.
+  void finish() {
+    if (pending_.valid()) pending_.get();
+  }
+
+ private:
+  Measurer& measurer_;
+  const FiberTracker* tracker_;
+  const std::function<void(const FrameRecord&)>& record_;
+  bool beside_;
+  std::future<void> pending_;
+};
+
+/// Whether frames may be recorded beside the solver: not on a single thread, nor where the solver watches the clock.
+bool may_record_beside(const Scene& scene) {
+  return thread_count() > 1 && std::none_of(scene.muscles.begin(), scene.muscles.end(),
+                                            [](const Muscle& muscle) { return muscle.xpbd.target_fps > 0; });
 }
 
 }  // namespace
@@ -57,12 +96,20 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
       method.restore({poses.begin(), poses.begin() + next}, resume->before, resume->last);
       for (int i = 0; i < next; ++i) measurer.pass(poses[static_cast<std::size_t>(i)]);
     }
+    FrameRecorder recorder(measurer, tracker, record, may_record_beside(scene));
     for (; next < static_cast<int>(poses.size()); ++next) {
-      const Pose& pose = poses[static_cast<std::size_t>(next)];
-      const FrameRecord now = make_frame(scene, pose, next, method, measurer, tracker);
-      const StopScope whole(nullptr);  // a frame is recorded whole or not at all
-      record(now);
+      FrameRecord now;
+      try {
+        now = make_frame(scene, poses[static_cast<std::size_t>(next)], next, method);
+      } catch (...) {
+        recorder.finish();
+        throw;
+      }
+      recorder.finish();
+      throw_if_stopped();
+      recorder.begin(std::move(now));
     }
+    recorder.finish();
   } catch (const Interrupted&) {
     return RunEnd::interrupted;
   }

@@ -34,8 +34,9 @@ enum class RunEnd { complete, interrupted };
 /// Runs `method` through `poses` (pose 0 is the capture pose) and hands each frame to `record`, frame 0 with the input
 /// surfaces unchanged. Ends soon after `stop` is set; the frame under way is dropped, and the method is of no use until
 /// its next reset or restore. With `resume`, starts after its last frame. Throws QualityError,
-/// naming the frame, when a coordinate stops being finite; all frames before it have been recorded then. With
-/// `tracker`, fibers are followed.
+/// naming the frame, when a coordinate stops being finite; all frames before it have been recorded then. Frames are
+/// measured and recorded in order, but on a thread of their own while the next one is made. With `tracker`, fibers are
+/// followed.
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
                  const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker = nullptr);

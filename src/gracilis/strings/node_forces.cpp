@@ -147,12 +147,13 @@ void NodeForces::hold_among_neighbors(const Node& node, StringSystem& system) co
   const Real length = muscle_.settings.neighbor_length;
   const Real k = node.length / (length * length);
   const Eigen::Matrix3d& turn = section_turns_[static_cast<std::size_t>(node.i)];
-  Vec3 place = Vec3::Zero();
+  Vec3 there = Vec3::Zero(), at_rest = Vec3::Zero();
   for (const Index neighbor : neighbors) {
     const Index q = muscle_.node(neighbor, node.i);
-    place += before_.col(q) + turn * (muscle_.taut.col(node.p) - muscle_.taut.col(q));
+    there += before_.col(q), at_rest += muscle_.taut.col(q);
   }
-  place /= static_cast<Real>(neighbors.size());
+  const Real count = static_cast<Real>(neighbors.size());
+  const Vec3 place = there / count + turn * (muscle_.taut.col(node.p) - at_rest / count);
   system.stiffness[static_cast<std::size_t>(node.i)] += k * node.projection();
   system.gradient[static_cast<std::size_t>(node.i)] += k * node.across(node.place - place);
 }

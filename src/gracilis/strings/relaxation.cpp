@@ -33,16 +33,19 @@ Real relax_string(NodeForces& forces, Index string, Real taken, Points& places, 
   return farthest;
 }
 
+/// A string of which no node moved further than `stop_move` rests from then on; most are soon where they stay.
 void relax(NodeForces& forces, int iterations, Real stop_move, Points& places) {
   const MuscleStrings& muscle = forces.muscle();
   StringSystem system(muscle.nodes);
+  std::vector<char> rests(static_cast<std::size_t>(muscle.strings), 0);
   for (int iteration = 0; iteration < iterations; ++iteration) {
     forces.begin_iteration(places);
     const Real taken = iteration > undamped_iterations ? damping : 1;
-    Real farthest = 0;
-    for (Index s = 0; s < muscle.strings; ++s)
-      farthest = std::max(farthest, relax_string(forces, s, taken, places, system));
-    if (farthest < stop_move) return;
+    for (Index s = 0; s < muscle.strings; ++s) {
+      char& rest = rests[static_cast<std::size_t>(s)];
+      if (!rest) rest = relax_string(forces, s, taken, places, system) < stop_move;
+    }
+    if (std::all_of(rests.begin(), rests.end(), [](char rest) { return rest != 0; })) return;
   }
 }
 

@@ -23,11 +23,11 @@ struct StringSettings {
   Real pinned_least = 0.003;  ///< m that such a part runs away from the fiber's other end
 
   int rest_iterations = 300;    ///< at most, until strings are taut in the capture pose ...
-  Real rest_stop_move = 1e-9;   ///< m ... where no node moves further: that pose must be at rest
+  Real rest_stop_move = 1e-9;   ///< m ... where none of their nodes moves further: that pose must be at rest
   int iterations = 8;           ///< in each step
   Real step_turn = radians(3);  ///< rad; bones never turn further against each other in one step
   Real longest_move = 0.004;    ///< m, of a node in one iteration
-  Real stop_move = 5e-6;        ///< m; iterations stop where no node moves further
+  Real stop_move = 2e-5;        ///< m; a string rests for the rest of a step once none of its nodes moves further
 };
 
 }  // namespace gracilis::strings
