@@ -33,6 +33,7 @@ struct Sheet {
     return faces;
   }
   std::vector<FacePair> cuts() const { return find_self_cuts(surface, rest, before, particles, all_faces()); }
+  std::vector<FacePair> folds() const { return find_folds(surface, rest, before, particles); }
   void carry(const Eigen::Matrix3f& linear, const Vector3f& by) {
     for (Index p = 0; p < particles.count(); ++p) particles.position(p) = linear * rest.col(p) + by;
   }
@@ -120,6 +121,30 @@ TEST(SelfCuts, faces_around_edges_folded_beyond_a_right_angle_are_gathered) {
   for (Index i = sheet.surface.fans.offsets[7]; i < sheet.surface.fans.offsets[8]; ++i)
     EXPECT_GT(std::count(faces.begin(), faces.end(), sheet.surface.fans.faces[static_cast<std::size_t>(i)]), 0);
   EXPECT_LT(faces.size(), 400u) << "and not the whole ball";
+}
+
+TEST(SelfCuts, faces_turned_by_more_than_a_right_angle_about_their_common_side_have_folded) {
+  // Bent at rest by 0, 60 and -60 degrees; the second face turns about the side in the x axis.
+  for (const Real bent : {0.0, 60.0, -60.0})
+    for (const Real turned : {20.0, 85.0, -85.0, 95.0, -95.0}) {
+      const auto apex = [](Real degrees) { return Vec3(0, -std::cos(radians(degrees)), std::sin(radians(degrees))); };
+      Sheet sheet(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, apex(bent)}, {{0, 1, 2}, {1, 0, 3}}));
+      sheet.particles.position(3) = apex(bent + turned).cast<float>();
+      // What straightens is no fold.
+      const bool has_folded = std::abs(turned) > 90 && std::abs(bent + turned) > 45;
+      EXPECT_EQ(sheet.folds(), has_folded ? (Pairs{{0, 1}}) : Pairs()) << bent << " at rest, by " << turned;
+    }
+}
+
+TEST(SelfCuts, what_was_folded_before_the_step_and_what_cannot_move_are_not_unfolded) {
+  const TriangleMesh flat = shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {{0, 1, 2}, {1, 0, 3}});
+  for (const Real inverse_mass : {0.0, 1.0}) {
+    Sheet sheet(flat, inverse_mass);
+    sheet.particles.position(3) = Vector3f(0, 0.9f, 0.3f);
+    EXPECT_EQ(sheet.folds().size(), inverse_mass > 0 ? 1u : 0u);
+    sheet.before = sheet.particles;
+    EXPECT_EQ(sheet.folds(), Pairs());
+  }
 }
 
 TEST(SelfCuts, unfolding_returns_a_spike_to_where_the_surface_around_it_was_carried) {

@@ -1,5 +1,6 @@
 #include <contact_check/judge.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/self_cuts.hpp>
 #include <gracilis/dynamics/surface_contact.hpp>
 
 #include <gracilis/core/state_hash.hpp>
@@ -9,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 
 namespace gracilis {
@@ -428,8 +430,8 @@ TEST(SurfaceContact, a_surface_that_cuts_itself_is_mended_and_says_so) {
     meeting.find();
     meeting.follow();
     Movers movers;
-    return mend_self_cuts(meeting.crowd, meeting.state, attempt, meeting.pointers<Particles*>(meeting.particles),
-                          movers);
+    return mend_surfaces(meeting.crowd, meeting.state, attempt, meeting.pointers<Particles*>(meeting.particles),
+                         movers);
   };
   const Particles whole = meeting.particles[0];
   EXPECT_FALSE(mend(0));
@@ -441,6 +443,52 @@ TEST(SurfaceContact, a_surface_that_cuts_itself_is_mended_and_says_so) {
   for (int attempt = 1; attempt < 4 && mend(attempt);) ++attempt;
   EXPECT_FALSE(mend(0)) << "all is mended";
   EXPECT_LT(largest_motion(whole, meeting.particles[0]), 0.003f);
+}
+
+/// A ball of which a particle lies over its neighbors, so that faces have folded.
+static Meeting folded_ball(bool lies_in_another) {
+  Meeting meeting;
+  for (const Real x : {0.0, 0.1}) meeting.add(shapes::sphere({x, 0, 0}, 0.01, 4));
+  meeting.pair(0, 0, 0.0003f).reach = 0.001f;
+  if (lies_in_another) meeting.pair(0, 1, 0.0003f).first_overlaps.assign(meeting.crowd.rest[0].cols(), 1);
+  meeting.prepare();
+  const Vector3f place = meeting.particles[0].position(7);
+  meeting.particles[0].position(7) = 1.03f * place + Vector3f(-place.y(), place.x(), 0).normalized() * 0.0022f;
+  return meeting;
+}
+
+static bool mend_once(Meeting& meeting) {
+  meeting.find();
+  meeting.follow();
+  Movers movers;
+  return mend_surfaces(meeting.crowd, meeting.state, 0, meeting.pointers<Particles*>(meeting.particles), movers);
+}
+
+TEST(SurfaceContact, a_surface_that_has_folded_is_mended_though_it_cuts_nothing) {
+  Meeting meeting = folded_ball(false);
+  const auto is_folded = [&] {
+    return !find_folds(meeting.crowd.surfaces[0], meeting.crowd.rest[0], meeting.state.before[0], meeting.particles[0])
+                .empty();
+  };
+  std::vector<Index> faces(static_cast<std::size_t>(meeting.crowd.surfaces[0].faces.cols()));
+  std::iota(faces.begin(), faces.end(), 0);
+  EXPECT_TRUE(find_self_cuts(meeting.crowd.surfaces[0], meeting.crowd.rest[0], meeting.state.before[0],
+                             meeting.particles[0], faces)
+                  .empty());
+  EXPECT_TRUE(is_folded());
+  EXPECT_TRUE(mend_once(meeting));
+  EXPECT_FALSE(is_folded());
+}
+
+TEST(SurfaceContact, lets_go_of_what_folded_on_its_way_out_of_a_surface_that_it_lies_in_at_rest) {
+  for (const bool lies_in_another : {false, true}) {
+    Meeting meeting = folded_ball(lies_in_another);
+    ASSERT_TRUE(mend_once(meeting));
+    EXPECT_EQ(meeting.state.torn[0][7] != 0, lies_in_another);
+    EXPECT_FALSE(meeting.state.torn[0][100]) << "not folded";
+    remember_places(meeting.pointers<const Particles*>(meeting.particles), meeting.state);
+    EXPECT_FALSE(meeting.state.torn[0][7]) << "in the next step";
+  }
 }
 
 TEST(SurfaceContact, mending_leaves_only_what_was_mended_among_the_movers) {
@@ -460,7 +508,7 @@ TEST(SurfaceContact, mending_leaves_only_what_was_mended_among_the_movers) {
   meeting.follow();
   Movers movers{{1, 0, 1}};
   const Particles left_alone = meeting.particles[1];
-  EXPECT_TRUE(mend_self_cuts(meeting.crowd, meeting.state, 0, meeting.pointers<Particles*>(meeting.particles), movers));
+  EXPECT_TRUE(mend_surfaces(meeting.crowd, meeting.state, 0, meeting.pointers<Particles*>(meeting.particles), movers));
   EXPECT_EQ(movers.listed, std::vector<char>({1, 0, 0}));
   EXPECT_EQ(largest_motion(left_alone, meeting.particles[1]), 0);
 }

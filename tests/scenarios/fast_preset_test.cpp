@@ -24,8 +24,7 @@ class FastPreset : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(FastPreset, stays_within_a_millimetre_of_the_default) {
   SKIP_WITHOUT_DATA();
-  const std::vector<Points> whole = shapes_of(GetParam(), {}),
-                            fast = shapes_of(GetParam(), {"preset=fast", "skinning=bodies"});
+  const std::vector<Points> whole = shapes_of(GetParam(), {}), fast = shapes_of(GetParam(), {"preset=fast"});
   ASSERT_EQ(fast.size(), whole.size());
   ASSERT_GE(fast.size(), 3 * study.size());
   Real farthest = 0;

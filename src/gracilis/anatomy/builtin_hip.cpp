@@ -46,8 +46,6 @@ Scene builtin_hip(const BuiltinHipOptions& options) {
   scene.bodies = {"pelvis", "femur_r"};
   scene.joints = {make_joint()};
   scene.muscles = make_muscles(muscle_plans(), skeleton, {options.bone_gap, options.muscle_gap});
-  // Around a hip a blend of the bones' motions keeps surfaces smooth that fibers pulled tight bunch in deep flexion.
-  for (Muscle& muscle : scene.muscles) muscle.xpbd.skinning = Skinning::bodies;
   scene.bones = std::move(skeleton.bones);
   scene.motion =
       ramp_from_zero("hip flexion", "hip_flexion_r", options.last_flexion, options.flexion_step, options.time_step);

@@ -1,5 +1,7 @@
 #include <gracilis/dynamics/self_cuts.hpp>
 
+#include <gracilis/dynamics/hinge.hpp>
+
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 
@@ -59,6 +61,33 @@ bool cut_each_other(const ContactSurface& surface, Index one, Index other, const
   for (int corner = 0; corner < 3; ++corner)
     if (side_passes(a, corner, b) || side_passes(b, corner, a)) return true;
   return false;
+}
+
+Index corner_opposite(const ContactSurface& surface, const ContactSurface::Edge& edge, Index face) {
+  for (const Index corner : surface.faces.col(face))
+    if (corner != edge.ends[0] && corner != edge.ends[1]) return corner;
+  return edge.ends[0];
+}
+
+/// The angle between an edge's two faces where place(particle) tells the corners are.
+template <class Place>
+Real angle_at(const ContactSurface& surface, const ContactSurface::Edge& edge, const Place& place) {
+  return dihedral_angle(place(edge.ends[0]), place(edge.ends[1]), place(corner_opposite(surface, edge, edge.faces[0])),
+                        place(corner_opposite(surface, edge, edge.faces[1])));
+}
+
+bool is_folded(Real at_rest, Real now) { return std::abs(std::remainder(now - at_rest, 2 * pi)) > pi / 2; }
+
+/// Whether the normals of an edge's faces are more than 45 degrees apart.
+template <class Place>
+bool is_bent(const ContactSurface& surface, const ContactSurface::Edge& edge, const Place& place) {
+  const auto area = [&](Index face) -> Vec3 {
+    const Vec3 corner = place(surface.faces(0, face));
+    return (place(surface.faces(1, face)) - corner).cross(place(surface.faces(2, face)) - corner);
+  };
+  const Vec3 left = area(edge.faces[0]), right = area(edge.faces[1]);
+  const Real cosine = left.dot(right);
+  return cosine < 0 || 2 * cosine * cosine < left.squaredNorm() * right.squaredNorm();
 }
 
 bool can_move(const ContactSurface& surface, const FacePair& pair, const Particles& particles) {
@@ -212,6 +241,24 @@ std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen:
     }
   std::sort(cuts.begin(), cuts.end());
   return cuts;
+}
+
+std::vector<FacePair> find_folds(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
+                                 const Particles& particles) {
+  const auto now = [&](Index p) -> Vec3 { return particles.position(p).cast<Real>(); };
+  const auto then = [&](Index p) -> Vec3 { return rest.col(p).cast<Real>(); };
+  const auto earlier = [&](Index p) -> Vec3 { return before.position(p).cast<Real>(); };
+  std::vector<FacePair> folds;
+  for (const ContactSurface::Edge& edge : surface.edges) {
+    const auto [left, right] = edge.faces;
+    if (left < 0 || right < 0 || !is_bent(surface, edge, now)) continue;
+    const Real at_rest = angle_at(surface, edge, then);
+    if (is_folded(at_rest, angle_at(surface, edge, now)) && !is_folded(at_rest, angle_at(surface, edge, earlier)) &&
+        can_move(surface, {left, right}, particles))
+      folds.push_back({std::min(left, right), std::max(left, right)});
+  }
+  std::sort(folds.begin(), folds.end());
+  return folds;
 }
 
 void unfold(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts, float most,

@@ -20,6 +20,12 @@ void gather_folded(const ContactSurface& surface, const Particles& particles, st
 std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen::Matrix3Xf& rest,
                                      const Particles& before, const Particles& particles, std::vector<Index> faces);
 
+/// Which neighboring faces have folded: turned about their common side by more than a right angle since `rest`, but not
+/// `before`; each pair once, in order. Faces less than 45 degrees from flat have straightened, not folded. Pairs that
+/// cannot move are left out.
+std::vector<FacePair> find_folds(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
+                                 const Particles& particles);
+
 /// Gives what cuts itself the shape that it had at rest: wherever cuts hang together, their corners and half of the
 /// way those next to them, as the affine map nearest to how they and three rings around them lie now carries them. No
 /// particle goes further than `most` (m).

@@ -74,8 +74,8 @@ struct PairTouches {
   bool none_listed() const { return on_second.empty() && on_first.empty() && edges.empty(); }
 };
 struct CrowdState {
-  std::vector<Particles> before;  ///< per surface, where its particles were before the step
-  std::vector<std::vector<char>> torn;  ///< per surface, which particles were torn in this step; contact lets go of them
+  std::vector<Particles> before;        ///< per surface, where its particles were before the step
+  std::vector<std::vector<char>> torn;  ///< per surface, which particles contact lets go of in this step
   std::vector<PatchTree> trees;
   std::vector<Eigen::Matrix3Xf> normals;  ///< of particles; up to date where the next iterations ask
   std::vector<PairTouches> touches;       ///< one per pair
@@ -119,11 +119,12 @@ void follow_touches(const SurfaceCrowd& crowd, const std::vector<const Particles
 Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
                       const std::vector<Particles*>& particles, const Movers& movers = {});
 
-/// Mends every mover that keeps out of itself but cuts itself all the same, after a follow_touches: takes it to its
-/// shape at rest there, and in every other attempt, where that did not help, smooths it, the longer the later. What cut
-/// itself before the step resisted all attempts then and is left alone. Returns whether there was anything to mend, and
-/// leaves among the movers what was: it has to settle again.
-bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int attempt,
-                    const std::vector<Particles*>& particles, Movers& movers);
+/// Mends every mover that keeps out of itself but cuts itself all the same, or has folded (self_cuts.hpp), after a
+/// follow_touches: takes it to its shape at rest there, and in every other attempt, where that did not help, smooths
+/// it, the longer the later. Contact lets go of what folds on its way out of a surface that it lies in at rest. What
+/// cut itself or was folded before the step resisted all attempts then and is left alone. Returns whether there was
+/// anything to mend, and leaves among the movers what was: it has to settle again.
+bool mend_surfaces(const SurfaceCrowd& crowd, CrowdState& state, int attempt, const std::vector<Particles*>& particles,
+                   Movers& movers);
 
 }  // namespace gracilis

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-/// What a surface does about cutting itself: the mending behind surface_contact.hpp.
+/// What a surface does about cutting itself and about folds: the mending behind surface_contact.hpp.
 namespace gracilis {
 
 namespace {
@@ -28,17 +28,40 @@ std::vector<Index> suspects(const ContactSurface& surface, const PairTouches& to
   return faces;
 }
 
+/// Whether a particle lies in another surface at rest.
+bool overlaps_at_rest(const SurfaceCrowd& crowd, std::size_t surface, Index particle) {
+  const auto lies_in = [&](const std::vector<char>& overlaps) {
+    return !overlaps.empty() && overlaps[static_cast<std::size_t>(particle)] != 0;
+  };
+  return std::any_of(crowd.pairs.begin(), crowd.pairs.end(), [&](const SurfacePair& pair) {
+    return (static_cast<std::size_t>(pair.first) == surface && lies_in(pair.first_overlaps)) ||
+           (static_cast<std::size_t>(pair.second) == surface && lies_in(pair.second_overlaps));
+  });
+}
+
+/// Contact lets go of what folds on its way out of another surface in which it lies at rest; it goes out later.
+void let_go(const SurfaceCrowd& crowd, std::size_t surface, const std::vector<FacePair>& folds,
+            std::vector<char>& torn) {
+  for (const FacePair& fold : folds)
+    for (const Index face : fold)
+      for (const Index corner : crowd.surfaces[surface].faces.col(face))
+        if (overlaps_at_rest(crowd, surface, corner)) torn[static_cast<std::size_t>(corner)] = 1;
+}
+
 }  // namespace
 
-bool mend_self_cuts(const SurfaceCrowd& crowd, const CrowdState& state, int attempt,
-                    const std::vector<Particles*>& particles, Movers& movers) {
+bool mend_surfaces(const SurfaceCrowd& crowd, CrowdState& state, int attempt, const std::vector<Particles*>& particles,
+                   Movers& movers) {
   std::vector<char> mended(crowd.surfaces.size(), 0);
   parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
     const auto at = static_cast<std::size_t>(crowd.pairs[i].first);
     if (!crowd.pairs[i].is_self() || !movers.move(at)) return;
     const ContactSurface& surface = crowd.surfaces[at];
-    const std::vector<FacePair> cuts = find_self_cuts(surface, crowd.rest[at], state.before[at], *particles[at],
-                                                      suspects(surface, state.touches[i], *particles[at]));
+    std::vector<FacePair> cuts = find_self_cuts(surface, crowd.rest[at], state.before[at], *particles[at],
+                                                suspects(surface, state.touches[i], *particles[at]));
+    const std::vector<FacePair> folds = find_folds(surface, crowd.rest[at], state.before[at], *particles[at]);
+    let_go(crowd, at, folds, state.torn[at]);
+    cuts.insert(cuts.end(), folds.begin(), folds.end());
     const float most = mended_within * crowd.neighborhood[at];
     if (attempt % 2 == 0)
       unfold(surface, crowd.rest[at], cuts, most, *particles[at]);

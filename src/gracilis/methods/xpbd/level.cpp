@@ -118,6 +118,8 @@ CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std
   for (std::size_t m = 0; m < coarser_muscles.size(); ++m)
     coarser.prolongations.push_back(
         prepare_prolongation(coarser_muscles[m], full.muscles[m], coarser.level.muscles[m]));
+  // Copies are carried as the whole surfaces are only from here on.
+  reset(coarser.level);
   return coarser;
 }
 

@@ -63,8 +63,12 @@ MuscleState make_muscle_state(const PreparedMuscle& muscle, std::size_t bodies) 
 
 void skin_by_strings(const PreparedMuscle& muscle, MuscleState& state) {
   if (!muscle.carrying.strings) return;
-  state.skinned = std::make_shared<const strings::SkinnedSurface>(
-      skinned_by_strings(*muscle.carrying.strings, muscle.skin, muscle.rest, muscle.faces, state.strings));
+  const CarriedSurface& carried = *muscle.carried;
+  strings::SkinnedSurface skinned =
+      skinned_by_strings(*muscle.carrying.strings, carried.skin, carried.rest, carried.faces, state.strings);
+  if (!muscle.carried_vertex.empty())
+    skinned = {skinned.vertices(Eigen::all, muscle.carried_vertex), skinned.turns(Eigen::all, muscle.carried_vertex)};
+  state.skinned = std::make_shared<const strings::SkinnedSurface>(std::move(skinned));
 }
 
 void follow_strings(const PreparedMuscle& muscle, const Pose& pose, MuscleState& state) {

@@ -253,7 +253,9 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
   prepared.carrying = carrying;
   if (carrying.strings)
-    prepared.skin = strings::bind_skin(*carrying.strings, {prepared.rest, prepared.faces}, prepared.fixed_body);
+    prepared.carried = std::make_shared<const CarriedSurface>(
+        CarriedSurface{prepared.rest, prepared.faces,
+                       strings::bind_skin(*carrying.strings, {prepared.rest, prepared.faces}, prepared.fixed_body)});
   prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(prepared));
   // What takes the most memory while it is built comes first.
   prepared.keeps_out_of_itself =

@@ -24,6 +24,13 @@ struct CarryingStrings {
   std::shared_ptr<const strings::MuscleStrings> strings;
 };
 
+/// The surface that strings carry, and how it is bound to them.
+struct CarriedSurface {
+  Points rest;
+  Eigen::Matrix3Xi faces;
+  strings::StringSkin skin;
+};
+
 /// A muscle prepared for the solver; constant during a run. Particles are renumbered breadth-first, so that neighbors
 /// on the surface are neighbors in memory: `order[particle]` is the scene's vertex.
 struct PreparedMuscle {
@@ -32,18 +39,19 @@ struct PreparedMuscle {
   SurfaceSystem system;
   Vec3 origin = Vec3::Zero();  ///< world position of the particles' coordinate origin, m
   std::vector<Index> order;
-  Points rest;                       ///< world, in particle order, m
-  Eigen::Matrix3Xi faces;            ///< of particles
-  std::vector<Index> fixed_body;     ///< per particle: the body it is attached to, or -1
-  std::vector<Index> carriers;       ///< bodies with attachments on this muscle
-  Eigen::MatrixXf carrier_shares;    ///< carriers × particles: harmonic shares of their motion, columns sum to 1
-  CarryingStrings carrying;          ///< coarser copies share theirs with the whole surface
-  strings::StringSkin skin;          ///< of the particles, where there are strings
-  std::optional<LineSections> line;  ///< where its surface is made of sections, whose frames carry it then
-  std::vector<Index> section;        ///< per particle, where there is a line
-  std::vector<RigidTransform> to_sections;  ///< from world to each section's frame, in the capture pose
-  std::vector<Real> belly;                  ///< per particle, where there is a line: 0 in a tendon, 1 away from it
-  bool keeps_out_of_itself = false;         ///< not where there is a line: its sections run through each other
+  Points rest;                     ///< world, in particle order, m
+  Eigen::Matrix3Xi faces;          ///< of particles
+  std::vector<Index> fixed_body;   ///< per particle: the body it is attached to, or -1
+  std::vector<Index> carriers;     ///< bodies with attachments on this muscle
+  Eigen::MatrixXf carrier_shares;  ///< carriers × particles: harmonic shares of their motion, columns sum to 1
+  CarryingStrings carrying;        ///< coarser copies share theirs with the whole surface
+  std::shared_ptr<const CarriedSurface> carried;  ///< where there are strings: its own, or that of which it is a copy
+  std::vector<Index> carried_vertex;              ///< per particle, on that surface; empty: each its own
+  std::optional<LineSections> line;               ///< where its surface is made of sections, whose frames carry it then
+  std::vector<Index> section;                     ///< per particle, where there is a line
+  std::vector<RigidTransform> to_sections;        ///< from world to each section's frame, in the capture pose
+  std::vector<Real> belly;           ///< per particle, where there is a line: 0 in a tendon, 1 away from it
+  bool keeps_out_of_itself = false;  ///< not where there is a line: its sections run through each other
   ContractionSettings contraction;
   bool is_driven = false;             ///< the scene says how active it is
   AlignedVector<float> along_fibers;  ///< per contraction slot: squared cosine between it and the fibers

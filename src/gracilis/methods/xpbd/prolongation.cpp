@@ -57,6 +57,7 @@ Prolongation prepare_prolongation(const CoarserMuscle& copy, const PreparedMuscl
   const std::vector<Index> full_particle = inverse_of(full.order), coarse_particle = inverse_of(coarse.order);
   for (const Index vertex : coarse.order)
     result.picked.push_back(full_particle[static_cast<std::size_t>(copy.vertices[static_cast<std::size_t>(vertex)])]);
+  coarse.carried = full.carried, coarse.carried_vertex = result.picked;
   coarse.carrier_shares = full.carrier_shares(Eigen::all, result.picked).eval();
 
   const std::vector<std::vector<Index>> near = faces_near(coarse);

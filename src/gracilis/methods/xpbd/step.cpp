@@ -116,7 +116,7 @@ Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const SurfaceC
             return project_touches(crowd, state, start, particles, movers);
           },
           [&crowd, &state, particles](Movers& movers, int attempt) {
-            return mend_self_cuts(crowd, state, attempt, particles, movers);
+            return mend_surfaces(crowd, state, attempt, particles, movers);
           }};
 }
 
@@ -177,8 +177,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
   std::vector<std::vector<FieldPlacement>> placements(steps.size());
   std::vector<Particles> predicted(steps.size());
   if (!crowd.edges.pairs.empty()) remember_positions(particles_of<const Particles*>(steps), crowd_state.edges);
-  if (!crowd.surfaces.pairs.empty())
-    remember_places(particles_of<const Particles*>(steps), crowd_state.surfaces);
+  if (!crowd.surfaces.pairs.empty()) remember_places(particles_of<const Particles*>(steps), crowd_state.surfaces);
   const VirtualEdgeState edges_before = crowd_state.edges;
   parallel_for_each(steps.size(), [&](std::size_t i) {
     const PreparedMuscle& muscle = *steps[i].muscle;
