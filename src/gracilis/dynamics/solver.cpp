@@ -26,8 +26,11 @@ constexpr int coupling_refresh = 15;
 /// Passes over edges beyond the limit of stretch before contact and volume settle.
 constexpr int limit_passes = 10;
 /// Rounds in which a surface goes on settling while contact changes its volume by more than this share in a round.
-constexpr int further_rounds = 8;
+constexpr int further_rounds = 16;
 constexpr double unsettled_volume = 1e-3;
+/// Passes in which what is torn in the end, with an edge so many times as long as the limit allows, comes together.
+constexpr int rejoining_passes = 10;
+constexpr float torn = 1.1f;
 /// Most attempts at mending what cannot stay; what is crushed may resist them all.
 constexpr int mending_attempts = 4;
 
@@ -285,11 +288,27 @@ bool is_unsettled(const SurfaceSolve& surface) {
          std::abs(surface.state->volume - target) > unsettled_volume * target;
 }
 
-/// Leaves those movers that have not settled; false when there are none.
-bool keep_unsettled(const std::vector<SurfaceSolve>& surfaces, Movers& movers) {
-  std::vector<char> unsettled;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) unsettled.push_back(movers.move(i) && is_unsettled(surfaces[i]));
-  movers.listed = std::move(unsettled);
+/// Whether an edge is longer than the limit allows by more than single passes leave.
+bool is_torn(const SurfaceSolve& surface) {
+  const float limit = surface.settings.stretch_limit;
+  if (!(limit > 0) || surface.settings.settling_rounds <= 0) return false;
+  const DistanceSet& edges = surface.system->distances;
+  const Particles& particles = surface.state->particles;
+  for (std::size_t slot = 0; slot < edges.a.size(); ++slot) {
+    const float longest = torn * limit * edges.rest_length[slot];
+    if (!((particles.position(edges.b[slot]) - particles.position(edges.a[slot])).squaredNorm() > longest * longest))
+      continue;
+    if (particles.inverse_mass(edges.a[slot]) + particles.inverse_mass(edges.b[slot]) > 0) return true;
+  }
+  return false;
+}
+
+/// Leaves those movers of which `is_wanted` holds; false when there are none.
+template <class Wanted>
+bool keep_movers(const std::vector<SurfaceSolve>& surfaces, const Wanted& is_wanted, Movers& movers) {
+  std::vector<char> kept(surfaces.size(), 0);
+  parallel_for_each(surfaces.size(), [&](std::size_t i) { kept[i] = movers.move(i) && is_wanted(surfaces[i]); });
+  movers.listed = std::move(kept);
   return std::any_of(movers.listed.begin(), movers.listed.end(), [](char each) { return each != 0; });
 }
 
@@ -354,14 +373,17 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
       told(kind);
     });
   };
-  const auto settle_once = [&] {
-    project(ConstraintKind::volume);
-    couple();
+  const auto pull_together = [&] {
     project(ConstraintKind::stretch_limit);
     for_each(is_settling, [&](SurfaceSolve& surface, Progress&, const std::function<void(ConstraintKind)>&) {
       keep_listed(surface);
     });
     for (ConstraintKind kind : kinds_after_contact) project(kind);
+  };
+  const auto settle_once = [&] {
+    project(ConstraintKind::volume);
+    couple();
+    pull_together();
   };
   const auto settle = [&] {
     if (coupling.refresh) coupling.refresh(movers);
@@ -375,13 +397,16 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     for (int pass = 0; pass < limit_passes; ++pass) project(ConstraintKind::stretch_limit);
     for (; round < rounds; ++round) settle_once();
     const Movers settled = movers;
-    for (; round < rounds + further_rounds && keep_unsettled(surfaces, movers); ++round) settle_once();
+    for (; round < rounds + further_rounds && keep_movers(surfaces, is_unsettled, movers); ++round) settle_once();
     movers = settled;
   };
   if (rounds == 0) return;
   settle();
   for (int attempt = 0; attempt < mending_attempts && coupling.mend && coupling.mend(movers, attempt); ++attempt)
     settle();
+  // What contact between muscles, or mending, has torn comes together without them.
+  movers = {};
+  for (int pass = 0; pass < rejoining_passes && keep_movers(surfaces, is_torn, movers); ++pass) pull_together();
 }
 
 SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,
