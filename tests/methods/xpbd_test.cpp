@@ -345,14 +345,16 @@ TEST(BoneGaps, an_overlap_that_reaches_an_attachment_stays) {
   for (std::size_t p = 0; p < prepared.fixed_body.size(); ++p) {
     if (prepared.fixed_body[p] >= 0 || prepared.system.contacts[0].captured.particle[p] >= 0) continue;
     ++kept;
-    EXPECT_EQ(prepared.system.contacts[0].released.particle[p], prepared.system.contacts[0].captured.particle[p]);
+    const float captured = prepared.system.contacts[0].captured.particle[p];
+    EXPECT_NEAR(prepared.system.contacts[0].released.particle[p],
+                std::min(0.0005, captured + 0.1 * scene.distance_fields.cell_size), 2e-6);
   }
   EXPECT_GT(kept, 5);
 }
 
 TEST(BoneGaps, the_middles_of_edges_out_of_an_overlap_that_stays_are_let_no_deeper_than_at_rest) {
   Scene scene = tube_scene();
-  scene.muscles[0].surface.vertices.row(0).array() -= 0.001;
+  scene.muscles[0].surface.vertices.row(0).array() -= 0.004;
   const std::vector<DistanceField> fields = fields_of(scene);
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], fields);
   const FieldContactSet& contact = prepared.system.contacts[0];

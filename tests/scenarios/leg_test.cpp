@@ -28,6 +28,23 @@ Index face_pairs(const contact_check::FrameVerdict& verdict) {
 
 }  // namespace
 
+TEST(Leg, no_muscle_misses_a_gate_while_hip_and_knee_bend) {
+  if (leg_folder().empty() || !std::filesystem::is_directory(leg_folder()))
+    GTEST_SKIP() << "the leg's data are not here";
+  SceneOptions options;
+  options.data = leg_folder();
+  options.set = {"motion.step_deg=4"};
+  const Scene scene = read_scene(leg_folder() / "leg.toml", options).scene;
+  const auto method = make_xpbd_method(scene, cached_bone_fields(scene));
+  const std::atomic<bool> never = false;
+  const auto look = [&](const FrameRecord& record) {
+    for (std::size_t m = 0; m < scene.muscles.size(); ++m)
+      EXPECT_THAT(missed_gates(record.measures[m], {}), testing::IsEmpty())
+          << scene.muscles[m].name << ", frame " << record.frame.number;
+  };
+  EXPECT_EQ(run_scene(scene, pose_sequence(scene), *method, nullptr, never, look), RunEnd::complete);
+}
+
 TEST(Leg, muscles_that_overlap_at_rest_stay_whole_and_come_apart) {
   if (leg_folder().empty() || !std::filesystem::is_directory(leg_folder()))
     GTEST_SKIP() << "the leg's data are not here";

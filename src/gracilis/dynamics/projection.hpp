@@ -52,6 +52,9 @@ ProjectionCounts project_hinges(const HingeSet& set, ColorRange range, float* la
 double project_volume(const VolumeSet& set, double time_step, double pressure, double& lambda,
                       AlignedVector<float>& gradients, Particles& particles);
 
+/// The volume now, m³; `gradients` as above.
+double enclosed_volume(const VolumeSet& set, AlignedVector<float>& gradients, const Particles& particles);
+
 /// The instruction set in use, e.g. "AVX3": part of a run's manifest, because results differ in the last bits between
 /// sets.
 const char* instruction_set();

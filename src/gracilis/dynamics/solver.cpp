@@ -25,11 +25,12 @@ constexpr int motion_check = 4;
 constexpr int coupling_refresh = 15;
 /// Passes over edges beyond the limit of stretch before contact and volume settle.
 constexpr int limit_passes = 10;
-/// Rounds in which a surface goes on settling while contact changes its volume by more than this share in a round.
+/// Rounds in which a surface goes on settling while its volume is off by more than this share.
 constexpr int further_rounds = 16;
-constexpr double unsettled_volume = 1e-3;
-/// Passes in which what is torn in the end, with an edge so many times as long as the limit allows, comes together.
-constexpr int rejoining_passes = 10;
+constexpr double squeezed = 1e-3;
+/// Passes in which surfaces recover that in the end are squeezed so far, or torn: with an edge so many times as long as
+/// the limit allows.
+constexpr int recovering_passes = 10;
 constexpr float torn = 1.1f;
 /// Most attempts at mending what cannot stay; what is crushed may resist them all.
 constexpr int mending_attempts = 4;
@@ -280,12 +281,13 @@ void end_iteration(SurfaceSolve& surface, Progress& progress, const std::functio
                         largest_motion(progress.before, surface.state->particles) < settings.stop_displacement);
 }
 
-/// Whether contact has changed its volume since the last round but one.
-bool is_unsettled(const SurfaceSolve& surface) {
+/// Whether contact has squeezed it out of its volume.
+bool is_squeezed(const SurfaceSolve& surface) {
   const VolumeSet& volume = surface.system->volume;
+  if (volume.compliance > 0 || volume.group_count() == 0 || surface.settings.settling_rounds <= 0) return false;
   const double target = surface.settings.pressure * volume.target;
-  return volume.compliance == 0 && surface.settings.settling_rounds > 0 &&
-         std::abs(surface.state->volume - target) > unsettled_volume * target;
+  SurfaceState& state = *surface.state;
+  return std::abs(enclosed_volume(volume, state.volume_gradients, state.particles) - target) > squeezed * target;
 }
 
 /// Whether an edge is longer than the limit allows by more than single passes leave.
@@ -397,16 +399,20 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
     for (int pass = 0; pass < limit_passes; ++pass) project(ConstraintKind::stretch_limit);
     for (; round < rounds; ++round) settle_once();
     const Movers settled = movers;
-    for (; round < rounds + further_rounds && keep_movers(surfaces, is_unsettled, movers); ++round) settle_once();
+    for (; round < rounds + further_rounds && keep_movers(surfaces, is_squeezed, movers); ++round) settle_once();
     movers = settled;
   };
   if (rounds == 0) return;
   settle();
   for (int attempt = 0; attempt < mending_attempts && coupling.mend && coupling.mend(movers, attempt); ++attempt)
     settle();
-  // What contact between muscles, or mending, has torn comes together without them.
+  // What contact between muscles, or mending, has torn or squeezed recovers without them.
   movers = {};
-  for (int pass = 0; pass < rejoining_passes && keep_movers(surfaces, is_torn, movers); ++pass) pull_together();
+  const auto is_hurt = [](const SurfaceSolve& surface) { return is_torn(surface) || is_squeezed(surface); };
+  for (int pass = 0; pass < recovering_passes && keep_movers(surfaces, is_hurt, movers); ++pass) {
+    project(ConstraintKind::volume);
+    pull_together();
+  }
 }
 
 SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,

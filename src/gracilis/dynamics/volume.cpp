@@ -72,10 +72,7 @@ namespace {
 /// Groups and particles per task.
 constexpr Index group_chunk = 128, chunk = group_chunk * group_width;
 
-}  // namespace
-
-double project_volume(const VolumeSet& set, double time_step, double pressure, double& lambda,
-                      AlignedVector<float>& gradients, Particles& particles) {
+VolumePartial gather(const VolumeSet& set, const Particles& particles, AlignedVector<float>& gradients) {
   gradients.resize(particles.xyzw.size());
   std::vector<VolumePartial> partials(static_cast<std::size_t>((set.group_count() + group_chunk - 1) / group_chunk));
   parallel_for(set.group_count(), group_chunk, [&](Index begin, Index end) {
@@ -88,6 +85,18 @@ double project_volume(const VolumeSet& set, double time_step, double pressure, d
     sum.volume += partial.volume;
     sum.weighted_gradient2 += partial.weighted_gradient2;
   }
+  return sum;
+}
+
+}  // namespace
+
+double enclosed_volume(const VolumeSet& set, AlignedVector<float>& gradients, const Particles& particles) {
+  return gather(set, particles, gradients).volume;
+}
+
+double project_volume(const VolumeSet& set, double time_step, double pressure, double& lambda,
+                      AlignedVector<float>& gradients, Particles& particles) {
+  const VolumePartial sum = gather(set, particles, gradients);
   const double alpha = set.compliance / (time_step * time_step);
   const double denominator = sum.weighted_gradient2 + alpha;
   if (!(denominator > 0)) return sum.volume;

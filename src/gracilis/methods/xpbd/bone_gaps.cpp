@@ -10,6 +10,10 @@ namespace {
 /// Where an edge's or face's sag is looked for: this many parts of each side.
 constexpr int sag_parts = 8;
 
+/// Overlaps that stay give back this share of a cell once the bone has moved: so much can the grid's error differ from
+/// place to place.
+constexpr float given_back_by_kept = 0.1f;
+
 std::vector<float> rest_distances(const PreparedMuscle& prepared, const DistanceField& field) {
   std::vector<float> distances;
   for (Index p = 0; p < prepared.rest.cols(); ++p)
@@ -119,6 +123,7 @@ FieldContactSet bone_contact(const PreparedMuscle& prepared, const MeshTopology&
                              const DistanceField& field) {
   const XpbdSettings& settings = prepared.settings;
   const auto margin = static_cast<float>(settings.bone_margin);
+  const auto cell = static_cast<float>(field.cell_size.maxCoeff());
   const std::vector<float> distances = rest_distances(prepared, field);
   FieldContactSet contact;
   contact.field = bounded(field);
@@ -134,7 +139,8 @@ FieldContactSet bone_contact(const PreparedMuscle& prepared, const MeshTopology&
   for (std::size_t p = 0; p < distances.size(); ++p) {
     keeps[p] |= prepared.fixed_body[p] >= 0;
     contact.captured.particle.push_back(settings.bone_rest_gap ? captured_gap(distances[p], margin) : margin);
-    contact.released.particle.push_back(keeps[p] ? contact.captured.particle.back() : margin);
+    contact.released.particle.push_back(
+        keeps[p] ? std::min(margin, contact.captured.particle.back() + given_back_by_kept * cell) : margin);
   }
   contact.ceiling = ceilings(prepared, distances, bone);
   switch (settings.tunnelling) {
