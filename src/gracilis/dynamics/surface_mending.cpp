@@ -11,6 +11,9 @@ namespace {
 
 /// How far a particle goes at once to be mended, in neighborhoods (of some edges each).
 constexpr float mended_within = 0.5f;
+/// Attempts in which folds are unfolded that have nothing to do with an overlap. What is unfolded may cut itself; the
+/// attempts that follow are for that.
+constexpr int unfolding_attempts = 2;
 
 /// The faces that may cut each other: where the surface is folded, and where parts of it meet.
 std::vector<Index> suspects(const ContactSurface& surface, const PairTouches& touches, const Particles& particles) {
@@ -39,13 +42,18 @@ bool overlaps_at_rest(const SurfaceCrowd& crowd, std::size_t surface, Index part
   });
 }
 
-/// Contact lets go of what folds on its way out of another surface in which it lies at rest; it goes out later.
-void let_go(const SurfaceCrowd& crowd, std::size_t surface, const std::vector<FacePair>& folds,
-            std::vector<char>& torn) {
-  for (const FacePair& fold : folds)
+/// Those on the way out of another surface in which they lie at rest: what is still in and what is out already folds
+/// between them. Contact lets go of it; it goes out later.
+std::vector<FacePair> let_go_of_overlaps(const SurfaceCrowd& crowd, std::size_t surface, std::vector<FacePair> folds,
+                                         std::vector<char>& torn) {
+  std::erase_if(folds, [&](const FacePair& fold) {
+    bool overlaps = false;
     for (const Index face : fold)
       for (const Index corner : crowd.surfaces[surface].faces.col(face))
-        if (overlaps_at_rest(crowd, surface, corner)) torn[static_cast<std::size_t>(corner)] = 1;
+        if (overlaps_at_rest(crowd, surface, corner)) torn[static_cast<std::size_t>(corner)] = 1, overlaps = true;
+    return !overlaps;
+  });
+  return folds;
 }
 
 }  // namespace
@@ -59,8 +67,9 @@ bool mend_surfaces(const SurfaceCrowd& crowd, CrowdState& state, int attempt, co
     const ContactSurface& surface = crowd.surfaces[at];
     std::vector<FacePair> cuts = find_self_cuts(surface, crowd.rest[at], state.before[at], *particles[at],
                                                 suspects(surface, state.touches[i], *particles[at]));
-    const std::vector<FacePair> folds = find_folds(surface, crowd.rest[at], state.before[at], *particles[at]);
-    let_go(crowd, at, folds, state.torn[at]);
+    std::vector<FacePair> folds = find_folds(surface, crowd.rest[at], state.before[at], *particles[at]);
+    const std::vector<FacePair> overlapping = let_go_of_overlaps(crowd, at, folds, state.torn[at]);
+    if (attempt >= unfolding_attempts || !cuts.empty()) folds = overlapping;
     cuts.insert(cuts.end(), folds.begin(), folds.end());
     const float most = mended_within * crowd.neighborhood[at];
     if (attempt % 2 == 0)
