@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes every picture in docs/pictures, all from the built-in hip: the previews of ./demo.sh in both settings, as they
+# Makes every picture in docs/pictures, all from the built-in hip and elbow: the previews of ./demo.sh in both settings, as they
 # are, what `gracilis render` and `gracilis report` make of those runs, and what `gracilis view` shows.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -11,6 +11,8 @@ pictures=docs/pictures
 mkdir -p $pictures
 cp out/demo/preview.png $pictures/demo.png
 cp out/demo_thesis_2024/preview.png $pictures/demo_thesis_2024.png
+$gracilis demo elbow --out out/elbow --force
+$gracilis render out/elbow --out $pictures/elbow.png --size 1200x640 --frames 0,33,65
 
 $gracilis render out/demo --out $pictures/flexion.gif --size 420x480 --step 2 --rate 20 --view posterolateral
 $gracilis render out/demo --out $pictures/fibers.png --size 1200x560 --view posterolateral --color-by fiber-strain
