@@ -30,10 +30,10 @@ const std::map<std::string, const BenchmarkHip*>& hips() {
   return all;
 }
 
-void flex(benchmark::State& timer, const BenchmarkHip& hip, MuscleContact contact, int threads) {
+void flex(benchmark::State& timer, const BenchmarkHip& hip, const std::string& contact, int threads) {
   const ThreadLimit limit(threads);
   Scene scene = hip.scene;
-  scene.contact.muscle = contact;
+  scene.method.contact["muscle"] = contact;
   const auto method = make_xpbd_method(scene, hip.fields);
   std::vector<Pose> poses;
   for (int frame = 1; frame <= frames; ++frame) poses.push_back(hip.flexed(whole * frame / frames));
@@ -43,7 +43,7 @@ void flex(benchmark::State& timer, const BenchmarkHip& hip, MuscleContact contac
     method->reset();
     const std::clock_t processor_before = std::clock();
     const auto started = std::chrono::steady_clock::now();
-    for (const Pose& pose : poses) report = method->advance(pose);
+    for (const Pose& pose : poses) report = method->advance(pose, usual_time_step);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
     processor = static_cast<double>(std::clock() - processor_before) / CLOCKS_PER_SEC;
     timer.SetIterationTime(elapsed.count() / frames);
@@ -51,32 +51,30 @@ void flex(benchmark::State& timer, const BenchmarkHip& hip, MuscleContact contac
   Frame end;
   method->write(end);
   std::uint64_t hash = hash_seed;
-  Index edges = 0, pushes = 0;
+  Real edges = 0, pushes = 0;
   for (std::size_t m = 0; m < end.muscles.size(); ++m) {
     hash = hash_of(end.muscles[m].points, hash);
-    edges += report.muscles[m].virtual_edges, pushes += report.muscles[m].virtual_pushes;
+    edges += metric(report.muscles[m].metrics, "virtual_edges");
+    pushes += metric(report.muscles[m].metrics, "virtual_pushes");
   }
   char text[32];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
   timer.SetLabel(text);
   timer.counters["processor_ms"] = 1000 * processor / frames;
-  if (contact != MuscleContact::virtual_edges) return;
+  if (contact != "virtual-edges") return;
   // Both muscles of a pair count its edges.
   timer.counters["edges"] = edges / 2.0;
   timer.counters["pushes"] = pushes / 2.0;
 }
 
 const bool registered = [] {
-  const std::pair<const char*, MuscleContact> contacts[] = {{"none", MuscleContact::none},
-                                                            {"surface", MuscleContact::surface},
-                                                            {"virtual-edges", MuscleContact::virtual_edges}};
   for (const auto& [name, hip] : hips())
-    for (const auto& [contact_name, contact] : contacts)
+    for (const std::string contact : {"none", "surface", "virtual-edges"})
       for (int threads : {1, 2}) {
-        const std::string full = "frame/" + name + "/" + contact_name + "/threads:" + std::to_string(threads);
+        const std::string full = "frame/" + name + "/" + contact + "/threads:" + std::to_string(threads);
         benchmark::RegisterBenchmark(
             full.c_str(),
-            [hip = hip, contact = contact, threads](benchmark::State& timer) { flex(timer, *hip, contact, threads); })
+            [hip = hip, contact, threads](benchmark::State& timer) { flex(timer, *hip, contact, threads); })
             ->UseManualTime()
             ->Unit(benchmark::kMillisecond)
             ->Iterations(1);

@@ -53,31 +53,32 @@ Real error_of(const Points& shape, const Points& reference) {
 Step step_of(std::size_t muscle) {
   Step step{benchmark_hip().scene, {}, {}, {}, benchmark_hip().flexed(radians(45)), {}};
   step.scene.muscles = {benchmark_hip().scene.muscles[muscle]};
-  step.scene.contact.muscle = MuscleContact::none;
-  step.scene.muscles[0].xpbd.settling_rounds = 0;
+  step.scene.method.contact["muscle"] = "none";
+  step.scene.method.settings["settling_rounds"] = 0;
   const auto method = make_xpbd_method(step.scene, benchmark_hip().fields);
   step.poses = {benchmark_hip().flexed(0)};
   for (int degree = 2; degree <= 44; ++degree) {
     step.before = step.last;
     step.last.pose = benchmark_hip().flexed(radians(degree));
     step.poses.push_back(step.last.pose);
-    method->advance(step.last.pose);
+    method->advance(step.last.pose, usual_time_step);
     method->write(step.last);
   }
   return step;
 }
 
 /// The step with other settings, by the method as users have it.
-Sample by_method(const Step& step, int count, const std::function<void(XpbdSettings&)>& change) {
+Sample by_method(const Step& step, int count, const std::function<void(SettingValues&)>& change) {
   constexpr int repeats = 3;
   Scene scene = step.scene;
-  change(scene.muscles[0].xpbd);
+  change(scene.method.settings);
+  scene.muscles[0].settings.clear();
   const auto method = make_xpbd_method(scene, benchmark_hip().fields);
   std::vector<Real> times;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     method->restore(step.poses, step.before, step.last);
     const auto started = std::chrono::steady_clock::now();
-    method->advance(step.pose);
+    method->advance(step.pose, usual_time_step);
     times.push_back(milliseconds_since(started));
   }
   std::sort(times.begin(), times.end());
@@ -98,10 +99,8 @@ struct Prediction {
 
 Prediction predict(const Step& step) {
   const Muscle& muscle = step.scene.muscles[0];
-  Prediction p{xpbd::prepare_muscle(step.scene, muscle, benchmark_hip().fields),
-               {},
-               xpbd::solve_settings(muscle.xpbd, muscle.xpbd.substeps),
-               {}};
+  Prediction p{xpbd::prepare_muscle(step.scene, muscle, benchmark_hip().fields), {}, {}, {}};
+  p.settings = xpbd::solve_settings(p.muscle.settings, p.muscle.settings.substeps);
   p.state = xpbd::make_muscle_state(p.muscle, step.scene.bodies.size());
   for (Index i = 0; i < p.state.particles.count(); ++i)
     p.state.particles.position(i) =
@@ -144,7 +143,7 @@ Curve iterate(const std::string& name, const Step& step, const Prediction& begin
 }
 
 std::vector<Curve> curves_of(Step& step) {
-  const auto plain = [](int iterations) { return [=](XpbdSettings& s) { s.iterations = iterations; }; };
+  const auto plain = [](int iterations) { return [=](SettingValues& s) { s["iterations"] = iterations; }; };
   const Prediction begin = predict(step);
   SurfaceState converged = begin.state;
   SolveSettings settings = begin.settings;
@@ -161,17 +160,17 @@ std::vector<Curve> curves_of(Step& step) {
   for (const int count : {4, 8, 15, 30, 60, 120}) curves.back().samples.push_back(by_method(step, count, plain(count)));
   curves.push_back({"whole frame, small steps", {}});
   for (const int count : {1, 2, 4, 8, 15, 30})
-    curves.back().samples.push_back(by_method(step, count, [=](XpbdSettings& s) {
-      s.substeps = count;
-      s.iterations = 1;
+    curves.back().samples.push_back(by_method(step, count, [=](SettingValues& s) {
+      s["substeps"] = count;
+      s["iterations"] = 1;
     }));
   for (const Real edge : {0.004, 0.006}) {
     curves.push_back({fmt::format("whole frame, copy of {:g} mm", 1000 * edge), {}});
     for (const int count : {4, 8, 15, 30, 60})
-      curves.back().samples.push_back(by_method(step, count, [=](XpbdSettings& s) {
-        s.iterations = count;
-        s.simulated_edge = edge;
-        s.full_iterations = 1;
+      curves.back().samples.push_back(by_method(step, count, [=](SettingValues& s) {
+        s["iterations"] = count;
+        s["simulated_edge"] = edge;
+        s["full_iterations"] = 1;
       }));
   }
   return curves;

@@ -1,5 +1,5 @@
+#include <gracilis/anatomy/bone_field.hpp>
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/methods/xpbd/xpbd_method.hpp>
 
 #include <gracilis/core/state_hash.hpp>
 

@@ -4,7 +4,7 @@
 #include <gracilis/core/state_hash.hpp>
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/scene_reader.hpp>
-#include <gracilis/methods/xpbd/xpbd_method.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/measures.hpp>
 #include <gracilis/simulate/run.hpp>
 
@@ -31,16 +31,18 @@ Outcome run(const std::filesystem::path& file, const SceneOptions& options, int 
   const Scene scene = read_scene(file, options).scene;
   std::vector<Pose> poses = pose_sequence(scene);
   if (frames > 0) poses.resize(std::min(poses.size(), static_cast<std::size_t>(frames) + 1));
-  const auto method = make_xpbd_method(scene, cached_bone_fields(scene));
+  const auto method =
+      make_method(scene, [&](const DistanceFieldSettings& settings) { return cached_bone_fields(scene, settings); });
   Outcome outcome;
   std::vector<Real> times;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const auto started = std::chrono::steady_clock::now();
-    const StepReport report = method->advance(poses[i]);
+    const StepReport report = method->advance(poses[i], poses[i].time - poses[i - 1].time);
     const std::chrono::duration<Real, std::milli> elapsed = std::chrono::steady_clock::now() - started;
     times.push_back(elapsed.count());
     outcome.triangles = 0;
-    for (const MuscleReport& muscle : report.muscles) outcome.triangles += muscle.triangles;
+    for (const MuscleReport& muscle : report.muscles)
+      outcome.triangles += static_cast<Index>(metric(muscle.metrics, "triangles"));
   }
   Frame frame;
   frame.pose = poses.back();

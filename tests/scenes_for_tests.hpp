@@ -1,9 +1,12 @@
 #pragma once
 
+#include <gracilis/anatomy/bone_field.hpp>
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/geometry/distance_field.hpp>
+#include <gracilis/methods/xpbd/settings.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 #include <gracilis/scene/scene.hpp>
+#include <gracilis/scene/setting_values.hpp>
 
 #include <shapes.hpp>
 
@@ -47,7 +50,7 @@ inline Scene tube_scene(const XpbdSettings& settings = {}) {
     if (z < -0.07) insertion.vertices.push_back(v);
   }
   muscle.attachments = {origin, insertion};
-  muscle.xpbd = settings;
+  scene.method.settings = changed_values(settings);
   scene.muscles = {muscle};
   return scene;
 }

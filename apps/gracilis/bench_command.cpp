@@ -9,9 +9,10 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
+#include <gracilis/dynamics/projection.hpp>
 #include <gracilis/io/field_cache.hpp>
-#include <gracilis/methods/xpbd/under_way.hpp>
-#include <gracilis/simulate/scene_method.hpp>
+#include <gracilis/io/scene_changes.hpp>
+#include <gracilis/methods/registry.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -55,18 +56,6 @@ struct BenchEntry {
   double bytes_per_triangle = 0;  ///< at its peak, while the muscle was prepared and solved; 0: not asked
 };
 
-/// The phases of an iteration, and the iteration itself first. Muscles are timed relaxed, so nothing contracts.
-struct Phase {
-  const char* name;
-  std::optional<ConstraintKind> kind;
-};
-constexpr Phase phases[] = {{"iteration", {}},
-                            {"distance", ConstraintKind::distance},
-                            {"dihedral", ConstraintKind::dihedral},
-                            {"volume", ConstraintKind::volume},
-                            {"stretch_limit", ConstraintKind::stretch_limit},
-                            {"bone_contact", ConstraintKind::bone_contact}};
-
 /// The poses from the capture pose to the frame asked for.
 std::vector<Pose> poses_until(const Scene& scene, int frame) {
   std::vector<Pose> poses = pose_sequence(scene);
@@ -101,18 +90,19 @@ class MemoryGrowth {
   double before_ = 0;
 };
 
-void time_muscle(const Scene& scene, const Muscle& which, const std::vector<DistanceField>& fields,
+/// The iteration first, then its phases. Muscles are timed relaxed and alone.
+void time_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
                  const std::vector<Pose>& poses, const BenchOptions& options, std::vector<BenchEntry>& entries) {
   const MemoryGrowth growth;
-  const xpbd::UnderWay muscle = xpbd::under_way(scene, which, fields, poses);
-  const auto triangles = static_cast<Index>(muscle.muscle.faces.cols());
-  const double grown = growth.peak() / triangles;
+  const std::unique_ptr<PhaseTimer> timer = method_of(scene).phase_timer(scene, muscle, fields, poses);
+  const std::vector<std::string_view> phases = timer->phases();
+  const double grown = growth.peak() / timer->triangles();
   for (const int threads : options.threads) {
     const ThreadLimit limit(threads);
-    for (const Phase& phase : phases) {
-      const xpbd::PhaseTime time = xpbd::time_projection(muscle, phase.kind, options.repeats);
-      entries.push_back(
-          {muscle.muscle.name, phase.name, threads, triangles, time.milliseconds, time.hash, phase.kind ? 0 : grown});
+    for (std::size_t phase = 0; phase < phases.size(); ++phase) {
+      const PhaseTime time = timer->time(phase, options.repeats);
+      entries.push_back({muscle.name, std::string(phases[phase]), threads, timer->triangles(), time.milliseconds,
+                         time.hash, phase > 0 ? 0 : grown});
     }
   }
 }
@@ -125,12 +115,12 @@ BoneFieldSource cached_fields_of(const Scene& scene) {
 /// some of them only.
 BenchEntry time_frames(const Scene& scene, const std::vector<Pose>& poses, int threads) {
   const ThreadLimit limit(threads);
-  const auto method = make_scene_method(scene, cached_fields_of(scene));
+  const auto method = make_method(scene, cached_fields_of(scene));
   double sum = 0;
   int count = 0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const auto started = std::chrono::steady_clock::now();
-    method->advance(poses[i]);
+    method->advance(poses[i], poses[i].time - poses[i - 1].time);
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - started;
     if (2 * i >= poses.size() - 1) sum += elapsed.count(), ++count;
   }
@@ -171,7 +161,7 @@ void print_table(const std::vector<BenchEntry>& entries) {
 void copy_muscles(Scene& scene, int count) {
   const std::vector<Muscle> originals = scene.muscles;
   scene.muscles.clear();
-  scene.contact.muscle = MuscleContact::none;
+  scene.method.contact["muscle"] = "none";
   for (int i = 0; i < count; ++i) {
     scene.muscles.push_back(originals[static_cast<std::size_t>(i) % originals.size()]);
     scene.muscles.back().name += fmt::format("_{}", i);
@@ -182,8 +172,8 @@ void copy_muscles(Scene& scene, int count) {
 /// has them.
 BenchEntry time_first_frame(const Scene& scene, const std::vector<Pose>& poses, Clock::duration reading) {
   const Clock::time_point started = Clock::now();
-  const auto method = make_scene_method(scene, cached_fields_of(scene));
-  if (poses.size() > 1) method->advance(poses[1]);
+  const auto method = make_method(scene, cached_fields_of(scene));
+  if (poses.size() > 1) method->advance(poses[1], poses[1].time - poses[0].time);
   const std::chrono::duration<double, std::milli> elapsed = reading + (Clock::now() - started);
   BenchEntry entry{"all", "first_frame", thread_count(), 0, elapsed.count(), hash_seed, 0};
   for (const Muscle& muscle : scene.muscles) entry.triangles += muscle.surface.face_count();
@@ -195,11 +185,11 @@ BenchEntry time_first_frame(const Scene& scene, const std::vector<Pose>& poses, 
 
 int bench(Scene scene, BenchOptions options, Clock::time_point started) {
   if (options.muscles > 0) copy_muscles(scene, options.muscles);
-  const bool iterates = scene.method == MethodKind::xpbd, is_resized = options.subdivide > 0 || options.coarsen > 0;
+  const bool iterates = method_of(scene).phase_timer, is_resized = options.subdivide > 0 || options.coarsen > 0;
   if (is_resized && !iterates)
     throw ConfigurationError({"", "--subdivide, --coarsen",
-                              "the scene's method does not work on the muscles' triangles",
-                              "ask for --set method=xpbd, or leave these out"});
+                              "the scene's method does not iterate over the muscles' triangles",
+                              "choose another method, or leave these out"});
   for (Muscle& muscle : scene.muscles) {
     if (options.coarsen > 0) muscle = coarser_muscle(muscle, options.coarsen).muscle;
     for (int i = 0; i < options.subdivide; ++i) muscle = finer_muscle(muscle);
@@ -259,10 +249,11 @@ void add_bench_command(CLI::App& program, Command& chosen) {
   command->callback([&chosen, options] {
     chosen = [options] {
       const Clock::time_point started = Clock::now();
-      if (options->file.empty() && !(options->scene.set.empty() && options->scene.only.empty()))
-        throw ConfigurationError({"", "--set, --only", "the built-in hip is timed as it is", "name a scene file"});
-      return bench(options->file.empty() ? builtin_hip() : read_scene(options->file, options->scene).scene, *options,
-                   started);
+      if (!options->file.empty()) return bench(read_scene(options->file, options->scene).scene, *options, started);
+      LoadedScene hip;
+      hip.scene = builtin_hip();
+      change_scene(hip, options->scene.set, options->scene.only);
+      return bench(hip.scene, *options, started);
     };
   });
 }

@@ -1,21 +1,16 @@
 #include "demo_command.hpp"
+#include "scene_options.hpp"
 #include "session.hpp"
 
 #include <gracilis/anatomy/builtin_elbow.hpp>
 #include <gracilis/anatomy/builtin_hip.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
-#include <gracilis/scene/presets.hpp>
-#include <gracilis/scene/setting_table.hpp>
+#include <gracilis/io/scene_changes.hpp>
+#include <gracilis/methods/registry.hpp>
 
 #include <memory>
 
 namespace gracilis {
-
-static void apply_preset(const Preset& preset, Scene& scene) {
-  scene.distance_fields = preset.distance_fields;
-  scene.contact = preset.contact;
-  for (Muscle& muscle : scene.muscles) muscle.xpbd = preset.xpbd;
-}
 
 Scene demo_scene(const std::string& name, std::optional<Real> flexion) {
   if (name == "elbow") {
@@ -34,6 +29,7 @@ void add_demo_command(CLI::App& program, const std::vector<std::string>& words, 
   struct Options {
     std::string scene = "hip", preset = "physical", contact;
     std::optional<Real> flexion_deg;
+    SceneOptions scene_options;
     SessionOptions session;
   };
   const auto options = std::make_shared<Options>();
@@ -50,6 +46,7 @@ void add_demo_command(CLI::App& program, const std::vector<std::string>& words, 
       ->add_option("--contact", options->contact,
                    "How muscles keep out of each other: surface, virtual-edges or none (default: as the preset says)")
       ->check(CLI::IsMember({"none", "surface", "virtual-edges"}));
+  add_setting_options(*command, options->scene_options);
   add_session_options(*command, options->session);
   options->session.command = words;
   command->callback([&chosen, options] {
@@ -57,11 +54,11 @@ void add_demo_command(CLI::App& program, const std::vector<std::string>& words, 
       LoadedScene loaded;
       const std::optional<Real>& flexion = options->flexion_deg;
       loaded.scene = demo_scene(options->scene, flexion ? std::optional(radians(*flexion)) : std::nullopt);
-      loaded.preset = options->preset;
-      if (loaded.preset != "physical") apply_preset(*find_preset(loaded.preset), loaded.scene);
-      if (!options->contact.empty())
-        assign(loaded.scene.contact, *find_setting<ContactSettings>("muscle"), options->contact);
-      loaded.warnings = warnings_about(loaded.scene);
+      loaded.preset = presets().front().name;
+      if (options->preset != loaded.preset) apply_preset(*find_preset(options->preset), loaded);
+      if (!options->contact.empty()) loaded.scene.method.contact["muscle"] = options->contact;
+      change_scene(loaded, options->scene_options.set, options->scene_options.only);
+      for (std::string& warning : warnings_about(loaded.scene)) loaded.warnings.push_back(std::move(warning));
       return run_session(loaded, options->session);
     };
   });

@@ -93,7 +93,7 @@ int prepare(const PrepareOptions& options) {
   SceneSurfaces input = read_input(options);
   for (const auto& [key, value] : options.settings) {
     const Setting<PrepareSettings>& setting = *find_setting<PrepareSettings>(key);
-    const bool whole = std::holds_alternative<int PrepareSettings::*>(setting.member);
+    const bool whole = setting.kind == SettingKind::integer;
     const std::string wrong =
         assign(input.settings, setting, whole ? SettingValue(static_cast<int>(value)) : SettingValue(value));
     if (!wrong.empty()) throw ConfigurationError({"", option_name(setting), wrong, ""});

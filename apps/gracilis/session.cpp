@@ -12,8 +12,8 @@
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/run_folder.hpp>
 #include <gracilis/io/scene_template.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/run.hpp>
-#include <gracilis/simulate/scene_method.hpp>
 #include <gracilis/view/preview.hpp>
 #include <gracilis/view/run_charts.hpp>
 
@@ -33,13 +33,12 @@ struct Summary {
     int frames_missed = 0;
     int first_missed = 0;
     std::string first_reason;
-    long limited = 0, skipped = 0;
+    std::vector<Real> sums;  ///< of the method's metrics, in their order
   };
-  std::vector<PerMuscle> muscles;
-  std::vector<PaceReport> paces;  ///< of the frames in which a rate was to be held
+  std::vector<MetricInfo> metrics;
+  std::vector<PerMuscle> muscles = {};
 
   void add(const FrameRecord& record) {
-    if (record.report.pace.target_fps > 0) paces.push_back(record.report.pace);
     muscles.resize(record.measures.size());
     for (std::size_t i = 0; i < muscles.size(); ++i) {
       const std::vector<std::string> missed = missed_gates(record.measures[i], QualityGates{});
@@ -48,29 +47,23 @@ struct Summary {
         muscles[i].first_reason = fmt::format("{}", fmt::join(missed, "; "));
       }
       if (i < record.report.muscles.size()) {
-        muscles[i].limited += record.report.muscles[i].limited_hinges;
-        muscles[i].skipped += record.report.muscles[i].skipped_constraints;
+        muscles[i].sums.resize(metrics.size());
+        for (std::size_t k = 0; k < metrics.size(); ++k)
+          muscles[i].sums[k] += metric(record.report.muscles[i].metrics, metrics[k].name);
       }
     }
   }
 
-  /// What was given up to hold a rate of frames; empty where none was asked for.
-  std::string pace() const {
-    if (paces.empty()) return {};
-    std::vector<int> iterations;
-    std::size_t in_time = 0;
-    for (const PaceReport& frame : paces) {
-      iterations.push_back(frame.iterations);
-      in_time += frame.milliseconds * frame.target_fps <= 1000;
+  /// What constraints could not do for a muscle, as in "3 projections skipped"; empty: nothing.
+  std::string trouble_of(std::size_t muscle) const {
+    std::string text;
+    bool any = false;
+    for (std::size_t k = 0; k < muscles[muscle].sums.size(); ++k) {
+      if (metrics[k].trouble.empty()) continue;
+      text += fmt::format("{}{:.0f} {}", text.empty() ? "" : ", ", muscles[muscle].sums[k], metrics[k].trouble);
+      any |= muscles[muscle].sums[k] > 0;
     }
-    std::sort(iterations.begin(), iterations.end());
-    const PaceReport& last = paces.back();
-    return fmt::format(
-        "target_fps = {:g}: {} of {} frames were in time; {} of {} triangles were simulated, with {} to {} (median {}) "
-        "of "
-        "{} iterations; another machine gives other results",
-        last.target_fps, in_time, paces.size(), last.triangles, last.asked_triangles, iterations.front(),
-        iterations.back(), iterations[iterations.size() / 2], last.asked_iterations);
+    return any ? text : "";
   }
 
   bool all_gates_met() const {
@@ -85,7 +78,8 @@ class Session {
         options_(options),
         poses_(pose_sequence(loaded.scene)),
         threads_(options.threads),
-        folder_(out_folder(), loaded.scene, poses_, existing()) {}
+        folder_(out_folder(), loaded.scene, poses_, existing()),
+        summary_{method_of(loaded.scene).metrics} {}
 
   int run() {
     stop_requested();  // from here on a signal ends the run, but not while a frame is written
@@ -125,11 +119,11 @@ class Session {
   void prepare() {
     const StopScope scope(&stop_requested());
     overlaps_ = report_overlaps(loaded_.scene);
-    for (const std::string& warning : overlap_warnings(loaded_.scene, overlaps_)) warn(warning);
+    for (const std::string& warning : overlap_warnings(overlaps_, keeps_surfaces_apart(loaded_.scene))) warn(warning);
     spdlog::info("fibers");
     tracker_.emplace(loaded_.scene);
-    method_ = make_scene_method(loaded_.scene,
-                                [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
+    method_ =
+        make_method(loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
   }
 
   std::filesystem::path out_folder() const {
@@ -173,10 +167,7 @@ class Session {
     for (std::size_t i = 0; i < summary_.muscles.size(); ++i) {
       const Summary::PerMuscle& muscle = summary_.muscles[i];
       const std::string& name = loaded_.scene.muscles[i].name;
-      if (muscle.limited + muscle.skipped > 0) {
-        spdlog::info("{}: {} hinge projections limited, {} constraint projections skipped", name, muscle.limited,
-                     muscle.skipped);
-      }
+      if (const std::string trouble = summary_.trouble_of(i); !trouble.empty()) spdlog::info("{}: {}", name, trouble);
       if (muscle.frames_missed == 0) continue;
       warn(fmt::format("{} misses quality gates in {} frames, first in frame {}: {}", name, muscle.frames_missed,
                        muscle.first_missed, muscle.first_reason));
@@ -211,7 +202,7 @@ class Session {
 
   void finish(const std::string& status) {
     summarize();
-    if (const std::string pace = summary_.pace(); !pace.empty()) warn(pace);
+    if (const std::string remark = method_->remark(); !remark.empty()) warn(remark);
     folder_.finish();
     write_run_charts(folder_.path(), loaded_.scene);
     try {

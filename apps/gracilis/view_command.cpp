@@ -8,8 +8,8 @@
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/recorded_run.hpp>
 #include <gracilis/io/scene_reader.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/scene_place.hpp>
-#include <gracilis/simulate/scene_method.hpp>
 #include <gracilis/view/run_picture.hpp>
 #include <gracilis/view/window/interactive_window.hpp>
 #include <gracilis/view/window/live_simulation.hpp>
@@ -133,8 +133,8 @@ void view_scene(Scene scene, const ViewOptions& options, std::chrono::steady_clo
   drive_all(scene);
   ShapeHistory history(kept_frames);
   LiveSimulation simulation(scene, history, [&scene] {
-    return make_scene_method(
-        scene, [&scene](const DistanceFieldSettings& settings) { return cached_bone_fields(scene, settings); });
+    return make_method(scene,
+                       [&scene](const DistanceFieldSettings& settings) { return cached_bone_fields(scene, settings); });
   });
   WindowOptions window = options.window;
   window.live = controls_of(scene, simulation);

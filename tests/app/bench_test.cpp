@@ -57,7 +57,16 @@ TEST(Bench, of_coarser_and_finer_copies_times_iterations_alone) {
   EXPECT_LT(coarse, triangles("--coarsen 0.01"));
 }
 
-TEST(Bench, what_chooses_from_a_scene_file_needs_one) { EXPECT_EQ(run_program("bench --only iliacus_r").exit_code, 2); }
+TEST(Bench, settings_of_the_solver_reach_what_is_timed) {
+  const auto hash = [](const std::string& options) {
+    const nlohmann::json answer = bench("--frame 2 --threads 1 --only iliacus_r " + options);
+    EXPECT_EQ(answer.at("benchmarks").at(0).at("phase"), "iteration");
+    return answer.at("benchmarks").at(0).at("hash").get<std::string>();
+  };
+  const std::string unchanged = hash("");
+  for (const std::string setting : {"pressure=1.05", "rayleigh_beta=0.01", "constraint_time_step=0.1"})
+    EXPECT_NE(hash("--set " + setting), unchanged) << setting;
+}
 
 TEST(Bench, a_frame_beyond_the_motion_is_a_configuration_error) {
   const ProgramResult result = run_program("bench --frame 5000");

@@ -1,5 +1,8 @@
 #include "app/program.hpp"
 
+#include <gracilis/io/input_file.hpp>
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -14,6 +17,14 @@ TEST(DemoCommand, flexes_the_elbow_and_meets_the_quality_gates) {
   EXPECT_TRUE(std::filesystem::exists(folder / "frames" / "biceps_brachii_long_r_0003.vtp"));
   EXPECT_FALSE(std::filesystem::exists(folder / "frames" / "biceps_brachii_long_r_0004.vtp"));
   std::filesystem::remove_all(folder);
+}
+
+TEST(DemoCommand, a_wrong_setting_is_a_usage_error_that_names_it) {
+  const ProgramResult result = run_program("demo --set iteration=5 --set motion.step_deg=1 --only iliacs_r");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, testing::HasSubstr("unknown key 'iteration'"));
+  EXPECT_THAT(result.err, testing::HasSubstr("unknown key 'motion'"));
+  EXPECT_THAT(result.err, testing::HasSubstr("there is no muscle 'iliacs_r'"));
 }
 
 TEST(DemoCommand, a_scene_that_is_not_built_in_is_a_usage_error) { EXPECT_EQ(run_program("demo knee").exit_code, 2); }

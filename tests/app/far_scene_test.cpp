@@ -68,11 +68,11 @@ class FarScene : public testing::Test {
 }  // namespace
 
 TEST_F(FarScene, is_run_and_written_as_at_the_origin) {
-  const Vec3 far_away(5000.3, -3000.7, 8000.1);
-  const std::filesystem::path near = run_at("near", Vec3::Zero()), away = run_at("far", far_away);
+  const Vec3 far_off(5000.3, -3000.7, 8000.1);
+  const std::filesystem::path near = run_at("near", Vec3::Zero()), away = run_at("far", far_off);
   EXPECT_GT((recorded(near, "tube") - tube_scene().muscles[0].surface.vertices).colwise().norm().maxCoeff(), 0.01);
   for (const char* name : {"tube", "lower"})
-    EXPECT_LT((recorded(away, name) - (recorded(near, name).colwise() + far_away)).colwise().norm().maxCoeff(), 1e-5)
+    EXPECT_LT((recorded(away, name) - (recorded(near, name).colwise() + far_off)).colwise().norm().maxCoeff(), 1e-5)
         << name;
 }
 

@@ -1,6 +1,5 @@
+#include <gracilis/anatomy/bone_field.hpp>
 #include <gracilis/io/field_cache.hpp>
-
-#include <gracilis/methods/xpbd/xpbd_method.hpp>
 
 #include "shapes.hpp"
 

@@ -199,7 +199,7 @@ TEST(RunFolder, a_run_that_is_there_already_is_refused_or_replaced) {
 TEST(RunFolder, an_interrupted_run_goes_on_after_its_last_whole_frame) {
   const TestFolder folder;
   TinyRun run;
-  run.scene.contact.muscle = MuscleContact::none;
+  run.scene.method.contact["muscle"] = "none";
   {
     RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
     for (int i = 0; i < 4; ++i) out.write_frame(run.record(i));
@@ -219,7 +219,7 @@ TEST(RunFolder, an_interrupted_run_goes_on_after_its_last_whole_frame) {
 TEST(RunFolder, an_interrupted_run_goes_on_from_where_contact_is_searched_anew) {
   const TestFolder folder;
   TinyRun run;
-  run.scene.contact.update_period = 2;
+  run.scene.method.contact["update_period"] = 2;
   {
     RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
     for (int i = 0; i < 4; ++i) out.write_frame(run.record(i));
@@ -232,7 +232,7 @@ TEST(RunFolder, an_interrupted_run_goes_on_from_where_contact_is_searched_anew) 
     EXPECT_EQ(count_of(content(folder.path() / "measures.csv"), "\n"), 4);
     for (int i = 3; i < 5; ++i) out.write_frame(run.record(i));
   }
-  run.scene.contact.update_period = 3;
+  run.scene.method.contact["update_period"] = 3;
   EXPECT_EQ(RunFolder(folder.path(), run.scene, run.poses, ExistingRun::resume).frame_count(), 5)
       << "nothing of a complete run is dropped";
 }

@@ -1,4 +1,6 @@
 #include <gracilis/io/scene_reader.hpp>
+#include <gracilis/methods/registry.hpp>
+#include <gracilis/methods/xpbd/settings.hpp>
 
 #include <gracilis/anatomy/attachments.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
@@ -160,7 +162,8 @@ TEST_F(SceneReader, settings_are_global_and_overridden_per_muscle) {
   std::string text =
       with(good_scene(), "[[muscles.attachments]]", "[muscles.settings]\niterations = 7\n[[muscles.attachments]]");
   text += "[settings]\niterations = 5\ndensity = 1000\n";
-  const XpbdSettings settings = read(text).scene.muscles[0].xpbd;
+  const Scene scene = read(text).scene;
+  const XpbdSettings settings = xpbd_settings(scene, scene.muscles[0]);
   EXPECT_EQ(settings.iterations, 7);
   EXPECT_EQ(settings.density, 1000);
 }
@@ -171,10 +174,10 @@ TEST_F(SceneReader, the_command_line_sets_globally_and_per_muscle) {
                                    {"iterations=50", "muscle.density=999", "time_mode=dynamic", "gravity=[0, 0, -9.81]",
                                     "distance_field.cell_size=0.002", "sequence.hold_frames=3"},
                                    {}});
-  EXPECT_EQ(loaded.scene.muscles[0].xpbd.iterations, 50);
-  EXPECT_EQ(loaded.scene.muscles[0].xpbd.density, 999);
-  EXPECT_EQ(loaded.scene.muscles[0].xpbd.time_mode, TimeMode::dynamic);
-  EXPECT_EQ(loaded.scene.muscles[0].xpbd.gravity.z(), -9.81);
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).iterations, 50);
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).density, 999);
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).time_mode, TimeMode::dynamic);
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).gravity.z(), -9.81);
   EXPECT_EQ(loaded.scene.distance_fields.cell_size, 0.002);
   EXPECT_EQ(loaded.scene.sequence.hold_frames, 3);
 }
@@ -190,10 +193,20 @@ TEST_F(SceneReader, a_preset_from_the_command_line_sets_aside_the_files_settings
   const LoadedScene loaded =
       read(good_scene() + "[settings]\niterations = 5\n", {"", {"density=999", "preset=thesis-2024"}, {}});
   EXPECT_EQ(loaded.preset, "thesis-2024");
-  EXPECT_EQ(loaded.scene.muscles[0].xpbd.iterations, 70);
-  EXPECT_EQ(loaded.scene.muscles[0].xpbd.density, 999) << "what the command line sets itself stays";
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).iterations, 70);
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).density, 999)
+      << "what the command line sets itself stays";
   EXPECT_EQ(loaded.scene.distance_fields.resolution, 128);
   EXPECT_THAT(loaded.warnings, testing::Contains(HasSubstr("'thesis-2024' sets aside the settings")));
+}
+
+TEST_F(SceneReader, what_muscles_are_solved_with_together_is_the_scenes) {
+  const std::string text =
+      with(good_scene(), "[[muscles.attachments]]", "[muscles.settings]\nsubsteps = 3\n[[muscles.attachments]]");
+  const LoadedScene loaded = read(text);
+  EXPECT_EQ(loaded.scene.method.settings, (SettingValues{{"substeps", 3}}));
+  EXPECT_TRUE(loaded.scene.muscles[0].settings.empty());
+  EXPECT_THAT(loaded.warnings, testing::Contains(HasSubstr("'substeps' holds for all muscles together")));
 }
 
 TEST_F(SceneReader, an_included_file_is_the_base_that_the_file_builds_on) {
@@ -212,9 +225,9 @@ key_poses_deg = [[1]]
 )");
   EXPECT_EQ(loaded.scene.name, "variant");
   ASSERT_EQ(loaded.scene.muscles.size(), 1u);
-  EXPECT_EQ(loaded.scene.muscles[0].xpbd.iterations, 6);
-  EXPECT_EQ(loaded.scene.muscles[0].xpbd.density, 1000);
-  EXPECT_EQ(loaded.scene.muscles[0].xpbd.hinge_limit, 0.1);
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).iterations, 6);
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).density, 1000);
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).hinge_limit, 0.1);
   EXPECT_EQ(loaded.scene.motion.times.size(), 1u);
   EXPECT_EQ(loaded.inputs[1].filename(), "base.toml");
 }
@@ -408,7 +421,8 @@ TEST_F(SceneReader, a_handful_of_vertices_is_warned_about) {
 
 TEST_F(SceneReader, the_template_reads_back_with_every_setting_at_its_default) {
   const SceneDescription scene = read_scene_description(folder.write("template.toml", scene_template()), {}, {});
-  EXPECT_EQ(list_settings(scene.muscles.at(0).xpbd), list_settings(XpbdSettings{}));
+  EXPECT_EQ(list_settings(with_values(XpbdSettings{}, scene.method.settings)), list_settings(XpbdSettings{}));
+  EXPECT_EQ(list_settings(with_values(ContactSettings{}, scene.method.contact)), list_settings(ContactSettings{}));
   EXPECT_EQ(list_settings(scene.distance_fields), list_settings(DistanceFieldSettings{}));
   EXPECT_EQ(list_settings(scene.sequence), list_settings(Sequence{}));
   EXPECT_EQ(scene.muscles.at(0).attachments.size(), 4u);

@@ -27,7 +27,7 @@ Frame flexed_frame(const Scene& scene, int degrees) {
     pose = flexed(scene, radians(degree));
     pose.activations = scene.activation.signals.empty() ? std::vector<Real>{}
                                                         : std::vector<Real>{scene.activation.signals[0].values[0]};
-    method->advance(pose);
+    method->advance(pose, usual_time_step);
   }
   return frame_of(*method, pose, degrees);
 }
@@ -68,7 +68,7 @@ TEST(Contraction, an_active_muscle_has_shorter_fibers_and_its_volume) {
 TEST(Contraction, sixteen_fibers_give_nearly_the_shape_that_a_hundred_give) {
   // A relaxed muscle that a blend of bodies carries is slack, so that contraction has the more to move.
   const auto blended = [](Scene scene) {
-    scene.muscles[0].xpbd.skinning = Skinning::bodies;
+    scene.method.settings["skinning"] = "bodies";
     return flexed_frame(scene, 20);
   };
   const Frame relaxed = blended(tube_scene()), many = blended(active_tube(0.3)),
@@ -133,7 +133,7 @@ TEST(Contraction, of_a_muscle_that_no_plan_drives_is_an_error_and_no_silence) {
   const auto method = xpbd_on_tube(scene);
   Pose pose = flexed(scene, radians(1));
   pose.activations = {0.5};
-  EXPECT_THROW(method->advance(pose), ConfigurationError);
+  EXPECT_THROW(method->advance(pose, usual_time_step), ConfigurationError);
 }
 
 TEST(Contraction, a_muscle_without_fibers_stays_relaxed) {

@@ -82,7 +82,7 @@ TEST(SegmentHits, a_segment_cuts_a_box_or_ends_before_it) {
 static Scene pressed_scene() {
   Scene scene;
   scene.name = "pressed";
-  scene.method = MethodKind::cylinder;
+  scene.method.name = "cylinder";
   scene.bodies = {"still", "press"};
   scene.bones = {{"still", 0, shapes::box({-0.1, -0.1, -0.05}, {0.1, 0.1, -0.01})},
                  {"press", 1, shapes::box({0.02, -0.05, 0.03}, {0.06, 0.05, 0.05})}};
@@ -109,7 +109,7 @@ TEST(CylinderMethod, a_tagged_section_gives_way_to_a_bone_and_keeps_its_area) {
   const Scene scene = pressed_scene();
   ASSERT_THAT(validate(scene), testing::IsEmpty());
   const auto method = make_cylinder_method(scene);
-  method->advance(pose_at(scene, std::vector<Real>{-0.014}));
+  method->advance(pose_at(scene, std::vector<Real>{-0.014}), usual_time_step);
   Frame frame;
   method->write(frame);
   const Points& points = frame.muscles[0].points;
@@ -120,7 +120,7 @@ TEST(CylinderMethod, a_tagged_section_gives_way_to_a_bone_and_keeps_its_area) {
   EXPECT_NEAR(section_area(rings, 2), section_area(rings, 1), 0.03 * section_area(rings, 1));
   EXPECT_LT((points.middleCols(12, 12) - scene.muscles[0].surface.vertices.middleCols(12, 12)).norm(), 1e-12);
   // Gone again, all is as it was.
-  method->advance(pose_at(scene, std::vector<Real>{0}));
+  method->advance(pose_at(scene, std::vector<Real>{0}), usual_time_step);
   method->write(frame);
   EXPECT_LT((frame.muscles[0].points - scene.muscles[0].surface.vertices).norm(), 1e-12);
 }

@@ -1,52 +1,20 @@
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
-#include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/validate.hpp>
 
-#include <shapes.hpp>
+#include "line_scene.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace gracilis {
 
-/// Two bones with a hinge about y at the origin, a slide along z, and a muscle of sections in front of them.
-static Scene line_scene(Real tendon) {
-  Scene scene;
-  scene.name = "line";
-  scene.method = MethodKind::cylinder;
-  scene.bodies = {"upper", "lower"};
-  scene.bones = {{"upper", 0, shapes::box({-0.015, -0.03, 0.005}, {0.015, 0.03, 0.1})},
-                 {"lower", 1, shapes::box({-0.015, -0.03, -0.1}, {0.015, 0.03, -0.005})}};
-  JointAxis slide{"slide", Vec3::UnitZ(), 0, -1, 1};
-  slide.translation = true;
-  scene.joints = {{"hinge", 0, 1, RigidTransform::Identity(), {{"flexion", Vec3::UnitY(), 0, -2, 2}, slide}}};
-  Muscle muscle;
-  muscle.name = "line";
-  ActionLine& line = muscle.action_line;
-  line.points.resize(3, 3);
-  line.points << 0.03, 0.04, 0.03, 0, 0, 0, 0.1, 0.02, -0.1;
-  line.bodies = {0, 0, 1};
-  line.rays = 8;
-  line.scaling = 3;
-  line.tendon = tendon;
-  const Points centers = subdivide_line(line.points, line.scaling);
-  Eigen::MatrixXd radii(8, centers.cols());
-  for (Index k = 0; k < centers.cols(); ++k)
-    for (Index i = 0; i < 8; ++i) radii(i, k) = 0.004 + 0.0005 * (i % 3) + 0.005 * std::sin(pi * k / 16.0);
-  muscle.surface = {section_vertices(centers, section_frames(centers, Vec3::UnitY()), radii),
-                    section_faces(static_cast<Index>(centers.cols()), 8)};
-  muscle.attachments = {{"o", AttachmentEnd::origin, 0, {0, 1, 2}}, {"i", AttachmentEnd::insertion, 1, {128, 129}}};
-  scene.muscles = {muscle};
-  return scene;
-}
-
 static Points shape_at(const Scene& scene, const Pose& pose) {
   const auto method = make_cylinder_method(scene);
-  method->advance(pose);
+  method->advance(pose, usual_time_step);
   Frame frame;
   method->write(frame);
   return frame.muscles[0].points;
@@ -98,7 +66,7 @@ TEST(CylinderMethod, only_the_present_pose_counts_for_any_number_of_threads) {
   const Points direct = shape_at(scene, at(scene, 0.9, 0.01));
   const ThreadLimit limit(1);
   const auto method = make_cylinder_method(scene);
-  for (const Real flexion : {0.2, -0.4, 1.3, 0.9}) method->advance(at(scene, flexion, 0.01));
+  for (const Real flexion : {0.2, -0.4, 1.3, 0.9}) method->advance(at(scene, flexion, 0.01), usual_time_step);
   Frame frame;
   method->write(frame);
   EXPECT_EQ(frame.muscles[0].points, direct);
@@ -110,7 +78,9 @@ TEST(CylinderMethod, a_surface_that_is_not_made_of_the_lines_sections_is_refused
   ASSERT_EQ(validate(scene).size(), 1u);
   EXPECT_THAT(validate(scene)[0].what, testing::HasSubstr("9 sections and two ends have 74"));
   scene.muscles[0].action_line = {};
-  EXPECT_THAT(validate(scene)[0].what, testing::HasSubstr("needs its action line"));
+  EXPECT_THAT(validate(scene), testing::IsEmpty());
+  ASSERT_EQ(validate_method(scene).size(), 1u);
+  EXPECT_THAT(validate_method(scene)[0].what, testing::HasSubstr("needs its action line"));
 }
 
 }  // namespace gracilis

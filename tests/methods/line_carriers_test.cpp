@@ -19,7 +19,7 @@ static Scene hinge_scene(const Points& points = Points{{0.03, 0.03}, {0, 0}, {0.
   scene.name = "hinge";
   scene.bodies = {"upper", "lower"};
   scene.joints = {{"hinge", 0, 1, RigidTransform::Identity(), {{"flexion", Vec3::UnitY(), 0, -2, 2}}}};
-  scene.contact.muscle = MuscleContact::none;
+  scene.method.contact["muscle"] = "none";
   Muscle muscle;
   muscle.name = "line";
   ActionLine& line = muscle.action_line;
@@ -72,7 +72,8 @@ TEST(LineCarriers, a_muscle_by_xpbd_stays_along_its_line) {
   const Scene scene = hinge_scene();
   const std::vector<DistanceField> no_bones;
   const auto method = make_xpbd_method(scene, no_bones);
-  for (int i = 1; i <= 24; ++i) method->advance(pose_at(scene, std::vector<Real>{-0.05 * i}));  // it stretches
+  for (int i = 1; i <= 24; ++i)
+    method->advance(pose_at(scene, std::vector<Real>{-0.05 * i}), usual_time_step);  // it stretches
   const Pose pose = pose_at(scene, std::vector<Real>{-1.2});
   Frame frame;
   method->write(frame);
@@ -109,7 +110,7 @@ static Points middles_after(const Scene& scene, Real flexion, int steps, Real ac
   for (int i = 1; i <= steps; ++i) {
     Pose pose = pose_at(scene, std::vector<Real>{flexion * i / steps});
     if (activation > 0) pose.activations = {activation};
-    method->advance(pose);
+    method->advance(pose, usual_time_step);
   }
   Frame frame;
   method->write(frame);

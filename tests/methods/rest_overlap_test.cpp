@@ -42,7 +42,7 @@ std::vector<Overlap> overlaps_of(const Scene& scene, int frames, Real angle) {
   std::vector<Overlap> overlaps;
   for (int number = 0; number <= frames; ++number) {
     const Pose pose = flexed(scene, angle * number / frames);
-    if (number > 0) method->advance(pose);
+    if (number > 0) method->advance(pose, usual_time_step);
     const Frame now = frame_of(*method, pose, number);
     const contact_check::FrameVerdict verdict = judge.judge(number, {now.muscles[0].points, now.muscles[1].points}, {});
     EXPECT_TRUE(verdict.finite);
@@ -86,13 +86,13 @@ TEST(RestOverlap, is_released_while_the_joint_bends) {
 TEST(RestOverlap, a_tube_through_another_is_left_out_of_contact) {
   Scene scene = crossing_tubes(radians(90), 0);
   Scene alone = scene;
-  alone.contact.muscle = MuscleContact::none;
-  scene.contact.self = alone.contact.self = false;
+  alone.method.contact["muscle"] = "none";
+  scene.method.contact["self"] = alone.method.contact["self"] = false;
   const auto with = xpbd_on_tube(scene), without = xpbd_on_tube(alone);
   for (int number = 1; number <= 3; ++number) {
     const Pose pose = flexed(scene, radians(number));
-    with->advance(pose);
-    without->advance(pose);
+    with->advance(pose, usual_time_step);
+    without->advance(pose, usual_time_step);
     const Frame one = frame_of(*with, pose, number), other = frame_of(*without, pose, number);
     for (std::size_t m = 0; m < 2; ++m) EXPECT_EQ(hash_of(one.muscles[m].points), hash_of(other.muscles[m].points));
   }
@@ -103,11 +103,11 @@ TEST(RestOverlap, goes_on_being_released_in_a_resumed_run_to_the_same_bits) {
   const auto whole = xpbd_on_tube(scene), resumed = xpbd_on_tube(scene);
   std::vector<Frame> frames;
   for (int number = 1; number <= 8; ++number) {
-    whole->advance(flexed(scene, 0));
+    whole->advance(flexed(scene, 0), usual_time_step);
     frames.push_back(frame_of(*whole, flexed(scene, 0), number));
   }
   resumed->restore(std::vector<Pose>(6, flexed(scene, 0)), frames[3], frames[4]);
-  for (int number = 6; number <= 8; ++number) resumed->advance(flexed(scene, 0));
+  for (int number = 6; number <= 8; ++number) resumed->advance(flexed(scene, 0), usual_time_step);
   EXPECT_EQ(farthest(frame_of(*resumed, flexed(scene, 0), 8), frames[7]), 0);
 }
 

@@ -2,8 +2,8 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 
-#include <scenes_for_tests.hpp>
 #include <gracilis/core/state_hash.hpp>
+#include <scenes_for_tests.hpp>
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 ///         ●
 ///         ●
 ///      ▁▁▁▁▁▁▁▁  lower
-Scene two_balls_in_a_press(MuscleContact contact) {
+Scene two_balls_in_a_press(const std::string& contact) {
   Scene scene;
   scene.name = "press";
   scene.bodies = {"lower", "upper"};
@@ -41,7 +41,7 @@ Scene two_balls_in_a_press(MuscleContact contact) {
   }
   low.attachments = {bottom}, high.attachments = {top};
   scene.muscles = {low, high};
-  scene.contact.muscle = contact;
+  scene.method.contact["muscle"] = contact;
   return scene;
 }
 
@@ -58,7 +58,7 @@ Real deepest(const Scene& scene, const Frame& frame) {
 
 const std::vector<DistanceField>& plates() {
   static const std::vector<DistanceField> fields = [] {
-    const Scene scene = two_balls_in_a_press(MuscleContact::none);
+    const Scene scene = two_balls_in_a_press("none");
     std::vector<DistanceField> built;
     for (const Bone& bone : scene.bones) built.push_back(build_bone_field(bone, scene.distance_fields));
     return built;
@@ -81,7 +81,7 @@ Pressed pressed(const Scene& scene) {
   Pressed result;
   for (int frame = 1; frame <= 16; ++frame) {
     const Pose pose = lowered(scene, std::min(0.5 * frame, 6.0));
-    result.last = method->advance(pose);
+    result.last = method->advance(pose, usual_time_step);
     result.end = frame_of(*method, pose, frame);
     result.depth = std::max(result.depth, deepest(scene, result.end));
   }
@@ -97,27 +97,27 @@ std::uint64_t hash_of_shapes(const Frame& frame) {
 }  // namespace
 
 TEST(VirtualEdgesInScenes, muscles_pressed_on_each_other_no_longer_sink_in) {
-  const Pressed without = pressed(two_balls_in_a_press(MuscleContact::none));
+  const Pressed without = pressed(two_balls_in_a_press("none"));
   EXPECT_GT(without.depth, 0.003) << "they were never pressed on each other";
-  EXPECT_EQ(without.last.muscles[0].virtual_edges, 0);
-  const Pressed with = pressed(two_balls_in_a_press(MuscleContact::virtual_edges));
+  EXPECT_EQ(metric(without.last.muscles[0].metrics, "virtual_edges"), 0);
+  const Pressed with = pressed(two_balls_in_a_press("virtual-edges"));
   EXPECT_EQ(with.depth, 0);
   for (const MuscleReport& report : with.last.muscles) {
-    EXPECT_GT(report.virtual_edges, 100);
-    EXPECT_GT(report.virtual_pushes, 0);
-    EXPECT_LT(report.virtual_pushes, report.virtual_edges);
+    EXPECT_GT(metric(report.metrics, "virtual_edges"), 100);
+    EXPECT_GT(metric(report.metrics, "virtual_pushes"), 0);
+    EXPECT_LT(metric(report.metrics, "virtual_pushes"), metric(report.metrics, "virtual_edges"));
   }
 }
 
 TEST(VirtualEdgesInScenes, every_variant_of_them_keeps_muscles_apart) {
   // But for unit_sum, where the way back weighs as much as the push however short it is.
-  std::vector<Scene> variants(6, two_balls_in_a_press(MuscleContact::virtual_edges));
-  variants[1].contact.resolution = VirtualEdgeResolution::push;
-  variants[2].contact.reset_edges = true;
-  variants[3].contact.coinciding_edges = CoincidingEdges::drop;
-  variants[4].contact.coinciding_edges = CoincidingEdges::reseed;
-  variants[5].contact.adaptive_distance = true;
-  variants[5].contact.contact_distance = 0.001;
+  std::vector<Scene> variants(6, two_balls_in_a_press("virtual-edges"));
+  variants[1].method.contact["resolution"] = "push";
+  variants[2].method.contact["reset_edges"] = true;
+  variants[3].method.contact["coinciding_edges"] = "drop";
+  variants[4].method.contact["coinciding_edges"] = "reseed";
+  variants[5].method.contact["adaptive_distance"] = true;
+  variants[5].method.contact["contact_distance"] = 0.001;
   std::set<std::uint64_t> shapes;
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const Pressed with = pressed(variants[i]);
@@ -128,15 +128,15 @@ TEST(VirtualEdgesInScenes, every_variant_of_them_keeps_muscles_apart) {
 }
 
 TEST(VirtualEdgesInScenes, muscles_have_the_same_bits_for_any_number_of_threads_and_after_a_reset) {
-  Scene scene = two_balls_in_a_press(MuscleContact::virtual_edges);
-  scene.contact.coinciding_edges = CoincidingEdges::reseed;
+  Scene scene = two_balls_in_a_press("virtual-edges");
+  scene.method.contact["coinciding_edges"] = "reseed";
   std::set<std::uint64_t> shapes;
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
     const auto method = make_xpbd_method(scene, plates());
     for (int again = 0; again < 2; ++again) {
       method->reset();
-      for (int frame = 1; frame <= 8; ++frame) method->advance(lowered(scene, 0.5 * frame));
+      for (int frame = 1; frame <= 8; ++frame) method->advance(lowered(scene, 0.5 * frame), usual_time_step);
       shapes.insert(hash_of_shapes(frame_of(*method, lowered(scene, 4), 8)));
     }
   }
@@ -144,17 +144,17 @@ TEST(VirtualEdgesInScenes, muscles_have_the_same_bits_for_any_number_of_threads_
 }
 
 TEST(VirtualEdgesInScenes, a_frame_that_fails_leaves_the_edges_as_they_were) {
-  const Scene scene = two_balls_in_a_press(MuscleContact::virtual_edges);
+  const Scene scene = two_balls_in_a_press("virtual-edges");
   const auto failing = make_xpbd_method(scene, plates()), sound = make_xpbd_method(scene, plates());
   Pose lost = lowered(scene, 2);
   lost.bodies[1].translation().z() = std::numeric_limits<Real>::quiet_NaN();
   for (int frame = 1; frame <= 8; ++frame) {
     const Pose pose = lowered(scene, 0.5 * frame);
     if (frame == 4) {
-      EXPECT_THROW(failing->advance(lost), QualityError);
+      EXPECT_THROW(failing->advance(lost, usual_time_step), QualityError);
     }
-    failing->advance(pose);
-    sound->advance(pose);
+    failing->advance(pose, usual_time_step);
+    sound->advance(pose, usual_time_step);
   }
   const Pose end = lowered(scene, 4);
   EXPECT_EQ(hash_of_shapes(frame_of(*failing, end, 8)), hash_of_shapes(frame_of(*sound, end, 8)));

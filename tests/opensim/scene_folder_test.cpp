@@ -242,11 +242,11 @@ TEST(SceneFolder, the_walking_model_becomes_a_scene_of_92_muscles) {
   EXPECT_EQ(loaded.scene.bones.size(), 19u);
   EXPECT_TRUE(validate(loaded.scene).empty());
   Scene cylinders = loaded.scene;
-  cylinders.method = MethodKind::cylinder;
+  cylinders.method.name = "cylinder";
   EXPECT_TRUE(validate(cylinders).empty());
   const auto method = make_cylinder_method(cylinders);
   Frame frame;
-  for (const Pose& pose : pose_sequence(cylinders)) method->advance(pose);
+  for (const Pose& pose : pose_sequence(cylinders)) method->advance(pose, usual_time_step);
   method->write(frame);
   EXPECT_EQ(frame.muscles.size(), 92u);
 }

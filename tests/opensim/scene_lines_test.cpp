@@ -63,7 +63,7 @@ struct ImportedLines {
     CoordinateMotion rest{{0}, default_coordinates(model).transpose(), {}};
     left_out = write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", rest}}, {}, folder.path() / "out");
     scene = read_scene(folder.path() / "out/rest.toml", {}).scene;
-    scene.method = MethodKind::cylinder;
+    scene.method.name = "cylinder";
   }
   Model model;
   std::vector<std::string> left_out;
@@ -108,7 +108,7 @@ TEST(SceneLines, sections_stay_as_many_and_whole_while_points_come_and_go) {
   const auto method = make_cylinder_method(imported.scene);
   Frame frame;
   for (Real swing = -1.5; swing < 1.5; swing += 0.01) {
-    method->advance(pose_at(imported.scene, std::vector<Real>{swing}));
+    method->advance(pose_at(imported.scene, std::vector<Real>{swing}), usual_time_step);
     method->write(frame);
     for (std::size_t m = 0; m < frame.muscles.size(); ++m) {
       const gracilis::Muscle& muscle = imported.scene.muscles[m];
@@ -117,7 +117,8 @@ TEST(SceneLines, sections_stay_as_many_and_whole_while_points_come_and_go) {
     }
   }
   // At the capture pose the surface is the input, though arcs are finer than its sections.
-  method->advance(pose_at(imported.scene, std::vector<Real>{imported.model.coordinates[0].default_value}));
+  method->advance(pose_at(imported.scene, std::vector<Real>{imported.model.coordinates[0].default_value}),
+                  usual_time_step);
   method->write(frame);
   for (std::size_t m = 0; m < frame.muscles.size(); ++m)
     EXPECT_LT((frame.muscles[m].points - imported.scene.muscles[m].surface.vertices).cwiseAbs().maxCoeff(), 1e-12);

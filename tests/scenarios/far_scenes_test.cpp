@@ -1,10 +1,11 @@
+#include <gracilis/anatomy/bone_field.hpp>
 #include <gracilis/anatomy/builtin_elbow.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/run.hpp>
-#include <gracilis/simulate/scene_method.hpp>
 
 #include <moved_scenes.hpp>
 #include <scenes_for_tests.hpp>
@@ -18,7 +19,7 @@ namespace {
 const Vec3 far_away(5000.3, -3000.7, 8000.1);
 
 std::unique_ptr<DeformationMethod> method_of(const Scene& scene) {
-  return make_scene_method(scene, [&](const DistanceFieldSettings& settings) {
+  return make_method(scene, [&](const DistanceFieldSettings& settings) {
     std::vector<DistanceField> fields(scene.bones.size());
     parallel_for_each(fields.size(), [&](std::size_t b) { fields[b] = build_bone_field(scene.bones[b], settings); });
     return fields;
@@ -111,20 +112,20 @@ Scene flexing_tube(const XpbdSettings& settings = {}) {
 }
 
 /// The tube and another in front of it.
-Scene two_tubes(MuscleContact contact) {
+Scene two_tubes(const std::string& contact) {
   Scene scene = flexing_tube();
   Muscle other = scene.muscles[0];
   other.name = "other";
   other.surface.vertices.colwise() += Vec3(0.0205, 0.004, 0);
   scene.muscles.push_back(other);
-  scene.contact.muscle = contact;
+  scene.method.contact["muscle"] = contact;
   return scene;
 }
 
 /// Sections across a line in front of a hinge, one of which keeps out of the bones.
 Scene line_scene() {
   Scene scene = tube_scene();
-  scene.method = MethodKind::cylinder;
+  scene.method.name = "cylinder";
   Muscle& muscle = scene.muscles[0];
   ActionLine& line = muscle.action_line;
   line.points = Points{{0.02, 0.022, 0.02}, {0, 0, 0}, {0.1, 0.02, -0.1}};
@@ -168,11 +169,9 @@ TEST(FarScenes, an_active_muscle_deforms_as_at_the_origin) {
   expect_same(scene);
 }
 
-TEST(FarScenes, muscles_meet_as_at_the_origin) { expect_same(two_tubes(MuscleContact::surface)); }
+TEST(FarScenes, muscles_meet_as_at_the_origin) { expect_same(two_tubes("surface")); }
 
-TEST(FarScenes, muscles_meet_by_virtual_edges_as_at_the_origin) {
-  expect_same(two_tubes(MuscleContact::virtual_edges));
-}
+TEST(FarScenes, muscles_meet_by_virtual_edges_as_at_the_origin) { expect_same(two_tubes("virtual-edges")); }
 
 TEST(FarScenes, sections_about_a_line_keep_out_of_bones_as_at_the_origin) { expect_same(line_scene()); }
 
@@ -197,7 +196,7 @@ TEST(FarScenes, an_arm_of_bones_and_muscles_deforms_as_at_the_origin) {
 
 TEST(FarScenes, turned_over_as_well_muscles_deform_as_turned_over_at_the_origin) {
   const RigidTransform turn(Eigen::AngleAxisd(2.4, Vec3(1, -2, 2).normalized()));
-  expect_same(moved(turn, two_tubes(MuscleContact::surface)));
+  expect_same(moved(turn, two_tubes("surface")));
 }
 
 TEST(FarScenes, a_run_goes_on_where_it_was_interrupted) {
@@ -206,12 +205,12 @@ TEST(FarScenes, a_run_goes_on_where_it_was_interrupted) {
   const auto method = method_of(scene), resumed = method_of(scene);
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < 8; ++i) {
-    if (i > 0) method->advance(poses[i]);
+    if (i > 0) method->advance(poses[i], usual_time_step);
     frames.push_back(frame_of(*method, poses[i], static_cast<int>(i)));
   }
   resumed->restore({poses.begin(), poses.begin() + 6}, frames[4], frames[5]);
   EXPECT_LT(farthest(frame_of(*resumed, poses[5], 5), frames[5]), 1e-9);
-  for (std::size_t i = 6; i < 8; ++i) resumed->advance(poses[i]);
+  for (std::size_t i = 6; i < 8; ++i) resumed->advance(poses[i], usual_time_step);
   EXPECT_LT(farthest(frame_of(*resumed, poses[7], 7), frames[7]), 1e-6);
 }
 

@@ -16,16 +16,16 @@ TEST(CadaverHipScenario, adductor_brevis_survives_flexion_in_steps_of_five_degre
 }
 
 TEST(BuiltinHip, crowded_it_resumes_to_the_same_bits) {
-  for (const MuscleContact contact : {MuscleContact::surface, MuscleContact::virtual_edges}) {
+  for (const std::string contact : {"surface", "virtual-edges"}) {
     Scene scene = builtin_hip();
-    scene.contact.muscle = contact;
+    scene.method.contact["muscle"] = contact;
     const std::vector<Pose> poses = pose_sequence(scene);
     const auto method = make_xpbd_method(scene, cached_bone_fields(scene)),
                resumed = make_xpbd_method(scene, cached_bone_fields(scene));
     const auto advance = [&](DeformationMethod& each, int number) {
       Frame frame;
       frame.number = number, frame.pose = poses[static_cast<std::size_t>(number)];
-      each.advance(frame.pose);
+      each.advance(frame.pose, usual_time_step);
       each.write(frame);
       return frame;
     };

@@ -42,7 +42,7 @@ inline Scene scene_of(const HipMotion& motion, Real step, const std::string& con
   Eigen::MatrixXd keys = Eigen::MatrixXd::Zero(2, 3);
   keys.row(1) = motion.end.transpose() * (pi / 180);
   scene.motion = motion_through({"hip_flexion_r", "hip_adduction_r", "hip_rotation_r"}, keys, radians(step), 1.0 / 60);
-  if (contact == "none") scene.contact.muscle = MuscleContact::none;
+  if (contact == "none") scene.method.contact["muscle"] = "none";
   return scene;
 }
 

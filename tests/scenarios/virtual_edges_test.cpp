@@ -1,6 +1,6 @@
 #include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/motion.hpp>
-#include <gracilis/scene/presets.hpp>
 
 #include <contact_check/gates.hpp>
 
@@ -15,8 +15,8 @@ namespace {
 Scene flexed_hip(const Preset& preset) {
   Scene scene = builtin_hip();
   scene.distance_fields = preset.distance_fields;
-  scene.contact = preset.contact;
-  for (Muscle& muscle : scene.muscles) muscle.xpbd = preset.xpbd;
+  scene.method = preset.method;
+  for (Muscle& muscle : scene.muscles) muscle.settings.clear();
   Eigen::MatrixXd keys = Eigen::MatrixXd::Zero(2, 1);
   keys(1, 0) = radians(30);
   scene.motion = motion_through({"hip_flexion_r"}, keys, radians(3), 1.0 / 60);
@@ -26,14 +26,14 @@ Scene flexed_hip(const Preset& preset) {
 }  // namespace
 
 TEST(VirtualEdgesOfTheBuiltinHip, the_published_setting_runs_with_them) {
-  Index pushes = 0, coinciding = 0;
+  Real pushes = 0, coinciding = 0;
   const Scene scene = flexed_hip(*find_preset("thesis-2024"));
-  ASSERT_EQ(scene.contact.muscle, MuscleContact::virtual_edges);
+  ASSERT_EQ(scene.method.contact.at("muscle"), SettingValue("virtual-edges"));
   const WholeRun run = run_whole(scene, 1, [&](const FrameRecord& record) {
     if (record.frame.number == 0) return;
     for (const MuscleReport& report : record.report.muscles) {
-      EXPECT_GT(report.virtual_edges, 0);
-      pushes += report.virtual_pushes, coinciding += report.coinciding_edges;
+      EXPECT_GT(metric(report.metrics, "virtual_edges"), 0);
+      pushes += metric(report.metrics, "virtual_pushes"), coinciding += metric(report.metrics, "coinciding_edges");
     }
   });
   EXPECT_GT(run.frames, 10);

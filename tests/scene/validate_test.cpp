@@ -58,12 +58,12 @@ TEST(Validate, a_good_scene_has_no_problem) { EXPECT_THAT(problems(good_scene())
 TEST(Validate, everything_is_found_at_once) {
   Scene scene = good_scene();
   scene.joints[0].axes[0].axis = Vec3::Zero();
-  scene.muscles[0].xpbd.density = nan;
+  scene.muscles[0].fibers.pennation = nan;
   scene.muscles[0].attachments[0].vertices.clear();
   scene.motion.times = {1, 1};
   EXPECT_THAT(problems(scene),
               ElementsAre(HasSubstr("joint 'hip': the axis of 'flexion' has no length"),
-                          HasSubstr("muscle 'muscle': 'density' must be a number from 1 to 100000 kg/m³"),
+                          HasSubstr("muscle 'muscle': 'pennation' must be a number from -1.2 to 1.2 rad"),
                           HasSubstr("muscle 'muscle', attachment 'top': holds no vertex"),
                           HasSubstr("motion 'motion': the time does not increase at row 1")));
 }
@@ -112,24 +112,14 @@ TEST(Validate, attachments_must_hold_existing_vertices_for_one_body_each) {
                  "1 of its vertices are fixed to 'pelvis' by the attachment 'top'");
   EXPECT_PROBLEM(s.muscles[0].attachments[1].body = -1, "refers to body number -1");
   EXPECT_PROBLEM(s.muscles[0].attachments.pop_back(), "muscle 'muscle': it has no insertion");
-  EXPECT_PROBLEM(s.muscles[0].xpbd.slide_on_bone = "tibia",
-                 "muscle 'muscle': 'slide_on_bone' names 'tibia', but the scene has no such bone");
   EXPECT_THAT(problems_after([](Scene& s) { s.muscles[0].attachments.push_back(s.muscles[0].attachments[0]); }),
               ElementsAre())
       << "two attachments of one body may share vertices";
 }
 
 TEST(Validate, settings_must_lie_within_their_ranges) {
-  EXPECT_PROBLEM(s.muscles[0].xpbd.iterations = 0, "'iterations' must be an integer from 1 to 100000");
-  EXPECT_PROBLEM(s.muscles[0].xpbd.gravity[2] = nan, "'gravity' must be three numbers");
   EXPECT_PROBLEM(s.distance_fields.cell_size = 0, "distance_field: 'cell_size' must be a number");
   EXPECT_PROBLEM(s.sequence.hold_frames = -1, "sequence: 'hold_frames' must be an integer");
-}
-
-TEST(Validate, virtual_edges_must_find_muscles_before_these_touch) {
-  EXPECT_PROBLEM((s.contact.muscle = MuscleContact::virtual_edges, s.contact.seed_reach = 0.001), "'seed_reach'");
-  const auto reaching = [](Scene& s) { s.contact.muscle = MuscleContact::virtual_edges; };
-  EXPECT_THAT(problems_after(reaching), ElementsAre());
 }
 
 TEST(Validate, the_motion_must_be_a_finite_table_of_known_coordinates_with_increasing_times) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/methods/xpbd/xpbd_method.hpp>
+#include <gracilis/anatomy/bone_field.hpp>
 #include <gracilis/strings/muscle_strings.hpp>
 
 #include <scenes_for_tests.hpp>

@@ -54,7 +54,7 @@ std::vector<Muscle> make_muscles(const std::vector<MusclePlan>& plans, const Ske
     obstacles.push_back({as_solid(std::move(shaped.shape)), gaps.muscle});
     Muscle muscle;
     muscle.name = plan.name;
-    muscle.xpbd.iterations = plan.iterations;
+    muscle.settings["iterations"] = plan.iterations;
     muscle.attachments = attach(plan, shaped.surface, skeleton.bones, nearest);
     muscle.surface = std::move(shaped.surface);
     muscles.push_back(std::move(muscle));

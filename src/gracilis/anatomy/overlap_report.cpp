@@ -51,7 +51,7 @@ OverlapReport report_overlaps(const Scene& scene) {
   return report;
 }
 
-std::vector<std::string> overlap_warnings(const Scene& scene, const OverlapReport& report) {
+std::vector<std::string> overlap_warnings(const OverlapReport& report, bool has_contact) {
   std::vector<std::string> warnings;
   if (report.pairs.empty()) return warnings;
   std::string worst;
@@ -61,7 +61,7 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const OverlapRepor
                      std::to_string(report.of_vertices) + " vertices lie in another muscle, in " +
                      std::to_string(report.pairs.size()) + (report.pairs.size() == 1 ? " pair" : " pairs") +
                      "; deepest " + worst);
-  if (scene.method != MethodKind::xpbd || scene.contact.muscle != MuscleContact::surface) return warnings;
+  if (!has_contact) return warnings;
   for (const MuscleOverlap& pair : report.pairs)
     if (pair.is_left_out)
       warnings.push_back("no contact between " + pair.first + " and " + pair.second +

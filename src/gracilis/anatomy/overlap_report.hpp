@@ -27,8 +27,8 @@ struct OverlapReport {
 /// By exact distances (rest_overlap.hpp); takes about a second for 40,000 vertices. Precondition: the scene is valid.
 OverlapReport report_overlaps(const Scene& scene);
 
-/// What a user should know about it, one line each: how much overlaps and where most, and which pairs the scene's
-/// contact leaves out. Empty where nothing overlaps.
-std::vector<std::string> overlap_warnings(const Scene& scene, const OverlapReport& report);
+/// What a user should know about it, one line each: how much overlaps and where most, and, where surfaces keep out of
+/// each other (`has_contact`), which pairs that leaves out. Empty where nothing overlaps.
+std::vector<std::string> overlap_warnings(const OverlapReport& report, bool has_contact);
 
 }  // namespace gracilis

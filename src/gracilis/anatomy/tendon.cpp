@@ -23,12 +23,12 @@ std::vector<Real> belly_shares(const Points& vertices, const MeshTopology& topol
   return shares;
 }
 
-std::vector<Real> belly_shares(const Muscle& muscle) {
+std::vector<Real> belly_shares(const Muscle& muscle, Real tendon_length) {
   std::vector<Index> attached;
   for (const Attachment& attachment : muscle.attachments)
     attached.insert(attached.end(), attachment.vertices.begin(), attachment.vertices.end());
   return belly_shares(muscle.surface.vertices, build_topology(muscle.surface.faces, muscle.surface.vertex_count()),
-                      attached, muscle.xpbd.tendon_length);
+                      attached, tendon_length);
 }
 
 }  // namespace gracilis

@@ -13,7 +13,7 @@ namespace gracilis {
 std::vector<Real> belly_shares(const Points& vertices, const MeshTopology& topology, const std::vector<Index>& attached,
                                Real tendon_length);
 
-/// The same for a muscle of a scene, by its own setting.
-std::vector<Real> belly_shares(const Muscle& muscle);
+/// The same for a muscle of a scene.
+std::vector<Real> belly_shares(const Muscle& muscle, Real tendon_length);
 
 }  // namespace gracilis

@@ -1,9 +1,9 @@
+#include <gracilis/anatomy/bone_field.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
 #include <gracilis/io/field_cache.hpp>
-#include <gracilis/methods/xpbd/xpbd_method.hpp>
 #include <gracilis/scene/setting_table.hpp>
 
 #include <cmath>

@@ -5,6 +5,7 @@
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/value_reader.hpp>
+#include <gracilis/methods/registry.hpp>
 
 #include <fmt/format.h>
 
@@ -19,23 +20,27 @@ std::string measures_header(const Scene& scene) {
   for (const Joint& joint : scene.joints) {
     for (const JointAxis& axis : joint.axes) header += fmt::format(",{}_{}", axis.coordinate, shown_unit(axis));
   }
-  return header +
-         ",muscle,volume_ratio,edge_ratio_mean,edge_ratio_max,edge_ratio_max_free,dihedral_change_mean_deg,"
-         "dihedral_change_max_deg,hinges_over_90,vertex_depth_mm,vertex_depth_beyond_rest_mm,"
-         "midpoint_depth_beyond_rest_mm,belly_off_place_mm,wrong_side_share,slack,iterations,largest_correction_mm,"
-         "contacts,limited_hinges,skipped_constraints,"
-         "milliseconds,activation,fiber_strain_mean,cross_section_cm2,physiological_cross_section_cm2,"
-         "virtual_edges,virtual_pushes,coinciding_edges\n";
+  header +=
+      ",muscle,volume_ratio,edge_ratio_mean,edge_ratio_max,edge_ratio_max_free,dihedral_change_mean_deg,"
+      "dihedral_change_max_deg,hinges_over_90,vertex_depth_mm,vertex_depth_beyond_rest_mm,"
+      "midpoint_depth_beyond_rest_mm,belly_off_place_mm,wrong_side_share,slack";
+  for (const MetricInfo& metric : method_of(scene).metrics) header += fmt::format(",{}", metric.name);
+  return header + ",milliseconds,activation,fiber_strain_mean,cross_section_cm2,physiological_cross_section_cm2\n";
 }
 
-static std::string row_end(const MuscleMeasures& m, const MuscleReport& r) {
-  return fmt::format(
-      ",{:.6f},{:.6f},{:.4f},{:.4f},{:.3f},{:.3f},{},{:.4f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f},{},{:.4f},{},{},{},"
-      "{:.3f}",
-      m.volume_ratio, m.edge_ratio_mean, m.edge_ratio_max, m.edge_ratio_max_free, degrees(m.dihedral_change_mean),
-      degrees(m.dihedral_change_max), m.hinges_over_90, 1000 * m.vertex_depth, 1000 * m.vertex_depth_beyond_rest,
-      1000 * m.midpoint_depth_beyond_rest, 1000 * m.belly_off_place, m.wrong_side, m.slack, r.iterations,
-      1000 * r.largest_correction, r.contacts, r.limited_hinges, r.skipped_constraints, r.milliseconds);
+static std::string measure_cells(const MuscleMeasures& m) {
+  return fmt::format(",{:.6f},{:.6f},{:.4f},{:.4f},{:.3f},{:.3f},{},{:.4f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f}",
+                     m.volume_ratio, m.edge_ratio_mean, m.edge_ratio_max, m.edge_ratio_max_free,
+                     degrees(m.dihedral_change_mean), degrees(m.dihedral_change_max), m.hinges_over_90,
+                     1000 * m.vertex_depth, 1000 * m.vertex_depth_beyond_rest, 1000 * m.midpoint_depth_beyond_rest,
+                     1000 * m.belly_off_place, m.wrong_side, m.slack);
+}
+
+static std::string report_cells(const MethodEntry& method, const MuscleReport& report) {
+  std::string cells;
+  for (const MetricInfo& info : method.metrics)
+    cells += fmt::format(",{:.{}f}", metric(report.metrics, info.name), info.digits);
+  return cells + fmt::format(",{:.3f}", report.milliseconds);
 }
 
 /// Activation and fibers; nan where a muscle has no fibers.
@@ -57,9 +62,8 @@ std::string measures_rows(const Scene& scene, const FrameRecord& record) {
     const MuscleReport report = i < record.report.muscles.size() ? record.report.muscles[i] : MuscleReport{};
     const MuscleFibers fibers = i < record.fibers.size() ? record.fibers[i] : MuscleFibers{};
     const std::vector<Real>& activations = record.frame.pose.activations;
-    rows += begin + "," + scene.muscles[i].name + row_end(measures, report) +
-            fiber_cells(i < activations.size() ? activations[i] : 0, fibers) +
-            fmt::format(",{},{},{}\n", report.virtual_edges, report.virtual_pushes, report.coinciding_edges);
+    rows += begin + "," + scene.muscles[i].name + measure_cells(measures) + report_cells(method_of(scene), report) +
+            fiber_cells(i < activations.size() ? activations[i] : 0, fibers) + "\n";
   }
   return rows;
 }

@@ -10,6 +10,7 @@
 #include <gracilis/io/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh_writer.hpp>
 #include <gracilis/io/polyline_file.hpp>
+#include <gracilis/methods/registry.hpp>
 
 #include <fmt/format.h>
 
@@ -70,11 +71,11 @@ static std::vector<VertexArray> velocity_array(const MuscleShape& shape) {
 }
 
 /// 1 or 0 where the vertex is of an origin, 1 or 0 where of an insertion, and how much of a belly it is, 0 to 1.
-static VertexArray tissue_array(const Muscle& muscle) {
+static VertexArray tissue_array(const Muscle& muscle, Real tendon_length) {
   Points tissue = Points::Zero(3, muscle.surface.vertex_count());
   for (const Attachment& attachment : muscle.attachments)
     for (const Index v : attachment.vertices) tissue(attachment.end == AttachmentEnd::origin ? 0 : 1, v) = 1;
-  const std::vector<Real> belly = belly_shares(muscle);
+  const std::vector<Real> belly = belly_shares(muscle, tendon_length);
   for (std::size_t v = 0; v < belly.size(); ++v) tissue(2, static_cast<Index>(v)) = belly[v];
   return {tissue_name, tissue.reshaped(), 3};
 }
@@ -153,7 +154,7 @@ void RunFolder::write_frame(const FrameRecord& record) {
         const Muscle& muscle = scene_.muscles[static_cast<std::size_t>(i)];
         const MuscleShape& shape = frame.muscles[static_cast<std::size_t>(i)];
         std::vector<VertexArray> arrays = velocity_array(shape);
-        if (frame.number == 0) arrays.push_back(tissue_array(muscle));
+        if (frame.number == 0) arrays.push_back(tissue_array(muscle, tendon_length_of(scene_, muscle)));
         write_surface(frame_file(folder_, muscle.name, frame.number), shape.points, muscle.surface.faces, arrays);
       } else {
         const Bone& bone = scene_.bones[static_cast<std::size_t>(i - muscle_count)];

@@ -1,11 +1,13 @@
+#include <gracilis/io/method_reader.hpp>
 #include <gracilis/io/scene_description.hpp>
 #include <gracilis/io/scene_layers.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/toml_reader.hpp>
-#include <gracilis/scene/presets.hpp>
+#include <gracilis/methods/registry.hpp>
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace gracilis {
 
@@ -186,13 +188,12 @@ static void read_action_line(TomlReader table, ActionLineDescription& descriptio
   table.reject_unknown_keys();
 }
 
-static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& global, const FiberSettings& fibers,
-                                     const ContractionSettings& contraction) {
+static MuscleDescription read_muscle(TomlReader table, const MethodEntry& method, const FiberSettings& fibers,
+                                     const ContractionSettings& contraction, std::set<std::string>& others) {
   MuscleDescription muscle;
   muscle.place = table.place();
   muscle.name = table.required_text("name");
   read_surface(table, muscle);
-  muscle.xpbd = global;
   muscle.fibers = fibers;
   muscle.contraction = contraction;
   if (std::optional<TomlReader> own = table.table("fibers")) read_fibers(std::move(*own), muscle);
@@ -200,7 +201,7 @@ static MuscleDescription read_muscle(TomlReader table, const XpbdSettings& globa
   if (std::optional<TomlReader> line = table.table("action_line"))
     read_action_line(std::move(*line), muscle.action_line);
   if (std::optional<TomlReader> settings = table.table("settings")) {
-    settings->read_settings(muscle.xpbd);
+    read_method_settings(*settings, method, &MethodEntry::settings, muscle.settings, others);
     settings->reject_unknown_keys();
   }
   for (TomlReader& attachment : table.tables("attachments")) {
@@ -450,14 +451,13 @@ static void read_axes(TomlReader& top, AnatomicalAxes& axes) {
   axes.anterior = (anterior - anterior.dot(axes.superior) * axes.superior).normalized();
 }
 
-static void start_from_preset(TomlReader& top, SceneDescription& scene, XpbdSettings& global) {
+static void start_from_preset(TomlReader& top, SceneDescription& scene) {
   scene.preset = top.text("preset").value_or(std::string(presets().front().name));
   std::vector<std::string> names;
   for (const Preset& preset : presets()) names.emplace_back(preset.name);
-  if (const Preset* preset = find_preset(scene.preset)) {
-    global = preset->xpbd;
+  if (const std::optional<Preset> preset = find_preset(scene.preset)) {
+    if (preset->method.name == scene.method.name) scene.method = preset->method;
     scene.distance_fields = preset->distance_fields;
-    scene.contact = preset->contact;
   } else {
     top.add_problem("preset", "there is no preset '" + scene.preset + "'", suggestion(scene.preset, names));
   }
@@ -469,6 +469,30 @@ static void read_section(TomlReader& top, const std::string& key, Settings& sett
   if (!section) return;
   section->read_settings(settings);
   section->reject_unknown_keys();
+}
+
+/// Of an integer or a number.
+static Real number_in(const SettingValue& value) {
+  const int* integer = std::get_if<int>(&value);
+  return integer ? *integer : std::get<Real>(value);
+}
+
+/// What muscles are solved with together is the scene's: the largest value that a muscle asks for.
+static void share_settings(const MethodEntry& method, SceneDescription& scene) {
+  for (const DescribedSetting& setting : method.settings) {
+    const std::string key(setting.key);
+    bool is_given = false;
+    for (MuscleDescription& muscle : scene.muscles) {
+      const auto own = muscle.settings.find(key);
+      if (!setting.is_shared || own == muscle.settings.end()) continue;
+      SettingValue& all = scene.method.settings.emplace(key, setting.default_value).first->second;
+      if (number_in(all) < number_in(own->second)) all = own->second;
+      muscle.settings.erase(own);
+      is_given = true;
+    }
+    if (is_given)
+      scene.notes.push_back("'" + key + "' holds for all muscles together; the largest value given is taken");
+  }
 }
 
 SceneDescription read_scene_description(const std::filesystem::path& path, const std::vector<std::string>& set,
@@ -486,21 +510,25 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
     top.add_problem("schema", "only schema 1 is known to this version");
   }
   scene.name = top.text("name").value_or(path.stem().string());
-  const std::string method = top.text("method").value_or("xpbd");
-  if (method != "xpbd" && method != "cylinder")
-    top.add_problem("method", "there is no method '" + method + "'", suggestion(method, {"xpbd", "cylinder"}));
-  scene.method = method == "cylinder" ? MethodKind::cylinder : MethodKind::xpbd;
+  const MethodEntry& method = read_method(top, scene.method);
   read_axes(top, scene.axes);
-  XpbdSettings global;
-  start_from_preset(top, scene, global);
-  read_section(top, "settings", global);
+  start_from_preset(top, scene);
+  std::set<std::string> of_other_methods, of_other_contact;
+  const auto read_for_all = [&](const char* key, std::vector<DescribedSetting> MethodEntry::*which,
+                                SettingValues& values, std::set<std::string>& others) {
+    std::optional<TomlReader> section = top.table(key);
+    if (!section) return;
+    read_method_settings(*section, method, which, values, others);
+    section->reject_unknown_keys();
+  };
+  read_for_all("settings", &MethodEntry::settings, scene.method.settings, of_other_methods);
+  read_for_all("contact", &MethodEntry::contact, scene.method.contact, of_other_contact);
   read_section(top, "distance_field", scene.distance_fields);
-  read_section(top, "contact", scene.contact);
   read_section(top, "sequence", scene.sequence);
   FiberSettings fibers;
   read_section(top, "fibers", fibers);
   ContractionSettings contraction;
-  if (const Preset* preset = find_preset(scene.preset)) contraction = preset->contraction;
+  if (const std::optional<Preset> preset = find_preset(scene.preset)) contraction = preset->contraction;
   read_section(top, "contraction", contraction);
   if (top.has("prepare")) read_section(top, "prepare", scene.prepare.emplace());
   if (std::optional<TomlReader> landmarks = top.table("landmarks")) {
@@ -510,7 +538,9 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   for (TomlReader& bone : top.tables("bones")) scene.bones.push_back(read_bone(std::move(bone)));
   for (TomlReader& joint : top.tables("joints")) scene.joints.push_back(read_joint(std::move(joint)));
   for (TomlReader& muscle : top.tables("muscles"))
-    scene.muscles.push_back(read_muscle(std::move(muscle), global, fibers, contraction));
+    scene.muscles.push_back(read_muscle(std::move(muscle), method, fibers, contraction, of_other_methods));
+  share_settings(method, scene);
+  if (!of_other_methods.empty()) scene.notes.push_back(note_on_others(scene.method.name, of_other_methods));
   if (std::optional<TomlReader> motion = top.table("motion")) scene.motion = read_motion(std::move(*motion));
   for (TomlReader& each : top.tables("activations")) scene.activations.push_back(read_activation(std::move(each)));
   for (TomlReader& unit : top.tables("joint_control_units"))

@@ -63,7 +63,7 @@ struct MuscleDescription {
   std::string name;
   NamedFile file;  ///< or a box
   std::optional<BoxDescription> box;
-  XpbdSettings xpbd;
+  SettingValues settings;  ///< of the scene's method, for this muscle alone
   FiberSettings fibers;
   NamedFile fiber_file;             ///< empty path: none
   bool superficial_fibers = false;  ///< the file's lines lie on the surface
@@ -136,9 +136,8 @@ struct SceneDescription {
   Sequence sequence;
   DistanceFieldSettings distance_fields;
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
-  ContactSettings contact;
   NamedFile landmarks;
-  MethodKind method = MethodKind::xpbd;
+  MethodChoice method;
   std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
   std::vector<std::string> notes;
 };

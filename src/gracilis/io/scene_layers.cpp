@@ -165,17 +165,13 @@ static toml::table layer_of(const std::string& setting, const std::vector<std::s
   return layer;
 }
 
-SceneLayers load_scene_layers(const fs::path& path, const std::vector<std::string>& set) {
-  SceneLayers layers;
-  std::vector<fs::path> open;
-  add_file(layers, path, open);
-
-  // The preset first: it sets aside what lies below it, but nothing that the command line says itself.
-  std::vector<std::string> ordered = set;
-  std::stable_partition(ordered.begin(), ordered.end(), [](const std::string& s) { return s.starts_with("preset="); });
+/// Lays `set` over the layers. The preset comes first: it sets aside what lies below it, but nothing that the command
+/// line says itself.
+static void add_command_line(SceneLayers& layers, std::vector<std::string> set,
+                             const std::vector<std::string>& muscles) {
+  std::stable_partition(set.begin(), set.end(), [](const std::string& s) { return s.starts_with("preset="); });
   std::vector<Problem> problems;
-  const std::vector<std::string> muscles = muscle_names(layers.table);
-  for (const std::string& setting : ordered) {
+  for (const std::string& setting : set) {
     try {
       toml::table layer = layer_of(setting, muscles);
       toml::table* motion = layers.table["motion"].as_table();
@@ -190,6 +186,20 @@ SceneLayers load_scene_layers(const fs::path& path, const std::vector<std::strin
     }
   }
   if (!problems.empty()) throw ConfigurationError(problems);
+}
+
+SceneLayers command_line_layers(const std::vector<std::string>& set, const std::vector<std::string>& muscles) {
+  SceneLayers layers;
+  add_command_line(layers, set, muscles);
+  return layers;
+}
+
+SceneLayers load_scene_layers(const fs::path& path, const std::vector<std::string>& set) {
+  SceneLayers layers;
+  std::vector<fs::path> open;
+  add_file(layers, path, open);
+  const std::vector<std::string> muscles = muscle_names(layers.table);
+  add_command_line(layers, set, muscles);
   return layers;
 }
 

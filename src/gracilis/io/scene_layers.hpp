@@ -24,4 +24,7 @@ struct SceneLayers {
 /// the scene does not have.
 SceneLayers load_scene_layers(const std::filesystem::path& path, const std::vector<std::string>& set);
 
+/// The command line's settings alone, for a scene with these muscles that comes from no file.
+SceneLayers command_line_layers(const std::vector<std::string>& set, const std::vector<std::string>& muscles);
+
 }  // namespace gracilis

@@ -16,6 +16,7 @@
 #include <gracilis/io/scene_reader.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/table.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/validate.hpp>
 
@@ -45,7 +46,6 @@ class SceneBuilder {
     result_.scene.sequence = description_.sequence;
     result_.scene.axes = description_.axes;
     result_.scene.distance_fields = description_.distance_fields;
-    result_.scene.contact = description_.contact;
     result_.scene.method = description_.method;
     place_bodies();
     stop_at<ConfigurationError>();
@@ -56,6 +56,7 @@ class SceneBuilder {
     place_transversals();
     stop_at<ConfigurationError>();
     std::vector<Problem> invalid = validate(result_.scene);
+    for (Problem& problem : validate_method(result_.scene)) invalid.push_back(std::move(problem));
     for (Problem& problem : invalid) problem.file = description_.files.front().string();
     if (!invalid.empty()) throw ConfigurationError(std::move(invalid));
     let_go_of_attachments();
@@ -234,7 +235,7 @@ class SceneBuilder {
   void read_muscle(const MuscleDescription& description) {
     Muscle& muscle = result_.scene.muscles.emplace_back();
     muscle.name = description.name;
-    muscle.xpbd = description.xpbd;
+    muscle.settings = description.settings;
     muscle.fibers = description.fibers;
     if (!description.fiber_file.path.empty()) {
       read(description.fiber_file, [&](const fs::path& path) {

@@ -1,19 +1,28 @@
 #include <gracilis/io/scene_template.hpp>
-#include <gracilis/scene/presets.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/setting_table.hpp>
 
 namespace gracilis {
 
 /// One line of comment and one of value for each setting; values are those of the default preset.
-template <class Settings>
-static std::string section(const std::string& title) {
+static std::string section(const std::string& title, const std::vector<DescribedSetting>& table) {
   std::string text = "[" + title + "]\n";
-  const Settings defaults;
-  for (const Setting<Settings>& setting : setting_table<Settings>()) {
+  for (const DescribedSetting& setting : table) {
     text += "# " + std::string(setting.meaning) + "\n# " + expectation(setting) + "\n";
-    text += std::string(setting.key) + " = " + to_text(value_of(defaults, setting)) + "\n\n";
+    text += std::string(setting.key) + " = " + to_text(setting.default_value) + "\n\n";
   }
   return text;
+}
+template <class Settings>
+static std::string section(const std::string& title) {
+  return section(title, describe_settings<Settings>());
+}
+
+static std::string method_section() {
+  std::string text = "# Optional: how muscles are deformed; the first is the default:\n";
+  for (const MethodEntry& method : methods())
+    text += "#   \"" + std::string(method.name) + "\": " + std::string(method.meaning) + "\n";
+  return text + "method = \"" + std::string(methods().front().name) + "\"\n\n";
 }
 
 static std::string preset_section() {
@@ -42,11 +51,9 @@ superior = [0, 1, 0]
 # (bones, muscles, ...) by their names; what stands here wins. [motion] is replaced as a whole.
 # include = ["base.toml"]
 
-# Optional: how muscles are deformed. "xpbd" (default): their surfaces, by constraints; "cylinder": sections across an
-# action line, without a solver, for muscles that 'gracilis import' made.
-method = "xpbd"
+)";
 
-# Optional: keep these muscles only.
+static constexpr const char* only_some = R"(# Optional: keep these muscles only.
 # only = ["gluteus_maximus_r"]
 
 )";
@@ -219,24 +226,30 @@ time_step = 0.016666666666666666 # s between frames; default 1/60
 
 )";
 
-/// The section with every line a comment.
-template <class Settings>
-static std::string optional_section(const std::string& title) {
-  std::string text = section<Settings>(title), commented = "# ";
+/// A section with every line a comment.
+static std::string commented_out(std::string text) {
+  std::string commented = "# ";
   text.resize(text.find_last_not_of('\n') + 1);
   for (char c : text) commented += c == '\n' ? std::string("\n# ") : std::string(1, c);
   return commented + "\n\n";
 }
 
 std::string scene_template() {
-  return head + preset_section() + elements +
-         "# How a run goes from the capture pose into the motion and out of it.\n" + section<Sequence>("sequence") +
-         "# Optional: repairs, remeshes and pulls apart all muscles at first use; needs a program built with it.\n" +
-         optional_section<PrepareSettings>("prepare") + "# Distance fields of all bones.\n" +
-         section<DistanceFieldSettings>("distance_field") + "# Contact between muscles.\n" +
-         section<ContactSettings>("contact") + "# Fibers inside all muscles.\n" + section<FiberSettings>("fibers") +
-         "# How active muscles contract.\n" + section<ContractionSettings>("contraction") +
-         "# The XPBD method, for all muscles.\n" + section<XpbdSettings>("settings");
+  const MethodEntry& usual = methods().front();
+  std::string text =
+      head + method_section() + only_some + preset_section() + elements +
+      "# How a run goes from the capture pose into the motion and out of it.\n" + section<Sequence>("sequence") +
+      "# Optional: repairs, remeshes and pulls apart all muscles at first use; needs a program built with it.\n" +
+      commented_out(section<PrepareSettings>("prepare")) + "# Distance fields of all bones.\n" +
+      section<DistanceFieldSettings>("distance_field") + "# Contact between muscles.\n" +
+      section("contact", usual.contact) + "# Fibers inside all muscles.\n" + section<FiberSettings>("fibers") +
+      "# How active muscles contract.\n" + section<ContractionSettings>("contraction") + "# The method '" +
+      std::string(usual.name) + "', for all muscles.\n" + section("settings", usual.settings);
+  for (const MethodEntry& method : methods())
+    if (&method != &usual && !method.settings.empty())
+      text += "# With method = \"" + std::string(method.name) + "\" instead:\n" +
+              commented_out(section("settings", method.settings));
+  return text;
 }
 
 template <class Settings>
@@ -246,11 +259,31 @@ static std::string values(const std::string& title, const Settings& settings) {
   return text;
 }
 
+/// Those of a method: the first of `given` that has a value, else the default.
+static std::string values(const std::string& title, const std::vector<DescribedSetting>& table,
+                          std::initializer_list<const SettingValues*> given) {
+  if (table.empty()) return {};
+  std::string text = title + "\n";
+  for (const DescribedSetting& setting : table) {
+    SettingValue value = setting.default_value;
+    for (const SettingValues* layer : given)
+      if (const auto found = layer->find(setting.key); found != layer->end()) {
+        value = found->second;
+        break;
+      }
+    text += std::string(setting.key) + " = " + to_text(value) + "\n";
+  }
+  return text;
+}
+
 std::string settings_text(const Scene& scene) {
-  std::string text = values("[sequence]", scene.sequence) + values("[distance_field]", scene.distance_fields) +
-                     values("[contact]", scene.contact);
+  const MethodEntry& method = method_of(scene);
+  std::string text = "method = \"" + scene.method.name + "\"\n" + values("[sequence]", scene.sequence) +
+                     values("[distance_field]", scene.distance_fields) +
+                     values("[contact]", method.contact, {&scene.method.contact});
   for (const Muscle& muscle : scene.muscles) {
-    text += "[[muscles]]\nname = \"" + muscle.name + "\"\n" + values("[muscles.settings]", muscle.xpbd) +
+    text += "[[muscles]]\nname = \"" + muscle.name + "\"\n" +
+            values("[muscles.settings]", method.settings, {&muscle.settings, &scene.method.settings}) +
             values("[muscles.fibers]", muscle.fibers) + values("[muscles.contraction]", muscle.contraction);
   }
   return text;

@@ -222,6 +222,16 @@ std::optional<SettingValue> TomlReader::setting_value(const toml::node& node) {
   return SettingValue(vector);
 }
 
+std::optional<SettingValue> TomlReader::setting(const SettingInfo& info) {
+  const std::string key(info.key);
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  std::optional<SettingValue> value = setting_value(*node);
+  if (value) value = accepted(info, *value);
+  if (!value) add_problem(*node, "'" + key + "' must be " + expectation(info), "");
+  return value;
+}
+
 void TomlReader::reject_unknown_keys() {
   for (const auto& [key, node] : *table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;

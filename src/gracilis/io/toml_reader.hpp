@@ -57,15 +57,11 @@ class TomlReader {
   /// Reads every setting of the struct that stands in the table.
   template <class Settings>
   void read_settings(Settings& settings) {
-    for (const Setting<Settings>& setting : setting_table<Settings>()) {
-      const std::string key(setting.key);
-      const toml::node* node = find(key);
-      if (!node) continue;
-      const std::optional<SettingValue> value = setting_value(*node);
-      const std::string message = value ? assign(settings, setting, *value) : "must be " + expectation(setting);
-      if (!message.empty()) add_problem(*node, "'" + key + "' " + message, "");
-    }
+    for (const Setting<Settings>& each : setting_table<Settings>())
+      if (const std::optional<SettingValue> value = setting(each)) each.set(settings, *value);
   }
+  /// The value of a setting where it stands in the table and may be that; adds a problem where it may not.
+  std::optional<SettingValue> setting(const SettingInfo& info);
 
   void add_problem(const std::string& key, const std::string& what, const std::string& remedy = "");
   void add_problem(const toml::node& node, const std::string& what, const std::string& remedy);

@@ -27,8 +27,12 @@ class PlacedMethod final : public DeformationMethod {
       : place_(place), method_(std::move(method)) {}
 
   void reset() override { method_->reset(); }
-  StepReport advance(const Pose& pose) override { return method_->advance(shifted(pose, -place_)); }
-  void watch_passes(PassWatch watch) override { method_->watch_passes(std::move(watch)); }
+  StepReport advance(const Pose& pose, Real time_step) override {
+    return method_->advance(shifted(pose, -place_), time_step);
+  }
+  bool watches_clock() const override { return method_->watches_clock(); }
+  std::string remark() const override { return method_->remark(); }
+  PassTracing* pass_tracing() override { return method_->pass_tracing(); }  // passes tell of motion, not of places
 
   void write(Frame& frame) const override {
     method_->write(frame);

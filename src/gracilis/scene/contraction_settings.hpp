@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/core/types.hpp>
+#include <gracilis/scene/setting_table.hpp>
 
 namespace gracilis {
 
@@ -10,8 +10,9 @@ enum class SurfacePaths {
                   ///< grow with the angle to the fiber direction and with the distance from the fiber
   nearest_joined  ///< published: the vertices nearest to each fiber's points, joined by shortest ways
 };
+constexpr std::array<std::string_view, 2> choices_of(SurfacePaths) { return {"along_fibers", "nearest_joined"}; }
 
-/// How one muscle contracts. Defaults, units and ranges: setting_table<ContractionSettings>().
+/// How one muscle contracts. Defaults, units and ranges: its table.
 struct ContractionSettings {
   Real threshold = 0.02;  ///< activation above which a muscle contracts
   Real shortest = 0.7;    ///< least share of its length at rest that a segment aims at
@@ -25,5 +26,8 @@ struct ContractionSettings {
 inline Real contracted_share(const ContractionSettings& settings, Real activation) {
   return activation < 1 - settings.shortest ? 1 - activation : settings.shortest;
 }
+
+template <>
+std::span<const Setting<ContractionSettings>> setting_table();
 
 }  // namespace gracilis

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/core/types.hpp>
+#include <gracilis/scene/setting_table.hpp>
 
 namespace gracilis {
 
@@ -11,6 +11,7 @@ enum class FiberTemplate {
   curved,    ///< arcs that bulge to one side
   fan        ///< converge towards the insertion
 };
+constexpr std::array<std::string_view, 4> choices_of(FiberTemplate) { return {"parallel", "pennate", "curved", "fan"}; }
 
 /// The fibers of one muscle. Defaults, units and ranges: setting_table<FiberSettings>().
 struct FiberSettings {
@@ -22,5 +23,8 @@ struct FiberSettings {
   Real convergence = 0.5;  ///< how far the fan template draws together at the insertion, 0: not, 1: to a point
   int smoothing = 30;      ///< rounds of smoothing
 };
+
+template <>
+std::span<const Setting<FiberSettings>> setting_table();
 
 }  // namespace gracilis

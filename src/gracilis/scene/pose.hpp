@@ -6,6 +6,9 @@
 
 namespace gracilis {
 
+/// s, between two frames where nothing else is said.
+inline constexpr Real usual_time_step = 1.0 / 60;
+
 /// Where every body is at one instant.
 struct Pose {
   Real time = 0;                       ///< s

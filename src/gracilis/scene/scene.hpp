@@ -8,6 +8,7 @@
 #include <gracilis/scene/activation.hpp>
 #include <gracilis/scene/contraction_settings.hpp>
 #include <gracilis/scene/fiber_settings.hpp>
+#include <gracilis/scene/setting_values.hpp>
 #include <gracilis/scene/settings.hpp>
 
 #include <array>
@@ -108,14 +109,19 @@ struct Transversal {
   std::vector<Index> bones;  ///< that the section keeps out of
 };
 
-/// Which method deforms a scene's muscles.
-enum class MethodKind { xpbd, cylinder };
+/// Which method deforms a scene's muscles, by its name in methods/registry, and what is not as it is by default there.
+/// Only the method knows what its settings mean.
+struct MethodChoice {
+  std::string name = "xpbd";
+  SettingValues settings = {};  ///< of all muscles
+  SettingValues contact = {};   ///< of contact between muscles
+};
 
 struct Muscle {
   std::string name;
   TriangleMesh surface;  ///< closed, oriented outwards
   std::vector<Attachment> attachments;
-  XpbdSettings xpbd;
+  SettingValues settings;  ///< of the scene's method, for this muscle alone
   FiberSettings fibers = {};
   Polylines given_fibers;  ///< from outside; where there are any, none are made from the template
   bool given_are_superficial =
@@ -141,6 +147,9 @@ struct Sequence {
   bool return_to_capture = false;  ///< ramp back to the capture pose at the end
 };
 
+template <>
+std::span<const Setting<Sequence>> setting_table();
+
 /// How the subject stands in the world frame; pictures look along these. Unit and perpendicular to each other. The
 /// defaults are those of OpenSim's models.
 struct AnatomicalAxes {
@@ -160,10 +169,9 @@ struct Scene {
   Motion motion;
   Sequence sequence;
   DistanceFieldSettings distance_fields;
-  ContactSettings contact;
   ActivationPlan activation = {};
   AnatomicalAxes axes = {};
-  MethodKind method = MethodKind::xpbd;
+  MethodChoice method = {};
   std::vector<Transversal> transversals = {};  ///< of the method `cylinder`
 };
 

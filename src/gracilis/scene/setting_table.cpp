@@ -1,211 +1,97 @@
 #include <gracilis/scene/setting_table.hpp>
 
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
 namespace gracilis {
 
-template <>
-std::span<const Setting<XpbdSettings>> setting_table() {
-  using S = XpbdSettings;
-  static const Setting<S> table[] = {
-      {"iterations", &S::iterations, "", 1, 100000, "Inner iterations of the solver in each substep."},
-      {"substeps", &S::substeps, "", 1, 1000, "Outer steps of the solver in each frame."},
-      {"time_step", &S::time_step, "s", 1e-6, 1, "Time that passes in a frame."},
-      {"constraint_time_step", &S::constraint_time_step, "s", 0, 1000,
-       "Time step inside the distance and dihedral projections; 0 takes the substep's own, as the theory asks."},
-      {"time_mode", &S::time_mode, "", 0, 0,
-       "'quasi_static' carries no velocity from frame to frame, 'dynamic' gives the muscle inertia."},
-      {"damping", &S::damping, "", 0, 1, "Factor on all velocities in each step; used by the dynamic mode only."},
-      {"gravity", &S::gravity, "m/s²", -1000, 1000, "Acceleration of free fall."},
-      {"rayleigh_beta", &S::rayleigh_beta, "1/s", 0, 1e6,
-       "Rayleigh dissipation of the distance and dihedral constraints; used by the dynamic mode only."},
-      {"stop_displacement", &S::stop_displacement, "m", 0, 1,
-       "A substep ends early once no vertex moved further in an iteration; 0 never ends it early."},
-      {"stop_milliseconds", &S::stop_milliseconds, "ms", 0, 1e6,
-       "A frame ends early after this time, which makes results depend on the machine; 0 never ends it early."},
-      {"simulated_edge", &S::simulated_edge, "m", 0, 0.1,
-       "Edge length of a coarser copy of the muscle that is simulated and that the surface follows; 0 simulates the "
-       "surface itself."},
-      {"full_iterations", &S::full_iterations, "", 0, 100000,
-       "Iterations on the whole surface in each frame, from where its coarser copy takes it; used with simulated_edge "
-       "and target_fps."},
-      {"target_fps", &S::target_fps, "1/s", 0, 1000,
-       "Rate of frames to hold by fewer iterations and a coarser copy, which makes results depend on the machine; the "
-       "largest of all muscles' counts. 0 holds none."},
-      {"unit_masses", &S::unit_masses, "", 0, 0,
-       "Gives every vertex 1 kg, as the published setting does, instead of its share of the muscle's mass."},
-      {"density", &S::density, "kg/m³", 1, 1e5, "Density of muscle; ignored with unit masses."},
-      {"distance_stiffness", &S::distance_stiffness, "N/m", 0, 1e18,
-       "Stiffness of the surface's edges against stretch."},
-      {"distance_shape_scaling", &S::distance_shape_scaling, "", 0, 0,
-       "Scales each edge's stiffness by A/l² (l its length, A its two triangles), which makes it independent of the "
-       "mesh."},
-      {"fiber_anisotropy", &S::fiber_anisotropy, "", 0, 0,
-       "Scales each edge's stiffness by 1 - |u·v|, u along the edge and v along the fibers."},
-      {"anisotropy_floor", &S::anisotropy_floor, "", 0, 1, "Smallest factor that the anisotropy may reach."},
-      {"dihedral_stiffness", &S::dihedral_stiffness, "N·m", 0, 1e18,
-       "Stiffness of the surface's hinges against bending."},
-      {"dihedral_shape_scaling", &S::dihedral_shape_scaling, "", 0, 0,
-       "Scales each hinge's stiffness by 3 l²/A (l its edge, A its two triangles), which makes it independent of the "
-       "mesh."},
-      {"dihedral_formula", &S::dihedral_formula, "", 0, 0,
-       "Measure of the hinge's angle: 'atan2' is stable everywhere, 'arccos' is the published one."},
-      {"volume_compliance", &S::volume_compliance, "m⁶/J", 0, 1e6,
-       "Compliance of the enclosed volume; 0 keeps it exactly."},
-      {"pressure", &S::pressure, "", 0.01, 100, "Volume aimed at, as a multiple of the volume at rest."},
-      {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Gap kept between muscle and bone where the gap at rest allows."},
-      {"bone_rest_gap", &S::bone_rest_gap, "", 0, 0,
-       "Where a point is closer than the margin in the capture pose, keeps that gap, so that the rest stays at rest."},
-      {"edge_contact", &S::edge_contact, "", 0, 0, "Keeps edges and large triangles out of the bones, not vertices only."},
-      {"tunnelling", &S::tunnelling, "", 0, 0,
-       "Keeps fast vertices from passing through bones: 'kept_path' limits each step along its path, 'turned_direction' is "
-       "the published test, 'none' does nothing."},
-      {"slide_on_bone", &S::slide_on_bone, "", 0, 0,
-       "Name of a bone from which the muscle does not lift off: vertices near it in the capture pose keep their distance "
-       "and slide along it; empty for none."},
-      {"slide_reach", &S::slide_reach, "m", 0, 0.1, "Vertices this near to that bone in the capture pose slide on it."},
-      {"predictor", &S::predictor, "", 0, 0,
-       "Carries the free vertices with the bones before the solver relaxes them."},
-      {"skinning", &S::skinning, "", 0, 0,
-       "What carries them: 'strings', the muscle's fibers pulled tight among the bones, or 'bodies', a blend of the motions "
-       "of the bodies that the muscle is attached to."},
-      {"tendon_length", &S::tendon_length, "m", 0, 1,
-       "Distance from the attachments over which the surface is graded from tendon to belly, so that the bones' motion "
-       "stretches the belly and not the triangles beside an attachment; 0 grades nothing."},
-      {"step_turn", &S::step_turn, "rad", 0, 3.2,
-       "Largest turn of the muscle's bones against each other that is taken in one step; frames that turn them further "
-       "are divided. 0 never divides."},
-      {"settling_rounds", &S::settling_rounds, "", 0, 1000,
-       "Rounds of volume and contact alone after the last iteration, so that neither undoes the other."},
-      {"shape_recovery", &S::shape_recovery, "", 0, 1,
-       "Share of its displacement from the carried rest shape that the predictor takes back in each step."},
-      {"hinge_limit", &S::hinge_limit, "", 0, 10,
-       "Largest motion that one projection of a hinge may cause, as a share of its edge; 0 sets no limit."},
-      {"stretch_limit", &S::stretch_limit, "", 0, 1000,
-       "Longest an edge may become as a multiple of its length at rest; 0 sets no limit."},
-      {"slack_uptake", &S::slack_uptake, "", 0, 0,
-       "Edges aim at the lengths they have on the surface carried with the bones, so that a muscle shortens and lengthens "
-       "where the motion asks for it instead of folding."},
-  };
-  return table;
+std::string to_text(Real value) {
+  char buffer[40];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+  std::string text(buffer, result.ptr);
+  // TOML tells floats from integers by the point or the exponent.
+  if (text.find_first_not_of("-0123456789") == std::string::npos) text += ".0";
+  return text;
 }
 
-template <>
-std::span<const Setting<DistanceFieldSettings>> setting_table() {
-  using S = DistanceFieldSettings;
-  static const Setting<S> table[] = {
-      {"cell_size", &S::cell_size, "m", 1e-5, 1, "Edge of the grid's cells; used where resolution is 0."},
-      {"resolution", &S::resolution, "", 0, 1024, "Cells along each axis; 0 takes cell_size instead."},
-      {"domain_margin", &S::domain_margin, "m", 0, 1, "Width of the grid around the bone's bounding box."},
-      {"domain_factor", &S::domain_factor, "", 1, 10, "The bounding box is scaled by this about its center first."},
-  };
-  return table;
+Real shortest_decimal(float value) {
+  char buffer[40];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  Real decimal = 0;
+  std::from_chars(buffer, end, decimal);
+  return decimal;
 }
 
-template <>
-std::span<const Setting<FiberSettings>> setting_table() {
-  using S = FiberSettings;
-  static const Setting<S> table[] = {
-      {"count", &S::count, "", 0, 100000, "Fibers inside the muscle; 0 makes none."},
-      {"segments", &S::segments, "", 1, 10000, "Pieces of each fiber."},
-      {"shape", &S::shape, "", 0, 0,
-       "How fibers run from origin to insertion: side by side, at an angle, in arcs, or drawn together at the "
-       "insertion."},
-      {"pennation", &S::pennation, "rad", -1.2, 1.2, "Angle of pennate fibers to the muscle's axis."},
-      {"curvature", &S::curvature, "", -0.5, 0.5,
-       "Largest deflection of curved fibers, as a share of the muscle's width."},
-      {"convergence", &S::convergence, "", 0, 1,
-       "How far a fan draws together at the insertion: 0 not at all, 1 to a point."},
-      {"smoothing", &S::smoothing, "", 0, 10000, "Rounds of smoothing; the fibers' ends stay in place."},
+static std::string range_text(Real minimum, Real maximum) {
+  const auto plain = [](Real value) {
+    if (value == std::floor(value) && std::abs(value) <= 1e6) return std::to_string(static_cast<long>(value));
+    return to_text(value);
   };
-  return table;
+  return "from " + plain(minimum) + " to " + plain(maximum);
 }
 
-template <>
-std::span<const Setting<ContractionSettings>> setting_table() {
-  using S = ContractionSettings;
-  static const Setting<S> table[] = {
-      {"threshold", &S::threshold, "", 0, 1, "Activation above which a muscle contracts."},
-      {"shortest", &S::shortest, "", 0.1, 1,
-       "A segment of a surface fiber aims at its length at rest times the larger of this and 1 - activation."},
-      {"stiffness", &S::stiffness, "N/m", 0, 1e18,
-       "Tension across each metre of the surface's width per relative excess length, however many fibers there are; "
-       "full from the activation on at which segments aim at the shortest."},
-      {"spread", &S::spread, "", 0, 0,
-       "All edges that run along the fibers pull, by their direction; false: only the edges that fibers carried onto the "
-       "surface pass through, as published."},
-      {"paths", &S::paths, "", 0, 0,
-       "How fibers are carried onto the surface, without spread: 'along_fibers' follows their direction, 'nearest_joined' is the "
-       "published way by nearest vertices."},
-      {"segments", &S::segments, "", 1, 10000, "Pieces of each fiber that is carried onto the surface."},
-  };
-  return table;
+std::string to_text(const SettingValue& value) {
+  if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+  if (const int* integer = std::get_if<int>(&value)) return std::to_string(*integer);
+  if (const Real* number = std::get_if<Real>(&value)) return to_text(*number);
+  if (const Vec3* vector = std::get_if<Vec3>(&value)) {
+    return "[" + to_text(vector->x()) + ", " + to_text(vector->y()) + ", " + to_text(vector->z()) + "]";
+  }
+  return "\"" + std::get<std::string>(value) + "\"";
 }
 
-template <>
-std::span<const Setting<Sequence>> setting_table() {
-  using S = Sequence;
-  static const Setting<S> table[] = {
-      {"ramp_frames", &S::ramp_frames, "", 0, 100000,
-       "Frames from the capture pose to the motion's first pose; 0 takes as many as steps of 1 degree need."},
-      {"settle_frames", &S::settle_frames, "", 0, 100000,
-       "Frames that repeat the motion's first pose before it begins, in which muscles come to rest. 'gracilis rom' holds "
-       "30 where this is 0."},
-      {"hold_frames", &S::hold_frames, "", 0, 100000, "Frames that repeat the motion's last pose."},
-      {"return_to_capture", &S::return_to_capture, "", 0, 0, "Ends with a ramp back to the capture pose."},
-  };
-  return table;
+std::string expectation(const SettingInfo& setting) {
+  const std::string range =
+      range_text(setting.minimum, setting.maximum) + (setting.unit.empty() ? "" : " " + std::string(setting.unit));
+  switch (setting.kind) {
+    case SettingKind::flag:
+      return "true or false";
+    case SettingKind::integer:
+      return "an integer " + range;
+    case SettingKind::number:
+      return "a number " + range;
+    case SettingKind::vector:
+      return "three numbers " + range;
+    case SettingKind::text:
+      return "a text in quotes";
+    case SettingKind::choice:
+      break;
+  }
+  std::string text = "one of";
+  for (const std::string_view choice : setting.choices)
+    text += (text.back() == 'f' ? " '" : ", '") + std::string(choice) + "'";
+  return text;
 }
 
-template <>
-std::span<const Setting<ContactSettings>> setting_table() {
-  using S = ContactSettings;
-  static const Setting<S> table[] = {
-      {"muscle", &S::muscle, "", 0, 0,
-       "How muscles keep out of each other: 'surface' by nearest triangles and crossing edges, 'virtual-edges' as "
-       "published, 'none' not at all."},
-      {"self", &S::self, "", 0, 0, "A muscle keeps out of itself; with 'surface' only. Not where it is made of sections across a line."},
-      {"margin", &S::margin, "m", 0, 0.1, "Gap kept between muscles where the gap at rest allows."},
-      {"reach", &S::reach, "m", 0, 0.1, "Farthest that another muscle is looked for, once per step; with 'surface' only."},
-      {"friction", &S::friction, "", 0, 10, "Coulomb's coefficient of friction between muscles."},
-      {"cohesion", &S::cohesion, "m", 0, 0.1,
-       "Farthest that parts of muscles which touch in the capture pose may part; 0 lets them."},
-      {"update_period", &S::update_period, "", 1, 100000,
-       "Frames after which everything is searched, or virtual edges seeded, from nothing but where the muscles are; "
-       "--resume goes on from such a frame. What comes near sooner is found sooner."},
-      {"seed_reach", &S::seed_reach, "m", 0, 1,
-       "Virtual edges: longest that one may be where it is seeded, from each vertex of one muscle to the nearest of "
-       "another."},
-      {"walk_steps", &S::walk_steps, "", 1, 100000,
-       "Virtual edges: most steps of a walk over neighboring vertices to a shorter edge."},
-      {"contact_distance", &S::contact_distance, "m", 0, 0.1,
-       "Virtual edges: distance to which the ends of a shorter one are pushed apart."},
-      {"adaptive_distance", &S::adaptive_distance, "", 0, 0,
-       "Virtual edges: raises the contact distance to what the ends came nearer in the step, at most to seed_reach."},
-      {"resolution", &S::resolution, "", 0, 0,
-       "Virtual edges: ends are pushed apart along the line between them ('push'), or leaned toward where they were before "
-       "the step, as much as along the line ('unit_sum') or the more the farther they came ('vector_sum')."},
-      {"reset_edges", &S::reset_edges, "", 0, 0,
-       "Virtual edges: walks begin at the seeds in every iteration instead of where the last one ended."},
-      {"coinciding_edges", &S::coinciding_edges, "", 0, 0,
-       "Virtual edges: those that end a frame on the same vertices are left ('keep'), left out until the next seeding "
-       "('drop'), or begin again at a random seed ('reseed')."},
-  };
-  return table;
-}
-
-template <>
-std::span<const Setting<PrepareSettings>> setting_table() {
-  using S = PrepareSettings;
-  static const Setting<S> table[] = {
-      {"edge_length", &S::edge_length, "m", 0, 0.1, "Edge length of the new triangles; 0 keeps the triangles."},
-      {"remeshing_rounds", &S::remeshing_rounds, "", 1, 100,
-       "Rounds of splitting, collapsing, flipping and smoothing edges."},
-      {"smoothing_rounds", &S::smoothing_rounds, "", 0, 1000, "Rounds of smoothing the whole surface first."},
-      {"rounding_rounds", &S::rounding_rounds, "", 0, 1000,
-       "Rounds of smoothing spikes and rims at which the surface turns by more than 80 degrees."},
-      {"muscle_gap", &S::muscle_gap, "m", 0, 0.01, "Gap that is made between two muscles where they are closer."},
-      {"bone_gap", &S::bone_gap, "m", 0, 0.01, "Gap that is made between a muscle and a bone where they are closer."},
-  };
-  return table;
+std::optional<SettingValue> accepted(const SettingInfo& setting, const SettingValue& value) {
+  const auto inside = [&](Real number) { return number >= setting.minimum && number <= setting.maximum; };
+  bool fits = false;
+  switch (setting.kind) {
+    case SettingKind::flag:
+      fits = std::holds_alternative<bool>(value);
+      break;
+    case SettingKind::integer:
+      fits = std::holds_alternative<int>(value) && inside(std::get<int>(value));
+      break;
+    case SettingKind::number:
+      if (const int* integer = std::get_if<int>(&value)) return accepted(setting, static_cast<Real>(*integer));
+      fits = std::holds_alternative<Real>(value) && inside(std::get<Real>(value));
+      break;
+    case SettingKind::vector:
+      if (const Vec3* vector = std::get_if<Vec3>(&value))
+        fits = inside(vector->x()) && inside(vector->y()) && inside(vector->z());
+      break;
+    case SettingKind::text:
+      fits = std::holds_alternative<std::string>(value);
+      break;
+    case SettingKind::choice:
+      fits = std::holds_alternative<std::string>(value) &&
+             std::find(setting.choices.begin(), setting.choices.end(), std::get<std::string>(value)) !=
+                 setting.choices.end();
+      break;
+  }
+  return fits ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace gracilis

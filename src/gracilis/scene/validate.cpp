@@ -145,12 +145,6 @@ struct Validation {
     }
   }
 
-  void check_slide(const std::string& where, const std::string& name) {
-    const bool known = name.empty() || std::any_of(scene.bones.begin(), scene.bones.end(),
-                                                   [&](const Bone& bone) { return bone.name == name; });
-    if (!known) add(where, "'slide_on_bone' names '" + name + "', but the scene has no such bone");
-  }
-
   void check_coordinate(const std::string& where, const LineCoordinate& coordinate) {
     Index count = 0;
     for (const Joint& joint : scene.joints) count += static_cast<Index>(joint.axes.size());
@@ -189,11 +183,7 @@ struct Validation {
   /// The surface must have as many vertices as its sections ask for.
   void check_line(const std::string& where, const Muscle& muscle) {
     const ActionLine& line = muscle.action_line;
-    if (line.rays == 0) {
-      if (scene.method == MethodKind::cylinder)
-        add(where, "the method 'cylinder' needs its action line", "add [muscles.action_line]");
-      return;
-    }
+    if (line.rays == 0) return;
     for (const Index body : line.bodies) check_body(where, body);
     check_path(where, line.path);
     if (line.rays < 6 || line.rays % 2 != 0) add(where, "its sections must have an even number of corners, 6 or more");
@@ -236,12 +226,10 @@ struct Validation {
       const std::string where = "muscle '" + muscle.name + "'";
       check_surface(where, muscle.surface);
       check_line(where, muscle);
-      check_settings(where, muscle.xpbd);
       check_settings(where, muscle.fibers);
       check_settings(where, muscle.contraction);
       for (const Polylines* lines : {&muscle.given_fibers, &muscle.given_surface_fibers})
         if (!lines->points.allFinite()) add(where, "a point of its fibers is not finite");
-      check_slide(where, muscle.xpbd.slide_on_bone);
       std::map<Index, const Attachment*> owners;
       for (const Attachment& attachment : muscle.attachments) {
         check_attachment(where + ", attachment '" + attachment.name + "'", muscle, attachment, owners);
@@ -255,15 +243,6 @@ struct Validation {
           add(where, end == AttachmentEnd::origin ? "it has no origin" : "it has no insertion", "add an attachment");
       }
     }
-  }
-
-  void check_contact() {
-    const ContactSettings& contact = scene.contact;
-    check_settings("contact", contact);
-    if (contact.muscle == MuscleContact::virtual_edges && !(contact.seed_reach > contact.contact_distance))
-      add("contact",
-          "virtual edges are seeded no farther than 'contact_distance', so muscles meet before they are found",
-          "give 'seed_reach' a larger value");
   }
 
   void check_activation() {
@@ -351,7 +330,6 @@ std::vector<Problem> validate(const Scene& scene) {
   validation.check_activation();
   validation.check_motion();
   validation.check_settings("distance_field", scene.distance_fields);
-  validation.check_contact();
   validation.check_settings("sequence", scene.sequence);
   return validation.problems;
 }

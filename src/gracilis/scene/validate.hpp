@@ -11,7 +11,8 @@ namespace gracilis {
 /// names are unique and fit for file names, indices lie in range, numbers are finite, joints stand parents before
 /// children and connect every body to bodies[0], axes have unit length, surfaces have triangles, attachments have
 /// ascending vertices of which none is fixed to two bodies, settings lie within their ranges, and the motion's times
-/// increase. Whether a surface is closed is for `inspect` and the readers to say.
+/// increase. Whether a surface is closed is for `inspect` and the readers to say; what its method asks for, for
+/// `validate_method` (methods/registry.hpp).
 std::vector<Problem> validate(const Scene& scene);
 
 }  // namespace gracilis

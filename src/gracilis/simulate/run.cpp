@@ -4,23 +4,30 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/stop.hpp>
 
-#include <algorithm>
 #include <future>
 
 namespace gracilis {
 
 namespace {
 
+/// s, that pass before a pose; the usual time where poses say nothing of theirs.
+Real time_before(const std::vector<Pose>& poses, int number) {
+  const auto at = static_cast<std::size_t>(number);
+  const Real passed = poses[at].time - poses[at - 1].time;
+  return passed > 0 ? passed : usual_time_step;
+}
+
 /// One frame, not measured yet. Throws Interrupted where it shall stop.
-FrameRecord make_frame(const Scene& scene, const Pose& pose, int number, DeformationMethod& method) {
+FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int number, DeformationMethod& method) {
   throw_if_stopped();
+  const Pose& pose = poses[static_cast<std::size_t>(number)];
   FrameRecord now;
   if (number == 0) {
     now.frame = capture_frame(scene, pose);
     now.report.muscles.resize(scene.muscles.size());
   } else {
     try {
-      now.report = method.advance(pose);
+      now.report = method.advance(pose, time_before(poses, number));
     } catch (const QualityError& error) {
       throw QualityError("frame " + std::to_string(number) + ": " + error.what());
     }
@@ -64,10 +71,7 @@ class FrameRecorder {
 };
 
 /// Whether frames may be recorded beside the solver: not on a single thread, nor where the solver watches the clock.
-bool may_record_beside(const Scene& scene) {
-  return thread_count() > 1 && std::none_of(scene.muscles.begin(), scene.muscles.end(),
-                                            [](const Muscle& muscle) { return muscle.xpbd.target_fps > 0; });
-}
+bool may_record_beside(const DeformationMethod& method) { return thread_count() > 1 && !method.watches_clock(); }
 
 }  // namespace
 
@@ -76,11 +80,6 @@ Frame capture_frame(const Scene& scene, const Pose& pose) {
   frame.pose = pose;
   for (const Muscle& muscle : scene.muscles) frame.muscles.push_back({muscle.surface.vertices});
   return frame;
-}
-
-int resume_period(const Scene& scene) {
-  const bool remembers = scene.method == MethodKind::xpbd && scene.contact.muscle != MuscleContact::none;
-  return remembers ? scene.contact.update_period : 1;
 }
 
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
@@ -96,11 +95,11 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
       method.restore({poses.begin(), poses.begin() + next}, resume->before, resume->last);
       for (int i = 0; i < next; ++i) measurer.pass(poses[static_cast<std::size_t>(i)]);
     }
-    FrameRecorder recorder(measurer, tracker, record, may_record_beside(scene));
+    FrameRecorder recorder(measurer, tracker, record, may_record_beside(method));
     for (; next < static_cast<int>(poses.size()); ++next) {
       FrameRecord now;
       try {
-        now = make_frame(scene, poses[static_cast<std::size_t>(next)], next, method);
+        now = make_frame(scene, poses, next, method);
       } catch (...) {
         recorder.finish();
         throw;

@@ -20,11 +20,7 @@ struct FrameRecord {
   std::vector<MuscleFibers> fibers = {};  ///< in the scene's order; empty where fibers are not followed
 };
 
-/// An interrupted run goes on after a frame whose number is a multiple of this, because what finds contact remembers
-/// more than frames record in between.
-int resume_period(const Scene& scene);
-
-/// Where an interrupted run goes on: such a frame and the one before it.
+/// Where an interrupted run goes on: a frame whose number is a multiple of resume_period(scene), and the one before it.
 struct ResumePoint {
   Frame before, last;
 };

@@ -161,7 +161,7 @@ class CylinderMethod final : public DeformationMethod {
     for (std::size_t m = 0; m < muscles_.size(); ++m) shapes_[m] = lines_[m].surface.vertices;
   }
 
-  StepReport advance(const Pose& pose) override {
+  StepReport advance(const Pose& pose, Real) override {
     StepReport report;
     report.muscles.resize(muscles_.size());
     std::vector<CylinderShape> shapes(muscles_.size());
@@ -201,6 +201,22 @@ class CylinderMethod final : public DeformationMethod {
 };
 
 }  // namespace
+
+static std::vector<Problem> validate_cylinder(const Scene& scene) {
+  std::vector<Problem> problems;
+  for (const Muscle& muscle : scene.muscles)
+    if (muscle.action_line.rays == 0)
+      problems.push_back({"", "muscle '" + muscle.name + "'", "the method 'cylinder' needs its action line",
+                          "add [muscles.action_line]"});
+  return problems;
+}
+
+MethodEntry cylinder_entry() {
+  return {.name = "cylinder",
+          .meaning = "sections across an action line, without a solver, for muscles that 'gracilis import' made",
+          .validate = validate_cylinder,
+          .make = [](const Scene& scene, const BoneFieldSource&) { return make_cylinder_method(scene); }};
+}
 
 std::unique_ptr<DeformationMethod> make_cylinder_method(const Scene& scene) {
   return std::make_unique<CylinderMethod>(scene);

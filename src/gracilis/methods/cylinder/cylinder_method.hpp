@@ -1,11 +1,14 @@
 #pragma once
 
-#include <gracilis/methods/method.hpp>
+#include <gracilis/methods/method_entry.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <memory>
 
 namespace gracilis {
+
+/// The method `cylinder`.
+MethodEntry cylinder_entry();
 
 /// Muscles as sections across their action lines (Laclé 2014): no solver, a few thousand frames of a muscle per second.
 /// The line's points move with their bodies. Sections keep their place along it: in the tendon, which keeps its length,

@@ -121,7 +121,7 @@ std::vector<float> ceilings(const PreparedMuscle& prepared, const std::vector<fl
 
 FieldContactSet bone_contact(const PreparedMuscle& prepared, const MeshTopology& topology, const Bone& bone,
                              const DistanceField& field) {
-  const XpbdSettings& settings = prepared.settings;
+  const BoneContactSettings& settings = prepared.settings;
   const auto margin = static_cast<float>(settings.bone_margin);
   const auto cell = static_cast<float>(field.cell_size.maxCoeff());
   const std::vector<float> distances = rest_distances(prepared, field);
@@ -143,17 +143,7 @@ FieldContactSet bone_contact(const PreparedMuscle& prepared, const MeshTopology&
         keeps[p] ? std::min(margin, contact.captured.particle.back() + given_back_by_kept * cell) : margin);
   }
   contact.ceiling = ceilings(prepared, distances, bone);
-  switch (settings.tunnelling) {
-    case TunnellingGuard::none:
-      contact.guard = MotionGuard::none;
-      break;
-    case TunnellingGuard::turned_direction:
-      contact.guard = MotionGuard::turned_direction;
-      break;
-    case TunnellingGuard::kept_path:
-      contact.guard = MotionGuard::kept_path;
-      break;
-  }
+  contact.guard = settings.tunnelling;
   if (!settings.edge_contact) return contact;
   if (settings.bone_rest_gap) contact.middles = middles_of_kept(prepared, field, contact.captured.particle, keeps);
   for (std::size_t slot = 0; slot < edges.a.size(); ++slot)

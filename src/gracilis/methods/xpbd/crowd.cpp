@@ -3,6 +3,8 @@
 #include <gracilis/dynamics/coloring.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/xpbd/rest_gaps.hpp>
+#include <gracilis/methods/xpbd/settings.hpp>
+#include <gracilis/scene/setting_values.hpp>
 
 #include <algorithm>
 
@@ -56,12 +58,11 @@ SurfacePair pair_of(Index first, Index second, const std::vector<PreparedMuscle>
   return pair;
 }
 
-SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
+SurfaceCrowd surfaces_of(const ContactSettings& settings, const SurfaceContactSettings& meeting,
+                         const std::vector<PreparedMuscle>& muscles) {
   SurfaceCrowd crowd;
   const auto margin = static_cast<float>(settings.margin);
-  crowd.settings.friction = static_cast<float>(settings.friction);
-  crowd.settings.cohesion = static_cast<float>(settings.cohesion);
-  crowd.settings.update_period = settings.update_period;
+  crowd.settings = meeting;
   crowd.settings.most_motion = static_cast<float>(settings.reach);
   const auto count = static_cast<Index>(muscles.size());
   std::vector<const Particles*> rest;
@@ -93,40 +94,9 @@ SurfaceCrowd surfaces_of(const ContactSettings& settings, const std::vector<Prep
   return crowd;
 }
 
-EdgeResolution resolution_of(VirtualEdgeResolution resolution) {
-  switch (resolution) {
-    case VirtualEdgeResolution::push:
-      return EdgeResolution::push;
-    case VirtualEdgeResolution::unit_sum:
-      return EdgeResolution::unit_sum;
-    case VirtualEdgeResolution::vector_sum:
-      break;
-  }
-  return EdgeResolution::vector_sum;
-}
-
-CoincidingEdgeRule rule_of(CoincidingEdges rule) {
-  switch (rule) {
-    case CoincidingEdges::drop:
-      return CoincidingEdgeRule::drop;
-    case CoincidingEdges::reseed:
-      return CoincidingEdgeRule::reseed;
-    case CoincidingEdges::keep:
-      break;
-  }
-  return CoincidingEdgeRule::keep;
-}
-
-VirtualEdgeCrowd edges_of(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
+VirtualEdgeCrowd edges_of(const VirtualEdgeSettings& settings, const std::vector<PreparedMuscle>& muscles) {
   VirtualEdgeCrowd crowd;
-  crowd.settings.reach = static_cast<float>(settings.seed_reach);
-  crowd.settings.distance = static_cast<float>(settings.contact_distance);
-  crowd.settings.adaptive = settings.adaptive_distance;
-  crowd.settings.walk_steps = settings.walk_steps;
-  crowd.settings.update_period = settings.update_period;
-  crowd.settings.resolution = resolution_of(settings.resolution);
-  crowd.settings.reset = settings.reset_edges;
-  crowd.settings.coinciding = rule_of(settings.coinciding_edges);
+  crowd.settings = settings;
   std::vector<std::array<Index, 2>> pairs;
   for (std::size_t first = 0; first < muscles.size(); ++first) {
     crowd.stars.push_back(build_topology(muscles[first].faces, muscles[first].system.rest.count()).stars);
@@ -142,10 +112,14 @@ VirtualEdgeCrowd edges_of(const ContactSettings& settings, const std::vector<Pre
 
 }  // namespace
 
-MuscleCrowd prepare_crowd(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles) {
+MuscleCrowd prepare_crowd(const Scene& scene, const std::vector<PreparedMuscle>& muscles) {
+  const SettingValues& values = scene.method.contact;
+  const ContactSettings settings = contact_settings(scene);
   MuscleCrowd crowd;
-  if (settings.muscle == MuscleContact::surface) crowd.surfaces = surfaces_of(settings, muscles);
-  if (settings.muscle == MuscleContact::virtual_edges) crowd.edges = edges_of(settings, muscles);
+  if (settings.muscle == MuscleContact::surface)
+    crowd.surfaces = surfaces_of(settings, with_values(SurfaceContactSettings{}, values), muscles);
+  if (settings.muscle == MuscleContact::virtual_edges)
+    crowd.edges = edges_of(with_values(VirtualEdgeSettings{}, values), muscles);
   return crowd;
 }
 

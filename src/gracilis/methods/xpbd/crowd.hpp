@@ -3,7 +3,7 @@
 #include <gracilis/dynamics/surface_contact.hpp>
 #include <gracilis/dynamics/virtual_edges.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
-#include <gracilis/scene/settings.hpp>
+#include <gracilis/scene/scene.hpp>
 
 #include <vector>
 
@@ -25,7 +25,7 @@ struct MuscleCrowdState {
 
 /// Which muscles may meet and, in surface contact, with what gaps, measured at rest. No pairs when contact is switched
 /// off.
-MuscleCrowd prepare_crowd(const ContactSettings& settings, const std::vector<PreparedMuscle>& muscles);
+MuscleCrowd prepare_crowd(const Scene& scene, const std::vector<PreparedMuscle>& muscles);
 
 /// A state for muscles at rest.
 MuscleCrowdState make_crowd_state(const MuscleCrowd& crowd);

@@ -11,7 +11,7 @@ namespace gracilis::xpbd {
 namespace {
 
 std::vector<MuscleStep> steps_of(const Level& level, const std::vector<Real>& activations,
-                                 std::vector<MuscleState>& next, std::vector<MuscleReport>& reports) {
+                                 std::vector<MuscleState>& next, std::vector<StepCounts>& reports) {
   std::vector<MuscleStep> steps;
   for (std::size_t m = 0; m < level.muscles.size(); ++m)
     steps.push_back({&level.muscles[m], &next[m], &reports[m], activations[m], m, &level.watch});
@@ -63,7 +63,7 @@ Level make_level(const Scene& scene, const std::vector<DistanceField>& fields,
     level.muscles[m] = prepare_muscle(scene, scene.muscles[m], fields, carrying[m]);
     level.states[m] = make_muscle_state(level.muscles[m], level.bodies);
   });
-  if (meet) level.crowd = prepare_crowd(scene.contact, level.muscles);
+  if (meet) level.crowd = prepare_crowd(scene, level.muscles);
   level.crowd_state = make_crowd_state(level.crowd);
   return level;
 }
@@ -75,7 +75,7 @@ void reset(Level& level) {
 }
 
 void advance(Level& level, const Pose& before, const Pose& now, const std::vector<Real>& activations,
-             std::vector<MuscleState>& next, std::vector<MuscleReport>& reports) {
+             std::vector<MuscleState>& next, std::vector<StepCounts>& reports) {
   const std::vector<MuscleStep> steps = steps_of(level, activations, next, reports);
   for (std::size_t m = 0; m < reports.size(); ++m)
     reports[m].triangles = static_cast<Index>(level.muscles[m].faces.cols());
@@ -109,7 +109,7 @@ CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std
   Scene copies = scene;
   std::vector<CoarserMuscle> coarser_muscles(scene.muscles.size());
   parallel_for_each(coarser_muscles.size(), [&](std::size_t m) {
-    coarser_muscles[m] = coarser_muscle(scene.muscles[m], scene.muscles[m].xpbd.simulated_edge);
+    coarser_muscles[m] = coarser_muscle(scene.muscles[m], xpbd_settings(scene, scene.muscles[m]).simulated_edge);
     copies.muscles[m] = coarser_muscles[m].muscle;
   });
   std::vector<CarryingStrings> carrying;
@@ -125,7 +125,7 @@ CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std
 
 void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const Pose& now,
             const std::vector<Real>& activations, std::vector<MuscleState>& next_coarse,
-            std::vector<MuscleState>& next_full, std::vector<MuscleReport>& reports) {
+            std::vector<MuscleState>& next_full, std::vector<StepCounts>& reports) {
   std::vector<Particles> placed(next_full.size());
   parallel_for_each(placed.size(), [&](std::size_t m) {
     placed[m] = next_full[m].particles;
@@ -134,7 +134,7 @@ void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const 
     prolong(coarser.prolongations[m], coarser.level.muscles[m], next_coarse[m], full.muscles[m], next_full[m], now,
             placed[m]);
   });
-  std::vector<MuscleReport> refined(reports.size());
+  std::vector<StepCounts> refined(reports.size());
   refine_together(steps_of(full, activations, next_full, refined), full.crowd, full.crowd_state, before, now, placed);
   for (std::size_t m = 0; m < reports.size(); ++m) {
     reports[m].contacts = refined[m].contacts;

@@ -37,7 +37,7 @@ void reset(Level& level);
 /// Moves `next`, a copy of the level's states, from one pose to the next. Throws QualityError; `next` is then of no use
 /// and the level as it was.
 void advance(Level& level, const Pose& before, const Pose& now, const std::vector<Real>& activations,
-             std::vector<MuscleState>& next, std::vector<MuscleReport>& reports);
+             std::vector<MuscleState>& next, std::vector<StepCounts>& reports);
 
 /// Coarser copies of a scene's muscles that are simulated in their place.
 struct CoarserLevel {
@@ -53,7 +53,7 @@ CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std
 /// there, and puts the copies back onto them. Throws as `advance`.
 void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const Pose& now,
             const std::vector<Real>& activations, std::vector<MuscleState>& next_coarse,
-            std::vector<MuscleState>& next_full, std::vector<MuscleReport>& reports);
+            std::vector<MuscleState>& next_full, std::vector<StepCounts>& reports);
 
 /// Puts the copies' states where those of the whole surfaces are.
 void follow_full(const Level& full, CoarserLevel& coarser);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace gracilis::xpbd {
 
@@ -18,6 +19,33 @@ void see_frame(Pace& pace, Real milliseconds) {
   if (!(pace.budget > 0 && milliseconds > 0)) return;
   const Real factor = std::clamp(aim * pace.budget / milliseconds, largest_fall, largest_rise);
   pace.share = std::clamp(pace.share * factor, smallest_share, Real{1});
+}
+
+Metrics metrics_of(const FramePace& frame) {
+  return {{"target_fps", frame.target_fps},
+          {"frame_milliseconds", frame.milliseconds},
+          {"iterations", static_cast<Real>(frame.iterations)},
+          {"asked_iterations", static_cast<Real>(frame.asked_iterations)},
+          {"triangles", static_cast<Real>(frame.triangles)},
+          {"asked_triangles", static_cast<Real>(frame.asked_triangles)}};
+}
+
+std::string remark_on(const std::vector<FramePace>& frames) {
+  if (frames.empty()) return {};
+  std::vector<int> iterations;
+  std::size_t in_time = 0;
+  for (const FramePace& frame : frames) {
+    iterations.push_back(frame.iterations);
+    if (frame.milliseconds * frame.target_fps <= 1000) ++in_time;
+  }
+  std::sort(iterations.begin(), iterations.end());
+  const FramePace& last = frames.back();
+  std::ostringstream text;
+  text << "target_fps = " << last.target_fps << ": " << in_time << " of " << frames.size() << " frames were in time; "
+       << last.triangles << " of " << last.asked_triangles << " triangles were simulated, with " << iterations.front()
+       << " to " << iterations.back() << " (median " << iterations[iterations.size() / 2] << ") of "
+       << last.asked_iterations << " iterations; another machine gives other results";
+  return text.str();
 }
 
 }  // namespace gracilis::xpbd

@@ -1,6 +1,10 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
+#include <gracilis/methods/method.hpp>
+
+#include <string>
+#include <vector>
 
 namespace gracilis::xpbd {
 
@@ -18,5 +22,21 @@ int paced_iterations(const Pace& pace, int asked);
 
 /// Learns from a frame: spends 85 % of the budget, for no two frames are alike, falling at once and rising slowly.
 void see_frame(Pace& pace, Real milliseconds);
+
+/// How a frame kept to the rate, and what that cost.
+struct FramePace {
+  Real target_fps = 0;       ///< 1/s
+  Real milliseconds = 0;     ///< that the frame took
+  int iterations = 0;        ///< in each substep
+  int asked_iterations = 0;  ///< without a rate to hold
+  Index triangles = 0;       ///< simulated, all muscles
+  Index asked_triangles = 0;
+};
+
+/// By name: target_fps, frame_milliseconds, iterations, asked_iterations, triangles, asked_triangles.
+Metrics metrics_of(const FramePace& frame);
+
+/// What was given up to hold the rate; empty without frames.
+std::string remark_on(const std::vector<FramePace>& frames);
 
 }  // namespace gracilis::xpbd

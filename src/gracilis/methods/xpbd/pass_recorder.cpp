@@ -13,7 +13,8 @@ SolveWatch record_passes(const std::vector<MuscleStep>& steps, const std::vector
   return [&steps, &solves, before](std::size_t i, ConstraintKind kind) {
     const MuscleStep& step = steps[i];
     const Particles& now = step.state->particles;
-    SolverPass pass{step.number, kind, step.report->iterations + solves[i].report.iterations, Points(3, now.count())};
+    SolverPass pass{step.number, name_of(kind), step.report->iterations + solves[i].report.iterations,
+                    Points(3, now.count())};
     for (Index p = 0; p < now.count(); ++p)
       pass.moved.col(step.muscle->order[static_cast<std::size_t>(p)]) =
           (now.position(p) - (*before)[i].position(p)).cast<Real>();

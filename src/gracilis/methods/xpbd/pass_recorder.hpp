@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/dynamics/solver.hpp>
-#include <gracilis/methods/method.hpp>
+#include <gracilis/methods/pass_tracing.hpp>
 #include <gracilis/methods/xpbd/step.hpp>
 
 #include <vector>

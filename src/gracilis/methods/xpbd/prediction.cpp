@@ -23,7 +23,7 @@ SolveSettings solve_settings(const XpbdSettings& settings, int substeps) {
 }
 
 /// x += dt v + dt² g, v the damped velocity (dynamic mode).
-static void coast(const XpbdSettings& settings, float time_step, SurfaceState& state) {
+static void coast(const SolverSettings& settings, float time_step, SurfaceState& state) {
   for (Index p = 0; p < state.particles.count(); ++p) {
     if (!(state.particles.inverse_mass(p) > 0)) continue;
     Eigen::Map<Eigen::Vector3f> velocity = velocity_of(state, p);

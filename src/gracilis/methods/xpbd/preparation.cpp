@@ -1,12 +1,12 @@
 #include <gracilis/methods/xpbd/preparation.hpp>
 
+#include <gracilis/anatomy/skinning_weights.hpp>
 #include <gracilis/dynamics/hinge.hpp>
 #include <gracilis/dynamics/particle_order.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/xpbd/bone_gaps.hpp>
-#include <gracilis/methods/xpbd/carrier_shares.hpp>
 #include <gracilis/methods/xpbd/contraction.hpp>
 
 #include <algorithm>
@@ -78,7 +78,7 @@ void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepa
 
 /// Mass of each vertex by its share of the surface, over all: density times volume. Tendons are heavier.
 Eigen::VectorXd inverse_masses(const PreparedMuscle& prepared) {
-  const XpbdSettings& settings = prepared.settings;
+  const MaterialSettings& settings = prepared.settings;
   Eigen::VectorXd masses = Eigen::VectorXd::Ones(prepared.rest.cols());
   if (!settings.unit_masses) {
     const Eigen::VectorXd areas = vertex_areas(prepared.rest, prepared.faces);
@@ -104,7 +104,7 @@ Vec3 direction_at(const MeshEdge& edge, const Points& directions) {
 }
 
 /// The published anisotropy: edges along the fibers are softer by 1 - |u·v| (Cervenka and Kohout 2020).
-Real anisotropy(Real cosine, const XpbdSettings& settings) {
+Real anisotropy(Real cosine, const MaterialSettings& settings) {
   if (!settings.fiber_anisotropy) return 1;
   return std::max({1 - std::abs(cosine), settings.anisotropy_floor, smallest_anisotropy});
 }
@@ -112,7 +112,7 @@ Real anisotropy(Real cosine, const XpbdSettings& settings) {
 /// Stiffness of one edge: the setting, scaled by A/l² (1 between equilateral triangles) so that a sheet strains alike
 /// however it is triangulated and a short edge does not take the stretch of its long neighbors (Van Gelder 1998).
 Real edge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshEdge& edge,
-                    const XpbdSettings& settings) {
+                    const MaterialSettings& settings) {
   const Real length2 = (x.col(edge.b) - x.col(edge.a)).squaredNorm(), equilateral = std::sqrt(Real{3}) / 2;
   if (!settings.distance_shape_scaling || !(length2 > 0)) return settings.distance_stiffness;
   const Real shape = area_at(edge, x, faces) / length2 / equilateral;
@@ -146,7 +146,7 @@ void build_edges(const std::vector<Attachment>& attachments, const MeshTopology&
 /// Stiffness of one hinge: the setting, scaled by 3 l²/A so that bending does not depend on how finely the surface is
 /// triangulated (Grinspun et al. 2003).
 Real hinge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshEdge& edge,
-                     const XpbdSettings& settings) {
+                     const MaterialSettings& settings) {
   if (!settings.dihedral_shape_scaling) return settings.dihedral_stiffness;
   const Real area = area_at(edge, x, faces), length2 = (x.col(edge.b) - x.col(edge.a)).squaredNorm();
   return settings.dihedral_stiffness * (area > 0 ? std::min(3 * length2 / area, largest_shape) : largest_shape);
@@ -174,8 +174,8 @@ void build_predictor(const MeshTopology& topology, PreparedMuscle& prepared) {
     if (body >= 0 && std::find(prepared.carriers.begin(), prepared.carriers.end(), body) == prepared.carriers.end())
       prepared.carriers.push_back(body);
   std::sort(prepared.carriers.begin(), prepared.carriers.end());
-  prepared.carrier_shares = carrier_shares({prepared.rest, prepared.faces}, topology, prepared.fixed_body,
-                                           prepared.carriers, prepared.settings.tendon_length);
+  prepared.carrier_shares = skinning_weights({prepared.rest, prepared.faces}, topology, prepared.fixed_body,
+                                             prepared.carriers, prepared.settings.tendon_length);
 }
 
 /// Between the edges of these faces something as sharp as a bone can poke through.
@@ -227,8 +227,8 @@ Points fiber_directions(const Points& vertices, const Eigen::Matrix3Xi& faces, c
   return directions;
 }
 
-bool asks_for_strings(const Muscle& muscle) {
-  const XpbdSettings& settings = muscle.xpbd;
+bool asks_for_strings(const Scene& scene, const Muscle& muscle) {
+  const XpbdSettings settings = xpbd_settings(scene, muscle);
   const bool is_carried = settings.predictor || settings.slack_uptake;
   if (settings.skinning != Skinning::strings || !is_carried || muscle.action_line.rays > 0) return false;
   const auto other_body = [&](const Attachment& a) { return a.body != muscle.attachments.front().body; };
@@ -236,7 +236,7 @@ bool asks_for_strings(const Muscle& muscle) {
 }
 
 CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones) {
-  if (!asks_for_strings(muscle)) return {};
+  if (!asks_for_strings(scene, muscle)) return {};
   std::optional<strings::MuscleStrings> laid = strings::muscle_strings(scene, muscle, bones, {});
   if (!laid) return {};
   return {&bones, std::make_shared<const strings::MuscleStrings>(std::move(*laid))};
@@ -246,7 +246,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
                               const CarryingStrings& carrying) {
   PreparedMuscle prepared;
   prepared.name = muscle.name;
-  prepared.settings = muscle.xpbd;
+  prepared.settings = xpbd_settings(scene, muscle);
   prepared.contraction = muscle.contraction;
   const std::vector<Attachment> attachments = renumber(muscle, prepared);
   prepared.origin = prepared.rest.rowwise().mean();
@@ -258,8 +258,8 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
                        strings::bind_skin(*carrying.strings, {prepared.rest, prepared.faces}, prepared.fixed_body)});
   prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(prepared));
   // What takes the most memory while it is built comes first.
-  prepared.keeps_out_of_itself =
-      scene.contact.self && scene.contact.muscle == MuscleContact::surface && prepared.belly.empty();
+  const ContactSettings contact = contact_settings(scene);
+  prepared.keeps_out_of_itself = contact.self && contact.muscle == MuscleContact::surface && prepared.belly.empty();
   if (prepared.keeps_out_of_itself) {
     prepared.system.slivers = build_sliver_set(prepared.faces, prepared.system.rest, flattest);
     prepared.system.tight_places = find_tight_places(prepared.rest, prepared.faces, tight, prepared.system.rest);

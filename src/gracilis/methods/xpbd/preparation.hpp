@@ -4,6 +4,7 @@
 #include <gracilis/dynamics/solver.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/topology.hpp>
+#include <gracilis/methods/xpbd/settings.hpp>
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/strings/string_skin.hpp>
 
@@ -67,7 +68,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
                               const CarryingStrings& carrying = {});
 
 /// Whether a muscle's settings ask for strings; not where it runs along a line or is attached to one body alone.
-bool asks_for_strings(const Muscle& muscle);
+bool asks_for_strings(const Scene& scene, const Muscle& muscle);
 
 /// The strings that a muscle asks for; none where it has no fibers from an origin to an insertion. `bones` must outlive
 /// the result.

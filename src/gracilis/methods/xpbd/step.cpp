@@ -113,7 +113,7 @@ Failure find_failure(std::vector<SurfaceSolve>& solves, const std::vector<Partic
                      " constraint; soften the material or raise `iterations`");
 }
 
-void add_to(MuscleReport& report, const SolveReport& solved, Real correction) {
+void add_to(StepCounts& report, const SolveReport& solved, Real correction) {
   report.iterations += solved.iterations;
   report.contacts = solved.contacts;
   report.limited_hinges += solved.limited_hinges;
@@ -172,7 +172,7 @@ void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
 void report_edges(const VirtualEdgeCrowd& crowd, const VirtualEdgeState& state, const std::vector<MuscleStep>& steps) {
   for (std::size_t i = 0; i < crowd.pairs.size(); ++i)
     for (const Index surface : {crowd.pairs[i].first, crowd.pairs[i].second}) {
-      MuscleReport& report = *steps[static_cast<std::size_t>(surface)].report;
+      StepCounts& report = *steps[static_cast<std::size_t>(surface)].report;
       report.virtual_edges += static_cast<Index>(state.pairs[i].edges.size());
       report.virtual_pushes += state.pairs[i].pushes;
       report.coinciding_edges += state.pairs[i].coinciding;

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <gracilis/methods/method.hpp>
+#include <gracilis/methods/pass_tracing.hpp>
 #include <gracilis/methods/xpbd/crowd.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
+#include <gracilis/methods/xpbd/step_counts.hpp>
 #include <gracilis/scene/pose.hpp>
 
 #include <vector>
@@ -14,7 +15,7 @@ namespace gracilis::xpbd {
 struct MuscleStep {
   const PreparedMuscle* muscle = nullptr;
   MuscleState* state = nullptr;
-  MuscleReport* report = nullptr;
+  StepCounts* report = nullptr;
   Real activation = 0;
   std::size_t number = 0;            ///< of the muscle in the scene
   const PassWatch* watch = nullptr;  ///< told of every pass; an empty one, or none: nobody is

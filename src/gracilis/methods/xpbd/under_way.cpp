@@ -11,7 +11,10 @@ namespace gracilis::xpbd {
 
 UnderWay under_way(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
                    const std::vector<Pose>& poses) {
-  UnderWay u{prepare_muscle(scene, muscle, fields), {}, solve_settings(muscle.xpbd, muscle.xpbd.substeps), {}};
+  UnderWay u{prepare_muscle(scene, muscle, fields), {}, {}, {}};
+  SolverSettings& asked = u.muscle.settings;
+  if (!(asked.time_step > 0)) asked.time_step = usual_time_step;
+  u.settings = solve_settings(u.muscle.settings, asked.substeps);
   u.settings.settling_rounds = 0;  // the middle of a solve is looked for, not its end
   u.state = make_muscle_state(u.muscle, scene.bodies.size());
   const auto time_step = static_cast<float>(u.settings.time_step);
@@ -22,7 +25,7 @@ UnderWay under_way(const Scene& scene, const Muscle& muscle, const std::vector<D
     SolveSettings settings = u.settings;
     if (&pose == &poses.back()) settings.iterations = 3;
     solve_substep(u.muscle.system, u.placements, settings, u.state);
-    if (muscle.xpbd.time_mode == TimeMode::dynamic) take_velocities(time_step, u.state);
+    if (asked.time_mode == TimeMode::dynamic) take_velocities(time_step, u.state);
     before = pose;
   }
   refresh_contacts(u.muscle.system, u.placements, u.state);
@@ -53,6 +56,44 @@ PhaseTime time_projection(const UnderWay& muscle, std::optional<ConstraintKind> 
   std::nth_element(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(rows.size() / 2), rows.end());
   time.milliseconds = rows[rows.size() / 2];
   return time;
+}
+
+namespace {
+
+struct Phase {
+  std::string_view name;
+  std::optional<ConstraintKind> kind;  ///< none: all
+};
+
+constexpr Phase phases_of_iteration[] = {{"iteration", std::nullopt},
+                                         {"distance", ConstraintKind::distance},
+                                         {"dihedral", ConstraintKind::dihedral},
+                                         {"volume", ConstraintKind::volume},
+                                         {"stretch_limit", ConstraintKind::stretch_limit},
+                                         {"bone_contact", ConstraintKind::bone_contact}};
+
+class UnderWayTimer final : public PhaseTimer {
+ public:
+  explicit UnderWayTimer(UnderWay muscle) : muscle_(std::move(muscle)) {}
+  Index triangles() const override { return static_cast<Index>(muscle_.muscle.faces.cols()); }
+  std::vector<std::string_view> phases() const override {
+    std::vector<std::string_view> names;
+    for (const Phase& phase : phases_of_iteration) names.push_back(phase.name);
+    return names;
+  }
+  PhaseTime time(std::size_t phase, int repeats) const override {
+    return time_projection(muscle_, phases_of_iteration[phase].kind, repeats);
+  }
+
+ private:
+  UnderWay muscle_;
+};
+
+}  // namespace
+
+std::unique_ptr<PhaseTimer> phase_timer(const Scene& scene, const Muscle& muscle,
+                                        const std::vector<DistanceField>& fields, const std::vector<Pose>& poses) {
+  return std::make_unique<UnderWayTimer>(under_way(scene, muscle, fields, poses));
 }
 
 }  // namespace gracilis::xpbd

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <gracilis/methods/method_entry.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/scene/pose.hpp>
 
-#include <cstdint>
+#include <memory>
 #include <optional>
 
 namespace gracilis::xpbd {
@@ -21,14 +22,12 @@ struct UnderWay {
 UnderWay under_way(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
                    const std::vector<Pose>& poses);
 
-/// What a repeated piece of work takes, and a fingerprint of the positions after it.
-struct PhaseTime {
-  double milliseconds = 0;  ///< median
-  std::uint64_t hash = 0;
-};
-
 /// Times one projection of all constraints of a kind, or, without a kind, one iteration with all of them: the mean of
 /// ten in a row from where the muscle is, the median over `repeats` such rows, each from the same state.
 PhaseTime time_projection(const UnderWay& muscle, std::optional<ConstraintKind> kind, int repeats);
+
+/// The same for programs that know no constraints. A relaxed muscle has no phase of contraction.
+std::unique_ptr<PhaseTimer> phase_timer(const Scene& scene, const Muscle& muscle,
+                                        const std::vector<DistanceField>& fields, const std::vector<Pose>& poses);
 
 }  // namespace gracilis::xpbd

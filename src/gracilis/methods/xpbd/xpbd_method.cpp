@@ -1,10 +1,14 @@
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 
+#include <gracilis/anatomy/bone_field.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/methods/pass_tracing.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/xpbd/level.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/pace.hpp>
+#include <gracilis/methods/xpbd/settings.hpp>
+#include <gracilis/methods/xpbd/step_counts.hpp>
 #include <gracilis/scene/scene_place.hpp>
 
 #include <algorithm>
@@ -30,7 +34,7 @@ constexpr Real tried_edges[] = {0.004, 0.005, 0.006, 0.008, 0.01};
 /// coarser copy come nearer to the converged shape (docs/decisions).
 constexpr Real wanted_share = 0.5;
 
-class XpbdMethod final : public DeformationMethod {
+class XpbdMethod final : public DeformationMethod, public PassTracing {
  public:
   XpbdMethod(const Scene& scene, std::vector<DistanceField> fields, std::vector<DistanceField> far_fields)
       : fields_(std::move(fields)),
@@ -39,9 +43,10 @@ class XpbdMethod final : public DeformationMethod {
         pose_(capture_pose(scene.bodies.size())) {
     bool is_coarser = false;
     for (const Muscle& muscle : scene.muscles) {
-      is_coarser |= muscle.xpbd.simulated_edge > 0;
-      asked_iterations_.push_back(muscle.xpbd.iterations);
-      if (muscle.xpbd.target_fps > 0) pace_.budget = 1000 / std::max(muscle.xpbd.target_fps, target_fps());
+      const XpbdSettings settings = xpbd_settings(scene, muscle);
+      is_coarser |= settings.simulated_edge > 0;
+      asked_.push_back(settings);
+      if (settings.target_fps > 0) pace_.budget = 1000 / settings.target_fps;
     }
     // Copies meet in the surfaces' place, at a fraction of the time.
     full_ = make_level(scene, fields_, carrying_strings(scene, bones_), !is_coarser);
@@ -54,31 +59,38 @@ class XpbdMethod final : public DeformationMethod {
     xpbd::reset(full_);
     if (coarser_) xpbd::reset(coarser_->level);
     pose_ = capture_pose(pose_.bodies.size());
+    paces_.clear();
   }
 
-  StepReport advance(const Pose& pose) override {
+  StepReport advance(const Pose& pose, Real time_step) override {
     const auto started = std::chrono::steady_clock::now();
-    StepReport report;
-    report.muscles.resize(full_.muscles.size());
+    std::vector<StepCounts> counts(full_.muscles.size());
     std::vector<Real> activations;
     for (std::size_t m = 0; m < full_.muscles.size(); ++m) activations.push_back(activation_of(m, pose));
-    for (std::size_t m = 0; m < full_.muscles.size(); ++m)
-      simulated().muscles[m].settings.iterations = paced_iterations(pace_, asked_iterations_[m]);
+    for (std::size_t m = 0; m < full_.muscles.size(); ++m) {
+      simulated().muscles[m].settings.iterations = paced_iterations(pace_, asked_[m].iterations);
+      for (Level* level : {&full_, &simulated()}) level->muscles[m].settings.time_step = time_step_of(m, time_step);
+    }
     std::vector<MuscleState> next = simulated().states;
-    xpbd::advance(simulated(), pose_, pose, activations, next, report.muscles);
+    xpbd::advance(simulated(), pose_, pose, activations, next, counts);
     if (coarser_) {
       std::vector<MuscleState> next_full = full_.states;
-      refine(*coarser_, full_, pose_, pose, activations, next, next_full, report.muscles);
+      refine(*coarser_, full_, pose_, pose, activations, next, next_full, counts);
       full_.states = std::move(next_full);
     }
     simulated().states = std::move(next);
     pose_ = pose;
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - started;
-    if (pace_.budget > 0) report_pace(elapsed.count(), report.pace);
+    StepReport report;
+    for (const StepCounts& each : counts) report.muscles.push_back(report_of(each));
+    if (pace_.budget > 0) report.metrics = follow_pace(elapsed.count());
     return report;
   }
 
   void watch_passes(PassWatch watch) override { full_.watch = std::move(watch); }
+  PassTracing* pass_tracing() override { return this; }
+  bool watches_clock() const override { return pace_.budget > 0; }
+  std::string remark() const override { return remark_on(paces_); }
 
   void write(Frame& frame) const override {
     frame.muscles.resize(full_.muscles.size());
@@ -114,7 +126,7 @@ class XpbdMethod final : public DeformationMethod {
       } else {
         // The mean over the frame is all that two shapes can tell.
         if (muscle.settings.predictor) carry_start(muscle, m, before.pose, last.pose, state);
-        take_velocities(static_cast<float>(muscle.settings.time_step), state);
+        take_velocities(static_cast<float>(time_step_of(m, last.pose.time - before.pose.time)), state);
       }
       full_.states[m] = std::move(state);
     }
@@ -136,7 +148,10 @@ class XpbdMethod final : public DeformationMethod {
 
   Level& simulated() { return coarser_ ? coarser_->level : full_; }
 
-  Real target_fps() const { return pace_.budget > 0 ? 1000 / pace_.budget : 0; }
+  /// s, of a muscle in a frame that takes so long.
+  Real time_step_of(std::size_t m, Real of_frame) const {
+    return asked_[m].time_step > 0 ? asked_[m].time_step : of_frame;
+  }
 
   Real activation_of(std::size_t m, const Pose& pose) const {
     const Real activation = m < pose.activations.size() ? pose.activations[m] : 0;
@@ -154,7 +169,7 @@ class XpbdMethod final : public DeformationMethod {
       Real milliseconds = 0;
       for (int trial = 0; trial < 3; ++trial) {
         pace_.share = wanted_share;
-        milliseconds = advance(rest).pace.milliseconds;
+        milliseconds = metric(advance(rest, usual_time_step).metrics, "frame_milliseconds");
       }
       reset();
       pace_.share = wanted_share;
@@ -166,23 +181,23 @@ class XpbdMethod final : public DeformationMethod {
       muscle.settings.full_iterations = std::max(muscle.settings.full_iterations, 1);
     for (const Real edge : tried_edges) {
       Scene tried = scene;
-      for (Muscle& muscle : tried.muscles) muscle.xpbd.simulated_edge = std::max(muscle.xpbd.simulated_edge, edge);
+      for (Muscle& muscle : tried.muscles)
+        muscle.settings["simulated_edge"] = std::max(xpbd_settings(scene, muscle).simulated_edge, edge);
       full_.crowd = {}, full_.crowd_state = {};
       coarser_ = make_coarser_level(tried, full_, fields_);
       if (is_in_time()) return;
     }
   }
 
-  void report_pace(Real milliseconds, PaceReport& report) {
-    report.target_fps = target_fps();
-    report.milliseconds = milliseconds;
-    for (const int asked : asked_iterations_) {
-      report.asked_iterations = std::max(report.asked_iterations, asked);
-      report.iterations = std::max(report.iterations, paced_iterations(pace_, asked));
+  Metrics follow_pace(Real milliseconds) {
+    FramePace frame{1000 / pace_.budget, milliseconds, 0, 0, triangle_count(simulated()), asked_triangles_};
+    for (const SolverSettings& asked : asked_) {
+      frame.asked_iterations = std::max(frame.asked_iterations, asked.iterations);
+      frame.iterations = std::max(frame.iterations, paced_iterations(pace_, asked.iterations));
     }
-    report.triangles = triangle_count(simulated());
-    report.asked_triangles = asked_triangles_;
     see_frame(pace_, milliseconds);
+    paces_.push_back(frame);
+    return metrics_of(frame);
   }
 
   std::vector<DistanceField> fields_, far_fields_;
@@ -190,9 +205,10 @@ class XpbdMethod final : public DeformationMethod {
   Level full_;
   std::optional<CoarserLevel> coarser_;
   Pose pose_;
-  std::vector<int> asked_iterations_;  ///< per muscle
+  std::vector<XpbdSettings> asked_;  ///< per muscle, as the scene has them
   Index asked_triangles_ = 0;
   Pace pace_;
+  std::vector<FramePace> paces_;  ///< since the capture pose, where a rate is to be held
 };
 
 }  // namespace xpbd
@@ -210,14 +226,8 @@ std::unique_ptr<DeformationMethod> make_xpbd_method(const Scene& scene, std::vec
 }
 
 bool needs_far_fields(const Scene& scene) {
-  return std::any_of(scene.muscles.begin(), scene.muscles.end(), xpbd::asks_for_strings);
-}
-
-DistanceField build_bone_field(const Bone& bone, const DistanceFieldSettings& settings) {
-  return build_distance_field(bone.surface,
-                              settings.resolution > 0
-                                  ? domain_by_resolution(bone.surface, settings.resolution, settings.domain_factor)
-                                  : domain_by_cell_size(bone.surface, settings.cell_size, settings.domain_margin));
+  return std::any_of(scene.muscles.begin(), scene.muscles.end(),
+                     [&](const Muscle& muscle) { return xpbd::asks_for_strings(scene, muscle); });
 }
 
 }  // namespace gracilis

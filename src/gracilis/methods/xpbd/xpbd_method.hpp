@@ -1,13 +1,16 @@
 #pragma once
 
 #include <gracilis/geometry/distance_field.hpp>
-#include <gracilis/methods/method.hpp>
+#include <gracilis/methods/method_entry.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <memory>
 #include <vector>
 
 namespace gracilis {
+
+/// The method `xpbd`: extended position based dynamics on muscle surfaces.
+MethodEntry xpbd_entry();
 
 /// Extended position based dynamics on muscle surfaces (Havlíček 2024, with the additions that docs/architecture.md
 /// lists). `fields` has one distance field per bone, `far_fields` those by strings::far_field_settings, which are built
@@ -17,8 +20,5 @@ std::unique_ptr<DeformationMethod> make_xpbd_method(const Scene& scene, std::vec
 
 /// Whether any muscle of the scene is carried by strings, which look further around bones than contact does.
 bool needs_far_fields(const Scene& scene);
-
-/// The distance field of one bone by the scene's settings.
-DistanceField build_bone_field(const Bone& bone, const DistanceFieldSettings& settings);
 
 }  // namespace gracilis

@@ -49,7 +49,7 @@ std::vector<Displacement> displacements_of(const ShownShapes& shapes, const Show
       const auto roots = static_cast<Index>(shapes.arrow_roots[m].size());
       ShownPoints moved = ShownPoints::Zero(3, roots);
       for (const ShownPass& pass : frame.passes)
-        if (pass.muscle == m && pass.kind == static_cast<int>(kind) &&
+        if (pass.muscle == m && pass.kind == name_of(kind) &&
             (state.arrows == Arrows::frame || pass.iteration == state.iteration))
           moved += pass.moved;
       for (Index i = 0; i < roots; ++i)

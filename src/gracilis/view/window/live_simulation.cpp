@@ -5,6 +5,8 @@
 #include <gracilis/anatomy/tendon.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/stop.hpp>
+#include <gracilis/methods/pass_tracing.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/run.hpp>
 
 #include <fmt/format.h>
@@ -56,7 +58,8 @@ LiveSimulation::LiveSimulation(const Scene& scene, ShapeHistory& history,
   maker_.emplace(std::move(muscles), std::move(bones), shapes_);
   for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
     shapes_.held[m] = maker_->shown_of(m, held_vertices(scene.muscles[m]));
-    const std::vector<Real> belly = maker_->shown_of(m, belly_shares(scene.muscles[m]));
+    const std::vector<Real> belly =
+        maker_->shown_of(m, belly_shares(scene.muscles[m], tendon_length_of(scene, scene.muscles[m])));
     shapes_.belly[m].assign(belly.begin(), belly.end());
   }
   wanted_ = {capture_coordinates(scene), std::vector<Real>(scene.muscles.size())};
@@ -206,12 +209,14 @@ void LiveSimulation::prepare() {
 /// Collects what the next step moves, where somebody wants to see it.
 void LiveSimulation::watch_passes() {
   passes_.clear();
+  PassTracing* tracing = method_->pass_tracing();
+  if (!tracing) return;
   if (!history_.wishes.passes) {
-    method_->watch_passes({});
+    tracing->watch_passes({});
     return;
   }
-  method_->watch_passes([this](const SolverPass& pass) {
-    ShownPass shown{pass.muscle, static_cast<int>(pass.kind), pass.iteration,
+  tracing->watch_passes([this](const SolverPass& pass) {
+    ShownPass shown{pass.muscle, pass.kind, pass.iteration,
                     picked(pass.moved, maker_->arrow_vertices(pass.muscle)).cast<float>()};
     if (shown.moved.isZero(0)) return;
     const std::lock_guard lock(passes_mutex_);
@@ -227,7 +232,7 @@ Frame LiveSimulation::next_frame(int number) {
   frame.pose.time = number / 60.0;
   const auto begin = std::chrono::steady_clock::now();
   watch_passes();
-  method_->advance(frame.pose);
+  method_->advance(frame.pose, usual_time_step);
   milliseconds_ = std::chrono::duration<Real, std::milli>(std::chrono::steady_clock::now() - begin).count();
   method_->write(frame);
   return frame;

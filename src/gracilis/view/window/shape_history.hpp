@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gracilis {
@@ -37,7 +38,7 @@ struct ShownShapes {
 /// What one kind of constraint moved in one pass of the solver, at a muscle's arrow roots.
 struct ShownPass {
   std::size_t muscle = 0;
-  int kind = 0;  ///< a ConstraintKind
+  std::string_view kind;  ///< of constraint
   int iteration = 0;
   ShownPoints moved;  ///< 3 × roots, m
 };

@@ -1,5 +1,5 @@
+#include <gracilis/anatomy/skinning_weights.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
-#include <gracilis/methods/xpbd/carrier_shares.hpp>
 
 #include <shapes.hpp>
 
@@ -25,7 +25,7 @@ struct HeldByAPatch {
   }
 
   Eigen::MatrixXf shares(Real tendon_length) const {
-    return xpbd::carrier_shares(surface, topology, fixed_body, {0, 1}, tendon_length);
+    return skinning_weights(surface, topology, fixed_body, {0, 1}, tendon_length);
   }
   Real steepest(const Eigen::MatrixXf& shares) const {
     const Eigen::VectorXd share = shares.row(1).transpose().cast<Real>();
@@ -35,13 +35,13 @@ struct HeldByAPatch {
 
 }  // namespace
 
-TEST(CarrierShares, a_tendon_takes_the_concentration_from_a_small_attachment) {
+TEST(SkinningWeights, a_tendon_takes_the_concentration_from_a_small_attachment) {
   const HeldByAPatch tube;
   ASSERT_GE(tube.fixed.size(), 20u);
   EXPECT_LT(tube.steepest(tube.shares(0.03)), 0.75 * tube.steepest(tube.shares(0)));
 }
 
-TEST(CarrierShares, stay_between_0_and_1_sum_to_1_and_are_whole_at_attachments) {
+TEST(SkinningWeights, stay_between_0_and_1_sum_to_1_and_are_whole_at_attachments) {
   const HeldByAPatch tube;
   const Eigen::MatrixXf shares = tube.shares(0.03);
   EXPECT_GE(shares.minCoeff(), -1e-6f);
@@ -54,7 +54,7 @@ TEST(CarrierShares, stay_between_0_and_1_sum_to_1_and_are_whole_at_attachments) 
   }
 }
 
-TEST(CarrierShares, without_tendons_they_are_harmonic) {
+TEST(SkinningWeights, without_tendons_they_are_harmonic) {
   const HeldByAPatch tube;
   Eigen::MatrixXd given = Eigen::MatrixXd::Zero(static_cast<Index>(tube.fixed.size()), 1);
   for (Index i = 0; i < given.rows(); ++i)
@@ -63,7 +63,7 @@ TEST(CarrierShares, without_tendons_they_are_harmonic) {
   EXPECT_LT((tube.shares(0).row(1).transpose().cast<Real>() - field.col(0)).cwiseAbs().maxCoeff(), 1e-6);
 }
 
-TEST(CarrierShares, a_tube_held_by_whole_rings_needs_no_tendons) {
+TEST(SkinningWeights, a_tube_held_by_whole_rings_needs_no_tendons) {
   HeldByAPatch tube;
   for (Index v = 0; v < tube.surface.vertex_count(); ++v) {
     const Real z = tube.surface.vertices(2, v);

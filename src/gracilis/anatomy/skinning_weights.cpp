@@ -1,4 +1,4 @@
-#include <gracilis/methods/xpbd/carrier_shares.hpp>
+#include <gracilis/anatomy/skinning_weights.hpp>
 
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gracilis::xpbd {
+namespace gracilis {
 
 /// Solves that grade the tendons; the largest gradient hardly changes after these.
 static constexpr int grading_rounds = 8;
@@ -38,20 +38,20 @@ static void grade(const std::vector<Real>& squares, const std::vector<Real>& ten
     conductance[e] = std::sqrt(conductance[e] * std::pow(std::max(squares[e] / mean, Real{1}), tendon[e]));
 }
 
-Eigen::MatrixXf carrier_shares(const TriangleMesh& surface, const MeshTopology& topology,
-                               const std::vector<Index>& fixed_body, const std::vector<Index>& carriers,
-                               Real tendon_length) {
+Eigen::MatrixXf skinning_weights(const TriangleMesh& surface, const MeshTopology& topology,
+                                 const std::vector<Index>& fixed_body, const std::vector<Index>& bodies,
+                                 Real tendon_length) {
   std::vector<Index> fixed;
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (fixed_body[static_cast<std::size_t>(v)] >= 0) fixed.push_back(v);
-  Eigen::MatrixXd values(static_cast<Index>(fixed.size()), static_cast<Index>(carriers.size()));
+  Eigen::MatrixXd values(static_cast<Index>(fixed.size()), static_cast<Index>(bodies.size()));
   for (Index i = 0; i < values.rows(); ++i)
     for (Index k = 0; k < values.cols(); ++k)
       values(i, k) = fixed_body[static_cast<std::size_t>(fixed[static_cast<std::size_t>(i)])] ==
-                     carriers[static_cast<std::size_t>(k)];
+                     bodies[static_cast<std::size_t>(k)];
   HarmonicSolver solver(surface.vertices, topology, fixed);
   Eigen::MatrixXd fields = solver.solve(values);
-  if (!(tendon_length > 0) || carriers.size() < 2) return fields.transpose().cast<float>();
+  if (!(tendon_length > 0) || bodies.size() < 2) return fields.transpose().cast<float>();
 
   const Eigen::VectorXd distances = edge_distances(length_graph(surface.vertices, topology), fixed);
   std::vector<Real> tendon, conductance(topology.edges.size(), 1);
@@ -64,4 +64,4 @@ Eigen::MatrixXf carrier_shares(const TriangleMesh& surface, const MeshTopology& 
   return fields.transpose().cast<float>();
 }
 
-}  // namespace gracilis::xpbd
+}  // namespace gracilis

@@ -1,4 +1,7 @@
-#include <gracilis/scene/presets.hpp>
+#include <gracilis/methods/xpbd/presets.hpp>
+
+#include <gracilis/methods/xpbd/settings.hpp>
+#include <gracilis/scene/setting_values.hpp>
 
 namespace gracilis {
 
@@ -6,7 +9,7 @@ static Preset thesis_2024() {
   Preset preset;
   preset.name = "thesis-2024";
   preset.meaning = "the published setting, with everything that this project added switched off";
-  XpbdSettings& xpbd = preset.xpbd;
+  XpbdSettings xpbd;
   xpbd.iterations = 70;
   xpbd.time_step = 0.001;
   xpbd.constraint_time_step = 1;
@@ -27,7 +30,7 @@ static Preset thesis_2024() {
   xpbd.bone_margin = 0.001;
   xpbd.bone_rest_gap = false;
   xpbd.edge_contact = false;
-  xpbd.tunnelling = TunnellingGuard::turned_direction;
+  xpbd.tunnelling = MotionGuard::turned_direction;
   xpbd.predictor = false;
   xpbd.skinning = Skinning::bodies;
   xpbd.tendon_length = 0;
@@ -40,16 +43,11 @@ static Preset thesis_2024() {
   preset.distance_fields.resolution = 128;
   preset.distance_fields.domain_margin = 0;
   preset.distance_fields.domain_factor = 1.5;
-  preset.contact.muscle = MuscleContact::virtual_edges;
-  preset.contact.self = false;
-  preset.contact.seed_reach = 0.02;
-  preset.contact.update_period = 5;
-  preset.contact.walk_steps = 100;
-  preset.contact.contact_distance = 0.002;
-  preset.contact.adaptive_distance = false;
-  preset.contact.resolution = VirtualEdgeResolution::vector_sum;
-  preset.contact.reset_edges = false;
-  preset.contact.coinciding_edges = CoincidingEdges::keep;
+  preset.method.settings = changed_values(xpbd);
+  ContactSettings contact;
+  contact.muscle = MuscleContact::virtual_edges;
+  contact.self = false;
+  preset.method.contact = changed_values(contact);
   preset.contraction.stiffness = 1e2;
   preset.contraction.spread = false;
   preset.contraction.paths = SurfacePaths::nearest_joined;
@@ -60,24 +58,16 @@ static Preset fast() {
   Preset preset;
   preset.name = "fast";
   preset.meaning = "nearly the shapes of `physical` from coarser copies of the muscles, in a fraction of the time";
-  preset.xpbd.simulated_edge = 0.006;
-  preset.xpbd.iterations = 15;
-  preset.xpbd.full_iterations = 1;
+  XpbdSettings xpbd;
+  xpbd.simulated_edge = 0.006;
+  xpbd.iterations = 15;
+  xpbd.full_iterations = 1;
+  preset.method.settings = changed_values(xpbd);
   return preset;
 }
 
-const std::vector<Preset>& presets() {
-  static const std::vector<Preset> all = {
-      {"physical", "real masses and units, and what this project added for stability", {}, {}, {}, {}},
-      thesis_2024(),
-      fast()};
-  return all;
-}
-
-const Preset* find_preset(std::string_view name) {
-  for (const Preset& preset : presets())
-    if (preset.name == name) return &preset;
-  return nullptr;
+std::vector<Preset> xpbd_presets() {
+  return {{"physical", "real masses and units, and what this project added for stability"}, thesis_2024(), fast()};
 }
 
 }  // namespace gracilis
