@@ -68,6 +68,11 @@ TEST(Bench, settings_of_the_solver_reach_what_is_timed) {
     EXPECT_NE(hash("--set " + setting), unchanged) << setting;
 }
 
+TEST(Bench, of_a_method_that_does_not_iterate_times_frames_alone) {
+  for (const auto& entry : bench("--frame 2 --threads 1 --set method=skinning").at("benchmarks"))
+    EXPECT_EQ(entry.at("muscle"), "all");
+}
+
 TEST(Bench, a_frame_beyond_the_motion_is_a_configuration_error) {
   const ProgramResult result = run_program("bench --frame 5000");
   EXPECT_EQ(result.exit_code, 2);

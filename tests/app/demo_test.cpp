@@ -19,6 +19,23 @@ TEST(DemoCommand, flexes_the_elbow_and_meets_the_quality_gates) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(DemoCommand, takes_the_settings_that_run_takes) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "gracilis_demo_settings_test";
+  std::filesystem::remove_all(folder);
+  const ProgramResult result = run_program(
+      "demo --flexion 3 --set method=skinning --set tendon_length=0.01 --set sequence.hold_frames=2 "
+      "--only iliacus_r,adductor_brevis_r --threads 1 --out " +
+      folder.string());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(folder / "frames" / "iliacus_r_0005.vtp")) << "three degrees and two frames more";
+  EXPECT_FALSE(std::filesystem::exists(folder / "frames" / "gluteus_maximus_r_0000.vtp"));
+  const std::string manifest = read_text(folder / "run.json");
+  EXPECT_THAT(manifest, testing::HasSubstr("method = \\\"skinning\\\""));
+  EXPECT_THAT(manifest, testing::HasSubstr("tendon_length = 0.01"));
+  EXPECT_THAT(manifest, testing::Not(testing::HasSubstr("iterations"))) << "skinning has none";
+  std::filesystem::remove_all(folder);
+}
+
 TEST(DemoCommand, a_wrong_setting_is_a_usage_error_that_names_it) {
   const ProgramResult result = run_program("demo --set iteration=5 --set motion.step_deg=1 --only iliacs_r");
   EXPECT_EQ(result.exit_code, 2);

@@ -200,6 +200,17 @@ TEST_F(SceneReader, a_preset_from_the_command_line_sets_aside_the_files_settings
   EXPECT_THAT(loaded.warnings, testing::Contains(HasSubstr("'thesis-2024' sets aside the settings")));
 }
 
+TEST_F(SceneReader, a_scene_runs_by_another_method_too_which_says_what_it_does_not_have) {
+  const LoadedScene loaded =
+      read(good_scene() + "[settings]\niterations = 5\ntendon_length = 0.01\n", {"", {"method=skinning"}, {}});
+  EXPECT_EQ(loaded.scene.method.name, "skinning");
+  EXPECT_EQ(loaded.scene.method.settings, (SettingValues{{"tendon_length", 0.01}}));
+  EXPECT_THAT(loaded.warnings, testing::Contains(HasSubstr("'skinning' has no setting 'iterations'")));
+  EXPECT_THAT(problems(good_scene() + "[settings]\niterations = 0\n", {"", {"method=skinning"}, {}}),
+              HasSubstr("'iterations' must be an integer"));
+  EXPECT_THAT(problems(good_scene(), {"", {"method=skining"}, {}}), HasSubstr("there is no method 'skining'"));
+}
+
 TEST_F(SceneReader, what_muscles_are_solved_with_together_is_the_scenes) {
   const std::string text =
       with(good_scene(), "[[muscles.attachments]]", "[muscles.settings]\nsubsteps = 3\n[[muscles.attachments]]");

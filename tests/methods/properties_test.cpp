@@ -53,6 +53,7 @@ struct Variant {
 std::vector<Variant> all_variants() {
   const Preset thesis = *find_preset("thesis-2024");
   return {
+      {"skinning", "skinning", all_but({Property::volume, Property::any_jump})},
       {"cylinder", "cylinder", all_but({Property::volume}), {}, [] { return line_scene(0.05); }},
       {"xpbd_physical", "xpbd", everything},
       {"xpbd_substeps", "xpbd", everything, {{"substeps", 3}, {"iterations", 12}}},

@@ -97,6 +97,7 @@ TEST(ValidateMethod, settings_must_be_the_methods_and_lie_within_their_ranges) {
   EXPECT_PROBLEM(s.muscles[0].settings["iterations"] = 0, "'iterations' must be an integer from 1 to 100000");
   EXPECT_PROBLEM(s.method.settings["gravity"] = 1.0, "'gravity' must be three numbers");
   EXPECT_PROBLEM(s.method.contact["reach"] = 2.0, "contact: 'reach' must be a number from 0 to 0.1 m");
+  EXPECT_PROBLEM((s.method.name = "skinning", s.method.settings["iterations"] = 5), "has no setting 'iterations'");
   EXPECT_PROBLEM(s.method.contact["grip"] = 5, "has no setting 'grip'");
 }
 

@@ -1,6 +1,7 @@
 #include <gracilis/methods/registry.hpp>
 
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
+#include <gracilis/methods/skinning/skinning_method.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 
 #include <cassert>
@@ -9,7 +10,7 @@
 namespace gracilis {
 
 const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> all = {xpbd_entry(), cylinder_entry()};
+  static const std::vector<MethodEntry> all = {xpbd_entry(), cylinder_entry(), skinning_entry()};
   return all;
 }
 
