@@ -63,7 +63,7 @@ struct XpbdSettings {
   bool predictor = true;                  ///< carry free vertices with the bones before solving
   Skinning skinning = Skinning::strings;  ///< what the predictor follows
   Real tendon_length = 0.03;              ///< m from attachments, graded from tendon to belly; 0: no tendons
-  Real step_turn = radians(1.25);  ///< rad; a frame that turns bones further is taken in several steps; 0: in one
+  Real step_turn = radians(2);  ///< rad; a frame that turns bones further is taken in several steps; 0: in one
   int settling_rounds = 4;         ///< of volume and contact alone, after the last iteration
   Real shape_recovery = 0.03;      ///< share of its displacement that a vertex gives up per step
   Real hinge_limit = 0.05;         ///< largest motion by one hinge projection, as a share of its edge; 0: off
