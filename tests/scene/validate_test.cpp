@@ -140,4 +140,28 @@ TEST(Validate, the_motion_must_be_a_finite_table_of_known_coordinates_with_incre
   EXPECT_THAT(problems_after([](Scene& s) { s.motion = {}; }), ElementsAre()) << "no motion at all is fine";
 }
 
+TEST(Validate, what_becomes_a_file_has_a_name_of_its_own) {
+  EXPECT_PROBLEM(s.muscles[0].name = "femur", "muscle 'femur': a bone has the same name");
+  EXPECT_PROBLEM(s.muscles[0].name = std::string(121, 'a'), "the name is too long");
+  EXPECT_PROBLEM(s.bones[0].name = "a/b", "bone 'a/b': the name is not fit for a file's name");
+  EXPECT_PROBLEM(s.bones[0].name = ".hidden", "is not fit for a file's name");
+  EXPECT_PROBLEM(s.name = "a\nb", "the scene's name holds a control character");
+}
+
+TEST(Validate, what_becomes_a_column_has_a_name_of_its_own) {
+  EXPECT_PROBLEM(s.muscles[0].name = "flexion", "coordinate 'flexion': a muscle has the same name");
+  EXPECT_PROBLEM(s.joints[0].axes[0].coordinate = "muscle_f003", "a fiber of the muscle 'muscle' is called so");
+  EXPECT_PROBLEM(s.joints[0].axes[0].coordinate = "dihedral_change_max", "measures have a column");
+  for (const char* name : {"a,b", "a\tb", "a\nb", "a\"b", " a", "a ", "time", "Time"}) {
+    Scene scene = good_scene();
+    scene.joints[0].axes[0].coordinate = name;
+    EXPECT_THAT(problems(scene), Contains(HasSubstr("is not fit for a column of a table"))) << name;
+  }
+  EXPECT_THAT(problems_after([](Scene& s) {
+                s.joints[0].axes[0].coordinate = "hip flexion";
+                s.motion.coordinates = {"hip flexion"};
+              }),
+              ElementsAre());
+}
+
 }  // namespace gracilis
