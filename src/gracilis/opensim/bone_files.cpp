@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/parse_toml.hpp>
 #include <gracilis/opensim/model_file.hpp>
 #include <gracilis/scene/names.hpp>
 
@@ -24,7 +25,7 @@ std::map<std::string, GeometryFiles> read_geometry_map(const fs::path& path) {
   require_readable_file(path);
   std::map<std::string, GeometryFiles> map;
   try {
-    const toml::table table = toml::parse_file(path.string());
+    const toml::table table = parse_toml(read_text(path), path.string());
     for (const auto& [key, node] : table) {
       GeometryFiles& entry = map[std::string(key.str())];
       const toml::table* described = node.as_table();
