@@ -29,6 +29,7 @@ Scene good_scene() {
   muscle.attachments = {{"top", AttachmentEnd::origin, 0, {4, 5, 6, 7}, false},
                         {"bottom", AttachmentEnd::insertion, 1, {0, 1, 2, 3}, false}};
   scene.muscles = {muscle};
+  scene.distance_fields.cell_size = 0.01;  // bones of a metre at the default would take gigabytes
   scene.motion = {"motion", {"flexion"}, {0, 1}, Eigen::Vector2d(0, 0.5)};
   return scene;
 }
@@ -162,6 +163,16 @@ TEST(Validate, what_becomes_a_column_has_a_name_of_its_own) {
                 s.motion.coordinates = {"hip flexion"};
               }),
               ElementsAre());
+}
+
+TEST(Validate, settings_that_ask_for_more_memory_than_there_is_are_named) {
+  EXPECT_PROBLEM(s.distance_fields.resolution = 1024, "distance_field: 'resolution' asks for grids of 2.2e+09 nodes");
+  EXPECT_PROBLEM(s.distance_fields.cell_size = 1e-4, "distance_field: 'cell_size' asks for grids");
+  EXPECT_PROBLEM((s.muscles[0].fibers.count = 100'000, s.muscles[0].fibers.segments = 10'000),
+                 "fibers: 'count' and 'segments' ask for 1e+09 points");
+  EXPECT_PROBLEM(s.muscles[0].fibers.count = 10'001, "fibers: 'count' asks for 10001 fibers in 'muscle'");
+  EXPECT_PROBLEM((s.muscles[0].fibers.count = 100'000, s.muscles[0].contraction.segments = 10'000),
+                 "contraction: 'segments' and the 'count' of fibers ask for 1e+09 points");
 }
 
 }  // namespace gracilis

@@ -1,6 +1,7 @@
 #include <gracilis/scene/setting_table.hpp>
 #include <gracilis/scene/validate.hpp>
 #include <gracilis/scene/validate_names.hpp>
+#include <gracilis/scene/validate_sizes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -340,6 +341,7 @@ std::vector<Problem> validate(const Scene& scene) {
   validation.check_settings("distance_field", scene.distance_fields);
   validation.check_contact();
   validation.check_settings("sequence", scene.sequence);
+  for (Problem& problem : size_problems(scene)) validation.problems.push_back(std::move(problem));
   return validation.problems;
 }
 
