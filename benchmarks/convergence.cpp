@@ -1,6 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
+#include <gracilis/methods/xpbd/prediction.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 #include <gracilis/view/line_chart.hpp>
 
@@ -31,7 +32,8 @@ struct Curve {
 
 /// One muscle's step: the frames before it and its pose.
 struct Step {
-  Scene scene;  ///< with this muscle alone, without settling rounds
+  Scene scene;              ///< with this muscle alone, without settling rounds
+  std::vector<Pose> poses;  ///< of all frames up to the last
   Frame before, last;
   Pose pose;
   Points reference;
@@ -49,14 +51,16 @@ Real error_of(const Points& shape, const Points& reference) {
 }
 
 Step step_of(std::size_t muscle) {
-  Step step{benchmark_hip().scene, {}, {}, benchmark_hip().flexed(radians(45)), {}};
+  Step step{benchmark_hip().scene, {}, {}, {}, benchmark_hip().flexed(radians(45)), {}};
   step.scene.muscles = {benchmark_hip().scene.muscles[muscle]};
   step.scene.contact.muscle = MuscleContact::none;
   step.scene.muscles[0].xpbd.settling_rounds = 0;
   const auto method = make_xpbd_method(step.scene, benchmark_hip().fields);
+  step.poses = {benchmark_hip().flexed(0)};
   for (int degree = 2; degree <= 44; ++degree) {
     step.before = step.last;
     step.last.pose = benchmark_hip().flexed(radians(degree));
+    step.poses.push_back(step.last.pose);
     method->advance(step.last.pose);
     method->write(step.last);
   }
@@ -71,7 +75,7 @@ Sample by_method(const Step& step, int count, const std::function<void(XpbdSetti
   const auto method = make_xpbd_method(scene, benchmark_hip().fields);
   std::vector<Real> times;
   for (int repeat = 0; repeat < repeats; ++repeat) {
-    method->restore(step.before, step.last);
+    method->restore(step.poses, step.before, step.last);
     const auto started = std::chrono::steady_clock::now();
     method->advance(step.pose);
     times.push_back(milliseconds_since(started));
@@ -89,25 +93,21 @@ struct Prediction {
   xpbd::PreparedMuscle muscle;
   std::vector<FieldPlacement> placements;
   SolveSettings settings;
-  SurfaceState state;
+  xpbd::MuscleState state;
 };
 
 Prediction predict(const Step& step) {
   const Muscle& muscle = step.scene.muscles[0];
-  Prediction p{xpbd::prepare_muscle(step.scene, muscle, benchmark_hip().fields), {}, {}, {}};
-  p.settings.time_step = muscle.xpbd.time_step;
-  p.settings.projection.time_step = static_cast<float>(muscle.xpbd.time_step);
-  p.settings.projection.hinge_limit = static_cast<float>(muscle.xpbd.hinge_limit);
-  p.settings.stretch_limit = static_cast<float>(muscle.xpbd.stretch_limit);
-  p.state = make_state(p.muscle.system);
+  Prediction p{xpbd::prepare_muscle(step.scene, muscle, benchmark_hip().fields),
+               {},
+               xpbd::solve_settings(muscle.xpbd, muscle.xpbd.substeps),
+               {}};
+  p.state = xpbd::make_muscle_state(p.muscle, step.scene.bodies.size());
   for (Index i = 0; i < p.state.particles.count(); ++i)
     p.state.particles.position(i) =
         (step.last.muscles[0].points.col(p.muscle.order[static_cast<std::size_t>(i)]) - p.muscle.origin).cast<float>();
   remember_sides(p.muscle.system, xpbd::place_fields(p.muscle, step.last.pose), p.state);
-  xpbd::carry_free(p.muscle, step.last.pose, step.pose, false, p.state.particles);
-  xpbd::move_attached(p.muscle, step.pose, p.state.particles);
-  xpbd::set_target_lengths(p.muscle, step.pose, p.state.target_length);
-  p.state.start = p.state.particles;
+  xpbd::predict(p.muscle, 0, step.last.pose, step.pose, static_cast<float>(p.settings.time_step), p.state);
   p.placements = xpbd::place_fields(p.muscle, step.pose);
   return p;
 }

@@ -1,7 +1,8 @@
 #include <gracilis/methods/xpbd/under_way.hpp>
 
 #include <gracilis/core/state_hash.hpp>
-#include <gracilis/methods/xpbd/motion.hpp>
+#include <gracilis/methods/xpbd/prediction.hpp>
+#include <gracilis/methods/xpbd/step.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -10,23 +11,18 @@ namespace gracilis::xpbd {
 
 UnderWay under_way(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
                    const std::vector<Pose>& poses) {
-  UnderWay u{prepare_muscle(scene, muscle, fields), {}, {}, {}};
-  u.settings.iterations = muscle.xpbd.iterations;
-  u.settings.time_step = muscle.xpbd.time_step;
-  u.settings.projection.time_step = static_cast<float>(muscle.xpbd.time_step);
-  u.settings.projection.hinge_limit = static_cast<float>(muscle.xpbd.hinge_limit);
-  u.settings.stretch_limit = static_cast<float>(muscle.xpbd.stretch_limit);
+  UnderWay u{prepare_muscle(scene, muscle, fields), {}, solve_settings(muscle.xpbd, muscle.xpbd.substeps), {}};
+  u.settings.settling_rounds = 0;  // the middle of a solve is looked for, not its end
   u.state = make_muscle_state(u.muscle, scene.bodies.size());
+  const auto time_step = static_cast<float>(u.settings.time_step);
   Pose before = poses.front();
   for (const Pose& pose : poses) {
-    carry_free(u.muscle, before, pose, false, u.state);
-    move_attached(u.muscle, pose, u.state.particles);
-    set_target_lengths(u.muscle, pose, u.state);
-    u.state.start = u.state.particles;
+    predict(u.muscle, 0, before, pose, time_step, u.state);
     u.placements = place_fields(u.muscle, pose);
     SolveSettings settings = u.settings;
     if (&pose == &poses.back()) settings.iterations = 3;
     solve_substep(u.muscle.system, u.placements, settings, u.state);
+    if (muscle.xpbd.time_mode == TimeMode::dynamic) take_velocities(time_step, u.state);
     before = pose;
   }
   refresh_contacts(u.muscle.system, u.placements, u.state);
