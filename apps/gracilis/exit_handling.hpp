@@ -5,8 +5,12 @@
 
 namespace gracilis {
 
+/// A file that outgrows its limit or the disk is a failed write with a message, not the end of the program.
+void ignore_size_signals();
+
 /// Runs a command and turns what it throws into log lines and the exit code that the documentation promises: Error
-/// knows its own, anything else is an internal error (1).
+/// knows its own, what the system refuses (as a path that cannot be looked at, or printing to a full disk) is 3,
+/// anything else is an internal error (1).
 int run_guarded(const std::function<int()>& command);
 
 /// True once the user has asked to stop (SIGINT or SIGTERM); watched from the first call on. The second signal ends

@@ -8,11 +8,13 @@
 #include <gracilis/opensim/scene_folder.hpp>
 #include <gracilis/opensim/skeleton.hpp>
 #include <gracilis/opensim/skeleton_fit.hpp>
+#include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <set>
 
 namespace gracilis {
 
@@ -31,10 +33,11 @@ struct ImportOptions {
 /// The motions given; without one, the pose of the default coordinates.
 std::vector<opensim::NamedMotion> motions_of(const opensim::Model& model, const ImportOptions& options) {
   std::vector<opensim::NamedMotion> motions;
+  std::set<std::string> names = {"model"};
   for (const fs::path& path : options.motions) {
     const Table table = read_table(path);
     for (const std::string& warning : table.warnings) spdlog::warn("{}", warning);
-    motions.push_back({path.stem().string(), opensim::coordinate_motion(model, table)});
+    motions.push_back({file_name_of(path.stem().string(), names), opensim::coordinate_motion(model, table)});
     for (const std::string& note : motions.back().motion.notes) spdlog::warn("{}", note);
   }
   if (motions.empty()) motions.push_back({"rest", {{0}, opensim::default_coordinates(model).transpose(), {}}});
@@ -85,7 +88,7 @@ int import_model(ImportOptions options) {
       opensim::write_scene_folder(model, places, motions, options.settings, options.out);
   for (const std::string& line : left_out) spdlog::warn("{}", line);
   for (const opensim::NamedMotion& motion : motions)
-    fmt::print("{}\n", (options.out / (motion.name + ".toml")).string());
+    fmt::print("{}\n", (options.out / (opensim::motion_file_name(motion) + ".toml")).string());
   if (options.strict && !left_out.empty())
     throw Error(ExitCode::unsupported, fmt::format("{} elements were left out (--strict)", left_out.size()));
   return static_cast<int>(ExitCode::done);

@@ -17,6 +17,7 @@
 #include "rom_command.hpp"
 #include "run_command.hpp"
 #include "static_optimization_command.hpp"
+#include "verify_command.hpp"
 #include "view_command.hpp"
 
 #include <gracilis/core/errors.hpp>
@@ -29,6 +30,7 @@
 int main(int count, char** arguments) {
   using namespace gracilis;
   set_up_logging();
+  ignore_size_signals();
   const std::vector<std::string> words(arguments, arguments + count);
 
   CLI::App program("Gracilis: bones, muscle surfaces and a motion become deforming, contracting muscles.", "gracilis");
@@ -46,6 +48,7 @@ int main(int count, char** arguments) {
   add_render_command(program, chosen);
   add_export_command(program, chosen);
   add_report_command(program, chosen);
+  add_verify_command(program, chosen);
   add_view_command(program, chosen);
   add_prepare_command(program, chosen);
   add_import_command(program, chosen);
@@ -57,8 +60,10 @@ int main(int count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     // Help and version are no errors; everything else is a usage error, whatever CLI11's own code for it.
     const bool asked_for = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    program.exit(error, std::cout, std::cerr);
-    return static_cast<int>(asked_for ? ExitCode::done : ExitCode::usage);
+    return run_guarded([&] {
+      program.exit(error, std::cout, std::cerr);
+      return static_cast<int>(asked_for ? ExitCode::done : ExitCode::usage);
+    });
   }
   return run_guarded(chosen);
 }

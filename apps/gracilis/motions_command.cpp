@@ -5,11 +5,13 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/opensim/sample_motions.hpp>
+#include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 namespace gracilis {
 
@@ -32,11 +34,12 @@ int write_motions(const MotionsOptions& options) {
       throw ConfigurationError(
           {"--joint", "", fmt::format("the model has no joint '{}'", name), suggestion(name, known)});
   fs::create_directories(options.out);
+  std::set<std::string> taken;
   for (const opensim::Joint& joint : model.joints) {
     const bool asked = std::find(options.joints.begin(), options.joints.end(), joint.name) != options.joints.end();
     if (!asked && !options.joints.empty()) continue;
     for (const opensim::SampleMotion& sample : opensim::sample_motions(model, joint, options.steps)) {
-      const fs::path path = options.out / (sample.name + ".mot");
+      const fs::path path = options.out / (file_name_of(sample.name, taken) + ".mot");
       write_sto(path, opensim::coordinate_table(model, sample.motion));
       fmt::print("{}\n", path.string());
     }

@@ -6,11 +6,13 @@
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/opensim/path_tables.hpp>
+#include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <set>
 
 namespace gracilis {
 
@@ -77,9 +79,10 @@ int write_paths(const PathsOptions& options) {
   for (const std::string& note : motion.notes) spdlog::warn("{}", note);
   const opensim::PathTables tables = opensim::path_tables(model, motion);
   fs::create_directories(options.out);
-  const std::string start = options.prefix.empty() ? model.name : options.prefix;
+  const std::string start = file_name_of(options.prefix.empty() ? model.name : options.prefix);
+  std::set<std::string> taken;
   const auto write = [&](const std::string& what, const Table& table) {
-    const fs::path path = options.out / (start + "_" + what + ".sto");
+    const fs::path path = options.out / (start + "_" + file_name_of(what, taken) + ".sto");
     write_sto(path, table);
     fmt::print("{}\n", path.string());
   };

@@ -1,11 +1,13 @@
 #include "prepare_command.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/whole_number.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/mesh_reader.hpp>
 #include <gracilis/io/mesh_writer.hpp>
 #include <gracilis/io/preparation_report.hpp>
 #include <gracilis/io/scene_reader.hpp>
+#include <gracilis/scene/names.hpp>
 #include <gracilis/scene/setting_table.hpp>
 
 #ifdef GRACILIS_WITH_PREPARE
@@ -20,6 +22,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <sstream>
 
 namespace gracilis {
@@ -93,17 +97,19 @@ int prepare(const PrepareOptions& options) {
   SceneSurfaces input = read_input(options);
   for (const auto& [key, value] : options.settings) {
     const Setting<PrepareSettings>& setting = *find_setting<PrepareSettings>(key);
-    const bool whole = setting.kind == SettingKind::integer;
-    const std::string wrong =
-        assign(input.settings, setting, whole ? SettingValue(static_cast<int>(value)) : SettingValue(value));
+    const std::optional<int> count =
+        setting.kind == SettingKind::integer ? whole_number<int>(value) : std::nullopt;
+    // What is no count is refused as the number that it is.
+    const std::string wrong = assign(input.settings, setting, count ? SettingValue(*count) : SettingValue(value));
     if (!wrong.empty()) throw ConfigurationError({"", option_name(setting), wrong, ""});
   }
   const PreparedSurfaces prepared = prepare_surfaces(input.muscles, input.bones, input.settings, log_lines);
   std::error_code failed;
   fs::create_directories(options.out, failed);
   if (failed) throw InputError({options.out.string(), "", "cannot be made a folder: " + failed.message(), ""});
+  std::set<std::string> names;
   for (std::size_t m = 0; m < input.muscles.size(); ++m)
-    write_surface(options.out / (input.muscles[m].name + ".vtp"), prepared.muscles[m].vertices,
+    write_surface(options.out / (file_name_of(input.muscles[m].name, names) + ".vtp"), prepared.muscles[m].vertices,
                   prepared.muscles[m].faces);
   const std::string report = to_text(prepared.report);
   write_text_atomically(options.out / "report.txt", report);

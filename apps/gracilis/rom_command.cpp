@@ -5,10 +5,12 @@
 
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/table.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/scene/motion.hpp>
+#include <gracilis/scene/names.hpp>
 #include <gracilis/simulate/moment_arms.hpp>
 #include <gracilis/view/run_charts.hpp>
 
@@ -23,18 +25,23 @@ namespace gracilis {
 
 namespace {
 
-/// What --coord says: a coordinate that goes from one angle to another, or stays at one. Degrees.
+/// What --coord says: a coordinate that goes from one value to another, or stays at one. Degrees, or mm where the
+/// coordinate is a translation.
 struct CoordinateRange {
   std::string name;
   Real from = 0, to = 0, step = 0;
+  bool translation = false;
+
+  /// Of one degree or mm, in rad or m.
+  Real unit() const { return translation ? 0.001 : radians(1); }
 
   bool moves() const { return step != 0; }
 };
 
 CoordinateRange parse_range(const std::string& text) {
   const auto wrong = [&](const std::string& what) {
-    return ConfigurationError(
-        {"--coord", "", "'" + text + "' " + what, "write NAME=FROM:TO:STEP or NAME=ANGLE, degrees"});
+    return ConfigurationError({"--coord", "", "'" + text + "' " + what,
+                               "write NAME=FROM:TO:STEP or NAME=VALUE, in degrees, or mm for a translation"});
   };
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0) throw wrong("names no coordinate");
@@ -56,30 +63,34 @@ CoordinateRange parse_range(const std::string& text) {
   return range;
 }
 
+const JointAxis& axis_of(const Scene& scene, const std::string& coordinate) {
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes)
+      if (axis.coordinate == coordinate) return axis;
+  throw ConfigurationError(
+      {"--coord", "", "there is no coordinate '" + coordinate + "'", suggestion(coordinate, coordinate_names(scene))});
+}
+
 /// The scene's motion becomes: from the range's begin to its end; coordinates that are not named keep their capture
 /// value. Returns the coordinate that moves.
-CoordinateRange set_motion(const std::vector<std::string>& texts, Scene& scene) {
-  const std::vector<std::string> known = coordinate_names(scene);
+CoordinateRange set_motion(const std::vector<std::string>& texts, int max_frames, Scene& scene) {
   std::vector<std::string> names;
   Eigen::MatrixXd keys(2, static_cast<Index>(texts.size()));
   CoordinateRange moving;
   for (std::size_t i = 0; i < texts.size(); ++i) {
-    const CoordinateRange range = parse_range(texts[i]);
-    if (std::find(known.begin(), known.end(), range.name) == known.end()) {
-      throw ConfigurationError(
-          {"--coord", "", "there is no coordinate '" + range.name + "'", suggestion(range.name, known)});
-    }
+    CoordinateRange range = parse_range(texts[i]);
+    range.translation = axis_of(scene, range.name).translation;
     if (std::find(names.begin(), names.end(), range.name) != names.end())
       throw ConfigurationError({"--coord", "", "the coordinate '" + range.name + "' is given twice", ""});
     if (range.moves() && moving.moves())
-      throw ConfigurationError({"--coord", "", "two coordinates move", "let one move and give the others one angle"});
+      throw ConfigurationError({"--coord", "", "two coordinates move", "let one move and give the others one value"});
     if (range.moves()) moving = range;
     names.push_back(range.name);
-    keys.col(static_cast<Index>(i)) << radians(range.from), radians(range.to);
+    keys.col(static_cast<Index>(i)) << range.from * range.unit(), range.to * range.unit();
   }
   if (!moving.moves())
     throw ConfigurationError({"--coord", "", "no coordinate moves", "write one as NAME=FROM:TO:STEP"});
-  scene.motion = motion_through(names, keys, radians(moving.step), 1.0 / 60);
+  scene.motion = motion_through(names, keys, moving.step * moving.unit(), 1.0 / 60, max_frames);
   scene.motion.name = scene.name;
   // Muscles settle first: what they do when they become active is no moment arm.
   if (scene.sequence.settle_frames == 0) scene.sequence.settle_frames = 30;
@@ -89,6 +100,10 @@ CoordinateRange set_motion(const std::vector<std::string>& texts, Scene& scene) 
 }
 
 void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const CoordinateRange& moving) {
+  if (!is_there(folder / "fiber_lengths.sto")) {
+    spdlog::warn("no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
+    return;
+  }
   Table table = read_table(folder / "fiber_lengths.sto");
   // The rows before the range only lead there.
   const auto rows = std::min(static_cast<Eigen::Index>(scene.motion.times.size()), table.values.rows());
@@ -96,25 +111,34 @@ void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, 
   table.times.erase(table.times.begin(), table.times.end() - rows);
   const auto coordinates = static_cast<Eigen::Index>(coordinate_names(scene).size());
   // Every coordinate of the scene has a column.
-  const Eigen::VectorXd angles = table.values.col(column_of(table, moving.name).value()) * radians(1);
+  const Real unit = moving.translation ? 1 : radians(1);  // tables have degrees and m
+  const Eigen::VectorXd angles = table.values.col(column_of(table, moving.name).value()) * unit;
   const Eigen::Index lengths = table.values.cols() - coordinates;
   table.name = "moment_arms";
   table.values.rightCols(lengths) = moment_arms(angles, table.values.rightCols(lengths));
   write_sto(folder / "moment_arms.sto", table);
 
+  const ChartCoordinate coordinate = chart_coordinate(scene, moving.name);
+  const std::string title = moving.translation ? "shortening" : "moment arms";
+  const std::string y_label = moving.translation ? "shortening (mm per m)" : "moment arm (mm)";
   std::vector<std::string> muscles;
   for (const Muscle& muscle : scene.muscles) {
     const std::optional<Eigen::Index> found = column_of(table, muscle.name);
     if (!found) continue;
     muscles.push_back(muscle.name);
     const Eigen::VectorXd arms = table.values.col(*found);
-    fmt::print("{}: moment arm about {} {:.1f} to {:.1f} mm, largest step {:.3f} mm per degree\n", muscle.name,
-               moving.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), 1e3 * largest_step_per_degree(angles, arms));
+    if (moving.translation)
+      fmt::print("{}: shortens by {:.1f} to {:.1f} mm per m of {}\n", muscle.name, 1e3 * arms.minCoeff(),
+                 1e3 * arms.maxCoeff(), moving.name);
+    else
+      fmt::print("{}: moment arm about {} {:.1f} to {:.1f} mm, largest step {:.3f} mm per degree\n", muscle.name,
+                 moving.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(),
+                 1e3 * largest_step_per_degree(angles, arms));
     write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"),
-                fiber_chart(table, moving.name, muscle.name, muscle.name + ": moment arms", "moment arm (mm)"));
+                fiber_chart(table, coordinate, muscle.name, muscle.name + ": " + title, y_label));
   }
   write_chart(folder / "plots" / "moment_arms.svg",
-              muscles_chart(table, moving.name, muscles, scene.name + ": moment arms", "moment arm (mm)"));
+              muscles_chart(table, coordinate, muscles, scene.name + ": " + title, y_label));
 }
 
 }  // namespace
@@ -131,8 +155,8 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
   add_scene_options(*command, options->file, options->scene);
   command
       ->add_option("--coord", options->coordinates,
-                   "NAME=FROM:TO:STEP in degrees, as in hip_flexion_r=-10:60:2; NAME=ANGLE fixes another coordinate. "
-                   "May be repeated")
+                   "NAME=FROM:TO:STEP in degrees, as in hip_flexion_r=-10:60:2, or in mm where the coordinate is a "
+                   "translation; NAME=VALUE fixes another coordinate. May be repeated")
       ->required()
       ->allow_extra_args(false);
   add_session_options(*command, options->session);
@@ -141,8 +165,8 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
     chosen = [options] {
       LoadedScene loaded = read_scene(options->file, options->scene);
       if (options->session.out.empty())
-        options->session.out = std::filesystem::path("runs") / (loaded.scene.name + "_rom");
-      const CoordinateRange moving = set_motion(options->coordinates, loaded.scene);
+        options->session.out = std::filesystem::path("runs") / (file_name_of(loaded.scene.name) + "_rom");
+      const CoordinateRange moving = set_motion(options->coordinates, loaded.max_frames, loaded.scene);
       const int code = run_session(loaded, options->session);
       if (code != static_cast<int>(ExitCode::interrupted))
         write_moment_arms(options->session.out, loaded.scene, moving);

@@ -13,6 +13,7 @@
 #include <gracilis/io/run_folder.hpp>
 #include <gracilis/io/scene_template.hpp>
 #include <gracilis/methods/registry.hpp>
+#include <gracilis/scene/names.hpp>
 #include <gracilis/simulate/run.hpp>
 #include <gracilis/view/preview.hpp>
 #include <gracilis/view/run_charts.hpp>
@@ -76,7 +77,7 @@ class Session {
   Session(const LoadedScene& loaded, const SessionOptions& options)
       : loaded_(loaded),
         options_(options),
-        poses_(pose_sequence(loaded.scene)),
+        poses_(pose_sequence(loaded.scene, loaded.max_frames)),
         threads_(options.threads),
         folder_(out_folder(), loaded.scene, poses_, existing()),
         summary_{method_of(loaded.scene).metrics} {}
@@ -127,7 +128,7 @@ class Session {
   }
 
   std::filesystem::path out_folder() const {
-    return options_.out.empty() ? std::filesystem::path("runs") / loaded_.scene.name : options_.out;
+    return options_.out.empty() ? std::filesystem::path("runs") / file_name_of(loaded_.scene.name) : options_.out;
   }
 
   ExistingRun existing() const {
@@ -157,9 +158,9 @@ class Session {
     for (const std::string& warning : loaded_.warnings) warn(warning);
   }
 
-  std::vector<DistanceField> bone_fields(const DistanceFieldSettings& settings) const {
+  std::vector<DistanceField> bone_fields(const DistanceFieldSettings& settings) {
     for (const Bone& bone : loaded_.scene.bones) spdlog::info("distance field of {}", bone.name);
-    return cached_bone_fields(loaded_.scene, settings);
+    return cached_bone_fields(loaded_.scene, settings, [this](const std::string& warning) { warn(warning); });
   }
 
   /// Says per muscle what was missed, limited or skipped over the whole run.

@@ -7,6 +7,7 @@
 #include <gracilis/opensim/low_pass.hpp>
 #include <gracilis/opensim/model_reader.hpp>
 #include <gracilis/opensim/setup_reader.hpp>
+#include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -101,7 +102,7 @@ int optimize(const OptimizationOptions& options) {
   progress.clear();
   report(result);
   fs::create_directories(options.out);
-  const std::string start = setup.name + "_" + setup.analysis;
+  const std::string start = file_name_of(setup.name) + "_" + file_name_of(setup.analysis);
   for (const auto& [what, table] : {std::pair{"activation", &result.activations}, {"force", &result.forces}}) {
     const fs::path path = options.out / fmt::format("{}_{}.sto", start, what);
     write_sto(path, *table);

@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/core/errors.hpp>
 
 #include <gtest/gtest.h>
 
@@ -130,6 +131,17 @@ TEST(PoseSequence, the_return_ends_exactly_in_the_capture_pose) {
 }
 
 TEST(PoseSequence, a_scene_without_motion_is_the_capture_pose_alone) { EXPECT_EQ(pose_sequence(leg()).size(), 1u); }
+
+TEST(PoseSequence, is_never_longer_than_allowed) {
+  Scene scene = leg();
+  scene.motion = motion({"flexion"}, {0, 0.5}, Eigen::Vector2d(0.03 + radians(7.5), 1));
+  EXPECT_EQ(pose_sequence(scene, 10).size(), 10u);
+  EXPECT_THROW(pose_sequence(scene, 9), ConfigurationError);
+  scene.sequence.settle_frames = 1;
+  EXPECT_THROW(pose_sequence(scene, 10), ConfigurationError);
+  scene.motion.values(0, 0) = 1e300;
+  EXPECT_THROW(pose_sequence(scene), ConfigurationError);
+}
 
 TEST(JointPose, a_translation_shifts_along_its_axis_in_the_frame_left_by_the_axes_before) {
   Scene scene;

@@ -72,6 +72,24 @@ TEST_F(PreparedCache, a_damaged_file_is_made_again) {
   EXPECT_EQ(work.calls, 2);
 }
 
+TEST_F(PreparedCache, a_changed_bit_is_seen_and_told_of) {
+  const std::vector<TriangleMesh> first = prepare();
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    if (entry.path().extension() != ".muscles") continue;
+    std::fstream stream(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
+    stream.seekp(1000);
+    stream.put('x');
+  }
+  std::vector<std::string> warnings;
+  const std::vector<TriangleMesh> again = cached_preparation(
+      muscles, bones, {}, work.function(), [](const std::string&) {}, folder.path(),
+      [&](const std::string& warning) { warnings.push_back(warning); });
+  EXPECT_EQ(work.calls, 2);
+  EXPECT_EQ(again[0].vertices, first[0].vertices);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings[0], testing::HasSubstr("is damaged; made anew"));
+}
+
 TEST_F(PreparedCache, what_is_kept_needs_nobody_to_prepare_it) {
   const std::vector<TriangleMesh> first = prepare();
   const auto silent = [](const std::string&) {};

@@ -64,23 +64,23 @@ void expect_gradual_release(const std::vector<Overlap>& overlaps, Real longest_s
 
 }  // namespace
 
-TEST(RestOverlap, of_crossing_tubes_never_grows_is_half_as_deep_after_30_frames_and_jumps_nowhere) {
-  const std::vector<Overlap> overlaps = overlaps_of(crossing_tubes(radians(40), 0.014), 60, 0);
+TEST(RestOverlap, of_crossing_tubes_never_grows_halves_within_30_frames_and_jumps_nowhere) {
+  const std::vector<Overlap> overlaps = overlaps_of(crossing_tubes(radians(40), 0.014), 30, 0);
   expect_gradual_release(overlaps, 0.001);
-  EXPECT_LE(2 * overlaps[30].depth, overlaps[0].depth);
+  EXPECT_LE(2 * overlaps.back().depth, overlaps[0].depth);
 }
 
 TEST(RestOverlap, of_tubes_side_by_side_is_released_but_where_attachments_overlap) {
   const std::vector<Overlap> overlaps =
-      overlaps_of(two_tubes(RigidTransform(Eigen::Translation3d(0, 0.016, 0))), 60, 0);
+      overlaps_of(two_tubes(RigidTransform(Eigen::Translation3d(0, 0.016, 0))), 30, 0);
   expect_gradual_release(overlaps, 0.001);
   EXPECT_NEAR(overlaps.back().depth, overlaps[0].depth, 1e-5) << "attached vertices stay where they are";
 }
 
 TEST(RestOverlap, is_released_while_the_joint_bends) {
   // The lower ends swing by 140 mm times the angle in each frame.
-  expect_gradual_release(overlaps_of(crossing_tubes(radians(40), 0.014), 60, radians(20)),
-                         0.001 + 0.14 * radians(20) / 60);
+  expect_gradual_release(overlaps_of(crossing_tubes(radians(40), 0.014), 30, radians(20)),
+                         0.001 + 0.14 * radians(20) / 30);
 }
 
 TEST(RestOverlap, a_tube_through_another_is_left_out_of_contact) {

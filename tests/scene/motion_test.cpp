@@ -1,7 +1,10 @@
+#include <gracilis/core/errors.hpp>
 #include <gracilis/scene/motion.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <limits>
 
 namespace gracilis {
 
@@ -32,6 +35,29 @@ TEST(Motion, unknown_coordinates_are_dropped_and_named) {
   EXPECT_THAT(drop_unknown_coordinates(motion, {"b", "a"}), ElementsAre("x", "y"));
   EXPECT_THAT(motion.coordinates, ElementsAre("a", "b"));
   EXPECT_EQ(motion.values, Eigen::RowVector2d(2, 4));
+}
+
+TEST(Motion, steps_are_counted_where_an_int_would_wrap_around) {
+  EXPECT_EQ(steps_over(1e6, 1e-6), 1'000'000'000'000);
+  EXPECT_EQ(steps_over(0, 1), 1);
+  EXPECT_EQ(steps_over(-3, 1), 3);
+  EXPECT_EQ(steps_over(7 * 0.1, 0.1), 7);
+  EXPECT_EQ(steps_over(1e308, 1e-3), std::int64_t{1} << 62);
+  EXPECT_EQ(steps_over(std::numeric_limits<Real>::infinity(), 1), std::int64_t{1} << 62);
+}
+
+TEST(Motion, more_frames_than_allowed_are_refused_before_any_is_made) {
+  const Eigen::MatrixXd keys = Eigen::Vector2d(0, 1e6);
+  try {
+    motion_through({"a"}, keys, 1e-6, 1);
+    FAIL() << "1e12 rows were made";
+  } catch (const ConfigurationError& error) {
+    EXPECT_EQ(error.code(), ExitCode::usage);
+    EXPECT_THAT(error.what(), testing::HasSubstr("more than 1000000 frames"));
+  }
+  EXPECT_THROW(motion_through({"a"}, Eigen::Vector2d(-1e308, 1e308), 1, 1), ConfigurationError);
+  EXPECT_THROW(motion_through({"a"}, Eigen::Vector3d(0, 6, 0), 1, 1, 10), ConfigurationError);
+  EXPECT_EQ(motion_through({"a"}, Eigen::Vector3d(0, 5, 0), 1, 1, 10 + 1).times.size(), 11u);
 }
 
 }  // namespace gracilis

@@ -29,6 +29,7 @@ Scene good_scene() {
   muscle.attachments = {{"top", AttachmentEnd::origin, 0, {4, 5, 6, 7}, false},
                         {"bottom", AttachmentEnd::insertion, 1, {0, 1, 2, 3}, false}};
   scene.muscles = {muscle};
+  scene.distance_fields.cell_size = 0.01;  // bones of a metre at the default would take gigabytes
   scene.motion = {"motion", {"flexion"}, {0, 1}, Eigen::Vector2d(0, 0.5)};
   return scene;
 }
@@ -128,6 +129,40 @@ TEST(Validate, the_motion_must_be_a_finite_table_of_known_coordinates_with_incre
   EXPECT_PROBLEM(s.motion.times[0] = nan, "row 0 is not finite");
   EXPECT_PROBLEM(s.motion.times.push_back(2), "its table has 2 rows and 1 columns, but there are 3 times");
   EXPECT_THAT(problems_after([](Scene& s) { s.motion = {}; }), ElementsAre()) << "no motion at all is fine";
+}
+
+TEST(Validate, what_becomes_a_file_has_a_name_of_its_own) {
+  EXPECT_PROBLEM(s.muscles[0].name = "femur", "muscle 'femur': a bone has the same name");
+  EXPECT_PROBLEM(s.muscles[0].name = std::string(121, 'a'), "the name is too long");
+  EXPECT_PROBLEM(s.bones[0].name = "a/b", "bone 'a/b': the name is not fit for a file's name");
+  EXPECT_PROBLEM(s.bones[0].name = ".hidden", "is not fit for a file's name");
+  EXPECT_PROBLEM(s.name = "a\nb", "the scene's name holds a control character");
+}
+
+TEST(Validate, what_becomes_a_column_has_a_name_of_its_own) {
+  EXPECT_PROBLEM(s.muscles[0].name = "flexion", "coordinate 'flexion': a muscle has the same name");
+  EXPECT_PROBLEM(s.joints[0].axes[0].coordinate = "muscle_f003", "a fiber of the muscle 'muscle' is called so");
+  EXPECT_PROBLEM(s.joints[0].axes[0].coordinate = "dihedral_change_max", "measures have a column");
+  for (const char* name : {"a,b", "a\tb", "a\nb", "a\"b", " a", "a ", "time", "Time"}) {
+    Scene scene = good_scene();
+    scene.joints[0].axes[0].coordinate = name;
+    EXPECT_THAT(problems(scene), Contains(HasSubstr("is not fit for a column of a table"))) << name;
+  }
+  EXPECT_THAT(problems_after([](Scene& s) {
+                s.joints[0].axes[0].coordinate = "hip flexion";
+                s.motion.coordinates = {"hip flexion"};
+              }),
+              ElementsAre());
+}
+
+TEST(Validate, settings_that_ask_for_more_memory_than_there_is_are_named) {
+  EXPECT_PROBLEM(s.distance_fields.resolution = 1024, "distance_field: 'resolution' asks for grids of 2.2e+09 nodes");
+  EXPECT_PROBLEM(s.distance_fields.cell_size = 1e-4, "distance_field: 'cell_size' asks for grids");
+  EXPECT_PROBLEM((s.muscles[0].fibers.count = 100'000, s.muscles[0].fibers.segments = 10'000),
+                 "fibers: 'count' and 'segments' ask for 1e+09 points");
+  EXPECT_PROBLEM(s.muscles[0].fibers.count = 10'001, "fibers: 'count' asks for 10001 fibers in 'muscle'");
+  EXPECT_PROBLEM((s.muscles[0].fibers.count = 100'000, s.muscles[0].contraction.segments = 10'000),
+                 "contraction: 'segments' and the 'count' of fibers ask for 1e+09 points");
 }
 
 }  // namespace gracilis

@@ -101,8 +101,9 @@ TEST(Gif, what_does_not_change_costs_little) {
 
 TEST(Video, ffmpeg_gets_every_pixel_of_every_frame) {
   const TestFolder folder;
-  // Stands for ffmpeg: keeps what comes in where the film should go, which is the last word.
-  const auto program = folder.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\ncat > \"$last\"\n");
+  // Stands for ffmpeg: keeps what comes in where the film should go, which is the last word and, whatever it
+  // looks like, a file.
+  const auto program = folder.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\ncase $last in file:*) ;; *) exit 1;; esac\ncat > \"${last#file:}\"\n");
   std::filesystem::permissions(program, std::filesystem::perms::owner_all);
   const std::string path = std::getenv("PATH");
   setenv("PATH", (folder.path().string() + ":" + path).c_str(), 1);

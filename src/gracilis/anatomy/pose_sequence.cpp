@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/activation.hpp>
 #include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/scene/motion.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,35 +11,59 @@ namespace gracilis {
 
 using Coordinates = std::vector<Real>;
 
-/// The motion's rows with the coordinates in the order of the scene.
-static std::vector<Coordinates> motion_rows(const Scene& scene) {
+/// A row of the motion with the coordinates in the order of the scene.
+static Coordinates motion_row(const Scene& scene, std::size_t row) {
   const std::vector<std::string> names = coordinate_names(scene);
-  std::vector<Coordinates> rows(scene.motion.times.size(), capture_coordinates(scene));
+  Coordinates values = capture_coordinates(scene);
   for (std::size_t column = 0; column < scene.motion.coordinates.size(); ++column) {
     const auto found = std::find(names.begin(), names.end(), scene.motion.coordinates[column]);
-    if (found == names.end()) continue;
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      rows[row][found - names.begin()] = scene.motion.values(row, column);
-    }
+    if (found != names.end())
+      values[static_cast<std::size_t>(found - names.begin())] =
+          scene.motion.values(static_cast<Index>(row), static_cast<Index>(column));
   }
+  return values;
+}
+
+static std::vector<Coordinates> motion_rows(const Scene& scene) {
+  std::vector<Coordinates> rows;
+  for (std::size_t row = 0; row < scene.motion.times.size(); ++row) rows.push_back(motion_row(scene, row));
   return rows;
 }
 
+/// How many frames a ramp takes: what the scene says, or as many as steps of 1 degree (or mm) need.
+static std::int64_t ramp_length(const Scene& scene, const Coordinates& from, const Coordinates& to) {
+  if (from == to) return 0;
+  if (scene.sequence.ramp_frames > 0) return scene.sequence.ramp_frames;
+  Real largest = 0;
+  std::size_t i = 0;
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes) {
+      largest = std::max(largest, shown_value(axis, std::abs(to[i] - from[i])));
+      ++i;
+    }
+  return steps_over(largest, 1);
+}
+
+/// Throws ConfigurationError where the whole sequence is longer than allowed, before any of it is made.
+static void require_length(const Scene& scene, int max_frames) {
+  const Sequence& sequence = scene.sequence;
+  const auto require = [&](std::int64_t frames) { require_frames(frames, max_frames); };
+  const auto count = static_cast<std::int64_t>(scene.motion.times.size());
+  require(count);
+  if (count == 0) return;
+  const Coordinates capture = capture_coordinates(scene);
+  const std::int64_t into = ramp_length(scene, capture, motion_row(scene, 0));
+  const std::int64_t back =
+      sequence.return_to_capture ? ramp_length(scene, motion_row(scene, scene.motion.times.size() - 1), capture) : 0;
+  require(into);
+  require(back);
+  require(count + into + back + std::max(sequence.settle_frames, 0) + std::max(sequence.hold_frames, 0));
+}
+
 /// Equal steps from one set of values to another; without the first, with the last exactly.
-static std::vector<Coordinates> ramp(const Scene& scene, const Coordinates& from, const Coordinates& to, int frames) {
-  if (from == to) return {};
-  if (frames == 0) {
-    Real largest = 0;
-    std::size_t i = 0;
-    for (const Joint& joint : scene.joints)
-      for (const JointAxis& axis : joint.axes) {
-        largest = std::max(largest, shown_value(axis, std::abs(to[i] - from[i])));
-        ++i;
-      }
-    // The tolerance keeps a change of exactly n degrees (or mm) at n frames whatever the rounding.
-    frames = std::max(1, static_cast<int>(std::ceil(largest - 1e-9)));
-  }
-  std::vector<Coordinates> steps(frames, to);
+static std::vector<Coordinates> ramp(const Scene& scene, const Coordinates& from, const Coordinates& to) {
+  const auto frames = static_cast<int>(ramp_length(scene, from, to));
+  std::vector<Coordinates> steps(static_cast<std::size_t>(frames), to);
   for (int step = 0; step + 1 < frames; ++step) {
     const Real share = Real(step + 1) / frames;
     for (std::size_t i = 0; i < to.size(); ++i) steps[step][i] = from[i] + share * (to[i] - from[i]);
@@ -67,21 +92,22 @@ static std::vector<Pose> relaxed_sequence(const Scene& scene) {
   const Real spacing = mean_spacing(times);
 
   // A motion that starts in the capture pose has that row as its frame 0.
-  std::vector<Coordinates> into = ramp(scene, capture, rows.front(), scene.sequence.ramp_frames);
+  std::vector<Coordinates> into = ramp(scene, capture, rows.front());
   into.insert(into.end(), static_cast<std::size_t>(std::max(scene.sequence.settle_frames, 0)), rows.front());
   add(capture, times.front() - spacing * Real(into.size()));
   for (std::size_t i = 0; i < into.size(); ++i) add(into[i], times.front() - spacing * Real(into.size() - 1 - i));
   for (std::size_t i = 1; i < rows.size(); ++i) add(rows[i], times[i]);
   for (int i = 0; i < scene.sequence.hold_frames; ++i) add(rows.back(), poses.back().time + spacing);
   if (scene.sequence.return_to_capture) {
-    for (const Coordinates& values : ramp(scene, rows.back(), capture, scene.sequence.ramp_frames)) {
+    for (const Coordinates& values : ramp(scene, rows.back(), capture)) {
       add(values, poses.back().time + spacing);
     }
   }
   return poses;
 }
 
-std::vector<Pose> pose_sequence(const Scene& scene) {
+std::vector<Pose> pose_sequence(const Scene& scene, int max_frames) {
+  require_length(scene, max_frames);
   std::vector<Pose> poses = relaxed_sequence(scene);
   set_activations(scene, poses);
   return poses;

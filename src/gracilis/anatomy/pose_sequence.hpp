@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/pose.hpp>
 #include <gracilis/scene/scene.hpp>
 
@@ -8,7 +9,8 @@
 namespace gracilis {
 
 /// The poses of all frames of a run: frame 0 is the capture pose; a ramp leads to the motion's first row; then come the
-/// frames that hold it while muscles settle, the motion's rows, the frames that hold the last one, and, where the scene asks for it, a ramp back to the capture pose.
+/// frames that hold it while muscles settle, the motion's rows, the frames that hold the last one, and, where the scene
+/// asks for it, a ramp back to the capture pose.
 ///
 /// A ramp moves all coordinates in equal steps. It takes `Sequence::ramp_frames` frames, the last of which is the pose
 /// it leads to; 0 means as many as it takes for no coordinate to change by more than 1 degree in a frame, and none
@@ -16,6 +18,7 @@ namespace gracilis {
 /// follow at the motion's mean spacing (1/60 s for a single row), so the capture pose usually has a negative time.
 /// Coordinates that the motion does not name keep their capture value. Every pose says how active the muscles are. A
 /// motion without rows leaves frame 0 alone. Requires a scene in which `validate` finds nothing.
-std::vector<Pose> pose_sequence(const Scene& scene);
+/// Throws ConfigurationError, before it makes any, where there are more than `max_frames`.
+std::vector<Pose> pose_sequence(const Scene& scene, int max_frames = default_max_frames);
 
 }  // namespace gracilis

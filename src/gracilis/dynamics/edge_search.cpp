@@ -61,7 +61,7 @@ std::optional<float> most_gap(const SurfacePair& pair, float distance, const std
                second_before.position(second[0]), second_before.position(second[1]), outward);
   if (!before.crossing) return overlapped ? std::nullopt : std::optional(infinity);
   const float gap = std::max(largest_gap(pair.first_gap, first), largest_gap(pair.second_gap, second));
-  return released(before.distance, gap, overlapped);
+  return released(before.distance, gap, overlapped ? pair.release : asked_at_once);
 }
 
 /// Whether a particle is so near that an edge of this length from it may cross another closely: one that does has an

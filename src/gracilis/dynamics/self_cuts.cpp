@@ -261,6 +261,34 @@ std::vector<FacePair> find_folds(const ContactSurface& surface, const Eigen::Mat
   return folds;
 }
 
+void drop_tangled_before(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
+                         std::vector<FacePair>& pairs) {
+  const auto earlier = [&](Index p) -> Vec3 { return before.position(p).cast<Real>(); };
+  const auto then = [&](Index p) -> Vec3 { return rest.col(p).cast<Real>(); };
+  std::vector<Index> around;
+  std::erase_if(pairs, [&](const FacePair& pair) {
+    around.clear();
+    const std::vector<Index> corners = corners_of(surface, pair);
+    for (const Index corner : corners) {
+      const std::span<const Index> fan = surface.fans.around(corner);
+      around.insert(around.end(), fan.begin(), fan.end());
+    }
+    keep_each_once(around);
+    for (auto one = around.begin(); one != around.end(); ++one)
+      if (std::any_of(one + 1, around.end(),
+                      [&](Index other) { return cut_each_other(surface, *one, other, earlier); }))
+        return true;
+    return std::any_of(corners.begin(), corners.end(), [&](Index corner) {
+      const std::span<const Index> edges = surface.edges_at(corner);
+      return std::any_of(edges.begin(), edges.end(), [&](Index at) {
+        const ContactSurface::Edge& edge = surface.edges[static_cast<std::size_t>(at)];
+        return edge.faces[0] >= 0 && edge.faces[1] >= 0 && is_bent(surface, edge, earlier) &&
+               is_folded(angle_at(surface, edge, then), angle_at(surface, edge, earlier));
+      });
+    });
+  });
+}
+
 void unfold(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts, float most,
             Particles& particles) {
   for (const std::vector<Index>& part : parts_of(surface, cuts)) {

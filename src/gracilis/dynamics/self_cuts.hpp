@@ -26,6 +26,11 @@ std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen:
 std::vector<FacePair> find_folds(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
                                  const Particles& particles);
 
+/// Drops the pairs about which the surface already cut itself, or was folded, before the step: among the faces that
+/// have a corner in common with one of the two.
+void drop_tangled_before(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
+                         std::vector<FacePair>& pairs);
+
 /// Gives what cuts itself the shape that it had at rest: wherever cuts hang together, their corners and half of the
 /// way those next to them, as the affine map nearest to how they and three rings around them lie now carries them. No
 /// particle goes further than `most` (m).

@@ -63,8 +63,10 @@ OverlapRelease release_of(const SurfaceCrowd& crowd, const SurfacePair& pair, co
                           bool toward_second) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   if (toward_second)
-    return {crowd.surfaces[b], state.before[a], state.before[b], state.normals[b], pair.shift, pair.first_overlaps};
-  return {crowd.surfaces[a], state.before[b], state.before[a], state.normals[a], -pair.shift, pair.second_overlaps};
+    return {crowd.surfaces[b], state.before[a],     state.before[b], state.normals[b],
+            pair.shift,        pair.first_overlaps, pair.release};
+  return {crowd.surfaces[a], state.before[b],      state.before[a], state.normals[a],
+          -pair.shift,       pair.second_overlaps, pair.release};
 }
 
 /// Lists those that could push before the next look. Within one surface a walk that ended among neighbors has found no

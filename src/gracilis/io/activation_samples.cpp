@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/parse_toml.hpp>
 
 #include <toml++/toml.h>
 
@@ -69,7 +70,7 @@ std::vector<MuscleParts> read_muscle_mapping(const fs::path& path) {
   const std::string text = read_text(path);
   toml::table table;
   try {
-    table = toml::parse(text, path.string());
+    table = parse_toml(text, path.string());
   } catch (const toml::parse_error& error) {
     throw ConfigurationError({path.string(),
                               fmt::format("{}:{}", error.source().begin.line, error.source().begin.column),

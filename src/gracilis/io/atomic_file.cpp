@@ -1,30 +1,54 @@
 #include <gracilis/io/atomic_file.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/process_mark.hpp>
+
+#include <fmt/format.h>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
+#include <string_view>
 
 namespace gracilis {
 
 namespace fs = std::filesystem;
 
-static void fail(const fs::path& path, const std::string& what) {
+static constexpr std::string_view temporary_prefix = ".gracilis-";
+
+[[noreturn]] static void fail(const fs::path& path, const std::string& what) {
   throw InputError({path.string(), "", what, "check the folder's permissions and the free space of the disk"});
 }
 
-/// A name of its own per process, so that two runs never write to the same temporary.
+/// ".gracilis-HOST-PROCESS-STARTED-NUMBER.vtp" for "anything.vtp".
 static fs::path temporary_beside(const fs::path& path) {
-  return path.parent_path() /
-         ("." + path.stem().string() + "." + std::to_string(::getpid()) + path.extension().string());
+  static const ProcessMark own = own_mark();
+  static std::atomic<unsigned> count{0};
+  return path.parent_path() / fmt::format("{}{}-{}-{}-{}{}", temporary_prefix, own.host, own.process, own.started,
+                                          count++, path.extension().string().substr(0, 32));
 }
 
-static void sync_to_disk(const fs::path& path) {
-  const int file = ::open(path.c_str(), O_RDONLY);
+/// An empty file that was not there before and is no link that somebody laid.
+static fs::path new_temporary(const fs::path& path) {
+  for (;;) {
+    const fs::path temporary = temporary_beside(path);
+    const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file >= 0) {
+      ::close(file);
+      return temporary;
+    }
+    if (errno != EEXIST) fail(path, std::string("cannot be written: ") + std::strerror(errno));
+  }
+}
+
+static void sync_to_disk(const fs::path& temporary, const fs::path& path) {
+  const int file = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) fail(path, std::string("cannot be opened to sync it: ") + std::strerror(errno));
   const int result = ::fsync(file);
   const int reason = errno;
@@ -33,10 +57,10 @@ static void sync_to_disk(const fs::path& path) {
 }
 
 void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
-  const fs::path temporary = temporary_beside(path);
+  const fs::path temporary = new_temporary(path);
   try {
     write(temporary);
-    sync_to_disk(temporary);
+    sync_to_disk(temporary, path);
     fs::rename(temporary, path);
   } catch (const fs::filesystem_error& error) {
     std::error_code ignored;
@@ -56,6 +80,26 @@ void write_text_atomically(const fs::path& path, const std::string& text) {
     stream.close();
     if (!stream) fail(path, std::string("cannot be written: ") + std::strerror(errno));
   });
+}
+
+/// Who wrote a temporary, by its name.
+static std::optional<ProcessMark> writer_of(const fs::path& temporary) {
+  std::string name = temporary.filename().string();
+  if (!name.starts_with(temporary_prefix)) return std::nullopt;
+  name.erase(0, temporary_prefix.size());
+  std::replace(name.begin(), name.end(), '-', ' ');
+  return parse_mark(name.substr(0, name.rfind(' ')));
+}
+
+void remove_left_temporaries(const fs::path& folder, LeftBy left_by) {
+  const std::string own_host = own_mark().host;
+  std::error_code ignored;
+  for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored)) {
+    const std::optional<ProcessMark> writer = writer_of(entry->path());
+    if (!writer) continue;
+    const bool of_others = writer->host != own_host;
+    if (is_gone(*writer) || (of_others && left_by == LeftBy::any_machine)) fs::remove(entry->path(), ignored);
+  }
 }
 
 }  // namespace gracilis

@@ -44,8 +44,8 @@ std::string fiber_lengths_row(const Scene& scene, const Pose& pose, const std::v
 }
 
 void truncate_fiber_lengths(const std::filesystem::path& path, int rows, int announced) {
-  if (!std::filesystem::exists(path)) return;
-  const std::string text = read_text(path);
+  if (!is_there(path)) return;
+  const std::string text = text_if_there(path);
   const std::size_t end = text.find("endheader\n"), labels = text.find('\n', end + 10);
   if (end == std::string::npos || labels == std::string::npos) {
     std::filesystem::remove(path);

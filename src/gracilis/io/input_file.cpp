@@ -29,7 +29,25 @@ void require_readable_file(const fs::path& path) {
 std::string read_text(const fs::path& path) {
   require_readable_file(path);
   std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::error_code error;
+  std::string bytes(fs::file_size(path, error), '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (stream.bad()) throw InputError({path.string(), "", "cannot be read to its end", "check the disk"});
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));  // it may have been cut since
+  return bytes;
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  const bool there = fs::exists(path, error);
+  if (error) throw InputError({path.string(), "", "cannot be looked for: " + error.message(), "check the path"});
+  return there;
+}
+
+std::string text_if_there(const fs::path& path) {
+  std::error_code ignored;
+  if (!is_there(path) || (fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) == 0)) return {};
+  return read_text(path);
 }
 
 std::string lower_case_extension(const fs::path& path) {

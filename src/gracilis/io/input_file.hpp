@@ -11,6 +11,13 @@ void require_readable_file(const std::filesystem::path& path);
 /// The whole file as bytes. Throws InputError as above.
 std::string read_text(const std::filesystem::path& path);
 
+/// Whether something stands at `path`. Throws InputError where the system does not tell, as without a right to look.
+bool is_there(const std::filesystem::path& path);
+
+/// The whole file; nothing where it is missing or empty, as an interruption may leave what grows line by line. Throws
+/// InputError where it is there and cannot be read.
+std::string text_if_there(const std::filesystem::path& path);
+
 /// ".PLY" becomes ".ply".
 std::string lower_case_extension(const std::filesystem::path& path);
 

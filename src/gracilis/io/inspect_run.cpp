@@ -19,14 +19,6 @@ namespace gracilis {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-static Json read_manifest(const fs::path& path) {
-  try {
-    return Json::parse(read_text(path));
-  } catch (const nlohmann::json::exception& error) {
-    throw InputError({path.string(), "", std::string("is not JSON: ") + error.what(), "run the scene again"});
-  }
-}
-
 /// The worst that each muscle showed in any frame, from measures.csv.
 static Json worst_measures(const fs::path& path) {
   const std::string text = read_text(path);
@@ -83,11 +75,7 @@ static Json worst_measures(const fs::path& path) {
 }
 
 Json inspect_run(const fs::path& folder) {
-  if (!fs::exists(folder / "run.json")) {
-    throw InputError(
-        {folder.string(), "", "is no run folder: it has no run.json", "name a file or the folder of a run"});
-  }
-  const Json manifest = read_manifest(folder / "run.json");
+  const Json manifest = read_manifest(folder);
   Json description = {{"kind", "run folder"}};
   for (const char* key :
        {"status", "scene", "preset", "gracilis", "written", "frames", "seconds", "threads", "guessed", "warnings"}) {

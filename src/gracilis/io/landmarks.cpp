@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace gracilis {
@@ -35,6 +36,7 @@ class LandmarkReader {
     const Columns columns = read_columns(default_unit);
     while (next_line()) read_row(columns);
     if (clouds_.empty()) fail("holds no landmarks");
+    take_points();
     return std::move(clouds_);
   }
 
@@ -87,24 +89,25 @@ class LandmarkReader {
       }
       point[static_cast<Eigen::Index>(i)] = value * columns.unit;
     }
-    LandmarkCloud& cloud = cloud_named(name);
-    cloud.points.conservativeResize(3, cloud.points.cols() + 1);
-    cloud.points.rightCols(1) = point;
-    cloud.labels.emplace_back(columns.index ? cell(*columns.index) : std::string_view());
+    const auto [number, is_new] = numbers_.emplace(name, clouds_.size());
+    if (is_new) clouds_.push_back({name, Points(3, 0), {}}), points_.emplace_back();
+    points_[number->second].push_back(point);
+    clouds_[number->second].labels.emplace_back(columns.index ? cell(*columns.index) : std::string_view());
   }
 
-  LandmarkCloud& cloud_named(const std::string& name) {
-    const auto found =
-        std::find_if(clouds_.begin(), clouds_.end(), [&](const auto& cloud) { return cloud.name == name; });
-    if (found != clouds_.end()) return *found;
-    clouds_.push_back({name, Points(3, 0), {}});
-    return clouds_.back();
+  void take_points() {
+    for (std::size_t i = 0; i < clouds_.size(); ++i) {
+      clouds_[i].points.resize(3, static_cast<Index>(points_[i].size()));
+      for (std::size_t k = 0; k < points_[i].size(); ++k) clouds_[i].points.col(static_cast<Index>(k)) = points_[i][k];
+    }
   }
 
   std::filesystem::path path_;
   std::string_view text_, line_;
   std::size_t position_ = 0, number_ = 0;
   std::vector<LandmarkCloud> clouds_;
+  std::vector<std::vector<Vec3>> points_;  ///< of each cloud
+  std::map<std::string, std::size_t> numbers_;
 };
 
 }  // namespace

@@ -6,26 +6,32 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/methods/registry.hpp>
+#include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 
 namespace gracilis {
+
+/// Where the columns of the method end.
+static constexpr std::string_view first_column_after_method = "milliseconds";
 
 std::string measures_header(const Scene& scene) {
   std::string header = "frame,time_s";
   for (const Joint& joint : scene.joints) {
     for (const JointAxis& axis : joint.axes) header += fmt::format(",{}_{}", axis.coordinate, shown_unit(axis));
   }
-  header +=
-      ",muscle,volume_ratio,edge_ratio_mean,edge_ratio_max,edge_ratio_max_free,dihedral_change_mean_deg,"
-      "dihedral_change_max_deg,hinges_over_90,vertex_depth_mm,vertex_depth_beyond_rest_mm,"
-      "midpoint_depth_beyond_rest_mm,belly_off_place_mm,wrong_side_share,slack";
-  for (const MetricInfo& metric : method_of(scene).metrics) header += fmt::format(",{}", metric.name);
-  return header + ",milliseconds,activation,fiber_strain_mean,cross_section_cm2,physiological_cross_section_cm2\n";
+  header += ",muscle";
+  for (const std::string& column : measure_columns()) {
+    if (column == first_column_after_method)
+      for (const MetricInfo& metric : method_of(scene).metrics) header += fmt::format(",{}", metric.name);
+    header += "," + column;
+  }
+  return header + "\n";
 }
 
 static std::string measure_cells(const MuscleMeasures& m) {
@@ -43,9 +49,9 @@ static std::string report_cells(const MethodEntry& method, const MuscleReport& r
   return cells + fmt::format(",{:.3f}", report.milliseconds);
 }
 
-/// Activation and fibers; nan where a muscle has no fibers.
+/// Activation and fibers; empty where a muscle has no fibers.
 static std::string fiber_cells(Real activation, const MuscleFibers& fibers) {
-  if (fibers.lengths.empty()) return fmt::format(",{:.4f},nan,nan,nan", activation);
+  if (fibers.lengths.empty()) return fmt::format(",{:.4f},,,", activation);
   return fmt::format(",{:.4f},{:.6f},{:.4f},{:.4f}", activation, fibers.mean_strain, 1e4 * fibers.cross_section,
                      1e4 * fibers.physiological_cross_section);
 }
@@ -69,9 +75,9 @@ std::string measures_rows(const Scene& scene, const FrameRecord& record) {
 }
 
 void append_measures(const std::filesystem::path& path, const std::string& header, const std::string& rows) {
-  const bool is_new = !std::filesystem::exists(path);
   std::ofstream file(path, std::ios::binary | std::ios::app);
-  if (is_new) file << header;
+  file.seekp(0, std::ios::end);
+  if (file.tellp() == std::streampos(0)) file << header;
   file << rows;
   file.close();
   if (!file) {
@@ -80,16 +86,25 @@ void append_measures(const std::filesystem::path& path, const std::string& heade
   }
 }
 
+void require_same_columns(const std::filesystem::path& path, const std::string& header) {
+  const std::string text = text_if_there(path);
+  const std::size_t end = text.find('\n');
+  if (end == std::string::npos || std::string_view(text).substr(0, end + 1) == header) return;
+  throw InputError({path.string(), "1", "has other columns than a run of this scene by this version",
+                    "resume with the scene and the version that began it, or replace the run with --force"});
+}
+
 void truncate_measures(const std::filesystem::path& path, int first_dropped) {
-  if (!std::filesystem::exists(path)) return;
-  const std::string text = read_text(path);
+  if (!is_there(path)) return;
+  const std::string text = text_if_there(path);
   std::string kept;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
     if (end == std::string::npos) break;  // a row that an interruption cut off
     const std::string_view line(text.data() + begin, end + 1 - begin);
-    long long frame = -1;
-    if (!parse_integer(line.substr(0, line.find(',')), frame) || frame < first_dropped) kept += line;
+    Index frame = 0;
+    const bool is_head = begin == 0;
+    if (is_head || (parse_index(line.substr(0, line.find(',')), frame) && frame < first_dropped)) kept += line;
     begin = end + 1;
   }
   write_text_atomically(path, kept);

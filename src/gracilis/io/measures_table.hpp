@@ -17,6 +17,9 @@ std::string measures_rows(const Scene& scene, const FrameRecord& record);
 /// Adds lines at the end of the file and flushes them; creates it with `header` where it is missing. Throws InputError.
 void append_measures(const std::filesystem::path& path, const std::string& header, const std::string& rows);
 
+/// Throws InputError where the file is there and begins with other columns: rows of two kinds would stand in one table.
+void require_same_columns(const std::filesystem::path& path, const std::string& header);
+
 /// Drops all rows from frame `first_dropped` on. Does nothing when there is no file.
 void truncate_measures(const std::filesystem::path& path, int first_dropped);
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace gracilis {
@@ -21,7 +22,9 @@ namespace {
 
 class VtpReader {
  public:
-  explicit VtpReader(const std::filesystem::path& path) : text_(read_text(path)) { storage_.path = path; }
+  explicit VtpReader(const std::filesystem::path& path) : text_(read_text(path)), budget_(text_.size()) {
+    storage_.path = path;
+  }
 
   PolygonMesh read() {
     parse();
@@ -92,17 +95,20 @@ class VtpReader {
     fail("has numbers of an unknown type", "array " + name);
   }
 
-  std::vector<double> numbers(const pugi::xml_node& array, const std::string& name) const {
+  /// The array's numbers; `expected` of them where that is known.
+  std::vector<double> numbers(const pugi::xml_node& array, const std::string& name,
+                              std::optional<std::size_t> expected = {}) {
     if (!array) fail("is missing", "array " + name);
     const ScalarType type = type_of(array, name);
     const std::string_view format = array.attribute("format").value();
     if (format == "appended") {
       const auto offset = static_cast<std::size_t>(array.attribute("offset").as_ullong());
-      if (offset >= appended_.size()) fail("begins after the end of the file", "array " + name);
-      return decode_array(appended_.substr(offset), appended_base64_, type, storage_, name);
+      if (array.attribute("offset").value()[0] == '-' || offset >= appended_.size())
+        fail("begins after the end of the file", "array " + name);
+      return decode_array(appended_.substr(offset), appended_base64_, type, storage_, name, expected, budget_);
     }
     const std::string_view content = trimmed(array.child_value());
-    if (format == "binary") return decode_array(content, true, type, storage_, name);
+    if (format == "binary") return decode_array(content, true, type, storage_, name, expected, budget_);
     std::vector<double> values;
     for (const std::string_view word : words_of(content)) {
       values.push_back(0);
@@ -114,11 +120,11 @@ class VtpReader {
 
   /// Calls add(corners) for every cell of <Polys> or <Strips>; indices are made to count over all pieces.
   template <typename Add>
-  void read_cells(const pugi::xml_node& cells, std::size_t count, std::size_t first_vertex, const Add& add) const {
+  void read_cells(const pugi::xml_node& cells, std::size_t count, std::size_t first_vertex, const Add& add) {
     if (count == 0) return;
     const auto named = [&](const char* name) { return cells.find_child_by_attribute("DataArray", "Name", name); };
+    const std::vector<double> ends = numbers(named("offsets"), "offsets", count);
     const std::vector<double> corners = numbers(named("connectivity"), "connectivity");
-    const std::vector<double> ends = numbers(named("offsets"), "offsets");
     if (ends.size() != count) fail(fmt::format("has {} entries for {} faces", ends.size(), count), "array offsets");
     double begin = 0;
     for (const double end : ends) {
@@ -136,11 +142,17 @@ class VtpReader {
   }
 
   void read_piece(const pugi::xml_node& piece) {
-    const auto count = [&](const char* name) { return static_cast<std::size_t>(piece.attribute(name).as_ullong()); };
+    const auto count = [&](const char* name) {
+      const std::string_view text = piece.attribute(name).value();
+      Index number = 0;
+      if (!text.empty() && !parse_index(text, number))
+        fail(fmt::format("'{}' is not a count", text.substr(0, 40)), name);
+      return static_cast<std::size_t>(number);
+    };
     const std::size_t first_vertex = mesh_.coordinates.size() / 3;
     if (count("NumberOfPoints") > 0) {
       const pugi::xml_node points = piece.child("Points").child("DataArray");
-      const std::vector<double> coordinates = numbers(points, "Points");
+      const std::vector<double> coordinates = numbers(points, "Points", 3 * count("NumberOfPoints"));
       if (coordinates.size() % 3 != 0 || coordinates.size() / 3 != count("NumberOfPoints")) {
         fail(fmt::format("has {} coordinates for {} points", coordinates.size(), count("NumberOfPoints")),
              "array Points");
@@ -158,6 +170,7 @@ class VtpReader {
   }
 
   std::string text_;
+  NumberBudget budget_;
   VtpStorage storage_;
   pugi::xml_document document_;
   pugi::xml_node root_;

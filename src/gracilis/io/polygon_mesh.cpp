@@ -24,11 +24,16 @@ void PolygonMesh::add_strip(const std::vector<std::int64_t>& strip) {
 
 using Corners = std::span<const std::int64_t>;
 
+/// Cutting takes the square of the corners in time.
+static constexpr std::size_t most_corners = 1000;
+
 static void check_face(std::size_t face, Corners corners, Index vertex_count, const std::filesystem::path& path) {
   const auto fail = [&](const std::string& what) {
     throw InputError({path.string(), fmt::format("face {}", face), what, "export the surface again"});
   };
   if (corners.size() < 3) fail(fmt::format("has {} corners; a face needs three", corners.size()));
+  if (corners.size() > most_corners)
+    fail(fmt::format("has {} corners; {} are the most that are cut into triangles", corners.size(), most_corners));
   for (const std::int64_t corner : corners) {
     if (corner >= 0 && corner < vertex_count) continue;
     fail(fmt::format("names vertex {}, but the vertices go from 0 to {}", corner, vertex_count - 1));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/io/cache_file.hpp>
 #include <gracilis/scene/preparation.hpp>
 
 #include <filesystem>
@@ -11,12 +12,13 @@ namespace gracilis {
 
 /// The prepared muscles, read from `folder` when they were prepared before from the same surfaces with the same
 /// settings by the same version (by the hash of their bytes), otherwise made by `prepare` and kept there with their
-/// report. A folder that cannot be written costs only the time. Lines about it go to `say`. Throws ConfigurationError
-/// when they are not there and `prepare` is empty, and what `prepare` throws.
+/// report. A folder that cannot be written costs only the time, and so does a damaged file, of which `warn` is told.
+/// Lines about it go to `say`. Throws ConfigurationError when they are not there and `prepare` is empty, and what
+/// `prepare` throws.
 std::vector<TriangleMesh> cached_preparation(const std::vector<NamedSurface>& muscles,
                                              const std::vector<NamedSurface>& bones, const PrepareSettings& settings,
                                              const PrepareFunction& prepare,
                                              const std::function<void(const std::string&)>& say,
-                                             const std::filesystem::path& folder);
+                                             const std::filesystem::path& folder, const WarnFunction& warn = {});
 
 }  // namespace gracilis

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -15,11 +16,12 @@ namespace gracilis {
 /// A run folder as it was written, without the scene behind it: what reports, pictures and exports are made from.
 struct RecordedRun {
   std::filesystem::path folder;
-  nlohmann::ordered_json manifest;       ///< run.json
-  AnatomicalAxes axes;                   ///< how the subject stands in the frames
-  std::vector<std::string> muscles;      ///< in the scene's order
-  std::vector<std::string> bones;        ///< all other surfaces, sorted
-  Vec3 place = Vec3::Zero();             ///< about where it lies (scene/scene_place.hpp)
+  nlohmann::ordered_json manifest;             ///< run.json
+  AnatomicalAxes axes;                         ///< how the subject stands in the frames
+  std::vector<std::string> muscles;            ///< in the scene's order
+  std::vector<std::string> bones;              ///< all other surfaces, sorted
+  std::map<std::string, Index> vertex_counts;  ///< of muscles and bones, in every frame
+  Vec3 place = Vec3::Zero();                   ///< about where it lies (scene/scene_place.hpp)
   int frame_count = 0;                   ///< frames 0 ... frame_count - 1 are there for every surface and measured
   std::vector<Real> times;               ///< s, per frame
   std::vector<std::string> coordinates;  ///< with their units, as in hip_flexion_r_deg

@@ -9,7 +9,9 @@
 #include <gracilis/io/mesh_reader.hpp>
 #include <gracilis/io/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh_writer.hpp>
+#include <gracilis/io/output_hashes.hpp>
 #include <gracilis/io/polyline_file.hpp>
+#include <gracilis/io/value_reader.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <fmt/format.h>
@@ -33,17 +35,6 @@ static std::vector<std::string> surface_names(const Scene& scene) {
   for (const Muscle& muscle : scene.muscles) names.push_back(muscle.name);
   for (const Bone& bone : scene.bones) names.push_back(bone.name);
   return names;
-}
-
-int count_frames(const fs::path& folder, const Scene& scene) {
-  const std::vector<std::string> names = surface_names(scene);
-  const auto complete = [&](int number) {
-    return std::all_of(names.begin(), names.end(),
-                       [&](const std::string& name) { return fs::exists(frame_file(folder, name, number)); });
-  };
-  int count = 0;
-  while (!names.empty() && complete(count)) ++count;
-  return count;
 }
 
 Frame read_frame(const fs::path& folder, const Scene& scene, int number, const Pose& pose) {
@@ -98,19 +89,25 @@ static void remove_frames_from(const fs::path& folder, int first) {
     if (entry.path().extension() != ".vtp" || underscore == std::string::npos) continue;
     const std::string digits = stem.substr(underscore + 1);
     const bool is_number = digits.size() >= 4 && digits.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number && std::stol(digits) >= first) fs::remove(entry.path());
+    Index number = 0;
+    // A number beyond all indices is behind every frame.
+    if (is_number && (!parse_index(digits, number) || number >= first)) fs::remove(entry.path());
   }
 }
 
 RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing)
     : folder_(std::move(folder)), scene_(scene), poses_(poses), opened_(std::chrono::steady_clock::now()) {
+  create_folders(folder_);
+  lock_.emplace(folder_);
   const bool has_run = fs::exists(folder_ / "run.json") || fs::exists(folder_ / "run.pvd");
   if (has_run && existing == ExistingRun::refuse) {
     throw ConfigurationError(
         {folder_.string(), "", "holds a run already", "resume it, replace it, or choose another folder"});
   }
-  create_folders(folder_);
+  for (const char* part : {"", "frames", "fibers", "plots"})
+    remove_left_temporaries(folder_ / part, LeftBy::any_machine);
   if (existing == ExistingRun::resume) {
+    require_same_columns(folder_ / "measures.csv", measures_header(scene));
     frame_count_ = std::min(count_frames(folder_, scene), static_cast<int>(poses.size()));
     const auto recorded = [&](int number) {
       return read_frame(folder_, scene, number, poses[static_cast<std::size_t>(number)]);
@@ -125,6 +122,7 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
       frame_count_ = 0;
     }
   }
+  fs::remove(folder_ / output_hashes_name);
   remove_frames_from(folder_ / "frames", frame_count_);
   remove_frames_from(folder_ / "fibers", frame_count_);
   truncate_measures(folder_ / "measures.csv", frame_count_);
@@ -144,8 +142,16 @@ RunFolder::~RunFolder() {
   }
 }
 
+/// Surfaces come last: a frame whose surfaces are all there is whole, however a run was ended.
 void RunFolder::write_frame(const FrameRecord& record) {
-  const Frame& frame = record.frame;
+  write_fibers(record);
+  append_measures(folder_ / "measures.csv", measures_header(scene_), measures_rows(scene_, record));
+  write_surfaces(record.frame);
+  frame_count_ = record.frame.number + 1;
+  if (std::chrono::steady_clock::now() - indexed_ > std::chrono::seconds(1)) write_index();
+}
+
+void RunFolder::write_surfaces(const Frame& frame) const {
   const auto muscle_count = static_cast<Index>(scene_.muscles.size());
   const auto bone_count = static_cast<Index>(scene_.bones.size());
   parallel_for(muscle_count + bone_count, 1, [&](Index begin, Index end) {
@@ -166,10 +172,6 @@ void RunFolder::write_frame(const FrameRecord& record) {
       }
     }
   });
-  append_measures(folder_ / "measures.csv", measures_header(scene_), measures_rows(scene_, record));
-  write_fibers(record);
-  frame_count_ = frame.number + 1;
-  if (std::chrono::steady_clock::now() - indexed_ > std::chrono::seconds(1)) write_index();
 }
 
 void RunFolder::write_fibers(const FrameRecord& record) {
@@ -191,6 +193,8 @@ void RunFolder::write_fibers(const FrameRecord& record) {
 
 void RunFolder::write_manifest(RunManifest manifest) const {
   manifest.frames = frame_count_;
+  const bool goes_on = manifest.status == "running" || manifest.status == "interrupted";
+  if (!goes_on) manifest.outputs_sha256 = write_output_hashes(folder_);
   manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - opened_).count();
   gracilis::write_manifest(folder_ / "run.json", manifest);
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <gracilis/io/folder_lock.hpp>
 #include <gracilis/io/run_manifest.hpp>
+#include <gracilis/io/whole_frames.hpp>
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/simulate/run.hpp>
 
@@ -25,14 +27,17 @@ enum class ExistingRun { refuse, replace, resume };
 ///   measures.csv                   one row per frame and muscle; the units stand in the names of the columns
 ///   fiber_lengths.sto              one row per frame, see fiber_table.hpp
 ///   fibers/<muscle>_0000.vtp       one per frame and muscle with fibers, m
+///   outputs.sha256                 hashes of all files but run.json, which has that of this one, once the run has
+///   ended run.lock                       while a process writes here
 ///
 /// An interrupted run is readable: files appear whole, rows are flushed frame by frame, run.pvd follows every second.
 class RunFolder {
  public:
-  /// Creates the folder. `poses` are those of all frames to come (their times and coordinates). With `resume`, what
-  /// comes after the last frame that is there for every surface is dropped, and what comes after the last that a run can
-  /// go on from (resume_period), unless the run is complete. Throws ConfigurationError when there is a run already and
-  /// `existing` says refuse; InputError when the folder cannot be written. Scene and poses must outlive this.
+  /// Creates the folder and locks it while this lives, and removes what killed runs left half-written. `poses` are
+  /// those of all frames to come (their times and coordinates). With `resume`, what comes after the last whole frame
+  /// (count_frames) is dropped, and what comes after the last that a run can go on from (resume_period), unless the run
+  /// is complete. Throws ConfigurationError when there is a run already and `existing` says refuse, and when another
+  /// process writes there; InputError when the folder cannot be written. Scene and poses must outlive this.
   RunFolder(std::filesystem::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing);
   /// Writes run.pvd if it is behind; failures are lost here, call finish() to see them.
   ~RunFolder();
@@ -45,7 +50,8 @@ class RunFolder {
   /// Writes all surfaces of a frame and its measures. Frames come in order, from 0 or from the one after the resume
   /// point.
   void write_frame(const FrameRecord& record);
-  /// Writes run.json with the number of frames on disk and the seconds since this was opened.
+  /// Writes run.json with the number of frames on disk and the seconds since this was opened; once the run has ended
+  /// (complete or failed) also outputs.sha256 with the hashes of all its files.
   void write_manifest(RunManifest manifest) const;
   /// Writes run.pvd.
   void finish();
@@ -56,8 +62,10 @@ class RunFolder {
  private:
   void write_index();
   void write_fibers(const FrameRecord& record);
+  void write_surfaces(const Frame& frame) const;
 
   std::filesystem::path folder_;
+  std::optional<FolderLock> lock_;
   const Scene& scene_;
   const std::vector<Pose>& poses_;
   int frame_count_ = 0;  ///< frames 0 ... frame_count_ - 1 are on disk
@@ -71,9 +79,6 @@ inline constexpr const char* tissue_name = "origin_insertion_belly";
 
 /// RUN/frames/<name>_<number as four digits>.vtp
 std::filesystem::path frame_file(const std::filesystem::path& folder, const std::string& name, int number);
-
-/// How many frames, counted from 0, are there for every muscle and bone of the scene.
-int count_frames(const std::filesystem::path& folder, const Scene& scene);
 
 /// The muscles' shapes as recorded. Throws InputError when a file is missing, damaged or of another surface.
 Frame read_frame(const std::filesystem::path& folder, const Scene& scene, int number, const Pose& pose);

@@ -1,8 +1,11 @@
 #include <gracilis/io/run_manifest.hpp>
 
+#include <gracilis/core/errors.hpp>
 #include <gracilis/dynamics/projection.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
+#include <gracilis/io/input_file.hpp>
+#include <gracilis/io/json_file.hpp>
 
 #include <embree3/rtcore_config.h>
 #include <fmt/chrono.h>
@@ -13,6 +16,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -62,12 +66,46 @@ nlohmann::ordered_json overlaps_json(const OverlapReport& report) {
   return {{"vertices_inside", report.vertices}, {"of_vertices", report.of_vertices}, {"pairs", pairs}};
 }
 
+nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "run.json";
+  if (!is_there(path))
+    throw InputError({folder.string(), "", "is no run folder: it has no run.json", "name the folder of a run"});
+  nlohmann::ordered_json manifest = read_json(path);
+  const auto fail = [&](const std::string& what) {
+    throw InputError({path.string(), "", what, "run the scene again"});
+  };
+  if (!manifest.is_object()) fail("is no manifest of a run");
+  const auto require = [&](std::initializer_list<const char*> keys, auto&& fits, const char* expected) {
+    for (const char* key : keys)
+      if (const auto found = manifest.find(key); found != manifest.end() && !fits(*found))
+        fail(fmt::format("'{}' must be {}", key, expected));
+  };
+  using Json = nlohmann::ordered_json;
+  const auto is_texts = [](const Json& json) {
+    return json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& each) { return each.is_string(); });
+  };
+  const auto is_objects = [](const Json& json) {
+    return json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& each) { return each.is_object(); });
+  };
+  require(
+      {"gracilis", "status", "scene", "preset", "written", "instruction_set", "settings", "outputs_sha256"},
+      [](const Json& json) { return json.is_string(); }, "a text");
+  require(
+      {"frames", "seconds", "threads", "processors"}, [](const Json& json) { return json.is_number(); }, "a number");
+  require({"command", "guessed", "warnings"}, is_texts, "a list of texts");
+  require({"inputs"}, is_objects, "a list of objects");
+  require(
+      {"axes", "action_lines", "rest_overlaps", "libraries"}, [](const Json& json) { return json.is_object(); },
+      "an object");
+  return manifest;
+}
+
 void write_manifest(const std::filesystem::path& path, const RunManifest& manifest) {
   nlohmann::ordered_json inputs = nlohmann::json::array();
   for (const std::filesystem::path& input : manifest.inputs) {
     inputs.push_back({{"file", input.string()}, {"sha256", content_hash(input)}});
   }
-  const nlohmann::ordered_json json = {
+  nlohmann::ordered_json json = {
       {"gracilis", manifest.version},
       {"status", manifest.status},
       {"scene", manifest.scene},
@@ -88,6 +126,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"inputs", inputs},
       {"libraries", library_versions()},
       {"settings", manifest.settings}};
+  if (!manifest.outputs_sha256.empty()) json["outputs_sha256"] = manifest.outputs_sha256;
   // Names of files need not be UTF-8; what is not is replaced, so that the manifest always is.
   write_text_atomically(path, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }

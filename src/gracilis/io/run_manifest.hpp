@@ -26,8 +26,9 @@ struct RunManifest {
   AnatomicalAxes axes;                                    ///< how the subject stands
   std::string status = "running";                         ///< running, complete, interrupted, or "failed: why"
   int threads = 1;
-  int frames = 0;      ///< on disk
-  double seconds = 0;  ///< spent on them
+  int frames = 0;                   ///< on disk
+  double seconds = 0;               ///< spent on them
+  std::string outputs_sha256 = {};  ///< of the list of all files' hashes (output_hashes.hpp); empty: there is none yet
 };
 
 /// The report as `run.json` and `gracilis inspect` have it.
@@ -35,5 +36,9 @@ nlohmann::ordered_json overlaps_json(const OverlapReport& report);
 
 /// Writes `path` (RUN/run.json), whole or not at all.
 void write_manifest(const std::filesystem::path& path, const RunManifest& manifest);
+
+/// FOLDER/run.json. What is known of it has the type that write_manifest gives it. Throws InputError where it is
+/// missing, not JSON or of another shape.
+nlohmann::ordered_json read_manifest(const std::filesystem::path& folder);
 
 }  // namespace gracilis

@@ -24,6 +24,8 @@ static NamedFile named_file(TomlReader& table, const std::string& path) {
   return {path, unit_of(table, "unit"), table.place()};
 }
 
+static constexpr long most_box_triangles = 2'000'000;
+
 static BoxDescription read_box(TomlReader table) {
   const Vec3 center = table.vector("center_mm").value_or(Vec3::Zero()) / 1000;
   const Vec3 size = table.required_vector("size_mm").value_or(Vec3::Ones()) / 1000;
@@ -31,6 +33,10 @@ static BoxDescription read_box(TomlReader table) {
   if (!(size.minCoeff() > 0)) table.add_problem("size_mm", "'size_mm' must be three numbers above 0");
   if (!(cells.minCoeff() >= 1 && cells.maxCoeff() <= 1000 && cells == cells.array().round().matrix()))
     table.add_problem("cells", "'cells' must be three integers from 1 to 1000");
+  const Real triangles = 4 * (cells[0] * cells[1] + cells[1] * cells[2] + cells[2] * cells[0]);
+  if (triangles > most_box_triangles)
+    table.add_problem("cells", "'cells' asks for " + std::to_string(static_cast<long>(triangles)) + " triangles",
+                      std::to_string(most_box_triangles) + " are the most that are made");
   table.reject_unknown_keys();
   const auto count = [&](int k) { return std::clamp(static_cast<int>(cells[k]), 1, 1000); };
   return {center - size / 2, center + size / 2, {count(0), count(1), count(2)}};
@@ -172,8 +178,9 @@ static void read_contraction(TomlReader table, MuscleDescription& muscle) {
 
 static void read_action_line(TomlReader table, ActionLineDescription& description) {
   ActionLine& line = description.line;
-  line.rays = static_cast<Index>(table.required_number("rays", {6, 1000}).value_or(6));
-  line.scaling = static_cast<int>(table.number("scaling", {0, 16}).value_or(0));
+  if (!table.has("rays")) table.required_number("rays");
+  line.rays = table.integer("rays", 6, 1000).value_or(6);
+  line.scaling = table.integer("scaling", 0, 16).value_or(0);
   const auto length = [&](const char* key) { return table.number(key, {0, 10'000, "mm"}).value_or(0) / 1000; };
   line.tendon = length("tendon_mm");
   line.origin_tendon = length("origin_tendon_mm");
@@ -227,10 +234,11 @@ static MotionDescription read_motion(TomlReader table) {
     table.add_problem(key, "the motion is given twice, by 'file' and by '" + key + "'", "keep one of the two");
   } else if (keyed && columns == 0) {
     table.add_problem(key, "'" + key + "' needs the key 'coordinates'", "the names of its columns");
-  } else if (!keyed && motion.file.path.empty()) {
+  } else if (!keyed && motion.file.path.empty() && !table.has("max_frames")) {
     table.add_problem("file", "[motion] needs the key 'file' or the key 'key_poses_deg'");
   }
   if (keyed && columns > 0) motion.key_poses = table.rows(key, columns).value_or(Eigen::MatrixXd(0, columns)) * unit;
+  motion.max_frames = table.integer("max_frames", 1, 100'000'000).value_or(motion.max_frames);
   const NumberRange steps = {0.001, 360, shifts ? "mm" : "degrees"};
   motion.step = table.number(shifts ? "step_mm" : "step_deg", steps).value_or(1) * unit;
   motion.time_step = table.number("time_step", {1e-6, 1000, "s"}).value_or(keyed ? 1.0 / 60 : 0);
@@ -340,8 +348,8 @@ static void require_known(const std::string& name, const std::vector<std::string
 
 static SectionCorner read_corner(TomlReader& table, const std::string& prefix) {
   SectionCorner corner;
-  corner.section = static_cast<Index>(table.number(prefix + "section", {0, 1e6}).value_or(0));
-  corner.ray = static_cast<Index>(table.number(prefix + "ray", {0, 1e6}).value_or(0));
+  corner.section = table.integer(prefix + "section", 0, 1'000'000).value_or(0);
+  corner.ray = table.integer(prefix + "ray", 0, 1'000'000).value_or(0);
   return corner;
 }
 

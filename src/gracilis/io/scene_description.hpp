@@ -4,6 +4,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/activation_samples.hpp>
 #include <gracilis/io/line_path_reader.hpp>
+#include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <array>
@@ -90,6 +91,7 @@ struct MotionDescription {
   Real begin = -std::numeric_limits<Real>::infinity(), end = std::numeric_limits<Real>::infinity();  ///< s, of a file
   Problem place;
   bool translations = false;  ///< key poses are of translations
+  int max_frames = default_max_frames;
 };
 
 /// One muscle's activation: a constant, a column of a table, or a function of a coordinate.

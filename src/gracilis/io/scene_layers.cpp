@@ -1,5 +1,6 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/parse_toml.hpp>
 #include <gracilis/io/scene_layers.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/toml_reader.hpp>
@@ -76,7 +77,7 @@ static void add_layer(SceneLayers& layers, toml::table& upper) {
 
 static toml::table parse(const std::string& text, const std::string& source) {
   try {
-    return toml::parse(text, source);
+    return parse_toml(text, source);
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
     throw ConfigurationError(
@@ -84,21 +85,51 @@ static toml::table parse(const std::string& text, const std::string& source) {
   }
 }
 
+namespace {
+
+// What a person writes stays far below; without limits two lines of text could ask for days and all memory.
+constexpr std::size_t deepest_include = 32, most_files = 256, most_bytes = 64 << 20;
+
+/// Files that are being read, from the first to the one that includes the next, and what was read in all.
+struct Including {
+  std::vector<fs::path> open;
+  std::size_t files = 0, bytes = 0;
+
+  void require_limits(const fs::path& path) const {
+    const auto refuse = [&](const std::string& what) {
+      throw ConfigurationError({path.string(), "", what, "include fewer files"});
+    };
+    if (open.size() > deepest_include)
+      refuse("is included by way of more than " + std::to_string(deepest_include) + " files");
+    if (files > most_files) refuse("the scene includes more than " + std::to_string(most_files) + " files");
+    if (bytes > most_bytes) refuse("the scene's files have more than " + std::to_string(most_bytes >> 20) + " MiB");
+  }
+};
+
+}  // namespace
+
 /// The file's own table with those it includes below it.
-static void add_file(SceneLayers& layers, const fs::path& path, std::vector<fs::path>& open) {
-  const fs::path canonical = fs::weakly_canonical(path);
+static void add_file(SceneLayers& layers, const fs::path& path, Including& including) {
+  std::vector<fs::path>& open = including.open;
+  std::error_code error;
+  fs::path canonical = fs::weakly_canonical(path, error);
+  if (error) canonical = path;  // reading it says what is wrong
   if (std::find(open.begin(), open.end(), canonical) != open.end()) {
     throw ConfigurationError({path.string(), "", "includes itself, by way of '" + open.back().string() + "'", ""});
   }
-  toml::table table = parse(read_text(path), path.string());
-  layers.files.push_back(path);
   open.push_back(canonical);
+  require_readable_file(path);
+  ++including.files;
+  including.bytes += fs::file_size(path, error);
+  including.require_limits(path);
+  toml::table table = parse(read_text(path), path.string());
+  if (std::find(layers.files.begin(), layers.files.end(), path) == layers.files.end()) layers.files.push_back(path);
 
   std::vector<Problem> problems;
   const std::vector<std::string> included = TomlReader(table, "the scene file", problems).texts("include");
   if (!problems.empty()) throw ConfigurationError(problems);
   table.erase("include");
-  for (const std::string& file : included) add_file(layers, path.parent_path() / file, open);
+  for (const std::string& file : included) add_file(layers, path.parent_path() / file, including);
   add_layer(layers, table);
   open.pop_back();
 }
@@ -109,9 +140,9 @@ static toml::table parse_value(const std::string& value, const std::string& sour
     return std::isalnum(c) || c == '_' || c == '-' || c == '.';
   });
   try {
-    return toml::parse("value = " + value, source);
+    return parse_toml("value = " + value, source);
   } catch (const toml::parse_error&) {
-    if (word) return toml::parse("value = \"" + value + "\"", source);
+    if (word) return parse_toml("value = \"" + value + "\"", source);
     throw ConfigurationError({source, "", "the value cannot be read",
                               "write a number, true, false, a word, or three numbers as [0, 0, -9.81]"});
   }
@@ -196,8 +227,8 @@ SceneLayers command_line_layers(const std::vector<std::string>& set, const std::
 
 SceneLayers load_scene_layers(const fs::path& path, const std::vector<std::string>& set) {
   SceneLayers layers;
-  std::vector<fs::path> open;
-  add_file(layers, path, open);
+  Including including;
+  add_file(layers, path, including);
   const std::vector<std::string> muscles = muscle_names(layers.table);
   add_command_line(layers, set, muscles);
   return layers;

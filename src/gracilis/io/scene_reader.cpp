@@ -40,6 +40,7 @@ class SceneBuilder {
 
   LoadedScene build() {
     result_.preset = description_.preset;
+    result_.max_frames = description_.motion.max_frames;
     result_.inputs = description_.files;
     result_.warnings = description_.notes;
     result_.scene.name = description_.name;
@@ -288,7 +289,8 @@ class SceneBuilder {
     const auto [muscles, bones] = named_surfaces();
     const auto say = options_.say ? options_.say : [](const std::string&) {};
     std::vector<TriangleMesh> prepared =
-        cached_preparation(muscles, bones, *description_.prepare, options_.prepare, say, default_cache_folder());
+        cached_preparation(muscles, bones, *description_.prepare, options_.prepare, say, default_cache_folder(),
+                           [this](const std::string& warning) { result_.warnings.push_back(warning); });
     for (std::size_t m = 0; m < scene.muscles.size(); ++m)
       scene.muscles[m].surface =
           check_surface(prepared[m], 1, SurfaceRole::muscle, "prepared " + scene.muscles[m].name).mesh;
@@ -324,7 +326,8 @@ class SceneBuilder {
         match_coordinates(path.string());
       });
     } else if (description.key_poses.rows() > 0) {
-      motion = motion_through(description.coordinates, description.key_poses, description.step, description.time_step);
+      motion = motion_through(description.coordinates, description.key_poses, description.step, description.time_step,
+                              description.max_frames);
       motion.name = description_.name;
     }
   }
@@ -502,7 +505,7 @@ class SceneBuilder {
 
   /// Distances to a bone take vertices that could not follow it, too.
   void let_go_of_attachments() {
-    for (const LetGo& each : let_go_beyond_reach(result_.scene, pose_sequence(result_.scene)))
+    for (const LetGo& each : let_go_beyond_reach(result_.scene, pose_sequence(result_.scene, result_.max_frames)))
       result_.warnings.push_back(
           fmt::format("{}: attachment '{}' lets go of {} of its {} vertices, because the motion takes '{}' {:.1f} "
                       "times as far from "

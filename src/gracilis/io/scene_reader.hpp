@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/preparation.hpp>
 #include <gracilis/scene/scene.hpp>
 
@@ -25,6 +26,7 @@ struct LoadedScene {
   std::string preset;                         ///< the preset that its settings started from
   std::vector<std::filesystem::path> inputs;  ///< every file that was read, the scene file first
   std::vector<std::string> warnings;          ///< one line each
+  int max_frames = default_max_frames;        ///< that a run of it may have
 };
 
 /// Reads a scene file and all that it names: meshes, landmarks, motion. Paths in it are relative to the file that names

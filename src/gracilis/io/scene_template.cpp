@@ -223,6 +223,7 @@ key_poses_deg = [[0], [90]] # one row per pose, one column per coordinate; coord
 # (of translations: key_poses_mm and step_mm)
 step_deg = 1                # largest change of a coordinate per frame; default 1
 time_step = 0.016666666666666666 # s between frames; default 1/60
+# max_frames = 1000000      # optional: a motion that asks for more is refused, since more come of a slip in a step
 
 )";
 

@@ -1,3 +1,4 @@
+#include <gracilis/core/whole_number.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/toml_reader.hpp>
 
@@ -84,6 +85,15 @@ std::optional<Real> TomlReader::number(const std::string& key, const NumberRange
   if (bounded) expected += " from " + to_text(range.minimum) + " to " + to_text(range.maximum);
   if (!range.unit.empty()) expected += (bounded ? " " : " in ") + range.unit;
   return wrong_type(*node, key, expected);
+}
+
+std::optional<Index> TomlReader::integer(const std::string& key, Index least, Index most) {
+  const toml::node* node = find(key);
+  if (!node) return std::nullopt;
+  const std::optional<Real> value = number_of(*node);
+  const std::optional<Index> whole = value ? whole_number<Index>(*value, least, most) : std::nullopt;
+  if (whole) return whole;
+  return wrong_type(*node, key, "an integer from " + std::to_string(least) + " to " + std::to_string(most));
 }
 
 std::optional<Vec3> TomlReader::vector(const std::string& key) {

@@ -41,6 +41,7 @@ class TomlReader {
   std::optional<std::string> text(const std::string& key);
   std::optional<bool> flag(const std::string& key);
   std::optional<Real> number(const std::string& key, const NumberRange& range = {});
+  std::optional<Index> integer(const std::string& key, Index least, Index most);
   std::optional<Vec3> vector(const std::string& key);
   std::optional<Eigen::Vector2d> pair(const std::string& key);
   std::optional<Eigen::MatrixXd> rows(const std::string& key, Index columns);  ///< array of arrays of numbers

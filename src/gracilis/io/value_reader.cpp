@@ -1,6 +1,7 @@
 #include <gracilis/io/value_reader.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/whole_number.hpp>
 
 #include <fmt/format.h>
 
@@ -23,6 +24,13 @@ static bool parse(std::string_view text, Number& value) {
 
 bool parse_number(std::string_view text, double& value) { return parse(text, value); }
 bool parse_integer(std::string_view text, long long& value) { return parse(text, value); }
+
+bool parse_index(std::string_view text, Index& value) {
+  long long number = 0;
+  const std::optional<Index> index = parse(text, number) ? whole_number<Index>(number, 0) : std::nullopt;
+  value = index.value_or(0);
+  return index.has_value();
+}
 
 std::string_view ValueReader::word() {
   while (position_ < bytes_.size() && is_space(bytes_[position_])) ++position_;
@@ -50,7 +58,7 @@ static double stored_number(const char* bytes, bool swap) {
   return static_cast<double>(value);
 }
 
-static std::size_t size_of(ScalarType type) {
+std::size_t size_of(ScalarType type) {
   switch (type) {
     case ScalarType::int8:
     case ScalarType::uint8:

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gracilis/core/types.hpp>
+
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -47,10 +49,16 @@ class ValueReader {
   bool read_binary_ = false;
 };
 
+/// Bytes of one number in a binary file.
+std::size_t size_of(ScalarType type);
+
 /// The whole text as a number ("1", "+1.5e3", "nan"); false when it is anything else.
 bool parse_number(std::string_view text, double& value);
 
 /// The whole text as an integer.
 bool parse_integer(std::string_view text, long long& value);
+
+/// The whole text as a number that counts or numbers things: from 0 to the largest index.
+bool parse_index(std::string_view text, Index& value);
 
 }  // namespace gracilis

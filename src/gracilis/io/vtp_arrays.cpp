@@ -3,6 +3,8 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/vtk_messages.hpp>
 
+#include <fmt/format.h>
+
 #include <vtkBase64Utilities.h>
 #include <vtkDataCompressor.h>
 #include <vtkLZ4DataCompressor.h>
@@ -11,6 +13,7 @@
 #include <vtkZLibDataCompressor.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace gracilis {
 
@@ -64,6 +67,7 @@ static std::vector<double> numbers_in(const std::string& bytes, ScalarType type,
   ValueReader reader(path, bytes);
   reader.encoding = encoding;
   std::vector<double> numbers;
+  numbers.reserve(bytes.size() / size_of(type));
   while (!reader.at_end()) numbers.push_back(reader.number(type));
   return numbers;
 }
@@ -77,50 +81,57 @@ static vtkSmartPointer<vtkDataCompressor> compressor_named(const std::string& na
 
 /// Header: number of blocks, size of a block, size of the last block if it is smaller (else 0), compressed size of
 /// each.
-static std::string uncompressed(StoredBytes& bytes, std::size_t word, const VtpStorage& storage) {
+static std::string uncompressed(StoredBytes& bytes, std::size_t word, const VtpStorage& storage,
+                                const std::function<void(double)>& require) {
   const auto words = [&](const std::string& text) {
     return numbers_in(text, storage.header_type, storage.byte_order, storage.path);
   };
   const std::vector<double> sizes = words(bytes.peek(3 * word));
   if (sizes[0] == 0) return "";
-  // No compression shrinks by more than this; larger claims come from damage and would ask for all memory.
-  constexpr double largest_ratio = 10000;
   if (sizes[0] > 1e8 || sizes[1] > 1e9 || sizes[2] > sizes[1]) bytes.fail("announces impossible blocks");
+  const double total = sizes[2] > 0 ? (sizes[0] - 1) * sizes[1] + sizes[2] : sizes[0] * sizes[1];
+  require(total);
   const std::vector<double> header = words(bytes.take((3 + static_cast<std::size_t>(sizes[0])) * word));
   double compressed_total = 0;
   for (std::size_t i = 3; i < header.size(); ++i) compressed_total += header[i];
-  if (sizes[0] * sizes[1] > largest_ratio * (compressed_total + 1000)) bytes.fail("announces impossible blocks");
-
   const std::string compressed = bytes.take(static_cast<std::size_t>(std::min(compressed_total, 1e15)));
   const auto compressor = compressor_named(storage.compressor, bytes);
   VtkMessages messages;
-  std::string data;
-  std::size_t position = 0;
+  std::string data(static_cast<std::size_t>(total), '\0');
+  std::size_t position = 0, filled = 0;
   for (std::size_t block = 3; block < header.size(); ++block) {
     const bool last = block + 1 == header.size();
     const auto size = static_cast<std::size_t>(last && sizes[2] > 0 ? sizes[2] : sizes[1]);
     const auto compressed_size = static_cast<std::size_t>(header[block]);
-    std::string plain(size, '\0');
     const std::size_t got =
         compressor->Uncompress(reinterpret_cast<const unsigned char*>(compressed.data()) + position, compressed_size,
-                               reinterpret_cast<unsigned char*>(plain.data()), plain.size());
+                               reinterpret_cast<unsigned char*>(data.data()) + filled, size);
     if (got != size) bytes.fail("has a damaged block");
-    data += plain;
+    filled += size;
     position += compressed_size;
   }
   return data;
 }
 
 std::vector<double> decode_array(std::string_view stored, bool base64, ScalarType type, const VtpStorage& storage,
-                                 const std::string& array) {
+                                 const std::string& array, std::optional<std::size_t> expected, NumberBudget& budget) {
   StoredBytes bytes(stored, base64, storage, array);
   const std::size_t word = storage.header_type == ScalarType::uint64 ? 8 : 4;
+  const auto require = [&](double announced) {
+    const double numbers = announced / static_cast<double>(size_of(type));
+    if (expected && numbers != static_cast<double>(*expected))
+      bytes.fail(fmt::format("announces {} numbers where there must be {}", numbers, *expected));
+    if (!(numbers <= static_cast<double>(budget.left)))
+      bytes.fail(fmt::format("announces {} numbers, more than a file of its size can honestly hold", numbers));
+    budget.left -= static_cast<std::size_t>(numbers);
+  };
   std::string data;
   if (!storage.compressor.empty()) {
-    data = uncompressed(bytes, word, storage);
+    data = uncompressed(bytes, word, storage, require);
   } else {
     const double size = numbers_in(bytes.peek(word), storage.header_type, storage.byte_order, storage.path)[0];
-    data = bytes.take(word + static_cast<std::size_t>(std::min(size, 1e15))).substr(word);
+    require(size);
+    data = bytes.take(word + static_cast<std::size_t>(size)).substr(word);
   }
   return numbers_in(data, type, storage.byte_order, storage.path);
 }

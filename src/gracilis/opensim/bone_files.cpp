@@ -3,12 +3,12 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/parse_toml.hpp>
 #include <gracilis/opensim/model_file.hpp>
+#include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
-
-#include <cctype>
 
 namespace gracilis::opensim {
 
@@ -25,7 +25,7 @@ std::map<std::string, GeometryFiles> read_geometry_map(const fs::path& path) {
   require_readable_file(path);
   std::map<std::string, GeometryFiles> map;
   try {
-    const toml::table table = toml::parse_file(path.string());
+    const toml::table table = parse_toml(read_text(path), path.string());
     for (const auto& [key, node] : table) {
       GeometryFiles& entry = map[std::string(key.str())];
       const toml::table* described = node.as_table();
@@ -67,14 +67,6 @@ static GeometryFiles files_for(const Geometry& geometry, const GeometryPlaces& p
   return file.empty() ? GeometryFiles{} : GeometryFiles{{file}, 0};
 }
 
-std::string name_for_file(std::string wanted, std::set<std::string>& taken) {
-  for (char& c : wanted)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
-  std::string name = wanted;
-  for (int i = 2; !taken.insert(name).second; ++i) name = fmt::format("{}_{}", wanted, i);
-  return name;
-}
-
 ModelBones load_bones(const Model& model, const std::vector<RigidTransform>& poses, const GeometryPlaces& places) {
   ModelBones result;
   std::set<std::string> taken;
@@ -93,7 +85,7 @@ ModelBones load_bones(const Model& model, const std::vector<RigidTransform>& pos
           bone.surface.vertices = (poses[body] * geometry.frame) * (scale.asDiagonal() * bone.surface.vertices);
           // A mirrored surface is inside out.
           if (scale.prod() < 0) bone.surface.faces.row(1).swap(bone.surface.faces.row(2));
-          bone.name = name_for_file(file.stem().string(), taken);
+          bone.name = file_name_of(file.stem().string(), taken);
           result.bones.push_back(std::move(bone));
         } catch (const InputError& error) {
           result.missing.push_back(fmt::format("body '{}': {}", model.bodies[body].name, error.what()));

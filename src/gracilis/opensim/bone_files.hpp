@@ -38,10 +38,6 @@ struct ModelBones {
   std::vector<std::string> missing;  ///< a sentence each
 };
 
-/// A name of letters, digits, '_' and '-' that none of `taken` is, with a number at its end where needed; added to
-/// them.
-std::string name_for_file(std::string wanted, std::set<std::string>& taken);
-
 /// All surfaces of a model's bodies but the ground's, for the bodies at `poses`. A surface is looked for by its path
 /// below the geometry folders, the model's folder and its folder Geometry, then by its name alone; never outside of
 /// them. Those that are missing or cannot be read are listed.

@@ -7,6 +7,7 @@
 #include <gracilis/opensim/scene_lines.hpp>
 #include <gracilis/opensim/skeleton.hpp>
 #include <gracilis/opensim/toml_text.hpp>
+#include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -111,11 +112,17 @@ static std::map<std::string, RoundMuscle> round_muscles(const Model& model, cons
   return round;
 }
 
+std::string motion_file_name(const NamedMotion& motion) {
+  std::set<std::string> taken = {"model"};
+  return file_name_of(motion.name, taken);
+}
+
 static void write_motion(const Model& model, const NamedMotion& motion, const fs::path& folder) {
-  write_sto(folder / (motion.name + ".sto"), scene_motion(model, motion.motion, motion.name));
-  write_text_atomically(folder / (motion.name + ".toml"),
+  const std::string name = motion_file_name(motion);
+  write_sto(folder / (name + ".sto"), scene_motion(model, motion.motion, name));
+  write_text_atomically(folder / (name + ".toml"),
                         fmt::format("schema = 1\nname = {}\ninclude = \"model.toml\"\n\n[motion]\nfile = {}\n",
-                                    toml_text(motion.name), toml_text(motion.name + ".sto")));
+                                    toml_text(name), toml_text(name + ".sto")));
 }
 
 std::vector<std::string> write_scene_folder(const Model& model, const GeometryPlaces& places,
@@ -142,11 +149,15 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
   volumes.bones = std::make_shared<const std::vector<SolidBone>>(std::move(solid));
   const std::vector<const Muscle*> muscles = chosen(model, settings.muscles);
   if (settings.apart) volumes.beside = round_muscles(model, muscles, skeleton.poses(), coordinates, volumes);
+  // Muscles are files beside bones, and columns beside coordinates.
   std::set<std::string> names;
+  for (const ModelBone& bone : bones.bones) names.insert(bone.name);
+  for (const Joint& joint : model.joints)
+    for (const SceneAxis& axis : scene_axes(model, joint)) names.insert(axis.coordinate);
   for (const Muscle* muscle : muscles) {
     try {
       const MuscleVolume volume = muscle_volume(model, *muscle, skeleton.poses(), coordinates, volumes);
-      const std::string name = name_for_file(muscle->name, names);
+      const std::string name = file_name_of(muscle->name, names);
       if (settings.volumes.surfaces.count(muscle->name) > 0 && volume.sections_on_surface == 0)
         left_out.push_back(fmt::format("muscle '{}': its surface is nowhere near its line", muscle->name));
       if (settings.apart && volume.volume_share < told_share)

@@ -18,6 +18,9 @@ struct SceneFolderSettings {
   bool apart = false;                ///< muscles whose surfaces are not known keep out of each other
 };
 
+/// What a motion's files are called, without the extension: file_name_of its name, and not "model".
+std::string motion_file_name(const NamedMotion& motion);
+
 /// Writes a folder that `gracilis run` understands, for the model with its coordinates at their default values:
 /// model.toml with bones, joints and muscles, their surfaces under bones/ and muscles/, and for each motion NAME.toml
 /// with NAME.sto. Returns what was left out, a sentence each. Throws InputError.

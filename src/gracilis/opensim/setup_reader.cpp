@@ -1,6 +1,7 @@
 #include <gracilis/opensim/setup_reader.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/whole_number.hpp>
 #include <gracilis/io/text_cells.hpp>
 #include <gracilis/opensim/model_file.hpp>
 #include <gracilis/opensim/xml.hpp>
@@ -29,8 +30,9 @@ static void read_analysis(const XmlContext& context, const pugi::xml_node& tool,
     setup.begin = std::max(setup.begin, context.number(node, "start_time", setup.begin));
     setup.end = std::min(setup.end, context.number(node, "end_time", setup.end));
     const Real interval = context.number(node, "step_interval", 1);
-    if (!(interval >= 1 && interval < 1e9)) context.fail(node, fmt::format("<step_interval> is {}", interval), "");
-    setup.step_interval = static_cast<int>(interval);
+    const std::optional<int> step = whole_number<int>(interval, 1);
+    if (!step) context.fail(node, fmt::format("<step_interval> is {}", interval), "give a whole number from 1 on");
+    setup.step_interval = *step;
     setup.settings.exponent = context.number(node, "activation_exponent", 2);
     setup.settings.use_muscle_physiology = context.boolean(node, "use_muscle_physiology", true);
     if (!context.boolean(node, "use_model_force_set", true))

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/parse_toml.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/opensim/muscle_path.hpp>
 
@@ -195,7 +196,7 @@ static BodyFit read_body_fit(const std::filesystem::path& path, const std::strin
 std::vector<BodyFit> read_skeleton_fit(const std::filesystem::path& path) {
   require_readable_file(path);
   try {
-    const toml::table table = toml::parse_file(path.string());
+    const toml::table table = parse_toml(read_text(path), path.string());
     const toml::table* bodies = table["bodies"].as_table();
     if (!bodies) throw InputError({path.string(), "", "names no bodies", "give tables such as [bodies.femur_r]"});
     std::vector<BodyFit> fits;

@@ -4,6 +4,7 @@
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/prepare/cgal.hpp>
+#include <gracilis/prepare/estimates.hpp>
 #include <gracilis/prepare/separation.hpp>
 #include <gracilis/prepare/smoothing.hpp>
 #include <gracilis/prepare/surface_repair.hpp>
@@ -138,6 +139,7 @@ std::string name_of(Index surface, const std::vector<NamedSurface>& muscles, con
 
 PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
                                   const PrepareSettings& settings, const Say& say) {
+  require_affordable(muscles, bones, settings);
   PreparedSurfaces result;
   PreparationReport& report = result.report;
   const std::vector<TriangleMesh> obstacles = meshes_of(bones);
@@ -149,6 +151,9 @@ PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, cons
     result.muscles.push_back(std::move(fixed.mesh));
   }
   const std::vector<TriangleMesh> repaired = result.muscles;
+  std::vector<NamedSurface> closed;
+  for (std::size_t m = 0; m < muscles.size(); ++m) closed.push_back({muscles[m].name, repaired[m]});
+  require_apart(closed, bones);
   const SeparationSettings apart{.muscle_gap = settings.muscle_gap, .bone_gap = settings.bone_gap};
   say("remeshing " + std::to_string(muscles.size()) + (muscles.size() == 1 ? " muscle" : " muscles"));
   for (TriangleMesh& mesh : result.muscles) {

@@ -59,6 +59,7 @@ class Separation {
              const SeparationSettings& settings)
       : settings_(settings) {
     for (TriangleMesh& muscle : muscles) bodies_.push_back(make_body(muscle));
+    moved_.assign(bodies_.size(), true);
     for (const TriangleMesh& bone : bones) bones_.push_back(std::make_unique<SignedDistance>(bone));
     muscles_.resize(bodies_.size());
   }
@@ -177,7 +178,7 @@ class Separation {
   const SeparationSettings& settings_;
   std::vector<Body> bodies_;
   std::vector<std::unique_ptr<SignedDistance>> muscles_, bones_;
-  std::vector<bool> moved_ = std::vector<bool>(1024, true);
+  std::vector<bool> moved_;
 };
 
 }  // namespace

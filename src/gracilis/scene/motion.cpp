@@ -1,3 +1,4 @@
+#include <gracilis/core/errors.hpp>
 #include <gracilis/scene/motion.hpp>
 
 #include <algorithm>
@@ -5,15 +6,29 @@
 
 namespace gracilis {
 
+std::int64_t steps_over(Real change, Real step) {
+  constexpr auto most = std::int64_t{1} << 62;
+  const Real steps = std::ceil(std::abs(change) / step - 1e-9);
+  if (!(steps < static_cast<Real>(most))) return most;
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(steps));
+}
+
+void require_frames(std::int64_t frames, int max_frames) {
+  if (frames <= max_frames) return;
+  throw ConfigurationError({"", "[motion]", "the motion asks for more than " + std::to_string(max_frames) + " frames",
+                            "take larger steps or a shorter motion, or set 'max_frames' higher"});
+}
+
 Motion motion_through(const std::vector<std::string>& coordinates, const Eigen::MatrixXd& key_poses, Real step,
-                      Real time_step) {
+                      Real time_step, int max_frames) {
   std::vector<Eigen::RowVectorXd> rows;
   if (key_poses.rows() > 0) rows.push_back(key_poses.row(0));
   for (Index key = 1; key < key_poses.rows(); ++key) {
     const Eigen::RowVectorXd from = key_poses.row(key - 1), change = key_poses.row(key) - from;
-    // The tolerance keeps a change of exactly n steps at n steps whatever the rounding.
-    const int steps = std::max(1, static_cast<int>(std::ceil(change.cwiseAbs().maxCoeff() / step - 1e-9)));
-    for (int i = 1; i < steps; ++i) rows.push_back(from + change * (Real(i) / steps));
+    const std::int64_t steps = steps_over(change.cwiseAbs().maxCoeff(), step);
+    require_frames(steps > max_frames ? steps : static_cast<std::int64_t>(rows.size()) + steps, max_frames);
+    for (std::int64_t i = 1; i < steps; ++i)
+      rows.push_back(from + change * (static_cast<Real>(i) / static_cast<Real>(steps)));
     rows.push_back(key_poses.row(key));
   }
 

@@ -1,5 +1,7 @@
 #include <gracilis/scene/setting_table.hpp>
 #include <gracilis/scene/validate.hpp>
+#include <gracilis/scene/validate_names.hpp>
+#include <gracilis/scene/validate_sizes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,19 +27,6 @@ struct Validation {
 
   void check_body(const std::string& where, Index body) {
     if (!is_body(body)) add(where, "refers to body number " + std::to_string(body) + ", which does not exist");
-  }
-
-  template <class Elements>
-  void check_names(const Elements& elements, const std::string& kind) {
-    std::set<std::string> seen;
-    for (const auto& element : elements) {
-      const std::string where = kind + " '" + element.name + "'";
-      if (!seen.insert(element.name).second) add(where, "the name stands twice");
-      const bool fit = !element.name.empty() && element.name[0] != '.' &&
-                       std::all_of(element.name.begin(), element.name.end(),
-                                   [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '.'; });
-      if (!fit) add(where, "the name is not fit for a file's name", "use letters, digits, '_', '-' and '.'");
-    }
   }
 
   void check_surface(const std::string& where, const TriangleMesh& surface) {
@@ -321,8 +310,7 @@ struct Validation {
 std::vector<Problem> validate(const Scene& scene) {
   Validation validation{scene, {}};
   if (scene.bodies.empty()) validation.add("", "the scene has no bodies", "add [[bones]]");
-  validation.check_names(scene.bones, "bone");
-  validation.check_names(scene.muscles, "muscle");
+  for (Problem& problem : name_problems(scene)) validation.problems.push_back(std::move(problem));
   validation.check_bones();
   validation.check_joints();
   validation.check_muscles();
@@ -331,6 +319,7 @@ std::vector<Problem> validate(const Scene& scene) {
   validation.check_motion();
   validation.check_settings("distance_field", scene.distance_fields);
   validation.check_settings("sequence", scene.sequence);
+  for (Problem& problem : size_problems(scene)) validation.problems.push_back(std::move(problem));
   return validation.problems;
 }
 

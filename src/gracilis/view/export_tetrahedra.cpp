@@ -1,6 +1,7 @@
 #include <gracilis/view/export.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/whole_number.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/tetrahedra_writer.hpp>
@@ -9,7 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <iterator>
+#include <optional>
 
 namespace gracilis {
 
@@ -27,8 +30,15 @@ static ActionLine recorded_line(const RecordedRun& run, const std::string& muscl
   try {
     if (!run.manifest.contains("action_lines") || !run.manifest.at("action_lines").contains(muscle)) return line;
     const auto& json = run.manifest.at("action_lines").at(muscle);
-    line.rays = json.at("rays").get<Index>();
-    line.scaling = json.at("scaling").get<int>();
+    const auto count = [&](const char* key, Index most) {
+      const std::optional<Index> number = whole_number<Index>(json.at(key).get<Real>(), 0, most);
+      if (!number)
+        throw InputError({(run.folder / "run.json").string(), muscle, std::string("'") + key + "' is no count",
+                          "run the scene again"});
+      return *number;
+    };
+    line.rays = count("rays", 1000);
+    line.scaling = count("scaling", 16);
     line.tendon = json.at("tendon_m").get<Real>();
     line.origin_tendon = json.at("origin_tendon_m").get<Real>();
     line.optimal_fiber = json.at("optimal_fiber_m").get<Real>();
@@ -74,9 +84,11 @@ void export_tetrahedra(const RecordedRun& run, const std::filesystem::path& fold
     const ActionLine line = recorded_line(run, muscle);
     if (line.rays == 0) continue;
     any = true;
-    const Points fine = subdivide_line(line.points, line.scaling);
     const Points rest = recorded_surface(run, muscle, 0).vertices;
-    if (rest.cols() != line.rays * fine.cols() + 2 || (line.centers.cols() > 0 && line.centers.cols() != fine.cols()))
+    const std::int64_t section_count = (std::int64_t{line.points.cols()} - 1) * (std::int64_t{1} << line.scaling) + 1;
+    const bool fits = line.points.cols() >= 2 && rest.cols() == line.rays * section_count + 2;
+    const Points fine = fits ? subdivide_line(line.points, line.scaling) : Points(3, 0);
+    if (!fits || (line.centers.cols() > 0 && line.centers.cols() != fine.cols()))
       throw InputError({run.folder.string(), muscle, "is not made of its line's sections", "run the scene again"});
     const std::vector<Real> places = distances_along(fine);
     for (const int frame : frames) {

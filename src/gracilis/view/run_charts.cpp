@@ -19,10 +19,17 @@ static std::vector<Real> column(const Table& table, const std::string& name, Rea
   return {values.begin(), values.end()};
 }
 
-LineChart fiber_chart(const Table& table, const std::string& coordinate, const std::string& muscle,
+ChartCoordinate chart_coordinate(const Scene& scene, const std::string& name) {
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes)
+      if (axis.coordinate == name && axis.translation) return {name, 1000, name + " (mm)"};
+  return {name, 1, name + " (degrees)"};
+}
+
+LineChart fiber_chart(const Table& table, const ChartCoordinate& coordinate, const std::string& muscle,
                       const std::string& title, const std::string& y_label) {
-  LineChart chart{title, coordinate + " (degrees)", y_label, {}};
-  const std::vector<Real> x = column(table, coordinate, 1);
+  LineChart chart{title, coordinate.label, y_label, {}};
+  const std::vector<Real> x = column(table, coordinate.name, coordinate.factor);
   Index fiber = 0;
   for (const std::string& name : table.columns) {
     if (!name.starts_with(muscle + "_f")) continue;
@@ -34,10 +41,10 @@ LineChart fiber_chart(const Table& table, const std::string& coordinate, const s
   return chart;
 }
 
-LineChart muscles_chart(const Table& table, const std::string& coordinate, const std::vector<std::string>& muscles,
+LineChart muscles_chart(const Table& table, const ChartCoordinate& coordinate, const std::vector<std::string>& muscles,
                         const std::string& title, const std::string& y_label) {
-  LineChart chart{title, coordinate + " (degrees)", y_label, {}};
-  const std::vector<Real> x = column(table, coordinate, 1);
+  LineChart chart{title, coordinate.label, y_label, {}};
+  const std::vector<Real> x = column(table, coordinate.name, coordinate.factor);
   for (std::size_t i = 0; i < muscles.size(); ++i) {
     const std::vector<Real> y = column(table, muscles[i], 1000);
     if (!y.empty())
@@ -50,7 +57,7 @@ std::string main_coordinate(const Table& table, const Scene& scene) {
   std::string found;
   Real largest = -1;
   for (const std::string& name : coordinate_names(scene)) {
-    const std::vector<Real> values = column(table, name, 1);
+    const std::vector<Real> values = column(table, name, chart_coordinate(scene, name).factor);
     if (values.empty()) continue;
     const auto [low, high] = std::minmax_element(values.begin(), values.end());
     if (*high - *low > largest) largest = *high - *low, found = name;
@@ -101,7 +108,8 @@ void write_run_charts(const fs::path& run_folder, const Scene& scene) {
   for (const Muscle& muscle : scene.muscles) {
     if (!column_of(table, muscle.name)) continue;
     write_chart(run_folder / "plots" / ("fiber_lengths_" + muscle.name + ".svg"),
-                fiber_chart(table, coordinate, muscle.name, muscle.name + ": fiber lengths", "length (mm)"));
+                fiber_chart(table, chart_coordinate(scene, coordinate), muscle.name, muscle.name + ": fiber lengths",
+                            "length (mm)"));
   }
 }
 

@@ -35,7 +35,7 @@ void write_video(const std::filesystem::path& path, int count, int frames_per_se
             "ffmpeg -loglevel error -y -f rawvideo -pix_fmt rgba -s {}x{} -r {} -i - -vf "
             "'pad=ceil(iw/2)*2:ceil(ih/2)*2' "
             "-c:v libx264 -crf 18 -pix_fmt yuv420p -movflags +faststart {}",
-            now.width, now.height, frames_per_second, quoted(temporary.string()));
+            now.width, now.height, frames_per_second, quoted("file:" + temporary.string()));
         pipe = popen(command.c_str(), "w");
         if (!pipe) break;
       }

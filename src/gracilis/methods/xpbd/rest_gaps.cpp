@@ -1,6 +1,7 @@
 #include <gracilis/methods/xpbd/rest_gaps.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/overlap_release.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 
 #include <algorithm>
@@ -135,6 +136,7 @@ Real OverlapTable::deepest(Index first, Index second) const {
 void OverlapTable::mark(SurfacePair& pair) const {
   const Entry* entry = find(pair.first, pair.second);
   if (!entry) return;
+  pair.release = std::max(least_release, static_cast<float>(entry->overlap.deepest()) / release_steps);
   mark_side(entry->overlap.of_first, entry->sides.first_astray, pair.first_gap, pair.first_overlaps);
   mark_side(entry->overlap.of_second, entry->sides.second_astray, pair.second_gap, pair.second_overlaps);
 }

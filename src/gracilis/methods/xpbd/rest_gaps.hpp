@@ -19,7 +19,7 @@ class OverlapTable {
   bool is_left_out(Index first, Index second) const;
   /// m; 0 where they do not overlap.
   Real deepest(Index first, Index second) const;
-  /// Notes which particles overlap. Those that have no side to come out on are not kept out of the other.
+  /// Notes which particles overlap, and how fast they come out. Those that have no side to come out on are not kept out of the other.
   void mark(SurfacePair& pair) const;
 
  private:

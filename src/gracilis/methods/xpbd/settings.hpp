@@ -38,7 +38,7 @@ struct SolverSettings {
   Real rayleigh_beta = 0;          ///< N·s/m, N·m·s: dissipation of the distance and dihedral constraints
   Real stop_displacement = 0;      ///< m; stop a substep early when no vertex moved further; 0: never
   Real stop_milliseconds = 0;      ///< ms; stop a frame early after this time; 0: never
-  Real step_turn = radians(1.25);  ///< rad; a frame that turns bones further is taken in several steps; 0: in one
+  Real step_turn = radians(2);  ///< rad; a frame that turns bones further is taken in several steps; 0: in one
   int settling_rounds = 4;         ///< of volume and contact alone, after the last iteration
   Real hinge_limit = 0.05;         ///< largest motion by one hinge projection, as a share of its edge; 0: off
   Real stretch_limit = 2.5;        ///< longest an edge may become, over its length at rest; 0: no limit

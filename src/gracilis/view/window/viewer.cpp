@@ -1,5 +1,6 @@
 #include <gracilis/view/window/viewer.hpp>
 
+#include <gracilis/io/value_reader.hpp>
 #include <gracilis/view/picture_renderer.hpp>
 #include <gracilis/view/window/arrows.hpp>
 #include <gracilis/view/window/bone_slice.hpp>
@@ -133,8 +134,10 @@ void Viewer::press_scripted_keys() {
   while (next_key_ < options_.keys.size() && now() >= keys_wait_until_ && (keys_wait_until_ > 0 || !is_waiting())) {
     const std::string& key = options_.keys[next_key_++];
     keys_wait_until_ = 0;
-    if (key.size() > 1 && key.back() == 's' && key.find_first_not_of("0123456789.") == key.size() - 1)
-      keys_wait_until_ = now() + std::stod(key);
+    Real seconds = 0;
+    const bool is_wait = key.ends_with('s') && key.find_first_not_of("0123456789.") == key.size() - 1;
+    if (is_wait && parse_number(std::string_view(key).substr(0, key.size() - 1), seconds))
+      keys_wait_until_ = now() + seconds;
     else
       press(key);
   }

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+
+namespace gracilis {
+
+/// The file as JSON, its keys in their order. Throws InputError where it is none or nested more than 64 times: what
+/// walks through it again calls itself for every level.
+nlohmann::ordered_json read_json(const std::filesystem::path& path);
+
+}  // namespace gracilis

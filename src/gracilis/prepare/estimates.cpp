@@ -1,0 +1,92 @@
+#include <gracilis/prepare/estimates.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/signed_distance.hpp>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace gracilis {
+
+static constexpr Real most_triangles = 2e6;
+
+/// "1.1e+12"
+static std::string rounded(Real value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
+/// Triangles of half the edge length, which is what remeshing begins with: by the area, and for blades and needles by
+/// the length of the edges.
+static Real expected_triangles(const TriangleMesh& mesh, Real edge_length) {
+  Real area = 0, length = 0;
+  for (const Eigen::Vector3i face : mesh.faces.colwise()) {
+    const Vec3 a = mesh.vertices.col(face[0]), b = mesh.vertices.col(face[1]), c = mesh.vertices.col(face[2]);
+    area += (b - a).cross(c - a).norm() / 2;
+    length += ((b - a).norm() + (c - b).norm() + (a - c).norm()) / 2;
+  }
+  const Real edge = edge_length / 2;
+  return std::max(area / (std::sqrt(3.0) / 4 * edge * edge), length / edge);
+}
+
+void require_affordable(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
+                        const PrepareSettings& settings) {
+  std::vector<Problem> problems;
+  for (const std::vector<NamedSurface>* surfaces : {&muscles, &bones})
+    for (const NamedSurface& surface : *surfaces)
+      if (!surface.mesh.vertices.allFinite())
+        problems.push_back({"", surface.name, "has a coordinate that is not finite", "export the surface again"});
+  if (settings.edge_length > 0 && problems.empty())
+    for (const NamedSurface& muscle : muscles) {
+      const Real triangles = expected_triangles(muscle.mesh, settings.edge_length);
+      if (triangles > most_triangles)
+        problems.push_back({"", muscle.name,
+                            "would have about " + rounded(triangles) + " triangles at an edge length of " +
+                                rounded(1000 * settings.edge_length) + " mm; " + rounded(most_triangles) +
+                                " are the most that are made",
+                            "check its unit and its farthest vertices, or raise 'edge_length'"});
+    }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+/// Share of some vertices, spread over the surface, that lie inside another one.
+static Real share_inside(const TriangleMesh& mesh, const SignedDistance& other, const Eigen::AlignedBox3d& box) {
+  const Index step = std::max<Index>(1, mesh.vertex_count() / 500);
+  Index inside = 0, count = 0;
+  for (Index v = 0; v < mesh.vertex_count(); v += step, ++count)
+    if (const Vec3 p = mesh.vertices.col(v); box.contains(p) && other.query(p).distance < 0) ++inside;
+  return count == 0 ? 0 : Real(inside) / count;
+}
+
+void require_apart(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones) {
+  std::vector<Problem> problems;
+  std::vector<const NamedSurface*> all;
+  for (const NamedSurface& muscle : muscles) all.push_back(&muscle);
+  for (const NamedSurface& bone : bones) all.push_back(&bone);
+  for (const NamedSurface* other : all) {
+    if (other->mesh.face_count() == 0) continue;
+    Eigen::AlignedBox3d box(other->mesh.vertices.rowwise().minCoeff(), other->mesh.vertices.rowwise().maxCoeff());
+    std::unique_ptr<SignedDistance> distance;
+    for (const NamedSurface& muscle : muscles) {
+      if (&muscle == other || muscle.mesh.vertex_count() == 0) continue;
+      const Eigen::AlignedBox3d own(muscle.mesh.vertices.rowwise().minCoeff(),
+                                    muscle.mesh.vertices.rowwise().maxCoeff());
+      if (!box.intersects(own)) continue;
+      if (!distance) distance = std::make_unique<SignedDistance>(other->mesh);
+      const Real share = share_inside(muscle.mesh, *distance, box);
+      if (share > 0.5)
+        problems.push_back({"", muscle.name,
+                            "lies for the most part (" + std::to_string(std::lround(100 * share)) + " %) in " +
+                                other->name + ": they cannot be pulled apart",
+                            "check the unit and the place of both, or leave one out"});
+    }
+  }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+}  // namespace gracilis

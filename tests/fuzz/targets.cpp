@@ -1,0 +1,159 @@
+#include "targets.hpp"
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/activation_samples.hpp>
+#include <gracilis/io/cache_file.hpp>
+#include <gracilis/io/field_cache.hpp>
+#include <gracilis/io/landmarks.hpp>
+#include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/output_hashes.hpp>
+#include <gracilis/io/polyline_file.hpp>
+#include <gracilis/io/prepared_cache.hpp>
+#include <gracilis/io/recorded_run.hpp>
+#include <gracilis/io/run_manifest.hpp>
+#include <gracilis/io/scene_description.hpp>
+#include <gracilis/io/table.hpp>
+#include <gracilis/opensim/bone_files.hpp>
+#include <gracilis/opensim/model_reader.hpp>
+#include <gracilis/opensim/setup_reader.hpp>
+#include <gracilis/opensim/skeleton_fit.hpp>
+
+#include <io/tiny_run.hpp>
+#include <shapes.hpp>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace gracilis::fuzz {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder of this process, in memory where there is a disk in memory.
+class Folder {
+ public:
+  Folder() : path_((fs::exists("/dev/shm") ? fs::path("/dev/shm") : fs::temp_directory_path()) / name()) {
+    fs::create_directories(path_);
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  fs::path write(const std::string& file, std::string_view bytes) const {
+    std::ofstream(path_ / file, std::ios::binary) << bytes;
+    return path_ / file;
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  static std::string name() { return "gracilis-fuzz-" + std::to_string(::getpid()); }
+
+  fs::path path_;
+};
+
+const Folder& folder() {
+  static const Folder one;
+  return one;
+}
+
+/// A run folder of three frames, whose tables are then replaced.
+const fs::path& run_folder() {
+  static const fs::path path = [] {
+    const TinyRun run;
+    fs::path made = folder().path() / "run";
+    RunFolder out(made, run.scene, run.poses, ExistingRun::replace);
+    for (int i = 0; i < 3; ++i) out.write_frame(run.record(i));
+    RunManifest manifest;
+    manifest.scene = "tiny";
+    out.write_manifest(manifest);
+    return made;
+  }();
+  return path;
+}
+
+Target mesh(const std::string& format) {
+  return {format, [format](std::string_view bytes) { read_mesh(folder().write("mesh." + format, bytes), 0.001); }};
+}
+
+/// The content of the only file of a cache folder, sealed as if it had been written so.
+void reseal(const fs::path& cache, const std::string& extension, std::string_view format, std::string_view bytes) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(cache))
+    if (entry.path().extension() == extension) write_cache_file(entry.path(), format, std::string(bytes));
+}
+
+void read_field_cache(std::string_view bytes) {
+  const fs::path cache = folder().path() / "fields";
+  const Bone bone{"ball", 0, shapes::sphere(Vec3::Zero(), 0.01, 1)};
+  DistanceFieldSettings settings;
+  settings.cell_size = 0.02;
+  cached_bone_field(bone, settings, cache);
+  reseal(cache, ".field", "gracilis field 5", bytes);
+  cached_bone_field(bone, settings, cache);
+}
+
+void read_prepared_cache(std::string_view bytes) {
+  const fs::path cache = folder().path() / "muscles";
+  const std::vector<NamedSurface> muscles = {{"psoas", shapes::box(Vec3::Zero(), Vec3::Ones())}};
+  const PrepareFunction keep = [](const std::vector<NamedSurface>& surfaces, const std::vector<NamedSurface>&,
+                                  const PrepareSettings&, const std::function<void(const std::string&)>&) {
+    return PreparedSurfaces{{surfaces[0].mesh}, {}};
+  };
+  const auto silent = [](const std::string&) {};
+  cached_preparation(muscles, {}, {}, keep, silent, cache);
+  reseal(cache, ".muscles", "gracilis muscles 2", bytes);
+  cached_preparation(muscles, {}, {}, keep, silent, cache);
+}
+
+}  // namespace
+
+const std::vector<Target>& targets() {
+  static const std::vector<Target> all = {
+      mesh("ply"),
+      mesh("stl"),
+      mesh("obj"),
+      mesh("vtk"),
+      mesh("vtp"),
+      {"lines", [](std::string_view bytes) { read_polylines(folder().write("lines.vtk", bytes), 1); }},
+      {"scene", [](std::string_view bytes) { read_scene_description(folder().write("scene.toml", bytes), {}, {}); }},
+      {"table", [](std::string_view bytes) { motion_from_table(read_table(folder().write("motion.sto", bytes)), {}); }},
+      {"landmarks", [](std::string_view bytes) { read_landmarks(folder().write("landmarks.csv", bytes), 1); }},
+      {"mapping", [](std::string_view bytes) { read_muscle_mapping(folder().write("mapping.toml", bytes)); }},
+      {"model", [](std::string_view bytes) { opensim::read_model(folder().write("model.osim", bytes)); }},
+      {"setup", [](std::string_view bytes) { opensim::read_setup(folder().write("setup.xml", bytes)); }},
+      {"geometry", [](std::string_view bytes) { opensim::read_geometry_map(folder().write("map.toml", bytes)); }},
+      {"fit", [](std::string_view bytes) { opensim::read_skeleton_fit(folder().write("fit.toml", bytes)); }},
+      {"manifest",
+       [](std::string_view bytes) {
+         folder().write("run.json", bytes);
+         read_manifest(folder().path());
+       }},
+      {"measures",
+       [](std::string_view bytes) {
+         std::ofstream(run_folder() / "measures.csv", std::ios::binary) << bytes;
+         open_recorded_run(run_folder());
+       }},
+      {"hashes",
+       [](std::string_view bytes) {
+         folder().write(output_hashes_name, bytes);
+         read_output_hashes(folder().path());
+       }},
+      {"field", read_field_cache},
+      {"prepared", read_prepared_cache}};
+  return all;
+}
+
+void run(const Target& target, std::string_view bytes) {
+  try {
+    target.read(bytes);
+  } catch (const Error&) {
+    // What cannot be read is told of.
+  }
+}
+
+}  // namespace gracilis::fuzz

@@ -1,0 +1,58 @@
+#include "scenario_runs.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+/// The shared leg and elbow through the whole ranges of their joints, contact on: every muscle keeps every gate in
+/// every frame.
+namespace gracilis {
+namespace {
+
+struct Range {
+  std::string name, scene, coordinates, key_poses_deg;
+};
+
+std::string name_of_range(const testing::TestParamInfo<Range>& info) { return info.param.name; }
+
+/// A copy of a scene's file with another motion, in steps of 2 degrees. A scene is read with its motion: attachments
+/// depend on it.
+std::filesystem::path with_motion(const std::filesystem::path& scene, const Range& range) {
+  std::stringstream text;
+  text << std::ifstream(scene).rdbuf();
+  const std::string all = text.str();
+  const std::filesystem::path copy =
+      std::filesystem::path(testing::TempDir()) / ("gracilis_limb_ranges_" + range.name + ".toml");
+  std::ofstream(copy) << all.substr(0, all.find("[motion]")) << "[motion]\ncoordinates = " << range.coordinates
+                      << "\nkey_poses_deg = " << range.key_poses_deg << "\nstep_deg = 2\n";
+  return copy;
+}
+
+class LimbRanges : public testing::TestWithParam<Range> {};
+
+}  // namespace
+
+TEST_P(LimbRanges, no_muscle_misses_a_gate_in_any_frame) {
+  const std::filesystem::path file = data_folder() / GetParam().scene;
+  if (data_folder().empty() || !std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
+  SceneOptions options;
+  options.data = file.parent_path();
+  const Scene scene = read_scene(with_motion(file, GetParam()), options).scene;
+  run_whole(scene, 1, [&](const FrameRecord& record) {
+    for (std::size_t m = 0; m < scene.muscles.size(); ++m)
+      EXPECT_THAT(missed_gates(record.measures[m], {}), testing::IsEmpty())
+          << scene.muscles[m].name << ", frame " << record.frame.number;
+  });
+}
+
+static const std::string hip_and_knee = R"(["hip_flexion_r", "knee_flexion_r"])";
+
+INSTANTIATE_TEST_SUITE_P(Long, LimbRanges,
+                         testing::Values(Range{"knee", "leg/leg.toml", hip_and_knee, "[[0, 0], [0, 110]]"},
+                                         Range{"hip_and_knee", "leg/leg.toml", hip_and_knee, "[[0, 0], [90, 110]]"},
+                                         Range{"elbow", "elbow/elbow.toml", R"(["elbow_flexion"])",
+                                               "[[14], [0], [130]]"}),
+                         name_of_range);
+
+}  // namespace gracilis
