@@ -16,9 +16,9 @@
 namespace gracilis {
 namespace {
 
-const Vec3 far_away(5000.3, -3000.7, 8000.1);
+const Vec3 kilometres_away(5000.3, -3000.7, 8000.1);
 
-std::unique_ptr<DeformationMethod> method_of(const Scene& scene) {
+std::unique_ptr<DeformationMethod> method_made_for(const Scene& scene) {
   return make_method(scene, [&](const DistanceFieldSettings& settings) {
     std::vector<DistanceField> fields(scene.bones.size());
     parallel_for_each(fields.size(), [&](std::size_t b) { fields[b] = build_bone_field(scene.bones[b], settings); });
@@ -27,7 +27,7 @@ std::unique_ptr<DeformationMethod> method_of(const Scene& scene) {
 }
 
 std::vector<FrameRecord> run(const Scene& scene) {
-  const auto method = method_of(scene);
+  const auto method = method_made_for(scene);
   const FiberTracker tracker(scene);
   std::vector<FrameRecord> records;
   run_scene(
@@ -81,7 +81,7 @@ Difference difference(const std::vector<FrameRecord>& here, const std::vector<Fr
 
 /// 1e-5 m is what the solver's single precision leaves of a run at the origin, and less than anything that is measured.
 void expect_same(const Scene& scene,
-                 const RigidTransform& by = Eigen::Translation3d(far_away) * RigidTransform::Identity()) {
+                 const RigidTransform& by = Eigen::Translation3d(kilometres_away) * RigidTransform::Identity()) {
   const std::vector<FrameRecord> here = run(scene), there = run(moved(by, scene));
   ASSERT_EQ(here.size(), there.size());
   ASSERT_GT(largest_difference(here.back().frame.muscles[0].points, here[0].frame.muscles[0].points), 0.003)
@@ -181,7 +181,7 @@ TEST(FarScenes, an_arm_of_bones_and_muscles_deforms_as_at_the_origin) {
   Scene scene = builtin_elbow(options);
   std::erase_if(scene.muscles,
                 [](const Muscle& muscle) { return muscle.name.find("brachialis") == std::string::npos; });
-  const RigidTransform by = Eigen::Translation3d(far_away) * RigidTransform::Identity();
+  const RigidTransform by = Eigen::Translation3d(kilometres_away) * RigidTransform::Identity();
   const std::vector<FrameRecord> here = run(scene), there = run(moved(by, scene));
   const Difference d = difference(here, there, by);
   // Where a muscle lies on a bone the last bit decides which vertices touch it, a centimetre from the origin as well.
@@ -200,9 +200,9 @@ TEST(FarScenes, turned_over_as_well_muscles_deform_as_turned_over_at_the_origin)
 }
 
 TEST(FarScenes, a_run_goes_on_where_it_was_interrupted) {
-  const Scene scene = moved(Eigen::Translation3d(far_away) * RigidTransform::Identity(), flexing_tube());
+  const Scene scene = moved(Eigen::Translation3d(kilometres_away) * RigidTransform::Identity(), flexing_tube());
   const std::vector<Pose> poses = pose_sequence(scene);
-  const auto method = method_of(scene), resumed = method_of(scene);
+  const auto method = method_made_for(scene), resumed = method_made_for(scene);
   std::vector<Frame> frames;
   for (std::size_t i = 0; i < 8; ++i) {
     if (i > 0) method->advance(poses[i], usual_time_step);

@@ -4,6 +4,7 @@
 #include <gracilis/io/data_root.hpp>
 #include <gracilis/io/field_cache.hpp>
 #include <gracilis/io/scene_reader.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 #ifdef GRACILIS_WITH_PREPARE
 #include <gracilis/prepare/prepare_surfaces.hpp>

@@ -149,7 +149,7 @@ struct Arrowed {
     shapes.arrow_roots = {{0}};
     frame.muscles = {ShownPoints::Zero(3, 1)};
     const auto pass = [](ConstraintKind kind, int iteration, float z) {
-      ShownPass result{0, static_cast<int>(kind), iteration, ShownPoints::Zero(3, 1)};
+      ShownPass result{0, name_of(kind), iteration, ShownPoints::Zero(3, 1)};
       result.moved(2, 0) = z;
       return result;
     };
