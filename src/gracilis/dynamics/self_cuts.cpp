@@ -206,8 +206,13 @@ void gather_folded(const ContactSurface& surface, const Particles& particles, st
   }
 }
 
-std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen::Matrix3Xf& rest,
-                                     const Particles& before, const Particles& particles, std::vector<Index> faces) {
+namespace {
+
+/// Calls act(one, other), the lower face first, for those of the listed faces whose boxes meet, each pair once; looks
+/// at `most_looks` pairs per face of the surface at most.
+template <class Act>
+void for_each_meeting(const ContactSurface& surface, const Particles& particles, std::vector<Index> faces,
+                      const Act& act) {
   keep_each_once(faces);
   struct FaceBox {
     Index face;
@@ -225,20 +230,26 @@ std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen:
   if (!boxes.empty()) all.sizes().maxCoeff(&along);
   std::stable_sort(boxes.begin(), boxes.end(),
                    [along](const FaceBox& l, const FaceBox& r) { return l.box.min()[along] < r.box.min()[along]; });
+  Index looks = most_looks * static_cast<Index>(surface.faces.cols());
+  for (auto one = boxes.begin(); one != boxes.end() && looks > 0; ++one)
+    for (auto other = one + 1; other != boxes.end() && other->box.min()[along] <= one->box.max()[along] && looks > 0;
+         ++other, --looks)
+      if (one->box.intersects(other->box)) act(std::min(one->face, other->face), std::max(one->face, other->face));
+}
+
+}  // namespace
+
+std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen::Matrix3Xf& rest,
+                                     const Particles& before, const Particles& particles, std::vector<Index> faces) {
   const auto now = [&](Index p) -> Eigen::Vector3d { return particles.position(p).cast<double>(); };
   const auto then = [&](Index p) -> Eigen::Vector3d { return rest.col(p).cast<double>(); };
   const auto earlier = [&](Index p) -> Eigen::Vector3d { return before.position(p).cast<double>(); };
   std::vector<FacePair> cuts;
-  Index looks = most_looks * static_cast<Index>(surface.faces.cols());
-  for (auto one = boxes.begin(); one != boxes.end() && looks > 0; ++one)
-    for (auto other = one + 1; other != boxes.end() && other->box.min()[along] <= one->box.max()[along] && looks > 0;
-         ++other, --looks) {
-      const FacePair pair = {std::min(one->face, other->face), std::max(one->face, other->face)};
-      if (one->box.intersects(other->box) && cut_each_other(surface, pair[0], pair[1], now) &&
-          !cut_each_other(surface, pair[0], pair[1], then) && !cut_each_other(surface, pair[0], pair[1], earlier) &&
-          can_move(surface, pair, particles))
-        cuts.push_back(pair);
-    }
+  for_each_meeting(surface, particles, std::move(faces), [&](Index one, Index other) {
+    if (cut_each_other(surface, one, other, now) && !cut_each_other(surface, one, other, then) &&
+        !cut_each_other(surface, one, other, earlier) && can_move(surface, {one, other}, particles))
+      cuts.push_back({one, other});
+  });
   std::sort(cuts.begin(), cuts.end());
   return cuts;
 }
@@ -265,27 +276,29 @@ void drop_tangled_before(const ContactSurface& surface, const Eigen::Matrix3Xf& 
                          std::vector<FacePair>& pairs) {
   const auto earlier = [&](Index p) -> Vec3 { return before.position(p).cast<Real>(); };
   const auto then = [&](Index p) -> Vec3 { return rest.col(p).cast<Real>(); };
-  std::vector<Index> around;
-  std::erase_if(pairs, [&](const FacePair& pair) {
-    around.clear();
-    const std::vector<Index> corners = corners_of(surface, pair);
-    for (const Index corner : corners) {
-      const std::span<const Index> fan = surface.fans.around(corner);
-      around.insert(around.end(), fan.begin(), fan.end());
+  std::vector<Index> corners, faces, tangled;
+  for (const FacePair& pair : pairs)
+    for (const Index corner : corners_of(surface, pair)) corners.push_back(corner);
+  keep_each_once(corners);
+  for (const Index corner : corners) {
+    const std::span<const Index> fan = surface.fans.around(corner);
+    faces.insert(faces.end(), fan.begin(), fan.end());
+    for (const Index at : surface.edges_at(corner)) {
+      const ContactSurface::Edge& edge = surface.edges[static_cast<std::size_t>(at)];
+      if (edge.faces[0] >= 0 && edge.faces[1] >= 0 && is_bent(surface, edge, earlier) &&
+          is_folded(angle_at(surface, edge, then), angle_at(surface, edge, earlier)))
+        tangled.insert(tangled.end(), edge.ends.begin(), edge.ends.end());
     }
-    keep_each_once(around);
-    for (auto one = around.begin(); one != around.end(); ++one)
-      if (std::any_of(one + 1, around.end(),
-                      [&](Index other) { return cut_each_other(surface, *one, other, earlier); }))
-        return true;
-    return std::any_of(corners.begin(), corners.end(), [&](Index corner) {
-      const std::span<const Index> edges = surface.edges_at(corner);
-      return std::any_of(edges.begin(), edges.end(), [&](Index at) {
-        const ContactSurface::Edge& edge = surface.edges[static_cast<std::size_t>(at)];
-        return edge.faces[0] >= 0 && edge.faces[1] >= 0 && is_bent(surface, edge, earlier) &&
-               is_folded(angle_at(surface, edge, then), angle_at(surface, edge, earlier));
-      });
-    });
+  }
+  for_each_meeting(surface, before, std::move(faces), [&](Index one, Index other) {
+    if (!cut_each_other(surface, one, other, earlier)) return;
+    for (const Index corner : corners_of(surface, {one, other})) tangled.push_back(corner);
+  });
+  keep_each_once(tangled);
+  std::erase_if(pairs, [&](const FacePair& pair) {
+    const std::vector<Index> of_pair = corners_of(surface, pair);
+    return std::any_of(of_pair.begin(), of_pair.end(),
+                       [&](Index corner) { return std::binary_search(tangled.begin(), tangled.end(), corner); });
   });
 }
 

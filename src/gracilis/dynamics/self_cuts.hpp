@@ -26,8 +26,8 @@ std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen:
 std::vector<FacePair> find_folds(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
                                  const Particles& particles);
 
-/// Drops the pairs about which the surface already cut itself, or was folded, before the step: among the faces that
-/// have a corner in common with one of the two.
+/// Drops the pairs of which a corner was already one of faces that cut each other, or lay on a fold, before the step.
+/// Looks at as many pairs as find_self_cuts.
 void drop_tangled_before(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
                          std::vector<FacePair>& pairs);
 
