@@ -17,7 +17,7 @@
 
 namespace gracilis {
 
-/// Where the columns of the method end.
+/// Where the columns of the method end. It is never empty: readers drop empty cells at the end of a line.
 static constexpr std::string_view first_column_after_method = "milliseconds";
 
 std::string measures_header(const Scene& scene) {
@@ -68,8 +68,9 @@ std::string measures_rows(const Scene& scene, const FrameRecord& record) {
     const MuscleReport report = i < record.report.muscles.size() ? record.report.muscles[i] : MuscleReport{};
     const MuscleFibers fibers = i < record.fibers.size() ? record.fibers[i] : MuscleFibers{};
     const std::vector<Real>& activations = record.frame.pose.activations;
-    rows += begin + "," + scene.muscles[i].name + measure_cells(measures) + report_cells(method_of(scene), report) +
-            fiber_cells(i < activations.size() ? activations[i] : 0, fibers) + "\n";
+    rows += begin + "," + scene.muscles[i].name + measure_cells(measures) +
+            fiber_cells(i < activations.size() ? activations[i] : 0, fibers) + report_cells(method_of(scene), report) +
+            "\n";
   }
   return rows;
 }

@@ -61,11 +61,11 @@ const std::vector<std::string>& measure_columns() {
                                                    "belly_off_place_mm",
                                                    "wrong_side_share",
                                                    "slack",
-                                                   "milliseconds",
                                                    "activation",
                                                    "fiber_strain_mean",
                                                    "cross_section_cm2",
-                                                   "physiological_cross_section_cm2"};
+                                                   "physiological_cross_section_cm2",
+                                                   "milliseconds"};
   return columns;
 }
 
