@@ -28,6 +28,6 @@ float released(float before, float gap, float speed);
 /// What is missing from a gap by less than this is asked for at once where nothing overlaps at rest, m.
 inline constexpr float asked_at_once = 0.0005f;
 /// The steps in which two surfaces come apart that overlap at rest, and how far at least in each of them, m.
-inline constexpr float release_steps = 30, least_release = 0.00005f;
+inline constexpr float release_steps = 35, least_release = 0.00005f;
 
 }  // namespace gracilis
