@@ -199,9 +199,10 @@ TEST_F(ViewCommand, a_scene_follows_its_sliders_and_tells_what_constraints_moved
   EXPECT_NE(log.find("pull the sliders"), std::string::npos);
   EXPECT_GT(difference(shot(1), shot(2)), 5000);
   EXPECT_LT(difference(shot(3), shot(4)), 300);  // paused
-  const auto green = [](const Vec3& c) { return c.y() > c.x() + 40 && c.y() > c.z() + 10; };
-  EXPECT_LT(shot(5).count(200, 570, 90, 560, green), 20);  // no arrows yet: nobody had asked for them
-  EXPECT_GT(shot(6).count(200, 570, 90, 560, green), 200);
+  // Arrows of volume, bending and contact; which of them are long depends on whether the muscles have come to rest.
+  const auto cold = [](const Vec3& c) { return c.y() > c.x() + 40; };
+  EXPECT_LT(shot(5).count(200, 570, 90, 560, cold), 20);  // no arrows yet: nobody had asked for them
+  EXPECT_GT(shot(6).count(200, 570, 90, 560, cold), 200);
   EXPECT_GT(difference(shot(6), shot(7)), 500);  // the whole frame, and its first iteration
 }
 
