@@ -66,28 +66,6 @@ TEST(SelfCuts, faces_that_pass_through_each_other_are_found_once_in_whichever_or
   EXPECT_EQ(find_self_cuts(sheet.surface, sheet.rest, sheet.before, sheet.particles, {0}), Pairs());
 }
 
-TEST(SelfCuts, what_is_new_beside_what_cut_before_the_step_is_dropped_and_what_is_new_by_itself_stays) {
-  Sheet sheet(pierced(0.1));
-  sheet.particles.position(3).z() = -0.2f;
-  Pairs pairs = {{0, 1}};
-  drop_tangled_before(sheet.surface, sheet.rest, sheet.before, pairs);
-  EXPECT_EQ(pairs, Pairs()) << "the tip was through before";
-  sheet.before.position(3).z() = 0.1f;
-  pairs = {{0, 1}};
-  drop_tangled_before(sheet.surface, sheet.rest, sheet.before, pairs);
-  EXPECT_EQ(pairs, (Pairs{{0, 1}}));
-}
-
-TEST(SelfCuts, what_is_new_beside_a_fold_from_before_the_step_is_dropped) {
-  Sheet sheet(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0.5, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}));
-  Pairs pairs = {{0, 1}};
-  drop_tangled_before(sheet.surface, sheet.rest, sheet.before, pairs);
-  EXPECT_EQ(pairs, (Pairs{{0, 1}}));
-  sheet.before.position(3) = Vector3f(0.5f, 0.9f, 0.1f);
-  drop_tangled_before(sheet.surface, sheet.rest, sheet.before, pairs);
-  EXPECT_EQ(pairs, Pairs());
-}
-
 TEST(SelfCuts, faces_with_a_common_corner_cut_when_the_side_opposite_to_it_passes_through) {
   Sheet sheet(hinged(-0.5));
   EXPECT_EQ(sheet.cuts(), Pairs());

@@ -272,36 +272,6 @@ std::vector<FacePair> find_folds(const ContactSurface& surface, const Eigen::Mat
   return folds;
 }
 
-void drop_tangled_before(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
-                         std::vector<FacePair>& pairs) {
-  const auto earlier = [&](Index p) -> Vec3 { return before.position(p).cast<Real>(); };
-  const auto then = [&](Index p) -> Vec3 { return rest.col(p).cast<Real>(); };
-  std::vector<Index> corners, faces, tangled;
-  for (const FacePair& pair : pairs)
-    for (const Index corner : corners_of(surface, pair)) corners.push_back(corner);
-  keep_each_once(corners);
-  for (const Index corner : corners) {
-    const std::span<const Index> fan = surface.fans.around(corner);
-    faces.insert(faces.end(), fan.begin(), fan.end());
-    for (const Index at : surface.edges_at(corner)) {
-      const ContactSurface::Edge& edge = surface.edges[static_cast<std::size_t>(at)];
-      if (edge.faces[0] >= 0 && edge.faces[1] >= 0 && is_bent(surface, edge, earlier) &&
-          is_folded(angle_at(surface, edge, then), angle_at(surface, edge, earlier)))
-        tangled.insert(tangled.end(), edge.ends.begin(), edge.ends.end());
-    }
-  }
-  for_each_meeting(surface, before, std::move(faces), [&](Index one, Index other) {
-    if (!cut_each_other(surface, one, other, earlier)) return;
-    for (const Index corner : corners_of(surface, {one, other})) tangled.push_back(corner);
-  });
-  keep_each_once(tangled);
-  std::erase_if(pairs, [&](const FacePair& pair) {
-    const std::vector<Index> of_pair = corners_of(surface, pair);
-    return std::any_of(of_pair.begin(), of_pair.end(),
-                       [&](Index corner) { return std::binary_search(tangled.begin(), tangled.end(), corner); });
-  });
-}
-
 void unfold(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts, float most,
             Particles& particles) {
   for (const std::vector<Index>& part : parts_of(surface, cuts)) {

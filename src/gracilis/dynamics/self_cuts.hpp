@@ -26,11 +26,6 @@ std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen:
 std::vector<FacePair> find_folds(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
                                  const Particles& particles);
 
-/// Drops the pairs of which a corner was already one of faces that cut each other, or lay on a fold, before the step.
-/// Looks at as many pairs as find_self_cuts.
-void drop_tangled_before(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
-                         std::vector<FacePair>& pairs);
-
 /// Gives what cuts itself the shape that it had at rest: wherever cuts hang together, their corners and half of the
 /// way those next to them, as the affine map nearest to how they and three rings around them lie now carries them. No
 /// particle goes further than `most` (m).

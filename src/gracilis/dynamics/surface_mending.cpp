@@ -71,7 +71,6 @@ bool mend_surfaces(const SurfaceCrowd& crowd, CrowdState& state, int attempt, co
     const std::vector<FacePair> overlapping = let_go_of_overlaps(crowd, at, folds, state.torn[at]);
     if (attempt >= unfolding_attempts || !cuts.empty()) folds = overlapping;
     cuts.insert(cuts.end(), folds.begin(), folds.end());
-    if (attempt > 0) drop_tangled_before(surface, crowd.rest[at], state.before[at], cuts);
     const float most = mended_within * crowd.neighborhood[at];
     if (attempt % 2 == 0)
       unfold(surface, crowd.rest[at], cuts, most, *particles[at]);
