@@ -117,14 +117,14 @@ TEST_F(Trust, a_damaged_distance_field_is_told_of_and_not_used) {
 
 TEST_F(Trust, a_scene_named_after_a_path_stays_in_its_folder) {
   const std::string text = with(good_scene(), "name = \"boxes\"", "name = \"../../outside\"");
-  fs::create_directories(folder.path("deep/work"));
+  fs::create_directories(folder.path("deep/home"));
   const std::string command = "run " + scene(text);
-  const std::string in_work = "--version >/dev/null; cd " + folder.path("deep/work").string() + " && " +
-                              std::string(GRACILIS_PROGRAM) + " " + command;
-  EXPECT_EQ(run_program(in_work).exit_code, 0);
+  const std::string from_there = "--version >/dev/null; cd " + folder.path("deep/home").string() + " && " +
+                                 std::string(GRACILIS_PROGRAM) + " " + command;
+  EXPECT_EQ(run_program(from_there).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder.path("deep/outside")));
   EXPECT_FALSE(fs::exists(folder.path("outside")));
-  EXPECT_TRUE(fs::exists(folder.path("deep/work/runs/_._.._outside/run.json")));
+  EXPECT_TRUE(fs::exists(folder.path("deep/home/runs/_._.._outside/run.json")));
 }
 
 TEST_F(Trust, two_runs_into_one_folder_are_one_too_many) {

@@ -1,6 +1,7 @@
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
 
+#include <member_count.hpp>
 #include <scenes_for_tests.hpp>
 
 #include <gmock/gmock.h>
@@ -25,22 +26,6 @@ std::vector<std::string> problems_after(Change change) {
 
 #define EXPECT_PROBLEM(change, message) \
   EXPECT_THAT(problems_after([](Scene& s) { change; }), Contains(HasSubstr(message)))
-
-/// Stands for a value of any type.
-struct Any {
-  template <class T>
-  operator T() const;
-};
-
-/// How many members an aggregate without bases has: as many as it accepts initializers.
-template <class Aggregate, class... Initializers>
-constexpr std::size_t member_count() {
-  if constexpr (requires { Aggregate{Initializers{}..., Any{}}; }) {
-    return member_count<Aggregate, Initializers..., Any>();
-  } else {
-    return sizeof...(Initializers);
-  }
-}
 
 template <class Settings>
 std::vector<std::string> keys_of() {

@@ -4,6 +4,8 @@
 #include <gracilis/scene/setting_values.hpp>
 #include <gracilis/scene/settings.hpp>
 
+#include <member_count.hpp>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,22 +57,6 @@ void every_entry_is_complete() {
     EXPECT_TRUE(keys.insert(setting.key).second) << setting.key << " stands twice";
     EXPECT_TRUE(setting.meaning.ends_with('.')) << setting.key;
     EXPECT_EQ(assign(settings, setting, value_of(settings, setting)), "") << "the default of " << setting.key;
-  }
-}
-
-/// Stands for a value of any type.
-struct Any {
-  template <class T>
-  operator T() const;
-};
-
-/// How many members an aggregate has: as many as it accepts initializers.
-template <class Aggregate, class... Initializers>
-constexpr std::size_t member_count() {
-  if constexpr (requires { Aggregate{Initializers{}..., Any{}}; }) {
-    return member_count<Aggregate, Initializers..., Any>();
-  } else {
-    return sizeof...(Initializers);
   }
 }
 

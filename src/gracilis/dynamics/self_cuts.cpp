@@ -206,13 +206,8 @@ void gather_folded(const ContactSurface& surface, const Particles& particles, st
   }
 }
 
-namespace {
-
-/// Calls act(one, other), the lower face first, for those of the listed faces whose boxes meet, each pair once; looks
-/// at `most_looks` pairs per face of the surface at most.
-template <class Act>
-void for_each_meeting(const ContactSurface& surface, const Particles& particles, std::vector<Index> faces,
-                      const Act& act) {
+std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen::Matrix3Xf& rest,
+                                     const Particles& before, const Particles& particles, std::vector<Index> faces) {
   keep_each_once(faces);
   struct FaceBox {
     Index face;
@@ -230,26 +225,20 @@ void for_each_meeting(const ContactSurface& surface, const Particles& particles,
   if (!boxes.empty()) all.sizes().maxCoeff(&along);
   std::stable_sort(boxes.begin(), boxes.end(),
                    [along](const FaceBox& l, const FaceBox& r) { return l.box.min()[along] < r.box.min()[along]; });
-  Index looks = most_looks * static_cast<Index>(surface.faces.cols());
-  for (auto one = boxes.begin(); one != boxes.end() && looks > 0; ++one)
-    for (auto other = one + 1; other != boxes.end() && other->box.min()[along] <= one->box.max()[along] && looks > 0;
-         ++other, --looks)
-      if (one->box.intersects(other->box)) act(std::min(one->face, other->face), std::max(one->face, other->face));
-}
-
-}  // namespace
-
-std::vector<FacePair> find_self_cuts(const ContactSurface& surface, const Eigen::Matrix3Xf& rest,
-                                     const Particles& before, const Particles& particles, std::vector<Index> faces) {
   const auto now = [&](Index p) -> Eigen::Vector3d { return particles.position(p).cast<double>(); };
   const auto then = [&](Index p) -> Eigen::Vector3d { return rest.col(p).cast<double>(); };
   const auto earlier = [&](Index p) -> Eigen::Vector3d { return before.position(p).cast<double>(); };
   std::vector<FacePair> cuts;
-  for_each_meeting(surface, particles, std::move(faces), [&](Index one, Index other) {
-    if (cut_each_other(surface, one, other, now) && !cut_each_other(surface, one, other, then) &&
-        !cut_each_other(surface, one, other, earlier) && can_move(surface, {one, other}, particles))
-      cuts.push_back({one, other});
-  });
+  Index looks = most_looks * static_cast<Index>(surface.faces.cols());
+  for (auto one = boxes.begin(); one != boxes.end() && looks > 0; ++one)
+    for (auto other = one + 1; other != boxes.end() && other->box.min()[along] <= one->box.max()[along] && looks > 0;
+         ++other, --looks) {
+      const FacePair pair = {std::min(one->face, other->face), std::max(one->face, other->face)};
+      if (one->box.intersects(other->box) && cut_each_other(surface, pair[0], pair[1], now) &&
+          !cut_each_other(surface, pair[0], pair[1], then) && !cut_each_other(surface, pair[0], pair[1], earlier) &&
+          can_move(surface, pair, particles))
+        cuts.push_back(pair);
+    }
   std::sort(cuts.begin(), cuts.end());
   return cuts;
 }

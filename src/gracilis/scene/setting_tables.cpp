@@ -48,12 +48,11 @@ std::span<const Setting<ContractionSettings>> setting_table() {
        "full from the activation on at which segments aim at the shortest."},
       {"spread", &S::spread, "", 0, 0,
        "All edges that run along the fibers pull, by their direction; false: only the edges that fibers carried onto "
-       "the "
-       "surface pass through, as published."},
+       "the surface pass through, as published."},
       {"paths", &S::paths, "", 0, 0,
        "How fibers are carried onto the surface, without spread: 'along_fibers' follows their direction, "
-       "'nearest_joined' is the "
-       "published way by nearest vertices."},
+       "'nearest_joined' is "
+       "the published way by nearest vertices."},
       {"segments", &S::segments, "", 1, 10000, "Pieces of each fiber that is carried onto the surface."},
   };
   return table;
@@ -67,8 +66,7 @@ std::span<const Setting<Sequence>> setting_table() {
        "Frames from the capture pose to the motion's first pose; 0 takes as many as steps of 1 degree need."},
       {"settle_frames", &S::settle_frames, "", 0, 100000,
        "Frames that repeat the motion's first pose before it begins, in which muscles come to rest. 'gracilis rom' "
-       "holds "
-       "30 where this is 0."},
+       "holds 30 where this is 0."},
       {"hold_frames", &S::hold_frames, "", 0, 100000, "Frames that repeat the motion's last pose."},
       {"return_to_capture", &S::return_to_capture, "", 0, 0, "Ends with a ramp back to the capture pose."},
   };

@@ -92,8 +92,7 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "Longest an edge may become as a multiple of its length at rest; 0 sets no limit."},
       {"slack_uptake", &S::slack_uptake, "", 0, 0,
        "Edges aim at the lengths they have on the surface carried with the bones, so that a muscle shortens and "
-       "lengthens "
-       "where the motion asks for it instead of folding."},
+       "lengthens where the motion asks for it instead of folding."},
   };
   return table;
 }
@@ -114,6 +113,11 @@ std::span<const Setting<ContactSettings>> setting_table() {
   return table;
 }
 
+/// Contact of both kinds has this setting, which a scene gives once.
+static constexpr const char* update_period_meaning =
+    "Frames after which everything is searched, or virtual edges seeded, from nothing but where the muscles are; "
+    "--resume goes on from such a frame. What comes near sooner is found sooner.";
+
 template <>
 std::span<const Setting<SurfaceContactSettings>> setting_table() {
   using S = SurfaceContactSettings;
@@ -121,9 +125,7 @@ std::span<const Setting<SurfaceContactSettings>> setting_table() {
       {"friction", &S::friction, "", 0, 10, "Coulomb's coefficient of friction between muscles."},
       {"cohesion", &S::cohesion, "m", 0, 0.1,
        "Farthest that parts of muscles which touch in the capture pose may part; 0 lets them."},
-      {"update_period", &S::update_period, "", 1, 100000,
-       "Frames after which everything is searched, or virtual edges seeded, from nothing but where the muscles are; "
-       "--resume goes on from such a frame. What comes near sooner is found sooner."},
+      {"update_period", &S::update_period, "", 1, 100000, update_period_meaning},
   };
   return table;
 }
@@ -132,9 +134,7 @@ template <>
 std::span<const Setting<VirtualEdgeSettings>> setting_table() {
   using S = VirtualEdgeSettings;
   static const Setting<S> table[] = {
-      {"update_period", &S::update_period, "", 1, 100000,
-       "Frames after which everything is searched, or virtual edges seeded, from nothing but where the muscles are; "
-       "--resume goes on from such a frame. What comes near sooner is found sooner."},
+      {"update_period", &S::update_period, "", 1, 100000, update_period_meaning},
       {"seed_reach", &S::reach, "m", 0, 1,
        "Virtual edges: longest that one may be where it is seeded, from each vertex of one muscle to the nearest of "
        "another."},
