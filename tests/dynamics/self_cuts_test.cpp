@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <ctime>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -220,15 +220,16 @@ TEST(SelfCuts, mending_moves_no_particle_further_than_it_may) {
   EXPECT_LT(largest_motion(before, smoothed.particles), 2 * 0.5f * edge + 1e-7);
 }
 
-TEST(SelfCuts, a_tangle_that_nothing_can_mend_is_given_up_within_a_second) {
+TEST(SelfCuts, a_tangle_that_nothing_can_mend_is_given_up_soon) {
   Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 6));
   std::mt19937 random(5);
   std::uniform_real_distribution<float> place(-1, 1);
   for (Index p = 0; p < sheet.particles.count(); ++p)
     sheet.particles.position(p) = Vector3f(place(random), place(random), place(random));
-  const auto begin = std::chrono::steady_clock::now();
+  // Processor time, of all threads: the machine may be busy with something else.
+  const std::clock_t begin = std::clock();
   EXPECT_FALSE(sheet.cuts().empty());
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10)) << "all pairs would take minutes";
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 10) << "all pairs would take minutes";
 }
 
 TEST(SelfCuts, with_nothing_to_mend_nothing_moves) {

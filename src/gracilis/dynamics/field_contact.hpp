@@ -77,6 +77,10 @@ inline bool may_reach(const Sighting& seen, const Eigen::Vector3f& q, float leve
   return left <= 0 || steepest * steepest * (q - seen.place).squaredNorm() >= left * left;
 }
 
+/// The share of an edge or a face at an end or a corner that cannot move which is not tested: nothing can be pushed out
+/// there without throwing the other end far away.
+inline constexpr float untested_share = 0.2f;
+
 /// Edges near an obstacle, one per slot. Every color is padded to whole groups with edges between copies of the idle
 /// particle.
 struct NearEdges {

@@ -12,9 +12,6 @@ namespace gracilis::HWY_NAMESPACE {
 /// How the deepest point of an edge is followed: the step is the slope along the edge times this, at most a quarter of
 /// a cell.
 constexpr float follow_radius = 0.004f;
-/// The share of an edge at a fixed end that is not tested: nothing can be pushed out there without throwing the other
-/// end far away.
-constexpr float untested_share = 0.2f;
 
 /// The edges in one group of slots, one per lane.
 struct LoadedNearEdges {

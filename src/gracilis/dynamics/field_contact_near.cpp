@@ -176,25 +176,52 @@ static void list_edges(const FieldContactSet& set, const DistanceSet& distances,
   }
 }
 
+/// The part of a face that is tested, as barycentric coordinates of its corners, one per column. `movable` has ones and
+/// zeros, and sums to more than 0.
+static Eigen::Matrix3f tested_part(const Eigen::Vector3f& movable) {
+  Eigen::Matrix3f part = Eigen::Matrix3f::Identity();
+  for (int k = 0; k < 3; ++k)
+    if (movable[k] == 0) part.col(k) += untested_share * (movable / movable.sum() - part.col(k));
+  return part;
+}
+
+/// The deepest point of the part of a face that is tested, barycentric.
+static Eigen::Vector3f deepest_tested(const FieldGrid& grid, const std::array<ContactCorner, 3>& corners,
+                                      const Eigen::Vector3f& movable) {
+  const Eigen::Vector3f deepest = deepest_on_face(grid, corners);
+  if (deepest.dot(movable) >= untested_share) return deepest;
+  const Eigen::Matrix3f part = tested_part(movable);
+  std::array<ContactCorner, 3> tested;
+  for (int k = 0; k < 3; ++k) {
+    ContactCorner& corner = tested[static_cast<std::size_t>(k)] = {Eigen::Vector3f::Zero(), 0};
+    for (int c = 0; c < 3; ++c) {
+      corner.q += part(c, k) * corners[static_cast<std::size_t>(c)].q;
+      corner.gap += part(c, k) * corners[static_cast<std::size_t>(c)].gap;
+    }
+  }
+  return part * deepest_on_face(grid, tested);
+}
+
 static void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
                        const Particles& particles, NearField& near) {
   for (const ColorRange& color : faces.colors) {
     const Index first = near.faces.count();
     for (Index slot = color.begin; slot < color.end; ++slot) {
       std::array<ContactCorner, 3> corners;
-      float longest2 = 0, clearance = infinity, mobility = 0;
+      Eigen::Vector3f movable;
+      float longest2 = 0, clearance = infinity;
       for (std::size_t k = 0; k < 3; ++k) {
         const Index p = faces.particles[k][static_cast<std::size_t>(slot)];
         corners[k] = {placement.to_obstacle(particles.position(p)), near.gap[static_cast<std::size_t>(p)]};
         clearance = std::min(clearance, near.clearance[static_cast<std::size_t>(p)]);
-        mobility += particles.inverse_mass(p);
+        movable[static_cast<Eigen::Index>(k)] = particles.inverse_mass(p) > 0;
       }
       for (std::size_t k = 0; k < 3; ++k)
         longest2 = std::max(longest2, (corners[k].q - corners[(k + 1) % 3].q).squaredNorm());
       // No point of a triangle is farther from its nearest corner than this share of its longest edge.
-      if (!(mobility > 0) || clearance > element_reach + 0.58f * steepest * std::sqrt(longest2)) continue;
+      if (movable.isZero() || clearance > element_reach + 0.58f * steepest * std::sqrt(longest2)) continue;
       near.faces.slots.push_back(slot);
-      const Eigen::Vector3f where = deepest_on_face(set.field.grid, corners);
+      const Eigen::Vector3f where = deepest_tested(set.field.grid, corners, movable);
       float gap =
           blended(set.captured.face_sag, set.released.face_sag, static_cast<std::size_t>(slot), placement.release);
       for (std::size_t k = 0; k < 3; ++k) gap += where[static_cast<Index>(k)] * corners[k].gap;
