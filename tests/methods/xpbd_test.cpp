@@ -371,6 +371,31 @@ TEST(BoneGaps, the_middles_of_edges_out_of_an_overlap_that_stays_are_let_no_deep
       xpbd::prepare_muscle(tube_scene(), tube_scene().muscles[0], tube_fields()).system.contacts[0].middles.empty());
 }
 
+TEST(BoneGaps, the_middle_of_an_edge_over_a_ridge_beside_an_attachment_comes_no_deeper_though_the_ridge_is) {
+  Scene scene = tube_scene();
+  scene.distance_fields.cell_size = 0.0003;
+  // Edges from z = 72 mm (attached) to 68 mm pass through the ridge at a quarter of their length.
+  scene.bones = {{"ridge", 0, shapes::box({0.013, -0.004, 0.0705}, {0.0175, 0.004, 0.0712})}};
+  const std::vector<DistanceField> fields = fields_of(scene);
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], fields);
+  const FieldContactSet& contact = prepared.system.contacts[0];
+  const DistanceSet& edges = prepared.system.distances;
+  Index crossing = 0;
+  for (std::size_t slot = 0; slot < edges.a.size(); ++slot) {
+    const Index a = edges.a[slot], b = edges.b[slot];
+    if (std::max(a, b) >= prepared.rest.cols() || contact.released.edge_sag[slot] > -0.00055f) continue;
+    const Vec3 middle = (prepared.rest.col(a) + prepared.rest.col(b)) / 2;
+    if (prepared.fixed_body[static_cast<std::size_t>(a)] >= 0 && prepared.fixed_body[static_cast<std::size_t>(b)] >= 0)
+      continue;
+    if (sample(fields[0], Eigen::Vector3f(middle.cast<float>())).distance < 0) continue;
+    ++crossing;
+    EXPECT_TRUE(std::any_of(contact.middles.begin(), contact.middles.end(),
+                            [&](const EdgeMiddle& kept) { return kept.a == a && kept.b == b && kept.gap == 0; }))
+        << "edge " << a << " to " << b;
+  }
+  EXPECT_GT(crossing, 2);
+}
+
 TEST(Xpbd, overlaps_far_from_attachments_are_gone_after_the_first_degree) {
   const Scene scene = overlapping_scene();
   Measurer measurer(scene);

@@ -49,11 +49,13 @@ float captured_gap(float distance, float margin) {
   return std::min(margin, distance < 0 ? distance * static_cast<float>(1 - overlap_given_back) : distance);
 }
 
-/// Where a muscle grows out of a bone it leaves as steeply as at rest: between ends inside, or one inside and one free,
-/// the middle of an edge would be deep in the bone on the line between their gaps.
+/// Where a muscle grows out of a bone it leaves as steeply as at rest, and an edge that passes through a ridge there
+/// passes no deeper in its middle. Between ends inside, or one inside and one free, the middle would be deep in the
+/// bone on the line between their gaps; and the sag of an edge is that of its deepest point, wherever that is.
 std::vector<EdgeMiddle> middles_of_kept(const PreparedMuscle& prepared, const DistanceField& field,
-                                        const std::vector<float>& gaps, const std::vector<char>& keeps) {
+                                        const FieldContactSet& contact, const std::vector<char>& keeps) {
   std::vector<EdgeMiddle> middles;
+  const std::vector<float>& gaps = contact.captured.particle;
   const auto stays_inside = [&](Index p) {
     return keeps[static_cast<std::size_t>(p)] && gaps[static_cast<std::size_t>(p)] < 0;
   };
@@ -62,10 +64,11 @@ std::vector<EdgeMiddle> middles_of_kept(const PreparedMuscle& prepared, const Di
   for (std::size_t slot = 0; slot < edges.a.size(); ++slot) {
     const Index a = edges.a[slot], b = edges.b[slot];
     if (std::max(a, b) >= prepared.rest.cols()) continue;  // padding
-    if (!(stays_inside(a) || stays_inside(b)) || !(is_free(a) || is_free(b))) continue;
+    const float sag = contact.released.edge_sag[slot];
+    if (!(stays_inside(a) || stays_inside(b) || sag < 0) || !(is_free(a) || is_free(b))) continue;
     const Vec3 middle = (prepared.rest.col(a) + prepared.rest.col(b)) / 2;
     const float gap = captured_gap(sample(field, Eigen::Vector3f(middle.cast<float>())).distance, 0);
-    if (gap > (gaps[static_cast<std::size_t>(a)] + gaps[static_cast<std::size_t>(b)]) / 2)
+    if (gap > (gaps[static_cast<std::size_t>(a)] + gaps[static_cast<std::size_t>(b)]) / 2 + sag)
       middles.push_back({a, b, gap});
   }
   return middles;
@@ -145,13 +148,13 @@ FieldContactSet bone_contact(const PreparedMuscle& prepared, const MeshTopology&
   contact.ceiling = ceilings(prepared, distances, bone);
   contact.guard = settings.tunnelling;
   if (!settings.edge_contact) return contact;
-  if (settings.bone_rest_gap) contact.middles = middles_of_kept(prepared, field, contact.captured.particle, keeps);
   for (std::size_t slot = 0; slot < edges.a.size(); ++slot)
     add_sag<2>(prepared, contact, keeps, {edges.a[slot], edges.b[slot]}, contact.captured.edge_sag,
                contact.released.edge_sag);
   for (std::size_t slot = 0; slot < faces.particles[0].size(); ++slot)
     add_sag<3>(prepared, contact, keeps, {faces.particles[0][slot], faces.particles[1][slot], faces.particles[2][slot]},
                contact.captured.face_sag, contact.released.face_sag);
+  if (settings.bone_rest_gap) contact.middles = middles_of_kept(prepared, field, contact, keeps);
   return contact;
 }
 
