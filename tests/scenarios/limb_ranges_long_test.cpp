@@ -49,7 +49,8 @@ TEST_P(LimbRanges, no_muscle_misses_a_gate_in_any_frame) {
 static const std::string hip_and_knee = R"(["hip_flexion_r", "knee_flexion_r"])";
 
 INSTANTIATE_TEST_SUITE_P(Long, LimbRanges,
-                         testing::Values(Range{"knee", "leg/leg.toml", hip_and_knee, "[[0, 0], [0, 110]]"},
+                         testing::Values(Range{"hip", "leg/leg.toml", hip_and_knee, "[[0, 0], [-10, 0], [90, 0]]"},
+                                         Range{"knee", "leg/leg.toml", hip_and_knee, "[[0, 0], [0, 110]]"},
                                          Range{"hip_and_knee", "leg/leg.toml", hip_and_knee, "[[0, 0], [90, 110]]"},
                                          Range{"elbow", "elbow/elbow.toml", R"(["elbow_flexion"])",
                                                "[[14], [0], [130]]"}),

@@ -3,6 +3,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/hinge.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/nearest_points.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,24 +16,22 @@ namespace {
 constexpr Real attachment_zone = 0.015;  ///< m
 
 /// Distance of every vertex to the nearest attached one.
-std::vector<Real> distance_to_attachments(const Muscle& muscle, const std::vector<char>& fixed) {
-  std::vector<Real> distances(fixed.size(), std::numeric_limits<Real>::infinity());
-  const Points& x = muscle.surface.vertices;
+std::vector<Real> distance_to_attachments(const Points& x, const std::vector<Index>& attached) {
+  std::vector<Real> distances(static_cast<std::size_t>(x.cols()), std::numeric_limits<Real>::infinity());
+  if (attached.empty()) return distances;
+  const Points places = x(Eigen::all, attached);
+  const NearestPoints nearest(places);
   parallel_for(static_cast<Index>(x.cols()), 256, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v)
-      for (Index w = 0; w < x.cols(); ++w)
-        if (fixed[static_cast<std::size_t>(w)])
-          distances[static_cast<std::size_t>(v)] =
-              std::min(distances[static_cast<std::size_t>(v)], (x.col(v) - x.col(w)).squaredNorm());
+      distances[static_cast<std::size_t>(v)] = (x.col(v) - places.col(nearest.nearest(x.col(v)))).norm();
   });
-  for (Real& distance : distances) distance = std::sqrt(distance);
   return distances;
 }
 
-Points midpoints(const std::vector<MeshEdge>& edges, const Points& x) {
-  Points middles(3, static_cast<Index>(edges.size()));
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    middles.col(static_cast<Index>(e)) = (x.col(edges[e].a) + x.col(edges[e].b)) / 2;
+Points midpoints(const std::vector<std::pair<Index, Index>>& ends, const Points& x) {
+  Points middles(3, static_cast<Index>(ends.size()));
+  for (std::size_t e = 0; e < ends.size(); ++e)
+    middles.col(static_cast<Index>(e)) = (x.col(ends[e].first) + x.col(ends[e].second)) / 2;
   return middles;
 }
 
@@ -109,10 +108,13 @@ Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
   MuscleRest rest;
   rest.edges = build_topology(muscle.surface.faces, muscle.surface.vertex_count()).edges;
   rest.volume = enclosed_volume(x, muscle.surface.faces);
-  rest.fixed.assign(static_cast<std::size_t>(x.cols()), 0);
+  std::vector<char> fixed(static_cast<std::size_t>(x.cols()), 0);
   for (const Attachment& attachment : muscle.attachments)
-    for (Index v : attachment.vertices) rest.fixed[static_cast<std::size_t>(v)] = 1;
-  const std::vector<Real> to_attachment = distance_to_attachments(muscle, rest.fixed);
+    for (Index v : attachment.vertices) fixed[static_cast<std::size_t>(v)] = 1;
+  const auto is_fixed = [&](Index v) { return fixed[static_cast<std::size_t>(v)] != 0; };
+  std::vector<Index> attached;
+  for (Index v = 0; v < x.cols(); ++v) (is_fixed(v) ? attached : rest.free_vertices).push_back(v);
+  const std::vector<Real> to_attachment = distance_to_attachments(x, attached);
   for (const MeshEdge& edge : rest.edges) {
     rest.lengths.push_back((x.col(edge.a) - x.col(edge.b)).norm());
     const bool hinge = edge.left >= 0 && edge.right >= 0;
@@ -120,13 +122,14 @@ Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
         hinge ? dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex)) : 0);
     rest.far_edge.push_back(std::min(to_attachment[static_cast<std::size_t>(edge.a)],
                                      to_attachment[static_cast<std::size_t>(edge.b)]) > attachment_zone);
+    if (!is_fixed(edge.a) || !is_fixed(edge.b)) rest.free_edges.emplace_back(edge.a, edge.b);
   }
-  const Points middles = midpoints(rest.edges, x);
-  rest.vertex_depth.resize(x.cols(), static_cast<Index>(bones_.size()));
+  const Points vertices = x(Eigen::all, rest.free_vertices), middles = midpoints(rest.free_edges, x);
+  rest.vertex_depth.resize(vertices.cols(), static_cast<Index>(bones_.size()));
   rest.midpoint_depth.resize(middles.cols(), static_cast<Index>(bones_.size()));
   for (std::size_t b = 0; b < bones_.size(); ++b) {
     LastSeen nothing;
-    rest.vertex_depth.col(static_cast<Index>(b)) = depths_in(b, x, nothing);
+    rest.vertex_depth.col(static_cast<Index>(b)) = depths_in(b, vertices, nothing);
     rest.midpoint_depth.col(static_cast<Index>(b)) = depths_in(b, middles, nothing);
   }
   return rest;
@@ -157,22 +160,17 @@ void Measurer::measure_depths(const MuscleRest& rest, const Points& points, cons
     const auto column = static_cast<Index>(b);
     const RigidTransform to_capture = pose.bodies[static_cast<std::size_t>(scene_.bones[b].body)].inverse();
     if (!box_of_corners(to_capture, box).intersects(bone_boxes_[b])) continue;  // nothing of it can be inside
+    const auto beyond_rest = [&](const Eigen::VectorXd& depths, const Eigen::MatrixXd& at_rest) {
+      return depths.size() == 0 ? 0 : std::max((depths - at_rest.col(column)).maxCoeff(), Real{0});
+    };
     const Points local = (to_capture.linear() * points).colwise() + to_capture.translation();
-    const Eigen::VectorXd vertex_depths = depths_in(b, local, last[2 * b]);
-    for (Index v = 0; v < local.cols(); ++v) {
-      if (rest.fixed[static_cast<std::size_t>(v)]) continue;
-      measures.vertex_depth = std::max(measures.vertex_depth, vertex_depths[v]);
-      measures.vertex_depth_beyond_rest =
-          std::max(measures.vertex_depth_beyond_rest, vertex_depths[v] - rest.vertex_depth(v, column));
-    }
-    const Eigen::VectorXd midpoint_depths = depths_in(b, midpoints(rest.edges, local), last[2 * b + 1]);
-    for (std::size_t e = 0; e < rest.edges.size(); ++e) {
-      const MeshEdge& edge = rest.edges[e];
-      if (rest.fixed[static_cast<std::size_t>(edge.a)] && rest.fixed[static_cast<std::size_t>(edge.b)]) continue;
-      const auto row = static_cast<Index>(e);
-      measures.midpoint_depth_beyond_rest =
-          std::max(measures.midpoint_depth_beyond_rest, midpoint_depths[row] - rest.midpoint_depth(row, column));
-    }
+    const Eigen::VectorXd of_vertices = depths_in(b, local(Eigen::all, rest.free_vertices), last[2 * b]);
+    const Eigen::VectorXd of_midpoints = depths_in(b, midpoints(rest.free_edges, local), last[2 * b + 1]);
+    if (of_vertices.size() > 0) measures.vertex_depth = std::max(measures.vertex_depth, of_vertices.maxCoeff());
+    measures.vertex_depth_beyond_rest =
+        std::max(measures.vertex_depth_beyond_rest, beyond_rest(of_vertices, rest.vertex_depth));
+    measures.midpoint_depth_beyond_rest =
+        std::max(measures.midpoint_depth_beyond_rest, beyond_rest(of_midpoints, rest.midpoint_depth));
   }
 }
 

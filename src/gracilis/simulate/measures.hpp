@@ -7,6 +7,7 @@
 #include <gracilis/simulate/belly_place.hpp>
 #include <gracilis/simulate/way_measures.hpp>
 
+#include <utility>
 #include <vector>
 
 namespace gracilis {
@@ -66,10 +67,11 @@ class Measurer {
   struct MuscleRest {
     std::vector<MeshEdge> edges;
     std::vector<Real> lengths, angles;
-    std::vector<char> far_edge;  ///< farther from attachments than 15 mm
-    std::vector<char> fixed;     ///< per vertex
+    std::vector<char> far_edge;                       ///< farther from attachments than 15 mm
+    std::vector<Index> free_vertices;                 ///< that are not attached
+    std::vector<std::pair<Index, Index>> free_edges;  ///< the ends of those that are not attached with both
     Real volume = 0;
-    Eigen::MatrixXd vertex_depth, midpoint_depth;  ///< vertices (edges) × bones, m, 0 outside
+    Eigen::MatrixXd vertex_depth, midpoint_depth;  ///< free vertices (edges) × bones, m, 0 outside
   };
 
   /// Where a point was, in the bone's frame, and how far from the bone: until it has moved that far it cannot be
