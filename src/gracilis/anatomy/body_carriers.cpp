@@ -50,4 +50,16 @@ std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const 
   return motions;
 }
 
+Points carried_on(const BodyCarriers& carriers, const Points& rest, const Pose& last, const Pose& now,
+                  const Points& before) {
+  const std::vector<RigidTransform> from = carried_motions(carriers, last), to = carried_motions(carriers, now);
+  Points points(3, before.cols());
+  for (Index v = 0; v < static_cast<Index>(points.cols()); ++v) {
+    const auto at = static_cast<std::size_t>(v);
+    const bool is_fixed = carriers.fixed_body[at] >= 0;
+    points.col(v) = to[at] * (is_fixed ? Vec3(rest.col(v)) : Vec3(from[at].inverse() * Vec3(before.col(v))));
+  }
+  return points;
+}
+
 }  // namespace gracilis

@@ -23,4 +23,9 @@ BodyCarriers body_carriers(const Muscle& muscle, const MeshTopology& topology, R
 /// blend of the bodies' motions (geometry/rigid_blend.hpp) elsewhere; not at all where no attachment reaches it.
 std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const Pose& pose);
 
+/// A surface at pose `last`, carried on to pose `now`; attached vertices go where `rest` says. Returning to a pose
+/// returns to the shape. 3 × n, m.
+Points carried_on(const BodyCarriers& carriers, const Points& rest, const Pose& last, const Pose& now,
+                  const Points& before);
+
 }  // namespace gracilis

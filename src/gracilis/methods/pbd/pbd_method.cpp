@@ -41,16 +41,10 @@ PbdMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<Di
 /// The stiffness of one iteration of several, so that together they leave 1 - k of an error (Müller et al. 2007).
 Real per_iteration(Real stiffness, int iterations) { return 1 - std::pow(1 - stiffness, 1.0 / iterations); }
 
-/// Where free vertices begin the frame.
+/// Where vertices begin the frame.
 Points begin_frame(const PbdMuscle& muscle, const Pose& last, const Pose& now, const Points& before) {
+  if (muscle.settings.carry == PbdCarry::bodies) return carried_on(muscle.carriers, muscle.rest, last, now, before);
   Points points = before;
-  if (muscle.settings.carry == PbdCarry::bodies) {
-    const std::vector<RigidTransform> from = carried_motions(muscle.carriers, last);
-    const std::vector<RigidTransform> to = carried_motions(muscle.carriers, now);
-    for (Index v = 0; v < static_cast<Index>(points.cols()); ++v)
-      points.col(v) =
-          to[static_cast<std::size_t>(v)] * (from[static_cast<std::size_t>(v)].inverse() * Vec3(before.col(v)));
-  }
   for (Index v = 0; v < static_cast<Index>(points.cols()); ++v)
     if (const Index body = muscle.carriers.fixed_body[static_cast<std::size_t>(v)]; body >= 0)
       points.col(v) = now.bodies[static_cast<std::size_t>(body)] * Vec3(muscle.rest.col(v));
