@@ -135,7 +135,6 @@ Preset pbd_2020() {
   preset.meaning = "position based dynamics as published, with what this project added switched off";
   preset.method.name = "pbd";
   PbdSettings published;
-  published.angle_stiffness = 1;
   published.carry = PbdCarry::none;
   published.bone_margin = 0;
   published.bone_rest_gap = false;
