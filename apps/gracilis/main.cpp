@@ -1,6 +1,7 @@
 #include "activations_command.hpp"
 #include "bench_command.hpp"
 #include "command.hpp"
+#include "compare_command.hpp"
 #include "console.hpp"
 #include "demo_command.hpp"
 #include "exit_handling.hpp"
@@ -39,6 +40,7 @@ int main(int count, char** arguments) {
   Command chosen;
   add_demo_command(program, words, chosen);
   add_run_command(program, words, chosen);
+  add_compare_command(program, words, chosen);
   add_rom_command(program, words, chosen);
   add_fibers_command(program, chosen);
   add_activations_command(program, chosen);

@@ -6,7 +6,6 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/view/gif.hpp>
 #include <gracilis/view/picture_layout.hpp>
-#include <gracilis/view/preview.hpp>
 #include <gracilis/view/run_picture.hpp>
 #include <gracilis/view/video.hpp>
 
@@ -45,16 +44,6 @@ void set_size(const std::string& text, Picture& picture) {
   if (height - strips < 32 * rows)
     throw ConfigurationError({"--size", "", "'" + text + "' leaves no room for the shapes", "make it higher"});
   picture.panel_height = (height - strips) / rows;
-}
-
-/// The capture pose, half way, and the farthest pose, as in a run's preview.
-std::vector<int> telling_frames(const RecordedRun& run) {
-  std::vector<Pose> poses(static_cast<std::size_t>(run.frame_count));
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::VectorXd row = run.coordinate_values.row(static_cast<Index>(i));
-    poses[i].coordinates.assign(row.begin(), row.end());
-  }
-  return preview_frames(poses, run.frame_count);
 }
 
 void check_frames(const std::vector<int>& frames, const RecordedRun& run) {

@@ -223,7 +223,7 @@ class Session {
         spdlog::warn("stopped before the first frame; --resume begins it");
       return static_cast<int>(ExitCode::interrupted);
     }
-    fmt::print("{}\n", folder_.path().string());
+    if (options_.print_folder) fmt::print("{}\n", folder_.path().string());
     return static_cast<int>(options_.strict && !summary_.all_gates_met() ? ExitCode::quality : ExitCode::done);
   }
 

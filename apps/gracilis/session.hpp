@@ -17,14 +17,15 @@ struct SessionOptions {
   bool resume = false;               ///< go on where the run in `out` was interrupted
   bool force = false;                ///< replace the run in `out`
   bool strict = false;               ///< exit with code 5 when a frame misses a quality gate
+  bool print_folder = true;          ///< its path to stdout, once the run is complete
   std::vector<std::string> command;  ///< the command line, for the manifest
 };
 
 void add_session_options(CLI::App& command, SessionOptions& options);
 
-/// Takes a scene through its whole motion into a run folder, with progress and warnings on stderr, and prints the
-/// folder's path to stdout. Returns the program's exit code: 0; 130 when the user stopped it, with every frame so far
-/// on disk; 5 under `strict` when a frame missed a quality gate. Throws Error.
+/// Takes a scene through its whole motion into a run folder, with progress and warnings on stderr. Returns the
+/// program's exit code: 0; 130 when the user stopped it, with every frame so far on disk; 5 under `strict` when a frame
+/// missed a quality gate. Throws Error.
 int run_session(const LoadedScene& loaded, const SessionOptions& options);
 
 }  // namespace gracilis

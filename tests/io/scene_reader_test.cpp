@@ -453,7 +453,8 @@ TEST(Scenes, the_scenes_of_the_cadaver_hip_are_sound) {
   }
   const std::map<std::string, std::size_t> frames = {{"flexion", 193},     {"extension", 37},
                                                      {"abduction", 52},    {"rotation", 67},
-                                                     {"flexion_120", 127}, {"flexion_thesis_2024", 193}};
+                                                     {"flexion_120", 127}, {"flexion_thesis_2024", 193},
+                                                     {"flexion_60", 67}};
   for (const auto& [name, count] : frames) {
     SCOPED_TRACE(name);
     const LoadedScene loaded = read_scene(scenes / (name + ".toml"));

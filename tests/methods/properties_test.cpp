@@ -51,7 +51,7 @@ struct Variant {
 };
 
 std::vector<Variant> all_variants() {
-  const Preset thesis = *find_preset("thesis-2024");
+  const Preset thesis = *find_preset("thesis-2024"), pbd_2020 = *find_preset("pbd-2020");
   return {
       {"skinning", "skinning", all_but({Property::volume, Property::any_jump})},
       {"cylinder", "cylinder", all_but({Property::volume}), {}, [] { return line_scene(0.05); }},
@@ -65,6 +65,10 @@ std::vector<Variant> all_variants() {
       {"xpbd_dissipative", "xpbd", everything, {{"rayleigh_beta", 0.01}}},
       // As published: free vertices follow only through constraints, and the margin pushes muscles off bones at rest.
       {"xpbd_thesis_2024", "xpbd", {}, thesis.method.settings},
+      {"arap", "arap", everything},
+      {"pbd", "pbd", all_but({Property::capture_pose})},
+      // As published free vertices follow only through constraints, and so remember by which way they came.
+      {"pbd_2020", "pbd", all_but({Property::rigid_motion, Property::capture_pose}), pbd_2020.method.settings},
   };
 }
 

@@ -1,5 +1,7 @@
 #include <gracilis/methods/placed_method.hpp>
 
+#include <gracilis/scene/scene_place.hpp>
+
 #include <utility>
 
 namespace gracilis {
@@ -54,6 +56,15 @@ class PlacedMethod final : public DeformationMethod {
 
 std::unique_ptr<DeformationMethod> placed_method(const Vec3& place, std::unique_ptr<DeformationMethod> method) {
   return std::make_unique<PlacedMethod>(place, std::move(method));
+}
+
+std::unique_ptr<DeformationMethod> made_near_origin(
+    const Scene& scene, std::vector<DistanceField> fields,
+    const std::function<std::unique_ptr<DeformationMethod>(const Scene&, std::vector<DistanceField>)>& make) {
+  const Vec3 place = place_of(scene);
+  if (place.isZero()) return make(scene, std::move(fields));
+  for (DistanceField& field : fields) field.origin -= place;
+  return placed_method(place, make(shifted(scene, -place), std::move(fields)));
 }
 
 }  // namespace gracilis

@@ -1,6 +1,8 @@
 #include <gracilis/methods/registry.hpp>
 
+#include <gracilis/methods/arap/arap_method.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
+#include <gracilis/methods/pbd/pbd_method.hpp>
 #include <gracilis/methods/skinning/skinning_method.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 
@@ -10,7 +12,8 @@
 namespace gracilis {
 
 const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> all = {xpbd_entry(), cylinder_entry(), skinning_entry()};
+  static const std::vector<MethodEntry> all = {xpbd_entry(), cylinder_entry(), skinning_entry(), pbd_entry(),
+                                               arap_entry()};
   return all;
 }
 

@@ -1,5 +1,7 @@
 #include <gracilis/view/run_picture.hpp>
 
+#include <gracilis/view/preview.hpp>
+
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/io/suggestions.hpp>
@@ -149,6 +151,15 @@ Panel RunPainter::panel(int frame) const {
     if (options_.fibers) panel.lines.push_back(fibers(m, frame));
   }
   return panel;
+}
+
+std::vector<int> telling_frames(const RecordedRun& run) {
+  std::vector<Pose> poses(static_cast<std::size_t>(run.frame_count));
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::VectorXd row = run.coordinate_values.row(static_cast<Index>(i));
+    poses[i].coordinates.assign(row.begin(), row.end());
+  }
+  return preview_frames(poses, run.frame_count);
 }
 
 Points RunPainter::room() const {

@@ -30,6 +30,9 @@ Vec3 view_direction(const RecordedRun& run, const std::string& view);
 /// "hip_flexion_r 45°", and other coordinates that have left the capture pose.
 std::string pose_caption(const RecordedRun& run, int frame);
 
+/// The capture pose, half way, and the farthest pose, as in a run's preview.
+std::vector<int> telling_frames(const RecordedRun& run);
+
 /// Draws any frame of a run. Throws InputError when a frame is damaged.
 class RunPainter {
  public:

@@ -1,13 +1,11 @@
 #include <gracilis/methods/skinning/skinning_method.hpp>
 
-#include <gracilis/anatomy/skinning_weights.hpp>
+#include <gracilis/anatomy/body_carriers.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/geometry/rigid_blend.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/scene/setting_values.hpp>
 
-#include <algorithm>
 #include <chrono>
 
 namespace gracilis {
@@ -32,57 +30,22 @@ namespace {
 /// What stays the same of one muscle.
 struct SkinnedMuscle {
   std::string name;
-  Points rest;                    ///< world, in the capture pose, m
-  Vec3 center = Vec3::Zero();     ///< of the rest, about which motions are blended
-  std::vector<Index> fixed_body;  ///< per vertex: the body it is attached to, or -1
-  std::vector<Index> bodies;      ///< that it is attached to
-  Eigen::MatrixXf weights;        ///< bodies × vertices
+  Points rest;  ///< world, in the capture pose, m
+  BodyCarriers carriers;
 };
 
 SkinnedMuscle prepare(const Scene& scene, const Muscle& muscle) {
   const SkinningSettings settings =
       with_values(with_values(SkinningSettings{}, scene.method.settings), muscle.settings);
-  SkinnedMuscle result;
-  result.name = muscle.name;
-  result.rest = muscle.surface.vertices;
-  result.center = result.rest.rowwise().mean();
-  result.fixed_body.assign(static_cast<std::size_t>(result.rest.cols()), -1);
-  for (const Attachment& attachment : muscle.attachments) {
-    for (const Index v : attachment.vertices) result.fixed_body[static_cast<std::size_t>(v)] = attachment.body;
-    result.bodies.push_back(attachment.body);
-  }
-  std::sort(result.bodies.begin(), result.bodies.end());
-  result.bodies.erase(std::unique(result.bodies.begin(), result.bodies.end()), result.bodies.end());
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
-  if (!result.bodies.empty())
-    result.weights =
-        skinning_weights(muscle.surface, topology, result.fixed_body, result.bodies, settings.tendon_length);
-  return result;
+  return {muscle.name, muscle.surface.vertices, body_carriers(muscle, topology, settings.tendon_length)};
 }
 
 Points shape_at(const SkinnedMuscle& muscle, const Pose& pose) {
+  const std::vector<RigidTransform> motions = carried_motions(muscle.carriers, pose);
   Points shape = muscle.rest;
-  if (muscle.bodies.empty()) return shape;
-  const Eigen::Translation3d from_center(muscle.center);
-  std::vector<RigidTransform> motions;
-  for (const Index body : muscle.bodies)
-    motions.push_back(from_center.inverse() * pose.bodies[static_cast<std::size_t>(body)] * from_center);
-  const RigidBlend blended = prepare_blend(motions);
-  parallel_for(static_cast<Index>(shape.cols()), 512, [&](Index begin, Index end) {
-    std::vector<Real> weights(muscle.bodies.size());
-    for (Index v = begin; v < end; ++v) {
-      if (const Index body = muscle.fixed_body[static_cast<std::size_t>(v)]; body >= 0) {
-        shape.col(v) = pose.bodies[static_cast<std::size_t>(body)] * Vec3(shape.col(v));
-        continue;
-      }
-      Real sum = 0;
-      for (std::size_t b = 0; b < weights.size(); ++b)
-        sum += weights[b] = static_cast<Real>(muscle.weights(static_cast<Index>(b), v));
-      if (!(sum > 0)) continue;  // no attachment reaches it
-      for (Real& weight : weights) weight /= sum;
-      shape.col(v) = from_center * (blend(blended, weights) * Vec3(shape.col(v) - muscle.center));
-    }
-  });
+  for (Index v = 0; v < static_cast<Index>(shape.cols()); ++v)
+    shape.col(v) = motions[static_cast<std::size_t>(v)] * Vec3(muscle.rest.col(v));
   return shape;
 }
 

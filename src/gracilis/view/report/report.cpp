@@ -1,6 +1,7 @@
 #include <gracilis/view/report/report.hpp>
 
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/view/report/html_text.hpp>
 #include <gracilis/view/report/report_data.hpp>
 #include <gracilis/view/report/report_shapes.hpp>
 
@@ -18,46 +19,12 @@ extern const std::string_view three_js, report_html, report_css, orbit_js, stage
 
 using Json = nlohmann::ordered_json;
 
-/// RFC 4648.
-static std::string base64(std::string_view bytes) {
-  static constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  const auto byte = [&](std::size_t i) { return i < bytes.size() ? static_cast<unsigned char>(bytes[i]) : 0u; };
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const unsigned three = byte(i) << 16 | byte(i + 1) << 8 | byte(i + 2);
-    for (const int shift : {18, 12, 6, 0}) text += digits[(three >> shift) & 63];
-  }
-  for (std::size_t i = bytes.size(); i % 3 != 0; ++i) text[text.size() - 3 + i % 3] = '=';
-  return text;
-}
-
 /// JSON inside a script element: nothing in it may look like the element's end.
 static std::string in_script(const Json& json) {
   std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), safe;
   safe.reserve(text.size());
   for (const char c : text) c == '<' ? safe += "\\u003c" : safe += c;
   return safe;
-}
-
-/// Text inside an element.
-static std::string in_element(std::string_view text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<')
-      safe += "&lt;";
-    else if (c == '&')
-      safe += "&amp;";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
-/// Puts a text where the template says {{name}}.
-static void fill(std::string& page, const std::string& name, std::string_view text) {
-  const std::string place = "{{" + name + "}}";
-  page.replace(page.find(place), place.size(), text);
 }
 
 void write_report(const std::filesystem::path& path, const std::vector<RecordedRun>& runs,

@@ -1,0 +1,168 @@
+#include <gracilis/methods/arap/arap_method.hpp>
+
+#include <gracilis/anatomy/body_carriers.hpp>
+#include <gracilis/anatomy/bone_projection.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/core/stop.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/methods/arap/surface.hpp>
+#include <gracilis/methods/placed_method.hpp>
+
+#include <chrono>
+#include <optional>
+
+namespace gracilis {
+
+template <>
+std::span<const Setting<ArapSettings>> setting_table() {
+  using S = ArapSettings;
+  static const Setting<S> table[] = {
+      {"iterations", &S::iterations, "", 1, 100000,
+       "How often per frame rotations and places are chosen in turn, each time followed by volume and contact."},
+      {"volume", &S::volume, "", 0, 0,
+       "How the volume is restored: 'scaling' of the free vertices about the muscle's center by (V0/V)^(1/3), "
+       "'multiplier' "
+       "of an even pressure that the surface passes on, or 'none'."},
+      {"tendon_length", &S::tendon_length, "m", 0, 1,
+       "Distance from the attachments over which the blend of the bodies' motions, where a frame begins, is graded "
+       "from "
+       "tendon to belly; 0 grades nothing."},
+      {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Distance that free vertices keep from bones."},
+      {"bone_rest_gap", &S::bone_rest_gap, "", 0, 0,
+       "Where a vertex is nearer to a bone than the margin at rest, or in it, keep that distance instead."},
+  };
+  return table;
+}
+
+namespace {
+
+/// Rounds of volume and contact alone that end a frame.
+constexpr int settling_rounds = 4;
+
+/// What stays the same of one muscle.
+struct ArapMuscle {
+  std::string name;
+  ArapSettings settings;
+  TriangleMesh rest;  ///< world, in the capture pose, m
+  Real volume = 0;    ///< m³, of the rest
+  BodyCarriers carriers;
+  std::vector<char> held;  ///< per vertex: attached, or out of every attachment's reach
+  arap::Surface surface;
+  BoneProjection bones;
+};
+
+ArapMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+  const ArapSettings settings = with_values(with_values(ArapSettings{}, scene.method.settings), muscle.settings);
+  const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
+  BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
+  std::vector<char> held;
+  for (Index v = 0; v < muscle.surface.vertex_count(); ++v) {
+    const bool is_reached = !carriers.bodies.empty() && carriers.weights.col(v).sum() > 0;
+    held.push_back(carriers.fixed_body[static_cast<std::size_t>(v)] >= 0 || !is_reached);
+  }
+  arap::Surface surface(muscle.surface, topology, held);
+  BoneProjection bones(scene, muscle, carriers.fixed_body, fields, settings.bone_margin, settings.bone_rest_gap);
+  return {muscle.name,         settings,
+          muscle.surface,      enclosed_volume(muscle.surface.vertices, muscle.surface.faces),
+          std::move(carriers), std::move(held),
+          std::move(surface),  std::move(bones)};
+}
+
+void restore_volume(const ArapMuscle& muscle, Points& points) {
+  if (muscle.settings.volume == ArapVolume::scaling)
+    arap::restore_volume_by_scaling(muscle.rest.faces, muscle.held, muscle.volume, points);
+  if (muscle.settings.volume == ArapVolume::multiplier)
+    arap::restore_volume_by_multiplier(muscle.surface, muscle.rest.faces, muscle.held, muscle.volume, points);
+}
+
+struct ArapStep {
+  Points points;
+  Index contacts = 0;
+};
+
+ArapStep step(const ArapMuscle& muscle, const Pose& last, const Pose& now, const Points& before) {
+  ArapStep result{carried_on(muscle.carriers, muscle.rest.vertices, last, now, before)};
+  for (int i = 0; i < muscle.settings.iterations; ++i) {
+    throw_if_stopped();
+    muscle.surface.place(muscle.surface.best_rotations(result.points), result.points);
+    restore_volume(muscle, result.points);
+    result.contacts = muscle.bones.push_out(now, result.points);
+  }
+  for (int i = 0; i < settling_rounds && result.contacts > 0; ++i) {
+    restore_volume(muscle, result.points);
+    result.contacts = muscle.bones.push_out(now, result.points);
+  }
+  return result;
+}
+
+class ArapMethod final : public DeformationMethod {
+ public:
+  ArapMethod(const Scene& scene, std::vector<DistanceField> fields)
+      : fields_(std::move(fields)), body_count_(scene.bodies.size()) {
+    std::vector<std::optional<ArapMuscle>> prepared(scene.muscles.size());
+    parallel_for_each(prepared.size(), [&](std::size_t m) { prepared[m] = prepare(scene, scene.muscles[m], fields_); });
+    for (std::optional<ArapMuscle>& muscle : prepared) muscles_.push_back(std::move(*muscle));
+    reset();
+  }
+
+  void reset() override {
+    shapes_.clear();
+    for (const ArapMuscle& muscle : muscles_) shapes_.push_back(muscle.rest.vertices);
+    pose_ = capture_pose(body_count_);
+  }
+
+  StepReport advance(const Pose& pose, Real) override {
+    StepReport report;
+    std::vector<Points> next;
+    for (std::size_t m = 0; m < muscles_.size(); ++m) {
+      const auto started = std::chrono::steady_clock::now();
+      ArapStep done = step(muscles_[m], pose_, pose, shapes_[m]);
+      const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
+      report.muscles.push_back({taken.count(), {{"contacts", static_cast<Real>(done.contacts)}}});
+      if (!done.points.allFinite())
+        throw QualityError("muscle " + muscles_[m].name + ": a vertex position is not finite; check the pose");
+      next.push_back(std::move(done.points));
+    }
+    shapes_ = std::move(next);
+    pose_ = pose;
+    return report;
+  }
+
+  void write(Frame& frame) const override {
+    frame.muscles.clear();
+    for (const Points& shape : shapes_) frame.muscles.push_back({shape});
+  }
+
+  void restore(const std::vector<Pose>& poses, const Frame&, const Frame& last) override {
+    for (std::size_t m = 0; m < shapes_.size(); ++m) shapes_[m] = last.muscles[m].points;
+    pose_ = poses.back();
+  }
+
+ private:
+  std::vector<DistanceField> fields_;
+  std::size_t body_count_;
+  std::vector<ArapMuscle> muscles_;
+  std::vector<Points> shapes_;
+  Pose pose_;  ///< of the shapes
+};
+
+}  // namespace
+
+std::unique_ptr<DeformationMethod> make_arap_method(const Scene& scene, std::vector<DistanceField> fields) {
+  return made_near_origin(scene, std::move(fields), [](const Scene& near, std::vector<DistanceField> near_fields) {
+    return std::make_unique<ArapMethod>(near, std::move(near_fields));
+  });
+}
+
+MethodEntry arap_entry() {
+  return {.name = "arap",
+          .meaning = "their surfaces, kept as rigid as possible between attachments",
+          .settings = describe_settings<ArapSettings>(),
+          .metrics = {{"contacts", 0}},
+          .make = [](const Scene& scene, const BoneFieldSource& fields) {
+            return make_arap_method(scene, fields(scene.distance_fields));
+          }};
+}
+
+}  // namespace gracilis

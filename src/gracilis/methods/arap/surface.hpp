@@ -1,0 +1,59 @@
+#pragma once
+
+#include <gracilis/geometry/topology.hpp>
+#include <gracilis/geometry/triangle_mesh.hpp>
+
+#include <memory>
+#include <vector>
+
+/// As-rigid-as-possible surfaces (Sorkine and Alexa 2007): the sum over vertices i and their neighbors j of
+/// w_ij |(x_i - x_j) - R_i (r_i - r_j)|², r at rest, is made small by choosing rotations and places in turn.
+namespace gracilis::arap {
+
+using Rotations = std::vector<Eigen::Matrix3d>;
+
+/// One surface with its held vertices; never changes. The matrix of the second step is factored once.
+class Surface {
+ public:
+  /// `held` is 1 for vertices whose places are given. Weights are cotangents, (cot α + cot β) / 2 of the two angles
+  /// opposite to an edge, at least `smallest_weight`. Precondition: every part of the surface has a held vertex.
+  Surface(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<char>& held);
+  ~Surface();
+  Surface(Surface&&) noexcept;
+  Surface& operator=(Surface&&) noexcept;
+
+  /// Local step: for every vertex the rotation that turns its edges at rest best into those now.
+  Rotations best_rotations(const Points& points) const;
+
+  /// Global step: the free vertices' places where the sum is least for these rotations; held ones stay.
+  void place(const Rotations& rotations, Points& points) const;
+
+  /// Displacements of all vertices under forces on the free ones (3 × n), as the sum's second derivative says.
+  Points response(const Points& forces) const;
+
+  /// The sum, m².
+  Real energy(const Points& points, const Rotations& rotations) const;
+
+  static constexpr Real smallest_weight = 0.01;
+
+ private:
+  struct Solver;
+  Points solve(const Points& right_sides) const;
+
+  Points rest_;
+  VertexStars stars_;
+  std::vector<Real> weights_;   ///< one per neighbor in stars_
+  std::vector<Index> unknown_;  ///< per vertex: which of the free ones, or -1
+  std::unique_ptr<Solver> solver_;
+};
+
+/// Brings the volume enclosed by the free vertices' motion back to `target`, m³, to a millionth: x + μ y, y the
+/// response to forces along the volume's gradient, μ the multiplier.
+void restore_volume_by_multiplier(const Surface& surface, const Eigen::Matrix3Xi& faces, const std::vector<char>& held,
+                                  Real target, Points& points);
+
+/// The same by scaling the free vertices about the surface's center by (target / V)^(1/3), once.
+void restore_volume_by_scaling(const Eigen::Matrix3Xi& faces, const std::vector<char>& held, Real target,
+                               Points& points);
+
+}  // namespace gracilis::arap

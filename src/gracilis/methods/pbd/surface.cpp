@@ -1,0 +1,193 @@
+#include <gracilis/methods/pbd/surface.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/nearest_points.hpp>
+#include <gracilis/methods/pbd/constraints.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+namespace gracilis::pbd {
+
+namespace {
+
+/// Constraints that one task projects.
+constexpr Index grain = 1024;
+
+template <class Constraint>
+Colored<Constraint> color(const std::vector<Constraint>& constraints, const ConstraintGraph& graph) {
+  const std::vector<Index> colors = color_constraints(graph);
+  std::vector<std::size_t> order(constraints.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return colors[a] < colors[b]; });
+  Colored<Constraint> result;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0 && colors[order[i]] != colors[order[i - 1]]) result.begins.push_back(static_cast<Index>(i));
+    result.constraints.push_back(constraints[order[i]]);
+  }
+  if (!order.empty()) result.begins.push_back(static_cast<Index>(order.size()));
+  return result;
+}
+
+/// Calls act(constraint) for all, those of one color side by side.
+template <class Constraint, class Act>
+void for_each_by_color(const Colored<Constraint>& colored, const Act& act) {
+  for (std::size_t c = 0; c + 1 < colored.begins.size(); ++c) {
+    const Index first = colored.begins[c], count = colored.begins[c + 1] - first;
+    parallel_for(count, grain, [&](Index begin, Index end) {
+      for (Index i = first + begin; i < first + end; ++i) act(colored.constraints[static_cast<std::size_t>(i)]);
+    });
+  }
+}
+
+/// Where fibers run: their segments' middles and directions.
+class FiberDirections {
+ public:
+  explicit FiberDirections(const Polylines& fibers) {
+    std::vector<Vec3> middles;
+    for (Index line = 0; line < fibers.count(); ++line)
+      for (Index p = fibers.begin(line); p + 1 < fibers.end(line); ++p) {
+        const Vec3 along = fibers.points.col(p + 1) - fibers.points.col(p);
+        if (!(along.norm() > 0)) continue;
+        middles.emplace_back((fibers.points.col(p + 1) + fibers.points.col(p)) / 2);
+        directions_.push_back(along.normalized());
+      }
+    if (middles.empty()) return;
+    Points points(3, static_cast<Index>(middles.size()));
+    for (std::size_t i = 0; i < middles.size(); ++i) points.col(static_cast<Index>(i)) = middles[i];
+    nearest_.emplace(points);
+  }
+
+  /// Of the fiber nearest to p; zero without fibers.
+  Vec3 at(const Vec3& p) const {
+    return nearest_ ? directions_[static_cast<std::size_t>(nearest_->nearest(p))] : Vec3(Vec3::Zero());
+  }
+
+ private:
+  std::vector<Vec3> directions_;
+  std::optional<NearestPoints> nearest_;
+};
+
+void list_corners(const Eigen::Matrix3Xi& faces, Index vertex_count, Surface& surface) {
+  surface.corner_begins.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
+  for (Index i = 0; i < static_cast<Index>(faces.size()); ++i)
+    ++surface.corner_begins[static_cast<std::size_t>(faces.data()[i]) + 1];
+  std::partial_sum(surface.corner_begins.begin(), surface.corner_begins.end(), surface.corner_begins.begin());
+  surface.corners.resize(static_cast<std::size_t>(faces.size()));
+  std::vector<Index> next(surface.corner_begins.begin(), surface.corner_begins.end() - 1);
+  for (Index i = 0; i < static_cast<Index>(faces.size()); ++i)
+    surface.corners[static_cast<std::size_t>(next[static_cast<std::size_t>(faces.data()[i])]++)] = i;
+}
+
+template <std::size_t count>
+std::array<Vec3, count> places(const std::array<Index, count>& vertices, const Points& points) {
+  std::array<Vec3, count> result;
+  for (std::size_t i = 0; i < count; ++i) result[i] = points.col(vertices[i]);
+  return result;
+}
+
+/// Projects one constraint; false where it had no gradient.
+template <std::size_t count>
+bool move(const Surface& surface, const std::array<Index, count>& vertices, const Evaluated<count>& constraint,
+          Real stiffness, Points& points, Real limit = std::numeric_limits<Real>::infinity()) {
+  std::array<Vec3, count> moved = places(vertices, points);
+  std::array<Real, count> weight{};
+  std::array<Vec3*, count> pointers{};
+  for (std::size_t i = 0; i < count; ++i) {
+    weight[i] = surface.weight[static_cast<std::size_t>(vertices[i])];
+    pointers[i] = &moved[i];
+  }
+  if (!project(constraint, stiffness, weight, pointers, limit)) return constraint.has_gradient;
+  for (std::size_t i = 0; i < count; ++i)
+    if (weight[i] > 0) points.col(vertices[i]) = moved[i];
+  return true;
+}
+
+}  // namespace
+
+Surface build_surface(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<Index>& fixed_body,
+                      const Polylines& fibers) {
+  const Points& rest = mesh.vertices;
+  const FiberDirections directions(fibers);
+  Surface surface;
+  for (const Index body : fixed_body) surface.weight.push_back(body < 0 ? 1 : 0);
+  std::vector<EdgeConstraint> edges;
+  std::vector<HingeConstraint> hinges;
+  ConstraintGraph edge_graph{2, mesh.vertex_count(), {}}, hinge_graph{4, mesh.vertex_count(), {}};
+  for (const MeshEdge& edge : topology.edges) {
+    const Vec3 a = rest.col(edge.a), b = rest.col(edge.b);
+    const bool is_held =
+        fixed_body[static_cast<std::size_t>(edge.a)] >= 0 && fixed_body[static_cast<std::size_t>(edge.b)] >= 0;
+    if (!is_held) {
+      edges.push_back({edge.a, edge.b, (b - a).norm(), anisotropy((b - a).normalized(), directions.at((a + b) / 2))});
+      edge_graph.particles.insert(edge_graph.particles.end(), {edge.a, edge.b});
+    }
+    const std::array<Index, 4> vertices = {edge.a, edge.b, edge.left_apex, edge.right_apex};
+    if (edge.left < 0 || edge.right < 0) continue;
+    if (std::none_of(vertices.begin(), vertices.end(),
+                     [&](Index v) { return fixed_body[static_cast<std::size_t>(v)] < 0; }))
+      continue;
+    hinges.push_back(
+        {vertices, arccos_angle(a, b, rest.col(edge.left_apex), rest.col(edge.right_apex)), (b - a).norm()});
+    hinge_graph.particles.insert(hinge_graph.particles.end(), vertices.begin(), vertices.end());
+  }
+  surface.edges = color(edges, edge_graph);
+  surface.hinges = color(hinges, hinge_graph);
+  surface.faces = mesh.faces;
+  list_corners(mesh.faces, mesh.vertex_count(), surface);
+  surface.volume = enclosed_volume(rest, mesh.faces);
+  return surface;
+}
+
+Index project_edges_and_angles(const Surface& surface, const Stiffness& stiffness, Points& points) {
+  for_each_by_color(surface.edges, [&](const EdgeConstraint& edge) {
+    const Evaluated<2> evaluated = distance_constraint(points.col(edge.a), points.col(edge.b), edge.length);
+    move<2>(surface, {edge.a, edge.b}, evaluated, stiffness.edges * edge.anisotropy, points);
+  });
+  std::atomic<Index> skipped = 0;
+  for_each_by_color(surface.hinges, [&](const HingeConstraint& hinge) {
+    const auto [a, b, c, d] = places(hinge.vertices, points);
+    const Real limit =
+        stiffness.hinge_limit > 0 ? stiffness.hinge_limit * hinge.edge_length : std::numeric_limits<Real>::infinity();
+    if (!move<4>(surface, hinge.vertices, angle_constraint(a, b, c, d, hinge.angle), stiffness.angles, points, limit))
+      skipped.fetch_add(1, std::memory_order_relaxed);
+  });
+  return skipped;
+}
+
+Real volume_constraint(const Surface& surface, const Points& points, Points& gradient) {
+  gradient.resize(3, points.cols());
+  parallel_for(static_cast<Index>(points.cols()), grain, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) {
+      Vec3 sum = Vec3::Zero();
+      const Vec3 here = points.col(v);
+      for (Index k = surface.corner_begins[static_cast<std::size_t>(v)];
+           k < surface.corner_begins[static_cast<std::size_t>(v) + 1]; ++k) {
+        const Index corner = surface.corners[static_cast<std::size_t>(k)], face = corner / 3, row = corner % 3;
+        const Vec3 next = points.col(surface.faces((row + 1) % 3, face));
+        const Vec3 last = points.col(surface.faces((row + 2) % 3, face));
+        sum += (next - here).cross(last - here);  // around a closed ring this is the sum of next × last
+      }
+      gradient.col(v) = sum / 6;
+    }
+  });
+  return enclosed_volume(points, surface.faces) - surface.volume;
+}
+
+void project_volume(const Surface& surface, Real stiffness, Points& points) {
+  Points gradient;
+  const Real off = volume_constraint(surface, points, gradient);
+  Real sum = 0;
+  for (Index v = 0; v < static_cast<Index>(points.cols()); ++v)
+    sum += surface.weight[static_cast<std::size_t>(v)] * gradient.col(v).squaredNorm();
+  if (!(sum > 0)) return;
+  for (Index v = 0; v < static_cast<Index>(points.cols()); ++v)
+    points.col(v) -= stiffness * off * surface.weight[static_cast<std::size_t>(v)] / sum * gradient.col(v);
+}
+
+}  // namespace gracilis::pbd

@@ -1,0 +1,92 @@
+#include "app/program.hpp"
+
+#include <gracilis/io/input_file.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <sstream>
+#include <vector>
+
+namespace gracilis {
+
+namespace {
+
+using testing::HasSubstr;
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, at);) parts.push_back(part);
+  return parts;
+}
+
+/// The table of numbers: by method and muscle, then by column.
+std::map<std::string, std::map<std::string, std::string>> rows_of(const std::filesystem::path& file) {
+  const std::vector<std::string> lines = split(read_text(file), '\n');
+  const std::vector<std::string> header = split(lines.at(0), ',');
+  std::map<std::string, std::map<std::string, std::string>> rows;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> cells = split(lines[i], ',');
+    for (std::size_t c = 0; c < cells.size(); ++c) rows[cells[0] + " " + cells[1]][header.at(c)] = cells[c];
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST(CompareCommand, runs_the_builtin_hip_by_several_methods_and_shows_them_side_by_side) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "gracilis_compare_test";
+  std::filesystem::remove_all(folder);
+  const ProgramResult result = run_program(
+      "compare demo --flexion 4 --only iliacus_r,adductor_brevis_r --methods xpbd,pbd,pbd-2020,arap,skinning --frames "
+      "0,4 "
+      "--out " +
+      folder.string());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, (folder / "comparison.html").string() + "\n" + (folder / "comparison.csv").string() + "\n");
+  auto rows = rows_of(folder / "comparison.csv");
+  EXPECT_EQ(rows.size(), 10u);
+  for (const std::string method : {"xpbd", "pbd", "pbd-2020", "arap"}) {
+    EXPECT_LT(std::stod(rows.at(method + " iliacus_r").at("volume_error_percent")), 0.5) << method;
+    EXPECT_EQ(rows.at(method + " iliacus_r").at("frames"), "5");
+    EXPECT_EQ(rows.at(method + " iliacus_r").at("self_cuts"), "0");
+    EXPECT_NEAR(std::stod(rows.at(method + " iliacus_r").at("fiber_length_mm")), 162, 5) << method;
+  }
+  EXPECT_GT(std::stod(rows.at("skinning iliacus_r").at("volume_error_percent")), 0.5) << "it knows no volume";
+  const std::string page = read_text(folder / "comparison.html");
+  for (const std::string text : {"adductor_brevis_r", "<td>pbd-2020</td>", "moment arm"})
+    EXPECT_THAT(page, HasSubstr(text));
+  EXPECT_THAT(read_text(folder / "pbd" / "run.json"), HasSubstr("method = \\\"pbd\\\""));
+
+  const ProgramResult refused = run_program("compare demo --flexion 4 --methods pbd --out " + folder.string());
+  EXPECT_EQ(refused.exit_code, 2) << "there is a run in the folder";
+  std::filesystem::remove_all(folder);
+}
+
+TEST(CompareCommand, an_unknown_method_is_a_usage_error_before_anything_runs) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "gracilis_compare_names_test";
+  std::filesystem::remove_all(folder);
+  const ProgramResult result = run_program("compare demo --methods xpd,arap,arap --out " + folder.string());
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("there is no method or preset 'xpd' (did you mean 'xpbd'?)"));
+  EXPECT_THAT(result.err, HasSubstr("'arap' is there twice"));
+  EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+TEST(CompareCommand, a_method_that_cannot_take_the_scene_is_named) {
+  const ProgramResult result = run_program("compare demo --methods skinning,cylinder --out /nowhere");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--methods cylinder"));
+  EXPECT_THAT(result.err, HasSubstr("needs its action line"));
+}
+
+TEST(CompareCommand, help_says_what_exit_codes_mean) {
+  const ProgramResult result = run_program("compare --help");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("Exit codes:"));
+}
+
+}  // namespace gracilis
