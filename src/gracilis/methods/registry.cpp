@@ -2,6 +2,7 @@
 
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/methods/skinning/skinning_method.hpp>
+#include <gracilis/methods/tissue/tissue_method.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 
 #include <cassert>
@@ -10,7 +11,7 @@
 namespace gracilis {
 
 const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> all = {xpbd_entry(), cylinder_entry(), skinning_entry()};
+  static const std::vector<MethodEntry> all = {xpbd_entry(), cylinder_entry(), skinning_entry(), tissue_entry()};
   return all;
 }
 

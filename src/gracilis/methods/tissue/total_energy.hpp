@@ -1,0 +1,33 @@
+#pragma once
+
+#include <gracilis/methods/tissue/preparation.hpp>
+
+#include <Eigen/SparseCore>
+
+#include <vector>
+
+namespace gracilis::tissue {
+
+/// What surrounds a muscle at one instant.
+struct Surroundings {
+  std::vector<RigidTransform> bodies;    ///< from the capture pose
+  std::vector<RigidTransform> inverses;  ///< back to it
+  std::vector<CellLaw> laws;
+};
+Surroundings surroundings(const std::vector<RigidTransform>& bodies, std::vector<CellLaw> laws);
+
+/// All energy of a muscle (J) and its derivative by the nodes (3 × n, N). Infinite where a tetrahedron is inverted; the
+/// gradient means nothing then. The same bits for any number of threads.
+Real total_energy(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes, Points& gradient);
+
+/// A third of the trace of every 3 × 3 block of the second derivatives at rest, in the capture pose: nodes × nodes,
+/// N/m. Positive definite.
+Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const std::vector<CellLaw>& laws);
+
+/// Where the surface is: rest plus what its cells have moved, 3 × vertices.
+Points surface_at(const PreparedTissue& muscle, const Points& nodes);
+
+/// The least volume of a tetrahedron over that at rest.
+Real least_volume_ratio(const Lattice& lattice, const Points& nodes);
+
+}  // namespace gracilis::tissue
