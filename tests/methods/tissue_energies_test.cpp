@@ -131,7 +131,8 @@ TEST(TissueEnergies, a_cell_moved_rigidly_feels_no_force_and_one_turned_inside_o
   EXPECT_TRUE(std::isinf(cell_energy(cube_cut(0), 0.008, full, law, -moved).energy));
 }
 
-void expect_point_derivatives(const std::function<PointState(const Vec3&)>& state_at, const Vec3& p, Real step) {
+void expect_point_derivatives(const std::function<PointState(const Vec3&)>& state_at, const Matrix3& hessian,
+                              const Vec3& p, Real step) {
   const PointState state = state_at(p);
   Vec3 differences;
   Matrix3 second;
@@ -142,13 +143,22 @@ void expect_point_derivatives(const std::function<PointState(const Vec3&)>& stat
   }
   EXPECT_GT(state.gradient.norm(), 0);
   EXPECT_LT((state.gradient - differences).norm(), 1e-5 * state.gradient.norm());
-  EXPECT_LT((state.hessian - second).norm(), 1e-5 * state.hessian.norm());
+  EXPECT_LT((hessian - second).norm(), 1e-5 * hessian.norm());
 }
 
 TEST(TissueEnergies, forces_of_springs_and_fascia_and_their_derivatives_are_those_of_their_energies) {
   const Vec3 place(0.1, 0.2, 0.3), p = place + Vec3(0.001, -0.002, 0.003);
-  expect_point_derivatives([&](const Vec3& x) { return spring(x - place, 2000); }, p, 1e-7);
-  expect_point_derivatives([&](const Vec3& x) { return tie(x - place, along, 30, 0.002); }, p, 1e-7);
+  expect_point_derivatives([&](const Vec3& x) { return spring(x - place, 2000); }, spring_hessian(2000), p, 1e-7);
+  expect_point_derivatives([&](const Vec3& x) { return tie(x - place, along, 30, 0.002); },
+                           tie_hessian(p - place, along, 30, 0.002), p, 1e-7);
+}
+
+TEST(TissueEnergies, forces_of_contact_with_a_plane_and_their_derivatives_are_those_of_their_energy) {
+  const Vec3 normal = Vec3(1, 2, -2) / 3;
+  expect_point_derivatives([&](const Vec3& x) { return contact(normal.dot(x), normal, 0.004, 3000); },
+                           contact_hessian(0.001, normal, 0.004, 3000), 0.001 * normal, 1e-7);
+  EXPECT_EQ(contact(0.005, normal, 0.004, 3000).energy, 0);
+  EXPECT_EQ(contact_hessian(0.005, normal, 0.004, 3000), Matrix3::Zero());
 }
 
 TEST(TissueEnergies, fascia_lets_glide_along_the_fibers_and_yields_across_them) {

@@ -18,6 +18,7 @@ constexpr Real rounding = 1e-14;
 struct Pair {
   Points move, change;
   Real curvature = 0;
+  Real scale = 1;  ///< of the metric, to be right along the last change
 };
 
 Real dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
@@ -35,6 +36,7 @@ Points descent(const std::deque<Pair>& pairs, const MetricFunction& metric, cons
     q -= shares[i] * pairs[i].change;
   }
   Points direction = -metric(q);
+  if (!pairs.empty()) direction *= pairs.back().scale;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Real along = dot(pairs[i].change, direction) / pairs[i].curvature;
     direction -= (shares[i] + along) * pairs[i].move;
@@ -69,7 +71,10 @@ Minimized minimize(const EnergyFunction& energy, const MetricFunction& metric, c
       accepted = true;
       Pair pair{next - points, next_gradient - gradient, 0};
       pair.curvature = dot(pair.move, pair.change);
-      if (pair.curvature > 1e-12 * pair.move.norm() * pair.change.norm()) pairs.push_back(std::move(pair));
+      if (pair.curvature > 1e-12 * pair.move.norm() * pair.change.norm()) {
+        pair.scale = pair.curvature / dot(pair.change, metric(pair.change));
+        pairs.push_back(std::move(pair));
+      }
       if (pairs.size() > remembered) pairs.pop_front();
       points = next;
       std::swap(gradient, next_gradient);

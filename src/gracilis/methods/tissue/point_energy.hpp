@@ -4,11 +4,10 @@
 
 namespace gracilis::tissue {
 
-/// Energy of a point (J), its derivative by the point's place (N), and the second derivatives (N/m).
+/// Energy of a point (J) and its derivative by the point's place (N).
 struct PointState {
   Real energy = 0;
   Vec3 gradient = Vec3::Zero();
-  Matrix3 hessian = Matrix3::Zero();
 };
 
 /// A spring to a place. `offset`: from that place to the point, m; `stiffness` N/m.
@@ -18,8 +17,12 @@ PointState spring(const Vec3& offset, Real stiffness);
 /// stiffness · e / √(1 + (e / yield)²) where the point is e (m) off.
 PointState tie(const Vec3& offset, const Vec3& along, Real stiffness, Real yield);
 
-/// Keeps a point `gap` (m) away from a surface whose distance is `distance`, with gradient `normal`. The surface counts
-/// as flat in the second derivatives.
+/// Keeps a point `gap` (m) away from a surface whose distance is `distance`, with gradient `normal`.
 PointState contact(Real distance, const Vec3& normal, Real gap, Real stiffness);
+
+/// Second derivatives, N/m. The surface of a contact counts as flat in them.
+Matrix3 spring_hessian(Real stiffness);
+Matrix3 tie_hessian(const Vec3& offset, const Vec3& along, Real stiffness, Real yield);
+Matrix3 contact_hessian(Real distance, const Vec3& normal, Real gap, Real stiffness);
 
 }  // namespace gracilis::tissue

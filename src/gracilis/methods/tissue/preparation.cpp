@@ -38,7 +38,7 @@ void place_points(const Muscle& muscle, PreparedTissue& prepared) {
 void hold_triangles(const TriangleMesh& surface, PreparedTissue& prepared) {
   const Real spacing = prepared.lattice.cell_size / 2;
   for (Index f = 0; f < surface.face_count(); ++f) {
-    const auto corner = [&](Index k) -> SurfacePoint& {
+    const auto corner = [&](Index k) -> SurfacePoint& {  // anew each time: points grow
       return prepared.points[static_cast<std::size_t>(surface.faces(k, f))];
     };
     const Index body = corner(0).held_by;
@@ -55,7 +55,11 @@ void hold_triangles(const TriangleMesh& surface, PreparedTissue& prepared) {
       point.at = embed(prepared.lattice, point.rest);
       point.area = area / (pieces * pieces);
       point.held_by = body;
-      prepared.points.push_back(point);
+      // A triangle may cut the corner of a cell that is none.
+      if (point.at.cell < 0)
+        corner(0).area += point.area;
+      else
+        prepared.points.push_back(point);
     };
     // The middles of the equal triangles that it falls into.
     for (int i = 0; i < pieces; ++i)

@@ -3,11 +3,10 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/tissue/carry.hpp>
+#include <gracilis/methods/tissue/factored_matrix.hpp>
 #include <gracilis/methods/tissue/minimize.hpp>
 #include <gracilis/methods/tissue/total_energy.hpp>
 #include <gracilis/scene/setting_values.hpp>
-
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <chrono>
@@ -22,8 +21,26 @@ using namespace tissue;
 
 /// Metrics are made for activations in steps of this.
 constexpr int activation_steps = 4;
+/// How often in a step it is looked anew what bones are near.
+constexpr int most_rounds = 4;
 
-using Factorization = Eigen::SimplicialLLT<Eigen::SparseMatrix<Real>>;
+/// To the least energy near the nodes.
+Minimized settle(const PreparedTissue& muscle, Surroundings& around, const FactoredMatrix& metric, Points& nodes) {
+  MinimizeSettings settings = {muscle.settings.minimizer_iterations, muscle.settings.minimizer_residual,
+                               muscle.lattice.cell_size};
+  const auto energy = [&](const Points& at, Points& gradient) { return total_energy(muscle, around, at, gradient); };
+  const auto by_metric = [&](const Points& gradient) { return metric.solve(gradient); };
+  Minimized sum;
+  for (int round = 0; round < most_rounds; ++round) {
+    find_near_bones(muscle, nodes, around);
+    const Points from = nodes;
+    const Minimized done = minimize(energy, by_metric, settings, nodes);
+    sum = {sum.iterations + done.iterations, done.energy, done.residual};
+    settings.iterations -= done.iterations;
+    if (settings.iterations <= 0 || (nodes - from).colwise().norm().maxCoeff() < near_bones) break;
+  }
+  return sum;
+}
 
 class TissueMethod final : public DeformationMethod {
  public:
@@ -73,11 +90,11 @@ class TissueMethod final : public DeformationMethod {
   }
 
  private:
-  const Factorization& metric(std::size_t m, Real activation) {
+  const FactoredMatrix& metric(std::size_t m, Real activation) {
     const auto level = static_cast<int>(std::lround(activation * activation_steps));
-    Factorization& found = metrics_[m][level];
-    if (found.rows() == 0)
-      found.compute(scalar_stiffness(muscles_[m], cell_laws(muscles_[m], Real(level) / activation_steps, 1)));
+    FactoredMatrix& found = metrics_[m][level];
+    if (found.empty())
+      found = FactoredMatrix(scalar_stiffness(muscles_[m], cell_laws(muscles_[m], Real(level) / activation_steps, 1)));
     return found;
   }
 
@@ -89,22 +106,17 @@ class TissueMethod final : public DeformationMethod {
     for (const RigidTransform& body : pose.bodies) check(body.matrix().allFinite());
     const Real activation = m < pose.activations.size() ? pose.activations[m] : 0;
     const Real tension = std::min(1.0, Real(frame_ + 1) / muscle.settings.tension_frames);
-    Surroundings around = surroundings(pose.bodies, cell_laws(muscle, activation, tension));
-    const Factorization& factorization = metric(m, activation);
-    const MinimizeSettings settings = {muscle.settings.minimizer_iterations, muscle.settings.minimizer_residual,
-                                       muscle.lattice.cell_size};
-    const auto energy = [&](const Points& at, Points& gradient) { return total_energy(muscle, around, at, gradient); };
-    const auto by_metric = [&](const Points& gradient) {
-      return Points(factorization.solve(Eigen::MatrixX3d(gradient.transpose())).transpose());
-    };
+    const FactoredMatrix& by_metric = metric(m, activation);
+    std::vector<CellLaw> laws = cell_laws(muscle, activation, tension);
     int iterations = 0;
     Minimized done;
     std::vector<RigidTransform> before = bodies_;
     for (const std::vector<RigidTransform>& now : steps_between(muscle, bodies_, pose.bodies)) {
       carry(muscle, before, now, nodes);
-      around = surroundings(now, std::move(around.laws));
-      done = minimize(energy, by_metric, settings, nodes);
+      Surroundings around = surroundings(muscle, now, std::move(laws));
+      done = settle(muscle, around, by_metric, nodes);
       iterations += done.iterations;
+      laws = std::move(around.laws);
       before = now;
     }
     check(nodes.allFinite());
@@ -117,7 +129,7 @@ class TissueMethod final : public DeformationMethod {
   std::vector<DistanceField> fields_;  ///< of all bones, which the muscles look at
   std::size_t body_count_;
   std::vector<PreparedTissue> muscles_;
-  std::vector<std::map<int, Factorization>> metrics_;  ///< by muscle and activation, made when first asked for
+  std::vector<std::map<int, FactoredMatrix>> metrics_;  ///< by muscle and activation, made when first asked for
   std::vector<Points> nodes_;
   std::vector<RigidTransform> bodies_;
   int frame_ = 0;

@@ -15,29 +15,39 @@ constexpr Index cells_per_task = 32;
 /// Keeps parts that nothing holds solvable, as a share of a cell's stiffness.
 constexpr Real least_stiffness = 1e-6;
 
-/// All that acts on one vertex of the surface at `p`.
+/// All that acts on one point of the surface at `p`.
 PointState point_energy(const PreparedTissue& muscle, const Surroundings& around, std::size_t v, const Vec3& p) {
   const SurfacePoint& point = muscle.points[v];
   const TissueSettings& settings = muscle.settings;
-  const auto body = [](Index b) { return static_cast<std::size_t>(b); };
   if (point.held_by >= 0)
-    return spring(p - around.bodies[body(point.held_by)] * point.rest, settings.attachment_stiffness * point.area);
+    return spring(p - around.held.col(static_cast<Index>(v)), settings.attachment_stiffness * point.area);
   PointState sum;
   const auto add = [&](const PointState& state) {
     sum.energy += state.energy;
     sum.gradient += state.gradient;
-    sum.hessian += state.hessian;
   };
+  for (Index t = point.ties_begin; t < point.ties_end; ++t)
+    add(tie(p - around.tied.col(t), around.gliding.col(t), muscle.ties[static_cast<std::size_t>(t)].stiffness,
+            settings.fascia_yield));
+  for (Index i = around.near_begin[v]; i < around.near_begin[v + 1]; ++i) {
+    const BoneGap& bone = muscle.bones[static_cast<std::size_t>(around.near[static_cast<std::size_t>(i)])];
+    const auto body = static_cast<std::size_t>(bone.body);
+    const BoneDistance found = bone_distance(*bone.field, around.inverses[body] * p);
+    if (found.distance < bone.gaps[v])
+      add(contact(found.distance, around.bodies[body].linear() * found.gradient, bone.gaps[v],
+                  settings.contact_stiffness * point.area));
+  }
+  return sum;
+}
+
+/// A third of the trace of the second derivatives of what acts on a point at rest, N/m.
+Real point_stiffness(const PreparedTissue& muscle, const SurfacePoint& point) {
+  const TissueSettings& settings = muscle.settings;
+  if (point.held_by >= 0) return settings.attachment_stiffness * point.area;
+  Real sum = 0;
   for (Index t = point.ties_begin; t < point.ties_end; ++t) {
     const Tie& each = muscle.ties[static_cast<std::size_t>(t)];
-    const RigidTransform& at = around.bodies[body(each.body)];
-    add(tie(p - at * point.rest, at.linear() * each.along, each.stiffness, settings.fascia_yield));
-  }
-  for (const BoneGap& bone : muscle.bones) {
-    const BoneDistance found = bone_distance(*bone.field, around.inverses[body(bone.body)] * p);
-    if (found.distance < bone.gaps[v])
-      add(contact(found.distance, around.bodies[body(bone.body)].linear() * found.gradient, bone.gaps[v],
-                  settings.contact_stiffness * point.area));
+    sum += tie_hessian(Vec3::Zero(), each.along, each.stiffness, settings.fascia_yield).trace() / 3;
   }
   return sum;
 }
@@ -67,10 +77,46 @@ CellState state_of(const PreparedTissue& muscle, const Surroundings& around, Ind
 
 }  // namespace
 
-Surroundings surroundings(const std::vector<RigidTransform>& bodies, std::vector<CellLaw> laws) {
-  Surroundings around{bodies, {}, std::move(laws)};
+Surroundings surroundings(const PreparedTissue& muscle, const std::vector<RigidTransform>& bodies,
+                          std::vector<CellLaw> laws) {
+  Surroundings around;
+  around.bodies = bodies;
+  around.laws = std::move(laws);
   for (const RigidTransform& body : bodies) around.inverses.push_back(body.inverse());
+  around.held = Points::Zero(3, static_cast<Index>(muscle.points.size()));
+  around.tied.resize(3, static_cast<Index>(muscle.ties.size()));
+  around.gliding.resize(3, static_cast<Index>(muscle.ties.size()));
+  for (std::size_t v = 0; v < muscle.points.size(); ++v) {
+    const SurfacePoint& point = muscle.points[v];
+    if (point.held_by >= 0)
+      around.held.col(static_cast<Index>(v)) = bodies[static_cast<std::size_t>(point.held_by)] * point.rest;
+    for (Index t = point.ties_begin; t < point.ties_end; ++t) {
+      const Tie& each = muscle.ties[static_cast<std::size_t>(t)];
+      const RigidTransform& body = bodies[static_cast<std::size_t>(each.body)];
+      around.tied.col(t) = body * point.rest;
+      around.gliding.col(t) = body.linear() * each.along;
+    }
+  }
+  around.near_begin.assign(muscle.points.size() + 1, 0);
   return around;
+}
+
+void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surroundings& around) {
+  around.near.clear();
+  for (std::size_t v = 0; v < muscle.points.size(); ++v) {
+    const SurfacePoint& point = muscle.points[v];
+    around.near_begin[v] = static_cast<Index>(around.near.size());
+    if (point.held_by >= 0) continue;
+    const Cell& cell = muscle.lattice.cells[static_cast<std::size_t>(point.at.cell)];
+    const Vec3 p = place_of(point.at, corners_of(cell, nodes));
+    for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
+      const BoneGap& bone = muscle.bones[b];
+      const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * p;
+      if (bone_distance(*bone.field, there).distance < bone.gaps[v] + near_bones)
+        around.near.push_back(static_cast<Index>(b));
+    }
+  }
+  around.near_begin.back() = static_cast<Index>(around.near.size());
 }
 
 Real total_energy(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes, Points& gradient) {
@@ -104,11 +150,6 @@ Real total_energy(const PreparedTissue& muscle, const Surroundings& around, cons
 
 Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const std::vector<CellLaw>& laws) {
   const Lattice& lattice = muscle.lattice;
-  Index bodies = 0;
-  for (const BoneGap& bone : muscle.bones) bodies = std::max(bodies, bone.body + 1);
-  for (const Index body : muscle.carriers) bodies = std::max(bodies, body + 1);
-  const std::vector<RigidTransform> at_rest(static_cast<std::size_t>(bodies), RigidTransform::Identity());
-  const Surroundings around = surroundings(at_rest, {});
   std::vector<Eigen::Triplet<Real>> entries;
   for (std::size_t c = 0; c < lattice.cells.size(); ++c) {
     const Cell& cell = lattice.cells[c];
@@ -120,7 +161,7 @@ Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const s
     for (Index i = muscle.points_begin[c]; i < muscle.points_begin[c + 1]; ++i) {
       const auto v = static_cast<std::size_t>(muscle.point_order[static_cast<std::size_t>(i)]);
       const EmbeddedPoint& at = muscle.points[v].at;
-      const Real stiffness = point_energy(muscle, around, v, muscle.points[v].rest).hessian.trace() / 3;
+      const Real stiffness = point_stiffness(muscle, muscle.points[v]);
       for (std::size_t a = 0; a < 4; ++a)
         for (std::size_t b = 0; b < 4; ++b)
           scalar(at.corners[a], at.corners[b]) +=

@@ -13,8 +13,20 @@ struct Surroundings {
   std::vector<RigidTransform> bodies;    ///< from the capture pose
   std::vector<RigidTransform> inverses;  ///< back to it
   std::vector<CellLaw> laws;
+  Points held;                    ///< where points are held, 3 × points; of the free ones it means nothing
+  Points tied, gliding;           ///< where ties hold, and the directions that they leave free, 3 × ties
+  std::vector<Index> near_begin;  ///< per point and one more: where its bones begin in `near`
+  std::vector<Index> near;        ///< bones that the point may touch, of PreparedTissue::bones
 };
-Surroundings surroundings(const std::vector<RigidTransform>& bodies, std::vector<CellLaw> laws);
+
+/// Everything about the bodies there; nothing is near yet.
+Surroundings surroundings(const PreparedTissue& muscle, const std::vector<RigidTransform>& bodies,
+                          std::vector<CellLaw> laws);
+
+/// Points within this distance of touching a bone are near it, m: less than the margin of usual distance fields.
+inline constexpr Real near_bones = 0.006;
+/// Finds what is near: holds until a point has moved by `near_bones`.
+void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surroundings& around);
 
 /// All energy of a muscle (J) and its derivative by the nodes (3 × n, N). Infinite where a tetrahedron is inverted; the
 /// gradient means nothing then. The same bits for any number of threads.
