@@ -71,7 +71,7 @@ TEST(TissueLattice, the_filled_shares_sum_to_the_volume_of_the_surface) {
   for (const Cell& cell : lattice.cells)
     for (std::size_t t = 0; t < 5; ++t)
       if (cell.fills[t] > least_fill) filled += cell.fills[t] * cube_cut(cell.parity).shares[t] * lattice.cell_volume();
-  // 125 samples a cell, and the tetrahedra with less than a twentieth left out.
+  // 56 samples a tetrahedron, and the tetrahedra with less than a twentieth left out.
   EXPECT_NEAR(filled / enclosed_volume(ball.vertices, ball.faces), 1, 0.01);
 }
 

@@ -9,7 +9,7 @@ namespace gracilis::tissue {
 
 namespace {
 
-constexpr int most_steps = 16;
+constexpr int most_steps = 8;
 constexpr int halvings = 10;
 /// A carried state has no tetrahedron with less of its volume.
 constexpr Real least_carried_ratio = 0.05;

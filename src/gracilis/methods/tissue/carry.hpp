@@ -7,7 +7,7 @@
 namespace gracilis::tissue {
 
 /// The poses that a muscle goes through from one pose to another, the last included: so many that its carriers turn by
-/// no more than `largest_turn` (rad) about each other and move by no more than a cell in each, but 16 at most.
+/// no more than `largest_turn` (rad) about each other and move by no more than a cell in each, but 8 at most.
 std::vector<std::vector<RigidTransform>> steps_between(const PreparedTissue& muscle,
                                                        const std::vector<RigidTransform>& before,
                                                        const std::vector<RigidTransform>& now);

@@ -15,7 +15,7 @@ namespace gracilis::tissue {
 
 namespace {
 
-constexpr int samples_per_edge = 5;  // of a cell, to measure how full it is
+constexpr int samples_per_edge = 6;  // of a tetrahedron, to measure how full it is: 56 in all
 
 Vec3 unit_corner(Index c) {
   return {static_cast<Real>(c & 1), static_cast<Real>((c >> 1) & 1), static_cast<Real>(c >> 2)};
@@ -79,19 +79,30 @@ std::vector<char> cells_at_surface(const Lattice& lattice, const TriangleMesh& s
   return marked;
 }
 
-/// The shares of the cell's tetrahedra that lie inside, by regular samples.
+/// The barycentric coordinates of the middles of a tetrahedron's equal parts: the same in all of its directions.
+std::vector<Eigen::Vector4d> sample_weights() {
+  std::vector<Eigen::Vector4d> weights;
+  for (int i = 0; i < samples_per_edge; ++i)
+    for (int j = 0; i + j < samples_per_edge; ++j)
+      for (int k = 0; i + j + k < samples_per_edge; ++k)
+        weights.push_back((Eigen::Vector4d(i, j, k, samples_per_edge - 1 - i - j - k).array() + 0.25) /
+                          samples_per_edge);
+  return weights;
+}
+
+/// The shares of the cell's tetrahedra that lie inside, by samples.
 std::array<Real, 5> filled_shares_of(const CubeCut& cut, const Lattice& lattice, const Vec3& low,
                                      const SignedDistance& distance) {
-  std::array<Real, 5> inside{}, all{};
-  for (int i = 0; i < samples_per_edge; ++i)
-    for (int j = 0; j < samples_per_edge; ++j)
-      for (int k = 0; k < samples_per_edge; ++k) {
-        const Vec3 at = (Vec3(i, j, k).array() + 0.5) / samples_per_edge;
-        const std::size_t t = locate(cut, at).first;
-        all[t] += 1;
-        if (distance.query(low + lattice.cell_size * at).distance < 0) inside[t] += 1;
-      }
-  for (std::size_t t = 0; t < 5; ++t) inside[t] /= all[t];
+  static const std::vector<Eigen::Vector4d> samples = sample_weights();
+  std::array<Real, 5> inside{};
+  for (std::size_t t = 0; t < 5; ++t) {
+    Eigen::Matrix<Real, 3, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k)
+      corners.col(static_cast<Index>(k)) = low + lattice.cell_size * unit_corner(cut.tetrahedra[t][k]);
+    for (const Eigen::Vector4d& weights : samples)
+      if (distance.query(corners * weights).distance < 0) inside[t] += 1;
+    inside[t] /= static_cast<Real>(samples.size());
+  }
   return inside;
 }
 

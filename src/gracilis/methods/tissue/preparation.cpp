@@ -31,7 +31,10 @@ void place_points(const Muscle& muscle, PreparedTissue& prepared) {
   }
   prepared.vertex_count = muscle.surface.vertex_count();
   for (const Attachment& attachment : muscle.attachments)
-    for (const Index v : attachment.vertices) prepared.points[static_cast<std::size_t>(v)].held_by = attachment.body;
+    for (const Index v : attachment.vertices) {
+      prepared.points[static_cast<std::size_t>(v)].held_by = attachment.body;
+      prepared.points[static_cast<std::size_t>(v)].end = attachment.end;
+    }
 }
 
 /// Attached triangles are held by points as close as half a cell, or tissue would sag between their corners.
@@ -42,6 +45,7 @@ void hold_triangles(const TriangleMesh& surface, PreparedTissue& prepared) {
       return prepared.points[static_cast<std::size_t>(surface.faces(k, f))];
     };
     const Index body = corner(0).held_by;
+    const AttachmentEnd end = corner(0).end;
     if (body < 0 || corner(1).held_by != body || corner(2).held_by != body) continue;
     const Vec3 a = corner(0).rest, ab = corner(1).rest - a, ac = corner(2).rest - a;
     const Real longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
@@ -55,6 +59,7 @@ void hold_triangles(const TriangleMesh& surface, PreparedTissue& prepared) {
       point.at = embed(prepared.lattice, point.rest);
       point.area = area / (pieces * pieces);
       point.held_by = body;
+      point.end = end;
       // A triangle may cut the corner of a cell that is none.
       if (point.at.cell < 0)
         corner(0).area += point.area;
@@ -71,31 +76,38 @@ void hold_triangles(const TriangleMesh& surface, PreparedTissue& prepared) {
   for (SurfacePoint& point : prepared.points) point.area = std::max(point.area, 0.0);
 }
 
+/// The mean size of the gradients by filled volume. Cells with attachments count only where there are no others: in
+/// them fibers end, so that a part of each has none.
+Real mean_of_belly(const PreparedTissue& prepared, const Points& gradients) {
+  std::vector<char> holds(prepared.lattice.cells.size());
+  for (const SurfacePoint& point : prepared.points)
+    if (point.held_by >= 0) holds[static_cast<std::size_t>(point.at.cell)] = 1;
+  std::array<Real, 2> sum{}, filled{};
+  for (std::size_t c = 0; c < holds.size(); ++c) {
+    const auto which = static_cast<std::size_t>(holds[c]);
+    sum[which] += prepared.lattice.cells[c].fill * gradients.col(static_cast<Index>(c)).norm();
+    filled[which] += prepared.lattice.cells[c].fill;
+  }
+  return filled[0] > 0 ? sum[0] / filled[0] : sum[1] / filled[1];
+}
+
 /// Fibers run along the gradient of the harmonic field from origin to insertion, whose size is the density of their
 /// flux: the inverse of the section that it goes through.
-void lay_fibers(const Muscle& muscle, PreparedTissue& prepared) {
+void lay_fibers(PreparedTissue& prepared) {
   const Lattice& lattice = prepared.lattice;
   prepared.directions = Points::Zero(3, lattice.cell_count());
   prepared.relative_tension.assign(lattice.cells.size(), 1);
   std::vector<FieldGrip> grips;
   bool has_origin = false, has_insertion = false;
-  for (const Attachment& attachment : muscle.attachments) {
-    const bool is_insertion = attachment.end == AttachmentEnd::insertion;
+  for (const SurfacePoint& point : prepared.points) {
+    if (point.held_by < 0) continue;
+    const bool is_insertion = point.end == AttachmentEnd::insertion;
     (is_insertion ? has_insertion : has_origin) = true;
-    for (const Index v : attachment.vertices) {
-      const SurfacePoint& point = prepared.points[static_cast<std::size_t>(v)];
-      grips.push_back({point.at, attachment_grip * point.area / lattice.cell_size, is_insertion ? 0 : -1});
-    }
+    grips.push_back({point.at, attachment_grip * point.area / lattice.cell_size, is_insertion ? 0 : -1});
   }
   if (!has_origin || !has_insertion) return;
   const Points gradients = cell_gradients(lattice, harmonic_lattice_fields(lattice, grips, 1).col(0));
-  Real sum = 0, filled = 0;
-  for (Index c = 0; c < lattice.cell_count(); ++c) {
-    const Real fill = lattice.cells[static_cast<std::size_t>(c)].fill;
-    sum += fill * gradients.col(c).norm();
-    filled += fill;
-  }
-  const Real mean = sum / filled;
+  const Real mean = mean_of_belly(prepared, gradients);
   for (Index c = 0; c < lattice.cell_count(); ++c) {
     const Real size = gradients.col(c).norm();
     if (!(size > least_gradient * mean)) continue;
@@ -200,8 +212,8 @@ PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const st
   prepared.settings = tissue_settings(scene, muscle);
   prepared.lattice = build_lattice(muscle.surface, cell_size_of(prepared.settings, muscle.surface));
   place_points(muscle, prepared);
-  lay_fibers(muscle, prepared);
   hold_triangles(muscle.surface, prepared);
+  lay_fibers(prepared);
   tie_to_bones(scene, distances, prepared);
   keep_gaps(scene, fields, prepared);
   sort_out(prepared);

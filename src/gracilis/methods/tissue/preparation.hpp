@@ -21,8 +21,9 @@ struct Tie {
 struct SurfacePoint {
   EmbeddedPoint at;
   Vec3 rest = Vec3::Zero();
-  Real area = 0;       ///< m²
-  Index held_by = -1;  ///< the body that it is attached to, or -1
+  Real area = 0;                              ///< m²
+  Index held_by = -1;                         ///< the body that it is attached to, or -1
+  AttachmentEnd end = AttachmentEnd::origin;  ///< of the attachment, where it is held
   Index ties_begin = 0, ties_end = 0;
 };
 

@@ -16,7 +16,7 @@ std::span<const Setting<TissueSettings>> setting_table() {
       {"minimizer_residual", &S::minimizer_residual, "N", 0, 1,
        "A step ends once the root mean square of the forces left on the lattice's nodes is no larger."},
       {"largest_turn", &S::largest_turn, "rad", 0.001, 1,
-       "Where bodies turn further about each other in a frame, it is gone through in several steps, up to 16."},
+       "Where bodies turn further about each other in a frame, it is gone through in several steps, up to 8."},
       {"tension_frames", &S::tension_frames, "", 1, 100000,
        "Frames from the capture pose on in which the fibers' tension comes up evenly."},
       {"matrix_shear_modulus", &S::matrix_shear_modulus, "Pa", 1, 1e9, "Shear modulus of the tissue between fibers."},

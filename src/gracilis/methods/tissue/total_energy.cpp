@@ -107,8 +107,7 @@ void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surround
     const SurfacePoint& point = muscle.points[v];
     around.near_begin[v] = static_cast<Index>(around.near.size());
     if (point.held_by >= 0) continue;
-    const Cell& cell = muscle.lattice.cells[static_cast<std::size_t>(point.at.cell)];
-    const Vec3 p = place_of(point.at, corners_of(cell, nodes));
+    const Vec3 p = point_at(muscle, v, nodes);
     for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
       const BoneGap& bone = muscle.bones[b];
       const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * p;
@@ -178,13 +177,15 @@ Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const s
   return matrix;
 }
 
+Vec3 point_at(const PreparedTissue& muscle, std::size_t point, const Points& nodes) {
+  const SurfacePoint& each = muscle.points[point];
+  const Cell& cell = muscle.lattice.cells[static_cast<std::size_t>(each.at.cell)];
+  return moved(each, corners_of(cell, nodes), corners_of(cell, muscle.lattice.nodes));
+}
+
 Points surface_at(const PreparedTissue& muscle, const Points& nodes) {
   Points surface(3, muscle.vertex_count);
-  for (std::size_t v = 0; v < static_cast<std::size_t>(muscle.vertex_count); ++v) {
-    const Cell& cell = muscle.lattice.cells[static_cast<std::size_t>(muscle.points[v].at.cell)];
-    surface.col(static_cast<Index>(v)) =
-        moved(muscle.points[v], corners_of(cell, nodes), corners_of(cell, muscle.lattice.nodes));
-  }
+  for (Index v = 0; v < muscle.vertex_count; ++v) surface.col(v) = point_at(muscle, static_cast<std::size_t>(v), nodes);
   return surface;
 }
 

@@ -36,6 +36,9 @@ Real total_energy(const PreparedTissue& muscle, const Surroundings& around, cons
 /// N/m. Positive definite.
 Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const std::vector<CellLaw>& laws);
 
+/// Where a point of the surface is: at rest plus what its cell has moved it by.
+Vec3 point_at(const PreparedTissue& muscle, std::size_t point, const Points& nodes);
+
 /// Where the surface is: rest plus what its cells have moved, 3 × vertices.
 Points surface_at(const PreparedTissue& muscle, const Points& nodes);
 
