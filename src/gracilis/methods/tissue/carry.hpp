@@ -1,0 +1,20 @@
+#pragma once
+
+#include <gracilis/methods/tissue/preparation.hpp>
+
+#include <vector>
+
+namespace gracilis::tissue {
+
+/// The poses that a muscle goes through from one pose to another, the last included: so many that its carriers turn by
+/// no more than `largest_turn` (rad) about each other and move by no more than a cell in each, but 8 at most.
+std::vector<std::vector<RigidTransform>> steps_between(const PreparedTissue& muscle,
+                                                       const std::vector<RigidTransform>& before,
+                                                       const std::vector<RigidTransform>& now);
+
+/// Moves the nodes with their shares of what the carriers move by, and less where a tetrahedron would invert. All move
+/// rigidly where the carriers do so together.
+void carry(const PreparedTissue& muscle, const std::vector<RigidTransform>& before,
+           const std::vector<RigidTransform>& now, Points& nodes);
+
+}  // namespace gracilis::tissue

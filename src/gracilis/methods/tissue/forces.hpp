@@ -1,0 +1,16 @@
+#pragma once
+
+#include <gracilis/methods/tissue/total_energy.hpp>
+
+namespace gracilis::tissue {
+
+/// A force and its moment about the world's origin.
+struct Wrench {
+  Vec3 force = Vec3::Zero();   ///< N
+  Vec3 moment = Vec3::Zero();  ///< N·m
+};
+
+/// What a muscle pulls at a body by the points that are attached to it.
+Wrench attachment_wrench(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes, Index body);
+
+}  // namespace gracilis::tissue

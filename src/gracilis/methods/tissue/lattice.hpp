@@ -1,0 +1,87 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/geometry/triangle_mesh.hpp>
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace gracilis::tissue {
+
+/// Positions of the eight corners of a cell; corner c lies at the cell's upper side along x, y, z where bit 0, 1, 2 of
+/// c is set.
+using Corners = Eigen::Matrix<Real, 3, 8>;
+
+/// A cube cut into five tetrahedra: one in the middle, and one at every other corner. Neighboring cubes are cut as
+/// mirror images, so that the faces between them are cut alike.
+struct CubeCut {
+  std::array<std::array<Index, 4>, 5> tetrahedra;            ///< corners, positively oriented; the middle one first
+  std::array<Real, 5> shares;                                ///< of the cube's volume
+  std::array<Eigen::Matrix<Real, 3, 4>, 5> shape_gradients;  ///< of a cube with edge 1: F = Σ x_k ⊗ gradient_k
+};
+
+/// The tetrahedron with this point, and the weights of its corners there; the point in units of the cube's edge, from
+/// its corner 0. Weights are negative only outside of the cube.
+std::pair<std::size_t, Eigen::Vector4d> locate(const CubeCut& cut, const Vec3& in_cube);
+
+/// The cut of a cell whose place in the lattice has an even (0) or odd (1) sum.
+const CubeCut& cube_cut(int parity);
+
+struct Cell {
+  std::array<Index, 8> nodes;
+  std::array<Index, 3> place;  ///< in the lattice
+  int parity = 0;
+  std::array<Real, 5> fills{1, 1, 1, 1, 1};  ///< share of each tetrahedron that lies inside the surface
+  Real fill = 1;                             ///< of all of the cell
+};
+
+/// A point as a mean of a tetrahedron's corners.
+struct EmbeddedPoint {
+  Index cell = -1;
+  std::array<Index, 4> corners{0, 0, 0, 0};  ///< of the cell
+  Eigen::Vector4d weights = Eigen::Vector4d::Zero();
+};
+
+/// A surface inside a regular lattice of cubes.
+struct Lattice {
+  Vec3 origin = Vec3::Zero();  ///< m, of the place (0, 0, 0)
+  Real cell_size = 0;          ///< m
+  std::array<Index, 3> size{0, 0, 0};
+  Points nodes;             ///< at rest, 3 × n, m
+  std::vector<Cell> cells;  ///< ordered by z, y, x of their place
+  std::unordered_map<std::int64_t, Index> cell_at;
+
+  Index node_count() const { return static_cast<Index>(nodes.cols()); }
+  Index cell_count() const { return static_cast<Index>(cells.size()); }
+  Real cell_volume() const { return cell_size * cell_size * cell_size; }
+};
+
+/// The least share that a tetrahedron counts as filled with where stiffness is meant: thin sheets and tendons keep
+/// some.
+inline constexpr Real least_fill = 0.05;
+
+/// All cells that the surface passes through or that lie inside it. Preconditions: at least one face, finite
+/// coordinates, cell_size above 0.
+Lattice build_lattice(const TriangleMesh& surface, Real cell_size);
+
+/// Where a point lies in the lattice; cell -1 outside of all cells.
+EmbeddedPoint embed(const Lattice& lattice, const Vec3& p);
+
+/// A cell's corners where the nodes are at `nodes`.
+inline Corners corners_of(const Cell& cell, const Points& nodes) {
+  Corners corners;
+  for (int c = 0; c < 8; ++c) corners.col(c) = nodes.col(cell.nodes[static_cast<std::size_t>(c)]);
+  return corners;
+}
+
+/// The point where the cell's corners are at `corners`.
+inline Vec3 place_of(const EmbeddedPoint& point, const Corners& corners) {
+  Vec3 p = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) p += point.weights[static_cast<Index>(k)] * corners.col(point.corners[k]);
+  return p;
+}
+
+}  // namespace gracilis::tissue

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <gracilis/methods/tissue/lattice.hpp>
+
+#include <vector>
+
+namespace gracilis::tissue {
+
+/// Draws a field to a value at a point: `grip` (m) times half the squared difference.
+struct FieldGrip {
+  EmbeddedPoint at;
+  Real grip = 0;
+  Index column = 0;  ///< of the fields, the one that is drawn to 1 there, while all others are drawn to 0
+};
+
+/// Discrete harmonic fields on the lattice, weighted by how full its cells are: nodes × `columns`, each value within 0
+/// and 1. A grip with a column outside of them draws all to 0. Parts of the lattice that nothing grips get 0.
+Eigen::MatrixXd harmonic_lattice_fields(const Lattice& lattice, const std::vector<FieldGrip>& grips, Index columns);
+
+/// Gradient of a field in the middle of every cell: 3 × cells, 1/m.
+Points cell_gradients(const Lattice& lattice, const Eigen::VectorXd& field);
+
+}  // namespace gracilis::tissue

@@ -1,0 +1,105 @@
+#include <gracilis/methods/tissue/material.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis::tissue {
+
+namespace {
+
+/// Slack fibers keep this share of their tension at rest, so that none buckles.
+constexpr Real slack_share = 0.2;
+
+/// The force-length curve by Blemker, Pinsky and Delp (2005), 1 at x = 1; `energy` is its integral from 0.4.
+Curve force_length(Real x) {
+  const auto cube = [](Real y) { return y * y * y; };
+  const auto rising = [&](Real y) { return 3 * cube(y - 0.4); };
+  const auto middle = [&](Real y) { return y - 1 - 4.0 / 3 * cube(y - 1); };
+  const auto falling = [&](Real y) { return 3 * cube(y - 1.6); };
+  if (x <= 0.4) return {};
+  if (x <= 0.6) return {rising(x), 9 * (x - 0.4) * (x - 0.4), 18 * (x - 0.4)};
+  const Real to_middle = rising(0.6) - middle(0.6);
+  if (x <= 1.4) return {to_middle + middle(x), 1 - 4 * (x - 1) * (x - 1), -8 * (x - 1)};
+  const Real to_falling = to_middle + middle(1.4) - falling(1.4);
+  if (x <= 1.6) return {to_falling + falling(x), 9 * (x - 1.6) * (x - 1.6), 18 * (x - 1.6)};
+  return {to_falling, 0, 0};
+}
+
+Curve passive(const FiberLaw& law, Real stretch) {
+  const Real strain = stretch - 1;
+  const Real slack = law.stiffness > 0 ? (slack_share - 1) * law.rest_tension / law.stiffness : 0;
+  if (law.stiffness > 0 && strain < slack) {
+    const Real tension = slack_share * law.rest_tension;
+    const Real energy = law.rest_tension * slack + law.stiffness / 2 * slack * slack;
+    return {energy + tension * (strain - slack), tension, 0};
+  }
+  return {law.rest_tension * strain + law.stiffness / 2 * strain * strain, law.rest_tension + law.stiffness * strain,
+          law.stiffness};
+}
+
+}  // namespace
+
+Curve fiber_curve(const FiberLaw& law, Real stretch) {
+  Curve sum = passive(law, stretch);
+  if (!(law.active_tension > 0)) return sum;
+  const Curve active = force_length(stretch / law.optimal_stretch);
+  sum.energy += law.active_tension * law.optimal_stretch * active.energy;
+  sum.slope += law.active_tension * active.slope;
+  sum.curvature += law.active_tension / law.optimal_stretch * active.curvature;
+  return sum;
+}
+
+Curve volume_curve(const MatrixLaw& law, Real j) {
+  Curve sum = {-law.shear * (j - 1) + law.lambda / 2 * (j - 1) * (j - 1), -law.shear + law.lambda * (j - 1),
+               law.lambda};
+  if (j >= barrier_begin) return sum;
+  // -k (J - J0)² log(J / J0): twice continuously differentiable where it begins (Li et al. 2020).
+  const Real k = law.lambda, d = j - barrier_begin, log = std::log(j / barrier_begin);
+  sum.energy -= k * d * d * log;
+  sum.slope -= k * (2 * d * log + d * d / j);
+  sum.curvature -= k * (2 * log + 4 * d / j - d * d / (j * j));
+  return sum;
+}
+
+Real tissue_energy(const MatrixLaw& matrix, const FiberLaw& fibers, const Vec3& direction, const Matrix3& f,
+                   Matrix3& stress) {
+  const Matrix3 cofactor = cofactors(f);
+  const Curve volume = volume_curve(matrix, f.col(0).dot(cofactor.col(0)));
+  Real energy = matrix.shear / 2 * (f.squaredNorm() - 3) + volume.energy;
+  stress = matrix.shear * f + volume.slope * cofactor;
+  const Vec3 along = f * direction;
+  const Real stretch = along.norm();
+  if (stretch > 0) {
+    const Curve fiber = fiber_curve(fibers, stretch);
+    energy += fiber.energy;
+    stress += (fiber.slope / stretch) * along * direction.transpose();
+  }
+  return energy;
+}
+
+Matrix9 tissue_hessian(const MatrixLaw& matrix, const FiberLaw& fibers, const Vec3& direction, const Matrix3& f) {
+  const Matrix3 cofactor = cofactors(f);
+  const Curve volume = volume_curve(matrix, f.col(0).dot(cofactor.col(0)));
+  const Eigen::Map<const Eigen::Matrix<Real, 9, 1>> c(cofactor.data());
+  Matrix9 h = matrix.shear * Matrix9::Identity() + volume.curvature * c * c.transpose();
+  // The cofactors are cross products of columns, so their derivatives by columns are cross product matrices.
+  const auto cross = [](const Vec3& v) { return Matrix3{{0, -v.z(), v.y()}, {v.z(), 0, -v.x()}, {-v.y(), v.x(), 0}}; };
+  for (Index a = 0; a < 3; ++a) {
+    const Index b = (a + 1) % 3, d = (a + 2) % 3;
+    h.block<3, 3>(3 * a, 3 * b) -= volume.slope * cross(f.col(d));
+    h.block<3, 3>(3 * a, 3 * d) += volume.slope * cross(f.col(b));
+  }
+  const Vec3 along = f * direction;
+  const Real stretch = along.norm();
+  if (stretch > 0) {
+    const Curve fiber = fiber_curve(fibers, stretch);
+    const Vec3 n = along / stretch;
+    const Matrix3 inner =
+        fiber.curvature * n * n.transpose() + fiber.slope / stretch * (Matrix3::Identity() - n * n.transpose());
+    for (Index a = 0; a < 3; ++a)
+      for (Index b = 0; b < 3; ++b) h.block<3, 3>(3 * a, 3 * b) += direction[a] * direction[b] * inner;
+  }
+  return h;
+}
+
+}  // namespace gracilis::tissue

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <gracilis/methods/tissue/material.hpp>
+
+namespace gracilis::tissue {
+
+/// Energy of a point (J) and its derivative by the point's place (N).
+struct PointState {
+  Real energy = 0;
+  Vec3 gradient = Vec3::Zero();
+};
+
+/// A spring to a place. `offset`: from that place to the point, m; `stiffness` N/m.
+PointState spring(const Vec3& offset, Real stiffness);
+
+/// Fascia that ties a point to a place across the unit direction `along` and lets it glide along that. Yields: pulls by
+/// stiffness · e / √(1 + (e / yield)²) where the point is e (m) off.
+PointState tie(const Vec3& offset, const Vec3& along, Real stiffness, Real yield);
+
+/// Keeps a point `gap` (m) away from a surface whose distance is `distance`, with gradient `normal`.
+PointState contact(Real distance, const Vec3& normal, Real gap, Real stiffness);
+
+/// Second derivatives, N/m. The surface of a contact counts as flat in them.
+Matrix3 spring_hessian(Real stiffness);
+Matrix3 tie_hessian(const Vec3& offset, const Vec3& along, Real stiffness, Real yield);
+Matrix3 contact_hessian(Real distance, const Vec3& normal, Real gap, Real stiffness);
+
+}  // namespace gracilis::tissue

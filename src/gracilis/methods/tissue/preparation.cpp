@@ -1,0 +1,239 @@
+#include <gracilis/methods/tissue/preparation.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/methods/tissue/bone_contact.hpp>
+#include <gracilis/methods/tissue/lattice_field.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis::tissue {
+
+namespace {
+
+/// How firmly attachments and fascia grip harmonic fields: a cell's side of attached surface so many times as firmly as
+/// one cell grips the next.
+constexpr Real attachment_grip = 100, fascia_grip = 10;
+/// The relative tension stays within its inverse and this: where the field is flat, nothing pulls without end.
+constexpr Real largest_relative_tension = 6;
+/// Of the mean gradient: less is no direction.
+constexpr Real least_gradient = 1e-3;
+
+void place_points(const Muscle& muscle, PreparedTissue& prepared) {
+  const Eigen::VectorXd areas = vertex_areas(muscle.surface.vertices, muscle.surface.faces);
+  prepared.points.resize(static_cast<std::size_t>(muscle.surface.vertex_count()));
+  for (std::size_t v = 0; v < prepared.points.size(); ++v) {
+    SurfacePoint& point = prepared.points[v];
+    point.rest = muscle.surface.vertices.col(static_cast<Index>(v));
+    point.area = areas[static_cast<Index>(v)];
+    point.at = embed(prepared.lattice, point.rest);
+  }
+  prepared.vertex_count = muscle.surface.vertex_count();
+  for (const Attachment& attachment : muscle.attachments)
+    for (const Index v : attachment.vertices) {
+      prepared.points[static_cast<std::size_t>(v)].held_by = attachment.body;
+      prepared.points[static_cast<std::size_t>(v)].end = attachment.end;
+    }
+}
+
+/// Attached triangles are held by points as close as half a cell, or tissue would sag between their corners.
+void hold_triangles(const TriangleMesh& surface, PreparedTissue& prepared) {
+  const Real spacing = prepared.lattice.cell_size / 2;
+  for (Index f = 0; f < surface.face_count(); ++f) {
+    const auto corner = [&](Index k) -> SurfacePoint& {  // anew each time: points grow
+      return prepared.points[static_cast<std::size_t>(surface.faces(k, f))];
+    };
+    const Index body = corner(0).held_by;
+    const AttachmentEnd end = corner(0).end;
+    if (body < 0 || corner(1).held_by != body || corner(2).held_by != body) continue;
+    const Vec3 a = corner(0).rest, ab = corner(1).rest - a, ac = corner(2).rest - a;
+    const Real longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+    const int pieces = static_cast<int>(std::ceil(longest / spacing));
+    if (pieces < 2) continue;
+    const Real area = ab.cross(ac).norm() / 2;
+    for (Index k = 0; k < 3; ++k) corner(k).area -= area / 3;
+    const auto hold = [&](Real u, Real v) {
+      SurfacePoint point;
+      point.rest = a + u / pieces * ab + v / pieces * ac;
+      point.at = embed(prepared.lattice, point.rest);
+      point.area = area / (pieces * pieces);
+      point.held_by = body;
+      point.end = end;
+      // A triangle may cut the corner of a cell that is none.
+      if (point.at.cell < 0)
+        corner(0).area += point.area;
+      else
+        prepared.points.push_back(point);
+    };
+    // The middles of the equal triangles that it falls into.
+    for (int i = 0; i < pieces; ++i)
+      for (int j = 0; i + j < pieces; ++j) {
+        hold(i + 1.0 / 3, j + 1.0 / 3);
+        if (i + j + 1 < pieces) hold(i + 2.0 / 3, j + 2.0 / 3);
+      }
+  }
+  for (SurfacePoint& point : prepared.points) point.area = std::max(point.area, 0.0);
+}
+
+/// The mean size of the gradients by filled volume. Cells with attachments count only where there are no others: in
+/// them fibers end, so that a part of each has none.
+Real mean_of_belly(const PreparedTissue& prepared, const Points& gradients) {
+  std::vector<char> holds(prepared.lattice.cells.size());
+  for (const SurfacePoint& point : prepared.points)
+    if (point.held_by >= 0) holds[static_cast<std::size_t>(point.at.cell)] = 1;
+  std::array<Real, 2> sum{}, filled{};
+  for (std::size_t c = 0; c < holds.size(); ++c) {
+    const auto which = static_cast<std::size_t>(holds[c]);
+    sum[which] += prepared.lattice.cells[c].fill * gradients.col(static_cast<Index>(c)).norm();
+    filled[which] += prepared.lattice.cells[c].fill;
+  }
+  return filled[0] > 0 ? sum[0] / filled[0] : sum[1] / filled[1];
+}
+
+/// Fibers run along the gradient of the harmonic field from origin to insertion, whose size is the density of their
+/// flux: the inverse of the section that it goes through.
+void lay_fibers(PreparedTissue& prepared) {
+  const Lattice& lattice = prepared.lattice;
+  prepared.directions = Points::Zero(3, lattice.cell_count());
+  prepared.relative_tension.assign(lattice.cells.size(), 1);
+  std::vector<FieldGrip> grips;
+  bool has_origin = false, has_insertion = false;
+  for (const SurfacePoint& point : prepared.points) {
+    if (point.held_by < 0) continue;
+    const bool is_insertion = point.end == AttachmentEnd::insertion;
+    (is_insertion ? has_insertion : has_origin) = true;
+    grips.push_back({point.at, attachment_grip * point.area / lattice.cell_size, is_insertion ? 0 : -1});
+  }
+  if (!has_origin || !has_insertion) return;
+  const Points gradients = cell_gradients(lattice, harmonic_lattice_fields(lattice, grips, 1).col(0));
+  const Real mean = mean_of_belly(prepared, gradients);
+  for (Index c = 0; c < lattice.cell_count(); ++c) {
+    const Real size = gradients.col(c).norm();
+    if (!(size > least_gradient * mean)) continue;
+    prepared.directions.col(c) = gradients.col(c) / size;
+    prepared.relative_tension[static_cast<std::size_t>(c)] =
+        std::clamp(size / mean, 1 / largest_relative_tension, largest_relative_tension);
+  }
+}
+
+/// Every free vertex within reach of a bone is tied to it, the more weakly the further it is away. Where fibers gather
+/// in a tendon they glide more easily.
+void tie_to_bones(const Scene& scene, const std::vector<SignedDistance>& distances, PreparedTissue& prepared) {
+  const TissueSettings& settings = prepared.settings;
+  const auto count = static_cast<Index>(prepared.points.size());
+  Eigen::MatrixXd reached(static_cast<Index>(distances.size()), count);
+  parallel_for(count, 64, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v)
+      for (std::size_t b = 0; b < distances.size(); ++b)
+        reached(static_cast<Index>(b), v) =
+            distances[b].query(prepared.points[static_cast<std::size_t>(v)].rest, settings.fascia_reach).distance;
+  });
+  for (Index v = 0; v < count; ++v) {
+    SurfacePoint& point = prepared.points[static_cast<std::size_t>(v)];
+    point.ties_begin = static_cast<Index>(prepared.ties.size());
+    const Real gliding = std::min(1.0, 1 / prepared.relative_tension[static_cast<std::size_t>(point.at.cell)]);
+    for (std::size_t b = 0; b < distances.size() && point.held_by < 0; ++b) {
+      const Real share = 1 - std::max(0.0, reached(static_cast<Index>(b), v)) / settings.fascia_reach;
+      if (share > 0 && settings.fascia_stiffness > 0)
+        prepared.ties.push_back({scene.bones[b].body, prepared.directions.col(point.at.cell),
+                                 settings.fascia_stiffness * point.area * share * gliding});
+    }
+    point.ties_end = static_cast<Index>(prepared.ties.size());
+  }
+}
+
+void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, PreparedTissue& prepared) {
+  for (std::size_t b = 0; b < fields.size(); ++b) {
+    BoneGap bone{scene.bones[b].body, &fields[b], {}};
+    for (const SurfacePoint& point : prepared.points)
+      bone.gaps.push_back(std::min(prepared.settings.contact_gap, bone_distance(fields[b], point.rest).distance));
+    prepared.bones.push_back(std::move(bone));
+  }
+}
+
+/// Counts items by their keys: where each key's begin, and the items in that order.
+void sort_by_key(const std::vector<Index>& keys, Index key_count, std::vector<Index>& begin,
+                 std::vector<Index>& order) {
+  begin.assign(static_cast<std::size_t>(key_count) + 1, 0);
+  for (const Index key : keys) ++begin[static_cast<std::size_t>(key) + 1];
+  for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
+  std::vector<Index> next(begin.begin(), begin.end() - 1);
+  order.resize(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    order[static_cast<std::size_t>(next[static_cast<std::size_t>(keys[i])]++)] = static_cast<Index>(i);
+}
+
+void sort_out(PreparedTissue& prepared) {
+  std::vector<Index> cell_of_point, node_of_corner;
+  for (const SurfacePoint& point : prepared.points) cell_of_point.push_back(point.at.cell);
+  for (const Cell& cell : prepared.lattice.cells)
+    node_of_corner.insert(node_of_corner.end(), cell.nodes.begin(), cell.nodes.end());
+  sort_by_key(cell_of_point, prepared.lattice.cell_count(), prepared.points_begin, prepared.point_order);
+  sort_by_key(node_of_corner, prepared.lattice.node_count(), prepared.corners_begin, prepared.corner_order);
+}
+
+/// Each node follows the bodies by harmonic shares that attachments and fascia draw to their own.
+void share_carriers(PreparedTissue& prepared) {
+  const auto column_of = [&](Index body) {
+    const auto found = std::find(prepared.carriers.begin(), prepared.carriers.end(), body);
+    if (found == prepared.carriers.end()) prepared.carriers.push_back(body);
+    return static_cast<Index>(std::find(prepared.carriers.begin(), prepared.carriers.end(), body) -
+                              prepared.carriers.begin());
+  };
+  std::vector<FieldGrip> grips;
+  const Real cell = prepared.lattice.cell_size;
+  const Real tie_scale = fascia_grip / std::max(prepared.settings.fascia_stiffness, 1e-30) / cell;
+  for (const SurfacePoint& point : prepared.points) {
+    if (point.held_by >= 0) grips.push_back({point.at, attachment_grip * point.area / cell, column_of(point.held_by)});
+    for (Index t = point.ties_begin; t < point.ties_end; ++t) {
+      const Tie& tie = prepared.ties[static_cast<std::size_t>(t)];
+      grips.push_back({point.at, tie_scale * tie.stiffness, column_of(tie.body)});
+    }
+  }
+  prepared.carrier_shares =
+      harmonic_lattice_fields(prepared.lattice, grips, static_cast<Index>(prepared.carriers.size()));
+  for (Index n = 0; n < prepared.carrier_shares.rows(); ++n)
+    if (const Real sum = prepared.carrier_shares.row(n).sum(); sum > 0) prepared.carrier_shares.row(n) /= sum;
+}
+
+Real cell_size_of(const TissueSettings& settings, const TriangleMesh& surface) {
+  const Real volume = std::abs(enclosed_volume(surface.vertices, surface.faces));
+  if (settings.cells_at_least == 0 || !(volume > 0)) return settings.cell_size;
+  return std::min(settings.cell_size, std::cbrt(volume / settings.cells_at_least));
+}
+
+}  // namespace
+
+PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
+                              const std::vector<SignedDistance>& distances) {
+  PreparedTissue prepared;
+  prepared.name = muscle.name;
+  prepared.settings = tissue_settings(scene, muscle);
+  prepared.lattice = build_lattice(muscle.surface, cell_size_of(prepared.settings, muscle.surface));
+  place_points(muscle, prepared);
+  hold_triangles(muscle.surface, prepared);
+  lay_fibers(prepared);
+  tie_to_bones(scene, distances, prepared);
+  keep_gaps(scene, fields, prepared);
+  sort_out(prepared);
+  share_carriers(prepared);
+  return prepared;
+}
+
+std::vector<CellLaw> cell_laws(const PreparedTissue& muscle, Real activation, Real tension) {
+  const TissueSettings& s = muscle.settings;
+  const FiberLaw fibers{tension * s.fiber_tension, tension * s.fiber_stiffness,
+                        tension * activation * s.largest_active_stress, s.optimal_stretch};
+  std::vector<CellLaw> laws(muscle.lattice.cells.size());
+  for (std::size_t c = 0; c < laws.size(); ++c) {
+    const Real pull = muscle.relative_tension[c] * (fibers.rest_tension + fibers.active_tension);
+    laws[c].matrix = {std::max(s.matrix_shear_modulus, s.shear_per_tension * pull), s.matrix_lambda};
+    laws[c].bulk = std::max(s.bulk_modulus, s.bulk_per_tension * pull);
+    laws[c].fibers = fibers.scaled(muscle.relative_tension[c]);
+    laws[c].direction = muscle.directions.col(static_cast<Index>(c));
+  }
+  return laws;
+}
+
+}  // namespace gracilis::tissue

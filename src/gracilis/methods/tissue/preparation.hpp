@@ -1,0 +1,64 @@
+#pragma once
+
+#include <gracilis/geometry/distance_field.hpp>
+#include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/methods/tissue/cell_energy.hpp>
+#include <gracilis/methods/tissue/settings.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gracilis::tissue {
+
+/// Fascia from a vertex to a body.
+struct Tie {
+  Index body = -1;
+  Vec3 along = Vec3::Zero();  ///< the fibers' direction at rest, unit; 0: there is none
+  Real stiffness = 0;         ///< N/m
+};
+
+/// A vertex of the muscle's surface, or a point on one of its attached triangles.
+struct SurfacePoint {
+  EmbeddedPoint at;
+  Vec3 rest = Vec3::Zero();
+  Real area = 0;                              ///< m²
+  Index held_by = -1;                         ///< the body that it is attached to, or -1
+  AttachmentEnd end = AttachmentEnd::origin;  ///< of the attachment, where it is held
+  Index ties_begin = 0, ties_end = 0;
+};
+
+/// What a bone asks of the surface.
+struct BoneGap {
+  Index body = -1;
+  const DistanceField* field = nullptr;
+  std::vector<Real> gaps;  ///< m, per point
+};
+
+/// A muscle prepared for the minimizer; constant during a run.
+struct PreparedTissue {
+  std::string name;
+  TissueSettings settings;
+  Lattice lattice;
+  std::vector<Real> relative_tension;  ///< per cell: the mean section over the section there, by the fibers' flux
+  Points directions;                   ///< per cell: of the fibers at rest, unit, or 0
+  std::vector<SurfacePoint> points;    ///< the surface's vertices in their order, then the others
+  Index vertex_count = 0;
+  std::vector<Tie> ties;  ///< of points, one after the other
+  std::vector<BoneGap> bones;
+  std::vector<Index> point_order;    ///< points by their cells
+  std::vector<Index> points_begin;   ///< per cell and one more: where its points begin in point_order
+  std::vector<Index> corner_order;   ///< cell * 8 + corner, by their nodes
+  std::vector<Index> corners_begin;  ///< per node and one more
+  std::vector<Index> carriers;       ///< bodies that carry the muscle
+  Eigen::MatrixXd carrier_shares;    ///< nodes × carriers; rows sum to 1, or are 0
+};
+
+/// Lattice, fibers, attachments, fascia and gaps of a muscle. `fields` and `distances` have one entry per bone; fields
+/// must outlive the result. Precondition: the scene is valid.
+PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
+                              const std::vector<SignedDistance>& distances);
+
+/// The laws of all cells; `tension` scales what fibers do, 0 to 1.
+std::vector<CellLaw> cell_laws(const PreparedTissue& muscle, Real activation, Real tension);
+
+}  // namespace gracilis::tissue

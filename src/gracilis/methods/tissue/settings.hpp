@@ -1,0 +1,39 @@
+#pragma once
+
+#include <gracilis/scene/scene.hpp>
+#include <gracilis/scene/setting_table.hpp>
+
+namespace gracilis {
+
+/// Settings of one muscle of the method `tissue`. Stiffnesses of what acts on the surface are per area of it.
+struct TissueSettings {
+  Real cell_size = 0.008;            ///< m
+  int cells_at_least = 500;          ///< a small muscle gets smaller cells
+  int minimizer_iterations = 30;     ///< in each step
+  Real minimizer_residual = 1e-4;    ///< N, root mean square over nodes
+  Real largest_turn = radians(3);    ///< rad, between two bodies in one step
+  int tension_frames = 10;           ///< in which the fibers' tension comes up
+  Real matrix_shear_modulus = 5e3;   ///< Pa
+  Real matrix_lambda = 1e5;          ///< Pa, of every tetrahedron
+  Real bulk_modulus = 2e6;           ///< Pa, of the mean volume of a cell
+  Real shear_per_tension = 0.25;     ///< least shear modulus over the fibers' tension
+  Real bulk_per_tension = 10;        ///< least bulk modulus over the fibers' tension
+  Real fiber_tension = 2e4;          ///< Pa, passive, at the length in the capture pose
+  Real fiber_stiffness = 5e4;        ///< Pa per stretch
+  Real largest_active_stress = 3e5;  ///< Pa
+  Real optimal_stretch = 1;          ///< at which active fibers pull hardest
+  Real attachment_stiffness = 3e8;   ///< N/m per m²
+  Real contact_stiffness = 4.5e8;    ///< N/m per m²
+  Real contact_gap = 0.004;          ///< m
+  Real fascia_stiffness = 4.5e6;     ///< N/m per m², at the bone
+  Real fascia_reach = 0.03;          ///< m
+  Real fascia_yield = 0.002;         ///< m
+};
+
+template <>
+std::span<const Setting<TissueSettings>> setting_table();
+
+/// A muscle's settings: its own, else the scene's, else the defaults.
+TissueSettings tissue_settings(const Scene& scene, const Muscle& muscle);
+
+}  // namespace gracilis
