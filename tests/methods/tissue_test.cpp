@@ -216,6 +216,29 @@ TEST(Tissue, tension_comes_up_in_its_frames_and_then_nothing_changes) {
   EXPECT_LT(farthest(frames[5], frames[4]), 1e-5);
 }
 
+TEST(Tissue, a_fully_active_muscle_is_straighter_keeps_its_volume_and_inverts_nothing) {
+  Scene scene = tube_scene();
+  // Bulges to the front.
+  Points& vertices = scene.muscles[0].surface.vertices;
+  for (Index v = 0; v < static_cast<Index>(vertices.cols()); ++v)
+    vertices(0, v) += 0.02 * std::max(0.0, std::cos(pi / 2 * vertices(2, v) / 0.07));
+  const Real volume = enclosed_volume(vertices, scene.muscles[0].surface.faces);
+  const auto front = [&](Real activation) {
+    const auto method = make_tissue_method(scene, tube_fields());
+    Pose pose = flexed(scene, 0);
+    pose.activations = {activation};
+    for (int frame = 1; frame <= 20; ++frame) {
+      const StepReport report = method->advance(pose, usual_time_step);
+      EXPECT_GT(metric(report.muscles[0].metrics, "least_volume_ratio"), 0.05);
+    }
+    const Points points = frame_of(*method, pose, 20).muscles[0].points;
+    EXPECT_NEAR(enclosed_volume(points, scene.muscles[0].surface.faces) / volume, 1, 0.01);
+    return points.row(0).maxCoeff();
+  };
+  const Real relaxed = front(0), active = front(1);
+  EXPECT_LT(active, relaxed - 0.001);
+}
+
 TEST(Tissue, every_setting_has_its_row) {
   EXPECT_EQ(setting_table<TissueSettings>().size(), member_count<TissueSettings>());
 }
