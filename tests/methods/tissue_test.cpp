@@ -61,8 +61,8 @@ SettledBar settled(const SettingValues& settings, Real activation, const Vec3& s
 TEST(Tissue, an_active_bar_with_fixed_ends_pulls_by_activation_times_stress_times_section) {
   const SettledBar bar = settled(
       {{"largest_active_stress", 3e5}, {"shear_per_tension", 0.25}, {"bulk_per_tension", 10.0}}, 0.4, Vec3::Zero());
-  const Vec3 below = attachment_wrench(bar.muscle, bar.around, bar.nodes, 0).force;
-  const Vec3 above = attachment_wrench(bar.muscle, bar.around, bar.nodes, 1).force;
+  const Vec3 below = attachment_wrench(bar.muscle, bar.around, bar.nodes, AttachmentEnd::origin).force;
+  const Vec3 above = attachment_wrench(bar.muscle, bar.around, bar.nodes, AttachmentEnd::insertion).force;
   EXPECT_NEAR(below.z(), 0.4 * 3e5 * section, 0.01 * 0.4 * 3e5 * section);
   // What is left over of the residual: 1e-4 N on each of some thousand nodes, in all directions.
   EXPECT_LT((below + above).norm(), 0.02);
@@ -87,7 +87,8 @@ TEST(Tissue, a_stretched_or_squeezed_bar_pulls_as_fibers_and_an_incompressible_m
     const Real stretch = stretch_in_the_middle(bar);
     EXPECT_NEAR(stretch, wanted, 0.02);
     const Real expected = section * (tension + stiffness * (stretch - 1) + shear * (stretch - 1 / (stretch * stretch)));
-    EXPECT_NEAR(attachment_wrench(bar.muscle, bar.around, bar.nodes, 0).force.z(), expected, 0.01 * expected);
+    EXPECT_NEAR(attachment_wrench(bar.muscle, bar.around, bar.nodes, AttachmentEnd::origin).force.z(), expected,
+                0.01 * expected);
   }
 }
 
