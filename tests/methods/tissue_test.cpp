@@ -61,8 +61,8 @@ SettledBar settled(const SettingValues& settings, Real activation, const Vec3& s
 TEST(Tissue, an_active_bar_with_fixed_ends_pulls_by_activation_times_stress_times_section) {
   const SettledBar bar = settled(
       {{"largest_active_stress", 3e5}, {"shear_per_tension", 0.25}, {"bulk_per_tension", 10.0}}, 0.4, Vec3::Zero());
-  const Vec3 below = attachment_wrench(bar.muscle, bar.around, bar.nodes, 0).force;
-  const Vec3 above = attachment_wrench(bar.muscle, bar.around, bar.nodes, 1).force;
+  const Vec3 below = attachment_wrench(bar.muscle, bar.around, bar.nodes, AttachmentEnd::origin).force;
+  const Vec3 above = attachment_wrench(bar.muscle, bar.around, bar.nodes, AttachmentEnd::insertion).force;
   EXPECT_NEAR(below.z(), 0.4 * 3e5 * section, 0.01 * 0.4 * 3e5 * section);
   // What is left over of the residual: 1e-4 N on each of some thousand nodes, in all directions.
   EXPECT_LT((below + above).norm(), 0.02);
@@ -87,7 +87,8 @@ TEST(Tissue, a_stretched_or_squeezed_bar_pulls_as_fibers_and_an_incompressible_m
     const Real stretch = stretch_in_the_middle(bar);
     EXPECT_NEAR(stretch, wanted, 0.02);
     const Real expected = section * (tension + stiffness * (stretch - 1) + shear * (stretch - 1 / (stretch * stretch)));
-    EXPECT_NEAR(attachment_wrench(bar.muscle, bar.around, bar.nodes, 0).force.z(), expected, 0.01 * expected);
+    EXPECT_NEAR(attachment_wrench(bar.muscle, bar.around, bar.nodes, AttachmentEnd::origin).force.z(), expected,
+                0.01 * expected);
   }
 }
 
@@ -214,6 +215,29 @@ TEST(Tissue, tension_comes_up_in_its_frames_and_then_nothing_changes) {
   }
   for (std::size_t frame = 1; frame <= 3; ++frame) EXPECT_GT(farthest(frames[frame], frames[frame - 1]), 1e-5);
   EXPECT_LT(farthest(frames[5], frames[4]), 1e-5);
+}
+
+TEST(Tissue, a_fully_active_muscle_is_straighter_keeps_its_volume_and_inverts_nothing) {
+  Scene scene = tube_scene();
+  // Bulges to the front.
+  Points& vertices = scene.muscles[0].surface.vertices;
+  for (Index v = 0; v < static_cast<Index>(vertices.cols()); ++v)
+    vertices(0, v) += 0.02 * std::max(0.0, std::cos(pi / 2 * vertices(2, v) / 0.07));
+  const Real volume = enclosed_volume(vertices, scene.muscles[0].surface.faces);
+  const auto front = [&](Real activation) {
+    const auto method = make_tissue_method(scene, tube_fields());
+    Pose pose = flexed(scene, 0);
+    pose.activations = {activation};
+    for (int frame = 1; frame <= 20; ++frame) {
+      const StepReport report = method->advance(pose, usual_time_step);
+      EXPECT_GT(metric(report.muscles[0].metrics, "least_volume_ratio"), 0.05);
+    }
+    const Points points = frame_of(*method, pose, 20).muscles[0].points;
+    EXPECT_NEAR(enclosed_volume(points, scene.muscles[0].surface.faces) / volume, 1, 0.01);
+    return points.row(0).maxCoeff();
+  };
+  const Real relaxed = front(0), active = front(1);
+  EXPECT_LT(active, relaxed - 0.001);
 }
 
 TEST(Tissue, every_setting_has_its_row) {

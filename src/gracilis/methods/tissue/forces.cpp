@@ -4,11 +4,12 @@
 
 namespace gracilis::tissue {
 
-Wrench attachment_wrench(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes, Index body) {
+Wrench attachment_wrench(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes,
+                         AttachmentEnd end) {
   Wrench sum;
   for (std::size_t v = 0; v < muscle.points.size(); ++v) {
     const SurfacePoint& point = muscle.points[v];
-    if (point.held_by != body) continue;
+    if (point.held_by < 0 || point.end != end) continue;
     const Vec3 held = around.held.col(static_cast<Index>(v));
     const Vec3 force =
         spring(point_at(muscle, v, nodes) - held, muscle.settings.attachment_stiffness * point.area).gradient;

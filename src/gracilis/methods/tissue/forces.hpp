@@ -10,7 +10,8 @@ struct Wrench {
   Vec3 moment = Vec3::Zero();  ///< N·m
 };
 
-/// What a muscle pulls at a body by the points that are attached to it.
-Wrench attachment_wrench(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes, Index body);
+/// What a muscle pulls by at the points that one of its ends is attached by.
+Wrench attachment_wrench(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes,
+                         AttachmentEnd end);
 
 }  // namespace gracilis::tissue

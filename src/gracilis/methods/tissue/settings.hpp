@@ -25,7 +25,7 @@ struct TissueSettings {
   Real attachment_stiffness = 3e8;   ///< N/m per m²
   Real contact_stiffness = 4.5e8;    ///< N/m per m²
   Real contact_gap = 0.004;          ///< m
-  Real fascia_stiffness = 4.5e6;     ///< N/m per m², at the bone
+  Real fascia_stiffness = 1.5e7;     ///< N/m per m², at the bone
   Real fascia_reach = 0.03;          ///< m
   Real fascia_yield = 0.002;         ///< m
 };

@@ -4,6 +4,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/tissue/carry.hpp>
 #include <gracilis/methods/tissue/factored_matrix.hpp>
+#include <gracilis/methods/tissue/forces.hpp>
 #include <gracilis/methods/tissue/minimize.hpp>
 #include <gracilis/methods/tissue/total_energy.hpp>
 #include <gracilis/scene/setting_values.hpp>
@@ -110,12 +111,14 @@ class TissueMethod final : public DeformationMethod {
     std::vector<CellLaw> laws = cell_laws(muscle, activation, tension);
     int iterations = 0;
     Minimized done;
+    Real pull = 0;
     std::vector<RigidTransform> before = bodies_;
     for (const std::vector<RigidTransform>& now : steps_between(muscle, bodies_, pose.bodies)) {
       carry(muscle, before, now, nodes);
       Surroundings around = surroundings(muscle, now, std::move(laws));
       done = settle(muscle, around, by_metric, nodes);
       iterations += done.iterations;
+      pull = attachment_wrench(muscle, around, nodes, AttachmentEnd::insertion).force.norm();
       laws = std::move(around.laws);
       before = now;
     }
@@ -123,6 +126,7 @@ class TissueMethod final : public DeformationMethod {
     return {0,
             {{"minimizer_iterations", static_cast<Real>(iterations)},
              {"residual_n", done.residual},
+             {"pull_n", pull},
              {"least_volume_ratio", least_volume_ratio(muscle.lattice, nodes)}}};
   }
 
@@ -145,7 +149,7 @@ MethodEntry tissue_entry() {
   return {.name = "tissue",
           .meaning = "their inside as tissue under tension, at rest in every frame",
           .settings = describe_settings<TissueSettings>(),
-          .metrics = {{"minimizer_iterations"}, {"residual_n", 6}, {"least_volume_ratio", 3}},
+          .metrics = {{"minimizer_iterations"}, {"residual_n", 6}, {"pull_n", 3}, {"least_volume_ratio", 3}},
           .make = [](const Scene& scene, const BoneFieldSource& fields) {
             return make_tissue_method(scene, fields(scene.distance_fields));
           }};
