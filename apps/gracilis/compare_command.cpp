@@ -5,6 +5,7 @@
 #include "scene_options.hpp"
 #include "session.hpp"
 
+#include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
@@ -99,14 +100,20 @@ std::string meaning_of(const std::string& name) {
   return std::string(preset.method.name) + ": " + std::string(preset.meaning);
 }
 
-/// The frames asked for, or telling ones, of the first run.
-std::vector<int> frames_of(const CompareOptions& options, const RecordedRun& run) {
-  if (options.frames.empty()) return telling_frames(run);
-  for (const int frame : options.frames)
-    if (frame < 0 || frame >= run.frame_count)
+/// Before anything runs. Throws ConfigurationError.
+void check_frames(const std::vector<int>& frames, const LoadedScene& loaded) {
+  const int count = static_cast<int>(pose_sequence(loaded.scene, loaded.max_frames).size());
+  for (const int frame : frames)
+    if (frame < 0 || frame >= count)
       throw ConfigurationError({"--frames", "", fmt::format("there is no frame {}", frame),
-                                fmt::format("the runs have frames 0 to {}", run.frame_count - 1)});
-  return options.frames;
+                                fmt::format("the runs have frames 0 to {}", count - 1)});
+}
+
+/// The frames asked for, or telling ones, of the first run; it may have ended early.
+std::vector<int> frames_of(const CompareOptions& options, const RecordedRun& run) {
+  std::vector<int> frames = options.frames.empty() ? telling_frames(run) : options.frames;
+  std::erase_if(frames, [&](int frame) { return frame >= run.frame_count; });
+  return frames;
 }
 
 void write_comparison(const CompareOptions& options, const std::string& scene, const std::vector<ComparedRun>& runs) {
@@ -129,6 +136,7 @@ void write_comparison(const CompareOptions& options, const std::string& scene, c
 int compare(const CompareOptions& options) {
   check_names(options.methods);
   const LoadedScene loaded = load(options);
+  check_frames(options.frames, loaded);
   const std::vector<LoadedScene> scenes = scenes_of(options.methods, loaded);
   std::vector<ComparedRun> runs;
   int code = static_cast<int>(ExitCode::done);

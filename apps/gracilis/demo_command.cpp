@@ -55,7 +55,11 @@ void add_demo_command(CLI::App& program, const std::vector<std::string>& words, 
       const std::optional<Real>& flexion = options->flexion_deg;
       loaded.scene = demo_scene(options->scene, flexion ? std::optional(radians(*flexion)) : std::nullopt);
       loaded.preset = presets().front().name;
-      if (options->preset != loaded.preset) apply_preset(*find_preset(options->preset), loaded);
+      if (options->preset != loaded.preset) {
+        const Preset preset = *find_preset(options->preset);
+        loaded.scene.method.name = preset.method.name;
+        apply_preset(preset, loaded);
+      }
       if (!options->contact.empty()) loaded.scene.method.contact["muscle"] = options->contact;
       change_scene(loaded, options->scene_options.set, options->scene_options.only);
       for (std::string& warning : warnings_about(loaded.scene)) loaded.warnings.push_back(std::move(warning));

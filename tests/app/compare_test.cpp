@@ -83,6 +83,13 @@ TEST(CompareCommand, a_method_that_cannot_take_the_scene_is_named) {
   EXPECT_THAT(result.err, HasSubstr("needs its action line"));
 }
 
+TEST(CompareCommand, a_frame_that_is_not_there_is_a_usage_error_before_anything_runs) {
+  const ProgramResult result = run_program("compare demo --flexion 4 --methods skinning --frames 0,9 --out /nowhere");
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("there is no frame 9"));
+  EXPECT_THAT(result.err, HasSubstr("frames 0 to 4"));
+}
+
 TEST(CompareCommand, help_says_what_exit_codes_mean) {
   const ProgramResult result = run_program("compare --help");
   EXPECT_EQ(result.exit_code, 0);

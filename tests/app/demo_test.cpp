@@ -36,6 +36,18 @@ TEST(DemoCommand, takes_the_settings_that_run_takes) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(DemoCommand, a_preset_brings_its_method) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "gracilis_demo_preset_test";
+  std::filesystem::remove_all(folder);
+  const ProgramResult result =
+      run_program("demo --flexion 1 --preset pbd-2020 --only iliacus_r --out " + folder.string());
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::string manifest = read_text(folder / "run.json");
+  EXPECT_THAT(manifest, testing::HasSubstr("method = \\\"pbd\\\""));
+  EXPECT_THAT(manifest, testing::HasSubstr("\"preset\": \"pbd-2020\""));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(DemoCommand, a_wrong_setting_is_a_usage_error_that_names_it) {
   const ProgramResult result = run_program("demo --set iteration=5 --set motion.step_deg=1 --only iliacs_r");
   EXPECT_EQ(result.exit_code, 2);
