@@ -1,23 +1,19 @@
 #include <gracilis/simulate/shape_now.hpp>
 
+#include <gracilis/core/group_by_key.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/point_triangle.hpp>
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace gracilis {
 
 FacesAround faces_around(const Eigen::Matrix3Xi& faces, Index vertex_count) {
-  FacesAround around;
-  around.offsets.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  for (const Index v : faces.reshaped()) ++around.offsets[static_cast<std::size_t>(v) + 1];
-  for (std::size_t v = 1; v < around.offsets.size(); ++v) around.offsets[v] += around.offsets[v - 1];
-  std::vector<Index> next(around.offsets.begin(), around.offsets.end() - 1);
-  around.faces.resize(static_cast<std::size_t>(faces.size()));
-  for (Index f = 0; f < faces.cols(); ++f)
-    for (const Index v : faces.col(f)) around.faces[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = f;
-  return around;
+  GroupedByKey corners = group_by_key({faces.data(), static_cast<std::size_t>(faces.size())}, vertex_count);
+  for (Index& corner : corners.items) corner /= 3;
+  return {std::move(corners.begins), std::move(corners.items)};
 }
 
 ShapeNow::ShapeNow(const Points& vertices, const Eigen::Matrix3Xi& faces, const FacesAround& around)

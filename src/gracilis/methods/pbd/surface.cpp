@@ -73,17 +73,6 @@ class FiberDirections {
   std::optional<NearestPoints> nearest_;
 };
 
-void list_corners(const Eigen::Matrix3Xi& faces, Index vertex_count, Surface& surface) {
-  surface.corner_begins.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
-  for (Index i = 0; i < static_cast<Index>(faces.size()); ++i)
-    ++surface.corner_begins[static_cast<std::size_t>(faces.data()[i]) + 1];
-  std::partial_sum(surface.corner_begins.begin(), surface.corner_begins.end(), surface.corner_begins.begin());
-  surface.corners.resize(static_cast<std::size_t>(faces.size()));
-  std::vector<Index> next(surface.corner_begins.begin(), surface.corner_begins.end() - 1);
-  for (Index i = 0; i < static_cast<Index>(faces.size()); ++i)
-    surface.corners[static_cast<std::size_t>(next[static_cast<std::size_t>(faces.data()[i])]++)] = i;
-}
-
 template <std::size_t count>
 std::array<Vec3, count> places(const std::array<Index, count>& vertices, const Points& points) {
   std::array<Vec3, count> result;
@@ -139,7 +128,7 @@ Surface build_surface(const TriangleMesh& mesh, const MeshTopology& topology, co
   surface.edges = color(edges, edge_graph);
   surface.hinges = color(hinges, hinge_graph);
   surface.faces = mesh.faces;
-  list_corners(mesh.faces, mesh.vertex_count(), surface);
+  surface.corners = group_by_key({mesh.faces.data(), static_cast<std::size_t>(mesh.faces.size())}, mesh.vertex_count());
   surface.volume = enclosed_volume(rest, mesh.faces);
   return surface;
 }
@@ -166,9 +155,8 @@ Real volume_constraint(const Surface& surface, const Points& points, Points& gra
     for (Index v = begin; v < end; ++v) {
       Vec3 sum = Vec3::Zero();
       const Vec3 here = points.col(v);
-      for (Index k = surface.corner_begins[static_cast<std::size_t>(v)];
-           k < surface.corner_begins[static_cast<std::size_t>(v) + 1]; ++k) {
-        const Index corner = surface.corners[static_cast<std::size_t>(k)], face = corner / 3, row = corner % 3;
+      for (const Index corner : surface.corners.with(v)) {
+        const Index face = corner / 3, row = corner % 3;
         const Vec3 next = points.col(surface.faces((row + 1) % 3, face));
         const Vec3 last = points.col(surface.faces((row + 2) % 3, face));
         sum += (next - here).cross(last - here);  // around a closed ring this is the sum of next × last

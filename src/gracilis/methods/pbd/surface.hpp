@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/core/group_by_key.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
@@ -35,9 +36,9 @@ struct Surface {
   Colored<EdgeConstraint> edges;
   Colored<HingeConstraint> hinges;
   Eigen::Matrix3Xi faces;
-  std::vector<Index> corner_begins, corners;  ///< per vertex: where in `faces` it stands, as 3 × face + row
-  Real volume = 0;                            ///< m³, at rest
-  std::vector<Real> weight;                   ///< per vertex: 1, or 0 where it is held
+  GroupedByKey corners;      ///< by vertex: where in `faces` it stands, as 3 × face + row
+  Real volume = 0;           ///< m³, at rest
+  std::vector<Real> weight;  ///< per vertex: 1, or 0 where it is held
 };
 
 /// `fixed_body` is -1 for free vertices. Along `fibers` edges are softer; without any all are alike. Precondition: the

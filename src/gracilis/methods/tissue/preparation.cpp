@@ -152,25 +152,13 @@ void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, Pre
   }
 }
 
-/// Counts items by their keys: where each key's begin, and the items in that order.
-void sort_by_key(const std::vector<Index>& keys, Index key_count, std::vector<Index>& begin,
-                 std::vector<Index>& order) {
-  begin.assign(static_cast<std::size_t>(key_count) + 1, 0);
-  for (const Index key : keys) ++begin[static_cast<std::size_t>(key) + 1];
-  for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
-  std::vector<Index> next(begin.begin(), begin.end() - 1);
-  order.resize(keys.size());
-  for (std::size_t i = 0; i < keys.size(); ++i)
-    order[static_cast<std::size_t>(next[static_cast<std::size_t>(keys[i])]++)] = static_cast<Index>(i);
-}
-
 void sort_out(PreparedTissue& prepared) {
   std::vector<Index> cell_of_point, node_of_corner;
   for (const SurfacePoint& point : prepared.points) cell_of_point.push_back(point.at.cell);
   for (const Cell& cell : prepared.lattice.cells)
     node_of_corner.insert(node_of_corner.end(), cell.nodes.begin(), cell.nodes.end());
-  sort_by_key(cell_of_point, prepared.lattice.cell_count(), prepared.points_begin, prepared.point_order);
-  sort_by_key(node_of_corner, prepared.lattice.node_count(), prepared.corners_begin, prepared.corner_order);
+  prepared.points_of_cells = group_by_key(cell_of_point, prepared.lattice.cell_count());
+  prepared.corners_of_nodes = group_by_key(node_of_corner, prepared.lattice.node_count());
 }
 
 /// Each node follows the bodies by harmonic shares that attachments and fascia draw to their own.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/core/group_by_key.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/methods/tissue/cell_energy.hpp>
@@ -45,12 +46,10 @@ struct PreparedTissue {
   Index vertex_count = 0;
   std::vector<Tie> ties;  ///< of points, one after the other
   std::vector<BoneGap> bones;
-  std::vector<Index> point_order;    ///< points by their cells
-  std::vector<Index> points_begin;   ///< per cell and one more: where its points begin in point_order
-  std::vector<Index> corner_order;   ///< cell * 8 + corner, by their nodes
-  std::vector<Index> corners_begin;  ///< per node and one more
-  std::vector<Index> carriers;       ///< bodies that carry the muscle
-  Eigen::MatrixXd carrier_shares;    ///< nodes × carriers; rows sum to 1, or are 0
+  GroupedByKey points_of_cells;    ///< points by their cells
+  GroupedByKey corners_of_nodes;   ///< cell * 8 + corner, by their nodes
+  std::vector<Index> carriers;     ///< bodies that carry the muscle
+  Eigen::MatrixXd carrier_shares;  ///< nodes × carriers; rows sum to 1, or are 0
 };
 
 /// Lattice, fibers, attachments, fascia and gaps of a muscle. `fields` and `distances` have one entry per bone; fields

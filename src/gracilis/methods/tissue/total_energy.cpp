@@ -64,8 +64,8 @@ CellState state_of(const PreparedTissue& muscle, const Surroundings& around, Ind
   const Corners corners = corners_of(cell, nodes), at_rest = corners_of(cell, lattice.nodes);
   CellState state = cell_energy(cube_cut(cell.parity), lattice.cell_size, cell.fills, around.laws[index], corners);
   if (!(state.least_volume_ratio > 0)) return state;
-  for (Index i = muscle.points_begin[index]; i < muscle.points_begin[index + 1]; ++i) {
-    const auto v = static_cast<std::size_t>(muscle.point_order[static_cast<std::size_t>(i)]);
+  for (const Index p : muscle.points_of_cells.with(c)) {
+    const auto v = static_cast<std::size_t>(p);
     const SurfacePoint& point = muscle.points[v];
     const PointState acting = point_energy(muscle, around, v, moved(point, corners, at_rest));
     state.energy += acting.energy;
@@ -138,9 +138,7 @@ Real total_energy(const PreparedTissue& muscle, const Surroundings& around, cons
   parallel_for(lattice.node_count(), 256, [&](Index begin, Index end) {
     for (Index n = begin; n < end; ++n) {
       Vec3 sum = Vec3::Zero();
-      for (Index i = muscle.corners_begin[static_cast<std::size_t>(n)];
-           i < muscle.corners_begin[static_cast<std::size_t>(n) + 1]; ++i)
-        sum += by_corner.col(muscle.corner_order[static_cast<std::size_t>(i)]);
+      for (const Index corner : muscle.corners_of_nodes.with(n)) sum += by_corner.col(corner);
       gradient.col(n) = sum;
     }
   });
@@ -157,8 +155,8 @@ Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const s
     Eigen::Matrix<Real, 8, 8> scalar;
     for (Index i = 0; i < 8; ++i)
       for (Index k = 0; k < 8; ++k) scalar(i, k) = h.block<3, 3>(3 * i, 3 * k).trace() / 3;
-    for (Index i = muscle.points_begin[c]; i < muscle.points_begin[c + 1]; ++i) {
-      const auto v = static_cast<std::size_t>(muscle.point_order[static_cast<std::size_t>(i)]);
+    for (const Index p : muscle.points_of_cells.with(static_cast<Index>(c))) {
+      const auto v = static_cast<std::size_t>(p);
       const EmbeddedPoint& at = muscle.points[v].at;
       const Real stiffness = point_stiffness(muscle, muscle.points[v]);
       for (std::size_t a = 0; a < 4; ++a)
