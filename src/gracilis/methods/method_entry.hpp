@@ -5,6 +5,7 @@
 #include <gracilis/methods/method.hpp>
 #include <gracilis/scene/presets.hpp>
 #include <gracilis/scene/scene.hpp>
+#include <gracilis/scene/setting_values.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -13,6 +14,12 @@
 #include <vector>
 
 namespace gracilis {
+
+/// What a scene gives a muscle of a method's settings: a key of the muscle wins over that of the scene.
+template <class Settings>
+Settings muscle_settings(const Scene& scene, const Muscle& muscle) {
+  return with_values(with_values(Settings{}, scene.method.settings), muscle.settings);
+}
 
 /// Gives the distance fields of all bones of a scene, one each, with the settings asked for.
 using BoneFieldSource = std::function<std::vector<DistanceField>(const DistanceFieldSettings&)>;

@@ -2,15 +2,11 @@
 
 #include <gracilis/anatomy/body_carriers.hpp>
 #include <gracilis/anatomy/bone_projection.hpp>
-#include <gracilis/core/errors.hpp>
-#include <gracilis/core/parallel.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/arap/surface.hpp>
 #include <gracilis/methods/placed_method.hpp>
-
-#include <chrono>
-#include <optional>
+#include <gracilis/methods/shape_method.hpp>
 
 namespace gracilis {
 
@@ -22,12 +18,10 @@ std::span<const Setting<ArapSettings>> setting_table() {
        "How often per frame rotations and places are chosen in turn, each time followed by volume and contact."},
       {"volume", &S::volume, "", 0, 0,
        "How the volume is restored: 'scaling' of the free vertices about the muscle's center by (V0/V)^(1/3), "
-       "'multiplier' "
-       "of an even pressure that the surface passes on, or 'none'."},
+       "'multiplier' of an even pressure that the surface passes on, or 'none'."},
       {"tendon_length", &S::tendon_length, "m", 0, 1,
        "Distance from the attachments over which the blend of the bodies' motions, where a frame begins, is graded "
-       "from "
-       "tendon to belly; 0 grades nothing."},
+       "from tendon to belly; 0 grades nothing."},
       {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Distance that free vertices keep from bones."},
       {"bone_rest_gap", &S::bone_rest_gap, "", 0, 0,
        "Where a vertex is nearer to a bone than the margin at rest, or in it, keep that distance instead."},
@@ -42,7 +36,6 @@ constexpr int settling_rounds = 4;
 
 /// What stays the same of one muscle.
 struct ArapMuscle {
-  std::string name;
   ArapSettings settings;
   TriangleMesh rest;  ///< world, in the capture pose, m
   Real volume = 0;    ///< m³, of the rest
@@ -53,7 +46,7 @@ struct ArapMuscle {
 };
 
 ArapMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
-  const ArapSettings settings = with_values(with_values(ArapSettings{}, scene.method.settings), muscle.settings);
+  const ArapSettings settings = muscle_settings<ArapSettings>(scene, muscle);
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
   std::vector<char> held;
@@ -63,10 +56,13 @@ ArapMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<D
   }
   arap::Surface surface(muscle.surface, topology, held);
   BoneProjection bones(scene, muscle, carriers.fixed_body, fields, settings.bone_margin, settings.bone_rest_gap);
-  return {muscle.name,         settings,
-          muscle.surface,      enclosed_volume(muscle.surface.vertices, muscle.surface.faces),
-          std::move(carriers), std::move(held),
-          std::move(surface),  std::move(bones)};
+  return {settings,
+          muscle.surface,
+          enclosed_volume(muscle.surface.vertices, muscle.surface.faces),
+          std::move(carriers),
+          std::move(held),
+          std::move(surface),
+          std::move(bones)};
 }
 
 void restore_volume(const ArapMuscle& muscle, Points& points) {
@@ -76,82 +72,34 @@ void restore_volume(const ArapMuscle& muscle, Points& points) {
     arap::restore_volume_by_multiplier(muscle.surface, muscle.rest.faces, muscle.held, muscle.volume, points);
 }
 
-struct ArapStep {
-  Points points;
+ShapeStep step(const ArapMuscle& muscle, const Pose& last, const Pose& now, const Points& before) {
+  Points points = carried_on(muscle.carriers, muscle.rest.vertices, last, now, before);
   Index contacts = 0;
-};
-
-ArapStep step(const ArapMuscle& muscle, const Pose& last, const Pose& now, const Points& before) {
-  ArapStep result{carried_on(muscle.carriers, muscle.rest.vertices, last, now, before)};
+  const auto restore_and_push = [&] {
+    restore_volume(muscle, points);
+    contacts = muscle.bones.push_out(now, points);
+  };
   for (int i = 0; i < muscle.settings.iterations; ++i) {
     throw_if_stopped();
-    muscle.surface.place(muscle.surface.best_rotations(result.points), result.points);
-    restore_volume(muscle, result.points);
-    result.contacts = muscle.bones.push_out(now, result.points);
+    muscle.surface.place(muscle.surface.best_rotations(points), points);
+    restore_and_push();
   }
-  for (int i = 0; i < settling_rounds && result.contacts > 0; ++i) {
-    restore_volume(muscle, result.points);
-    result.contacts = muscle.bones.push_out(now, result.points);
-  }
-  return result;
+  for (int i = 0; i < settling_rounds && contacts > 0; ++i) restore_and_push();
+  return {std::move(points), {{"contacts", static_cast<Real>(contacts)}}};
 }
 
-class ArapMethod final : public DeformationMethod {
- public:
-  ArapMethod(const Scene& scene, std::vector<DistanceField> fields)
-      : fields_(std::move(fields)), body_count_(scene.bodies.size()) {
-    std::vector<std::optional<ArapMuscle>> prepared(scene.muscles.size());
-    parallel_for_each(prepared.size(), [&](std::size_t m) { prepared[m] = prepare(scene, scene.muscles[m], fields_); });
-    for (std::optional<ArapMuscle>& muscle : prepared) muscles_.push_back(std::move(*muscle));
-    reset();
-  }
-
-  void reset() override {
-    shapes_.clear();
-    for (const ArapMuscle& muscle : muscles_) shapes_.push_back(muscle.rest.vertices);
-    pose_ = capture_pose(body_count_);
-  }
-
-  StepReport advance(const Pose& pose, Real) override {
-    StepReport report;
-    std::vector<Points> next;
-    for (std::size_t m = 0; m < muscles_.size(); ++m) {
-      const auto started = std::chrono::steady_clock::now();
-      ArapStep done = step(muscles_[m], pose_, pose, shapes_[m]);
-      const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
-      report.muscles.push_back({taken.count(), {{"contacts", static_cast<Real>(done.contacts)}}});
-      if (!done.points.allFinite())
-        throw QualityError("muscle " + muscles_[m].name + ": a vertex position is not finite; check the pose");
-      next.push_back(std::move(done.points));
-    }
-    shapes_ = std::move(next);
-    pose_ = pose;
-    return report;
-  }
-
-  void write(Frame& frame) const override {
-    frame.muscles.clear();
-    for (const Points& shape : shapes_) frame.muscles.push_back({shape});
-  }
-
-  void restore(const std::vector<Pose>& poses, const Frame&, const Frame& last) override {
-    for (std::size_t m = 0; m < shapes_.size(); ++m) shapes_[m] = last.muscles[m].points;
-    pose_ = poses.back();
-  }
-
- private:
-  std::vector<DistanceField> fields_;
-  std::size_t body_count_;
-  std::vector<ArapMuscle> muscles_;
-  std::vector<Points> shapes_;
-  Pose pose_;  ///< of the shapes
-};
+ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+  const auto prepared = std::make_shared<const ArapMuscle>(prepare(scene, muscle, fields));
+  return {muscle.name, muscle.surface.vertices, [prepared](const Pose& last, const Pose& now, const Points& before) {
+            return step(*prepared, last, now, before);
+          }};
+}
 
 }  // namespace
 
 std::unique_ptr<DeformationMethod> make_arap_method(const Scene& scene, std::vector<DistanceField> fields) {
   return made_near_origin(scene, std::move(fields), [](const Scene& near, std::vector<DistanceField> near_fields) {
-    return std::make_unique<ArapMethod>(near, std::move(near_fields));
+    return shape_method(near, std::move(near_fields), shaped);
   });
 }
 

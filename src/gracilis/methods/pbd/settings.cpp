@@ -19,8 +19,7 @@ std::span<const Setting<PbdSettings>> setting_table() {
        "Correct an edge by 1 - |u·v| of its error, u its direction and v that of the nearest fiber."},
       {"carry", &S::carry, "", 0, 0,
        "Where free vertices are when a frame begins: 'none' leaves them where they were, as published, 'bodies' "
-       "carries "
-       "them by a blend of the motions of the bodies that the muscle is attached to."},
+       "carries them by a blend of the motions of the bodies that the muscle is attached to."},
       {"tendon_length", &S::tendon_length, "m", 0, 1,
        "Distance from the attachments over which that blend is graded from tendon to belly; 0 grades nothing."},
       {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Distance that free vertices keep from bones."},

@@ -1,12 +1,8 @@
 #include <gracilis/methods/skinning/skinning_method.hpp>
 
 #include <gracilis/anatomy/body_carriers.hpp>
-#include <gracilis/core/errors.hpp>
-#include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/topology.hpp>
-#include <gracilis/scene/setting_values.hpp>
-
-#include <chrono>
+#include <gracilis/methods/shape_method.hpp>
 
 namespace gracilis {
 
@@ -27,74 +23,24 @@ std::span<const Setting<SkinningSettings>> setting_table() {
 
 namespace {
 
-/// What stays the same of one muscle.
-struct SkinnedMuscle {
-  std::string name;
-  Points rest;  ///< world, in the capture pose, m
-  BodyCarriers carriers;
-};
-
-SkinnedMuscle prepare(const Scene& scene, const Muscle& muscle) {
-  const SkinningSettings settings =
-      with_values(with_values(SkinningSettings{}, scene.method.settings), muscle.settings);
+ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>&) {
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
-  return {muscle.name, muscle.surface.vertices, body_carriers(muscle, topology, settings.tendon_length)};
+  const Real tendon_length = muscle_settings<SkinningSettings>(scene, muscle).tendon_length;
+  const Points& rest = muscle.surface.vertices;
+  return {muscle.name, rest,
+          [rest, carriers = body_carriers(muscle, topology, tendon_length)](const Pose&, const Pose& now,
+                                                                            const Points&) -> ShapeStep {
+            const std::vector<RigidTransform> motions = carried_motions(carriers, now);
+            Points shape(3, rest.cols());
+            for (Index v = 0; v < static_cast<Index>(rest.cols()); ++v)
+              shape.col(v) = motions[static_cast<std::size_t>(v)] * Vec3(rest.col(v));
+            return {std::move(shape)};
+          }};
 }
-
-Points shape_at(const SkinnedMuscle& muscle, const Pose& pose) {
-  const std::vector<RigidTransform> motions = carried_motions(muscle.carriers, pose);
-  Points shape = muscle.rest;
-  for (Index v = 0; v < static_cast<Index>(shape.cols()); ++v)
-    shape.col(v) = motions[static_cast<std::size_t>(v)] * Vec3(muscle.rest.col(v));
-  return shape;
-}
-
-class SkinningMethod final : public DeformationMethod {
- public:
-  explicit SkinningMethod(const Scene& scene) : muscles_(scene.muscles.size()) {
-    parallel_for_each(muscles_.size(), [&](std::size_t m) { muscles_[m] = prepare(scene, scene.muscles[m]); });
-    reset();
-  }
-
-  void reset() override {
-    shapes_.clear();
-    for (const SkinnedMuscle& muscle : muscles_) shapes_.push_back(muscle.rest);
-  }
-
-  StepReport advance(const Pose& pose, Real) override {
-    StepReport report;
-    std::vector<Points> next;
-    for (const SkinnedMuscle& muscle : muscles_) {
-      const auto started = std::chrono::steady_clock::now();
-      next.push_back(shape_at(muscle, pose));
-      const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
-      report.muscles.push_back({taken.count()});
-      if (!next.back().allFinite())
-        throw QualityError("muscle " + muscle.name + ": a vertex position is not finite; check the pose");
-    }
-    shapes_ = std::move(next);
-    return report;
-  }
-
-  void write(Frame& frame) const override {
-    frame.muscles.clear();
-    for (const Points& shape : shapes_) frame.muscles.push_back({shape});
-  }
-
-  void restore(const std::vector<Pose>&, const Frame&, const Frame& last) override {
-    for (std::size_t m = 0; m < shapes_.size(); ++m) shapes_[m] = last.muscles[m].points;
-  }
-
- private:
-  std::vector<SkinnedMuscle> muscles_;
-  std::vector<Points> shapes_;
-};
 
 }  // namespace
 
-std::unique_ptr<DeformationMethod> make_skinning_method(const Scene& scene) {
-  return std::make_unique<SkinningMethod>(scene);
-}
+std::unique_ptr<DeformationMethod> make_skinning_method(const Scene& scene) { return shape_method(scene, {}, shaped); }
 
 MethodEntry skinning_entry() {
   return {.name = "skinning",

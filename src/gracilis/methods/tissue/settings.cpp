@@ -1,6 +1,6 @@
 #include <gracilis/methods/tissue/settings.hpp>
 
-#include <gracilis/scene/setting_values.hpp>
+#include <gracilis/methods/method_entry.hpp>
 
 namespace gracilis {
 
@@ -52,7 +52,7 @@ std::span<const Setting<TissueSettings>> setting_table() {
 }
 
 TissueSettings tissue_settings(const Scene& scene, const Muscle& muscle) {
-  return with_values(with_values(TissueSettings{}, scene.method.settings), muscle.settings);
+  return muscle_settings<TissueSettings>(scene, muscle);
 }
 
 }  // namespace gracilis

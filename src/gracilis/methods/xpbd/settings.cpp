@@ -1,6 +1,6 @@
 #include <gracilis/methods/xpbd/settings.hpp>
 
-#include <gracilis/scene/setting_values.hpp>
+#include <gracilis/methods/method_entry.hpp>
 
 namespace gracilis {
 
@@ -158,7 +158,7 @@ std::span<const Setting<VirtualEdgeSettings>> setting_table() {
 }
 
 XpbdSettings xpbd_settings(const Scene& scene, const Muscle& muscle) {
-  return with_values(with_values(XpbdSettings{}, scene.method.settings), muscle.settings);
+  return muscle_settings<XpbdSettings>(scene, muscle);
 }
 
 ContactSettings contact_settings(const Scene& scene) { return with_values(ContactSettings{}, scene.method.contact); }
