@@ -6,7 +6,6 @@
 #include "session.hpp"
 
 #include <gracilis/anatomy/pose_sequence.hpp>
-#include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/scene_changes.hpp>
@@ -46,9 +45,7 @@ LoadedScene scene_by(const std::string& name, const LoadedScene& loaded) {
     for (Muscle& muscle : result.scene.muscles) muscle.settings.clear();
     return result;
   }
-  const Preset preset = *find_preset(name);
-  result.scene.method.name = preset.method.name;
-  apply_preset(preset, result);
+  change_to_preset(*find_preset(name), result);
   return result;
 }
 
@@ -84,14 +81,10 @@ std::vector<LoadedScene> scenes_of(const std::vector<std::string>& names, const 
 
 LoadedScene load(const CompareOptions& options) {
   if (options.scene != "demo" && options.scene != "demo-elbow") return read_scene(options.scene, options.scene_options);
-  LoadedScene loaded;
-  const std::optional<Real>& flexion = options.flexion_deg;
-  loaded.scene =
-      demo_scene(options.scene == "demo" ? "hip" : "elbow", flexion ? std::optional(radians(*flexion)) : std::nullopt);
-  loaded.preset = presets().front().name;
-  change_scene(loaded, options.scene_options.set, options.scene_options.only);
-  for (std::string& warning : warnings_about(loaded.scene)) loaded.warnings.push_back(std::move(warning));
-  return loaded;
+  DemoOptions demo;
+  demo.scene = options.scene == "demo" ? "hip" : "elbow";
+  demo.flexion_deg = options.flexion_deg;
+  return load_demo(demo, options.scene_options);
 }
 
 std::string meaning_of(const std::string& name) {
@@ -199,8 +192,7 @@ void add_compare_command(CLI::App& program, const std::vector<std::string>& word
   command->add_flag("--force", options->session.force, "Replace the runs that are in the folder")->excludes(resume);
   command->footer(
       "Exit codes: 0 all methods ran; 2 an unknown method, or one that cannot take the scene; 3 a file is missing or "
-      "cannot "
-      "be written; 5 a method failed (the page says which, and shows what it did until then); 130 interrupted.");
+      "cannot be written; 5 a method failed (the page says which, and shows what it did until then); 130 interrupted.");
   options->session.command = words;
   command->callback([&chosen, options] { chosen = [options] { return compare(*options); }; });
 }

@@ -23,48 +23,46 @@ Scene demo_scene(const std::string& name, std::optional<Real> flexion) {
   return builtin_hip(hip);
 }
 
+LoadedScene load_demo(const DemoOptions& options, const SceneOptions& changes) {
+  LoadedScene loaded;
+  const std::optional<Real>& flexion = options.flexion_deg;
+  loaded.scene = demo_scene(options.scene, flexion ? std::optional(radians(*flexion)) : std::nullopt);
+  loaded.preset = presets().front().name;
+  if (options.preset != loaded.preset) change_to_preset(*find_preset(options.preset), loaded);
+  if (!options.contact.empty()) loaded.scene.method.contact["muscle"] = options.contact;
+  change_scene(loaded, changes.set, changes.only);
+  for (std::string& warning : warnings_about(loaded.scene)) loaded.warnings.push_back(std::move(warning));
+  return loaded;
+}
+
 void add_demo_command(CLI::App& program, const std::vector<std::string>& words, Command& chosen) {
   CLI::App* command = program.add_subcommand(
       "demo", "Flex the built-in hip by 90 degrees, or the built-in elbow by 130; no file needed");
   struct Options {
-    std::string scene = "hip", preset = "physical", contact;
-    std::optional<Real> flexion_deg;
+    DemoOptions demo;
     SceneOptions scene_options;
     SessionOptions session;
   };
   const auto options = std::make_shared<Options>();
-  command->add_option("SCENE", options->scene, "Which joint: hip (default) or elbow")
+  command->add_option("SCENE", options->demo.scene, "Which joint: hip (default) or elbow")
       ->check(CLI::IsMember({"hip", "elbow"}));
-  command->add_option("--flexion", options->flexion_deg, "How far to flex, degrees (hip 90, elbow 130)")
+  command->add_option("--flexion", options->demo.flexion_deg, "How far to flex, degrees (hip 90, elbow 130)")
       ->check(CLI::Range(0.0, 130.0));
   std::vector<std::string> names;
   for (const Preset& preset : presets()) names.emplace_back(preset.name);
   command
-      ->add_option("--preset", options->preset, "Settings to use: the default or, to compare with, the published ones")
+      ->add_option("--preset", options->demo.preset,
+                   "Settings to use: the default or, to compare with, the published ones")
       ->check(CLI::IsMember(names));
   command
-      ->add_option("--contact", options->contact,
+      ->add_option("--contact", options->demo.contact,
                    "How muscles keep out of each other: surface, virtual-edges or none (default: as the preset says)")
       ->check(CLI::IsMember({"none", "surface", "virtual-edges"}));
   add_setting_options(*command, options->scene_options);
   add_session_options(*command, options->session);
   options->session.command = words;
   command->callback([&chosen, options] {
-    chosen = [options] {
-      LoadedScene loaded;
-      const std::optional<Real>& flexion = options->flexion_deg;
-      loaded.scene = demo_scene(options->scene, flexion ? std::optional(radians(*flexion)) : std::nullopt);
-      loaded.preset = presets().front().name;
-      if (options->preset != loaded.preset) {
-        const Preset preset = *find_preset(options->preset);
-        loaded.scene.method.name = preset.method.name;
-        apply_preset(preset, loaded);
-      }
-      if (!options->contact.empty()) loaded.scene.method.contact["muscle"] = options->contact;
-      change_scene(loaded, options->scene_options.set, options->scene_options.only);
-      for (std::string& warning : warnings_about(loaded.scene)) loaded.warnings.push_back(std::move(warning));
-      return run_session(loaded, options->session);
-    };
+    chosen = [options] { return run_session(load_demo(options->demo, options->scene_options), options->session); };
   });
 }
 

@@ -21,6 +21,11 @@ void apply_preset(const Preset& preset, LoadedScene& loaded) {
   }
 }
 
+void change_to_preset(const Preset& preset, LoadedScene& loaded) {
+  loaded.scene.method.name = preset.method.name;
+  apply_preset(preset, loaded);
+}
+
 namespace {
 
 /// What a table of the layers says of a struct of settings.

@@ -1,10 +1,9 @@
 #include <gracilis/view/run_picture.hpp>
 
-#include <gracilis/view/preview.hpp>
-
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/view/preview.hpp>
 
 #include <fmt/format.h>
 
