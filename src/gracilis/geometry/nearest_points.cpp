@@ -29,4 +29,14 @@ std::vector<Index> NearestPoints::query(const Vec3& p, std::size_t count) const 
   return {found.begin(), found.end()};
 }
 
+std::vector<Index> NearestPoints::within(const Vec3& p, Real reach) const {
+  std::vector<std::pair<Eigen::Index, Real>> matches;
+  tree_->index.index->radiusSearch(p.data(), reach * reach, matches, nanoflann::SearchParams(32, 0, false));
+  std::vector<Index> found;
+  found.reserve(matches.size());
+  for (const auto& match : matches) found.push_back(static_cast<Index>(match.first));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace gracilis

@@ -19,6 +19,8 @@ class NearestPoints {
   std::vector<Index> query(const Vec3& p, std::size_t count) const;
   /// Number of the nearest point. Precondition: there is one.
   Index nearest(const Vec3& p) const { return query(p, 1).front(); }
+  /// Numbers of all points nearer than `reach` (m, above 0), ascending.
+  std::vector<Index> within(const Vec3& p, Real reach) const;
 
  private:
   struct Tree;
