@@ -68,6 +68,10 @@ std::vector<Variant> all_variants() {
       // As published: free vertices follow only through constraints, and the margin pushes muscles off bones at rest.
       {"xpbd_thesis_2024", "xpbd", {}, thesis.method.settings},
       {"arap", "arap", everything},
+      {"rbf", "rbf", everything},
+      // As published neither volume nor contact are asked for, and centers are drawn to where they were in space.
+      {"rbf_2024", "rbf", all_but({Property::rigid_motion, Property::volume}),
+       find_preset("rbf-2024")->method.settings},
       {"pbd", "pbd", all_but({Property::capture_pose})},
       // As published free vertices follow only through constraints, and so remember by which way they came.
       {"pbd_2020", "pbd", all_but({Property::rigid_motion, Property::capture_pose}), pbd_2020.method.settings},

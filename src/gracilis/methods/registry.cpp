@@ -3,6 +3,7 @@
 #include <gracilis/methods/arap/arap_method.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/methods/pbd/pbd_method.hpp>
+#include <gracilis/methods/rbf/rbf_method.hpp>
 #include <gracilis/methods/skinning/skinning_method.hpp>
 #include <gracilis/methods/tissue/tissue_method.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
@@ -13,8 +14,8 @@
 namespace gracilis {
 
 const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> all = {xpbd_entry(),   cylinder_entry(), skinning_entry(),
-                                               tissue_entry(), pbd_entry(),      arap_entry()};
+  static const std::vector<MethodEntry> all = {xpbd_entry(), cylinder_entry(), skinning_entry(), tissue_entry(),
+                                               pbd_entry(),  arap_entry(),     rbf_entry()};
   return all;
 }
 

@@ -1,0 +1,132 @@
+#include <gracilis/methods/rbf/muscle_model.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/nearest_points.hpp>
+#include <gracilis/geometry/radial_fit.hpp>
+#include <gracilis/geometry/rbf_centers.hpp>
+#include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/geometry/vertex_normals.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis::rbf {
+
+namespace {
+
+/// Points of the fit and of the cost per center, centers that a vertex is bound to.
+constexpr Index fit_points_per_center = 12;
+constexpr Index cost_points_per_center = 3;
+constexpr Index bound_centers = 8;
+
+Real leveled(Real distance, Real band) { return band * std::tanh(distance / band); }
+
+/// Below every vertex as deep as it goes up to `depth`, and all over the inside where that is deeper than `depth`.
+Points inner_points(const TriangleMesh& mesh, const SignedDistance& distance, Real depth, Index over_inside) {
+  const Points normals = vertex_normals(mesh.vertices, mesh.faces);
+  const Points around = halton_centers(bounding_box(mesh.vertices), over_inside);
+  const Index n = mesh.vertex_count();
+  Points points(3, n + around.cols());
+  std::vector<char> is_inside(static_cast<std::size_t>(points.cols()), 0);
+  parallel_for(static_cast<Index>(points.cols()), 64, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      auto inside = [&](Real least) {
+        return is_inside[static_cast<std::size_t>(i)] = distance.query(points.col(i)).distance < -least;
+      };
+      if (i >= n) {
+        points.col(i) = around.col(i - n);
+        inside(depth);
+        continue;
+      }
+      for (Real way = depth; way > depth / 20; way /= 2) {
+        points.col(i) = mesh.vertices.col(i) - way * normals.col(i);
+        if (inside(way / 2)) break;
+      }
+    }
+  });
+  Points kept(3, std::count(is_inside.begin(), is_inside.end(), 1));
+  for (Index i = 0, next = 0; i < static_cast<Index>(points.cols()); ++i)
+    if (is_inside[static_cast<std::size_t>(i)]) kept.col(next++) = points.col(i);
+  return kept;
+}
+
+std::vector<Index> nearest_vertices(const NearestPoints& vertices, const Points& points) {
+  std::vector<Index> nearest;
+  for (Index i = 0; i < static_cast<Index>(points.cols()); ++i) nearest.push_back(vertices.nearest(points.col(i)));
+  return nearest;
+}
+
+/// The weights with which Σ λ φ + a is the leveled distance, by least squares at vertices and beside them.
+RadialFit fit_of(const TriangleMesh& mesh, const SignedDistance& distance, const Points& centers, Real reach,
+                 Real band) {
+  const Points normals = vertex_normals(mesh.vertices, mesh.faces);
+  const Points on = spread_out(mesh.vertices, fit_points_per_center * static_cast<Index>(centers.cols()) / 2);
+  const NearestPoints vertices(mesh.vertices);
+  Points points(3, 2 * on.cols() + centers.cols());
+  points.leftCols(on.cols()) = on;
+  for (Index i = 0; i < static_cast<Index>(on.cols()); ++i) {
+    const Real way = (i % 3 == 0 ? -0.4 : i % 3 == 1 ? 0.4 : 1) * band;
+    points.col(on.cols() + i) = on.col(i) + way * normals.col(vertices.nearest(on.col(i)));
+  }
+  points.rightCols(centers.cols()) = centers;
+  Eigen::VectorXd values(points.cols());
+  parallel_for(static_cast<Index>(points.cols()), 64, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) values[i] = leveled(distance.query(points.col(i)).distance, band);
+  });
+  return fit_least_squares({{RadialShape::gaussian}, RadialPolynomial::constant}, centers,
+                           Eigen::VectorXd::Constant(centers.cols(), reach), points, values);
+}
+
+void bind(MuscleModel& model, const Points& vertices) {
+  const NearestPoints tree(model.rest.centers);
+  const Index count = std::min(bound_centers, model.rest.count());
+  model.bound.resize(count, vertices.cols());
+  model.bound_shares.resize(count, vertices.cols());
+  for (Index v = 0; v < static_cast<Index>(vertices.cols()); ++v) {
+    const std::vector<Index> near = tree.query(vertices.col(v), static_cast<std::size_t>(count));
+    const Real farthest = (vertices.col(v) - model.rest.centers.col(near.back())).norm();
+    for (Index k = 0; k < count; ++k) {
+      const Real r = (vertices.col(v) - model.rest.centers.col(near[static_cast<std::size_t>(k)])).norm();
+      model.bound(k, v) = near[static_cast<std::size_t>(k)];
+      // 0 at the farthest, so that nothing leaps where another center becomes the eighth.
+      model.bound_shares(k, v) = radial_value({RadialShape::wendland_31}, farthest * (1 + 1e-9) + 1e-12, r);
+    }
+    model.bound_shares.col(v) /= model.bound_shares.col(v).sum();
+  }
+}
+
+}  // namespace
+
+MuscleModel muscle_model(const Muscle& muscle, const BodyCarriers& carriers, Index centers, Real reach_in_spacings) {
+  const TriangleMesh& mesh = muscle.surface;
+  const SignedDistance distance(mesh);
+  const NearestPoints vertices(mesh.vertices);
+  MuscleModel model;
+  model.spacing = std::sqrt(surface_area(mesh.vertices, mesh.faces) / centers);
+  model.depth = model.spacing / 3;
+  const Points inside = inner_points(mesh, distance, model.depth, 10 * centers);
+  const Points chosen = spread_out(inside, centers);
+  const Real reach = reach_in_spacings * model.spacing;
+  model.rest = fit_of(mesh, distance, chosen, reach, model.spacing).basis;
+  model.center_vertex = nearest_vertices(vertices, chosen);
+  for (const Index v : model.center_vertex)
+    model.is_free.push_back(carriers.fixed_body[static_cast<std::size_t>(v)] < 0);
+  const Points sampled = spread_out(mesh.vertices, cost_points_per_center * centers);
+  model.curvature.points.resize(3, sampled.cols() + chosen.cols());
+  model.curvature.points << sampled, chosen;
+  model.point_vertex = nearest_vertices(vertices, model.curvature.points);
+  const auto count = static_cast<Index>(model.curvature.points.cols());
+  model.curvature.share = enclosed_volume(mesh.vertices, mesh.faces) / count;
+  model.curvature.curvatures.resize(count);
+  for (Index q = 0; q < count; ++q)
+    model.curvature.curvatures[q] = field_curvature(model.rest, model.curvature.points.col(q));
+  model.levels.resize(mesh.vertex_count());
+  parallel_for(mesh.vertex_count(), 64, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) model.levels[v] = value_at(model.rest, mesh.vertices.col(v));
+  });
+  bind(model, mesh.vertices);
+  return model;
+}
+
+}  // namespace gracilis::rbf

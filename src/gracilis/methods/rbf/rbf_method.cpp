@@ -1,0 +1,143 @@
+#include <gracilis/methods/rbf/rbf_method.hpp>
+
+#include <gracilis/anatomy/body_carriers.hpp>
+#include <gracilis/anatomy/bone_projection.hpp>
+#include <gracilis/methods/placed_method.hpp>
+#include <gracilis/methods/rbf/muscle_model.hpp>
+#include <gracilis/methods/rbf/surface_follow.hpp>
+#include <gracilis/methods/shape_method.hpp>
+
+#include <algorithm>
+
+namespace gracilis {
+
+template <>
+std::span<const Setting<RbfSettings>> setting_table() {
+  using S = RbfSettings;
+  static const Setting<S> table[] = {
+      {"centers", &S::centers, "", 8, 5000,
+       "How many radial basis functions describe a muscle; at most a tenth of its vertices are taken."},
+      {"reach", &S::reach, "", 0.5, 4, "How far the Gaussians reach, in mean distances of centers."},
+      {"descent_steps", &S::descent_steps, "", 0, 1000,
+       "Steps down the gradient of the curvature's cost per frame, at most; 0 leaves centers where they are carried."},
+      {"reference", &S::reference, "", 0, 0,
+       "Which curvature is kept: 'carried' along with the bodies from the capture pose, or that which the capture pose "
+       "has in the same place of 'space', as published."},
+      {"volume", &S::volume, "", 0, 0,
+       "How the volume is kept: 'offset' moves the level of the field that is the surface, or 'none'."},
+      {"bones", &S::bones, "", 0, 0, "Whether centers and vertices are kept out of bones."},
+      {"tendon_length", &S::tendon_length, "m", 0, 1,
+       "Distance from the attachments over which the blend of the bodies' motions is graded from tendon to belly; 0 "
+       "grades nothing."},
+      {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Distance that free vertices keep from bones."},
+      {"bone_rest_gap", &S::bone_rest_gap, "", 0, 0,
+       "Where a vertex is nearer to a bone than the margin at rest, or in it, keep that distance instead."},
+  };
+  return table;
+}
+
+namespace {
+
+/// What stays the same of one muscle.
+struct RbfMuscle {
+  RbfSettings settings;
+  BodyCarriers carriers;
+  rbf::MuscleModel model;
+  rbf::FollowedSurface surface;
+  BoneProjection center_bones, bones;
+};
+
+/// The centers as if they were vertices of a muscle, for the distances that they keep from bones.
+Muscle muscle_of(const Points& centers) {
+  Muscle muscle;
+  muscle.surface.vertices = centers;
+  return muscle;
+}
+
+RbfMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+  const RbfSettings settings = muscle_settings<RbfSettings>(scene, muscle);
+  const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
+  BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
+  const Index centers = std::max(8, std::min(settings.centers, muscle.surface.vertex_count() / 10));
+  rbf::MuscleModel model = rbf::muscle_model(muscle, carriers, centers, settings.reach);
+  std::vector<Index> center_bodies;
+  for (const Index v : model.center_vertex) center_bodies.push_back(carriers.fixed_body[static_cast<std::size_t>(v)]);
+  BoneProjection center_bones(scene, muscle_of(model.rest.centers), center_bodies, fields,
+                              settings.bone_margin + model.depth, true);
+  BoneProjection bones(scene, muscle, carriers.fixed_body, fields, settings.bone_margin, settings.bone_rest_gap);
+  rbf::FollowedSurface surface = rbf::followed_surface(muscle.surface, topology, carriers);
+  return {settings,           std::move(carriers),     std::move(model),
+          std::move(surface), std::move(center_bones), std::move(bones)};
+}
+
+Points moved(const std::vector<RigidTransform>& motions, const std::vector<Index>& by, const Points& points) {
+  Points result(3, points.cols());
+  for (Index i = 0; i < static_cast<Index>(points.cols()); ++i)
+    result.col(i) = motions[static_cast<std::size_t>(by[static_cast<std::size_t>(i)])] * Vec3(points.col(i));
+  return result;
+}
+
+ShapeStep step(const RbfMuscle& muscle, const Pose& now) {
+  const rbf::MuscleModel& model = muscle.model;
+  const std::vector<RigidTransform> motions = carried_motions(muscle.carriers, now);
+  RadialBasis basis = model.rest;
+  basis.centers = moved(motions, model.center_vertex, model.rest.centers);
+  const Points carried = basis.centers;
+  if (muscle.settings.bones) muscle.center_bones.push_out(now, basis.centers);
+  rbf::CurvaturePoints wanted = model.curvature;
+  if (muscle.settings.reference == RbfReference::carried)
+    wanted.points = moved(motions, model.point_vertex, model.curvature.points);
+  const rbf::Descent done =
+      rbf::descend(basis, wanted, model.is_free, muscle.settings.descent_steps, model.spacing / 10);
+  Index contacts = 0;
+  if (muscle.settings.bones) contacts += muscle.center_bones.push_out(now, basis.centers);
+  rbf::FollowWishes wishes;
+  wishes.keeps_volume = muscle.settings.volume == RbfVolume::offset;
+  if (muscle.settings.bones) wishes.push_out = [&](Points& points) { return muscle.bones.push_out(now, points); };
+  rbf::Followed followed = rbf::follow(muscle.surface, model, motions, carried, basis, wishes);
+  return {std::move(followed.points),
+          {{"contacts", static_cast<Real>(contacts + followed.contacts)},
+           {"descent_steps", static_cast<Real>(done.steps)},
+           {"cost", done.after},
+           {"offset_mm", 1000 * followed.offset}}};
+}
+
+ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+  const auto prepared = std::make_shared<const RbfMuscle>(prepare(scene, muscle, fields));
+  return {muscle.name, muscle.surface.vertices,
+          [prepared](const Pose&, const Pose& now, const Points&) { return step(*prepared, now); }};
+}
+
+Preset rbf_2024() {
+  Preset preset;
+  preset.name = "rbf-2024";
+  preset.meaning = "radial basis functions as published, with what this project added switched off";
+  preset.method.name = "rbf";
+  RbfSettings published;
+  published.reference = RbfReference::space;
+  published.volume = RbfVolume::none;
+  published.bones = false;
+  preset.method.settings = changed_values(published);
+  return preset;
+}
+
+}  // namespace
+
+std::unique_ptr<DeformationMethod> make_rbf_method(const Scene& scene, std::vector<DistanceField> fields) {
+  return made_near_origin(scene, std::move(fields), [](const Scene& near, std::vector<DistanceField> near_fields) {
+    return shape_method(near, std::move(near_fields), shaped);
+  });
+}
+
+MethodEntry rbf_entry() {
+  return {.name = "rbf",
+          .meaning = "implicit surfaces of radial basis functions that keep their curvature",
+          .settings = describe_settings<RbfSettings>(),
+          .presets = {rbf_2024()},
+          .metrics = {{"contacts", 0}, {"descent_steps", 0}, {"cost", 9}, {"offset_mm", 3}},
+          .make = [](const Scene& scene, const BoneFieldSource& fields) {
+            return make_rbf_method(scene, fields(scene.distance_fields));
+          }};
+}
+
+}  // namespace gracilis

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <gracilis/geometry/topology.hpp>
+#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/methods/rbf/muscle_model.hpp>
+
+#include <functional>
+#include <vector>
+
+namespace gracilis::rbf {
+
+/// A muscle's surface that follows its centers.
+struct FollowedSurface {
+  TriangleMesh rest;  ///< world, in the capture pose, m
+  VertexStars stars;
+  std::vector<char> held;   ///< per vertex: attached, or out of every attachment's reach
+  Eigen::VectorXd freedom;  ///< per vertex: how much of an offset it takes, 0 on held ones, 1 far from them
+  Real volume = 0;          ///< m³
+};
+
+FollowedSurface followed_surface(const TriangleMesh& mesh, const MeshTopology& topology, const BodyCarriers& carriers);
+
+/// What the surface is asked for beside its level.
+struct FollowWishes {
+  bool keeps_volume = true;
+  std::function<Index(Points&)> push_out;  ///< out of bones; says how many it pushed; none: it is not asked
+};
+
+struct Followed {
+  Points points;
+  Index contacts = 0;
+  Real offset = 0;  ///< m, by which levels were moved
+};
+
+/// Where the vertices are: carried, corrected as the centers between `carried` and their place in `basis`, moved along
+/// the gradient to their level (plus the offset that restores the volume), and out of bones.
+Followed follow(const FollowedSurface& surface, const MuscleModel& model, const std::vector<RigidTransform>& motions,
+                const Points& carried, const RadialBasis& basis, const FollowWishes& wishes);
+
+}  // namespace gracilis::rbf
