@@ -137,10 +137,10 @@ TEST(Rbf, attached_centers_are_not_moved_by_the_cost) {
 TEST(Rbf, the_model_is_the_distance_to_the_surface_with_a_tenth_of_its_vertices) {
   const Scene scene = rbf_scene();
   const Muscle& muscle = scene.muscles[0];
-  const BodyCarriers carriers =
-      body_carriers(muscle, build_topology(muscle.surface.faces, muscle.surface.vertex_count()), 0.03);
+  const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
+  const BodyCarriers carriers = body_carriers(muscle, topology, 0.03);
   const Index centers = muscle.surface.vertex_count() / 10;
-  const MuscleModel model = muscle_model(muscle, carriers, centers, 1.2);
+  const MuscleModel model = muscle_model(muscle, topology, carriers, centers, 1.2);
   EXPECT_EQ(model.rest.count(), centers);
   EXPECT_LT(model.levels.cwiseAbs().mean(), 0.0005);
   EXPECT_LT(value_at(model.rest, Vec3(0.0255, 0, 0)), -0.003);

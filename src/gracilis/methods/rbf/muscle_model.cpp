@@ -57,25 +57,50 @@ std::vector<Index> nearest_vertices(const NearestPoints& vertices, const Points&
   return nearest;
 }
 
-/// The weights with which Σ λ φ + a is the leveled distance, by least squares at vertices and beside them.
-RadialFit fit_of(const TriangleMesh& mesh, const SignedDistance& distance, const Points& centers, Real reach,
-                 Real band) {
+/// Points at which the field is fitted, on the surface, beside it and at the centers, and the leveled distance there.
+void choose_fit_points(MuscleModel& model, const TriangleMesh& mesh, const SignedDistance& distance,
+                       const Points& centers, Real band) {
   const Points normals = vertex_normals(mesh.vertices, mesh.faces);
   const Points on = spread_out(mesh.vertices, fit_points_per_center * static_cast<Index>(centers.cols()) / 2);
   const NearestPoints vertices(mesh.vertices);
-  Points points(3, 2 * on.cols() + centers.cols());
+  Points& points = model.fit_points;
+  points.resize(3, 2 * on.cols() + centers.cols());
   points.leftCols(on.cols()) = on;
   for (Index i = 0; i < static_cast<Index>(on.cols()); ++i) {
     const Real way = (i % 3 == 0 ? -0.4 : i % 3 == 1 ? 0.4 : 1) * band;
     points.col(on.cols() + i) = on.col(i) + way * normals.col(vertices.nearest(on.col(i)));
   }
   points.rightCols(centers.cols()) = centers;
-  Eigen::VectorXd values(points.cols());
+  model.fit_vertex = nearest_vertices(vertices, points);
+  model.fit_values.resize(points.cols());
   parallel_for(static_cast<Index>(points.cols()), 64, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) values[i] = leveled(distance.query(points.col(i)).distance, band);
+    for (Index i = begin; i < end; ++i) model.fit_values[i] = leveled(distance.query(points.col(i)).distance, band);
   });
-  return fit_least_squares({{RadialShape::gaussian}, RadialPolynomial::constant}, centers,
-                           Eigen::VectorXd::Constant(centers.cols(), reach), points, values);
+}
+
+/// An offset must not turn thin parts inside out: they take the less of it the less deep the muscle is below them.
+Eigen::VectorXd offset_shares(const TriangleMesh& mesh, const VertexStars& stars, const RadialBasis& field, Real band) {
+  constexpr int looks = 8, spreads = 8;
+  const Points normals = vertex_normals(mesh.vertices, mesh.faces);
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(mesh.vertex_count());
+  parallel_for(mesh.vertex_count(), 64, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) {
+      for (int look = 1; look <= looks; ++look)
+        shares[v] = std::max(shares[v], -value_at(field, mesh.vertices.col(v) - look * band / looks * normals.col(v)));
+      shares[v] = std::min(shares[v] / (band / 2), 1.0);
+    }
+  });
+  for (int spread = 0; spread < spreads; ++spread) {
+    const Eigen::VectorXd before = shares;
+    for (std::size_t v = 0; v + 1 < stars.offsets.size(); ++v) {
+      const Index first = stars.offsets[v], last = stars.offsets[v + 1];
+      Real sum = 0;
+      for (Index k = first; k < last; ++k) sum += before[stars.neighbors[static_cast<std::size_t>(k)]];
+      const auto at = static_cast<Index>(v);
+      if (last > first) shares[at] = (before[at] + sum / (last - first)) / 2;
+    }
+  }
+  return shares;
 }
 
 void bind(MuscleModel& model, const Points& vertices) {
@@ -98,7 +123,26 @@ void bind(MuscleModel& model, const Points& vertices) {
 
 }  // namespace
 
-MuscleModel muscle_model(const Muscle& muscle, const BodyCarriers& carriers, Index centers, Real reach_in_spacings) {
+Eigen::VectorXd refitted_weights(const MuscleModel& model, const RadialBasis& moved, const Points& points) {
+  // Of the mean diagonal entry: enough for Gaussians that have come close to share what they do.
+  constexpr Real damping = 1e-4;
+  const Index count = moved.count();
+  Eigen::MatrixXd matrix(points.cols(), count);
+  Eigen::VectorXd left(points.cols());
+  parallel_for(static_cast<Index>(points.cols()), 64, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      for (Index k = 0; k < count; ++k)
+        matrix(i, k) = radial_value(moved.kernel, moved.reaches[k], (points.col(i) - moved.centers.col(k)).norm());
+      left[i] = model.fit_values[i] - moved.polynomial[0] - matrix.row(i).dot(moved.weights);
+    }
+  });
+  Eigen::MatrixXd normal = matrix.transpose() * matrix;
+  normal.diagonal().array() += damping * normal.trace() / count;
+  return moved.weights + normal.llt().solve(matrix.transpose() * left);
+}
+
+MuscleModel muscle_model(const Muscle& muscle, const MeshTopology& topology, const BodyCarriers& carriers,
+                         Index centers, Real reach_in_spacings) {
   const TriangleMesh& mesh = muscle.surface;
   const SignedDistance distance(mesh);
   const NearestPoints vertices(mesh.vertices);
@@ -108,7 +152,11 @@ MuscleModel muscle_model(const Muscle& muscle, const BodyCarriers& carriers, Ind
   const Points inside = inner_points(mesh, distance, model.depth, 10 * centers);
   const Points chosen = spread_out(inside, centers);
   const Real reach = reach_in_spacings * model.spacing;
-  model.rest = fit_of(mesh, distance, chosen, reach, model.spacing).basis;
+  choose_fit_points(model, mesh, distance, chosen, model.spacing);
+  model.rest = fit_least_squares({{RadialShape::gaussian}, RadialPolynomial::constant}, chosen,
+                                 Eigen::VectorXd::Constant(chosen.cols(), reach), model.fit_points, model.fit_values)
+                   .basis;
+  model.rest.weights = refitted_weights(model, model.rest, model.fit_points);  // damped, as in every other pose
   model.center_vertex = nearest_vertices(vertices, chosen);
   for (const Index v : model.center_vertex)
     model.is_free.push_back(carriers.fixed_body[static_cast<std::size_t>(v)] < 0);
@@ -125,6 +173,7 @@ MuscleModel muscle_model(const Muscle& muscle, const BodyCarriers& carriers, Ind
   parallel_for(mesh.vertex_count(), 64, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v) model.levels[v] = value_at(model.rest, mesh.vertices.col(v));
   });
+  model.offset_shares = offset_shares(mesh, topology.stars, model.rest, model.spacing);
   bind(model, mesh.vertices);
   return model;
 }

@@ -18,6 +18,10 @@ std::span<const Setting<RbfSettings>> setting_table() {
       {"centers", &S::centers, "", 8, 5000,
        "How many radial basis functions describe a muscle; at most a tenth of its vertices are taken."},
       {"reach", &S::reach, "", 0.5, 4, "How far the Gaussians reach, in mean distances of centers."},
+      {"weights", &S::weights, "", 0, 0,
+       "Weights of the functions in other poses: 'refitted', so that points that moved along keep their distance to "
+       "the "
+       "surface, or 'kept' as in the capture pose, as published."},
       {"descent_steps", &S::descent_steps, "", 0, 1000,
        "Steps down the gradient of the curvature's cost per frame, at most; 0 leaves centers where they are carried."},
       {"reference", &S::reference, "", 0, 0,
@@ -59,7 +63,7 @@ RbfMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<Di
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
   const Index centers = std::max(8, std::min(settings.centers, muscle.surface.vertex_count() / 10));
-  rbf::MuscleModel model = rbf::muscle_model(muscle, carriers, centers, settings.reach);
+  rbf::MuscleModel model = rbf::muscle_model(muscle, topology, carriers, centers, settings.reach);
   std::vector<Index> center_bodies;
   for (const Index v : model.center_vertex) center_bodies.push_back(carriers.fixed_body[static_cast<std::size_t>(v)]);
   BoneProjection center_bones(scene, muscle_of(model.rest.centers), center_bodies, fields,
@@ -91,10 +95,17 @@ ShapeStep step(const RbfMuscle& muscle, const Pose& now) {
       rbf::descend(basis, wanted, model.is_free, muscle.settings.descent_steps, model.spacing / 10);
   Index contacts = 0;
   if (muscle.settings.bones) contacts += muscle.center_bones.push_out(now, basis.centers);
+  const Points corrections = basis.centers - carried;
+  if (muscle.settings.weights == RbfWeights::refitted) {
+    Points along = moved(motions, model.fit_vertex, model.fit_points);
+    for (Index i = 0; i < static_cast<Index>(along.cols()); ++i)
+      along.col(i) += rbf::correction_at(model, model.fit_vertex[static_cast<std::size_t>(i)], corrections);
+    basis.weights = rbf::refitted_weights(model, basis, along);
+  }
   rbf::FollowWishes wishes;
   wishes.keeps_volume = muscle.settings.volume == RbfVolume::offset;
   if (muscle.settings.bones) wishes.push_out = [&](Points& points) { return muscle.bones.push_out(now, points); };
-  rbf::Followed followed = rbf::follow(muscle.surface, model, motions, carried, basis, wishes);
+  rbf::Followed followed = rbf::follow(muscle.surface, model, motions, corrections, basis, wishes);
   return {std::move(followed.points),
           {{"contacts", static_cast<Real>(contacts + followed.contacts)},
            {"descent_steps", static_cast<Real>(done.steps)},
@@ -115,6 +126,7 @@ Preset rbf_2024() {
   preset.method.name = "rbf";
   RbfSettings published;
   published.reference = RbfReference::space;
+  published.weights = RbfWeights::kept;
   published.volume = RbfVolume::none;
   published.bones = false;
   preset.method.settings = changed_values(published);

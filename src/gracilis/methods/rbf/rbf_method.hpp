@@ -15,6 +15,13 @@ enum class RbfReference {
 };
 constexpr std::array<std::string_view, 2> choices_of(RbfReference) { return {"carried", "space"}; }
 
+/// What the functions' weights do when their centers move.
+enum class RbfWeights {
+  refitted,  ///< so that points that moved along keep their values
+  kept       ///< nothing, as published
+};
+constexpr std::array<std::string_view, 2> choices_of(RbfWeights) { return {"refitted", "kept"}; }
+
 /// How a muscle keeps its volume.
 enum class RbfVolume {
   none,
@@ -26,6 +33,7 @@ constexpr std::array<std::string_view, 2> choices_of(RbfVolume) { return {"none"
 struct RbfSettings {
   int centers = 300;
   Real reach = 1.2;  ///< of the Gaussians, in mean distances of centers
+  RbfWeights weights = RbfWeights::refitted;
   int descent_steps = 10;
   RbfReference reference = RbfReference::carried;
   RbfVolume volume = RbfVolume::offset;

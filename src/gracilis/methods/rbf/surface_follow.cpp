@@ -69,6 +69,13 @@ Index push_out_smoothly(const FollowedSurface& surface, const FollowWishes& wish
 
 }  // namespace
 
+Vec3 correction_at(const MuscleModel& model, Index vertex, const Points& corrections) {
+  Vec3 sum = Vec3::Zero();
+  for (Index k = 0; k < static_cast<Index>(model.bound.rows()); ++k)
+    sum += model.bound_shares(k, vertex) * corrections.col(model.bound(k, vertex));
+  return sum;
+}
+
 FollowedSurface followed_surface(const TriangleMesh& mesh, const MeshTopology& topology, const BodyCarriers& carriers) {
   FollowedSurface surface;
   surface.rest = mesh;
@@ -88,21 +95,19 @@ FollowedSurface followed_surface(const TriangleMesh& mesh, const MeshTopology& t
 }
 
 Followed follow(const FollowedSurface& surface, const MuscleModel& model, const std::vector<RigidTransform>& motions,
-                const Points& carried, const RadialBasis& basis, const FollowWishes& wishes) {
-  const Points corrections = basis.centers - carried;
+                const Points& corrections, const RadialBasis& basis, const FollowWishes& wishes) {
   Points start(3, surface.rest.vertex_count());
   for (Index v = 0; v < surface.rest.vertex_count(); ++v) {
     start.col(v) = motions[static_cast<std::size_t>(v)] * Vec3(surface.rest.vertices.col(v));
     if (surface.held[static_cast<std::size_t>(v)]) continue;
-    for (Index k = 0; k < static_cast<Index>(model.bound.rows()); ++k)
-      start.col(v) += model.bound_shares(k, v) * corrections.col(model.bound(k, v));
+    start.col(v) += correction_at(model, v, corrections);
   }
   Followed result;
   Real last_offset = 0, last_off = 0;
   for (int round = 0; round < most_rounds; ++round) {
     throw_if_stopped();
     result.points = start;
-    const Eigen::VectorXd levels = model.levels.array() + result.offset;
+    const Eigen::VectorXd levels = model.levels + result.offset * model.offset_shares;
     move_to_levels(surface, basis, levels, model.spacing, result.points);
     result.contacts = push_out_smoothly(surface, wishes, result.points);
     const Real off = enclosed_volume(result.points, surface.rest.faces) - surface.volume;

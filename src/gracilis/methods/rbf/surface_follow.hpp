@@ -32,9 +32,12 @@ struct Followed {
   Real offset = 0;  ///< m, by which levels were moved
 };
 
-/// Where the vertices are: carried, corrected as the centers between `carried` and their place in `basis`, moved along
-/// the gradient to their level (plus the offset that restores the volume), and out of bones.
+/// By how much a vertex is moved where centers are moved by `corrections`, m.
+Vec3 correction_at(const MuscleModel& model, Index vertex, const Points& corrections);
+
+/// Where the vertices are: carried, moved as the centers are by `corrections` (to where they are in `basis`), then
+/// along the gradient to their level (plus the offset that restores the volume), and out of bones.
 Followed follow(const FollowedSurface& surface, const MuscleModel& model, const std::vector<RigidTransform>& motions,
-                const Points& carried, const RadialBasis& basis, const FollowWishes& wishes);
+                const Points& corrections, const RadialBasis& basis, const FollowWishes& wishes);
 
 }  // namespace gracilis::rbf
