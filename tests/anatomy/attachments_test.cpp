@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gracilis {
 namespace {
@@ -122,6 +123,34 @@ TEST(AttachmentAreas, a_row_of_vertices_is_a_sliver) {
   EXPECT_NEAR(area.length, 0.030, 1e-12);
   EXPECT_TRUE(area.sliver());
   EXPECT_EQ(attachment_area(mesh, {}).area, 0);
+}
+
+TEST(AttachmentOutline, its_inside_is_told_on_the_bone_in_whatever_order_its_points_come) {
+  // Half a cylinder's side: seen along the normal of the plane that fits the outline, its inside has no one place.
+  const TriangleMesh bone = shapes::cylinder(0.01, 0.08, 48, 40);
+  TriangleMesh muscle = bone;
+  muscle.vertices.topRows(2) *= 1.1;
+  std::vector<Vec3> around;
+  for (int i = 0; i <= 12; ++i) {
+    const Real angle = 1.5 * pi * i / 12;
+    for (const Real z : {20.0, 60.0}) around.emplace_back(10 * std::cos(angle), 10 * std::sin(angle), z);
+  }
+  for (const Real angle : {0.0, 1.5 * pi})
+    for (const Real z : {25.0, 30.0, 35.0, 40.0, 45.0, 50.0, 55.0})
+      around.emplace_back(10 * std::cos(angle), 10 * std::sin(angle), z);
+  const Points points = points_mm(around);
+  const TriangleMesh* bones[] = {&bone};
+  const NearestTriangle tree(bone);
+  const NearestTriangle* trees[] = {&tree};
+  const LandmarkSet outline = outline_on_bones(points, bones);
+  ASSERT_EQ(outline.inside.size(), 1u);
+  const std::vector<Index> taken = select_vertices(muscle, trees, NearLandmarks{{outline}, 0.002, 0.0001});
+  EXPECT_GT(taken.size(), 500u);
+  for (const Index v : taken) {
+    const Vec3 p = muscle.vertices.col(v);
+    const Real angle = std::atan2(p.y(), p.x());
+    EXPECT_TRUE(p.z() > 0.019 && p.z() < 0.061 && (angle > -0.01 || angle < -pi / 2 + 0.01)) << p.transpose();
+  }
 }
 
 }  // namespace gracilis

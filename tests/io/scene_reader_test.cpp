@@ -119,6 +119,18 @@ TEST_F(SceneReader, landmarks_and_explicit_vertices_make_attachments_too) {
   EXPECT_TRUE(muscle.attachments[1].guessed);
 }
 
+TEST_F(SceneReader, an_outline_needs_the_bone_that_its_inside_lies_on) {
+  const std::string text = with(good_scene(), "bone = \"pelvis\"\nbone_distance_mm = 2",
+                                "body = \"pelvis\"\nline = \"outline\"\npoints_mm = [[0, 0, 30], [10, 10, 30], [0, 10, "
+                                "30]]\nlandmark_distance_mm = 2");
+  try {
+    read(text);
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("has an outline but no bone"));
+  }
+}
+
 TEST_F(SceneReader, points_without_a_bone_make_an_attachment) {
   const std::string text = with(good_scene(), "bone = \"pelvis\"\nbone_distance_mm = 2",
                                 "body = \"pelvis\"\npoints_mm = [[0, 0, 30], [10, 10, 33]]\nlandmark_distance_mm = 2");

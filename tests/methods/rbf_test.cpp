@@ -157,7 +157,9 @@ TEST(Rbf, volume_and_bones_can_be_switched) {
   scene.method.settings["volume"] = "none";
   EXPECT_GT(volume_error(scene, shape_at(scene, 60)), 0.01);
   scene.method.settings["bones"] = false;
-  EXPECT_GT(deepest(scene, shape_at(scene, 60), pose), 0.001);
+  EXPECT_GT(deepest(scene, shape_at(scene, -60), flexed(scene, radians(-60))), 0.001);
+  scene.method.settings["bones"] = true;
+  EXPECT_LT(deepest(scene, shape_at(scene, -60), flexed(scene, radians(-60))), 1e-5);
 }
 
 TEST(Rbf, a_shape_follows_from_the_pose_alone) {

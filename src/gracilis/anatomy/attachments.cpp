@@ -1,6 +1,8 @@
 #include <gracilis/anatomy/attachments.hpp>
 
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/outline_curves.hpp>
+#include <gracilis/geometry/surface_region.hpp>
 
 #include <Eigen/Eigenvalues>
 
@@ -27,7 +29,7 @@ Real distance_to(const LandmarkSet& landmarks, const Vec3& p) {
   Real nearest = std::numeric_limits<Real>::infinity();
   for (Index i = 0; i < points.cols(); ++i) nearest = std::min(nearest, (points.col(i) - p).norm());
   if (landmarks.kind == LineKind::cloud) return nearest;
-  const Index segments = points.cols() - (landmarks.kind == LineKind::closed ? 0 : 1);
+  const Index segments = points.cols() - (landmarks.kind == LineKind::open ? 1 : 0);
   for (Index i = 0; i < segments; ++i) {
     nearest = std::min(nearest, distance_to_segment(p, points.col(i), points.col((i + 1) % points.cols())));
   }
@@ -52,13 +54,40 @@ bool inside_outline(const Points& outline, const Vec3& p, Real reach) {
   return inside;
 }
 
-static NearestPoint nearest_on(std::span<const NearestTriangle* const> bones, const Vec3& p, Real reach) {
-  NearestPoint nearest;
-  for (const NearestTriangle* bone : bones) {
-    const NearestPoint found = bone->query(p, std::min(reach, nearest.distance));
-    if (found.face >= 0 && found.distance < nearest.distance) nearest = found;
+LandmarkSet outline_on_bones(const Points& points, std::span<const TriangleMesh* const> bones) {
+  LandmarkSet set{ordered_outline(OutlineCurve::shortest_tour, points), LineKind::outline};
+  std::vector<NearestTriangle> trees;
+  for (const TriangleMesh* bone : bones) trees.emplace_back(*bone);
+  std::vector<Index> votes(bones.size(), 0);
+  for (Index i = 0; i < static_cast<Index>(points.cols()); ++i) {
+    std::size_t nearest = 0;
+    for (std::size_t b = 1; b < trees.size(); ++b)
+      if (trees[b].query(points.col(i)).distance < trees[nearest].query(points.col(i)).distance) nearest = b;
+    if (!votes.empty()) ++votes[nearest];
   }
-  return nearest;
+  const auto most = std::max_element(votes.begin(), votes.end());
+  for (std::size_t b = 0; b < bones.size(); ++b)
+    set.inside.push_back(&votes[b] == &*most ? faces_inside(*bones[b], set.points)
+                                             : std::vector<char>(static_cast<std::size_t>(bones[b]->face_count()), 0));
+  return set;
+}
+
+namespace {
+
+struct NearestOnBones {
+  std::size_t bone = 0;
+  NearestPoint nearest;
+};
+
+}  // namespace
+
+static NearestOnBones nearest_on(std::span<const NearestTriangle* const> bones, const Vec3& p, Real reach) {
+  NearestOnBones best;
+  for (std::size_t b = 0; b < bones.size(); ++b) {
+    const NearestPoint found = bones[b]->query(p, std::min(reach, best.nearest.distance));
+    if (found.face >= 0 && found.distance < best.nearest.distance) best = {b, found};
+  }
+  return best;
 }
 
 static bool near(const std::vector<LandmarkSet>& landmarks, const Vec3& p, Real distance) {
@@ -74,15 +103,19 @@ struct Taken {
   std::span<const NearestTriangle* const> bones;
 
   bool operator()(const NearLandmarks& rule) const {
-    const NearestPoint bone = nearest_on(bones, p, rule.bone_distance);
-    if (bone.face < 0 || bone.distance > rule.bone_distance) return false;
+    const auto [bone, nearest] = nearest_on(bones, p, rule.bone_distance);
+    if (nearest.face < 0 || nearest.distance > rule.bone_distance) return false;
     if (near(rule.landmarks, p, rule.landmark_distance)) return true;
     return std::any_of(rule.landmarks.begin(), rule.landmarks.end(), [&](const LandmarkSet& set) {
-      return set.kind == LineKind::closed && inside_outline(set.points, bone.point, rule.landmark_distance);
+      if (set.kind == LineKind::outline)
+        return bone < set.inside.size() && set.inside[bone][static_cast<std::size_t>(nearest.face)] != 0;
+      return set.kind == LineKind::closed && inside_outline(set.points, nearest.point, rule.landmark_distance);
     });
   }
   bool operator()(const NearPoints& rule) const { return near(rule.landmarks, p, rule.distance); }
-  bool operator()(const NearBone& rule) const { return nearest_on(bones, p, rule.distance).distance <= rule.distance; }
+  bool operator()(const NearBone& rule) const {
+    return nearest_on(bones, p, rule.distance).nearest.distance <= rule.distance;
+  }
   bool operator()(const ListedVertices&) const { return false; }  // not asked vertex by vertex
 };
 

@@ -16,16 +16,22 @@ enum class LineKind {
   cloud,   ///< not at all
   open,    ///< as a line from the first to the last
   closed,  ///< as an outline; what lies inside it belongs to it too
+  outline  ///< as an outline in any order, whose inside is told on the bone's surface (outline_on_bones)
 };
 
-/// Landmarks on a bone. An outline's inside is judged along its best-fitting plane's normal.
+/// Landmarks on a bone. A closed line's inside is judged along its best-fitting plane's normal.
 struct LandmarkSet {
   Points points;
   LineKind kind = LineKind::cloud;
+  std::vector<std::vector<char>> inside = {};  ///< of an `outline`: per bone and face
 };
 
+/// Points around an area of a bone, in any order, as an outline: in the order of the shortest tour through them
+/// (geometry/outline_curves.hpp), with the faces inside it on the bone to which most points are nearest.
+LandmarkSet outline_on_bones(const Points& points, std::span<const TriangleMesh* const> bones);
+
 /// Vertices within `bone_distance` of the bone and within `landmark_distance` of one of the landmark sets, or, for a
-/// closed outline, with their nearest point on the bone inside it.
+/// closed line or an outline, with their nearest point on the bone inside it.
 struct NearLandmarks {
   std::vector<LandmarkSet> landmarks;
   Real bone_distance = 0;

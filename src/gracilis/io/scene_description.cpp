@@ -120,8 +120,10 @@ static AttachmentDescription read_attachment(TomlReader table) {
     result.line = LineKind::open;
   else if (line == "closed")
     result.line = LineKind::closed;
+  else if (line == "outline")
+    result.line = LineKind::outline;
   else if (line != "cloud")
-    table.add_problem("line", "'line' must be \"cloud\", \"open\" or \"closed\"");
+    table.add_problem("line", "'line' must be \"cloud\", \"open\", \"closed\" or \"outline\"");
   result.body = table.text("body").value_or("");
   result.bones = table.texts("bone");
   result.clouds = table.texts("cloud");
@@ -151,6 +153,8 @@ static AttachmentDescription read_attachment(TomlReader table) {
     complain("needs the key 'bone_distance_mm'", "the distance to the bone within which vertices are taken");
   } else if (landmarks && result.landmark_distance == 0) {
     complain("needs the key 'landmark_distance_mm'", "the distance to the landmarks within which vertices are taken");
+  } else if (result.line == LineKind::outline && result.bones.empty()) {
+    complain("has an outline but no bone", "give 'bone', on whose surface the inside lies");
   } else if (!landmarks && result.landmark_distance > 0) {
     complain("gives a distance to landmarks but no landmarks", "give 'cloud' or 'points_mm'");
   }

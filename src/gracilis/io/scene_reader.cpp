@@ -472,6 +472,12 @@ class SceneBuilder {
     std::vector<LandmarkSet> landmarks = landmarks_of(attachment);
     if (attachment.clouds.empty() && attachment.points.empty()) return NearBone{attachment.bone_distance};
     if (attachment.bones.empty()) return NearPoints{std::move(landmarks), attachment.landmark_distance};
+    if (attachment.line == LineKind::outline) {
+      std::vector<const TriangleMesh*> surfaces;
+      for (const std::string& bone : attachment.bones)
+        surfaces.push_back(&result_.scene.bones[static_cast<std::size_t>(bone_index(bone))].surface);
+      for (LandmarkSet& set : landmarks) set = outline_on_bones(set.points, surfaces);
+    }
     return NearLandmarks{std::move(landmarks), attachment.bone_distance, attachment.landmark_distance};
   }
 

@@ -156,7 +156,8 @@ name = "ilium"
 end = "origin"      # "origin" or "insertion"
 bone = "hip_bone_r" # one name or several, ["hip_bone_r", "sacrum"]; the vertices move with its body
 cloud = "ilium"     # names of clouds in the landmark file; or points_mm = [[x, y, z], ...]
-line = "closed"     # "cloud" (default): separate points; "open": a line through them; "closed": an outline and its inside
+line = "closed"     # "cloud" (default): separate points; "open": a line through them; "closed": an outline and its inside,
+                    # seen in its plane; "outline": points around an area in any order, and its inside on the bone
 bone_distance_mm = 4
 landmark_distance_mm = 12
 

@@ -3,6 +3,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
 
 #include <algorithm>
@@ -18,17 +19,47 @@ constexpr int most_rounds = 12;
 /// Where the field is flatter than this, its gradient tells no way; at rest it is 1 on the surface.
 constexpr Real least_slope = 0.3;
 
+/// The centers that a vertex feels on its way to its level.
+using NearCenters = std::vector<std::vector<Index>>;
+
+NearCenters near_centers(const RadialBasis& basis, const Points& points, Real longest) {
+  constexpr Real reaches = 4;  // beyond them a Gaussian is below 1e-6
+  const NearestPoints tree(basis.centers);
+  const Real far = longest + reaches * basis.reaches.maxCoeff();
+  NearCenters near(static_cast<std::size_t>(points.cols()));
+  parallel_for(static_cast<Index>(points.cols()), 128, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) near[static_cast<std::size_t>(v)] = tree.within(points.col(v), far);
+  });
+  return near;
+}
+
+/// f and its gradient of the centers near a point.
+RadialSample slope_of(const RadialBasis& basis, const std::vector<Index>& near, const Vec3& point) {
+  RadialSample result;
+  result.value = basis.polynomial[0];
+  for (const Index k : near) {
+    const Vec3 from = point - basis.centers.col(k);
+    const Real narrow = 1 / (basis.reaches[k] * basis.reaches[k]);
+    const Real term = basis.weights[k] * std::exp(-narrow * from.squaredNorm());
+    result.value += term;
+    result.gradient -= 2 * narrow * term * from;
+  }
+  return result;
+}
+
 /// Moves vertices along the field's gradient until it has the wanted value there; at most `longest` (m).
-void move_to_levels(const FollowedSurface& surface, const RadialBasis& basis, const Eigen::VectorXd& levels,
-                    Real longest, Points& points) {
-  constexpr int newton_steps = 3;
+void move_to_levels(const FollowedSurface& surface, const RadialBasis& basis, const NearCenters& near,
+                    const Eigen::VectorXd& levels, Real longest, Points& points) {
+  constexpr int newton_steps = 4;
+  constexpr Real near_enough = 1e-8;  // m
   parallel_for(static_cast<Index>(points.cols()), 32, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v) {
       if (surface.held[static_cast<std::size_t>(v)]) continue;
       const Vec3 start = points.col(v);
       Vec3 point = start;
       for (int i = 0; i < newton_steps; ++i) {
-        const RadialSample at = slope_at(basis, point);
+        const RadialSample at = slope_of(basis, near[static_cast<std::size_t>(v)], point);
+        if (std::abs(levels[v] - at.value) < near_enough) break;
         point += (levels[v] - at.value) / std::max(at.gradient.squaredNorm(), least_slope * least_slope) * at.gradient;
         if (const Real way = (point - start).norm(); way > longest) {
           point = start + longest / way * (point - start);
@@ -43,7 +74,7 @@ void move_to_levels(const FollowedSurface& surface, const RadialBasis& basis, co
 /// Pushes out of bones so that neighbors go along: what was pushed is spread over the surface, then pushed again.
 Index push_out_smoothly(const FollowedSurface& surface, const FollowWishes& wishes, Points& points) {
   if (!wishes.push_out) return 0;
-  constexpr int rounds = 3, spreads = 4;
+  constexpr int rounds = 6, spreads = 10;
   for (int round = 0; round < rounds; ++round) {
     Points pushed = points;
     if (wishes.push_out(pushed) == 0) return 0;
@@ -102,13 +133,14 @@ Followed follow(const FollowedSurface& surface, const MuscleModel& model, const 
     if (surface.held[static_cast<std::size_t>(v)]) continue;
     start.col(v) += correction_at(model, v, corrections);
   }
+  const NearCenters near = near_centers(basis, start, model.spacing);
   Followed result;
   Real last_offset = 0, last_off = 0;
   for (int round = 0; round < most_rounds; ++round) {
     throw_if_stopped();
     result.points = start;
     const Eigen::VectorXd levels = model.levels + result.offset * model.offset_shares;
-    move_to_levels(surface, basis, levels, model.spacing, result.points);
+    move_to_levels(surface, basis, near, levels, model.spacing, result.points);
     result.contacts = push_out_smoothly(surface, wishes, result.points);
     const Real off = enclosed_volume(result.points, surface.rest.faces) - surface.volume;
     if (!wishes.keeps_volume || std::abs(off) <= accuracy * surface.volume || !std::isfinite(off)) break;
