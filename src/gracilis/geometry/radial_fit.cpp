@@ -10,6 +10,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace gracilis {

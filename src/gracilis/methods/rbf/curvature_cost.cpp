@@ -11,11 +11,29 @@ namespace {
 
 constexpr Index grain = 16;
 
+/// Whether a function is felt so far away; Gaussians are below the last digit beyond six reaches.
+bool is_felt(const RadialBasis& basis, Index center, const Vec3& from) {
+  if (basis.kernel.shape != RadialShape::gaussian) return true;
+  return from.squaredNorm() < 36 * basis.reaches[center] * basis.reaches[center];
+}
+
+/// The field's curvature (eq. 6.5).
+Real curvature_at(const RadialBasis& basis, const Vec3& point) {
+  Real sum = 0;
+  for (Index k = 0; k < basis.count(); ++k) {
+    const Vec3 from = point - basis.centers.col(k);
+    if (!is_felt(basis, k, from)) continue;
+    const RadialProfile at = radial_profile(basis.kernel, basis.reaches[k], from.norm());
+    sum += basis.weights[k] * (at.second + (basis.dimensions - 1) * at.slope_over_r);
+  }
+  return sum / basis.dimensions;
+}
+
 /// κ - κ_0 at every point.
 Eigen::VectorXd differences(const RadialBasis& basis, const CurvaturePoints& wanted) {
   Eigen::VectorXd off(wanted.points.cols());
   parallel_for(static_cast<Index>(off.size()), grain, [&](Index begin, Index end) {
-    for (Index q = begin; q < end; ++q) off[q] = field_curvature(basis, wanted.points.col(q)) - wanted.curvatures[q];
+    for (Index q = begin; q < end; ++q) off[q] = curvature_at(basis, wanted.points.col(q)) - wanted.curvatures[q];
   });
   return off;
 }
@@ -36,7 +54,7 @@ Points curvature_cost_gradient(const RadialBasis& basis, const CurvaturePoints& 
       for (Index q = 0; q < static_cast<Index>(off.size()); ++q) {
         const Vec3 from = wanted.points.col(q) - basis.centers.col(k);
         const Real r = from.norm();
-        if (r == 0) continue;
+        if (r == 0 || !is_felt(basis, k, from)) continue;
         const RadialProfile at = radial_profile(basis.kernel, basis.reaches[k], r);
         const Real bend = at.third + others * (at.second - at.slope_over_r) / r;
         gradient.col(k) += factor * off[q] * bend / r * from;

@@ -136,7 +136,8 @@ Eigen::VectorXd refitted_weights(const MuscleModel& model, const RadialBasis& mo
       left[i] = model.fit_values[i] - moved.polynomial[0] - matrix.row(i).dot(moved.weights);
     }
   });
-  Eigen::MatrixXd normal = matrix.transpose() * matrix;
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(count, count);
+  normal.selfadjointView<Eigen::Lower>().rankUpdate(matrix.transpose());
   normal.diagonal().array() += damping * normal.trace() / count;
   return moved.weights + normal.llt().solve(matrix.transpose() * left);
 }
@@ -149,7 +150,8 @@ MuscleModel muscle_model(const Muscle& muscle, const MeshTopology& topology, con
   MuscleModel model;
   model.spacing = std::sqrt(surface_area(mesh.vertices, mesh.faces) / centers);
   model.depth = model.spacing / 3;
-  const Points inside = inner_points(mesh, distance, model.depth, 10 * centers);
+  Points inside = inner_points(mesh, distance, model.depth, 10 * centers);
+  if (inside.cols() == 0) inside = mesh.vertices;  // thinner than any number tells
   const Points chosen = spread_out(inside, centers);
   const Real reach = reach_in_spacings * model.spacing;
   choose_fit_points(model, mesh, distance, chosen, model.spacing);

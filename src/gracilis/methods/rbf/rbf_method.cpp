@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/body_carriers.hpp>
 #include <gracilis/anatomy/bone_projection.hpp>
+#include <gracilis/core/errors.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/rbf/muscle_model.hpp>
 #include <gracilis/methods/rbf/surface_follow.hpp>
@@ -58,12 +59,25 @@ Muscle muscle_of(const Points& centers) {
   return muscle;
 }
 
+/// The muscle's model; where its functions cannot be told apart, an error that names the muscle and the setting.
+rbf::MuscleModel model_of(const Muscle& muscle, const MeshTopology& topology, const BodyCarriers& carriers,
+                          const RbfSettings& settings) {
+  const Index centers = std::max(8, std::min(settings.centers, muscle.surface.vertex_count() / 10));
+  try {
+    return rbf::muscle_model(muscle, topology, carriers, centers, settings.reach);
+  } catch (const InputError& error) {
+    Problem problem = error.problems().front();
+    problem.where = "muscle '" + muscle.name + "'";
+    problem.remedy = "give 'reach' a smaller value";
+    throw InputError(problem);
+  }
+}
+
 RbfMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
   const RbfSettings settings = muscle_settings<RbfSettings>(scene, muscle);
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
-  const Index centers = std::max(8, std::min(settings.centers, muscle.surface.vertex_count() / 10));
-  rbf::MuscleModel model = rbf::muscle_model(muscle, topology, carriers, centers, settings.reach);
+  rbf::MuscleModel model = model_of(muscle, topology, carriers, settings);
   std::vector<Index> center_bodies;
   for (const Index v : model.center_vertex) center_bodies.push_back(carriers.fixed_body[static_cast<std::size_t>(v)]);
   BoneProjection center_bones(scene, muscle_of(model.rest.centers), center_bodies, fields,

@@ -34,7 +34,7 @@ struct RbfSettings {
   int centers = 300;
   Real reach = 1.2;  ///< of the Gaussians, in mean distances of centers
   RbfWeights weights = RbfWeights::refitted;
-  int descent_steps = 10;
+  int descent_steps = 5;
   RbfReference reference = RbfReference::carried;
   RbfVolume volume = RbfVolume::offset;
   bool bones = true;          ///< keep out of them
