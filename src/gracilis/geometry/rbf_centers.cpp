@@ -41,9 +41,13 @@ class Spreading {
   /// False where all candidates are taken.
   bool take_next() {
     if (candidates_.cols() == 0) return false;
-    Eigen::Index farthest = 0;
-    if (!(squares_.maxCoeff(&farthest) > 0)) return false;
-    take(candidates_.col(farthest));
+    const Real most = squares_.maxCoeff();
+    if (!(most > 0)) return false;
+    // The first of those that are as far: on regular surfaces rounding must not choose.
+    constexpr Real as_far = 1 - 1e-6;
+    Eigen::Index next = 0;
+    while (!(squares_[next] >= as_far * most)) ++next;
+    take(candidates_.col(next));
     return true;
   }
   const std::vector<Vec3>& taken() const { return taken_; }
