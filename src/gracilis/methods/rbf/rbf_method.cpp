@@ -3,12 +3,14 @@
 #include <gracilis/anatomy/body_carriers.hpp>
 #include <gracilis/anatomy/bone_projection.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/screw.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/rbf/muscle_model.hpp>
 #include <gracilis/methods/rbf/surface_follow.hpp>
 #include <gracilis/methods/shape_method.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gracilis {
 
@@ -95,13 +97,53 @@ Points moved(const std::vector<RigidTransform>& motions, const std::vector<Index
   return result;
 }
 
+/// The poses on the way from the capture pose, as the muscle's first body sees them, to this one: each turns no body by
+/// more than 10 degrees, so that nothing passes through a bone unseen. The last is `now`.
+std::vector<Pose> way_to(const Pose& now, Index first_body) {
+  constexpr Real most_turn = radians(10);
+  constexpr int most_steps = 18;
+  const RigidTransform& first = now.bodies[static_cast<std::size_t>(first_body)];
+  Real turn = 0;
+  for (const RigidTransform& body : now.bodies)
+    turn = std::max(turn, std::abs(Eigen::AngleAxisd((first.inverse() * body).linear()).angle()));
+  const int steps = std::isfinite(turn) ? std::clamp(static_cast<int>(std::ceil(turn / most_turn)), 1, most_steps) : 1;
+  std::vector<Pose> way;
+  for (int i = 1; i < steps; ++i) {
+    way.push_back(now);
+    for (RigidTransform& body : way.back().bodies)
+      body = first * share_of_screw(first.inverse() * body, static_cast<Real>(i) / steps);
+  }
+  way.push_back(now);
+  return way;
+}
+
+/// Where the centers are carried to and kept out of bones on the way. Precondition: the muscle has a body.
+Points centers_around_bones(const RbfMuscle& muscle, const Pose& now) {
+  const rbf::MuscleModel& model = muscle.model;
+  Points corrections = Points::Zero(3, model.rest.count()), centers;
+  std::vector<RigidTransform> before;
+  for (const Pose& pose : way_to(now, muscle.carriers.bodies.front())) {
+    const std::vector<RigidTransform> motions = carried_motions(muscle.carriers, pose);
+    const Points carried = moved(motions, model.center_vertex, model.rest.centers);
+    for (Index k = 0; k < model.rest.count() && !before.empty(); ++k) {
+      const auto v = static_cast<std::size_t>(model.center_vertex[static_cast<std::size_t>(k)]);
+      corrections.col(k) = motions[v].linear() * before[v].linear().transpose() * Vec3(corrections.col(k));
+    }
+    centers = carried + corrections;
+    muscle.center_bones.push_out(pose, centers);
+    corrections = centers - carried;
+    before = motions;
+  }
+  return centers;
+}
+
 ShapeStep step(const RbfMuscle& muscle, const Pose& now) {
   const rbf::MuscleModel& model = muscle.model;
   const std::vector<RigidTransform> motions = carried_motions(muscle.carriers, now);
   RadialBasis basis = model.rest;
   basis.centers = moved(motions, model.center_vertex, model.rest.centers);
   const Points carried = basis.centers;
-  if (muscle.settings.bones) muscle.center_bones.push_out(now, basis.centers);
+  if (muscle.settings.bones && !muscle.carriers.bodies.empty()) basis.centers = centers_around_bones(muscle, now);
   rbf::CurvaturePoints wanted = model.curvature;
   if (muscle.settings.reference == RbfReference::carried)
     wanted.points = moved(motions, model.point_vertex, model.curvature.points);

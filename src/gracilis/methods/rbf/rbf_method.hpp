@@ -51,9 +51,9 @@ MethodEntry rbf_entry();
 
 /// Muscles as implicit surfaces of radial basis functions (Cervenka 2024, chapter 6). A blend of the bodies' motions
 /// carries the centers, attached ones with their bone; the others are moved so that the field's curvature stays, and,
-/// switchable, out of bones. Vertices follow the centers to their level of the field, which one offset moves until the
-/// volume is right, and out of bones. A shape follows from the pose alone. Muscles do not see each other, and those
-/// attached to nothing stay. Precondition: the scene is valid.
+/// switchable, out of bones on the way from the capture pose. Vertices follow the centers to their level of the field,
+/// which one offset moves until the volume is right, and out of bones. A shape follows from the pose alone. Muscles do
+/// not see each other, and those attached to nothing stay. Precondition: the scene is valid.
 std::unique_ptr<DeformationMethod> make_rbf_method(const Scene& scene, std::vector<DistanceField> fields);
 
 }  // namespace gracilis
