@@ -6,6 +6,8 @@
 #include <gracilis/geometry/rbf_centers.hpp>
 #include <gracilis/geometry/surface_extraction.hpp>
 
+#include <height_fields.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -89,24 +91,7 @@ void draw(const ConditionMap& map, const std::string& file) {
 
 // ---- Height fields
 
-HeightField field_of(const std::function<Real(Real, Real)>& height) {
-  HeightField field;
-  field.columns = field.rows = 41;
-  field.step = 1.0 / 40;
-  field.heights.resize(41 * 41);
-  for (Index j = 0; j < 41; ++j)
-    for (Index i = 0; i < 41; ++i) field.heights[j * 41 + i] = height(i / 40.0, j / 40.0);
-  return field;
-}
-
 Real square(Real x) { return x * x; }
-
-Real franke(Real x, Real y) {
-  return 0.75 * std::exp(-(square(9 * x - 2) + square(9 * y - 2)) / 4) +
-         0.75 * std::exp(-square(9 * x + 1) / 49 - (9 * y + 1) / 10) +
-         0.5 * std::exp(-(square(9 * x - 7) + square(9 * y - 3)) / 4) -
-         0.2 * std::exp(-square(9 * x - 4) - square(9 * y - 7));
-}
 
 std::vector<std::pair<std::string, HeightField>> fields() {
   return {{"four bumps (Franke 1979)", field_of(franke)},

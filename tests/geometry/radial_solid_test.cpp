@@ -1,25 +1,14 @@
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/radial_solid.hpp>
 #include <gracilis/geometry/surface_extraction.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 #include <shapes.hpp>
+#include <surface_distance.hpp>
 
 #include <gtest/gtest.h>
 
 namespace gracilis {
-namespace {
-
-Real farthest(const TriangleMesh& from, const TriangleMesh& to) {
-  const NearestTriangle nearest(to);
-  Real distance = 0;
-  for (Index v = 0; v < from.vertex_count(); ++v)
-    distance = std::max(distance, nearest.query(from.vertices.col(v)).distance);
-  return distance;
-}
-
-}  // namespace
 
 TEST(RadialSolid, a_sphere_comes_back_as_a_closed_surface_of_its_volume) {
   const TriangleMesh sphere = shapes::sphere({0.1, 0, -0.2}, 0.03, 4);
@@ -33,7 +22,7 @@ TEST(RadialSolid, a_sphere_comes_back_as_a_closed_surface_of_its_volume) {
     const TriangleMesh found = largest_component(extract_surface(sample(implicit_solid(solid), 0.002)));
     EXPECT_TRUE(is_closed(found.faces));
     EXPECT_NEAR(enclosed_volume(found.vertices, found.faces) / enclosed_volume(sphere.vertices, sphere.faces), 1, 0.01);
-    EXPECT_LT(farthest(found, sphere), 0.001) << "half a step of the grid";
+    EXPECT_LT(farthest_from(sphere, found), 0.001) << "half a step of the grid";
   }
 }
 

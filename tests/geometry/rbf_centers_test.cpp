@@ -1,5 +1,7 @@
 #include <gracilis/geometry/rbf_centers.hpp>
 
+#include <height_fields.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,25 +9,6 @@
 
 namespace gracilis {
 namespace {
-
-HeightField field_of(const std::function<Real(Real, Real)>& height) {
-  HeightField field;
-  field.columns = field.rows = 41;
-  field.step = 1.0 / 40;
-  field.heights.resize(41 * 41);
-  for (Index j = 0; j < 41; ++j)
-    for (Index i = 0; i < 41; ++i) field.heights[j * 41 + i] = height(i / 40.0, j / 40.0);
-  return field;
-}
-
-/// The four Gaussians of Franke (1979), on which placements are usually compared.
-Real franke(Real x, Real y) {
-  const auto bump = [&](Real height, Real u, Real v) { return height * std::exp(-u - v); };
-  const auto square = [](Real t) { return t * t; };
-  return bump(0.75, square(9 * x - 2) / 4, square(9 * y - 2) / 4) +
-         bump(0.75, square(9 * x + 1) / 49, (9 * y + 1) / 10) +
-         bump(0.5, square(9 * x - 7) / 4, square(9 * y - 3) / 4) - bump(0.2, square(9 * x - 4), square(9 * y - 7));
-}
 
 Real error_with(const HeightField& field, const Points& centers) {
   const Eigen::VectorXd reaches = Eigen::VectorXd::Constant(centers.cols(), 0.17);

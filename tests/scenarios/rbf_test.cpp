@@ -1,27 +1,16 @@
 #include <gracilis/anatomy/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/radial_solid.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/geometry/surface_extraction.hpp>
+
+#include <surface_distance.hpp>
 
 #include "scenario_runs.hpp"
 
 /// Radial basis functions (Cervenka 2024) on the cadaver's gluteus maximus.
 namespace gracilis {
-
-namespace {
-
-Real farthest(const TriangleMesh& from, const TriangleMesh& to) {
-  const NearestTriangle nearest(to);
-  Real distance = 0;
-  for (Index v = 0; v < from.vertex_count(); ++v)
-    distance = std::max(distance, nearest.query(from.vertices.col(v)).distance);
-  return distance;
-}
-
-}  // namespace
 
 TEST(Rbf2024, gluteus_maximus_by_a_tenth_of_its_vertices_is_a_closed_surface_of_its_volume) {
   SKIP_WITHOUT_DATA();
@@ -34,7 +23,7 @@ TEST(Rbf2024, gluteus_maximus_by_a_tenth_of_its_vertices_is_a_closed_surface_of_
   EXPECT_TRUE(is_closed(found.faces));
   const Real volume = enclosed_volume(muscle.vertices, muscle.faces);
   EXPECT_NEAR(enclosed_volume(found.vertices, found.faces) / volume, 1, 0.01);
-  const Real hausdorff = std::max(farthest(found, muscle), farthest(muscle, found));
+  const Real hausdorff = std::max(farthest_from(muscle, found), farthest_from(found, muscle));
   RecordProperty("hausdorff_mm", std::to_string(1000 * hausdorff));
   EXPECT_LT(hausdorff, 0.006) << "at the thin ends";
 }

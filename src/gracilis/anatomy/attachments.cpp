@@ -54,24 +54,6 @@ bool inside_outline(const Points& outline, const Vec3& p, Real reach) {
   return inside;
 }
 
-LandmarkSet outline_on_bones(const Points& points, std::span<const TriangleMesh* const> bones) {
-  LandmarkSet set{ordered_outline(OutlineCurve::shortest_tour, points), LineKind::outline};
-  std::vector<NearestTriangle> trees;
-  for (const TriangleMesh* bone : bones) trees.emplace_back(*bone);
-  std::vector<Index> votes(bones.size(), 0);
-  for (Index i = 0; i < static_cast<Index>(points.cols()); ++i) {
-    std::size_t nearest = 0;
-    for (std::size_t b = 1; b < trees.size(); ++b)
-      if (trees[b].query(points.col(i)).distance < trees[nearest].query(points.col(i)).distance) nearest = b;
-    if (!votes.empty()) ++votes[nearest];
-  }
-  const auto most = std::max_element(votes.begin(), votes.end());
-  for (std::size_t b = 0; b < bones.size(); ++b)
-    set.inside.push_back(&votes[b] == &*most ? faces_inside(*bones[b], set.points)
-                                             : std::vector<char>(static_cast<std::size_t>(bones[b]->face_count()), 0));
-  return set;
-}
-
 namespace {
 
 struct NearestOnBones {
@@ -88,6 +70,22 @@ static NearestOnBones nearest_on(std::span<const NearestTriangle* const> bones, 
     if (found.face >= 0 && found.distance < best.nearest.distance) best = {b, found};
   }
   return best;
+}
+
+LandmarkSet outline_on_bones(const Points& points, std::span<const TriangleMesh* const> bones) {
+  LandmarkSet set{ordered_outline(OutlineCurve::shortest_tour, points), LineKind::outline};
+  std::vector<NearestTriangle> trees;
+  for (const TriangleMesh* bone : bones) trees.emplace_back(*bone);
+  std::vector<const NearestTriangle*> asked;
+  for (const NearestTriangle& tree : trees) asked.push_back(&tree);
+  std::vector<Index> votes(bones.size(), 0);
+  for (const auto point : points.colwise())
+    ++votes[nearest_on(asked, point, std::numeric_limits<Real>::infinity()).bone];
+  const auto most = static_cast<std::size_t>(std::max_element(votes.begin(), votes.end()) - votes.begin());
+  for (std::size_t b = 0; b < bones.size(); ++b)
+    set.inside.push_back(b == most ? faces_inside(*bones[b], set.points)
+                                   : std::vector<char>(static_cast<std::size_t>(bones[b]->face_count()), 0));
+  return set;
 }
 
 static bool near(const std::vector<LandmarkSet>& landmarks, const Vec3& p, Real distance) {

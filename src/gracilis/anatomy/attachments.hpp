@@ -28,6 +28,7 @@ struct LandmarkSet {
 
 /// Points around an area of a bone, in any order, as an outline: in the order of the shortest tour through them
 /// (geometry/outline_curves.hpp), with the faces inside it on the bone to which most points are nearest.
+/// Precondition: there is a bone.
 LandmarkSet outline_on_bones(const Points& points, std::span<const TriangleMesh* const> bones);
 
 /// Vertices within `bone_distance` of the bone and within `landmark_distance` of one of the landmark sets, or, for a

@@ -5,6 +5,7 @@
 #include <gracilis/geometry/rigid_blend.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 namespace gracilis {
 
@@ -23,8 +24,24 @@ BodyCarriers body_carriers(const Muscle& muscle, const MeshTopology& topology, R
   return carriers;
 }
 
+std::vector<char> held_vertices(const BodyCarriers& carriers) {
+  std::vector<char> held;
+  for (std::size_t v = 0; v < carriers.fixed_body.size(); ++v) {
+    const bool is_reached = !carriers.bodies.empty() && carriers.weights.col(static_cast<Index>(v)).sum() > 0;
+    held.push_back(carriers.fixed_body[v] >= 0 || !is_reached);
+  }
+  return held;
+}
+
 std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const Pose& pose) {
-  std::vector<RigidTransform> motions(carriers.fixed_body.size(), RigidTransform::Identity());
+  std::vector<Index> all(carriers.fixed_body.size());
+  std::iota(all.begin(), all.end(), 0);
+  return carried_motions(carriers, pose, all);
+}
+
+std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const Pose& pose,
+                                            const std::vector<Index>& vertices) {
+  std::vector<RigidTransform> motions(vertices.size(), RigidTransform::Identity());
   if (carriers.bodies.empty()) return motions;
   const Eigen::Translation3d from_center(carriers.center);
   std::vector<RigidTransform> of_bodies;
@@ -33,8 +50,9 @@ std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const 
   const RigidBlend blended = prepare_blend(of_bodies);
   parallel_for(static_cast<Index>(motions.size()), 512, [&](Index begin, Index end) {
     std::vector<Real> weights(carriers.bodies.size());
-    for (Index v = begin; v < end; ++v) {
-      RigidTransform& motion = motions[static_cast<std::size_t>(v)];
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      const Index v = vertices[i];
+      RigidTransform& motion = motions[i];
       if (const Index body = carriers.fixed_body[static_cast<std::size_t>(v)]; body >= 0) {
         motion = pose.bodies[static_cast<std::size_t>(body)];
         continue;

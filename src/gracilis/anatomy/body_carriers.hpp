@@ -19,9 +19,15 @@ struct BodyCarriers {
 /// `tendon_length` in m, as in skinning_weights.
 BodyCarriers body_carriers(const Muscle& muscle, const MeshTopology& topology, Real tendon_length);
 
+/// Per vertex: whether it does not move by itself, because it is attached or because no attachment reaches it.
+std::vector<char> held_vertices(const BodyCarriers& carriers);
+
 /// How every vertex is carried from the capture pose to this one: exactly as its body where it is attached, by the
 /// blend of the bodies' motions (geometry/rigid_blend.hpp) elsewhere; not at all where no attachment reaches it.
 std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const Pose& pose);
+/// The same of the listed vertices alone, in their order.
+std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const Pose& pose,
+                                            const std::vector<Index>& vertices);
 
 /// A surface at pose `last`, carried on to pose `now`; attached vertices go where `rest` says. Returning to a pose
 /// returns to the shape. 3 × n, m.

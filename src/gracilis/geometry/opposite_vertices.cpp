@@ -1,8 +1,8 @@
 #include <gracilis/geometry/opposite_vertices.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/segment_hits.hpp>
+#include <gracilis/geometry/vertex_normals.hpp>
 
 #include <limits>
 
@@ -11,20 +11,9 @@ namespace gracilis {
 /// Lines begin this far inside, over the diagonal of the surface's box, so that they do not meet where they begin.
 static constexpr Real inset_share = 1e-6;
 
-/// Unit, outward, weighted by area; zero where triangles cancel.
-static Points vertex_normals(const TriangleMesh& surface) {
-  Points normals = Points::Zero(3, surface.vertices.cols());
-  for (Index face = 0; face < surface.face_count(); ++face)
-    for (const Index corner : surface.faces.col(face))
-      normals.col(corner) += area_vector(surface.vertices, surface.faces.col(face));
-  for (Index v = 0; v < normals.cols(); ++v)
-    if (const Real length = normals.col(v).norm(); length > 0) normals.col(v) /= length;
-  return normals;
-}
-
 std::vector<Index> opposite_vertices(const TriangleMesh& surface) {
   const Points& vertices = surface.vertices;
-  const Points normals = vertex_normals(surface);
+  const Points normals = vertex_normals(vertices, surface.faces);
   const Real size = (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm();
   const SegmentHits hits(surface);
   std::vector<Index> opposite(static_cast<std::size_t>(vertices.cols()), -1);

@@ -1,5 +1,7 @@
 #include <gracilis/geometry/radial_basis.hpp>
 
+#include <gracilis/core/parallel.hpp>
+
 namespace gracilis {
 
 namespace {
@@ -32,6 +34,14 @@ Real value_at(const RadialBasis& basis, const Vec3& point) {
   for (Index i = 0; i < basis.count(); ++i)
     value += basis.weights[i] * radial_value(basis.kernel, basis.reaches[i], (point - basis.centers.col(i)).norm());
   return value;
+}
+
+Eigen::VectorXd errors_at(const RadialBasis& basis, const Points& points, const Eigen::VectorXd& values) {
+  Eigen::VectorXd errors(points.cols());
+  parallel_for(static_cast<Index>(points.cols()), 64, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) errors[i] = value_at(basis, points.col(i)) - values[i];
+  });
+  return errors;
 }
 
 RadialSample slope_at(const RadialBasis& basis, const Vec3& point) {

@@ -37,6 +37,9 @@ RadialSample sample(const RadialBasis& basis, const Vec3& point);
 /// f alone.
 Real value_at(const RadialBasis& basis, const Vec3& point);
 
+/// f less the value that it should have, at each point.
+Eigen::VectorXd errors_at(const RadialBasis& basis, const Points& points, const Eigen::VectorXd& values);
+
 /// f and its gradient alone.
 RadialSample slope_at(const RadialBasis& basis, const Vec3& point);
 

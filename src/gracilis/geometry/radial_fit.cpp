@@ -82,14 +82,6 @@ Real condition_of(const Eigen::PartialPivLU<Eigen::MatrixXd>& factors) {
   return reciprocal > 0 ? 1 / reciprocal : std::numeric_limits<Real>::infinity();
 }
 
-Real largest_residual(const RadialBasis& basis, const Points& points, const Eigen::VectorXd& values) {
-  Eigen::VectorXd residuals(points.cols());
-  parallel_for(static_cast<Index>(points.cols()), 64, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) residuals[i] = value_at(basis, points.col(i)) - values[i];
-  });
-  return residuals.cwiseAbs().maxCoeff();
-}
-
 RadialFit interpolate_densely(RadialBasis basis, Index terms, const Eigen::VectorXd& values) {
   const Index n = basis.count();
   const Eigen::MatrixXd system = dense_system(basis, terms);
@@ -139,7 +131,7 @@ RadialFit interpolate(const RadialFitSettings& settings, const Points& points, R
   const Index terms = terms_of(settings);
   if (is_compact(settings.kernel)) return interpolate_sparsely(std::move(basis), terms, values);
   RadialFit fit = interpolate_densely(std::move(basis), terms, values);
-  fit.largest_residual = largest_residual(fit.basis, points, values);
+  fit.largest_residual = errors_at(fit.basis, points, values).cwiseAbs().maxCoeff();
   return fit;
 }
 
@@ -169,7 +161,7 @@ RadialFit fit_least_squares(const RadialFitSettings& settings, const Points& cen
   basis.weights = solution.head(n);
   basis.polynomial = solution.tail(terms);
   RadialFit fit{std::move(basis), condition, 0};
-  fit.largest_residual = largest_residual(fit.basis, points, values);
+  fit.largest_residual = errors_at(fit.basis, points, values).cwiseAbs().maxCoeff();
   return fit;
 }
 

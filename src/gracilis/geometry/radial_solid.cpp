@@ -14,9 +14,6 @@ namespace gracilis {
 
 namespace {
 
-/// A distance that levels off towards the band, smoothly: what sums of smooth functions can follow.
-Real leveled(Real distance, Real band) { return band * std::tanh(distance / band); }
-
 struct Samples {
   Points points;
   Eigen::VectorXd values;
@@ -50,6 +47,8 @@ Samples samples_of(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box, Rea
 }
 
 }  // namespace
+
+Real leveled(Real distance, Real band) { return band * std::tanh(distance / band); }
 
 RadialSolid fit_solid(const TriangleMesh& surface, const RadialSolidSettings& settings) {
   const Eigen::AlignedBox3d tight = bounding_box(surface.vertices);

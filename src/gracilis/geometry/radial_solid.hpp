@@ -22,6 +22,9 @@ struct RadialSolid {
   Real band = 0;  ///< m
 };
 
+/// A distance that levels off towards the band (m, above 0), smoothly: what sums of smooth functions can follow.
+Real leveled(Real distance, Real band);
+
 /// Fits a closed surface by least squares: its vertices, points beside them on both sides, and points all over the box
 /// around it. Throws InputError where the system is singular. Precondition: the surface is closed and oriented
 /// outwards.

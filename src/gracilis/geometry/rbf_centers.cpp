@@ -1,7 +1,5 @@
 #include <gracilis/geometry/rbf_centers.hpp>
 
-#include <gracilis/core/parallel.hpp>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -135,19 +133,13 @@ RadialFit fit_greedily(const RadialFitSettings& settings, const Points& points, 
     centers.col(n) = points.col(worst);
     chosen[n] = best_reach;
     fit = fit_least_squares(settings, centers, chosen, points, values);
-    parallel_for(static_cast<Index>(points.cols()), 64, [&](Index begin, Index end) {
-      for (Index i = begin; i < end; ++i) left[i] = values[i] - value_at(fit.basis, points.col(i));
-    });
+    left = -errors_at(fit.basis, points, values);
   }
   return fit;
 }
 
 Real mean_squared_error(const RadialBasis& basis, const Points& points, const Eigen::VectorXd& values) {
-  Eigen::VectorXd left(points.cols());
-  parallel_for(static_cast<Index>(points.cols()), 64, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) left[i] = value_at(basis, points.col(i)) - values[i];
-  });
-  return left.squaredNorm() / static_cast<Real>(values.size());
+  return errors_at(basis, points, values).squaredNorm() / static_cast<Real>(values.size());
 }
 
 }  // namespace gracilis

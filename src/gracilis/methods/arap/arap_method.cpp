@@ -5,6 +5,7 @@
 #include <gracilis/core/stop.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/arap/surface.hpp>
+#include <gracilis/methods/bone_gap_rows.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/shape_method.hpp>
 
@@ -22,9 +23,8 @@ std::span<const Setting<ArapSettings>> setting_table() {
       {"tendon_length", &S::tendon_length, "m", 0, 1,
        "Distance from the attachments over which the blend of the bodies' motions, where a frame begins, is graded "
        "from tendon to belly; 0 grades nothing."},
-      {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Distance that free vertices keep from bones."},
-      {"bone_rest_gap", &S::bone_rest_gap, "", 0, 0,
-       "Where a vertex is nearer to a bone than the margin at rest, or in it, keep that distance instead."},
+      bone_margin_row<S>(),
+      bone_rest_gap_row<S>(),
   };
   return table;
 }
@@ -49,11 +49,7 @@ ArapMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<D
   const ArapSettings settings = muscle_settings<ArapSettings>(scene, muscle);
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
-  std::vector<char> held;
-  for (Index v = 0; v < muscle.surface.vertex_count(); ++v) {
-    const bool is_reached = !carriers.bodies.empty() && carriers.weights.col(v).sum() > 0;
-    held.push_back(carriers.fixed_body[static_cast<std::size_t>(v)] >= 0 || !is_reached);
-  }
+  std::vector<char> held = held_vertices(carriers);
   arap::Surface surface(muscle.surface, topology, held);
   BoneProjection bones(scene, muscle, carriers.fixed_body, fields, settings.bone_margin, settings.bone_rest_gap);
   return {settings,

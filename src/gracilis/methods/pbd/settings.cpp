@@ -1,5 +1,7 @@
 #include <gracilis/methods/pbd/settings.hpp>
 
+#include <gracilis/methods/bone_gap_rows.hpp>
+
 namespace gracilis {
 
 template <>
@@ -22,9 +24,8 @@ std::span<const Setting<PbdSettings>> setting_table() {
        "carries them by a blend of the motions of the bodies that the muscle is attached to."},
       {"tendon_length", &S::tendon_length, "m", 0, 1,
        "Distance from the attachments over which that blend is graded from tendon to belly; 0 grades nothing."},
-      {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Distance that free vertices keep from bones."},
-      {"bone_rest_gap", &S::bone_rest_gap, "", 0, 0,
-       "Where a vertex is nearer to a bone than the margin at rest, or in it, keep that distance instead."},
+      bone_margin_row<S>(),
+      bone_rest_gap_row<S>(),
   };
   return table;
 }

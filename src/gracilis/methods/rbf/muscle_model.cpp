@@ -4,6 +4,7 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/radial_fit.hpp>
+#include <gracilis/geometry/radial_solid.hpp>
 #include <gracilis/geometry/rbf_centers.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/geometry/vertex_normals.hpp>
@@ -20,11 +21,9 @@ constexpr Index fit_points_per_center = 12;
 constexpr Index cost_points_per_center = 3;
 constexpr Index bound_centers = 8;
 
-Real leveled(Real distance, Real band) { return band * std::tanh(distance / band); }
-
 /// Below every vertex as deep as it goes up to `depth`, and all over the inside where that is deeper than `depth`.
-Points inner_points(const TriangleMesh& mesh, const SignedDistance& distance, Real depth, Index over_inside) {
-  const Points normals = vertex_normals(mesh.vertices, mesh.faces);
+Points inner_points(const TriangleMesh& mesh, const Points& normals, const SignedDistance& distance, Real depth,
+                    Index over_inside) {
   const Points around = halton_centers(bounding_box(mesh.vertices), over_inside);
   const Index n = mesh.vertex_count();
   Points points(3, n + around.cols());
@@ -58,11 +57,10 @@ std::vector<Index> nearest_vertices(const NearestPoints& vertices, const Points&
 }
 
 /// Points at which the field is fitted, on the surface, beside it and at the centers, and the leveled distance there.
-void choose_fit_points(MuscleModel& model, const TriangleMesh& mesh, const SignedDistance& distance,
-                       const Points& centers, Real band) {
-  const Points normals = vertex_normals(mesh.vertices, mesh.faces);
+void choose_fit_points(MuscleModel& model, const TriangleMesh& mesh, const Points& normals,
+                       const NearestPoints& vertices, const SignedDistance& distance, const Points& centers,
+                       Real band) {
   const Points on = spread_out(mesh.vertices, fit_points_per_center * static_cast<Index>(centers.cols()) / 2);
-  const NearestPoints vertices(mesh.vertices);
   Points& points = model.fit_points;
   points.resize(3, 2 * on.cols() + centers.cols());
   points.leftCols(on.cols()) = on;
@@ -79,9 +77,9 @@ void choose_fit_points(MuscleModel& model, const TriangleMesh& mesh, const Signe
 }
 
 /// An offset must not turn thin parts inside out: they take the less of it the less deep the muscle is below them.
-Eigen::VectorXd offset_shares(const TriangleMesh& mesh, const VertexStars& stars, const RadialBasis& field, Real band) {
+Eigen::VectorXd offset_shares(const TriangleMesh& mesh, const Points& normals, const VertexStars& stars,
+                              const RadialBasis& field, Real band) {
   constexpr int looks = 8, spreads = 8;
-  const Points normals = vertex_normals(mesh.vertices, mesh.faces);
   Eigen::VectorXd shares = Eigen::VectorXd::Zero(mesh.vertex_count());
   parallel_for(mesh.vertex_count(), 64, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v) {
@@ -147,14 +145,15 @@ MuscleModel muscle_model(const Muscle& muscle, const MeshTopology& topology, con
   const TriangleMesh& mesh = muscle.surface;
   const SignedDistance distance(mesh);
   const NearestPoints vertices(mesh.vertices);
+  const Points normals = vertex_normals(mesh.vertices, mesh.faces);
   MuscleModel model;
   model.spacing = std::sqrt(surface_area(mesh.vertices, mesh.faces) / centers);
   model.depth = model.spacing / 3;
-  Points inside = inner_points(mesh, distance, model.depth, 10 * centers);
+  Points inside = inner_points(mesh, normals, distance, model.depth, 10 * centers);
   if (inside.cols() == 0) inside = mesh.vertices;  // thinner than any number tells
   const Points chosen = spread_out(inside, centers);
   const Real reach = reach_in_spacings * model.spacing;
-  choose_fit_points(model, mesh, distance, chosen, model.spacing);
+  choose_fit_points(model, mesh, normals, vertices, distance, chosen, model.spacing);
   model.rest = fit_least_squares({{RadialShape::gaussian}, RadialPolynomial::constant}, chosen,
                                  Eigen::VectorXd::Constant(chosen.cols(), reach), model.fit_points, model.fit_values)
                    .basis;
@@ -175,7 +174,7 @@ MuscleModel muscle_model(const Muscle& muscle, const MeshTopology& topology, con
   parallel_for(mesh.vertex_count(), 64, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v) model.levels[v] = value_at(model.rest, mesh.vertices.col(v));
   });
-  model.offset_shares = offset_shares(mesh, topology.stars, model.rest, model.spacing);
+  model.offset_shares = offset_shares(mesh, normals, topology.stars, model.rest, model.spacing);
   bind(model, mesh.vertices);
   return model;
 }

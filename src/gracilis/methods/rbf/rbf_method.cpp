@@ -4,6 +4,7 @@
 #include <gracilis/anatomy/bone_projection.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/screw.hpp>
+#include <gracilis/methods/bone_gap_rows.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/rbf/muscle_model.hpp>
 #include <gracilis/methods/rbf/surface_follow.hpp>
@@ -23,8 +24,7 @@ std::span<const Setting<RbfSettings>> setting_table() {
       {"reach", &S::reach, "", 0.5, 4, "How far the Gaussians reach, in mean distances of centers."},
       {"weights", &S::weights, "", 0, 0,
        "Weights of the functions in other poses: 'refitted', so that points that moved along keep their distance to "
-       "the "
-       "surface, or 'kept' as in the capture pose, as published."},
+       "the surface, or 'kept' as in the capture pose, as published."},
       {"descent_steps", &S::descent_steps, "", 0, 1000,
        "Steps down the gradient of the curvature's cost per frame, at most; 0 leaves centers where they are carried."},
       {"reference", &S::reference, "", 0, 0,
@@ -36,9 +36,8 @@ std::span<const Setting<RbfSettings>> setting_table() {
       {"tendon_length", &S::tendon_length, "m", 0, 1,
        "Distance from the attachments over which the blend of the bodies' motions is graded from tendon to belly; 0 "
        "grades nothing."},
-      {"bone_margin", &S::bone_margin, "m", 0, 0.1, "Distance that free vertices keep from bones."},
-      {"bone_rest_gap", &S::bone_rest_gap, "", 0, 0,
-       "Where a vertex is nearer to a bone than the margin at rest, or in it, keep that distance instead."},
+      bone_margin_row<S>(),
+      bone_rest_gap_row<S>(),
   };
   return table;
 }
@@ -123,16 +122,18 @@ Points centers_around_bones(const RbfMuscle& muscle, const Pose& now) {
   Points corrections = Points::Zero(3, model.rest.count()), centers;
   std::vector<RigidTransform> before;
   for (const Pose& pose : way_to(now, muscle.carriers.bodies.front())) {
-    const std::vector<RigidTransform> motions = carried_motions(muscle.carriers, pose);
-    const Points carried = moved(motions, model.center_vertex, model.rest.centers);
-    for (Index k = 0; k < model.rest.count() && !before.empty(); ++k) {
-      const auto v = static_cast<std::size_t>(model.center_vertex[static_cast<std::size_t>(k)]);
-      corrections.col(k) = motions[v].linear() * before[v].linear().transpose() * Vec3(corrections.col(k));
+    std::vector<RigidTransform> motions = carried_motions(muscle.carriers, pose, model.center_vertex);
+    Points carried(3, model.rest.count());
+    for (Index k = 0; k < model.rest.count(); ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      carried.col(k) = motions[at] * Vec3(model.rest.centers.col(k));
+      if (!before.empty())
+        corrections.col(k) = motions[at].linear() * before[at].linear().transpose() * Vec3(corrections.col(k));
     }
     centers = carried + corrections;
     muscle.center_bones.push_out(pose, centers);
     corrections = centers - carried;
-    before = motions;
+    before = std::move(motions);
   }
   return centers;
 }

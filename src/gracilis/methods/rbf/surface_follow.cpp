@@ -112,13 +112,10 @@ FollowedSurface followed_surface(const TriangleMesh& mesh, const MeshTopology& t
   surface.rest = mesh;
   surface.stars = topology.stars;
   surface.volume = enclosed_volume(mesh.vertices, mesh.faces);
+  surface.held = held_vertices(carriers);
   std::vector<Index> sources;
-  for (Index v = 0; v < mesh.vertex_count(); ++v) {
-    const bool is_reached = !carriers.bodies.empty() && carriers.weights.col(v).sum() > 0;
-    const bool is_held = carriers.fixed_body[static_cast<std::size_t>(v)] >= 0 || !is_reached;
-    surface.held.push_back(is_held);
-    if (is_held) sources.push_back(v);
-  }
+  for (Index v = 0; v < mesh.vertex_count(); ++v)
+    if (surface.held[static_cast<std::size_t>(v)]) sources.push_back(v);
   constexpr Real graded = 0.01;  // m beside held vertices, so that no step remains there
   const Eigen::VectorXd away = edge_distances(length_graph(mesh.vertices, topology), sources);
   surface.freedom = (away / graded).cwiseMin(1);
