@@ -1,4 +1,5 @@
 #include <gracilis/dynamics/contact/field/field_contact.hpp>
+#include <gracilis/dynamics/contact/field/field_contact_near.hpp>
 
 #include "systems_for_tests.hpp"
 

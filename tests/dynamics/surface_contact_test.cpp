@@ -1,7 +1,11 @@
 #include <contact_check/judge.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
 #include <gracilis/dynamics/contact/self/self_cuts.hpp>
 #include <gracilis/dynamics/contact/surface/surface_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_follow.hpp>
+#include <gracilis/dynamics/contact/surface/surface_mending.hpp>
+#include <gracilis/dynamics/contact/surface/surface_search.hpp>
 
 #include <gracilis/core/state_hash.hpp>
 #include <shapes.hpp>

@@ -1,9 +1,10 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/dynamics/havlicek_2024/virtual_edge_seeds.hpp>
 #include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 
-#include <shapes.hpp>
 #include <gracilis/core/state_hash.hpp>
+#include <shapes.hpp>
 
 #include "systems_for_tests.hpp"
 

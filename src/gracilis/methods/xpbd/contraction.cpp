@@ -109,7 +109,7 @@ void build_contractions(const Muscle& muscle, const MeshTopology& topology, Prep
     constraints.push_back({pull.a, pull.b, pull.length, 1 / stiffness});
     squared_cosines.push_back(pull.squared_cosine);
   }
-  DistanceSet& set = prepared.system.contractions;
+  DistanceSet& set = prepared.system.tensions;
   set = build_distance_set(constraints, static_cast<Index>(prepared.rest.cols()));
   prepared.along_fibers.assign(set.a.size(), 1);
   for (std::size_t i = 0; i < squared_cosines.size(); ++i)
@@ -122,9 +122,9 @@ Real contraction_strength(const ContractionSettings& settings, Real activation) 
 }
 
 void set_contraction_lengths(const PreparedMuscle& muscle, Real activation, const strings::SkinnedSurface* skinned,
-                             AlignedVector<float>& contraction_length) {
+                             AlignedVector<float>& tension_length) {
   const auto share = static_cast<float>(contracted_share(muscle.contraction, activation));
-  const DistanceSet& set = muscle.system.contractions;
+  const DistanceSet& set = muscle.system.tensions;
   for (std::size_t slot = 0; slot < set.a.size(); ++slot) {
     const float c2 = muscle.along_fibers[slot], rest = set.rest_length[slot];
     float across = 1;
@@ -132,7 +132,7 @@ void set_contraction_lengths(const PreparedMuscle& muscle, Real activation, cons
       const Real length = (skinned->vertices.col(set.b[slot]) - skinned->vertices.col(set.a[slot])).norm();
       across = std::max(across, static_cast<float>(length) / rest);
     }
-    contraction_length[slot] = rest * std::sqrt(c2 * share * share + (1 - c2) * across * across);
+    tension_length[slot] = rest * std::sqrt(c2 * share * share + (1 - c2) * across * across);
   }
 }
 

@@ -19,21 +19,21 @@ SurfaceSystem chain(Index segments, Real stiffness, Real inverse_mass = 1e4) {
   for (Index i = 0; i < segments; ++i) constraints.push_back({i, i + 1, segment_length, 1 / stiffness});
   SurfaceSystem system;
   system.rest = make_particles(x, inverse_masses);
-  system.contractions = build_distance_set(constraints, segments + 1);
+  system.tensions = build_distance_set(constraints, segments + 1);
   system.volume = build_volume_set(Eigen::Matrix3Xi(3, 0), segments + 1, 0, 0);
   return system;
 }
 
 SurfaceState aiming_at(const SurfaceSystem& system, float share) {
   SurfaceState state = make_state(system);
-  for (float& length : state.contraction_length) length *= share;
+  for (float& length : state.tension_length) length *= share;
   return state;
 }
 
 SolveSettings active(int iterations, float strength = 1) {
   SolveSettings settings;
   settings.iterations = iterations;
-  settings.contraction = strength;
+  settings.tension = strength;
   return settings;
 }
 
@@ -46,7 +46,7 @@ std::vector<Real> lengths_of(const SurfaceState& state) {
 
 }  // namespace
 
-TEST(Contraction, a_chain_that_nothing_resists_settles_at_the_length_it_aims_at) {
+TEST(Tension, a_chain_that_nothing_resists_settles_at_the_length_it_aims_at) {
   const SurfaceSystem system = chain(12, 100);
   for (const float strength : {1.0f, 0.1f}) {
     SurfaceState state = aiming_at(system, 0.8f);
@@ -55,7 +55,7 @@ TEST(Contraction, a_chain_that_nothing_resists_settles_at_the_length_it_aims_at)
   }
 }
 
-TEST(Contraction, a_segment_shorter_than_it_aims_at_is_left_alone) {
+TEST(Tension, a_segment_shorter_than_it_aims_at_is_left_alone) {
   const SurfaceSystem system = chain(12, 100);
   SurfaceState state = aiming_at(system, 0.8f);
   for (Index i = 0; i <= 12; ++i) state.particles.position(i).x() *= 0.63f;
@@ -64,7 +64,7 @@ TEST(Contraction, a_segment_shorter_than_it_aims_at_is_left_alone) {
   EXPECT_EQ(positions_of(state.particles), before);
 }
 
-TEST(Contraction, never_makes_a_segment_longer_whatever_its_neighbors_do) {
+TEST(Tension, never_makes_a_segment_longer_whatever_its_neighbors_do) {
   const SurfaceSystem system = chain(20, 100);
   for (unsigned seed = 0; seed < 20; ++seed) {
     SurfaceState state = aiming_at(system, 0.9f);
@@ -72,18 +72,18 @@ TEST(Contraction, never_makes_a_segment_longer_whatever_its_neighbors_do) {
       state.particles.position(i).x() = state.particles.position(i - 1).x() + ((i + seed) % 3 == 0 ? 0.004f : 0.013f);
     for (int step = 0; step < 50; ++step) solve_substep(system, {}, active(30), state);
     for (const Real length : lengths_of(state)) EXPECT_LE(length, 0.9 * segment_length + 1e-6) << "pushed apart";
-    for (const float multiplier : state.contraction_lambda) EXPECT_LE(multiplier, 0) << "a push";
+    for (const float multiplier : state.tension_lambda) EXPECT_LE(multiplier, 0) << "a push";
   }
 }
 
-TEST(Contraction, without_strength_nothing_moves) {
+TEST(Tension, without_strength_nothing_moves) {
   const SurfaceSystem system = chain(12, 100);
   SurfaceState state = aiming_at(system, 0.7f);
   solve_substep(system, {}, active(30, 0), state);
   EXPECT_EQ(positions_of(state.particles), positions_of(system.rest));
 }
 
-TEST(Contraction, against_a_spring_it_settles_where_both_pull_alike) {
+TEST(Tension, against_a_spring_it_settles_where_both_pull_alike) {
   // So heavy that an iteration hardly moves it: both have their say before the next substep begins anew.
   // One segment of 100 N/m that aims at 7 mm beside a spring of 200 N/m that is 10 mm long at rest: at 9 mm both pull
   // with 0.2 N; at half the strength 50 (x - 7) = 200 (10 - x), x = 9.4 mm.
@@ -96,7 +96,7 @@ TEST(Contraction, against_a_spring_it_settles_where_both_pull_alike) {
   }
 }
 
-TEST(Contraction, between_coinciding_ends_is_counted_and_stays_finite) {
+TEST(Tension, between_coinciding_ends_is_counted_and_stays_finite) {
   const SurfaceSystem system = chain(3, 100);
   SurfaceState state = aiming_at(system, 0.7f);
   for (Index i = 0; i <= 3; ++i) state.particles.position(i).setZero();
@@ -104,7 +104,7 @@ TEST(Contraction, between_coinciding_ends_is_counted_and_stays_finite) {
   EXPECT_TRUE(is_finite(state.particles));
 }
 
-TEST(Contraction, keeps_the_volume_of_a_closed_surface_which_gets_thicker) {
+TEST(Tension, keeps_the_volume_of_a_closed_surface_which_gets_thicker) {
   const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.03, 3);
   SystemOptions heavy;
   heavy.smallest_mass = 0.01;
@@ -116,7 +116,7 @@ TEST(Contraction, keeps_the_volume_of_a_closed_surface_which_gets_thicker) {
     const Vec3 to_pole = (Vec3::UnitZ() - out.z() * out).normalized();
     if (std::abs(d.dot(to_pole)) > 0.7 * d.norm()) meridians.push_back({e.a, e.b, d.norm(), 1.0 / 200});
   }
-  system.contractions = build_distance_set(meridians, ball.vertex_count());
+  system.tensions = build_distance_set(meridians, ball.vertex_count());
   SurfaceState state = aiming_at(system, 0.8f);
   for (int step = 0; step < 100; ++step) solve_substep(system, {}, active(30), state);
   const Points now = positions_of(state.particles);
