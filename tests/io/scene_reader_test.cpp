@@ -443,12 +443,13 @@ TEST_F(SceneReader, a_handful_of_vertices_is_warned_about) {
 // ---- The template and the scenes of the repository
 
 TEST_F(SceneReader, the_template_reads_back_with_every_setting_at_its_default) {
-  const SceneDescription scene = read_scene_description(folder.write("template.toml", scene_template()), {}, {});
+  const SceneDescription description = read_scene_description(folder.write("template.toml", scene_template()), {}, {});
+  const Scene& scene = description.scene;
   EXPECT_EQ(list_settings(with_values(XpbdSettings{}, scene.method.settings)), list_settings(XpbdSettings{}));
   EXPECT_EQ(list_settings(with_values(ContactSettings{}, scene.method.contact)), list_settings(ContactSettings{}));
   EXPECT_EQ(list_settings(scene.distance_fields), list_settings(DistanceFieldSettings{}));
   EXPECT_EQ(list_settings(scene.sequence), list_settings(Sequence{}));
-  EXPECT_EQ(scene.muscles.at(0).attachments.size(), 4u);
+  EXPECT_EQ(description.muscles.at(0).attachments.size(), 4u);
 }
 
 TEST_F(SceneReader, the_template_gives_unit_range_and_default_of_every_setting) {

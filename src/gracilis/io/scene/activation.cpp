@@ -68,9 +68,8 @@ void add_activation(SceneInProgress& progress, const ActivationDescription& desc
       plan.functions.push_back(
           {muscle, along_coordinate(static_cast<std::size_t>(found - coordinates.begin()), description.points)});
     } else {
-      read_file(progress, description.file, [&](const std::filesystem::path& path) {
-        add_column(progress, path, muscle, description.column);
-      });
+      read_file(progress, description.file,
+                [&](const std::filesystem::path& path) { add_column(progress, path, muscle, description.column); });
     }
   }
 }

@@ -83,8 +83,7 @@ AttachmentDescription read_attachment(TomlReader table) {
 AttachmentSelector::AttachmentSelector(SceneInProgress& progress) : progress_(progress) {
   const NamedFile& file = progress.description.landmarks;
   if (file.path.empty()) return;
-  read_file(progress, file,
-            [&](const std::filesystem::path& path) { landmarks_ = read_landmarks(path, file.unit); });
+  read_file(progress, file, [&](const std::filesystem::path& path) { landmarks_ = read_landmarks(path, file.unit); });
 }
 
 const NearestTriangle& AttachmentSelector::tree_of(Index bone) {
@@ -135,10 +134,9 @@ std::string AttachmentSelector::body_of(const AttachmentDescription& description
     const std::string& of_bone = scene.bodies[scene.bones[bone_index(bone)].body];
     if (body.empty()) body = of_bone;
     if (!description.body.empty() || body == of_bone) continue;
-    progress_.add_problem(
-        description.place,
-        "the bones of attachment '" + description.attachment.name + "' belong to different bodies",
-        "split it, or say with 'body' to which one it is fixed");
+    progress_.add_problem(description.place,
+                          "the bones of attachment '" + description.attachment.name + "' belong to different bodies",
+                          "split it, or say with 'body' to which one it is fixed");
   }
   return body;
 }

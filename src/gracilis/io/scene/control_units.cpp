@@ -74,8 +74,7 @@ static Eigen::MatrixXd columns_of(SceneInProgress& progress, const Table& table,
     if (const std::optional<Eigen::Index> found = column_of(table, names[i])) {
       values.col(static_cast<Index>(i)) = table.values.col(*found);
     } else {
-      progress.add_problem({file, "", "", ""}, "has no column '" + names[i] + "'",
-                           suggestion(names[i], table.columns));
+      progress.add_problem({file, "", "", ""}, "has no column '" + names[i] + "'", suggestion(names[i], table.columns));
     }
   }
   return values;

@@ -27,8 +27,7 @@ static bool read_key_poses(TomlReader& table, MotionDescription& motion) {
     table.add_problem("file", "[motion] needs the key 'file' or the key 'key_poses_deg'");
   }
   if (keyed && columns > 0)
-    motion.key_poses =
-        table.rows(key, columns).value_or(Eigen::MatrixXd(0, columns)) * unit_of_coordinates(motion);
+    motion.key_poses = table.rows(key, columns).value_or(Eigen::MatrixXd(0, columns)) * unit_of_coordinates(motion);
   return keyed;
 }
 

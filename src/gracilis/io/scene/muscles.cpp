@@ -47,8 +47,7 @@ static void read_action_line(TomlReader table, MuscleDescription& description) {
   table.reject_unknown_keys();
 }
 
-MuscleDescription read_muscle(TomlReader table, const MethodEntry& method, const MuscleDefaults& defaults,
-                              std::set<std::string>& others) {
+MuscleDescription read_muscle(TomlReader table, const MuscleDefaults& defaults, std::set<std::string>& others) {
   MuscleDescription description;
   Muscle& muscle = description.muscle;
   description.place = table.place();
@@ -60,7 +59,7 @@ MuscleDescription read_muscle(TomlReader table, const MethodEntry& method, const
   if (std::optional<TomlReader> own = table.table("contraction")) read_contraction(std::move(*own), description);
   if (std::optional<TomlReader> line = table.table("action_line")) read_action_line(std::move(*line), description);
   if (std::optional<TomlReader> settings = table.table("settings")) {
-    read_method_settings(*settings, method, &MethodEntry::settings, muscle.settings, others);
+    read_method_settings(*settings, defaults.method, &MethodEntry::settings, muscle.settings, others);
     settings->reject_unknown_keys();
   }
   for (TomlReader& attachment : table.tables("attachments"))

@@ -1,25 +1,18 @@
 #pragma once
 
 #include <gracilis/io/scene/scene_in_progress.hpp>
+#include <gracilis/io/scene/settings.hpp>
 #include <gracilis/io/scene/surfaces.hpp>
 #include <gracilis/io/toml_reader.hpp>
-#include <gracilis/methods/method_entry.hpp>
 
 #include <set>
 #include <string>
 
-/// [[muscles]] and their tables, without the attachments.
+/// [[muscles]].
 namespace gracilis::sections {
 
-/// What holds for muscles that say nothing else.
-struct MuscleDefaults {
-  FiberSettings fibers;
-  ContractionSettings contraction;
-};
-
-/// Names the settings of other methods than the scene's in `others`.
-MuscleDescription read_muscle(TomlReader table, const MethodEntry& method, const MuscleDefaults& defaults,
-                              std::set<std::string>& others);
+/// Settings that the scene's method does not have are named in `others`.
+MuscleDescription read_muscle(TomlReader table, const MuscleDefaults& defaults, std::set<std::string>& others);
 
 /// Adds a muscle with its surface, its line and given fibers, but without attachments. One that lists vertices of a
 /// surface which had to be repaired is a problem.
