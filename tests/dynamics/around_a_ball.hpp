@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/field_contact.hpp>
+#include <gracilis/dynamics/contact/field/field_contact.hpp>
 
 #include "systems_for_tests.hpp"
 

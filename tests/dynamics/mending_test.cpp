@@ -1,5 +1,5 @@
-#include <gracilis/dynamics/self_cuts.hpp>
-#include <gracilis/dynamics/surface_contact.hpp>
+#include <gracilis/dynamics/contact/self/self_cuts.hpp>
+#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 
 #include <shapes.hpp>
 

@@ -1,5 +1,5 @@
 #include <contact_check/judge.hpp>
-#include <gracilis/dynamics/surface_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 
 #include <shapes.hpp>
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/surface_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 
 #include <shapes.hpp>
 

@@ -1,6 +1,6 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
-#include <gracilis/dynamics/surface_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 
 #include <shapes.hpp>
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/virtual_edges.hpp>
+#include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 
 #include <gtest/gtest.h>
 

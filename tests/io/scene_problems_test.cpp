@@ -1,4 +1,4 @@
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 
 #include "io/scene_reader_fixture.hpp"
 

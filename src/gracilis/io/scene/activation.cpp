@@ -1,10 +1,10 @@
 #include <gracilis/io/scene/activation.hpp>
 
-#include <gracilis/anatomy/activation.hpp>
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/activation/activation.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/io/scene/files.hpp>
 #include <gracilis/io/suggestions.hpp>
-#include <gracilis/io/table.hpp>
+#include <gracilis/io/tables/table.hpp>
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include <gracilis/io/scene/attachments.hpp>
 
-#include <gracilis/anatomy/attachment_reach.hpp>
+#include <gracilis/anatomy/attachments/attachment_reach.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/io/scene/bodies.hpp>
 #include <gracilis/io/scene/files.hpp>

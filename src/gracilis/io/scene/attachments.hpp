@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/geometry/nearest_triangle.hpp>
-#include <gracilis/io/landmarks.hpp>
+#include <gracilis/io/scene/landmarks.hpp>
 #include <gracilis/io/scene/scene_in_progress.hpp>
 #include <gracilis/io/toml_reader.hpp>
 

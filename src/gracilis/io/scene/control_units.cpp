@@ -2,7 +2,7 @@
 
 #include <gracilis/io/scene/files.hpp>
 #include <gracilis/io/suggestions.hpp>
-#include <gracilis/io/table.hpp>
+#include <gracilis/io/tables/table.hpp>
 
 namespace gracilis::sections {
 

@@ -1,9 +1,9 @@
 #include <gracilis/io/scene/motion.hpp>
 
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/io/scene/files.hpp>
 #include <gracilis/io/suggestions.hpp>
-#include <gracilis/io/table.hpp>
+#include <gracilis/io/tables/table.hpp>
 #include <gracilis/scene/motion.hpp>
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include <gracilis/io/scene/muscles.hpp>
 
-#include <gracilis/io/method_reader.hpp>
-#include <gracilis/io/polyline_file.hpp>
+#include <gracilis/io/mesh/polyline_file.hpp>
 #include <gracilis/io/scene/attachments.hpp>
 #include <gracilis/io/scene/bodies.hpp>
 #include <gracilis/io/scene/files.hpp>
+#include <gracilis/io/scene/method_reader.hpp>
 
 namespace gracilis::sections {
 

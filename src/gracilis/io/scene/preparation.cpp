@@ -1,8 +1,8 @@
 #include <gracilis/io/scene/preparation.hpp>
 
-#include <gracilis/io/field_cache.hpp>
-#include <gracilis/io/load_surface.hpp>
-#include <gracilis/io/prepared_cache.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/io/scene/prepared_cache.hpp>
 
 namespace gracilis::sections {
 

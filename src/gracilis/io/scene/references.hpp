@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/scene_description.hpp>
+#include <gracilis/io/scene/scene_description.hpp>
 
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/scene_description.hpp>
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/scene_description.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 
 #include <filesystem>
 #include <string>

@@ -1,6 +1,6 @@
 #include <gracilis/io/scene/settings.hpp>
 
-#include <gracilis/io/method_reader.hpp>
+#include <gracilis/io/scene/method_reader.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/methods/registry.hpp>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/io/scene_description.hpp>
+#include <gracilis/io/scene/scene_description.hpp>
 #include <gracilis/io/toml_reader.hpp>
 #include <gracilis/methods/method_entry.hpp>
 

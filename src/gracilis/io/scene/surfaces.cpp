@@ -1,7 +1,7 @@
 #include <gracilis/io/scene/surfaces.hpp>
 
 #include <gracilis/geometry/box_mesh.hpp>
-#include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/files.hpp>
 
 #include <algorithm>

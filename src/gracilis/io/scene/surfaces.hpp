@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/geometry/triangle_mesh.hpp>
-#include <gracilis/io/load_surface.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/scene/scene_in_progress.hpp>
 #include <gracilis/io/toml_reader.hpp>
 
