@@ -87,11 +87,12 @@ SpringPairs cubic_pairs(const Polylines& particles, bool diagonals) {
     const Index fiber = column[static_cast<std::size_t>(j)];
     return k < 0 || k >= particles.size(fiber) ? -1 : particles.begin(fiber) + k;
   };
+  const std::vector<std::array<int, 3>> steps = lattice_steps(diagonals);
   SpringPairs pairs;
   for (int i = 0; i < static_cast<int>(lattice.size()); ++i)
     for (int j = 0; j < static_cast<int>(lattice[static_cast<std::size_t>(i)].size()); ++j)
       for (Index k = 0; particle_at(i, j, k) >= 0; ++k)
-        for (const auto& [di, dj, dk] : lattice_steps(diagonals))
+        for (const auto& [di, dj, dk] : steps)
           if (const Index other = particle_at(i + di, j + dj, k + dk); other >= 0)
             pairs.push_back({particle_at(i, j, k), other});
   return sorted(std::move(pairs));
