@@ -463,16 +463,21 @@ static void read_axes(TomlReader& top, AnatomicalAxes& axes) {
   axes.anterior = (anterior - anterior.dot(axes.superior) * axes.superior).normalized();
 }
 
-static void start_from_preset(TomlReader& top, SceneDescription& scene) {
+/// The method that is named, else the preset's.
+static const MethodEntry& start_from_preset(TomlReader& top, SceneDescription& scene) {
   scene.preset = top.text("preset").value_or(std::string(presets().front().name));
   std::vector<std::string> names;
   for (const Preset& preset : presets()) names.emplace_back(preset.name);
-  if (const std::optional<Preset> preset = find_preset(scene.preset)) {
-    if (preset->method.name == scene.method.name) scene.method = preset->method;
-    scene.distance_fields = preset->distance_fields;
-  } else {
+  const std::optional<Preset> preset = find_preset(scene.preset);
+  if (!preset)
     top.add_problem("preset", "there is no preset '" + scene.preset + "'", suggestion(scene.preset, names));
-  }
+  else
+    scene.method.name = preset->method.name;
+  const MethodEntry& method = read_method(top, scene.method);
+  if (!preset) return method;
+  if (preset->method.name == scene.method.name) scene.method = preset->method;
+  scene.distance_fields = preset->distance_fields;
+  return method;
 }
 
 template <class Settings>
@@ -483,10 +488,15 @@ static void read_section(TomlReader& top, const std::string& key, Settings& sett
   section->reject_unknown_keys();
 }
 
-/// Of an integer or a number.
-static Real number_in(const SettingValue& value) {
-  const int* integer = std::get_if<int>(&value);
-  return integer ? *integer : std::get<Real>(value);
+/// Whether a muscle's wish counts instead of another one: the larger number, and the later of what is no number.
+static bool counts_before(const SettingValue& wish, const SettingValue& other) {
+  const auto number_in = [](const SettingValue& value) -> std::optional<Real> {
+    if (const int* integer = std::get_if<int>(&value)) return *integer;
+    const Real* number = std::get_if<Real>(&value);
+    return number ? std::optional(*number) : std::nullopt;
+  };
+  const std::optional<Real> own = number_in(wish), others = number_in(other);
+  return !own || !others || *own > *others;
 }
 
 /// What muscles are solved with together is the scene's: the largest value that a muscle asks for.
@@ -498,7 +508,7 @@ static void share_settings(const MethodEntry& method, SceneDescription& scene) {
       const auto own = muscle.settings.find(key);
       if (!setting.is_shared || own == muscle.settings.end()) continue;
       SettingValue& all = scene.method.settings.emplace(key, setting.default_value).first->second;
-      if (number_in(all) < number_in(own->second)) all = own->second;
+      if (counts_before(own->second, all)) all = own->second;
       muscle.settings.erase(own);
       is_given = true;
     }
@@ -522,9 +532,8 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
     top.add_problem("schema", "only schema 1 is known to this version");
   }
   scene.name = top.text("name").value_or(path.stem().string());
-  const MethodEntry& method = read_method(top, scene.method);
+  const MethodEntry& method = start_from_preset(top, scene);
   read_axes(top, scene.axes);
-  start_from_preset(top, scene);
   std::set<std::string> of_other_methods, of_other_contact;
   const auto read_for_all = [&](const char* key, std::vector<DescribedSetting> MethodEntry::*which,
                                 SettingValues& values, std::set<std::string>& others) {
