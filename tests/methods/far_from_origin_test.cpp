@@ -34,7 +34,7 @@ TEST_P(FarMethod, deforms_as_at_the_origin) {
   EXPECT_LT(((found.colwise() - by.translation()) - expected).colwise().norm().maxCoeff(), 1e-6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Methods, FarMethod, ::testing::Values("pbd", "arap", "rbf"),
+INSTANTIATE_TEST_SUITE_P(Methods, FarMethod, ::testing::Values("pbd", "arap", "rbf", "mass-spring"),
                          [](const auto& method) { return std::string(method.param); });
 
 }  // namespace gracilis
