@@ -159,7 +159,7 @@ class MassSpringMethod final : public DeformationMethod {
       report.muscles.push_back(
           {milliseconds * size(m) / all,
            {{"iterations", static_cast<Real>(done.iterations)},
-            {"verlet_step", done.mean_step},
+            {"verlet_step_s", done.mean_step},
             {"contacts", static_cast<Real>(collisions[m])},
             {"displacement_mm", 1000 * muscles[m].displacement},
             {"length_changes_mm", 1000 * mass_spring::length_changes(models_[m].net, states_[m].particles)}}});
@@ -177,6 +177,12 @@ class MassSpringMethod final : public DeformationMethod {
   std::vector<Points> shapes_;
   std::vector<MuscleState> states_;
 };
+
+bool asks_fields(const Scene& scene) {
+  return std::any_of(scene.muscles.begin(), scene.muscles.end(), [&](const Muscle& muscle) {
+    return muscle_settings<MassSpringSettings>(scene, muscle).bone_collision == MassSpringBones::fields;
+  });
+}
 
 Preset janak_2012() {
   Preset preset;
@@ -213,12 +219,13 @@ MethodEntry mass_spring_entry() {
           .settings = describe_settings<MassSpringSettings>(),
           .presets = {janak_2012()},
           .metrics = {{"iterations", 0},
-                      {"verlet_step", 4},
+                      {"verlet_step_s", 4},
                       {"contacts", 0},
                       {"displacement_mm", 6},
                       {"length_changes_mm", 3}},
           .make = [](const Scene& scene, const BoneFieldSource& fields) {
-            return make_mass_spring_method(scene, fields(scene.distance_fields));
+            return make_mass_spring_method(
+                scene, asks_fields(scene) ? fields(scene.distance_fields) : std::vector<DistanceField>{});
           }};
 }
 
