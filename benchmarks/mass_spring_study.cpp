@@ -10,8 +10,8 @@
 #include <vector>
 
 /// What Janák 2012 studied of mass-spring systems (chapter 5), on the built-in hip: prints Markdown tables for
-/// docs/mass-spring.md. Everything is as in the preset `janak-2012` but for what a table varies, from the capture pose to
-/// 60 degrees of flexion at once, as published.
+/// docs/mass-spring.md. Everything is as in the preset `janak-2012` but for what a table varies, from the capture pose
+/// to 60 degrees of flexion at once, as published.
 namespace gracilis {
 
 namespace {
@@ -68,9 +68,10 @@ Outcome median_run(const SettingValues& changes) {
 }
 
 void layouts() {
-  fmt::print("\n## Layouts of springs\n\nTime of 1500 iterations, mean motion of particles in the last one, and sum of "
-             "all changes of length after so many.\n\n| layout | time | motion after 100 | after 1500 | changes after 1 "
-             "| after 100 | after 1500 |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+  fmt::print(
+      "\n## Layouts of springs\n\nTime of 1500 iterations, mean motion of particles in the last one, and sum of "
+      "all changes of length after so many.\n\n| layout | time | motion after 100 | after 1500 | changes after 1 "
+      "| after 100 | after 1500 |\n| --- | --- | --- | --- | --- | --- | --- |\n");
   for (const std::string layout : {"cubic-6", "cubic-26", "delaunay", "nearest"}) {
     const SettingValues base = {{"layout", layout}, {"neighbors", 15}};
     const auto after = [&](int iterations) {
@@ -86,20 +87,23 @@ void layouts() {
 }
 
 void neighbors() {
-  fmt::print("\n## Number of neighbors\n\nTime of 100 iterations of springs alone, without collisions.\n\n| neighbors | "
-             "time |\n| --- | --- |\n");
+  fmt::print(
+      "\n## Number of neighbors\n\nTime of 100 iterations of springs alone, without collisions.\n\n| neighbors | "
+      "time |\n| --- | --- |\n");
   for (const int count : {10, 15, 20, 25, 30})
-    fmt::print("| {} | {:.0f} ms |\n", count,
-               median_run({{"neighbors", count}, {"bone_collision", "none"}, {"muscle_collision", false}}).milliseconds);
+    fmt::print(
+        "| {} | {:.0f} ms |\n", count,
+        median_run({{"neighbors", count}, {"bone_collision", "none"}, {"muscle_collision", false}}).milliseconds);
 }
 
 void particles() {
-  fmt::print("\n## Particles per fiber\n\nTime of 100 iterations; that of collisions is the difference.\n\n| particles "
-             "per fiber | springs | with collisions, trees rebuilt | refitted only |\n| --- | --- | --- | --- |\n");
+  fmt::print(
+      "\n## Particles per fiber\n\nTime of 100 iterations; that of collisions is the difference.\n\n| particles "
+      "per fiber | springs | with collisions, trees rebuilt | refitted only |\n| --- | --- | --- | --- |\n");
   for (const int count : {20, 40, 60, 80}) {
     const SettingValue per_fiber = count;
-    const Outcome springs = median_run(
-        {{"particles_per_fiber", per_fiber}, {"bone_collision", "none"}, {"muscle_collision", false}});
+    const Outcome springs =
+        median_run({{"particles_per_fiber", per_fiber}, {"bone_collision", "none"}, {"muscle_collision", false}});
     const Outcome rebuilt = median_run({{"particles_per_fiber", per_fiber}});
     const Outcome refitted = median_run({{"particles_per_fiber", per_fiber}, {"refit_only", true}});
     fmt::print("| {} | {:.0f} ms | {:.0f} ms | {:.0f} ms |\n", count, springs.milliseconds, rebuilt.milliseconds,
@@ -108,8 +112,9 @@ void particles() {
 }
 
 void steps() {
-  fmt::print("\n## Time steps\n\nSum of all changes of length, m.\n\n| step | mean step | after 1 | 25 | 50 | 75 | 100 | "
-             "200 | 500 |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  fmt::print(
+      "\n## Time steps\n\nSum of all changes of length, m.\n\n| step | mean step | after 1 | 25 | 50 | 75 | 100 | "
+      "200 | 500 |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   const auto row = [](const std::string& name, const SettingValues& base) {
     std::string cells;
     Real step = 0;

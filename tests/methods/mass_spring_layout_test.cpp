@@ -119,7 +119,8 @@ TEST(MassSpringLayout, nearest_joins_each_with_as_many_of_its_nearest_as_asked) 
     for (Index q = 0; q < 80; ++q)
       if (q != p) others.emplace_back((points.col(p) - points.col(q)).norm(), q);
     std::sort(others.begin(), others.end());
-    for (std::size_t i = 0; i < 7; ++i) expected.push_back({std::min(p, others[i].second), std::max(p, others[i].second)});
+    for (std::size_t i = 0; i < 7; ++i)
+      expected.push_back({std::min(p, others[i].second), std::max(p, others[i].second)});
   }
   std::sort(expected.begin(), expected.end());
   expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
@@ -129,9 +130,9 @@ TEST(MassSpringLayout, nearest_joins_each_with_as_many_of_its_nearest_as_asked) 
 TEST(MassSpringLayout, particles_are_fixed_to_the_bone_that_they_are_near) {
   const Scene scene = tube_scene();
   Points points(3, 4);
-  points.col(0) = Vec3(0.017, 0, 0.05);    // 2 mm from the upper bone
-  points.col(1) = Vec3(0.017, 0, -0.05);   // from the lower one
-  points.col(2) = Vec3(0.03, 0, 0.05);     // 15 mm away
+  points.col(0) = Vec3(0.017, 0, 0.05);      // 2 mm from the upper bone
+  points.col(1) = Vec3(0.017, 0, -0.05);     // from the lower one
+  points.col(2) = Vec3(0.03, 0, 0.05);       // 15 mm away
   points.col(3) = Vec3(0.0255, 0, -0.0795);  // at the muscle's lower end
   const std::vector<NearestBone> bones = nearest_bones(scene, points);
   EXPECT_NEAR(bones[0].distance, 0.002, 1e-9);

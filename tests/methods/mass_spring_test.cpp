@@ -59,8 +59,8 @@ Real widest_gap_at_attachments(const Scene& scene, const Points& points) {
   for (const MeshEdge& edge : build_topology(muscle.surface.faces, muscle.surface.vertex_count()).edges) {
     if (is_attached[static_cast<std::size_t>(edge.a)] == is_attached[static_cast<std::size_t>(edge.b)]) continue;
     const Points& rest = muscle.surface.vertices;
-    widest = std::max(widest, (points.col(edge.a) - points.col(edge.b)).norm() /
-                                  (rest.col(edge.a) - rest.col(edge.b)).norm());
+    widest = std::max(widest,
+                      (points.col(edge.a) - points.col(edge.b)).norm() / (rest.col(edge.a) - rest.col(edge.b)).norm());
   }
   return widest;
 }
@@ -75,8 +75,8 @@ TEST(MassSpring, the_surface_does_not_tear_at_attachments) {
     const Pose pose = flexed(scene, radians(angle));
     for (const Attachment& attachment : scene.muscles[0].attachments)
       for (const Index v : attachment.vertices) {
-        const Vec3 expected = pose.bodies[static_cast<std::size_t>(attachment.body)] *
-                              Vec3(scene.muscles[0].surface.vertices.col(v));
+        const Vec3 expected =
+            pose.bodies[static_cast<std::size_t>(attachment.body)] * Vec3(scene.muscles[0].surface.vertices.col(v));
         EXPECT_LT((points.col(v) - expected).norm(), 1e-9);
       }
   }
@@ -84,8 +84,11 @@ TEST(MassSpring, the_surface_does_not_tear_at_attachments) {
 
 TEST(MassSpring, as_published_the_surface_tears_between_bones_which_holding_and_smoothing_mends) {
   // Every particle as its nearest bone: without springs the tube is two halves.
-  const SettingValues torn = {{"carry_particles", "nearest-bone"}, {"iterations", 1}, {"surface_smoothing", 0},
-                              {"hold_attachments", false}, {"bone_collision", "none"}};
+  const SettingValues torn = {{"carry_particles", "nearest-bone"},
+                              {"iterations", 1},
+                              {"surface_smoothing", 0},
+                              {"hold_attachments", false},
+                              {"bone_collision", "none"}};
   const auto longest_edge = [](const Scene& scene, const Points& points) {
     Real longest = 0;
     const TriangleMesh& rest = scene.muscles[0].surface;
@@ -216,6 +219,13 @@ TEST(MassSpring, a_muscle_without_both_ends_follows_its_bodies_and_one_without_a
 TEST(MassSpring, only_a_limit_of_time_watches_the_clock) {
   EXPECT_FALSE(method_of_scene(mass_spring_scene())->watches_clock());
   EXPECT_TRUE(method_of_scene(mass_spring_scene({{"stop_milliseconds", 5.0}}))->watches_clock());
+}
+
+TEST(MassSpring, a_least_step_above_the_largest_is_a_problem) {
+  EXPECT_TRUE(validate_method(mass_spring_scene({{"smallest_step", 0.4}})).empty());
+  const std::vector<Problem> problems = validate_method(mass_spring_scene({{"smallest_step", 0.5}}));
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].what, "'smallest_step' is above 'verlet_step'");
 }
 
 TEST(MassSpring, no_setting_is_forgotten) {

@@ -30,9 +30,8 @@ class MassSpringMethod final : public DeformationMethod {
         body_count_(scene.bodies.size()),
         shared_(with_values(MassSpringSettings{}, scene.method.settings)),
         models_(scene.muscles.size()) {
-    parallel_for_each(models_.size(), [&](std::size_t m) {
-      models_[m] = mass_spring::muscle_model(scene, scene.muscles[m], fields_);
-    });
+    parallel_for_each(models_.size(),
+                      [&](std::size_t m) { models_[m] = mass_spring::muscle_model(scene, scene.muscles[m], fields_); });
     for (const Muscle& muscle : scene.muscles) names_.push_back(muscle.name);
     for (const MuscleModel& model : models_) spheres_.push_back(model.spheres);
     if (std::any_of(spheres_.begin(), spheres_.end(), [](const auto& each) { return each.meets_bones; }))
@@ -95,7 +94,8 @@ class MassSpringMethod final : public DeformationMethod {
  private:
   void require_finite(const Points& points, std::size_t m) const {
     if (!points.allFinite())
-      throw QualityError("muscle " + names_[m] + ": a particle or vertex position is not finite; check the pose, or give " +
+      throw QualityError("muscle " + names_[m] +
+                         ": a particle or vertex position is not finite; check the pose, or give " +
                          "'verlet_step' a smaller value");
   }
 
@@ -132,9 +132,8 @@ class MassSpringMethod final : public DeformationMethod {
                                           shared_.refit_only ? TreeUpdate::refit_only : TreeUpdate::rebuild);
     return mass_spring::relax(muscles, rule, [&] {
       collisions = spheres.resolve(muscles);
-      parallel_for_each(muscles.size(), [&](std::size_t m) {
-        collisions[m] += push_out(models_[m], pose, muscles[m].motion);
-      });
+      parallel_for_each(muscles.size(),
+                        [&](std::size_t m) { collisions[m] += push_out(models_[m], pose, muscles[m].motion); });
     });
   }
 
@@ -177,6 +176,12 @@ class MassSpringMethod final : public DeformationMethod {
   std::vector<Points> shapes_;
   std::vector<MuscleState> states_;
 };
+
+std::vector<Problem> validate(const Scene& scene) {
+  const MassSpringSettings settings = with_values(MassSpringSettings{}, scene.method.settings);
+  if (settings.smallest_step <= settings.verlet_step) return {};
+  return {{"", "settings", "'smallest_step' is above 'verlet_step'", "steps are between the two"}};
+}
 
 bool asks_fields(const Scene& scene) {
   return std::any_of(scene.muscles.begin(), scene.muscles.end(), [&](const Muscle& muscle) {
@@ -223,6 +228,7 @@ MethodEntry mass_spring_entry() {
                       {"contacts", 0},
                       {"displacement_mm", 6},
                       {"length_changes_mm", 3}},
+          .validate = validate,
           .make = [](const Scene& scene, const BoneFieldSource& fields) {
             return make_mass_spring_method(
                 scene, asks_fields(scene) ? fields(scene.distance_fields) : std::vector<DistanceField>{});

@@ -66,8 +66,9 @@ void choose_carriers(const Scene& scene, const Muscle& muscle, MuscleModel& mode
   const MassSpringSettings& settings = model.settings;
   const bool asks_bones =
       settings.carry_particles == MassSpringCarry::nearest_bone || settings.fixed_near == FixedNear::bones;
-  const std::vector<NearestBone> bones =
-      asks_bones ? nearest_bones(scene, particles) : std::vector<NearestBone>(static_cast<std::size_t>(particles.cols()));
+  const std::vector<NearestBone> bones = asks_bones
+                                             ? nearest_bones(scene, particles)
+                                             : std::vector<NearestBone>(static_cast<std::size_t>(particles.cols()));
   model.carrier_body = fixed_bodies(muscle, particles, bones, settings.fixed_near, settings.fixed_distance);
   for (const Index body : model.carrier_body) model.fixed.push_back(body >= 0);
   const NearestPoints vertices(model.rest);
@@ -89,8 +90,7 @@ MuscleModel muscle_model(const Scene& scene, const Muscle& muscle, const std::ve
   model.carriers = body_carriers(muscle, model.topology, settings.tendon_length);
   model.particles =
       particles_along(fibers_for_particles(muscle, settings.fiber_count), settings.particles_per_fiber, settings.seed);
-  model.radii =
-      muscle_radii(model.particles.points, on_boundary_fibers(model.particles, model.rest), model.rest);
+  model.radii = muscle_radii(model.particles.points, on_boundary_fibers(model.particles, model.rest), model.rest);
   choose_carriers(scene, muscle, model);
   model.net = build_spring_net(model.particles.points, pairs_of(muscle, model.particles, settings),
                                settings.spring_material, settings.shortest_spring);
@@ -99,11 +99,12 @@ MuscleModel muscle_model(const Scene& scene, const Muscle& muscle, const std::ve
   model.bound = nearest_particles(model.rest, model.particles.points, settings.surface_particles);
   if (settings.bone_collision != MassSpringBones::fields) return model;
   std::vector<Index> fixed_body;
-  for (std::size_t p = 0; p < model.fixed.size(); ++p) fixed_body.push_back(model.fixed[p] ? model.carrier_body[p] : -1);
+  for (std::size_t p = 0; p < model.fixed.size(); ++p)
+    fixed_body.push_back(model.fixed[p] ? model.carrier_body[p] : -1);
   model.particle_bones =
       BoneProjection(scene, model.particles.points, fixed_body, fields, model.radii, settings.bone_rest_gap);
-  model.vertex_bones = BoneProjection(scene, muscle, model.carriers.fixed_body, fields, settings.bone_margin,
-                                      settings.bone_rest_gap);
+  model.vertex_bones =
+      BoneProjection(scene, muscle, model.carriers.fixed_body, fields, settings.bone_margin, settings.bone_rest_gap);
   return model;
 }
 
@@ -147,8 +148,9 @@ void smooth(const VertexStars& stars, const std::vector<char>& held, int rounds,
 Points surface_of(const MuscleModel& model, const Pose& pose, const std::vector<RigidTransform>& motions,
                   const Points& particles) {
   const std::vector<RigidTransform> blended = carried_motions(model.carriers, pose);
-  const std::vector<char> held = model.settings.hold_attachments ? held_vertices(model.carriers)
-                                                                 : std::vector<char>(model.carriers.fixed_body.size(), 0);
+  const std::vector<char> held = model.settings.hold_attachments
+                                     ? held_vertices(model.carriers)
+                                     : std::vector<char>(model.carriers.fixed_body.size(), 0);
   const auto followed = static_cast<Index>(model.bound.rows());
   const Points moved = particles - carried_particles(model, motions);
   Points carried(3, model.rest.cols()), added = Points::Zero(3, model.rest.cols());

@@ -24,10 +24,10 @@ struct MuscleModel {
   std::vector<Index> carrier_vertex;
   std::vector<char> fixed;  ///< per particle
   SpringNet net;
-  Real damping = 0;            ///< kg/s
-  std::vector<Real> radii;     ///< m, per particle; 0: no sphere
-  MuscleSpheres spheres;       ///< of particles with a radius
-  Eigen::MatrixXi bound;       ///< per vertex: the particles that it follows; none where there are none
+  Real damping = 0;         ///< kg/s
+  std::vector<Real> radii;  ///< m, per particle; 0: no sphere
+  MuscleSpheres spheres;    ///< of particles with a radius
+  Eigen::MatrixXi bound;    ///< per vertex: the particles that it follows; none where there are none
   BoneProjection particle_bones, vertex_bones;
 };
 

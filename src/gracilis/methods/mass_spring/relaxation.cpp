@@ -55,14 +55,13 @@ Real longest_step_of(const RelaxedMuscle& muscle, const Points& forces) {
     const auto at = static_cast<std::size_t>(p);
     if (!((*muscle.radii)[at] > 0) || (*muscle.fixed)[at]) continue;
     const Real moved = (muscle.motion.now.col(p) - muscle.motion.before.col(p)).norm();
-    longest = std::min(longest, longest_step(forces.col(p).norm(), moved, (*muscle.radii)[at], muscle.mass,
-                                             muscle.damping));
+    longest =
+        std::min(longest, longest_step(forces.col(p).norm(), moved, (*muscle.radii)[at], muscle.mass, muscle.damping));
   }
   return longest;
 }
 
-Real step_of(const std::vector<RelaxedMuscle>& muscles, const std::vector<Points>& forces,
-             const RelaxationRule& rule) {
+Real step_of(const std::vector<RelaxedMuscle>& muscles, const std::vector<Points>& forces, const RelaxationRule& rule) {
   if (!(rule.smallest_step > 0)) return rule.step;
   std::vector<Real> longest(muscles.size());
   parallel_for_each(muscles.size(), [&](std::size_t m) { longest[m] = longest_step_of(muscles[m], forces[m]); });

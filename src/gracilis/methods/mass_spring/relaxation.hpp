@@ -25,9 +25,9 @@ Real fitted_damping(Real mean_stiffness, Real mass);
 /// Of the settings' rule, kg/s.
 Real damping_of(const MassSpringSettings& settings, const SpringNet& net);
 
-/// One step of eq. 2.14: x(t + dt) = F/m dt² + 2 x(t) - x(t - dt), F less c (x(t) - x(t - dt)) / dt. x(t) - x(t - dt) is
-/// taken as it is where the last step had another length, as published. Not published: damping takes at most all of a
-/// velocity, since c dt > 2 m would turn it round and let it grow. Fixed particles (1) stay.
+/// One step of eq. 2.14: x(t + dt) = F/m dt² + 2 x(t) - x(t - dt), F less c (x(t) - x(t - dt)) / dt. x(t) - x(t - dt)
+/// is taken as it is where the last step had another length, as published. Not published: damping takes at most all of
+/// a velocity, since c dt > 2 m would turn it round and let it grow. Fixed particles (1) stay.
 void verlet_step(const Points& forces, Real mass, Real damping, Real step, const std::vector<char>& fixed,
                  Motion& motion);
 

@@ -14,7 +14,8 @@ std::span<const Setting<MassSpringSettings>> setting_table() {
        "Particles on each fiber, at equal distances but for the first and the last step."},
       {"seed", &S::seed, "", 0, 1000000, "Of the random numbers that say how long the first step of each fiber is."},
       {"layout", &S::layout, "", 0, 0,
-       "Which particles springs join: 'cubic-6' and 'cubic-26' those beside each other on and across fibers, 'delaunay' "
+       "Which particles springs join: 'cubic-6' and 'cubic-26' those beside each other on and across fibers, "
+       "'delaunay' "
        "those that share a tetrahedron, 'nearest' each with its nearest."},
       {"neighbors", &S::neighbors, "", 3, 100, "How many nearest particles each is joined with by 'nearest'."},
       {"spring_material", &S::spring_material, "N", 1e-6, 1e3,
@@ -46,7 +47,8 @@ std::span<const Setting<MassSpringSettings>> setting_table() {
        "'verlet_step'; 0 takes 'verlet_step' always.",
        true},
       {"limit_step", &S::limit_step, "", 0, 0,
-       "Take no longer steps than those in which the stiffest particle's springs are stable; 'smallest_step' gives way.",
+       "Take no longer steps than those in which the stiffest particle's springs are stable; 'smallest_step' gives "
+       "way.",
        true},
       {"bone_collision", &S::bone_collision, "", 0, 0,
        "What keeps the muscle out of bones: their distance 'fields', 'spheres' about their surfaces as published, or "
@@ -54,8 +56,8 @@ std::span<const Setting<MassSpringSettings>> setting_table() {
       {"muscle_collision", &S::muscle_collision, "", 0, 0, "Whether spheres keep muscles out of each other.", true},
       {"refit_only", &S::refit_only, "", 0, 0,
        "Boxes around spheres are only refitted, never divided anew while a frame is made.", true},
-      {"bone_sphere_rings", &S::bone_sphere_rings, "", 1, 2,
-       "Rings of vertices that one sphere of a bone stands for.", true},
+      {"bone_sphere_rings", &S::bone_sphere_rings, "", 1, 2, "Rings of vertices that one sphere of a bone stands for.",
+       true},
       {"surface_particles", &S::surface_particles, "", 1, 100, "How many nearest particles a surface vertex follows."},
       {"surface_smoothing", &S::surface_smoothing, "", 0, 1000,
        "Rounds of smoothing of what particles add to the blend of the bodies' motions; 0: as published."},

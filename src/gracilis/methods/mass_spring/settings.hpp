@@ -75,14 +75,14 @@ struct MassSpringSettings {
   bool limit_step = true;                                 ///< shared, to where Verlet's scheme is stable
   MassSpringBones bone_collision = MassSpringBones::fields;
   bool muscle_collision = true;  ///< shared: spheres of muscles keep out of each other
-  bool refit_only = false;        ///< shared: of the trees of spheres
-  int bone_sphere_rings = 2;      ///< shared: of vertices around the root of a bone's sphere
-  int surface_particles = 8;      ///< that a vertex follows
-  int surface_smoothing = 20;     ///< rounds
-  bool hold_attachments = true;   ///< attached vertices move exactly with their bodies
-  Real tendon_length = 0.03;      ///< m from attachments, graded from tendon to belly; 0: no tendons
-  Real bone_margin = 0.0005;      ///< m
-  bool bone_rest_gap = true;      ///< where there is less at rest, keep that
+  bool refit_only = false;       ///< shared: of the trees of spheres
+  int bone_sphere_rings = 2;     ///< shared: of vertices around the root of a bone's sphere
+  int surface_particles = 8;     ///< that a vertex follows
+  int surface_smoothing = 20;    ///< rounds
+  bool hold_attachments = true;  ///< attached vertices move exactly with their bodies
+  Real tendon_length = 0.03;     ///< m from attachments, graded from tendon to belly; 0: no tendons
+  Real bone_margin = 0.0005;     ///< m
+  bool bone_rest_gap = true;     ///< where there is less at rest, keep that
 };
 
 template <>

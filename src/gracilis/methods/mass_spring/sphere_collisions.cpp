@@ -47,7 +47,8 @@ void SphereCollisions::meet_muscles(std::size_t m, std::size_t n) {
   const bool keeps_rest_gap = one.keeps_rest_gap || other.keeps_rest_gap;
   for (const auto& [s, t] : SphereTree::intersecting(*a.tree, *b.tree)) {
     const Real reach = reach_of(a.now, s, b.now, t, keeps_rest_gap, a.rest.centers, b.rest.centers);
-    const bool s_is_fixed = one.fixed[static_cast<std::size_t>(s)], t_is_fixed = other.fixed[static_cast<std::size_t>(t)];
+    const bool s_is_fixed = one.fixed[static_cast<std::size_t>(s)],
+               t_is_fixed = other.fixed[static_cast<std::size_t>(t)];
     const Response moved = response(a.now.centers.col(s), b.now.centers.col(t), reach, s_is_fixed, t_is_fixed);
     if (moved.a.isZero(0) && moved.b.isZero(0)) continue;
     answers_[m].shifts.col(s) += moved.a;
@@ -61,8 +62,8 @@ void SphereCollisions::meet_muscles(std::size_t m, std::size_t n) {
 void SphereCollisions::meet_bone(std::size_t m, Placed& bone) {
   const Placed& muscle = *placed_[m];
   for (const auto& [s, t] : SphereTree::intersecting(*muscle.tree, *bone.tree)) {
-    const Real reach = reach_of(muscle.now, s, bone.now, t, muscles_[m].keeps_rest_gap, muscle.rest.centers,
-                                bone.rest.centers);
+    const Real reach =
+        reach_of(muscle.now, s, bone.now, t, muscles_[m].keeps_rest_gap, muscle.rest.centers, bone.rest.centers);
     const bool is_fixed = muscles_[m].fixed[static_cast<std::size_t>(s)];
     const Response moved = response(muscle.now.centers.col(s), bone.now.centers.col(t), reach, is_fixed, true);
     if (moved.a.isZero(0)) continue;

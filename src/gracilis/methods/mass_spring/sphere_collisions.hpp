@@ -24,8 +24,8 @@ struct PlacedSpheres {
 };
 
 /// Where two spheres go that intersect, m: apart along the line between their centers, by half of what is missing each,
-/// or, where one of them is fixed, by all of it the other (Janák 2012, section 4.3). Zero where they are `reach` or more
-/// apart, where both are fixed, and where their centers coincide, so that nothing tells the way.
+/// or, where one of them is fixed, by all of it the other (Janák 2012, section 4.3). Zero where they are `reach` or
+/// more apart, where both are fixed, and where their centers coincide, so that nothing tells the way.
 struct Response {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
 };

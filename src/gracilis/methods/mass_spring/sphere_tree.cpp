@@ -99,8 +99,8 @@ void SphereTree::collect(SphereTree& one, Index a, SphereTree& other, Index b,
   if (is_leaf && other_is_leaf) {
     for (const Index s : one.at(a).spheres)
       for (const Index t : other.at(b).spheres) {
-        const Real reach = one.spheres_.radii[static_cast<std::size_t>(s)] +
-                           other.spheres_.radii[static_cast<std::size_t>(t)];
+        const Real reach =
+            one.spheres_.radii[static_cast<std::size_t>(s)] + other.spheres_.radii[static_cast<std::size_t>(t)];
         if ((one.spheres_.centers.col(s) - other.spheres_.centers.col(t)).squaredNorm() < reach * reach)
           pairs.push_back({s, t});
       }

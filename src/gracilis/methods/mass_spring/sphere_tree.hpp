@@ -18,8 +18,8 @@ enum class TreeUpdate {
 /// centers.
 class SphereTree {
  public:
-  /// `spheres` must outlive this and keep their number. Boxes hold `leaf_size` spheres at least before they are divided,
-  /// and are divided `most_depth` times at most.
+  /// `spheres` must outlive this and keep their number. Boxes hold `leaf_size` spheres at least before they are
+  /// divided, and are divided `most_depth` times at most.
   explicit SphereTree(const Spheres& spheres, TreeUpdate update, std::size_t leaf_size = 8, int most_depth = 10);
 
   /// Makes the boxes fit the spheres where they are now. With `rebuild`, children go whose boxes' volumes sum to more

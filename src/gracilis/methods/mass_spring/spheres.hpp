@@ -23,8 +23,8 @@ std::vector<Real> muscle_radii(const Points& particles, const std::vector<char>&
 void shrink_apart(const Points& centers, std::vector<Real>& radii);
 
 /// A bone's spheres: vertices are taken in their order as roots, each with its `rings` (1 or 2) of vertices around it,
-/// which are roots no more. The sphere's center lies as far below the root, against its normal, as the farthest of these
-/// vertices is from it (for one ring: its longest edge), and its radius is √2 times that.
+/// which are roots no more. The sphere's center lies as far below the root, against its normal, as the farthest of
+/// these vertices is from it (for one ring: its longest edge), and its radius is √2 times that.
 Spheres bone_spheres(const TriangleMesh& surface, int rings);
 
 }  // namespace gracilis::mass_spring
