@@ -177,7 +177,7 @@ class MassSpringMethod final : public DeformationMethod {
   std::vector<MuscleState> states_;
 };
 
-std::vector<Problem> validate(const Scene& scene) {
+std::vector<Problem> problems_of(const Scene& scene) {
   const MassSpringSettings settings = with_values(MassSpringSettings{}, scene.method.settings);
   if (settings.smallest_step <= settings.verlet_step) return {};
   return {{"", "settings", "'smallest_step' is above 'verlet_step'", "steps are between the two"}};
@@ -228,7 +228,7 @@ MethodEntry mass_spring_entry() {
                       {"contacts", 0},
                       {"displacement_mm", 6},
                       {"length_changes_mm", 3}},
-          .validate = validate,
+          .validate = problems_of,
           .make = [](const Scene& scene, const BoneFieldSource& fields) {
             return make_mass_spring_method(
                 scene, asks_fields(scene) ? fields(scene.distance_fields) : std::vector<DistanceField>{});
