@@ -1,10 +1,10 @@
 #pragma once
 
-#include <gracilis/anatomy/builtin_hip.hpp>
-#include <gracilis/anatomy/joint_pose.hpp>
-#include <gracilis/io/data_root.hpp>
-#include <gracilis/io/field_cache.hpp>
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/io/scene/data_root.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 
 #include <algorithm>
 #include <filesystem>

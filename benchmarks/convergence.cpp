@@ -3,7 +3,7 @@
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/prediction.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
-#include <gracilis/view/line_chart.hpp>
+#include <gracilis/view/charts/line_chart.hpp>
 
 #include "acceleration.hpp"
 #include "benchmark_hip.hpp"

@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/bone_field.hpp>
+#include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/core/parallel.hpp>
 
 #include <gracilis/core/state_hash.hpp>

@@ -2,8 +2,8 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
-#include <gracilis/io/field_cache.hpp>
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/measures.hpp>
 #include <gracilis/simulate/run.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/anatomy/bone_field.hpp>
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>

@@ -1,8 +1,8 @@
 #include "activations_command.hpp"
 
-#include <gracilis/anatomy/joint_control.hpp>
+#include <gracilis/anatomy/joints/joint_control.hpp>
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/activation_samples.hpp>
+#include <gracilis/io/tables/activation_samples.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

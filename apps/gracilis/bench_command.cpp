@@ -2,16 +2,16 @@
 
 #include "scene_options.hpp"
 
-#include <gracilis/anatomy/builtin_hip.hpp>
-#include <gracilis/anatomy/coarser_muscle.hpp>
-#include <gracilis/anatomy/finer_muscle.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/anatomy/resolution/coarser_muscle.hpp>
+#include <gracilis/anatomy/resolution/finer_muscle.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
-#include <gracilis/dynamics/projection.hpp>
-#include <gracilis/io/field_cache.hpp>
-#include <gracilis/io/scene_changes.hpp>
+#include <gracilis/dynamics/constraints/projection.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <fmt/format.h>

@@ -8,11 +8,11 @@
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
-#include <gracilis/io/scene_changes.hpp>
+#include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/view/comparison/comparison_page.hpp>
-#include <gracilis/view/run_picture.hpp>
+#include <gracilis/view/pictures/run_picture.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -2,10 +2,10 @@
 #include "scene_options.hpp"
 #include "session.hpp"
 
-#include <gracilis/anatomy/builtin_elbow.hpp>
-#include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/anatomy/builtin/builtin_elbow.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
-#include <gracilis/io/scene_changes.hpp>
+#include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "command.hpp"
 
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <optional>

@@ -1,10 +1,10 @@
 #include "export_command.hpp"
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/opensim/model_reader.hpp>
-#include <gracilis/opensim/run_paths.hpp>
-#include <gracilis/opensim/run_points.hpp>
-#include <gracilis/view/export.hpp>
+#include <gracilis/opensim/export/run_paths.hpp>
+#include <gracilis/opensim/export/run_points.hpp>
+#include <gracilis/opensim/reader/model_reader.hpp>
+#include <gracilis/view/export/export.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -2,13 +2,13 @@
 
 #include "scene_options.hpp"
 
-#include <gracilis/anatomy/fiber_containment.hpp>
-#include <gracilis/anatomy/muscle_fibers.hpp>
-#include <gracilis/anatomy/surface_fibers.hpp>
+#include <gracilis/anatomy/fibers/fiber_containment.hpp>
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
+#include <gracilis/anatomy/fibers/surface_fibers.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/io/polyline_file.hpp>
-#include <gracilis/view/fiber_picture.hpp>
+#include <gracilis/io/mesh/polyline_file.hpp>
+#include <gracilis/view/pictures/fiber_picture.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -5,9 +5,9 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/value_reader.hpp>
-#include <gracilis/opensim/scene_folder.hpp>
-#include <gracilis/opensim/skeleton.hpp>
-#include <gracilis/opensim/skeleton_fit.hpp>
+#include <gracilis/opensim/import/scene_folder.hpp>
+#include <gracilis/opensim/import/skeleton_fit.hpp>
+#include <gracilis/opensim/kinematics/skeleton.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "inspect_command.hpp"
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/inspect.hpp>
+#include <gracilis/io/run/inspect.hpp>
 
 #include <nlohmann/json.hpp>
 

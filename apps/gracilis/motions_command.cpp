@@ -4,7 +4,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
-#include <gracilis/opensim/sample_motions.hpp>
+#include <gracilis/opensim/kinematics/sample_motions.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "opensim_model.hpp"
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/opensim/model_reader.hpp>
+#include <gracilis/opensim/reader/model_reader.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

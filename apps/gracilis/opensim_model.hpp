@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/opensim/model.hpp>
+#include <gracilis/opensim/reader/model.hpp>
 
 #include <filesystem>
 

@@ -5,7 +5,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/value_reader.hpp>
-#include <gracilis/opensim/path_tables.hpp>
+#include <gracilis/opensim/paths/path_tables.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>

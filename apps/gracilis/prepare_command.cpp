@@ -3,10 +3,10 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/whole_number.hpp>
 #include <gracilis/io/atomic_file.hpp>
-#include <gracilis/io/mesh_reader.hpp>
-#include <gracilis/io/mesh_writer.hpp>
-#include <gracilis/io/preparation_report.hpp>
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
+#include <gracilis/io/scene/preparation_report.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/scene/names.hpp>
 #include <gracilis/scene/setting_table.hpp>
 

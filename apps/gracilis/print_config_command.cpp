@@ -1,6 +1,6 @@
 #include "print_config_command.hpp"
 
-#include <gracilis/io/scene_template.hpp>
+#include <gracilis/io/scene/scene_template.hpp>
 
 #include <fmt/format.h>
 

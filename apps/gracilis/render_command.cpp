@@ -4,10 +4,10 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/view/gif.hpp>
-#include <gracilis/view/picture_layout.hpp>
-#include <gracilis/view/run_picture.hpp>
-#include <gracilis/view/video.hpp>
+#include <gracilis/view/pictures/gif.hpp>
+#include <gracilis/view/pictures/picture_layout.hpp>
+#include <gracilis/view/pictures/run_picture.hpp>
+#include <gracilis/view/pictures/video.hpp>
 
 #include <fmt/format.h>
 

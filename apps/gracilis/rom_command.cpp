@@ -3,16 +3,16 @@
 #include "scene_options.hpp"
 #include "session.hpp"
 
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/suggestions.hpp>
-#include <gracilis/io/table.hpp>
+#include <gracilis/io/tables/table.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/names.hpp>
 #include <gracilis/simulate/moment_arms.hpp>
-#include <gracilis/view/run_charts.hpp>
+#include <gracilis/view/charts/run_charts.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

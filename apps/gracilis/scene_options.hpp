@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 
 #include <CLI/CLI.hpp>
 

@@ -3,20 +3,20 @@
 #include "console.hpp"
 #include "exit_handling.hpp"
 
-#include <gracilis/anatomy/attachments.hpp>
-#include <gracilis/anatomy/overlap_report.hpp>
+#include <gracilis/anatomy/attachments/attachments.hpp>
+#include <gracilis/anatomy/overlap/overlap_report.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/stop.hpp>
-#include <gracilis/io/field_cache.hpp>
-#include <gracilis/io/run_folder.hpp>
-#include <gracilis/io/scene_template.hpp>
+#include <gracilis/io/run/run_folder.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/io/scene/scene_template.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/names.hpp>
 #include <gracilis/simulate/run.hpp>
-#include <gracilis/view/preview.hpp>
-#include <gracilis/view/run_charts.hpp>
+#include <gracilis/view/charts/run_charts.hpp>
+#include <gracilis/view/pictures/preview.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -4,9 +4,9 @@
 #include "opensim_model.hpp"
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/opensim/low_pass.hpp>
-#include <gracilis/opensim/model_reader.hpp>
-#include <gracilis/opensim/setup_reader.hpp>
+#include <gracilis/opensim/kinematics/low_pass.hpp>
+#include <gracilis/opensim/reader/model_reader.hpp>
+#include <gracilis/opensim/static_optimization/setup_reader.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 #include "verify_command.hpp"
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/verify_run.hpp>
+#include <gracilis/io/run/verify_run.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

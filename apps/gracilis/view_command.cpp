@@ -5,12 +5,12 @@
 #include "prepare_command.hpp"
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/field_cache.hpp>
-#include <gracilis/io/recorded_run.hpp>
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/run/recorded_run.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/scene_place.hpp>
-#include <gracilis/view/run_picture.hpp>
+#include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/window/interactive_window.hpp>
 #include <gracilis/view/window/live_simulation.hpp>
 #include <gracilis/view/window/run_loader.hpp>

@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/activation.hpp>
+#include <gracilis/anatomy/activation/activation.hpp>
 
 #include <gracilis/scene/validate.hpp>
 

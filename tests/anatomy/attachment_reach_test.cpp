@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/attachment_reach.hpp>
+#include <gracilis/anatomy/attachments/attachment_reach.hpp>
 
 #include "muscles_for_tests.hpp"
 

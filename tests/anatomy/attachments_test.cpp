@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/attachments.hpp>
+#include <gracilis/anatomy/attachments/attachments.hpp>
 
 #include "shapes.hpp"
 

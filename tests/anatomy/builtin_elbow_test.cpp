@@ -1,6 +1,6 @@
-#include <gracilis/anatomy/builtin_elbow.hpp>
-#include <gracilis/anatomy/builtin_elbow_bones.hpp>
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/builtin/builtin_elbow.hpp>
+#include <gracilis/anatomy/builtin/builtin_elbow_bones.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/scene/validate.hpp>
 

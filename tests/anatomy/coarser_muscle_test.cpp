@@ -1,5 +1,5 @@
-#include <gracilis/anatomy/builtin_hip.hpp>
-#include <gracilis/anatomy/coarser_muscle.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/resolution/coarser_muscle.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 

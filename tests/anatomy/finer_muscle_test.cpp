@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/finer_muscle.hpp>
+#include <gracilis/anatomy/resolution/finer_muscle.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 

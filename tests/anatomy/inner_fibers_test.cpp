@@ -1,9 +1,9 @@
-#include <gracilis/anatomy/inner_fibers.hpp>
+#include <gracilis/anatomy/fibers/inner_fibers.hpp>
 
-#include <gracilis/anatomy/attachment_samples.hpp>
-#include <gracilis/anatomy/fiber_containment.hpp>
-#include <gracilis/anatomy/fiber_template.hpp>
-#include <gracilis/anatomy/muscle_fibers.hpp>
+#include <gracilis/anatomy/attachments/attachment_samples.hpp>
+#include <gracilis/anatomy/fibers/fiber_containment.hpp>
+#include <gracilis/anatomy/fibers/fiber_template.hpp>
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/measures.hpp>

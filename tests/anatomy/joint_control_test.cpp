@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/joint_control.hpp>
+#include <gracilis/anatomy/joints/joint_control.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
 

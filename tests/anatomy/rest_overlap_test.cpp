@@ -1,6 +1,6 @@
-#include <gracilis/anatomy/overlap_report.hpp>
-#include <gracilis/anatomy/overlap_sides.hpp>
-#include <gracilis/anatomy/rest_overlap.hpp>
+#include <gracilis/anatomy/overlap/overlap_report.hpp>
+#include <gracilis/anatomy/overlap/overlap_sides.hpp>
+#include <gracilis/anatomy/overlap/rest_overlap.hpp>
 
 #include <scenes_for_tests.hpp>
 #include <shapes.hpp>

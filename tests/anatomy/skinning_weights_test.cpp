@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/skinning_weights.hpp>
+#include <gracilis/anatomy/attachments/skinning_weights.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 
 #include <shapes.hpp>

@@ -1,7 +1,7 @@
-#include <gracilis/anatomy/surface_fibers.hpp>
+#include <gracilis/anatomy/fibers/surface_fibers.hpp>
 
-#include <gracilis/anatomy/inner_fibers.hpp>
-#include <gracilis/anatomy/superficial_fibers.hpp>
+#include <gracilis/anatomy/fibers/inner_fibers.hpp>
+#include <gracilis/anatomy/fibers/superficial_fibers.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 #include "anatomy/muscles_for_tests.hpp"

@@ -1,6 +1,6 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
-#include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 
 #include "app/program.hpp"
 

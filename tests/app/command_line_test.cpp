@@ -1,4 +1,4 @@
-#include <gracilis/io/scene_template.hpp>
+#include <gracilis/io/scene/scene_template.hpp>
 
 #include "app/program.hpp"
 

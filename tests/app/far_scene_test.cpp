@@ -1,6 +1,6 @@
-#include <gracilis/io/mesh_reader.hpp>
-#include <gracilis/io/mesh_writer.hpp>
-#include <gracilis/io/run_folder.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
+#include <gracilis/io/run/run_folder.hpp>
 
 #include "app/program.hpp"
 #include "io/scene_folder.hpp"

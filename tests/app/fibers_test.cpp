@@ -1,5 +1,5 @@
-#include <gracilis/io/polyline_file.hpp>
-#include <gracilis/io/table.hpp>
+#include <gracilis/io/mesh/polyline_file.hpp>
+#include <gracilis/io/tables/table.hpp>
 
 #include "app/program.hpp"
 #include "io/scene_folder.hpp"

@@ -1,7 +1,7 @@
 #include "app/program.hpp"
 #include "opensim/model_texts.hpp"
 
-#include <gracilis/io/table.hpp>
+#include <gracilis/io/tables/table.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

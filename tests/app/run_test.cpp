@@ -1,4 +1,4 @@
-#include <gracilis/io/run_folder.hpp>
+#include <gracilis/io/run/run_folder.hpp>
 
 #include "app/program.hpp"
 #include "io/scene_folder.hpp"

@@ -1,6 +1,6 @@
 // Writes a triangle and reads it back.
-#include <gracilis/io/mesh_reader.hpp>
-#include <gracilis/io/mesh_writer.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
 
 #include <cstdio>
 

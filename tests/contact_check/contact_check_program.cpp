@@ -3,7 +3,7 @@
 #include "report.hpp"
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -1,7 +1,7 @@
 #include "recorded_run.hpp"
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>

@@ -18,6 +18,40 @@ const std::map<std::string, int> ranks = {
     {"core", 0},     {"geometry", 1}, {"dynamics", 2}, {"scene", 2},   {"anatomy", 3}, {"strings", 4}, {"methods", 5},
     {"simulate", 6}, {"io", 7},       {"prepare", 7},  {"opensim", 8}, {"view", 9},    {"apps", 10}};
 
+/// Rooms of a folder, "." for the files that stand in it without one, and the same rule between them.
+const std::map<std::string, std::map<std::string, int>> room_ranks = {
+    {"dynamics",
+     {{".", 0},
+      {"simd", 1},
+      {"contact/mesh", 2},
+      {"constraints", 3},
+      {"contact/field", 4},
+      {"contact/self", 4},
+      {"havlicek_2024", 4},
+      {"contact/surface", 5},
+      {"solver", 6}}},
+    {"anatomy",
+     {{"attachments", 0},
+      {"builtin", 0},
+      {"joints", 0},
+      {"overlap", 0},
+      {"resolution", 0},
+      {"sections", 0},
+      {"activation", 1},
+      {"fibers", 1},
+      {".", 2}}},
+    {"io", {{".", 0}, {"mesh", 1}, {"tables", 1}, {"scene", 2}, {"run", 3}}},
+    {"opensim",
+     {{"functions", 0},
+      {"reader", 1},
+      {"kinematics", 2},
+      {"paths", 3},
+      {"static_optimization", 4},
+      {"import", 4},
+      {"export", 4}}},
+    {"view",
+     {{"pictures", 0}, {"charts", 1}, {"export", 1}, {"report", 2}, {"window", 2}, {"comparison", 3}}}};
+
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
 const std::vector<std::string> toolkit_libraries = {"vtk",  "fmt/",     "spdlog/", "toml++/", "nlohmann/",
                                                     "CLI/", "openssl/", "EGL/",    "pugixml", "SimTK"};
@@ -27,6 +61,21 @@ std::vector<std::string> folders_of(const std::string& path) {
   std::vector<std::string> folders;
   for (const auto& part : std::filesystem::path(path).parent_path()) folders.push_back(part.string());
   return folders;
+}
+
+/// The room of a path such as "dynamics/contact/field/points.cpp": "contact/field".
+std::string room_of(const std::string& path) {
+  const std::filesystem::path within = std::filesystem::path(path).parent_path().lexically_relative(folders_of(path)[0]);
+  return within.generic_string();
+}
+
+/// Empty when a file of a room may include one of another room of the same folder; otherwise why not.
+std::string objection_between_rooms(const std::string& from, const std::string& included) {
+  const auto rooms = room_ranks.find(folders_of(from)[0]);
+  if (rooms == room_ranks.end() || room_of(from) == room_of(included)) return "";
+  const auto own = rooms->second.find(room_of(from)), other = rooms->second.find(room_of(included));
+  if (own == rooms->second.end() || other == rooms->second.end()) return "a room without a rank";
+  return other->second < own->second ? "" : "a room that is not further down";
 }
 
 /// Empty when file `from` (relative to src/gracilis) may include `<included>`; otherwise why not.
@@ -46,7 +95,8 @@ std::string objection(const std::string& from, const std::string& included) {
   const bool is_registry = from == "methods/registry.cpp";  // the one place that knows them all
   const bool other_method =
       own[0] == "methods" && other.size() > 1 && !is_registry && (own.size() < 2 || own[1] != other[1]);
-  return other_method ? "another method" : "";
+  if (other_method) return "another method";
+  return objection_between_rooms(from, included.substr(std::string("gracilis/").size()));
 }
 
 struct Include {
@@ -83,15 +133,29 @@ TEST(Includes, every_folder_has_a_rank) {
     EXPECT_TRUE(ranks.contains(entry.path().filename().string())) << entry.path();
 }
 
+TEST(Includes, every_room_has_a_rank) {
+  for (const auto& [folder, rooms] : room_ranks) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source / folder)) {
+      if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
+      const std::string path = entry.path().lexically_relative(source).generic_string();
+      EXPECT_TRUE(rooms.contains(room_of(path))) << path;
+    }
+    for (const auto& [room, rank] : rooms) EXPECT_TRUE(std::filesystem::is_directory(source / folder / room)) << room;
+  }
+}
+
 TEST(Includes, upward_and_sideways_ones_would_be_found) {
   EXPECT_NE(objection("core/parallel.cpp", "gracilis/geometry/topology.hpp"), "");
-  EXPECT_NE(objection("dynamics/solver.hpp", "gracilis/scene/pose.hpp"), "");
-  EXPECT_NE(objection("scene/scene.hpp", "gracilis/dynamics/solver.hpp"), "");
-  EXPECT_NE(objection("simulate/run.cpp", "gracilis/io/run_folder.hpp"), "");
-  EXPECT_NE(objection("io/run_folder.cpp", "gracilis/view/preview.hpp"), "");
-  EXPECT_NE(objection("io/table.cpp", "gracilis/opensim/model.hpp"), "");
+  EXPECT_NE(objection("dynamics/solver/solver.hpp", "gracilis/scene/pose.hpp"), "");
+  EXPECT_NE(objection("scene/scene.hpp", "gracilis/dynamics/solver/solver.hpp"), "");
+  EXPECT_NE(objection("simulate/run.cpp", "gracilis/io/run/run_folder.hpp"), "");
+  EXPECT_NE(objection("io/run/run_folder.cpp", "gracilis/view/pictures/preview.hpp"), "");
+  EXPECT_NE(objection("io/tables/table.cpp", "gracilis/opensim/reader/model.hpp"), "");
   EXPECT_NE(objection("methods/xpbd/motion.cpp", "gracilis/methods/rbf/kernel.hpp"), "");
   EXPECT_NE(objection("methods/method.hpp", "gracilis/methods/xpbd/motion.hpp"), "");
+  EXPECT_NE(objection("dynamics/particles.cpp", "gracilis/dynamics/solver/solver.hpp"), "");
+  EXPECT_NE(objection("dynamics/contact/self/self_cuts.cpp", "gracilis/dynamics/contact/field/field_contact.hpp"), "");
+  EXPECT_NE(objection("opensim/reader/model.hpp", "gracilis/opensim/import/scene_folder.hpp"), "");
   EXPECT_NE(objection("geometry/measures.cpp", "vtkPolyData.h"), "");
   EXPECT_NE(objection("geometry/measures.cpp", "CGAL/Surface_mesh.h"), "");
   EXPECT_NE(objection("geometry/measures.cpp", "gracilis/elsewhere/file.hpp"), "");
@@ -100,9 +164,10 @@ TEST(Includes, upward_and_sideways_ones_would_be_found) {
 TEST(Includes, downward_ones_are_welcome) {
   EXPECT_EQ(objection("methods/xpbd/motion.cpp", "gracilis/methods/method.hpp"), "");
   EXPECT_EQ(objection("methods/xpbd/motion.cpp", "gracilis/methods/xpbd/motion.hpp"), "");
-  EXPECT_EQ(objection("view/preview.cpp", "gracilis/io/mesh_reader.hpp"), "");
-  EXPECT_EQ(objection("opensim/model_reader.cpp", "gracilis/io/input_file.hpp"), "");
-  EXPECT_EQ(objection("io/mesh_writer.cpp", "vtkPolyData.h"), "");
+  EXPECT_EQ(objection("dynamics/solver/solver.cpp", "gracilis/dynamics/contact/field/field_contact.hpp"), "");
+  EXPECT_EQ(objection("view/pictures/preview.cpp", "gracilis/io/mesh/mesh_reader.hpp"), "");
+  EXPECT_EQ(objection("opensim/reader/model_reader.cpp", "gracilis/io/input_file.hpp"), "");
+  EXPECT_EQ(objection("io/mesh/mesh_writer.cpp", "vtkPolyData.h"), "");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/bounds_lanes.hpp>
+#include <gracilis/dynamics/contact/mesh/bounds_lanes.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/constraint_sets.hpp>
+#include <gracilis/dynamics/constraints/constraint_sets.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 #include <shapes.hpp>

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/contact_surface.hpp>
+#include <gracilis/dynamics/contact/mesh/contact_surface.hpp>
 
 #include <shapes.hpp>
 

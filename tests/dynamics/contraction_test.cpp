@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 
 #include <dynamics/systems_for_tests.hpp>
 

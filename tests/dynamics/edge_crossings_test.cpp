@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/edge_crossings.hpp>
+#include <gracilis/dynamics/contact/mesh/edge_crossings.hpp>
 
 #include <shapes.hpp>
 

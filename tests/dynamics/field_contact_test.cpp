@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/field_contact.hpp>
+#include <gracilis/dynamics/contact/field/field_contact.hpp>
 
 #include "systems_for_tests.hpp"
 

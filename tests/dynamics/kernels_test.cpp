@@ -1,5 +1,5 @@
-#include <gracilis/dynamics/hinge.hpp>
-#include <gracilis/dynamics/kernels-inl.hpp>
+#include <gracilis/dynamics/constraints/hinge.hpp>
+#include <gracilis/dynamics/constraints/kernels-inl.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include <gracilis/dynamics/bounds_lanes.hpp>
-#include <gracilis/dynamics/patch_tree.hpp>
+#include <gracilis/dynamics/contact/mesh/bounds_lanes.hpp>
+#include <gracilis/dynamics/contact/mesh/patch_tree.hpp>
 
 #include <shapes.hpp>
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/pressing_touches.hpp>
+#include <gracilis/dynamics/contact/surface/pressing_touches.hpp>
 
 #include <gtest/gtest.h>
 

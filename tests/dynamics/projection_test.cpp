@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/projection.hpp>
+#include <gracilis/dynamics/constraints/projection.hpp>
 
 #include "reference_projection.hpp"
 #include "systems_for_tests.hpp"

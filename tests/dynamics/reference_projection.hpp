@@ -2,8 +2,8 @@
 
 #include "systems_for_tests.hpp"
 
-#include <gracilis/dynamics/hinge.hpp>
-#include <gracilis/dynamics/projection.hpp>
+#include <gracilis/dynamics/constraints/hinge.hpp>
+#include <gracilis/dynamics/constraints/projection.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include <contact_check/judge.hpp>
-#include <gracilis/dynamics/self_cuts.hpp>
+#include <gracilis/dynamics/contact/self/self_cuts.hpp>
 
 #include <shapes.hpp>
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/slivers.hpp>
+#include <gracilis/dynamics/constraints/slivers.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 
 #include <gracilis/core/state_hash.hpp>
 

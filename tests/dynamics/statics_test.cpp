@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <contact_check/judge.hpp>
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/self_cuts.hpp>
-#include <gracilis/dynamics/surface_contact.hpp>
+#include <gracilis/dynamics/contact/self/self_cuts.hpp>
+#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 
 #include <gracilis/core/state_hash.hpp>
 #include <shapes.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/dynamics/hinge.hpp>
-#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/dynamics/constraints/hinge.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/tight_places.hpp>
+#include <gracilis/dynamics/constraints/tight_places.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/triangle_pack.hpp>
+#include <gracilis/dynamics/contact/mesh/triangle_pack.hpp>
 #include <gracilis/geometry/point_triangle.hpp>
 
 #include <gtest/gtest.h>

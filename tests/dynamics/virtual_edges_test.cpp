@@ -1,6 +1,6 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/coloring.hpp>
-#include <gracilis/dynamics/virtual_edges.hpp>
+#include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 
 #include <shapes.hpp>
 #include <gracilis/core/state_hash.hpp>

@@ -1,22 +1,22 @@
 #include "targets.hpp"
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/activation_samples.hpp>
 #include <gracilis/io/cache_file.hpp>
-#include <gracilis/io/field_cache.hpp>
-#include <gracilis/io/landmarks.hpp>
-#include <gracilis/io/mesh_reader.hpp>
-#include <gracilis/io/output_hashes.hpp>
-#include <gracilis/io/polyline_file.hpp>
-#include <gracilis/io/prepared_cache.hpp>
-#include <gracilis/io/recorded_run.hpp>
-#include <gracilis/io/run_manifest.hpp>
-#include <gracilis/io/scene_description.hpp>
-#include <gracilis/io/table.hpp>
-#include <gracilis/opensim/bone_files.hpp>
-#include <gracilis/opensim/model_reader.hpp>
-#include <gracilis/opensim/setup_reader.hpp>
-#include <gracilis/opensim/skeleton_fit.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/polyline_file.hpp>
+#include <gracilis/io/run/output_hashes.hpp>
+#include <gracilis/io/run/recorded_run.hpp>
+#include <gracilis/io/run/run_manifest.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/io/scene/landmarks.hpp>
+#include <gracilis/io/scene/prepared_cache.hpp>
+#include <gracilis/io/scene/scene_description.hpp>
+#include <gracilis/io/tables/activation_samples.hpp>
+#include <gracilis/io/tables/table.hpp>
+#include <gracilis/opensim/import/bone_files.hpp>
+#include <gracilis/opensim/import/skeleton_fit.hpp>
+#include <gracilis/opensim/reader/model_reader.hpp>
+#include <gracilis/opensim/static_optimization/setup_reader.hpp>
 
 #include <io/tiny_run.hpp>
 #include <shapes.hpp>

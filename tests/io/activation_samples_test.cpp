@@ -1,4 +1,4 @@
-#include <gracilis/io/activation_samples.hpp>
+#include <gracilis/io/tables/activation_samples.hpp>
 
 #include <gracilis/core/errors.hpp>
 

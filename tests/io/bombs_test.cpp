@@ -1,4 +1,4 @@
-#include <gracilis/io/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,4 +1,4 @@
-#include <gracilis/io/fiber_table.hpp>
+#include <gracilis/io/tables/fiber_table.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include <gracilis/anatomy/bone_field.hpp>
-#include <gracilis/io/field_cache.hpp>
+#include <gracilis/anatomy/overlap/bone_field.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
 
 #include "shapes.hpp"
 

@@ -1,6 +1,6 @@
 #include <gracilis/io/atomic_file.hpp>
-#include <gracilis/io/folder_lock.hpp>
 #include <gracilis/io/process_mark.hpp>
+#include <gracilis/io/run/folder_lock.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-#include <gracilis/io/inspect.hpp>
-#include <gracilis/io/run_folder.hpp>
+#include <gracilis/io/run/inspect.hpp>
+#include <gracilis/io/run/run_folder.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

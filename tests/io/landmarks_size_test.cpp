@@ -1,4 +1,4 @@
-#include <gracilis/io/landmarks.hpp>
+#include <gracilis/io/scene/landmarks.hpp>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

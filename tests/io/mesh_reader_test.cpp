@@ -1,7 +1,7 @@
-#include <gracilis/io/load_surface.hpp>
-#include <gracilis/io/mesh_reader.hpp>
-#include <gracilis/io/mesh_writer.hpp>
-#include <gracilis/io/vtk_mesh.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
+#include <gracilis/io/mesh/vtk_mesh.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

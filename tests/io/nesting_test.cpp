@@ -1,4 +1,4 @@
-#include <gracilis/io/scene_layers.hpp>
+#include <gracilis/io/scene/scene_layers.hpp>
 
 #include "io/scene_folder.hpp"
 

@@ -1,4 +1,4 @@
-#include <gracilis/io/polyline_file.hpp>
+#include <gracilis/io/mesh/polyline_file.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

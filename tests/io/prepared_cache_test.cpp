@@ -1,6 +1,6 @@
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/preparation_report.hpp>
-#include <gracilis/io/prepared_cache.hpp>
+#include <gracilis/io/scene/preparation_report.hpp>
+#include <gracilis/io/scene/prepared_cache.hpp>
 
 #include <io/test_files.hpp>
 #include <shapes.hpp>

@@ -1,5 +1,5 @@
-#include <gracilis/io/mesh_writer.hpp>
-#include <gracilis/io/recorded_run.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
+#include <gracilis/io/run/recorded_run.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 #include <gracilis/io/content_hash.hpp>
-#include <gracilis/io/mesh_reader.hpp>
-#include <gracilis/io/mesh_reader_vtp.hpp>
-#include <gracilis/io/mesh_writer.hpp>
-#include <gracilis/io/recorded_run.hpp>
-#include <gracilis/io/run_folder.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_reader_vtp.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
+#include <gracilis/io/run/recorded_run.hpp>
+#include <gracilis/io/run/run_folder.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

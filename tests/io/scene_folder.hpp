@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 
 #include "shapes.hpp"
 

@@ -1,12 +1,12 @@
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
 
-#include <gracilis/anatomy/attachments.hpp>
+#include <gracilis/anatomy/attachments/attachments.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
-#include <gracilis/io/data_root.hpp>
-#include <gracilis/io/scene_description.hpp>
-#include <gracilis/io/scene_template.hpp>
+#include <gracilis/io/scene/data_root.hpp>
+#include <gracilis/io/scene/scene_description.hpp>
+#include <gracilis/io/scene/scene_template.hpp>
 #include <gracilis/scene/setting_table.hpp>
 
 #include "io/scene_folder.hpp"

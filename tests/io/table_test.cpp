@@ -1,5 +1,5 @@
-#include <gracilis/io/landmarks.hpp>
-#include <gracilis/io/table.hpp>
+#include <gracilis/io/scene/landmarks.hpp>
+#include <gracilis/io/tables/table.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/io/run_folder.hpp>
+#include <gracilis/io/run/run_folder.hpp>
 
 #include <Eigen/Geometry>
 

@@ -1,7 +1,7 @@
-#include <gracilis/io/measures_table.hpp>
-#include <gracilis/io/mesh_writer.hpp>
-#include <gracilis/io/output_hashes.hpp>
-#include <gracilis/io/verify_run.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
+#include <gracilis/io/run/measures_table.hpp>
+#include <gracilis/io/run/output_hashes.hpp>
+#include <gracilis/io/run/verify_run.hpp>
 
 #include <gracilis/geometry/measures.hpp>
 

@@ -1,6 +1,6 @@
-#include <gracilis/io/fiber_table.hpp>
-#include <gracilis/io/measures_table.hpp>
-#include <gracilis/io/whole_frames.hpp>
+#include <gracilis/io/run/measures_table.hpp>
+#include <gracilis/io/run/whole_frames.hpp>
+#include <gracilis/io/tables/fiber_table.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

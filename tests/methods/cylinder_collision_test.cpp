@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>

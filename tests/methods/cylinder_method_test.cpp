@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>

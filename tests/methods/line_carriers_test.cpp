@@ -1,7 +1,7 @@
-#include <gracilis/anatomy/coarser_muscle.hpp>
-#include <gracilis/anatomy/finer_muscle.hpp>
-#include <gracilis/anatomy/joint_pose.hpp>
-#include <gracilis/anatomy/line_sections.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/anatomy/resolution/coarser_muscle.hpp>
+#include <gracilis/anatomy/resolution/finer_muscle.hpp>
+#include <gracilis/anatomy/sections/line_sections.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>

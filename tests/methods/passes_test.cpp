@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/methods/pass_tracing.hpp>
 
 #include <scenes_for_tests.hpp>

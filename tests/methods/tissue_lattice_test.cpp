@@ -1,7 +1,7 @@
 #include <gracilis/methods/tissue/lattice.hpp>
 #include <gracilis/methods/tissue/lattice_field.hpp>
 
-#include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/geometry/measures.hpp>
 
 #include <shapes.hpp>

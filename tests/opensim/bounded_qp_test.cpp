@@ -1,4 +1,4 @@
-#include <gracilis/opensim/bounded_qp.hpp>
+#include <gracilis/opensim/static_optimization/bounded_qp.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include <gracilis/io/table.hpp>
-#include <gracilis/opensim/coordinate_motion.hpp>
-#include <gracilis/opensim/length_by_opensim.hpp>
-#include <gracilis/opensim/model_reader.hpp>
+#include <gracilis/io/tables/table.hpp>
+#include <gracilis/opensim/kinematics/coordinate_motion.hpp>
+#include <gracilis/opensim/paths/length_by_opensim.hpp>
+#include <gracilis/opensim/reader/model_reader.hpp>
 
 #include <gtest/gtest.h>
 

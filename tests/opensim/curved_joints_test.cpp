@@ -1,6 +1,6 @@
 #include "opensim/model_texts.hpp"
 
-#include <gracilis/opensim/skeleton.hpp>
+#include <gracilis/opensim/kinematics/skeleton.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-#include <gracilis/opensim/function.hpp>
-#include <gracilis/opensim/quintic_spline.hpp>
-#include <gracilis/opensim/smoothing_spline.hpp>
+#include <gracilis/opensim/functions/function.hpp>
+#include <gracilis/opensim/functions/smoothing_spline.hpp>
+#include <gracilis/opensim/kinematics/quintic_spline.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

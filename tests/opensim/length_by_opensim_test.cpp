@@ -1,4 +1,4 @@
-#include <gracilis/opensim/length_by_opensim.hpp>
+#include <gracilis/opensim/paths/length_by_opensim.hpp>
 
 #include "opensim/model_texts.hpp"
 

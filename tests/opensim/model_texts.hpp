@@ -2,7 +2,7 @@
 
 #include "io/test_files.hpp"
 
-#include <gracilis/opensim/model_reader.hpp>
+#include <gracilis/opensim/reader/model_reader.hpp>
 
 #include <string>
 

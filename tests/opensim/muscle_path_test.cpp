@@ -1,6 +1,6 @@
 #include "opensim/model_texts.hpp"
 
-#include <gracilis/opensim/muscle_path.hpp>
+#include <gracilis/opensim/paths/muscle_path.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <gracilis/opensim/neighbor_clearance.hpp>
+#include <gracilis/opensim/import/neighbor_clearance.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "opensim/model_texts.hpp"
 
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/opensim/muscle_path.hpp>
-#include <gracilis/opensim/run_paths.hpp>
+#include <gracilis/opensim/export/run_paths.hpp>
+#include <gracilis/opensim/paths/muscle_path.hpp>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

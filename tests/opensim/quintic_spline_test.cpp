@@ -1,7 +1,7 @@
 #include "io/test_files.hpp"
 
-#include <gracilis/opensim/low_pass.hpp>
-#include <gracilis/opensim/quintic_spline.hpp>
+#include <gracilis/opensim/kinematics/low_pass.hpp>
+#include <gracilis/opensim/kinematics/quintic_spline.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <gracilis/opensim/rigid_tendon.hpp>
+#include <gracilis/opensim/static_optimization/rigid_tendon.hpp>
 
 #include <gtest/gtest.h>
 

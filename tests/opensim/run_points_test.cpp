@@ -1,8 +1,8 @@
 #include "opensim/model_texts.hpp"
 
 #include <gracilis/geometry/polylines.hpp>
-#include <gracilis/opensim/muscle_path.hpp>
-#include <gracilis/opensim/run_points.hpp>
+#include <gracilis/opensim/export/run_points.hpp>
+#include <gracilis/opensim/paths/muscle_path.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

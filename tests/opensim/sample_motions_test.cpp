@@ -1,6 +1,6 @@
 #include "opensim/model_texts.hpp"
 
-#include <gracilis/opensim/sample_motions.hpp>
+#include <gracilis/opensim/kinematics/sample_motions.hpp>
 
 #include <gtest/gtest.h>
 

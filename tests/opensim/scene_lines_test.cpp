@@ -1,14 +1,14 @@
 #include "opensim/model_texts.hpp"
 
-#include <gracilis/anatomy/joint_pose.hpp>
-#include <gracilis/anatomy/line_path.hpp>
-#include <gracilis/anatomy/line_sections.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/anatomy/sections/line_path.hpp>
+#include <gracilis/anatomy/sections/line_sections.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/polylines.hpp>
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
-#include <gracilis/opensim/muscle_path.hpp>
-#include <gracilis/opensim/scene_folder.hpp>
+#include <gracilis/opensim/import/scene_folder.hpp>
+#include <gracilis/opensim/paths/muscle_path.hpp>
 #include <gracilis/scene/validate.hpp>
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 #include "opensim/model_texts.hpp"
 
-#include <gracilis/opensim/muscle_path.hpp>
-#include <gracilis/opensim/skeleton_fit.hpp>
+#include <gracilis/opensim/import/skeleton_fit.hpp>
+#include <gracilis/opensim/paths/muscle_path.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

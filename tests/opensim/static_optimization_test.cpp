@@ -1,6 +1,6 @@
 #include "opensim/model_texts.hpp"
 
-#include <gracilis/opensim/setup_reader.hpp>
+#include <gracilis/opensim/static_optimization/setup_reader.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

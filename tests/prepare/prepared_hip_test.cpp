@@ -1,7 +1,7 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
-#include <gracilis/io/data_root.hpp>
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/data_root.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/prepare_surfaces.hpp>
 

@@ -1,6 +1,6 @@
 #include "scenario_runs.hpp"
 
-#include <gracilis/anatomy/inner_fibers.hpp>
+#include <gracilis/anatomy/fibers/inner_fibers.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-#include <gracilis/anatomy/bone_field.hpp>
-#include <gracilis/anatomy/builtin_elbow.hpp>
+#include <gracilis/anatomy/builtin/builtin_elbow.hpp>
+#include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/cylinder/action_line.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/simulate/fiber_tracker.hpp>
 
 #include "scenario_runs.hpp"

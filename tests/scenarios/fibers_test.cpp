@@ -1,6 +1,6 @@
-#include <gracilis/anatomy/builtin_hip.hpp>
-#include <gracilis/anatomy/fiber_containment.hpp>
-#include <gracilis/anatomy/muscle_fibers.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/fibers/fiber_containment.hpp>
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 
 #include "scenarios/scenario_runs.hpp"
 

@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/core/state_hash.hpp>
 
 #include "scenario_runs.hpp"

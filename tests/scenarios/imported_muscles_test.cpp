@@ -1,11 +1,11 @@
 #include <io/test_files.hpp>
 #include "scenario_runs.hpp"
 
-#include <gracilis/anatomy/joint_pose.hpp>
-#include <gracilis/anatomy/line_sections.hpp>
-#include <gracilis/opensim/coordinate_motion.hpp>
-#include <gracilis/opensim/model_reader.hpp>
-#include <gracilis/opensim/scene_folder.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/anatomy/sections/line_sections.hpp>
+#include <gracilis/opensim/import/scene_folder.hpp>
+#include <gracilis/opensim/kinematics/coordinate_motion.hpp>
+#include <gracilis/opensim/reader/model_reader.hpp>
 
 #include <gmock/gmock.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/scene/motion.hpp>
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include <gracilis/geometry/surface_region.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/io/landmarks.hpp>
+#include <gracilis/io/scene/landmarks.hpp>
 
 #include "scenario_runs.hpp"
 

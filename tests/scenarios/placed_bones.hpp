@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/geometry/distance_field.hpp>
-#include <gracilis/io/field_cache.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/radial_solid.hpp>

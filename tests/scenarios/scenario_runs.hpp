@@ -1,9 +1,9 @@
 #pragma once
 
 #include <gracilis/anatomy/pose_sequence.hpp>
-#include <gracilis/io/data_root.hpp>
-#include <gracilis/io/field_cache.hpp>
-#include <gracilis/io/scene_reader.hpp>
+#include <gracilis/io/scene/data_root.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 #ifdef GRACILIS_WITH_PREPARE

@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/motion.hpp>
 

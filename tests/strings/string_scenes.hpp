@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/anatomy/bone_field.hpp>
+#include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/strings/muscle_strings.hpp>
 
 #include <scenes_for_tests.hpp>

@@ -1,6 +1,6 @@
-#include <gracilis/io/mesh_reader.hpp>
-#include <gracilis/io/table.hpp>
-#include <gracilis/view/export.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/tables/table.hpp>
+#include <gracilis/view/export/export.hpp>
 
 #include "view/recorded_runs.hpp"
 

@@ -1,6 +1,6 @@
 #include <gracilis/core/errors.hpp>
-#include <gracilis/view/gif.hpp>
-#include <gracilis/view/video.hpp>
+#include <gracilis/view/pictures/gif.hpp>
+#include <gracilis/view/pictures/video.hpp>
 
 #include <gtest/gtest.h>
 #include <io/test_files.hpp>

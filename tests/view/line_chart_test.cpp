@@ -1,4 +1,4 @@
-#include <gracilis/view/line_chart.hpp>
+#include <gracilis/view/charts/line_chart.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 #include <gracilis/core/errors.hpp>
-#include <gracilis/view/picture.hpp>
-#include <gracilis/view/picture_layout.hpp>
+#include <gracilis/view/pictures/picture.hpp>
+#include <gracilis/view/pictures/picture_layout.hpp>
 
 #include "io/test_files.hpp"
 

@@ -1,7 +1,7 @@
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/run_folder.hpp>
-#include <gracilis/view/picture_layout.hpp>
-#include <gracilis/view/preview.hpp>
+#include <gracilis/io/run/run_folder.hpp>
+#include <gracilis/view/pictures/picture_layout.hpp>
+#include <gracilis/view/pictures/preview.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/io/recorded_run.hpp>
-#include <gracilis/io/run_folder.hpp>
+#include <gracilis/io/run/recorded_run.hpp>
+#include <gracilis/io/run/run_folder.hpp>
 
 #include <shapes.hpp>
 

@@ -1,5 +1,5 @@
 #include <gracilis/core/errors.hpp>
-#include <gracilis/view/run_picture.hpp>
+#include <gracilis/view/pictures/run_picture.hpp>
 
 #include "view/recorded_runs.hpp"
 

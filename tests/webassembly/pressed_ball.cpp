@@ -1,6 +1,6 @@
 // A soft ball, shaken and pressed into a hard one, by the solver alone: prints where it ends. The same program is built
 // for this machine and for WebAssembly, whose numbers have to be the same within rounding.
-#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 
 #include "dynamics/systems_for_tests.hpp"
 

@@ -20,7 +20,7 @@ function(run)
 endfunction()
 
 set(source ${SOURCE_FOLDER}/src/gracilis)
-file(GLOB solver ${source}/dynamics/*.cpp)
+file(GLOB_RECURSE solver ${source}/dynamics/*.cpp)
 set(below ${source}/core/parallel_serial.cpp ${source}/geometry/field_path.cpp ${source}/geometry/half_edges.cpp
           ${source}/geometry/measures.cpp ${source}/geometry/point_triangle.cpp ${source}/geometry/topology.cpp)
 file(MAKE_DIRECTORY ${WORK_FOLDER})

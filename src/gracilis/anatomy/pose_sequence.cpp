@@ -1,7 +1,7 @@
 #include <gracilis/anatomy/pose_sequence.hpp>
 
-#include <gracilis/anatomy/activation.hpp>
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/activation/activation.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/scene/motion.hpp>
 
 #include <algorithm>

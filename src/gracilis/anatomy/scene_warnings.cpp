@@ -1,5 +1,5 @@
-#include <gracilis/anatomy/attachments.hpp>
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/attachments/attachments.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 
 #include <gracilis/scene/setting_table.hpp>
 
-/// Rows of settings tables that say how far free vertices keep from bones (anatomy/bone_projection.hpp), for settings
+/// Rows of settings tables that say how far free vertices keep from bones (anatomy/overlap/bone_projection.hpp), for settings
 /// with the members `bone_margin` (m) and `bone_rest_gap`.
 namespace gracilis {
 

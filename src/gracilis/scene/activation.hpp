@@ -19,7 +19,7 @@ struct ActivationSignal {
 };
 
 /// What a joint knows of the activations of the muscles that cross it: samples of poses with the activations that went
-/// with them (the joint control unit of Kohout and colleagues). Evaluated by anatomy/joint_control.hpp.
+/// with them (the joint control unit of Kohout and colleagues). Evaluated by anatomy/joints/joint_control.hpp.
 struct JointControlUnit {
   std::string name;
   std::string joint;                     ///< the joint it belongs to, which gives the moving body and the center

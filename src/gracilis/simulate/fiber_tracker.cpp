@@ -1,6 +1,6 @@
 #include <gracilis/simulate/fiber_tracker.hpp>
 
-#include <gracilis/anatomy/muscle_fibers.hpp>
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/cross_section.hpp>
 #include <gracilis/geometry/measures.hpp>

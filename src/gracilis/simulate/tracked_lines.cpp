@@ -1,6 +1,6 @@
 #include <gracilis/simulate/tracked_lines.hpp>
 
-#include <gracilis/anatomy/inner_fibers.hpp>
+#include <gracilis/anatomy/fibers/inner_fibers.hpp>
 
 #include <algorithm>
 #include <limits>

@@ -1,6 +1,6 @@
 #include <gracilis/strings/muscle_strings.hpp>
 
-#include <gracilis/anatomy/muscle_fibers.hpp>
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/strings/relaxation.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include <gracilis/methods/arap/arap_method.hpp>
 
-#include <gracilis/anatomy/body_carriers.hpp>
-#include <gracilis/anatomy/bone_projection.hpp>
+#include <gracilis/anatomy/attachments/body_carriers.hpp>
+#include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/arap/surface.hpp>

@@ -1,6 +1,6 @@
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 
-#include <gracilis/anatomy/line_sections.hpp>
+#include <gracilis/anatomy/sections/line_sections.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/cylinder/cylinder_surface.hpp>

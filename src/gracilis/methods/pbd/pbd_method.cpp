@@ -1,8 +1,8 @@
 #include <gracilis/methods/pbd/pbd_method.hpp>
 
-#include <gracilis/anatomy/body_carriers.hpp>
-#include <gracilis/anatomy/bone_projection.hpp>
-#include <gracilis/anatomy/muscle_fibers.hpp>
+#include <gracilis/anatomy/attachments/body_carriers.hpp>
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
+#include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/methods/pbd/settings.hpp>
 #include <gracilis/methods/pbd/surface.hpp>

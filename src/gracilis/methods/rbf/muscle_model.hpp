@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/anatomy/body_carriers.hpp>
+#include <gracilis/anatomy/attachments/body_carriers.hpp>
 #include <gracilis/geometry/radial_basis.hpp>
 #include <gracilis/methods/rbf/curvature_cost.hpp>
 #include <gracilis/scene/scene.hpp>

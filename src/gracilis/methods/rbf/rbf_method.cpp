@@ -1,7 +1,7 @@
 #include <gracilis/methods/rbf/rbf_method.hpp>
 
-#include <gracilis/anatomy/body_carriers.hpp>
-#include <gracilis/anatomy/bone_projection.hpp>
+#include <gracilis/anatomy/attachments/body_carriers.hpp>
+#include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/screw.hpp>
 #include <gracilis/methods/bone_gap_rows.hpp>

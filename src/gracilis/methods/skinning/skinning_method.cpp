@@ -1,6 +1,6 @@
 #include <gracilis/methods/skinning/skinning_method.hpp>
 
-#include <gracilis/anatomy/body_carriers.hpp>
+#include <gracilis/anatomy/attachments/body_carriers.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/shape_method.hpp>
 

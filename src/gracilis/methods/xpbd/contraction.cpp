@@ -1,8 +1,8 @@
 #include <gracilis/methods/xpbd/contraction.hpp>
 
-#include <gracilis/anatomy/muscle_fibers.hpp>
-#include <gracilis/anatomy/surface_fibers.hpp>
-#include <gracilis/anatomy/tendon.hpp>
+#include <gracilis/anatomy/activation/tendon.hpp>
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
+#include <gracilis/anatomy/fibers/surface_fibers.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>

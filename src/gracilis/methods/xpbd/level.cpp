@@ -1,6 +1,6 @@
 #include <gracilis/methods/xpbd/level.hpp>
 
-#include <gracilis/anatomy/coarser_muscle.hpp>
+#include <gracilis/anatomy/resolution/coarser_muscle.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 

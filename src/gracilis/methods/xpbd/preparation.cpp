@@ -1,7 +1,7 @@
 #include <gracilis/methods/xpbd/preparation.hpp>
 
-#include <gracilis/anatomy/skinning_weights.hpp>
-#include <gracilis/dynamics/hinge.hpp>
+#include <gracilis/anatomy/attachments/skinning_weights.hpp>
+#include <gracilis/dynamics/constraints/hinge.hpp>
 #include <gracilis/dynamics/particle_order.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/measures.hpp>

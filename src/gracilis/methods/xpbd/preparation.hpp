@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/anatomy/line_sections.hpp>
-#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/anatomy/sections/line_sections.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>

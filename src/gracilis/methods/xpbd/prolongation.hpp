@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/anatomy/coarser_muscle.hpp>
+#include <gracilis/anatomy/resolution/coarser_muscle.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/scene/pose.hpp>
 

@@ -1,7 +1,7 @@
 #include <gracilis/methods/xpbd/rest_gaps.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/overlap_release.hpp>
+#include <gracilis/dynamics/contact/surface/overlap_release.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/anatomy/overlap_sides.hpp>
-#include <gracilis/dynamics/surface_contact.hpp>
+#include <gracilis/anatomy/overlap/overlap_sides.hpp>
+#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 
 #include <map>
 #include <utility>

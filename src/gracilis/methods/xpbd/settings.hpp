@@ -1,8 +1,8 @@
 #pragma once
 
-#include <gracilis/dynamics/field_contact.hpp>
-#include <gracilis/dynamics/surface_contact.hpp>
-#include <gracilis/dynamics/virtual_edges.hpp>
+#include <gracilis/dynamics/contact/field/field_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
+#include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <string>

@@ -1,6 +1,6 @@
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 
-#include <gracilis/anatomy/bone_field.hpp>
+#include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/methods/pass_tracing.hpp>
 #include <gracilis/methods/placed_method.hpp>

@@ -2,10 +2,10 @@
 
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/view/line_chart.hpp>
-#include <gracilis/view/palette.hpp>
+#include <gracilis/view/charts/line_chart.hpp>
+#include <gracilis/view/pictures/palette.hpp>
+#include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/report/html_text.hpp>
-#include <gracilis/view/run_picture.hpp>
 
 #include <fmt/format.h>
 

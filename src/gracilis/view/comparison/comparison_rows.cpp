@@ -1,7 +1,7 @@
 #include <gracilis/view/comparison/comparison_rows.hpp>
 
-#include <gracilis/dynamics/self_cuts.hpp>
-#include <gracilis/io/table.hpp>
+#include <gracilis/dynamics/contact/self/self_cuts.hpp>
+#include <gracilis/io/tables/table.hpp>
 #include <gracilis/simulate/moment_arms.hpp>
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 #include <gracilis/view/report/report_data.hpp>
 
-#include <gracilis/io/table.hpp>
+#include <gracilis/io/tables/table.hpp>
 #include <gracilis/simulate/measures.hpp>
-#include <gracilis/view/palette.hpp>
+#include <gracilis/view/pictures/palette.hpp>
 
 #include <fmt/format.h>
 

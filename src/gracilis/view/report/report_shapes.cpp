@@ -2,7 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/decimation.hpp>
-#include <gracilis/view/vertex_stretch.hpp>
+#include <gracilis/view/pictures/vertex_stretch.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/io/recorded_run.hpp>
+#include <gracilis/io/run/recorded_run.hpp>
 
 #include <nlohmann/json.hpp>
 

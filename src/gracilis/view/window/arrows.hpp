@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/solver.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/view/window/glyphs.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 #include <gracilis/view/window/window_state.hpp>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/geometry/decimation.hpp>
-#include <gracilis/view/vertex_stretch.hpp>
+#include <gracilis/view/pictures/vertex_stretch.hpp>
 #include <gracilis/view/window/contact_depth.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 

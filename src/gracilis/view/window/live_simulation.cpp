@@ -1,8 +1,8 @@
 #include <gracilis/view/window/live_simulation.hpp>
 
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/activation/tendon.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
-#include <gracilis/anatomy/tendon.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/methods/pass_tracing.hpp>

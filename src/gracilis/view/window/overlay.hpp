@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/view/palette.hpp>
-#include <gracilis/view/picture_layout.hpp>
+#include <gracilis/view/pictures/palette.hpp>
+#include <gracilis/view/pictures/picture_layout.hpp>
 
 #include <vtkSmartPointer.h>
 

@@ -2,7 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/view/run_picture.hpp>
+#include <gracilis/view/pictures/run_picture.hpp>
 
 #include <spdlog/spdlog.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/io/recorded_run.hpp>
+#include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/view/window/frame_maker.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 

@@ -1,6 +1,6 @@
 #include <gracilis/view/window/surface_actor.hpp>
 
-#include <gracilis/io/vtk_mesh.hpp>
+#include <gracilis/io/mesh/vtk_mesh.hpp>
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>

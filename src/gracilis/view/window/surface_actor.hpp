@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/view/palette.hpp>
+#include <gracilis/view/pictures/palette.hpp>
 #include <gracilis/view/window/glyphs.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 

@@ -1,7 +1,7 @@
 #include <gracilis/view/window/viewer.hpp>
 
 #include <gracilis/io/value_reader.hpp>
-#include <gracilis/view/picture_renderer.hpp>
+#include <gracilis/view/pictures/picture_renderer.hpp>
 #include <gracilis/view/window/arrows.hpp>
 #include <gracilis/view/window/bone_slice.hpp>
 #include <gracilis/view/window/window_style.hpp>

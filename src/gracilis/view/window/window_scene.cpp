@@ -1,6 +1,6 @@
 #include <gracilis/view/window/window_scene.hpp>
 
-#include <gracilis/view/run_picture.hpp>
+#include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/window/arrows.hpp>
 
 #include <vtkActor.h>

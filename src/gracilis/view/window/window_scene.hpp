@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/view/picture_layout.hpp>
+#include <gracilis/view/pictures/picture_layout.hpp>
 #include <gracilis/view/window/glyphs.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 #include <gracilis/view/window/surface_actor.hpp>

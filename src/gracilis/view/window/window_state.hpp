@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/view/color_scale.hpp>
+#include <gracilis/view/pictures/color_scale.hpp>
 
 #include <array>
 #include <string>

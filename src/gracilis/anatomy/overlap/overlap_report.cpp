@@ -1,0 +1,73 @@
+#include <gracilis/anatomy/overlap/overlap_report.hpp>
+
+#include <gracilis/anatomy/overlap/overlap_sides.hpp>
+#include <gracilis/anatomy/overlap/rest_overlap.hpp>
+#include <gracilis/core/parallel.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis {
+
+namespace {
+
+/// Pairs that a warning names.
+constexpr std::size_t most_named = 3;
+
+/// With one digit after the point.
+std::string millimeters(Real length) {
+  const long tenths = std::lround(length * 1e4);
+  return std::to_string(tenths / 10) + "." + std::to_string(tenths % 10) + " mm";
+}
+
+std::string name_of(const MuscleOverlap& pair) {
+  const bool first_is_in = pair.first_deepest >= pair.second_deepest;
+  return (first_is_in ? pair.first : pair.second) + " in " + (first_is_in ? pair.second : pair.first) + " (" +
+         millimeters(pair.deepest()) + ")";
+}
+
+}  // namespace
+
+OverlapReport report_overlaps(const Scene& scene) {
+  const std::vector<RestOverlap> overlaps = rest_overlaps(scene);
+  OverlapReport report;
+  report.vertices = count_inside(overlaps);
+  for (const Muscle& muscle : scene.muscles) report.of_vertices += muscle.surface.vertex_count();
+  report.pairs.resize(overlaps.size());
+  parallel_for_each(overlaps.size(), [&](std::size_t i) {
+    const RestOverlap& overlap = overlaps[i];
+    const Muscle &first = scene.muscles[static_cast<std::size_t>(overlap.first)],
+                 &second = scene.muscles[static_cast<std::size_t>(overlap.second)];
+    report.pairs[i] = {first.name,
+                       second.name,
+                       static_cast<Index>(overlap.of_first.vertices.size()),
+                       static_cast<Index>(overlap.of_second.vertices.size()),
+                       overlap.of_first.deepest(),
+                       overlap.of_second.deepest(),
+                       overlap_sides(overlap, first.surface, second.surface).is_through};
+  });
+  std::stable_sort(report.pairs.begin(), report.pairs.end(),
+                   [](const MuscleOverlap& l, const MuscleOverlap& r) { return l.deepest() > r.deepest(); });
+  return report;
+}
+
+std::vector<std::string> overlap_warnings(const OverlapReport& report, bool has_contact) {
+  std::vector<std::string> warnings;
+  if (report.pairs.empty()) return warnings;
+  std::string worst;
+  for (std::size_t i = 0; i < std::min(most_named, report.pairs.size()); ++i)
+    worst += (i > 0 ? ", " : "") + name_of(report.pairs[i]);
+  warnings.push_back("muscles overlap in the capture pose: " + std::to_string(report.vertices) + " of " +
+                     std::to_string(report.of_vertices) + " vertices lie in another muscle, in " +
+                     std::to_string(report.pairs.size()) + (report.pairs.size() == 1 ? " pair" : " pairs") +
+                     "; deepest " + worst);
+  if (!has_contact) return warnings;
+  for (const MuscleOverlap& pair : report.pairs)
+    if (pair.is_left_out)
+      warnings.push_back("no contact between " + pair.first + " and " + pair.second +
+                         ": one passes through the other (" + millimeters(pair.deepest()) +
+                         " deep) in the capture pose");
+  return warnings;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <gracilis/anatomy/overlap/rest_overlap.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// Whether two surfaces that overlap can be taken apart. What lies inside hangs together in regions; a region has a
+/// side when the shortest ways out of all its vertices lead about the same way, and it does not cut its surface into
+/// pieces, as it would where that passes through the other.
+struct OverlapSides {
+  std::vector<char> first_astray, second_astray;  ///< per vertex: in a region without a side, or cut off by one
+  bool is_through = false;  ///< neither surface has a side for at least half of what lies inside: one passes through
+                            ///< the other
+};
+
+/// `first` and `second` are the two surfaces of the overlap.
+OverlapSides overlap_sides(const RestOverlap& overlap, const TriangleMesh& first, const TriangleMesh& second);
+
+}  // namespace gracilis

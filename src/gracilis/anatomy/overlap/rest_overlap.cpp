@@ -1,0 +1,91 @@
+#include <gracilis/anatomy/overlap/rest_overlap.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/geometry/winding_number.hpp>
+
+#include <Eigen/Geometry>
+
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace gracilis {
+
+namespace {
+
+Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const auto vertex : mesh.vertices.colwise()) box.extend(Vec3(vertex));
+  return box;
+}
+
+/// What a surface answers about points.
+struct Solid {
+  explicit Solid(const TriangleMesh& mesh) : distance(mesh), winding(mesh), box(box_of(mesh)) {}
+
+  SignedDistance distance;
+  WindingNumber winding;
+  Eigen::AlignedBox3d box;
+};
+
+InsideVertices vertices_inside(const TriangleMesh& mesh, const Solid& other) {
+  InsideVertices inside;
+  std::vector<Vec3> outward;
+  Index face = -1;
+  for (Index v = 0; v < mesh.vertex_count(); ++v) {
+    const Vec3 p = mesh.vertices.col(v);
+    if (!other.box.contains(p)) continue;
+    const SignedDistance::Answer answer = face < 0 ? other.distance.query(p) : other.distance.query_from(face, p);
+    face = answer.nearest.face;
+    // Where a surface passes through itself, its nearest part may face the wrong way.
+    if (!(answer.distance < 0) || !(other.winding.query(p) > 0.5)) continue;
+    inside.vertices.push_back(v);
+    inside.depths.push_back(-answer.distance);
+    outward.push_back((answer.nearest.point - p).stableNormalized());
+  }
+  inside.outward.resize(3, static_cast<Eigen::Index>(outward.size()));
+  for (std::size_t i = 0; i < outward.size(); ++i) inside.outward.col(static_cast<Eigen::Index>(i)) = outward[i];
+  return inside;
+}
+
+}  // namespace
+
+std::vector<RestOverlap> rest_overlaps(const std::vector<TriangleMesh>& surfaces) {
+  std::vector<std::optional<Solid>> solids(surfaces.size());
+  parallel_for_each(surfaces.size(), [&](std::size_t i) { solids[i].emplace(surfaces[i]); });
+  std::vector<RestOverlap> overlaps;
+  for (std::size_t first = 0; first < surfaces.size(); ++first)
+    for (std::size_t second = first + 1; second < surfaces.size(); ++second)
+      if (solids[first]->box.intersects(solids[second]->box))
+        overlaps.push_back({static_cast<Index>(first), static_cast<Index>(second), {}, {}});
+  parallel_for_each(2 * overlaps.size(), [&](std::size_t i) {
+    RestOverlap& overlap = overlaps[i / 2];
+    const auto first = static_cast<std::size_t>(overlap.first), second = static_cast<std::size_t>(overlap.second);
+    if (i % 2 == 0)
+      overlap.of_first = vertices_inside(surfaces[first], *solids[second]);
+    else
+      overlap.of_second = vertices_inside(surfaces[second], *solids[first]);
+  });
+  std::erase_if(overlaps, [](const RestOverlap& overlap) {
+    return overlap.of_first.vertices.empty() && overlap.of_second.vertices.empty();
+  });
+  return overlaps;
+}
+
+std::vector<RestOverlap> rest_overlaps(const Scene& scene) {
+  std::vector<TriangleMesh> surfaces;
+  for (const Muscle& muscle : scene.muscles) surfaces.push_back(muscle.surface);
+  return rest_overlaps(surfaces);
+}
+
+Index count_inside(const std::vector<RestOverlap>& overlaps) {
+  std::set<std::pair<Index, Index>> inside;
+  for (const RestOverlap& overlap : overlaps) {
+    for (const Index v : overlap.of_first.vertices) inside.emplace(overlap.first, v);
+    for (const Index v : overlap.of_second.vertices) inside.emplace(overlap.second, v);
+  }
+  return static_cast<Index>(inside.size());
+}
+
+}  // namespace gracilis

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <gracilis/core/aligned.hpp>
+#include <gracilis/dynamics/constraints/constraint_sets.hpp>
+#include <gracilis/dynamics/face_fans.hpp>
+#include <gracilis/dynamics/particles.hpp>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace gracilis {
+
+struct SliverSet;
+
+/// Slivers that are looked at together, one per lane, because none of them moves what another looks at. Most tips are
+/// where they should be; asking them one by one is what slivers would take their time with.
+struct SliverGroup {
+  std::vector<Index> members;                ///< numbers of the tips, group_width at most; other lanes repeat the last
+  std::array<Index, group_width> tip, a, b;  ///< particles
+  alignas(64) std::array<float, group_width> share, across, out,
+      least;                                ///< where the tip belongs: how far along the
+                                            ///< side, the direction of its offset, and m, how far it goes at least
+  AlignedVector<Index> around_a, around_b;  ///< per face, first all lanes' next corners, then all lanes' last ones
+};
+
+/// Tips in groups, which give the same in their order as the tips do one after the other. `fans` are the surface's.
+std::vector<SliverGroup> group_slivers(const SliverSet& set, const FaceFans& fans, const Particles& rest);
+
+/// One bit per member: whether its tip may have to be moved; rounding never takes one away.
+std::uint32_t lost_tips(const SliverGroup& group, const Particles& particles);
+
+}  // namespace gracilis

@@ -1,0 +1,111 @@
+#include <gracilis/io/mesh/load_surface.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/mesh_repair.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+
+#include <fmt/format.h>
+
+namespace gracilis {
+
+static constexpr Real largest_diagonal = 5;       // m; nothing in a body is longer
+static constexpr Real smallest_diagonal = 0.005;  // m; no muscle or bone we move is smaller
+static constexpr Real crumb_share = 0.01;
+
+/// "2 open edges" or "1 open edge".
+static std::string counted(const MeshDefect& defect, const char* thing, const char* things) {
+  return fmt::format("{} {}", defect.count, defect.count == 1 ? thing : things);
+}
+
+/// What makes a surface useless in any role.
+static std::vector<Problem> fatal_problems(const MeshReport& report, Real unit, const std::string& file) {
+  if (report.out_of_range_faces) {
+    return {{file, fmt::format("face {}", report.out_of_range_faces.first),
+             fmt::format("{} vertices that do not exist",
+                         report.out_of_range_faces.count == 1 ? "names" : "is the first of several that name"),
+             "export the surface again"}};
+  }
+  if (report.non_finite_vertices) {
+    return {{file, fmt::format("vertex {}", report.non_finite_vertices.first),
+             fmt::format("has a coordinate that is not finite ({} in all)",
+                         counted(report.non_finite_vertices, "such vertex", "such vertices")),
+             "export the surface again"}};
+  }
+  if (report.face_count == 0) return {{file, "", "holds no faces", "export a triangle surface"}};
+  if (!(report.area > 0)) return {{file, "", "has no area: all its points lie on a line", "export the surface again"}};
+  if (report.diagonal() > largest_diagonal) {
+    return {{file, "",
+             fmt::format("is {:.4g} m large, which no muscle or bone is: the unit is wrong", report.diagonal()),
+             unit == 1 ? "set unit = \"mm\"" : "check the unit of the file"}};
+  }
+  if (report.diagonal() < smallest_diagonal) {
+    return {
+        {file, "",
+         fmt::format("is {:.4g} mm large, too small for a muscle or bone: the unit is wrong", 1000 * report.diagonal()),
+         unit == 1 ? "check the unit of the file" : "set unit = \"m\""}};
+  }
+  return {};
+}
+
+/// What is wrong with the surface's shape after repair: an error for a muscle, a warning for a bone.
+static std::vector<Problem> shape_problems(const MeshReport& report, const std::string& file) {
+  std::vector<Problem> problems;
+  const auto add = [&](const MeshDefect& defect, const char* element, const std::string& what, const char* remedy) {
+    if (defect) problems.push_back({file, fmt::format("{} {}", element, defect.first), what, remedy});
+  };
+  add(report.open_edges, "face", "lies at a hole: " + counted(report.open_edges, "open edge", "open edges"),
+      "close the holes in a mesh editor");
+  add(report.non_manifold_edges, "face",
+      counted(report.non_manifold_edges, "edge has more than two faces", "edges have more than two faces"),
+      "remove the inner or doubled faces in a mesh editor");
+  add(report.pinched_vertices, "vertex",
+      "joins parts of the surface in a point: " +
+          counted(report.pinched_vertices, "pinched vertex", "pinched vertices"),
+      "separate the parts in a mesh editor");
+  add(report.inconsistent_edges, "face",
+      "disagrees with a neighbor about inside and outside: " +
+          counted(report.inconsistent_edges, "such edge", "such edges"),
+      "a surface with one side only cannot be used; rebuild it");
+  add(report.degenerate_faces, "face", "has no area: " + counted(report.degenerate_faces, "such face", "such faces"),
+      "remesh the surface");
+  if (report.components > 1) {
+    problems.push_back({file, "", fmt::format("consists of {} separate pieces", report.components),
+                        "keep one piece, or make each a surface of its own"});
+  }
+  return problems;
+}
+
+LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, const std::string& name) {
+  const MeshReport as_read = inspect_mesh(mesh);
+  if (const auto problems = fatal_problems(as_read, unit, name); !problems.empty()) throw InputError(problems);
+
+  RepairedMesh repaired = repair_mesh(mesh, role == SurfaceRole::muscle ? crumb_share : 0);
+  LoadedMesh loaded;
+  loaded.mesh = std::move(repaired.mesh);
+  loaded.report = inspect_mesh(loaded.mesh);
+  for (const std::string& repair : repaired.repairs) loaded.repairs.push_back(name + ": " + repair);
+  const std::vector<Problem> problems = shape_problems(loaded.report, name);
+  if (role == SurfaceRole::muscle && !problems.empty()) throw InputError(problems);
+  for (const Problem& problem : problems) {
+    loaded.warnings.push_back(to_string({problem.file, problem.where, problem.what, "tolerated in a bone"}));
+  }
+  return loaded;
+}
+
+LoadedMesh load_surface(const std::filesystem::path& path, Real unit, SurfaceRole role) {
+  return check_surface(read_mesh(path, unit), unit, role, path.string());
+}
+
+std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& files) {
+  std::vector<LoadOutcome> outcomes(files.size());
+  parallel_for_each(files.size(), [&](std::size_t i) {
+    try {
+      outcomes[i].loaded = load_surface(files[i].path, files[i].unit, files[i].role);
+    } catch (const InputError& error) {
+      outcomes[i].error = error;
+    }
+  });
+  return outcomes;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,91 @@
+#include <gracilis/io/mesh/mesh_reader.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/input_file.hpp>
+#include <gracilis/io/mesh/mesh_reader_obj.hpp>
+#include <gracilis/io/mesh/mesh_reader_ply.hpp>
+#include <gracilis/io/mesh/mesh_reader_vtk.hpp>
+#include <gracilis/io/mesh/mesh_reader_vtp.hpp>
+#include <gracilis/io/mesh/vtk_messages.hpp>
+
+#include <fmt/format.h>
+
+#include <vtkCellArray.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkSTLReader.h>
+
+#include <cstring>
+#include <new>
+#include <string>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] static void fail(const fs::path& path, const std::string& what,
+                              const std::string& remedy = "export the surface again") {
+  throw InputError({path.string(), "", what, remedy});
+}
+
+/// VTK believes any file that is no text to be a binary .stl and takes from it what it can; a whole one has 84 bytes
+/// and 50 for each triangle it announces.
+static void require_whole_stl(const fs::path& path) {
+  const std::string bytes = read_text(path);
+  const bool text = bytes.starts_with("solid") && bytes.find("facet") != std::string::npos;
+  std::uint32_t triangles = 0;
+  if (bytes.size() >= 84) std::memcpy(&triangles, bytes.data() + 80, sizeof triangles);
+  const std::size_t expected = 84 + 50 * std::size_t{triangles};
+  if (text && bytes.size() != expected && bytes.find("endsolid") == std::string::npos)
+    fail(path, "ends before 'endsolid'");
+  if (text || bytes.size() == expected) return;
+  if (bytes.size() < 84 || bytes.starts_with("solid")) fail(path, "is neither a text nor a binary .stl file");
+  fail(path,
+       fmt::format("announces {} triangles, which takes {} bytes, but has {}", triangles, expected, bytes.size()));
+}
+
+/// VTK's reader drops triangles whose corners coincide.
+static PolygonMesh read_stl(const fs::path& path) {
+  require_whole_stl(path);
+  VtkMessages messages;
+  vtkNew<vtkSTLReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (messages.has_errors()) fail(path, "is damaged or no .stl file: " + messages.first_error());
+  vtkPolyData& data = *reader->GetOutput();
+  PolygonMesh mesh;
+  mesh.coordinates.resize(3 * static_cast<std::size_t>(data.GetNumberOfPoints()));
+  for (vtkIdType i = 0; i < data.GetNumberOfPoints(); ++i) data.GetPoint(i, mesh.coordinates.data() + 3 * i);
+  for (vtkIdType i = 0; i < data.GetNumberOfPolys(); ++i) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    data.GetPolys()->GetCellAtId(i, size, corners);
+    mesh.corners.insert(mesh.corners.end(), corners, corners + size);
+    mesh.end_polygon();
+  }
+  return mesh;
+}
+
+static PolygonMesh read_polygons(const fs::path& path) {
+  const std::string extension = lower_case_extension(path);
+  if (extension == ".ply") return read_ply(path);
+  if (extension == ".obj") return read_obj(path);
+  if (extension == ".vtk") return read_legacy_vtk(path);
+  if (extension == ".vtp") return read_vtp(path);
+  if (extension == ".stl") return read_stl(path);
+  fail(path, fmt::format("'{}' is not a mesh format that can be read", extension),
+       "use .ply, .stl, .obj, .vtk or .vtp");
+}
+
+TriangleMesh read_mesh(const fs::path& path, Real unit) {
+  require_readable_file(path);
+  try {
+    return triangulated(read_polygons(path), unit, path);
+  } catch (const std::bad_alloc&) {
+    fail(path, "announces more data than memory can hold: the file is damaged");
+  } catch (const std::length_error&) {
+    fail(path, "announces more data than memory can hold: the file is damaged");
+  }
+}
+
+}  // namespace gracilis

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <gracilis/io/mesh/polygon_mesh.hpp>
+
+namespace gracilis {
+
+/// Reads the polygons and strips of a .vtp: ascii, binary and appended arrays of any type, compressed or not, in any
+/// number of pieces. VTK's own reader crashes on damaged block sizes, hence this one.
+PolygonMesh read_vtp(const std::filesystem::path& path);
+
+/// The point data `name` of a .vtp of one piece, 3 × n; 3 × 0 when the file has no such array. Throws InputError as
+/// above and when the numbers are not threes.
+Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name);
+
+}  // namespace gracilis

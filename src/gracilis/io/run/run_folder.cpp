@@ -1,0 +1,225 @@
+#include <gracilis/io/run/run_folder.hpp>
+
+#include <gracilis/anatomy/activation/tendon.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_reader_vtp.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
+#include <gracilis/io/mesh/polyline_file.hpp>
+#include <gracilis/io/run/measures_table.hpp>
+#include <gracilis/io/run/output_hashes.hpp>
+#include <gracilis/io/tables/fiber_table.hpp>
+#include <gracilis/io/value_reader.hpp>
+#include <gracilis/methods/registry.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+static constexpr const char* velocity_name = "velocity";
+
+fs::path frame_file(const fs::path& folder, const std::string& name, int number) {
+  return folder / "frames" / fmt::format("{}_{:04}.vtp", name, number);
+}
+
+static std::vector<std::string> surface_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Muscle& muscle : scene.muscles) names.push_back(muscle.name);
+  for (const Bone& bone : scene.bones) names.push_back(bone.name);
+  return names;
+}
+
+Frame read_frame(const fs::path& folder, const Scene& scene, int number, const Pose& pose) {
+  Frame frame;
+  frame.number = number;
+  frame.pose = pose;
+  for (const Muscle& muscle : scene.muscles) {
+    const fs::path path = frame_file(folder, muscle.name, number);
+    const TriangleMesh mesh = read_mesh(path, 1);
+    if (mesh.vertex_count() != muscle.surface.vertex_count()) {
+      throw InputError({path.string(), "",
+                        fmt::format("has {} vertices, but {} has {}", mesh.vertex_count(), muscle.name,
+                                    muscle.surface.vertex_count()),
+                        "resume with the scene that the run was started with"});
+    }
+    frame.muscles.push_back({mesh.vertices, read_vtp_vectors(path, velocity_name)});
+  }
+  return frame;
+}
+
+/// What a run resumes with in dynamic mode, and ParaView's glyphs show.
+static std::vector<VertexArray> velocity_array(const MuscleShape& shape) {
+  if (shape.velocities.cols() == 0) return {};
+  return {{velocity_name, shape.velocities.reshaped(), 3}};
+}
+
+/// 1 or 0 where the vertex is of an origin, 1 or 0 where of an insertion, and how much of a belly it is, 0 to 1.
+static VertexArray tissue_array(const Muscle& muscle, Real tendon_length) {
+  Points tissue = Points::Zero(3, muscle.surface.vertex_count());
+  for (const Attachment& attachment : muscle.attachments)
+    for (const Index v : attachment.vertices) tissue(attachment.end == AttachmentEnd::origin ? 0 : 1, v) = 1;
+  const std::vector<Real> belly = belly_shares(muscle, tendon_length);
+  for (std::size_t v = 0; v < belly.size(); ++v) tissue(2, static_cast<Index>(v)) = belly[v];
+  return {tissue_name, tissue.reshaped(), 3};
+}
+
+static void create_folders(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder / "frames", error);
+  if (error || !fs::is_directory(folder / "frames")) {
+    throw InputError(
+        {folder.string(), "", "cannot be created: " + error.message(), "choose another folder with --out"});
+  }
+}
+
+/// Removes what a run leaves behind in one of its folders from frame `first` on, and nothing else.
+static void remove_frames_from(const fs::path& folder, int first) {
+  if (!fs::exists(folder)) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string stem = entry.path().stem().string();
+    const std::size_t underscore = stem.rfind('_');
+    if (entry.path().extension() != ".vtp" || underscore == std::string::npos) continue;
+    const std::string digits = stem.substr(underscore + 1);
+    const bool is_number = digits.size() >= 4 && digits.find_first_not_of("0123456789") == std::string::npos;
+    Index number = 0;
+    // A number beyond all indices is behind every frame.
+    if (is_number && (!parse_index(digits, number) || number >= first)) fs::remove(entry.path());
+  }
+}
+
+RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing)
+    : folder_(std::move(folder)), scene_(scene), poses_(poses), opened_(std::chrono::steady_clock::now()) {
+  create_folders(folder_);
+  lock_.emplace(folder_);
+  const bool has_run = fs::exists(folder_ / "run.json") || fs::exists(folder_ / "run.pvd");
+  if (has_run && existing == ExistingRun::refuse) {
+    throw ConfigurationError(
+        {folder_.string(), "", "holds a run already", "resume it, replace it, or choose another folder"});
+  }
+  for (const char* part : {"", "frames", "fibers", "plots"})
+    remove_left_temporaries(folder_ / part, LeftBy::any_machine);
+  if (existing == ExistingRun::resume) {
+    require_same_columns(folder_ / "measures.csv", measures_header(scene));
+    frame_count_ = std::min(count_frames(folder_, scene), static_cast<int>(poses.size()));
+    const auto recorded = [&](int number) {
+      return read_frame(folder_, scene, number, poses[static_cast<std::size_t>(number)]);
+    };
+    const bool is_complete = frame_count_ == static_cast<int>(poses.size());
+    const int dropped = frame_count_ == 0 || is_complete ? 0 : (frame_count_ - 1) % resume_period(scene);
+    if (dropped > 0) recorded(frame_count_ - 1);  // throws where this is another scene's run
+    frame_count_ -= dropped;
+    if (frame_count_ >= 2) {
+      resume_point_ = ResumePoint{recorded(frame_count_ - 2), recorded(frame_count_ - 1)};
+    } else {
+      frame_count_ = 0;
+    }
+  }
+  fs::remove(folder_ / output_hashes_name);
+  remove_frames_from(folder_ / "frames", frame_count_);
+  remove_frames_from(folder_ / "fibers", frame_count_);
+  truncate_measures(folder_ / "measures.csv", frame_count_);
+  truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_, static_cast<int>(poses_.size()));
+  if (frame_count_ == 0) {
+    fs::remove(folder_ / "measures.csv");
+    fs::remove(folder_ / "fiber_lengths.sto");
+  }
+  write_index();
+}
+
+RunFolder::~RunFolder() {
+  try {
+    finish();
+  } catch (const std::exception&) {
+    // A destructor must not throw; whoever wants to know calls finish().
+  }
+}
+
+/// Surfaces come last: a frame whose surfaces are all there is whole, however a run was ended.
+void RunFolder::write_frame(const FrameRecord& record) {
+  write_fibers(record);
+  append_measures(folder_ / "measures.csv", measures_header(scene_), measures_rows(scene_, record));
+  write_surfaces(record.frame);
+  frame_count_ = record.frame.number + 1;
+  if (std::chrono::steady_clock::now() - indexed_ > std::chrono::seconds(1)) write_index();
+}
+
+void RunFolder::write_surfaces(const Frame& frame) const {
+  const auto muscle_count = static_cast<Index>(scene_.muscles.size());
+  const auto bone_count = static_cast<Index>(scene_.bones.size());
+  parallel_for(muscle_count + bone_count, 1, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      if (i < muscle_count) {
+        const Muscle& muscle = scene_.muscles[static_cast<std::size_t>(i)];
+        const MuscleShape& shape = frame.muscles[static_cast<std::size_t>(i)];
+        std::vector<VertexArray> arrays = velocity_array(shape);
+        if (frame.number == 0) arrays.push_back(tissue_array(muscle, tendon_length_of(scene_, muscle)));
+        write_surface(frame_file(folder_, muscle.name, frame.number), shape.points, muscle.surface.faces, arrays);
+      } else {
+        const Bone& bone = scene_.bones[static_cast<std::size_t>(i - muscle_count)];
+        const RigidTransform& motion = frame.pose.bodies[static_cast<std::size_t>(bone.body)];
+        // Frame 0 is the input itself; arithmetic with the identity could turn a -0 into a 0.
+        write_surface(frame_file(folder_, bone.name, frame.number),
+                      frame.number == 0 ? bone.surface.vertices : Points(motion * bone.surface.vertices),
+                      bone.surface.faces);
+      }
+    }
+  });
+}
+
+void RunFolder::write_fibers(const FrameRecord& record) {
+  const auto muscles = static_cast<Index>(record.fibers.size());
+  if (std::all_of(record.fibers.begin(), record.fibers.end(), [](const auto& m) { return m.lengths.empty(); })) return;
+  fs::create_directories(folder_ / "fibers");
+  parallel_for(muscles, 1, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const MuscleFibers& fibers = record.fibers[static_cast<std::size_t>(i)];
+      if (fibers.lengths.empty()) continue;
+      write_polylines(fiber_file(folder_, scene_.muscles[static_cast<std::size_t>(i)].name, record.frame.number),
+                      fibers.lines, {{"length_m", fibers.lengths}});
+    }
+  });
+  append_measures(folder_ / "fiber_lengths.sto",
+                  fiber_lengths_head(scene_, record.fibers, static_cast<int>(poses_.size())),
+                  fiber_lengths_row(scene_, record.frame.pose, record.fibers));
+}
+
+void RunFolder::write_manifest(RunManifest manifest) const {
+  manifest.frames = frame_count_;
+  const bool goes_on = manifest.status == "running" || manifest.status == "interrupted";
+  if (!goes_on) manifest.outputs_sha256 = write_output_hashes(folder_);
+  manifest.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - opened_).count();
+  gracilis::write_manifest(folder_ / "run.json", manifest);
+}
+
+void RunFolder::finish() {
+  if (indexed_frames_ != frame_count_) write_index();
+  // Until now the head announced all rows to come.
+  if (frame_count_ < static_cast<int>(poses_.size())) {
+    truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_, frame_count_);
+  }
+}
+
+void RunFolder::write_index() {
+  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
+  const std::vector<std::string> names = surface_names(scene_);
+  for (int number = 0; number < frame_count_; ++number) {
+    for (std::size_t part = 0; part < names.size(); ++part) {
+      text += fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
+                          poses_[static_cast<std::size_t>(number)].time, part, names[part],
+                          frame_file("", names[part], number).generic_string());
+    }
+  }
+  write_text_atomically(folder_ / "run.pvd", text + "  </Collection>\n</VTKFile>\n");
+  indexed_frames_ = frame_count_;
+  indexed_ = std::chrono::steady_clock::now();
+}
+
+}  // namespace gracilis

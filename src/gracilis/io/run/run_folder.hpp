@@ -1,0 +1,86 @@
+#pragma once
+
+#include <gracilis/io/run/folder_lock.hpp>
+#include <gracilis/io/run/run_manifest.hpp>
+#include <gracilis/io/run/whole_frames.hpp>
+#include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/run.hpp>
+
+#include <chrono>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// What to do with a run that is in the folder already.
+enum class ExistingRun { refuse, replace, resume };
+
+/// The folder that a run leaves behind:
+///
+///   run.json                       see run_manifest.hpp
+///   run.pvd                        opens the animation in ParaView; always names frames that are there only
+///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits
+///                                  and tells which of a muscle's vertices are of an origin, an
+///                                  insertion, and how much of a belly
+///   measures.csv                   one row per frame and muscle; the units stand in the names of the columns
+///   fiber_lengths.sto              one row per frame, see fiber_table.hpp
+///   fibers/<muscle>_0000.vtp       one per frame and muscle with fibers, m
+///   outputs.sha256                 hashes of all files but run.json, which has that of this one, once the run has
+///   ended run.lock                       while a process writes here
+///
+/// An interrupted run is readable: files appear whole, rows are flushed frame by frame, run.pvd follows every second.
+class RunFolder {
+ public:
+  /// Creates the folder and locks it while this lives, and removes what killed runs left half-written. `poses` are
+  /// those of all frames to come (their times and coordinates). With `resume`, what comes after the last whole frame
+  /// (count_frames) is dropped, and what comes after the last that a run can go on from (resume_period), unless the run
+  /// is complete. Throws ConfigurationError when there is a run already and `existing` says refuse, and when another
+  /// process writes there; InputError when the folder cannot be written. Scene and poses must outlive this.
+  RunFolder(std::filesystem::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing);
+  /// Writes run.pvd if it is behind; failures are lost here, call finish() to see them.
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  /// Where to go on; empty unless this was opened to resume and has two frames at least.
+  const std::optional<ResumePoint>& resume_point() const { return resume_point_; }
+
+  /// Writes all surfaces of a frame and its measures. Frames come in order, from 0 or from the one after the resume
+  /// point.
+  void write_frame(const FrameRecord& record);
+  /// Writes run.json with the number of frames on disk and the seconds since this was opened; once the run has ended
+  /// (complete or failed) also outputs.sha256 with the hashes of all its files.
+  void write_manifest(RunManifest manifest) const;
+  /// Writes run.pvd.
+  void finish();
+
+  const std::filesystem::path& path() const { return folder_; }
+  int frame_count() const { return frame_count_; }
+
+ private:
+  void write_index();
+  void write_fibers(const FrameRecord& record);
+  void write_surfaces(const Frame& frame) const;
+
+  std::filesystem::path folder_;
+  std::optional<FolderLock> lock_;
+  const Scene& scene_;
+  const std::vector<Pose>& poses_;
+  int frame_count_ = 0;  ///< frames 0 ... frame_count_ - 1 are on disk
+  int indexed_frames_ = 0;
+  std::optional<ResumePoint> resume_point_;
+  std::chrono::steady_clock::time_point opened_, indexed_;
+};
+
+/// Point data of muscles in frame 0: of an origin (0 or 1), of an insertion (0 or 1), share of belly against tendon.
+inline constexpr const char* tissue_name = "origin_insertion_belly";
+
+/// RUN/frames/<name>_<number as four digits>.vtp
+std::filesystem::path frame_file(const std::filesystem::path& folder, const std::string& name, int number);
+
+/// The muscles' shapes as recorded. Throws InputError when a file is missing, damaged or of another surface.
+Frame read_frame(const std::filesystem::path& folder, const Scene& scene, int number, const Pose& pose);
+
+}  // namespace gracilis

@@ -1,0 +1,134 @@
+#include <gracilis/io/run/run_manifest.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/dynamics/constraints/projection.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/content_hash.hpp>
+#include <gracilis/io/input_file.hpp>
+#include <gracilis/io/json_file.hpp>
+
+#include <embree3/rtcore_config.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <hwy/highway.h>
+#include <oneapi/tbb/version.h>
+#include <vtkVersion.h>
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+namespace gracilis {
+
+static nlohmann::ordered_json library_versions() {
+  return {{"Eigen", fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+          {"oneTBB", fmt::format("{}.{}", TBB_VERSION_MAJOR, TBB_VERSION_MINOR)},
+          {"Embree", RTC_VERSION_STRING},
+          {"Highway", fmt::format("{}.{}", HWY_MAJOR, HWY_MINOR)},
+          {"VTK", vtkVersion::GetVTKVersion()},
+          {"compiler", __VERSION__}};
+}
+
+static std::vector<Real> components(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+static nlohmann::ordered_json rows(const Points& points) {
+  nlohmann::ordered_json rows = nlohmann::json::array();
+  for (const Vec3 point : points.colwise()) rows.push_back(components(point));
+  return rows;
+}
+
+/// What exports of sections need (view/export_tetrahedra).
+static nlohmann::ordered_json action_lines(const RunManifest& manifest) {
+  nlohmann::ordered_json lines = nlohmann::json::object();
+  for (const auto& [muscle, line] : manifest.lines)
+    lines[muscle] = {{"rays", line.rays},
+                     {"scaling", line.scaling},
+                     {"tendon_m", line.tendon},
+                     {"origin_tendon_m", line.origin_tendon},
+                     {"optimal_fiber_m", line.optimal_fiber},
+                     {"pennation_rad", line.pennation},
+                     {"points_m", rows(line.points)},
+                     {"centers_m", rows(line.centers)}};
+  return lines;
+}
+
+nlohmann::ordered_json overlaps_json(const OverlapReport& report) {
+  nlohmann::ordered_json pairs = nlohmann::json::array();
+  for (const MuscleOverlap& pair : report.pairs)
+    pairs.push_back({{"pair", pair.first + ", " + pair.second},
+                     {"vertices_of_first_inside", pair.first_vertices},
+                     {"vertices_of_second_inside", pair.second_vertices},
+                     {"first_deepest_mm", 1e3 * pair.first_deepest},
+                     {"second_deepest_mm", 1e3 * pair.second_deepest},
+                     {"left_out_of_contact", pair.is_left_out}});
+  return {{"vertices_inside", report.vertices}, {"of_vertices", report.of_vertices}, {"pairs", pairs}};
+}
+
+nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / "run.json";
+  if (!is_there(path))
+    throw InputError({folder.string(), "", "is no run folder: it has no run.json", "name the folder of a run"});
+  nlohmann::ordered_json manifest = read_json(path);
+  const auto fail = [&](const std::string& what) {
+    throw InputError({path.string(), "", what, "run the scene again"});
+  };
+  if (!manifest.is_object()) fail("is no manifest of a run");
+  const auto require = [&](std::initializer_list<const char*> keys, auto&& fits, const char* expected) {
+    for (const char* key : keys)
+      if (const auto found = manifest.find(key); found != manifest.end() && !fits(*found))
+        fail(fmt::format("'{}' must be {}", key, expected));
+  };
+  using Json = nlohmann::ordered_json;
+  const auto is_texts = [](const Json& json) {
+    return json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& each) { return each.is_string(); });
+  };
+  const auto is_objects = [](const Json& json) {
+    return json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& each) { return each.is_object(); });
+  };
+  require(
+      {"gracilis", "status", "scene", "preset", "written", "instruction_set", "settings", "outputs_sha256"},
+      [](const Json& json) { return json.is_string(); }, "a text");
+  require(
+      {"frames", "seconds", "threads", "processors"}, [](const Json& json) { return json.is_number(); }, "a number");
+  require({"command", "guessed", "warnings"}, is_texts, "a list of texts");
+  require({"inputs"}, is_objects, "a list of objects");
+  require(
+      {"axes", "action_lines", "rest_overlaps", "libraries"}, [](const Json& json) { return json.is_object(); },
+      "an object");
+  return manifest;
+}
+
+void write_manifest(const std::filesystem::path& path, const RunManifest& manifest) {
+  nlohmann::ordered_json inputs = nlohmann::json::array();
+  for (const std::filesystem::path& input : manifest.inputs) {
+    inputs.push_back({{"file", input.string()}, {"sha256", content_hash(input)}});
+  }
+  nlohmann::ordered_json json = {
+      {"gracilis", manifest.version},
+      {"status", manifest.status},
+      {"scene", manifest.scene},
+      {"preset", manifest.preset},
+      {"command", manifest.command},
+      {"written", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+      {"seed", nullptr},  // nothing in a run is random
+      {"frames", manifest.frames},
+      {"seconds", manifest.seconds},
+      {"threads", manifest.threads},
+      {"instruction_set", instruction_set()},  // results differ in the last bits between sets
+      {"processors", std::thread::hardware_concurrency()},
+      {"axes", {{"anterior", components(manifest.axes.anterior)}, {"superior", components(manifest.axes.superior)}}},
+      {"action_lines", action_lines(manifest)},
+      {"rest_overlaps", overlaps_json(manifest.overlaps)},
+      {"guessed", manifest.guessed},
+      {"warnings", manifest.warnings},
+      {"inputs", inputs},
+      {"libraries", library_versions()},
+      {"settings", manifest.settings}};
+  if (!manifest.outputs_sha256.empty()) json["outputs_sha256"] = manifest.outputs_sha256;
+  // Names of files need not be UTF-8; what is not is replaced, so that the manifest always is.
+  write_text_atomically(path, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace gracilis

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <gracilis/anatomy/overlap/overlap_report.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// What run.json says about a run, beside the versions of the libraries, the time and the machine.
+struct RunManifest {
+  std::string version;                        ///< of Gracilis
+  std::string scene;                          ///< the scene's name
+  std::string preset;                         ///< that the settings started from
+  std::vector<std::string> command;           ///< the command line, word by word
+  std::string settings;                       ///< every setting as resolved, as TOML
+  std::vector<std::filesystem::path> inputs;  ///< each is listed with its SHA-256
+  std::vector<std::string> guessed;           ///< what was guessed rather than measured, e.g. "psoas_r origin"
+  std::vector<std::string> warnings;
+  std::vector<std::pair<std::string, ActionLine>> lines;  ///< of muscles that have one, by their names
+  OverlapReport overlaps;                                 ///< in the capture pose
+  AnatomicalAxes axes;                                    ///< how the subject stands
+  std::string status = "running";                         ///< running, complete, interrupted, or "failed: why"
+  int threads = 1;
+  int frames = 0;                   ///< on disk
+  double seconds = 0;               ///< spent on them
+  std::string outputs_sha256 = {};  ///< of the list of all files' hashes (output_hashes.hpp); empty: there is none yet
+};
+
+/// The report as `run.json` and `gracilis inspect` have it.
+nlohmann::ordered_json overlaps_json(const OverlapReport& report);
+
+/// Writes `path` (RUN/run.json), whole or not at all.
+void write_manifest(const std::filesystem::path& path, const RunManifest& manifest);
+
+/// FOLDER/run.json. What is known of it has the type that write_manifest gives it. Throws InputError where it is
+/// missing, not JSON or of another shape.
+nlohmann::ordered_json read_manifest(const std::filesystem::path& folder);
+
+}  // namespace gracilis

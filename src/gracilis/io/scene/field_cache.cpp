@@ -1,0 +1,122 @@
+#include <gracilis/anatomy/overlap/bone_field.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/io/content_hash.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/scene/setting_table.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+// Stands first in every file and in what is hashed: change it when fields are built or stored in another way.
+static constexpr std::string_view format_name = "gracilis field 5";
+
+static std::string bytes_of(const void* data, std::size_t size) { return {static_cast<const char*>(data), size}; }
+
+static fs::path file_of(const Bone& bone, const DistanceFieldSettings& settings, const fs::path& folder) {
+  const TriangleMesh& surface = bone.surface;
+  std::string bytes = std::string(format_name);
+  bytes += bytes_of(surface.vertices.data(), sizeof(Real) * static_cast<std::size_t>(surface.vertices.size()));
+  bytes += bytes_of(surface.faces.data(), sizeof(int) * static_cast<std::size_t>(surface.faces.size()));
+  for (const auto& [key, value] : list_settings(settings)) bytes += key + "=" + to_text(value) + "\n";
+  return folder / (content_hash_of(bytes) + ".field");
+}
+
+fs::path default_cache_folder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return fs::path(cache) / "gracilis";
+  if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "gracilis";
+  return {};
+}
+
+/// The numbers of a field before its values.
+struct FieldHeader {
+  Real origin[3], cell_size[3];
+  Index nodes[3];
+  Index unused = 0;
+};
+static_assert(sizeof(FieldHeader) == 6 * sizeof(Real) + 4 * sizeof(Index), "no byte of it is left to chance");
+
+static std::string content_of(const DistanceField& field) {
+  FieldHeader header{};
+  for (int axis = 0; axis < 3; ++axis) {
+    header.origin[axis] = field.origin[axis];
+    header.cell_size[axis] = field.cell_size[axis];
+    header.nodes[axis] = field.nodes[static_cast<std::size_t>(axis)];
+  }
+  return bytes_of(&header, sizeof header) + bytes_of(field.values.data(), sizeof(float) * field.values.size());
+}
+
+/// What is kept is believed only within bounds: a checksum tells that it is what was written, not that this was sound.
+static bool read_content(const std::string& content, DistanceField& field) {
+  FieldHeader header{};
+  if (content.size() < sizeof header) return false;
+  std::memcpy(&header, content.data(), sizeof header);
+  std::size_t count = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (header.nodes[axis] < 2 || header.nodes[axis] > 100000) return false;
+    if (!std::isfinite(header.origin[axis]) || !(header.cell_size[axis] > 0) || !std::isfinite(header.cell_size[axis]))
+      return false;
+    field.nodes[static_cast<std::size_t>(axis)] = header.nodes[axis];
+    count *= static_cast<std::size_t>(header.nodes[axis]);
+  }
+  if (content.size() - sizeof header != sizeof(float) * count) return false;
+  field.origin = Vec3(header.origin);
+  field.cell_size = Vec3(header.cell_size);
+  field.values.resize(count);
+  std::memcpy(field.values.data(), content.data() + sizeof header, sizeof(float) * count);
+  return std::all_of(field.values.begin(), field.values.end(), [](float value) { return std::isfinite(value); });
+}
+
+static bool read_field(const fs::path& file, DistanceField& field, const WarnFunction& warn) {
+  const std::optional<std::string> content = read_cache_file(file, format_name, warn);
+  if (!content) return false;
+  if (read_content(*content, field)) return true;
+  warn_of_cache_file(file, "holds no distance field", warn);
+  return false;
+}
+
+DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& settings, const fs::path& folder,
+                                const WarnFunction& warn) {
+  if (folder.empty()) return build_bone_field(bone, settings);
+  const fs::path file = file_of(bone, settings, folder);
+  DistanceField field;
+  if (read_field(file, field, warn)) return field;
+  field = build_bone_field(bone, settings);
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return field;
+  try {
+    write_cache_file(file, format_name, content_of(field));
+  } catch (const Error&) {
+    // No room or no right to write: the field is as good without the file.
+  }
+  return field;
+}
+
+std::vector<DistanceField> cached_bone_fields(const Scene& scene) {
+  return cached_bone_fields(scene, scene.distance_fields);
+}
+
+std::vector<DistanceField> cached_bone_fields(const Scene& scene, const DistanceFieldSettings& settings,
+                                              const WarnFunction& warn) {
+  const fs::path folder = default_cache_folder();
+  std::vector<DistanceField> fields(scene.bones.size());
+  std::vector<std::string> warnings(scene.bones.size());
+  parallel_for_each(fields.size(), [&](std::size_t b) {
+    fields[b] =
+        cached_bone_field(scene.bones[b], settings, folder, [&](const std::string& warning) { warnings[b] = warning; });
+  });
+  for (const std::string& warning : warnings)
+    if (warn && !warning.empty()) warn(warning);
+  return fields;
+}
+
+}  // namespace gracilis

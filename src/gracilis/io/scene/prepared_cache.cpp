@@ -1,0 +1,104 @@
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/content_hash.hpp>
+#include <gracilis/io/scene/preparation_report.hpp>
+#include <gracilis/io/scene/prepared_cache.hpp>
+#include <gracilis/scene/setting_table.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string_view>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+// Stands first in every file and in what is hashed.
+static constexpr std::string_view format_name = "gracilis muscles 2";
+
+static std::string bytes_of(const void* data, std::size_t size) { return {static_cast<const char*>(data), size}; }
+
+static std::string bytes_of(const TriangleMesh& mesh) {
+  const Index counts[2] = {mesh.vertex_count(), mesh.face_count()};
+  return bytes_of(counts, sizeof counts) +
+         bytes_of(mesh.vertices.data(), sizeof(Real) * static_cast<std::size_t>(mesh.vertices.size())) +
+         bytes_of(mesh.faces.data(), sizeof(Index) * static_cast<std::size_t>(mesh.faces.size()));
+}
+
+static fs::path file_of(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
+                        const PrepareSettings& settings, const fs::path& folder) {
+  std::string bytes = std::string(format_name) + std::to_string(preparation_version) + "\n";
+  for (const auto& [key, value] : list_settings(settings)) bytes += key + "=" + to_text(value) + "\n";
+  for (const NamedSurface& muscle : muscles) bytes += "muscle " + bytes_of(muscle.mesh);
+  for (const NamedSurface& bone : bones) bytes += "bone " + bytes_of(bone.mesh);
+  return folder / (content_hash_of(bytes) + ".muscles");
+}
+
+/// Takes the bytes of a mesh from the front of `content`.
+static bool take_mesh(std::string_view& content, TriangleMesh& mesh) {
+  const auto take = [&](void* data, std::size_t size) {
+    if (content.size() < size) return false;
+    if (size > 0) std::memcpy(data, content.data(), size);
+    content.remove_prefix(size);
+    return true;
+  };
+  Index counts[2];
+  if (!take(counts, sizeof counts)) return false;
+  for (const Index count : counts)
+    if (count < 0 || static_cast<std::size_t>(count) > content.size() / (3 * sizeof(Index))) return false;
+  mesh.vertices.resize(3, counts[0]);
+  mesh.faces.resize(3, counts[1]);
+  return take(mesh.vertices.data(), sizeof(Real) * static_cast<std::size_t>(mesh.vertices.size())) &&
+         take(mesh.faces.data(), sizeof(Index) * static_cast<std::size_t>(mesh.faces.size())) &&
+         mesh.vertices.allFinite() &&
+         (counts[1] == 0 || (mesh.faces.minCoeff() >= 0 && mesh.faces.maxCoeff() < counts[0]));
+}
+
+static bool read_meshes(const fs::path& file, std::vector<TriangleMesh>& meshes, const WarnFunction& warn) {
+  const std::optional<std::string> content = read_cache_file(file, format_name, warn);
+  if (!content) return false;
+  std::string_view rest(*content);
+  const bool sound =
+      std::all_of(meshes.begin(), meshes.end(), [&](TriangleMesh& mesh) { return take_mesh(rest, mesh); }) &&
+      rest.empty();
+  if (!sound) warn_of_cache_file(file, "does not hold the muscles", warn);
+  return sound;
+}
+
+std::vector<TriangleMesh> cached_preparation(const std::vector<NamedSurface>& muscles,
+                                             const std::vector<NamedSurface>& bones, const PrepareSettings& settings,
+                                             const PrepareFunction& prepare,
+                                             const std::function<void(const std::string&)>& say, const fs::path& folder,
+                                             const WarnFunction& warn) {
+  const fs::path file = folder.empty() ? fs::path() : file_of(muscles, bones, settings, folder);
+  std::vector<TriangleMesh> meshes(muscles.size());
+  if (!folder.empty() && read_meshes(file, meshes, warn)) {
+    say("prepared muscles: " + file.string());
+    return meshes;
+  }
+  if (!prepare) {
+    throw ConfigurationError(
+        {"", "[prepare]", "the scene's muscles must be prepared, which this program cannot do",
+         "it was built without CGAL: install libcgal-dev and build with GRACILIS_WITH_PREPARE=ON"});
+  }
+  say("preparing " + std::to_string(muscles.size()) + " muscles; this is done once");
+  PreparedSurfaces prepared = prepare(muscles, bones, settings, say);
+  say(to_text(prepared.report));
+  if (folder.empty()) return prepared.muscles;
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) return prepared.muscles;
+  try {
+    std::string bytes;
+    for (const TriangleMesh& mesh : prepared.muscles) bytes += bytes_of(mesh);
+    write_text_atomically(fs::path(file).replace_extension(".json"), to_json(prepared.report).dump(2) + "\n");
+    write_cache_file(file, format_name, bytes);
+    say("kept in " + file.string());
+  } catch (const Error&) {
+    // No room or no right to write: the surfaces are as good without the file.
+  }
+  return prepared.muscles;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <gracilis/anatomy/attachments/attachments.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/scene/line_path_reader.hpp>
+#include <gracilis/io/tables/activation_samples.hpp>
+#include <gracilis/scene/motion.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <array>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What a scene file says, as plain values in SI units, before any other file is read. `place` is where in the scene
+/// file an element stands, for messages about it.
+namespace gracilis {
+
+/// A file that the scene names, as written there, with the length of its unit in m.
+struct NamedFile {
+  std::string path;
+  Real unit = 1;
+  Problem place;
+};
+
+/// A box instead of a file: surfaces for tests and demonstrations that need no data.
+struct BoxDescription {
+  Vec3 low, high;
+  std::array<int, 3> cells{1, 1, 1};
+};
+
+struct BoneDescription {
+  std::string name, body;
+  NamedFile file;  ///< or a box
+  std::optional<BoxDescription> box;
+  Problem place;
+};
+
+struct AttachmentDescription {
+  std::string name;
+  AttachmentEnd end = AttachmentEnd::origin;
+  std::string body;                 ///< empty: that of the bones
+  std::vector<std::string> bones;   ///< surfaces to measure the distance from
+  std::vector<std::string> clouds;  ///< names in the landmark file
+  std::vector<Points> points;       ///< landmarks written in the scene file itself
+  LineKind line = LineKind::cloud;
+  Real bone_distance = 0;
+  Real landmark_distance = 0;
+  std::vector<Index> vertices;
+  bool guessed = false;
+  Problem place;
+};
+
+/// The line of a muscle made of sections, with the bodies' names.
+struct ActionLineDescription {
+  ActionLine line;  ///< its bodies and its path are empty
+  std::vector<std::string> bodies;
+  LinePathDescription path;
+};
+
+struct MuscleDescription {
+  std::string name;
+  NamedFile file;  ///< or a box
+  std::optional<BoxDescription> box;
+  SettingValues settings;  ///< of the scene's method, for this muscle alone
+  FiberSettings fibers;
+  NamedFile fiber_file;             ///< empty path: none
+  bool superficial_fibers = false;  ///< the file's lines lie on the surface
+  ContractionSettings contraction;
+  NamedFile contraction_file;  ///< surface fibers; empty path: none
+  std::vector<AttachmentDescription> attachments;
+  ActionLineDescription action_line;
+  Problem place;
+};
+
+struct JointDescription {
+  std::string parent, child;
+  Joint joint;
+  Problem place;
+};
+
+/// Either a table file or key poses with equal steps between them.
+struct MotionDescription {
+  NamedFile file;
+  std::vector<std::string> coordinates;
+  Eigen::MatrixXd key_poses;  ///< rows × coordinates, rad
+  Real step = 0;              ///< rad, largest change of a coordinate per frame
+  Real time_step = 0;         ///< s; of a file: least time between rows that are kept
+  Real begin = -std::numeric_limits<Real>::infinity(), end = std::numeric_limits<Real>::infinity();  ///< s, of a file
+  Problem place;
+  bool translations = false;  ///< key poses are of translations
+  int max_frames = default_max_frames;
+};
+
+/// One muscle's activation: a constant, a column of a table, or a function of a coordinate.
+struct ActivationDescription {
+  std::vector<std::string> muscles;
+  std::optional<Real> value;
+  NamedFile file;
+  std::string column;
+  std::string coordinate;
+  Eigen::MatrixXd points;  ///< rows: rad, activation
+  Problem place;
+};
+
+/// A joint control unit whose samples stand in a file.
+struct ControlUnitDescription {
+  std::string name, joint;
+  NamedFile samples;                         ///< or the files that `gracilis activations join` would make them from:
+  NamedFile motion, results;                 ///< empty paths where samples are given
+  NamedFile names;                           ///< which columns are which muscle; empty path: numbered parts join
+  CombineParts combine = CombineParts::sum;  ///< how parts of a muscle become one
+  NamedFile forces;                          ///< that weigh the parts, for the weighted mean
+  std::vector<std::string> coordinates, muscles;  ///< empty: the joint's, and all that the samples know
+  Real falloff = 0;
+  Problem place;
+};
+
+struct TransversalDescription {
+  Transversal transversal;  ///< its indices of muscles and bones are not set
+  std::string muscle, other;
+  std::vector<std::string> bones;
+  Problem place;
+};
+
+struct SceneDescription {
+  std::string name, preset;
+  AnatomicalAxes axes;
+  std::vector<BoneDescription> bones;
+  std::vector<JointDescription> joints;
+  std::vector<MuscleDescription> muscles;
+  MotionDescription motion;
+  std::vector<ActivationDescription> activations;
+  std::vector<ControlUnitDescription> control_units;
+  std::vector<TransversalDescription> transversals;
+  Sequence sequence;
+  DistanceFieldSettings distance_fields;
+  std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
+  NamedFile landmarks;
+  MethodChoice method;
+  std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
+  std::vector<std::string> notes;
+};
+
+/// Reads a scene file, all that it includes, and the command line's settings (see scene_layers.hpp); keeps only the
+/// muscles in `only`, or all when it is empty. Throws ConfigurationError with every problem found: unknown keys, wrong
+/// types, values out of range, duplicates, references to bones and bodies that are not there.
+SceneDescription read_scene_description(const std::filesystem::path& path, const std::vector<std::string>& set,
+                                        const std::vector<std::string>& only);
+
+}  // namespace gracilis

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/opensim/import/neighbor_clearance.hpp>
+#include <gracilis/opensim/reader/model.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <array>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace gracilis::opensim {
+
+/// Where a muscle's tendon lies along its line (Laclé 2014, section 3.4.3).
+enum class TendonPlace {
+  half_at_insertion,  ///< half of its slack length, as published
+  whole_at_insertion,
+  both_ends  ///< half of it at each
+};
+
+/// How muscles that are lines become volumes.
+struct VolumeSettings {
+  int rays = 12;                  ///< corners of a section, even
+  Real section_distance = 0.012;  ///< m, at most this far apart on average
+  Real specific_tension = 6.1e5;  ///< N/m²
+  TendonPlace tendon = TendonPlace::half_at_insertion;
+  /// Surfaces that are known, by the muscles' names, closed, in the ground frame: sections are brought onto them.
+  std::map<std::string, TriangleMesh> surfaces;
+  std::shared_ptr<const std::vector<SolidBone>> bones;  ///< that the others keep out of; none: they do not
+  std::map<std::string, RoundMuscle>
+      beside;         ///< muscles by name that the others keep out of, too, where there are bones
+  int more_rays = 6;  ///< times as many rays as corners look for the surfaces' inside (Laclé's CSS)
+};
+
+/// Vertices of a muscle's surface that move with a body.
+struct HeldVertices {
+  AttachmentEnd end = AttachmentEnd::origin;
+  Index body = 0;
+  std::vector<Index> vertices;  ///< ascending
+};
+
+struct MuscleVolume {
+  TriangleMesh surface;
+  Real volume_share = 1;             ///< of the volume asked for that bones and other muscles left room for
+  ActionLine line;                   ///< its bodies are the model's
+  std::array<HeldVertices, 2> held;  ///< origin and insertion
+  Index sections_on_surface = 0;     ///< of those brought onto a surface that is known
+};
+
+/// A closed surface around a muscle's path for the bodies at `poses` (Laclé 2014, after the line's own points; radii by
+/// spindle_radii, outside of the bones, or from the surface that is known, see enhance). The first section is held by
+/// the origin's body and the last by the insertion's; a tendon slides past the points between.
+/// Throws InputError for a path by functions, which has no place, and for one without length.
+MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
+                           const Eigen::VectorXd& coordinates, const VolumeSettings& settings);
+
+/// The muscle as others find it that keep out of it: round sections about its line, their centers outside of the bones.
+/// Throws InputError as muscle_volume does.
+RoundMuscle round_muscle(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
+                         const Eigen::VectorXd& coordinates, const VolumeSettings& settings);
+
+}  // namespace gracilis::opensim

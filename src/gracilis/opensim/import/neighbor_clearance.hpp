@@ -1,0 +1,20 @@
+#pragma once
+
+#include <gracilis/opensim/import/bone_clearance.hpp>
+
+#include <vector>
+
+namespace gracilis::opensim {
+
+/// A muscle as round sections about its line.
+struct RoundMuscle {
+  Points centers;
+  Eigen::VectorXd radii;  ///< m, more than 0
+};
+
+/// The room that these muscles leave to another: a ray is free as long as its points are nearer to its own center than
+/// to any of their lines, each measured in radii there. Muscles that lie in each other share what both cover, a thick
+/// one more of it than a thin one, and half a millimetre is left between them.
+RoomBeside room_beside(std::vector<RoundMuscle> muscles);
+
+}  // namespace gracilis::opensim

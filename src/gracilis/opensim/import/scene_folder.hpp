@@ -1,0 +1,31 @@
+#pragma once
+
+#include <gracilis/opensim/import/bone_files.hpp>
+#include <gracilis/opensim/import/muscle_volume.hpp>
+#include <gracilis/opensim/kinematics/coordinate_motion.hpp>
+
+namespace gracilis::opensim {
+
+/// A motion for the scene: its name becomes that of its files.
+struct NamedMotion {
+  std::string name;
+  CoordinateMotion motion;
+};
+
+struct SceneFolderSettings {
+  VolumeSettings volumes;
+  std::vector<std::string> muscles;  ///< to take; empty: all
+  bool apart = false;                ///< muscles whose surfaces are not known keep out of each other
+};
+
+/// What a motion's files are called, without the extension: file_name_of its name, and not "model".
+std::string motion_file_name(const NamedMotion& motion);
+
+/// Writes a folder that `gracilis run` understands, for the model with its coordinates at their default values:
+/// model.toml with bones, joints and muscles, their surfaces under bones/ and muscles/, and for each motion NAME.toml
+/// with NAME.sto. Returns what was left out, a sentence each. Throws InputError.
+std::vector<std::string> write_scene_folder(const Model& model, const GeometryPlaces& places,
+                                            const std::vector<NamedMotion>& motions,
+                                            const SceneFolderSettings& settings, const std::filesystem::path& folder);
+
+}  // namespace gracilis::opensim

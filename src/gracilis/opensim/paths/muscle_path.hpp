@@ -1,0 +1,37 @@
+#pragma once
+
+#include <gracilis/geometry/wrapped_path.hpp>
+#include <gracilis/opensim/kinematics/skeleton.hpp>
+
+#include <vector>
+
+namespace gracilis::opensim {
+
+/// Where a point lies in its body, and whether the path runs through it.
+Vec3 location_of(const PathPoint& point, const Eigen::VectorXd& coordinates);
+bool is_active(const PathPoint& point, const Eigen::VectorXd& coordinates);
+
+/// The surfaces that a path may run around, for the bodies at `poses`.
+std::vector<PlacedWrap> placed_wraps(const Model& model, const Path& path, const std::vector<RigidTransform>& poses);
+
+/// The points of a path's own that it runs through now.
+std::vector<PathStop> own_points(const Path& path, const std::vector<RigidTransform>& poses,
+                                 const Eigen::VectorXd& coordinates);
+
+/// Where a path runs for the bodies at `poses` and these coordinates: its active points, and where it touches wrap
+/// objects (geometry/wrapped_path).
+std::vector<PathStop> current_points(const Model& model, const Path& path, const std::vector<RigidTransform>& poses,
+                                     const Eigen::VectorXd& coordinates);
+
+/// The length of a path's way (m; OpenSim's own number: length_by_opensim), and its moment arms: -dL/dq for every
+/// coordinate (m per rad, or per m), by virtual work of a unit tension (Sherman, Seth, Delp 2013). Coupled coordinates'
+/// arms are taken into those they depend on.
+struct PathMeasure {
+  Real length = 0;
+  Eigen::VectorXd moment_arms;
+};
+
+/// Measures a path for the skeleton as placed at `coordinates`. The coordinates must obey the couplers.
+PathMeasure measure_path(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates);
+
+}  // namespace gracilis::opensim

@@ -1,0 +1,36 @@
+#include <gracilis/opensim/reader/crossed_coordinates.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace gracilis::opensim {
+
+/// The joints from a body to the ground.
+static std::set<std::size_t> chain_of(const Model& model, Index body) {
+  std::set<std::size_t> chain;
+  for (std::size_t i = model.joints.size(); i-- > 0;) {  // parents stand before children
+    if (model.joints[i].child_body != body) continue;
+    chain.insert(i);
+    body = model.joints[i].parent_body;
+  }
+  return chain;
+}
+
+std::vector<Index> crossed_coordinates(const Model& model, const Path& path) {
+  std::vector<Index> result = path.function_coordinates;
+  std::vector<std::set<std::size_t>> chains;
+  for (const PathPoint& point : path.points) chains.push_back(chain_of(model, point.body));
+  for (const PathWrap& wrap : path.wraps)
+    chains.push_back(chain_of(model, model.wrap_objects[static_cast<std::size_t>(wrap.object)].body));
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
+    const auto holds = [&](const std::set<std::size_t>& chain) { return chain.count(joint) > 0; };
+    const auto count = static_cast<std::size_t>(std::count_if(chains.begin(), chains.end(), holds));
+    if (count == 0 || count == chains.size()) continue;
+    result.insert(result.end(), model.joints[joint].coordinates.begin(), model.joints[joint].coordinates.end());
+  }
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
+}  // namespace gracilis::opensim

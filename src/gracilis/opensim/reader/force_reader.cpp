@@ -1,0 +1,94 @@
+#include <gracilis/opensim/reader/model_parts.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace gracilis::opensim {
+
+/// 4.x says appliesForce, 3.x isDisabled.
+static bool applies_force(const XmlContext& context, const pugi::xml_node& node) {
+  return context.boolean(node, "appliesForce", !context.boolean(node, "isDisabled", false));
+}
+
+static Real positive(const XmlContext& context, const pugi::xml_node& node, const char* name, Real otherwise) {
+  const Real value = context.number(node, name, otherwise);
+  if (!(value > 0)) context.fail(node, fmt::format("<{}> is {}", name, value), "it must be larger than zero");
+  return value;
+}
+
+static Muscle read_muscle(ModelReading& reading, const pugi::xml_node& node) {
+  const XmlContext& context = reading.context;
+  Muscle muscle;
+  muscle.name = name_of(node);
+  muscle.type = node.name();
+  muscle.applies_force = applies_force(context, node);
+  muscle.path = read_path(reading, node);
+  muscle.max_isometric_force = context.number(node, "max_isometric_force", muscle.max_isometric_force);
+  if (!(muscle.max_isometric_force >= 0))
+    context.fail(node, fmt::format("<max_isometric_force> is {}", muscle.max_isometric_force), "give 0 or more");
+  muscle.optimal_fiber_length = positive(context, node, "optimal_fiber_length", muscle.optimal_fiber_length);
+  muscle.tendon_slack_length = context.number(node, "tendon_slack_length", muscle.tendon_slack_length);
+  if (!(muscle.tendon_slack_length >= 0))
+    context.fail(node, fmt::format("<tendon_slack_length> is {}", muscle.tendon_slack_length), "give 0 or more");
+  muscle.pennation_angle_at_optimal = context.number(node, "pennation_angle_at_optimal", 0);
+  muscle.max_contraction_velocity =
+      positive(context, node, "max_contraction_velocity", muscle.max_contraction_velocity);
+  muscle.min_control = context.number(node, "min_control", muscle.min_control);
+  muscle.max_control = context.number(node, "max_control", muscle.max_control);
+  muscle.active_shape = positive(context, node, "KshapeActive", muscle.active_shape);
+  muscle.velocity_shape = positive(context, node, "Af", muscle.velocity_shape);
+  muscle.eccentric_force = positive(context, node, "Flen", muscle.eccentric_force);
+  if (!(std::abs(muscle.pennation_angle_at_optimal) < pi / 2))
+    context.fail(node, fmt::format("is pennate by {} rad", muscle.pennation_angle_at_optimal), "give less than pi/2");
+  return muscle;
+}
+
+static Index body_of(const ModelReading& reading, const pugi::xml_node& node, const char* name) {
+  const std::string body = reading.context.text(node, name);
+  return body.empty() ? 0 : reading.frame(node, body, "").body;
+}
+
+static Actuator read_actuator(ModelReading& reading, const pugi::xml_node& node) {
+  const XmlContext& context = reading.context;
+  const std::string_view kind = node.name();
+  Actuator actuator;
+  actuator.name = name_of(node);
+  actuator.applies_force = applies_force(context, node);
+  actuator.optimal_force = context.number(node, "optimal_force", 1);
+  actuator.min_control = context.number(node, "min_control", actuator.min_control);
+  actuator.max_control = context.number(node, "max_control", actuator.max_control);
+  if (kind == "CoordinateActuator") {
+    actuator.coordinate = reading.coordinate(node, context.socket(node, "coordinate", "coordinate"));
+    return actuator;
+  }
+  const bool point = kind == "PointActuator";
+  actuator.kind = point ? Actuator::Kind::point : Actuator::Kind::torque;
+  actuator.body = body_of(reading, node, point ? "body" : "bodyA");
+  if (!point) actuator.other_body = body_of(reading, node, "bodyB");
+  actuator.point = context.vector(node, "point", Vec3::Zero());
+  actuator.point_is_global = context.boolean(node, "point_is_global", false);
+  actuator.direction = context.vector(node, point ? "direction" : "axis", Vec3::UnitX());
+  actuator.direction_is_global = context.boolean(node, point ? "force_is_global" : "torque_is_global", true);
+  if (!(actuator.direction.norm() > 1e-9)) context.fail(node, "has an axis without length", "give it a direction");
+  actuator.direction.normalize();
+  return actuator;
+}
+
+void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char* set) {
+  for (const pugi::xml_node& node : objects_of(holder, set)) {
+    const std::string_view kind = node.name();
+    const std::string name = name_of(node);
+    if (name.empty()) reading.context.fail(node, "has no name", "give every force its own name");
+    if (index_of(reading.model.muscles, name) >= 0 || index_of(reading.model.actuators, name) >= 0)
+      reading.context.fail(node, "occurs twice", "give every force its own name");
+    if (kind.find("Muscle") != std::string_view::npos || node.child("max_isometric_force"))
+      reading.model.muscles.push_back(read_muscle(reading, node));
+    else if (kind == "CoordinateActuator" || kind == "PointActuator" || kind == "TorqueActuator")
+      reading.model.actuators.push_back(read_actuator(reading, node));
+    else
+      reading.leave_out(node, "kind of force not known; left out");
+  }
+}
+
+}  // namespace gracilis::opensim

@@ -1,0 +1,248 @@
+#include <gracilis/opensim/reader/function_reader.hpp>
+#include <gracilis/opensim/reader/model_parts.hpp>
+
+#include <gracilis/io/text_cells.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+namespace gracilis::opensim {
+
+/// The axes of joints that have a name of their own, by the coordinates in their order: 0 to 2 are rotations about x, y
+/// and z, 3 to 5 translations.
+static const std::map<std::string, std::vector<int>> plain_joints = {
+    {"PinJoint", {2}},          {"SliderJoint", {3}},       {"UniversalJoint", {0, 1}},
+    {"BallJoint", {0, 1, 2}},   {"GimbalJoint", {0, 1, 2}}, {"FreeJoint", {0, 1, 2, 3, 4, 5}},
+    {"PlanarJoint", {2, 3, 4}}, {"WeldJoint", {}}};
+
+static void read_coordinates(ModelReading& reading, const pugi::xml_node& node, Joint& joint) {
+  const XmlContext& context = reading.context;
+  std::vector<pugi::xml_node> nodes = objects_of(node, "coordinates");
+  if (nodes.empty()) nodes = objects_of(node, "CoordinateSet");
+  for (const pugi::xml_node& each : nodes) {
+    Coordinate coordinate;
+    coordinate.name = name_of(each);
+    if (coordinate.name.empty() || index_of(reading.model.coordinates, coordinate.name) >= 0)
+      context.fail(each, "occurs twice or has no name", "give every coordinate its own name");
+    coordinate.joint = static_cast<Index>(reading.model.joints.size());
+    coordinate.rotation = context.text(each, "motion_type") != "translational";
+    coordinate.default_value = context.number(each, "default_value", 0);
+    const std::vector<Real> range = context.numbers(each, "range");
+    if (range.size() == 2) {
+      coordinate.range_min = range[0];
+      coordinate.range_max = range[1];
+    }
+    coordinate.locked = context.boolean(each, "locked", false);
+    coordinate.clamped = context.boolean(each, "clamped", false);
+    joint.coordinates.push_back(static_cast<Index>(reading.model.coordinates.size()));
+    reading.model.coordinates.push_back(std::move(coordinate));
+  }
+}
+
+static bool moves(const TransformAxis& axis) { return !axis.coordinates.empty(); }
+static bool acts(const TransformAxis& axis) {
+  return moves(axis) || (axis.function.kind == Function::Kind::constant && value(axis.function, {}) != 0);
+}
+
+void complete_axes(const ModelReading& reading, const pugi::xml_node& joint, TransformAxis* axes) {
+  std::vector<Vec3> used;
+  for (int i = 0; i < 3; ++i) {
+    if (!acts(axes[i])) continue;
+    const Real length = axes[i].axis.norm();
+    if (!(length > 1e-9)) reading.context.fail(joint, "has an axis without length", "give it a direction");
+    axes[i].axis /= length;
+    for (const Vec3& other : used)
+      if (other.cross(axes[i].axis).norm() < 1e-6)
+        reading.context.fail(joint, "has the same axis twice", "give the second another direction");
+    used.push_back(axes[i].axis);
+  }
+  if (used.size() == 3 && std::abs(used[0].dot(used[1].cross(used[2]))) < 1e-6)
+    reading.context.fail(joint, "has three axes in one plane", "give one of them another direction");
+  for (int i = 0; i < 3; ++i) {
+    if (acts(axes[i])) continue;
+    if (used.empty())
+      used.push_back(axes[i].axis = Vec3::Unit(i));
+    else if (used.size() == 1)
+      used.push_back(axes[i].axis = used[0].unitOrthogonal());
+    else
+      used.push_back(axes[i].axis = used[0].cross(used[1]).normalized());
+  }
+}
+
+static void read_spatial_transform(ModelReading& reading, const pugi::xml_node& node, Joint& joint) {
+  const char* order[6] = {"rotation1", "rotation2", "rotation3", "translation1", "translation2", "translation3"};
+  for (int i = 0; i < 6; ++i) joint.axes[static_cast<std::size_t>(i)].axis = Vec3::Unit(i % 3);
+  for (const pugi::xml_node& each : node.child("SpatialTransform").children("TransformAxis")) {
+    const auto place = std::find(std::begin(order), std::end(order), name_of(each)) - std::begin(order);
+    if (place == 6) reading.context.fail(each, "is none of rotation1 ... translation3", "name it so");
+    TransformAxis& axis = joint.axes[static_cast<std::size_t>(place)];
+    axis.axis = reading.context.vector(each, "axis", axis.axis);
+    const std::string coordinates = reading.context.text(each, "coordinates");
+    for (const std::string_view name : words_of(coordinates)) {
+      const Index index = reading.coordinate(each, std::string(name));
+      if (std::find(joint.coordinates.begin(), joint.coordinates.end(), index) == joint.coordinates.end())
+        reading.context.fail(each, fmt::format("uses the coordinate '{}' of another joint", name), "couple them");
+      axis.coordinates.push_back(index);
+    }
+    const pugi::xml_node function = function_below(each);
+    if (!function && !axis.coordinates.empty())
+      axis.function = linear(1, 0);
+    else if (function)
+      axis.function = read_function(reading.context, function, axis.coordinates.size(), reading.model.unsupported);
+    if (axis.function.kind == Function::Kind::constant) axis.coordinates.clear();
+  }
+}
+
+/// A coordinate is an angle when it turns the joint; one that only shifts it is a length.
+static void tell_angles(ModelReading& reading, const Joint& joint) {
+  for (const Index index : joint.coordinates) {
+    bool turns = false, shifts = false;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto& used = joint.axes[i].coordinates;
+      if (std::find(used.begin(), used.end(), index) != used.end()) (i < 3 ? turns : shifts) = true;
+    }
+    if (turns || shifts) reading.model.coordinates[static_cast<std::size_t>(index)].rotation = turns;
+  }
+}
+
+static void read_axes(ModelReading& reading, const pugi::xml_node& node, Joint& joint) {
+  const auto plain = plain_joints.find(joint.type);
+  if (joint.type == "EllipsoidJoint") {
+    read_ellipsoid_joint(reading, node, joint);
+  } else if (joint.type == "CustomJoint") {
+    read_spatial_transform(reading, node, joint);
+  } else if (plain != plain_joints.end()) {
+    if (joint.coordinates.size() > plain->second.size())
+      reading.context.fail(node, fmt::format("has {} coordinates", joint.coordinates.size()), "");
+    for (int i = 0; i < 6; ++i) joint.axes[static_cast<std::size_t>(i)].axis = Vec3::Unit(i % 3);
+    for (std::size_t i = 0; i < joint.coordinates.size(); ++i) {
+      TransformAxis& axis = joint.axes[static_cast<std::size_t>(plain->second[i])];
+      axis.coordinates = {joint.coordinates[i]};
+      axis.function = linear(1, 0);
+    }
+  } else {
+    reading.leave_out(node, "kind of joint not known; its bodies are fixed to each other");
+  }
+  complete_axes(reading, node, joint.axes.data());
+  complete_axes(reading, node, joint.axes.data() + 3);
+  tell_angles(reading, joint);
+}
+
+/// A frame of a joint up to version 3.2. OpenSim 4 writes these anew when it reads them, with six digits; so that
+/// lengths agree with its own they are taken so.
+static RigidTransform old_frame(const XmlContext& context, const pugi::xml_node& node, const char* orientation,
+                                const char* location) {
+  const auto rounded = [&](const char* name) -> Vec3 {
+    return context.vector(node, name, Vec3::Zero()).unaryExpr([](Real x) {
+      return std::stod(fmt::format("{:.6g}", x));
+    });
+  };
+  return body_fixed_xyz(rounded(orientation), rounded(location));
+}
+
+static void read_joint(ModelReading& reading, const pugi::xml_node& node, const std::string& child) {
+  const XmlContext& context = reading.context;
+  Joint joint;
+  joint.name = name_of(node);
+  joint.type = node.name();
+  read_frames(reading, node, "frames", joint.name);
+  if (child.empty()) {
+    const PlacedFrame parent = reading.frame(node, context.socket(node, "parent_frame", "parent_body"), joint.name);
+    const PlacedFrame own = reading.frame(node, context.socket(node, "child_frame", "child_body"), joint.name);
+    joint.parent_body = parent.body;
+    joint.parent_frame = parent.in_body;
+    joint.child_body = own.body;
+    joint.child_frame = own.in_body;
+  } else {
+    joint.parent_body = reading.frame(node, context.text(node, "parent_body"), "").body;
+    joint.child_body = reading.frame(node, child, "").body;
+    joint.parent_frame = old_frame(context, node, "orientation_in_parent", "location_in_parent");
+    joint.child_frame = old_frame(context, node, "orientation", "location");
+  }
+  if (context.boolean(node, "reverse", false)) context.fail(node, "is reversed", "swap its parent and child");
+  read_coordinates(reading, node, joint);
+  if (joint.type == "ScapulothoracicJoint") {
+    Joint wing = read_scapulothoracic_joint(reading, node, joint);
+    tell_angles(reading, joint);
+    reading.model.joints.push_back(std::move(joint));
+    reading.model.joints.push_back(std::move(wing));
+    return;
+  }
+  read_axes(reading, node, joint);
+  reading.model.joints.push_back(std::move(joint));
+}
+
+/// Parents before children. What remains when no joint's parent hangs on the ground is a circle.
+static void sort_joints(ModelReading& reading, const pugi::xml_node& node) {
+  Model& model = reading.model;
+  std::vector<Joint> sorted;
+  std::vector<bool> reached(model.bodies.size(), false), child(model.bodies.size(), false);
+  reached[0] = true;
+  for (const Joint& joint : model.joints) {
+    const auto body = static_cast<std::size_t>(joint.child_body);
+    if (body == 0 || child[body])
+      reading.context.fail(
+          node, fmt::format("joint '{}' moves '{}', which another joint holds", joint.name, model.bodies[body].name),
+          "every body hangs on one joint; close loops by constraints");
+    child[body] = true;
+  }
+  for (std::size_t i = 1; i < child.size(); ++i)
+    if (!child[i])
+      reading.context.fail(node, fmt::format("body '{}' hangs on no joint", model.bodies[i].name), "add a FreeJoint");
+  for (bool any = true; any;) {
+    any = false;
+    for (Joint& joint : model.joints) {
+      const auto body = static_cast<std::size_t>(joint.child_body);
+      if (reached[body] || !reached[static_cast<std::size_t>(joint.parent_body)]) continue;
+      reached[body] = any = true;
+      for (const Index i : joint.coordinates)
+        model.coordinates[static_cast<std::size_t>(i)].joint = static_cast<Index>(sorted.size());
+      sorted.push_back(joint);
+    }
+  }
+  for (const Joint& joint : model.joints)
+    if (!reached[static_cast<std::size_t>(joint.child_body)])
+      reading.context.fail(node, fmt::format("joint '{}' is part of a circle that never meets the ground", joint.name),
+                           "let one of its bodies hang on the ground");
+  model.joints = std::move(sorted);
+}
+
+void read_joints(ModelReading& reading, const pugi::xml_node& model) {
+  for (const pugi::xml_node& joint : objects_of(model, "JointSet")) read_joint(reading, joint, "");
+  // Up to version 3.2 a body holds the joint to its parent.
+  for (const pugi::xml_node& body : objects_of(model, "BodySet"))
+    for (const pugi::xml_node& joint : body.child("Joint").children())
+      if (name_of(body) != "ground") read_joint(reading, joint, name_of(body));
+  sort_joints(reading, model);
+}
+
+void read_constraints(ModelReading& reading, const pugi::xml_node& model) {
+  for (const pugi::xml_node& node : objects_of(model, "ConstraintSet")) {
+    if (std::string_view(node.name()) != "CoordinateCouplerConstraint") {
+      reading.leave_out(node, "constraint left out");
+      continue;
+    }
+    if (reading.context.boolean(node, "isDisabled", false) || !reading.context.boolean(node, "isEnforced", true))
+      continue;
+    Coupler coupler;
+    coupler.name = name_of(node);
+    const std::string independent = reading.context.text(node, "independent_coordinate_names");
+    for (const std::string_view name : words_of(independent))
+      coupler.independent.push_back(reading.coordinate(node, std::string(name)));
+    coupler.dependent = reading.coordinate(node, reading.context.text(node, "dependent_coordinate_name"));
+    const pugi::xml_node holder = node.child("coupled_coordinates_function");
+    const pugi::xml_node function = function_below(holder ? holder : node);
+    if (!function || coupler.independent.empty())
+      reading.context.fail(node, "needs a function and a coordinate that it depends on", "give both");
+    if (std::find(coupler.independent.begin(), coupler.independent.end(), coupler.dependent) !=
+        coupler.independent.end())
+      reading.context.fail(node, "makes a coordinate depend on itself", "name another coordinate");
+    coupler.function = read_function(reading.context, function, coupler.independent.size(), reading.model.unsupported);
+    coupler.function.scale *= reading.context.number(node, "scale_factor", 1);
+    reading.model.couplers.push_back(std::move(coupler));
+  }
+}
+
+}  // namespace gracilis::opensim

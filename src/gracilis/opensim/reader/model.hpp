@@ -1,0 +1,150 @@
+#pragma once
+
+#include <gracilis/geometry/wrapping.hpp>
+#include <gracilis/opensim/functions/function.hpp>
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+/// An OpenSim model as plain values in SI units and radians. Indices point into the vectors of Model; -1 is nothing.
+namespace gracilis::opensim {
+
+/// A surface shown with a body: a file, where it lies in the body, and how much larger it is shown.
+struct Geometry {
+  std::string file;
+  Vec3 scale = Vec3::Ones();
+  RigidTransform frame = RigidTransform::Identity();
+};
+
+struct Body {
+  std::string name;
+  Real mass = 0;
+  Vec3 mass_center = Vec3::Zero();
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the center of mass, in the body's axes
+  std::vector<Geometry> geometry;
+};
+
+struct Coordinate {
+  std::string name;
+  Index joint = 0;
+  bool rotation = true;  ///< an angle: tables that say inDegrees hold it in degrees
+  Real default_value = 0, range_min = -pi, range_max = pi;
+  bool locked = false, clamped = false;
+};
+
+/// Three rotations about axes that turn with those before, then three translations along axes of the parent frame.
+struct TransformAxis {
+  Vec3 axis = Vec3::UnitX();
+  std::vector<Index> coordinates;  ///< the function's arguments
+  Function function;
+};
+
+struct Joint {
+  std::string name, type;
+  Index parent_body = 0, child_body = 0;
+  RigidTransform parent_frame = RigidTransform::Identity(), child_frame = RigidTransform::Identity();
+  std::array<TransformAxis, 6> axes;
+  std::vector<Index> coordinates;
+};
+
+/// One coordinate is a function of others (CoordinateCouplerConstraint).
+struct Coupler {
+  std::string name;
+  std::vector<Index> independent;
+  Index dependent = 0;
+  Function function;
+};
+
+struct WrapObject {
+  std::string name;
+  Index body = 0;
+  RigidTransform frame = RigidTransform::Identity();
+  WrapSurface surface;
+};
+
+/// A point that a path goes through: always, within a range of a coordinate, or moving with coordinates.
+struct PathPoint {
+  std::string name;
+  Index body = 0;
+  Vec3 location = Vec3::Zero();
+  Index condition = -1;  ///< coordinate; active while it is within the range
+  Real range_min = 0, range_max = 0;
+  bool moving = false;
+  std::array<Index, 3> moves_with = {-1, -1, -1};  ///< coordinate of each component; -1: it stays
+  std::array<Function, 3> moves_to;
+};
+
+struct PathWrap {
+  Index object = 0;
+  int first_point = -1, last_point = -1;  ///< counted from 1; below 1: the path's own ends
+  WrapSurface::Plane plane = WrapSurface::Plane::hybrid;
+};
+
+/// A muscle's way, through points and around wrap objects, or as a polynomial of coordinates.
+struct Path {
+  std::vector<PathPoint> points;
+  std::vector<PathWrap> wraps;
+  std::vector<Index> function_coordinates;  ///< not empty: the length is `length_function` of these
+  Function length_function;
+  bool approximate = false;  ///< its length may differ from OpenSim's by more than 1e-6 m
+};
+
+struct Muscle {
+  std::string name, type;
+  Path path;
+  bool applies_force = true;
+  Real max_isometric_force = 1000, optimal_fiber_length = 0.1, tendon_slack_length = 0.2;  ///< N, m, m
+  Real pennation_angle_at_optimal = 0, max_contraction_velocity = 10;                      ///< rad, fiber lengths/s
+  Real min_control = 0.01, max_control = 1;
+  /// Curves of Thelen2003Muscle (KshapeActive, Af, Flen).
+  Real active_shape = 0.45, velocity_shape = 0.25, eccentric_force = 1.4;
+};
+
+/// A force that is not a muscle's: on one coordinate, at a point, or about an axis.
+struct Actuator {
+  enum class Kind { coordinate, point, torque };
+  std::string name;
+  Kind kind = Kind::coordinate;
+  bool applies_force = true;
+  Real optimal_force = 1;
+  Real min_control = -std::numeric_limits<Real>::infinity(), max_control = std::numeric_limits<Real>::infinity();
+  Index coordinate = -1;
+  Index body = 0, other_body = 0;  ///< a torque acts against the other body
+  Vec3 point = Vec3::Zero(), direction = Vec3::UnitX();
+  bool point_is_global = false, direction_is_global = true;
+};
+
+struct Model {
+  std::string name;
+  int version = 0;  ///< of the document: 30000, 40000 ...
+  Vec3 gravity = {0, -9.80665, 0};
+  std::vector<Body> bodies;   ///< bodies[0] is the ground
+  std::vector<Joint> joints;  ///< parents before children; every body but the ground is a child once
+  std::vector<Coordinate> coordinates;
+  std::vector<Coupler> couplers;
+  std::vector<WrapObject> wrap_objects;
+  std::vector<Muscle> muscles;
+  std::vector<Actuator> actuators;
+  std::vector<std::string> unsupported;  ///< what the file holds and this model leaves out, a sentence each
+};
+
+/// Index of what is called `name`; -1 when nothing is.
+template <class T>
+Index index_of(const std::vector<T>& things, const std::string& name) {
+  for (std::size_t i = 0; i < things.size(); ++i)
+    if (things[i].name == name) return static_cast<Index>(i);
+  return -1;
+}
+
+/// The coordinates' default values.
+Eigen::VectorXd default_coordinates(const Model& model);
+
+/// Sets dependent coordinates from the couplers.
+void apply_couplers(const Model& model, Eigen::VectorXd& coordinates);
+
+/// A rotation about x, then about the new y, then about the new z, as OpenSim gives orientations; then the translation.
+RigidTransform body_fixed_xyz(const Vec3& angles, const Vec3& translation);
+
+}  // namespace gracilis::opensim

@@ -1,0 +1,91 @@
+#include <gracilis/opensim/reader/model_reader.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/suggestions.hpp>
+#include <gracilis/opensim/reader/model_parts.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gracilis::opensim {
+
+static constexpr int newest_version = 40600;
+
+template <class T>
+static std::vector<std::string> names(const std::vector<T>& things) {
+  std::vector<std::string> result;
+  for (const T& thing : things) result.push_back(thing.name);
+  return result;
+}
+
+PlacedFrame ModelReading::frame(const pugi::xml_node& node, const std::string& reference,
+                                const std::string& owner) const {
+  const std::string name = last_name(reference);
+  const std::string above = reference.substr(0, reference.size() - name.size());
+  if (above.size() > 1)
+    if (const auto found = frames.find(last_name(above.substr(0, above.size() - 1)) + "/" + name);
+        found != frames.end())
+      return found->second;
+  if (const auto found = frames.find(owner + "/" + name); found != frames.end()) return found->second;
+  if (const Index body = index_of(model.bodies, name); body >= 0) return {body, RigidTransform::Identity()};
+  for (const auto& [key, placed] : frames)
+    if (last_name(key) == name) return placed;
+  context.fail(node, fmt::format("names the body '{}', which does not exist", reference),
+               suggestion(name, names(model.bodies)));
+}
+
+Index ModelReading::coordinate(const pugi::xml_node& node, const std::string& reference) const {
+  const Index index = index_of(model.coordinates, last_name(reference));
+  if (index < 0)
+    context.fail(node, fmt::format("names the coordinate '{}', which does not exist", reference),
+                 suggestion(last_name(reference), names(model.coordinates)));
+  return index;
+}
+
+void ModelReading::leave_out(const pugi::xml_node& node, const std::string& what) {
+  std::string line = fmt::format("{} '{}': {}", node.name(), name_of(node), what);
+  if (std::find(model.unsupported.begin(), model.unsupported.end(), line) == model.unsupported.end())
+    model.unsupported.push_back(std::move(line));
+}
+
+/// Sets of a model that stand beside bodies, joints, constraints and forces. What is in them takes no part.
+static void list_others(ModelReading& reading, const pugi::xml_node& model) {
+  for (const char* set : {"ControllerSet", "ContactGeometrySet", "ComponentSet", "ProbeSet", "components"})
+    for (const pugi::xml_node& node : objects_of(model, set))
+      if (std::string_view(node.name()) != "PhysicalOffsetFrame") reading.leave_out(node, "left out");
+}
+
+Model read_model(const std::filesystem::path& path) {
+  const XmlFile file = read_xml(path);
+  const pugi::xml_node root = file.root.child("Model");
+  if (!root) throw InputError({path.string(), "", "holds no model", "is it an .osim file?"});
+  Model model;
+  model.name = name_of(root);
+  model.version = file.version;
+  if (model.version > newest_version)
+    model.unsupported.push_back(fmt::format("document version {}; {} (OpenSim 4.6) is the newest that is known",
+                                            model.version, newest_version));
+  ModelReading reading{{path, root.child("defaults"), file.version}, model};
+  model.gravity = reading.context.vector(root, "gravity", model.gravity);
+  read_bodies(reading, root);
+  read_joints(reading, root);
+  read_constraints(reading, root);
+  read_forces(reading, root, "ForceSet");
+  list_others(reading, root);
+  return model;
+}
+
+void read_force_set(const std::filesystem::path& path, bool replace, Model& model) {
+  const XmlFile file = read_xml(path);
+  const pugi::xml_node set = file.root.child("ForceSet");
+  if (!set) throw InputError({path.string(), "", "holds no force set", "name a file with actuators"});
+  if (replace) {
+    model.muscles.clear();
+    model.actuators.clear();
+  }
+  ModelReading reading{{path, set.child("defaults"), file.version}, model};
+  read_forces(reading, file.root, "ForceSet");
+}
+
+}  // namespace gracilis::opensim

@@ -1,0 +1,87 @@
+#include <gracilis/view/export/export.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/input_file.hpp>
+#include <gracilis/io/tables/table.hpp>
+#include <gracilis/view/pictures/palette.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+static void create_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw InputError({folder.string(), "", "cannot be created: " + error.message(), "choose another place with --out"});
+}
+
+static void append_object(std::string& text, const std::string& name, const TriangleMesh& mesh, Index before) {
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "o {0}\nusemtl {0}\n", name);
+  for (const Vec3 v : mesh.vertices.colwise()) fmt::format_to(out, "v {:.10f} {:.10f} {:.10f}\n", v.x(), v.y(), v.z());
+  for (const Eigen::Vector3i f : mesh.faces.colwise())
+    fmt::format_to(out, "f {} {} {}\n", f[0] + before + 1, f[1] + before + 1, f[2] + before + 1);
+}
+
+void export_obj(const RecordedRun& run, const fs::path& folder, const std::vector<int>& frames) {
+  create_folder(folder);
+  std::string materials;
+  const auto add_material = [&](const std::string& name, const Color& color) {
+    materials += fmt::format("newmtl {}\nKd {:.4f} {:.4f} {:.4f}\n", name, color.x(), color.y(), color.z());
+  };
+  for (const std::string& bone : run.bones) add_material(bone, bone_color());
+  for (std::size_t m = 0; m < run.muscles.size(); ++m)
+    add_material(run.muscles[m], muscle_color(static_cast<Index>(m)));
+  write_text_atomically(folder / "run.mtl", materials);
+  std::vector<std::string> names = run.bones;
+  names.insert(names.end(), run.muscles.begin(), run.muscles.end());
+  for (const int frame : frames) {
+    std::string text = "# metres\nmtllib run.mtl\n";
+    Index before = 0;
+    for (const std::string& name : names) {
+      const TriangleMesh mesh = recorded_surface(run, name, frame);
+      append_object(text, name, mesh, before);
+      before += mesh.vertex_count();
+    }
+    write_text_atomically(folder / fmt::format("frame_{:04}.obj", frame), text);
+  }
+}
+
+static std::string csv_of(const Table& table) {
+  std::string text = "time";
+  for (const std::string& column : table.columns) text += "," + column;
+  auto out = std::back_inserter(text);
+  for (Eigen::Index row = 0; row < table.values.rows(); ++row) {
+    fmt::format_to(out, "\n{}", table.times[static_cast<std::size_t>(row)]);
+    for (const Real value : table.values.row(row)) fmt::format_to(out, ",{:.9g}", value);
+  }
+  return text + "\n";
+}
+
+void export_csv(const RecordedRun& run, const fs::path& folder, const std::vector<int>& frames) {
+  create_folder(folder);
+  write_text_atomically(folder / "measures.csv", read_text(run.folder / "measures.csv"));
+  for (const std::string name : {"fiber_lengths", "moment_arms"}) {
+    const fs::path table = run.folder / (name + ".sto");
+    if (fs::exists(table)) write_text_atomically(folder / (name + ".csv"), csv_of(read_table(table)));
+  }
+  for (const std::string& muscle : run.muscles) {
+    std::string text = "frame,vertex,x_m,y_m,z_m\n";
+    auto out = std::back_inserter(text);
+    for (const int frame : frames) {
+      const Points points = recorded_surface(run, muscle, frame).vertices;
+      for (Index v = 0; v < points.cols(); ++v)
+        fmt::format_to(out, "{},{},{:.10f},{:.10f},{:.10f}\n", frame, v, points(0, v), points(1, v), points(2, v));
+    }
+    if (!frames.empty()) write_text_atomically(folder / ("points_" + muscle + ".csv"), text);
+  }
+}
+
+}  // namespace gracilis

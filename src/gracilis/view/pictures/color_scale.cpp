@@ -1,0 +1,43 @@
+#include <gracilis/view/pictures/color_scale.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis {
+
+static std::vector<Color> bytes(const std::vector<Vec3>& colors) {
+  std::vector<Color> result;
+  for (const Vec3& color : colors) result.push_back(color / 255);
+  return result;
+}
+
+const std::vector<ColorScale>& color_scales() {
+  static const std::vector<Color> diverging =
+      bytes({{33, 102, 172}, {146, 197, 222}, {247, 244, 238}, {244, 165, 130}, {178, 24, 43}});
+  static const std::vector<Color> rising = bytes({{250, 240, 225}, {240, 170, 120}, {205, 70, 60}, {110, 10, 60}});
+  static const std::vector<Color> falling(rising.rbegin(), rising.rend());
+  // Thin lines on white want a dark middle.
+  static const std::vector<Color> lines =
+      bytes({{20, 80, 170}, {70, 120, 170}, {110, 110, 110}, {190, 90, 60}, {178, 24, 43}});
+  static const Real fiber_end = std::log2(1.5);
+  static const std::vector<ColorScale> scales = {
+      {"muscle", "", {}, 0, 1, {}},
+      {"activation", "activation", rising, 0, 1, {"0", "0.5", "1"}},
+      {"fiber-strain", "fiber length, × rest", lines, -fiber_end, fiber_end, {"0.67", "1", "1.5"}},
+      {"edge-stretch", "edge length, × rest", diverging, -1, 1, {"0.5", "1", "2"}},
+      {"bone-gap", "distance to bone, mm", falling, 0, 0.01, {"0", "5", "10"}},
+      {"volume", "change of volume, %", diverging, -0.01, 0.01, {"-1", "0", "+1"}}};
+  return scales;
+}
+
+const ColorScale& color_scale(ColorBy by) { return color_scales()[static_cast<std::size_t>(by)]; }
+
+Color color_at(const ColorScale& scale, Real value) {
+  if (!std::isfinite(value)) return Color::Constant(0.6);
+  const auto last = static_cast<Real>(scale.colors.size() - 1);
+  const Real at = std::clamp((value - scale.low) / (scale.high - scale.low), 0.0, 1.0) * last;
+  const auto below = static_cast<std::size_t>(std::min(std::floor(at), last - 1));
+  return scale.colors[below] + (at - static_cast<Real>(below)) * (scale.colors[below + 1] - scale.colors[below]);
+}
+
+}  // namespace gracilis

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <gracilis/view/pictures/palette.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// What pictures of runs tell by color.
+enum class ColorBy { muscle, activation, fiber_strain, edge_stretch, bone_gap, volume };
+
+/// Values to colors, with what stands beside the bar. Colors run from the lowest value to the highest.
+struct ColorScale {
+  std::string name;   ///< as on the command line, e.g. edge-stretch
+  std::string title;  ///< with the unit
+  std::vector<Color> colors;
+  Real low = 0, high = 1;
+  std::vector<std::string> ticks;
+};
+
+/// One for each ColorBy, in its order. Scales with a middle go from blue over a light tone to red (after Brewer's
+/// RdBu), the others from light to dark: color-blind readers and gray print keep the order. Ratios are shown by their
+/// binary logarithm, so that half and double are equally far from 1.
+const std::vector<ColorScale>& color_scales();
+
+const ColorScale& color_scale(ColorBy by);
+
+/// Blended between the scale's colors; values beyond its ends get the ends'.
+Color color_at(const ColorScale& scale, Real value);
+
+}  // namespace gracilis

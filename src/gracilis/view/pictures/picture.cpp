@@ -1,0 +1,139 @@
+#include <gracilis/view/pictures/picture.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/mesh/vtk_messages.hpp>
+#include <gracilis/view/pictures/egl_context.hpp>
+#include <gracilis/view/pictures/offscreen_window.hpp>
+#include <gracilis/view/pictures/picture_layout.hpp>
+#include <gracilis/view/pictures/picture_renderer.hpp>
+
+#include <vtkErrorCode.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkRendererCollection.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+
+namespace gracilis {
+
+// Drawn this many times larger along each axis and averaged down: antialiasing that needs nothing from the driver.
+static constexpr int oversampling = 2;
+
+struct PictureDrawer::Window {
+  EglContext context;  // outlives the window, whose destruction frees its OpenGL objects
+  vtkSmartPointer<vtkGenericOpenGLRenderWindow> window;
+
+  ~Window() { close(); }
+  void close() {
+    if (window) window->Finalize();
+    window = nullptr;
+  }
+};
+
+PictureDrawer::PictureDrawer() : window_(std::make_unique<Window>()) {}
+PictureDrawer::~PictureDrawer() = default;
+
+/// Averages blocks of oversampling² pixels; `pixels` holds RGB rows of the larger image, bottom row first.
+static PixelImage averaged_down(vtkUnsignedCharArray& pixels, int width, int height) {
+  PixelImage image{width, height,
+                   std::vector<unsigned char>(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+  const unsigned char* from = pixels.GetPointer(0);
+  unsigned char* to = image.rgba.data();
+  for (int row = height - 1; row >= 0; --row) {
+    for (int column = 0; column < width; ++column) {
+      for (int channel = 0; channel < 3; ++channel) {
+        int sum = 0;
+        for (int j = 0; j < oversampling; ++j) {
+          for (int i = 0; i < oversampling; ++i) {
+            const std::size_t y = static_cast<std::size_t>(row * oversampling + j);
+            const std::size_t x = static_cast<std::size_t>(column * oversampling + i);
+            sum +=
+                from[(y * static_cast<std::size_t>(width * oversampling) + x) * 3 + static_cast<std::size_t>(channel)];
+          }
+        }
+        *to++ = static_cast<unsigned char>((sum + oversampling * oversampling / 2) / (oversampling * oversampling));
+      }
+      *to++ = 255;
+    }
+  }
+  return image;
+}
+
+/// What both images show over their own background, white and black: a pixel that differs lets that much through.
+static PixelImage without_background(const PixelImage& on_white, const PixelImage& on_black) {
+  PixelImage image = on_black;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    int through = 0;
+    for (std::size_t k = 0; k < 3; ++k) through = std::max(through, on_white.rgba[i + k] - on_black.rgba[i + k]);
+    const int opacity = 255 - through;
+    for (std::size_t k = 0; k < 3 && opacity > 0; ++k)
+      image.rgba[i + k] = static_cast<unsigned char>(std::min(255, on_black.rgba[i + k] * 255 / opacity));
+    image.rgba[i + 3] = static_cast<unsigned char>(opacity);
+  }
+  return image;
+}
+
+static PixelImage drawn(const Picture& picture, const PictureLayout& layout, vtkGenericOpenGLRenderWindow& window) {
+  while (window.GetRenderers()->GetFirstRenderer()) window.RemoveRenderer(window.GetRenderers()->GetFirstRenderer());
+  add_renderers(picture, layout, oversampling, window);
+  window.Render();
+  vtkNew<vtkUnsignedCharArray> pixels;
+  window.GetPixelData(0, 0, layout.width * oversampling - 1, layout.height * oversampling - 1, 0, pixels, 0);
+  return averaged_down(*pixels, layout.width, layout.height);
+}
+
+PixelImage PictureDrawer::draw(const Picture& picture, bool transparent) {
+  const PictureLayout layout = lay_out(picture);
+  VtkMessages messages;
+  const int width = layout.width * oversampling, height = layout.height * oversampling;
+  if (window_->window && (window_->window->GetSize()[0] != width || window_->window->GetSize()[1] != height))
+    window_->close();
+  if (!window_->window) window_->window = make_offscreen_window(width, height);
+  PixelImage image;
+  if (transparent) {
+    Picture copy = picture;
+    copy.background = Color::Ones();
+    const PixelImage on_white = drawn(copy, layout, *window_->window);
+    copy.background = Color::Zero();
+    image = without_background(on_white, drawn(copy, layout, *window_->window));
+  } else {
+    image = drawn(picture, layout, *window_->window);
+  }
+  if (messages.has_errors())
+    throw Error(ExitCode::unsupported, "no picture can be drawn on this machine: " + messages.first_error());
+  return image;
+}
+
+void write_png(const std::filesystem::path& path, const PixelImage& image) {
+  bool opaque = true;
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) opaque = opaque && image.rgba[i] == 255;
+  const int channels = opaque ? 3 : 4;
+  vtkNew<vtkImageData> data;
+  data->SetDimensions(image.width, image.height, 1);
+  data->AllocateScalars(VTK_UNSIGNED_CHAR, channels);
+  auto* to = static_cast<unsigned char*>(data->GetScalarPointer());
+  for (int row = image.height - 1; row >= 0; --row)
+    for (int i = 0; i < 4 * image.width; ++i)
+      if (i % 4 < channels) *to++ = image.rgba[static_cast<std::size_t>(row * image.width * 4 + i)];
+  VtkMessages messages;
+  write_file_atomically(path, [&](const std::filesystem::path& temporary) {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputData(data);
+    writer->SetFileName(temporary.c_str());
+    writer->Write();
+    if (writer->GetErrorCode() != vtkErrorCode::NoError || messages.has_errors()) {
+      throw InputError(
+          {path.string(), "", "cannot be written: " + messages.first_error(), "check the free space of the disk"});
+    }
+  });
+}
+
+void render_picture(const Picture& picture, const std::filesystem::path& path) {
+  write_png(path, PictureDrawer().draw(picture));
+}
+
+}  // namespace gracilis

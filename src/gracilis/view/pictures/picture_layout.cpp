@@ -1,0 +1,119 @@
+#include <gracilis/view/pictures/picture_layout.hpp>
+
+#include <gracilis/core/errors.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace gracilis {
+
+static constexpr int strip_height = 56;      // pixels: title, legend or caption
+static constexpr int color_bar_width = 460;  // pixels
+static constexpr int entry_width = 100;      // pixels, least for a legend's entry
+static constexpr Real border = 1.06;         // free space around what is seen
+
+static void require(bool ok, const char* what) {
+  if (!ok) throw ConfigurationError({"", "picture", what, ""});
+}
+
+/// Smallest and largest coordinates along the camera's right, up and looking directions.
+struct Extent {
+  Vec3 low = Vec3::Constant(std::numeric_limits<Real>::infinity());
+  Vec3 high = -low;
+};
+
+static Extent extent_seen_by(const CameraView& camera, const Picture& picture) {
+  Eigen::Matrix3d axes;
+  axes << camera.right.transpose(), camera.up.transpose(), camera.looking.transpose();
+  Extent extent;
+  for (const Panel& panel : picture.panels) {
+    if (!panel.looking.normalized().isApprox(camera.looking, 1e-9)) continue;
+    const auto add = [&](const Points& points) {
+      if (points.cols() == 0) return;
+      require(points.allFinite(), "a point is not finite");
+      const Points seen = axes * points;
+      extent.low = extent.low.cwiseMin(seen.rowwise().minCoeff());
+      extent.high = extent.high.cwiseMax(seen.rowwise().maxCoeff());
+    };
+    add(panel.room);
+    for (const PaintedSurface& surface : panel.surfaces)
+      if (surface.framed) add(surface.mesh.vertices);
+  }
+  return extent;
+}
+
+static CameraView camera_of(const Panel& panel) {
+  CameraView camera;
+  camera.looking = panel.looking.normalized();
+  camera.right = camera.looking.cross(panel.up);
+  require(camera.right.norm() > 1e-9, "the camera's up direction must not be parallel to its looking direction");
+  camera.right.normalize();
+  camera.up = camera.right.cross(camera.looking);
+  return camera;
+}
+
+/// Points the cameras; returns half the width and height that the panel seeing most needs, m.
+static Eigen::Vector2d place_cameras(const Picture& picture, PictureLayout& layout) {
+  Eigen::Vector2d needed = Eigen::Vector2d::Zero();
+  for (const Panel& panel : picture.panels) {
+    CameraView camera = camera_of(panel);
+    const Extent extent = extent_seen_by(camera, picture);
+    require(extent.low.allFinite() && extent.high.allFinite(), "there is nothing to see");
+    const Vec3 middle = (extent.low + extent.high) / 2;
+    camera.center = camera.right * middle.x() + camera.up * middle.y() + camera.looking * middle.z();
+    needed = needed.cwiseMax(((extent.high - extent.low) / 2 * border).head<2>());
+    layout.cameras.push_back(camera);
+  }
+  require(needed.maxCoeff() > 0, "there is nothing to see: all points coincide");
+  return needed;
+}
+
+static std::vector<std::pair<std::string, Color>> legend_of(const Picture& picture) {
+  std::vector<std::pair<std::string, Color>> entries;
+  for (const Panel& panel : picture.panels) {
+    for (const PaintedSurface& surface : panel.surfaces) {
+      const auto same_name = [&](const auto& entry) { return entry.first == surface.name; };
+      if (surface.name.empty() || std::any_of(entries.begin(), entries.end(), same_name)) continue;
+      entries.emplace_back(surface.name, surface.color);
+    }
+  }
+  return entries;
+}
+
+PictureLayout lay_out(const Picture& picture) {
+  require(!picture.panels.empty(), "a picture needs at least one panel");
+  require(picture.panel_width > 0 && picture.panel_height >= 0, "a panel needs a width and a height");
+  const int count = static_cast<int>(picture.panels.size());
+  const int columns = picture.columns > 0 ? std::min(picture.columns, count) : count;
+  const int rows = (count + columns - 1) / columns;
+  const bool captions =
+      std::any_of(picture.panels.begin(), picture.panels.end(), [](const Panel& p) { return !p.caption.empty(); });
+  const int caption_height = captions ? strip_height : 0;
+
+  PictureLayout layout;
+  const Eigen::Vector2d needed = place_cameras(picture, layout);
+  const int fitting_height = static_cast<int>(picture.panel_width * std::clamp(needed.y() / needed.x(), 0.5, 2.0));
+  const int panel_height = picture.panel_height > 0 ? picture.panel_height : fitting_height;
+  layout.half_height = std::max(needed.y(), needed.x() * panel_height / picture.panel_width);
+  const int row_height = panel_height + caption_height;
+  layout.legend_entries = legend_of(picture);
+  layout.width = columns * picture.panel_width;
+  const int bar_width = picture.color_bar ? std::min(layout.width, color_bar_width) : 0;
+  // Nobody tells a body's hundred muscles apart by color; names that do not fit would hide each other.
+  if (static_cast<int>(layout.legend_entries.size()) * entry_width > layout.width - bar_width)
+    layout.legend_entries.clear();
+  const int legend_width = layout.legend_entries.empty() ? 0 : layout.width - bar_width;
+  layout.legend = {0, 0, legend_width, legend_width > 0 || bar_width > 0 ? strip_height : 0};
+  layout.color_bar = {layout.width - bar_width, 0, bar_width, bar_width > 0 ? strip_height : 0};
+  layout.title = {0, layout.legend.height + rows * row_height, layout.width, picture.title.empty() ? 0 : strip_height};
+  layout.height = layout.title.y + layout.title.height;
+  for (int i = 0; i < count; ++i) {
+    const int x = (i % columns) * picture.panel_width;
+    const int y = layout.legend.height + (rows - 1 - i / columns) * row_height;
+    layout.captions.push_back({x, y, picture.panel_width, caption_height});
+    layout.panels.push_back({x, y + caption_height, picture.panel_width, panel_height});
+  }
+  return layout;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <gracilis/view/pictures/picture_layout.hpp>
+
+class vtkRenderWindow;
+class vtkRenderer;
+
+namespace gracilis {
+
+/// Three lights fixed to the camera: key from the upper left, weaker fill from the right, rim from behind and above.
+void add_camera_lights(vtkRenderer& renderer);
+
+/// Fills the window, which is `scale` times the layout's size, with one renderer per part of the picture.
+void add_renderers(const Picture& picture, const PictureLayout& layout, int scale, vtkRenderWindow& window);
+
+}  // namespace gracilis

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/io/run/recorded_run.hpp>
+#include <gracilis/view/pictures/color_scale.hpp>
+#include <gracilis/view/pictures/picture.hpp>
+#include <gracilis/view/pictures/vertex_stretch.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+struct RunPictureOptions {
+  std::string view = "lateral";
+  ColorBy color_by = ColorBy::muscle;
+  bool fibers = false;               ///< with muscles that one sees through; fiber_strain shows them anyway
+  Real opacity = 1;                  ///< of muscles
+  std::vector<std::string> muscles;  ///< to show; empty: all
+  Palette palette = Palette::flesh;
+};
+
+/// anterior, posterior, lateral, medial, superior, inferior, and anteromedial ... posterolateral.
+const std::vector<std::string>& view_names();
+
+/// Where the camera stands, seen from the body; unit. Lateral is the side that most of the run's muscles are named for
+/// (_r or _l). Precondition: `view` is one of view_names().
+Vec3 view_direction(const RecordedRun& run, const std::string& view);
+
+/// "hip_flexion_r 45°", and other coordinates that have left the capture pose.
+std::string pose_caption(const RecordedRun& run, int frame);
+
+/// The capture pose, half way, and the farthest pose, as in a run's preview.
+std::vector<int> telling_frames(const RecordedRun& run);
+
+/// Draws any frame of a run. Throws InputError when a frame is damaged.
+class RunPainter {
+ public:
+  /// Throws ConfigurationError when the options name a muscle that the run does not have. The run must outlive this.
+  RunPainter(const RecordedRun& run, RunPictureOptions options);
+
+  Panel panel(int frame) const;
+  /// Points that tell how much room the whole run takes: some of every surface in some frames.
+  Points room() const;
+
+ private:
+  Points vertex_colors(std::size_t muscle, const TriangleMesh& mesh, int frame) const;
+  PaintedLines fibers(std::size_t muscle, int frame) const;
+  bool shown(const std::string& muscle) const;
+
+  const RecordedRun& run_;
+  RunPictureOptions options_;
+  std::vector<TriangleMesh> bones_;         ///< at rest
+  std::vector<SignedDistance> distances_;   ///< per bone, where colors need them
+  std::vector<VertexStretch> stretches_;    ///< per muscle, where colors need them
+  std::vector<std::vector<Real>> lengths_;  ///< per muscle and fiber at rest, m
+};
+
+/// Frames of one or several runs: a row per run, a column per frame of the first one; other runs show the frame in the
+/// most similar pose. With a legend or a color bar, and a scale bar.
+Picture run_picture(const std::vector<RecordedRun>& runs, const std::vector<RunPainter>& painters,
+                    const std::vector<int>& frames, const RunPictureOptions& options);
+
+}  // namespace gracilis
