@@ -1,5 +1,5 @@
-#include <gracilis/anatomy/builtin_hip.hpp>
-#include <gracilis/anatomy/joint_pose.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/methods/mass_spring/mass_spring_method.hpp>
 #include <gracilis/methods/registry.hpp>
 

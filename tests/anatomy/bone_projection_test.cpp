@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/bone_projection.hpp>
+#include <gracilis/anatomy/overlap/bone_projection.hpp>
 
 #include <scenes_for_tests.hpp>
 

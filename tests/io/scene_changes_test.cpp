@@ -1,6 +1,6 @@
-#include <gracilis/anatomy/builtin_hip.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/scene_changes.hpp>
+#include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #include <gracilis/methods/mass_spring/muscle_model.hpp>
 
-#include <gracilis/anatomy/muscle_fibers.hpp>
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/nearest_points.hpp>

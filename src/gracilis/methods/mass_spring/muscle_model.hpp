@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/anatomy/body_carriers.hpp>
-#include <gracilis/anatomy/bone_projection.hpp>
+#include <gracilis/anatomy/attachments/body_carriers.hpp>
+#include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/mass_spring/settings.hpp>
