@@ -77,7 +77,8 @@ TEST(MassSpringLayout, fibers_on_a_lattice_are_found_on_it) {
     for (std::size_t j = 0; j + 1 < 5; ++j) {
       const Vec3 here = particles.line(lattice[i][j]).col(0);
       EXPECT_NEAR((here - particles.line(lattice[i][j + 1]).col(0)).norm(), 0.01, 1e-9);
-      if (i + 1 < 5) EXPECT_NEAR((here - particles.line(lattice[i + 1][j]).col(0)).norm(), 0.013, 1e-9);
+      if (i + 1 == 5) continue;
+      EXPECT_NEAR((here - particles.line(lattice[i + 1][j]).col(0)).norm(), 0.013, 1e-9);
     }
   }
 }

@@ -202,7 +202,7 @@ TEST(MassSpringSprings, within_the_stable_step_energy_stays_bounded_and_beyond_i
   };
   const Real step = stable_step(net, 1);
   EXPECT_LT(energy_after(step), 4);
-  EXPECT_GT(energy_after(3 * step), 4);
+  EXPECT_FALSE(energy_after(3 * step) < 4) << "or not even finite";
 }
 
 TEST(MassSpringSprings, relaxing_ends_by_count_by_mean_motion_or_by_time) {

