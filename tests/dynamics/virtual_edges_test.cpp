@@ -1,6 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
 #include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/dynamics/havlicek_2024/virtual_edge_seeds.hpp>
 #include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 #include <gracilis/geometry/topology.hpp>
 

@@ -55,6 +55,16 @@ TEST_F(SceneReader, a_preset_from_the_command_line_sets_aside_the_files_settings
   EXPECT_THAT(loaded.warnings, testing::Contains(HasSubstr("'thesis-2024' sets aside the settings")));
 }
 
+TEST_F(SceneReader, a_preset_brings_its_method_unless_one_is_named) {
+  // Keys of the top come before all tables.
+  const auto on_top = [](const std::string& line) { return with(good_scene(), "schema = 1", "schema = 1\n" + line); };
+  EXPECT_EQ(read(on_top("preset = \"pbd-2020\"")).scene.method.settings, find_preset("pbd-2020")->method.settings);
+  EXPECT_EQ(read(on_top("preset = \"pbd-2020\"\nmethod = \"arap\"")).scene.method.name, "arap");
+  const LoadedScene over = read(on_top("method = \"skinning\""), {"", {"preset=pbd-2020"}, {}});
+  EXPECT_EQ(over.scene.method.name, "pbd") << "the file's method goes with its settings";
+  EXPECT_EQ(read(good_scene(), {"", {"preset=pbd-2020", "method=arap"}, {}}).scene.method.name, "arap");
+}
+
 TEST_F(SceneReader, a_scene_runs_by_another_method_too_which_says_what_it_does_not_have) {
   const LoadedScene loaded =
       read(good_scene() + "[settings]\niterations = 5\ntendon_length = 0.01\n", {"", {"method=skinning"}, {}});

@@ -73,6 +73,14 @@ std::vector<Variant> all_variants() {
       // As published neither volume nor contact are asked for, and centers are drawn to where they were in space.
       {"rbf_2024", "rbf", all_but({Property::rigid_motion, Property::volume}),
        find_preset("rbf-2024")->method.settings},
+      {"mass_spring", "mass-spring", all_but({Property::volume})},
+      {"mass_spring_last", "mass-spring", all_but({Property::volume}), {{"start_from", "last"}}},
+      {"mass_spring_spheres", "mass-spring", all_but({Property::volume}), {{"bone_collision", "spheres"}}},
+      // As published spheres that overlap at rest are pushed apart, and nothing bounds springs.
+      {"janak_2012",
+       "mass-spring",
+       {Property::rigid_motion},
+       find_preset("janak-2012")->method.settings},
       {"pbd", "pbd", all_but({Property::capture_pose})},
       // As published free vertices follow only through constraints, and so remember by which way they came.
       {"pbd_2020", "pbd", all_but({Property::rigid_motion, Property::capture_pose}), pbd_2020.method.settings},

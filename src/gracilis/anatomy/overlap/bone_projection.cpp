@@ -21,16 +21,22 @@ FieldSample sample_at(const FieldGrid& field, const RigidTransform& to_bone, con
 }  // namespace
 
 BoneProjection::BoneProjection(const Scene& scene, const Muscle& muscle, const std::vector<Index>& fixed_body,
-                               const std::vector<DistanceField>& fields, Real margin, bool rest_gap) {
-  const Points& rest = muscle.surface.vertices;
+                               const std::vector<DistanceField>& fields, Real margin, bool rest_gap)
+    : BoneProjection(scene, muscle.surface.vertices, fixed_body, fields,
+                     std::vector<Real>(static_cast<std::size_t>(muscle.surface.vertex_count()), margin), rest_gap) {}
+
+BoneProjection::BoneProjection(const Scene& scene, const Points& rest, const std::vector<Index>& fixed_body,
+                               const std::vector<DistanceField>& fields, const std::vector<Real>& margins,
+                               bool rest_gap) {
   for (std::size_t b = 0; b < scene.bones.size(); ++b) {
     PerBone bone{scene.bones[b].body, grid_of(fields[b]), {}};
     for (Index v = 0; v < static_cast<Index>(rest.cols()); ++v) {
+      const auto at = static_cast<std::size_t>(v);
+      const auto margin = static_cast<float>(margins[at]);
       const float at_rest = sample_at(bone.field, RigidTransform::Identity(), rest, v).distance;
-      const bool is_free = fixed_body[static_cast<std::size_t>(v)] < 0;
-      bone.gap.push_back(!is_free   ? -std::numeric_limits<float>::infinity()
-                         : rest_gap ? std::min(at_rest, static_cast<float>(margin))
-                                    : static_cast<float>(margin));
+      bone.gap.push_back(fixed_body[at] >= 0 ? -std::numeric_limits<float>::infinity()
+                         : rest_gap          ? std::min(at_rest, margin)
+                                             : margin);
     }
     bones_.push_back(std::move(bone));
   }

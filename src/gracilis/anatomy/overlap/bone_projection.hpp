@@ -8,14 +8,21 @@
 
 namespace gracilis {
 
-/// Keeps the free vertices of one muscle out of bones, for methods that push vertices only: along the gradient of the
-/// bone's distance field to the gap that each keeps.
+/// Keeps the free vertices of one muscle, or other points, out of bones, for methods that push points only: along the
+/// gradient of the bone's distance field to the gap that each keeps.
 class BoneProjection {
  public:
+  /// Of no points.
+  BoneProjection() = default;
+
   /// Gaps are `margin` (m) or, with `rest_gap`, what there is in the capture pose where that is less. `fixed_body` is
   /// -1 for free vertices; `fields` (of all bones of the scene) must outlive this.
   BoneProjection(const Scene& scene, const Muscle& muscle, const std::vector<Index>& fixed_body,
                  const std::vector<DistanceField>& fields, Real margin, bool rest_gap);
+
+  /// The same for points that lie at `rest` in the capture pose (3 × n, m), each with a margin of its own.
+  BoneProjection(const Scene& scene, const Points& rest, const std::vector<Index>& fixed_body,
+                 const std::vector<DistanceField>& fields, const std::vector<Real>& margins, bool rest_gap);
 
   /// Pushes `points` out of the bones as they lie in `pose`, bone after bone. Returns how many pushes that took.
   Index push_out(const Pose& pose, Points& points) const;

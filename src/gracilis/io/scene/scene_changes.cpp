@@ -10,20 +10,15 @@
 
 namespace gracilis {
 
-void apply_preset(const Preset& preset, LoadedScene& loaded) {
+void change_to_preset(const Preset& preset, LoadedScene& loaded) {
   Scene& scene = loaded.scene;
   loaded.preset = preset.name;
-  if (preset.method.name == scene.method.name) scene.method = preset.method;
+  scene.method = preset.method;
   scene.distance_fields = preset.distance_fields;
   for (Muscle& muscle : scene.muscles) {
     muscle.settings.clear();
     muscle.contraction = preset.contraction;
   }
-}
-
-void change_to_preset(const Preset& preset, LoadedScene& loaded) {
-  loaded.scene.method.name = preset.method.name;
-  apply_preset(preset, loaded);
 }
 
 namespace {
@@ -46,7 +41,7 @@ void read_preset(TomlReader& top, LoadedScene& loaded) {
   std::vector<std::string> names;
   for (const Preset& preset : presets()) names.emplace_back(preset.name);
   if (const std::optional<Preset> preset = find_preset(*name))
-    apply_preset(*preset, loaded);
+    change_to_preset(*preset, loaded);
   else
     top.add_problem("preset", "there is no preset '" + *name + "'", suggestion(*name, names));
 }
@@ -86,7 +81,18 @@ void keep_only(Scene& scene, const std::vector<std::string>& only, const std::ve
                 [&](const Muscle& muscle) { return std::find(only.begin(), only.end(), muscle.name) == only.end(); });
 }
 
-/// What the scene was made with for another method.
+/// The method that the layers name. What the scene was made with for another one is dropped: a key may mean something
+/// else, or be one of all muscles together.
+const MethodEntry& change_method(TomlReader& top, Scene& scene) {
+  const std::string before = scene.method.name;
+  const MethodEntry& method = read_method(top, scene.method);
+  if (scene.method.name == before) return method;
+  scene.method = {scene.method.name};
+  for (Muscle& muscle : scene.muscles) muscle.settings.clear();
+  return method;
+}
+
+/// What the scene's method has no setting for.
 void drop_settings_of_others(const MethodEntry& method, Scene& scene) {
   const auto drop = [](const std::vector<DescribedSetting>& table, SettingValues& values) {
     std::erase_if(values, [&](const auto& entry) {
@@ -109,8 +115,8 @@ void change_scene(LoadedScene& loaded, const std::vector<std::string>& set, cons
   std::vector<Problem> problems;
   std::set<std::string> others;
   TomlReader top(layers.table, "what --set may change here", problems);
-  const MethodEntry& method = read_method(top, scene.method);
   read_preset(top, loaded);
+  const MethodEntry& method = change_method(top, scene);
   drop_settings_of_others(method, scene);
   read_method_tables(top, method, scene, others);
   scene.distance_fields = with_values(scene.distance_fields, read_values<DistanceFieldSettings>(top, "distance_field"));

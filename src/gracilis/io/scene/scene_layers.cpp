@@ -68,9 +68,10 @@ static bool erase_settings(toml::table& table) {
 
 static void add_layer(SceneLayers& layers, toml::table& upper) {
   const std::string preset = upper["preset"].value_or(std::string());
-  if (!preset.empty() && layers.table["preset"].value_or(std::string("physical")) != preset &&
-      erase_settings(layers.table)) {
-    layers.notes.push_back("the preset '" + preset + "' sets aside the settings that were chosen for another one");
+  if (!preset.empty() && layers.table["preset"].value_or(std::string("physical")) != preset) {
+    layers.table.erase("method");  // the preset brings its own
+    if (erase_settings(layers.table))
+      layers.notes.push_back("the preset '" + preset + "' sets aside the settings that were chosen for another one");
   }
   lay_over(layers.table, upper);
 }

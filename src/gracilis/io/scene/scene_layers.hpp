@@ -19,7 +19,7 @@ struct SceneLayers {
 /// Reads `path` and the files in its key `include`, which lie relative to it; a later include wins over an earlier one,
 /// the file over all it includes, and `set` ("key=value") over everything. Tables merge key by key and lists of tables
 /// with names element by element; anything else, and [motion], is replaced as a whole. A layer that names a preset sets
-/// aside the settings of all layers below it, since they were chosen for another one. Throws InputError for files that
+/// aside the method and the settings of all layers below it, since they were chosen for another one. Throws InputError for files that
 /// cannot be read, ConfigurationError for what is not TOML, for includes in a circle, and for settings of muscles that
 /// the scene does not have.
 SceneLayers load_scene_layers(const std::filesystem::path& path, const std::vector<std::string>& set);

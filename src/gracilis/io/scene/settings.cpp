@@ -5,6 +5,7 @@
 #include <gracilis/methods/registry.hpp>
 
 #include <cmath>
+#include <optional>
 
 namespace gracilis::sections {
 
@@ -21,18 +22,23 @@ static void read_axes(TomlReader& top, AnatomicalAxes& axes) {
   axes.anterior = (anterior - anterior.dot(axes.superior) * axes.superior).normalized();
 }
 
-static void start_from_preset(TomlReader& top, SceneDescription& description, MuscleDefaults& defaults) {
+/// The method is the one that is named, else the preset's.
+static MuscleDefaults start_from_preset(TomlReader& top, SceneDescription& description) {
   description.preset = top.text("preset").value_or(std::string(presets().front().name));
-  if (const std::optional<Preset> preset = find_preset(description.preset)) {
-    Scene& scene = description.scene;
-    if (preset->method.name == scene.method.name) scene.method = preset->method;
-    scene.distance_fields = preset->distance_fields;
-    defaults.contraction = preset->contraction;
-    return;
-  }
+  Scene& scene = description.scene;
   std::vector<std::string> names;
-  for (const Preset& preset : presets()) names.emplace_back(preset.name);
-  top.add_problem("preset", "there is no preset '" + description.preset + "'", suggestion(description.preset, names));
+  for (const Preset& each : presets()) names.emplace_back(each.name);
+  const std::optional<Preset> preset = find_preset(description.preset);
+  if (!preset)
+    top.add_problem("preset", "there is no preset '" + description.preset + "'", suggestion(description.preset, names));
+  else
+    scene.method.name = preset->method.name;
+  MuscleDefaults defaults{read_method(top, scene.method)};
+  if (!preset) return defaults;
+  if (preset->method.name == scene.method.name) scene.method = preset->method;
+  scene.distance_fields = preset->distance_fields;
+  defaults.contraction = preset->contraction;
+  return defaults;
 }
 
 template <class Settings>
@@ -60,9 +66,8 @@ static void read_method_tables(TomlReader& top, const MethodEntry& method, Metho
 
 MuscleDefaults read_settings(TomlReader& top, SceneDescription& description, std::set<std::string>& others) {
   Scene& scene = description.scene;
-  MuscleDefaults defaults{read_method(top, scene.method)};
+  MuscleDefaults defaults = start_from_preset(top, description);
   read_axes(top, scene.axes);
-  start_from_preset(top, description, defaults);
   read_method_tables(top, defaults.method, scene.method, others);
   read_section(top, "distance_field", scene.distance_fields);
   read_section(top, "sequence", scene.sequence);
@@ -72,10 +77,15 @@ MuscleDefaults read_settings(TomlReader& top, SceneDescription& description, std
   return defaults;
 }
 
-/// Of an integer or a number.
-static Real number_in(const SettingValue& value) {
-  const int* integer = std::get_if<int>(&value);
-  return integer ? *integer : std::get<Real>(value);
+/// Whether a muscle's wish counts instead of another one: the larger number, and the later of what is no number.
+static bool counts_before(const SettingValue& wish, const SettingValue& other) {
+  const auto number_in = [](const SettingValue& value) -> std::optional<Real> {
+    if (const int* integer = std::get_if<int>(&value)) return *integer;
+    const Real* number = std::get_if<Real>(&value);
+    return number ? std::optional(*number) : std::nullopt;
+  };
+  const std::optional<Real> own = number_in(wish), others = number_in(other);
+  return !own || !others || *own > *others;
 }
 
 void share_settings(const MethodEntry& method, SceneDescription& description) {
@@ -87,7 +97,7 @@ void share_settings(const MethodEntry& method, SceneDescription& description) {
       const auto own = of_muscle.find(key);
       if (!setting.is_shared || own == of_muscle.end()) continue;
       SettingValue& all = description.scene.method.settings.emplace(key, setting.default_value).first->second;
-      if (number_in(all) < number_in(own->second)) all = own->second;
+      if (counts_before(own->second, all)) all = own->second;
       of_muscle.erase(own);
       is_given = true;
     }

@@ -1,0 +1,146 @@
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/methods/mass_spring/mass_spring_method.hpp>
+#include <gracilis/methods/registry.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+/// What Janák 2012 studied of mass-spring systems (chapter 5), on the built-in hip: prints Markdown tables for
+/// docs/mass-spring.md. Everything is as in the preset `janak-2012` but for what a table varies, from the capture pose
+/// to 60 degrees of flexion at once, as published.
+namespace gracilis {
+
+namespace {
+
+struct Outcome {
+  Real milliseconds = 0, displacement = 0, length_changes = 0, step = 0, contacts = 0;  ///< mm, mm, s
+};
+
+/// Constant steps of 0.4 s unless a table says otherwise.
+SettingValues published() {
+  SettingValues settings = find_preset("janak-2012")->method.settings;
+  settings.erase("smallest_step");
+  return settings;
+}
+
+Scene scene_with(SettingValues settings) {
+  Scene scene = builtin_hip();
+  scene.method = {"mass-spring", std::move(settings)};
+  for (Muscle& muscle : scene.muscles) muscle.settings.clear();
+  return scene;
+}
+
+Pose flexed_pose(const Scene& scene) {
+  std::vector<Real> coordinates = capture_coordinates(scene);
+  coordinates[0] = radians(60);
+  return pose_at(scene, coordinates);
+}
+
+/// The sums over all muscles, the mean of the displacements.
+Outcome run(const SettingValues& changes) {
+  SettingValues settings = published();
+  for (const auto& [key, value] : changes) settings[key] = value;
+  const Scene scene = scene_with(std::move(settings));
+  const auto method = make_mass_spring_method(scene, {});
+  const StepReport report = method->advance(flexed_pose(scene), usual_time_step);
+  Outcome outcome;
+  for (const MuscleReport& muscle : report.muscles) {
+    outcome.milliseconds += muscle.milliseconds;
+    outcome.displacement += metric(muscle.metrics, "displacement_mm") / static_cast<Real>(report.muscles.size());
+    outcome.length_changes += metric(muscle.metrics, "length_changes_mm");
+    outcome.contacts += metric(muscle.metrics, "contacts");
+    outcome.step = metric(muscle.metrics, "verlet_step_s");
+  }
+  return outcome;
+}
+
+/// Of several runs that the median of times, since other programs disturb them.
+Outcome median_run(const SettingValues& changes) {
+  std::vector<Outcome> outcomes;
+  for (int i = 0; i < 3; ++i) outcomes.push_back(run(changes));
+  std::sort(outcomes.begin(), outcomes.end(),
+            [](const Outcome& a, const Outcome& b) { return a.milliseconds < b.milliseconds; });
+  return outcomes[1];
+}
+
+void layouts() {
+  fmt::print(
+      "\n## Layouts of springs\n\nTime of 1500 iterations, mean motion of particles in the last one, and sum of "
+      "all changes of length after so many.\n\n| layout | time | motion after 100 | after 1500 | changes after 1 "
+      "| after 100 | after 1500 |\n| --- | --- | --- | --- | --- | --- | --- |\n");
+  for (const std::string layout : {"cubic-6", "cubic-26", "delaunay", "nearest"}) {
+    const SettingValues base = {{"layout", layout}, {"neighbors", 15}};
+    const auto after = [&](int iterations) {
+      SettingValues settings = base;
+      settings["iterations"] = iterations;
+      return run(settings);
+    };
+    const Outcome first = after(1), early = after(100), last = after(1500);
+    fmt::print("| `{}` | {:.2f} s | {:.5f} mm | {:.5f} mm | {:.1f} m | {:.1f} m | {:.1f} m |\n", layout,
+               last.milliseconds / 1000, early.displacement, last.displacement, first.length_changes / 1000,
+               early.length_changes / 1000, last.length_changes / 1000);
+  }
+}
+
+void neighbors() {
+  fmt::print(
+      "\n## Number of neighbors\n\nTime of 100 iterations of springs alone, without collisions.\n\n| neighbors | "
+      "time |\n| --- | --- |\n");
+  for (const int count : {10, 15, 20, 25, 30})
+    fmt::print(
+        "| {} | {:.0f} ms |\n", count,
+        median_run({{"neighbors", count}, {"bone_collision", "none"}, {"muscle_collision", false}}).milliseconds);
+}
+
+void particles() {
+  fmt::print(
+      "\n## Particles per fiber\n\nTime of 100 iterations; that of collisions is the difference.\n\n| particles "
+      "per fiber | springs | with collisions, trees rebuilt | refitted only |\n| --- | --- | --- | --- |\n");
+  for (const int count : {20, 40, 60, 80}) {
+    const SettingValue per_fiber = count;
+    const Outcome springs =
+        median_run({{"particles_per_fiber", per_fiber}, {"bone_collision", "none"}, {"muscle_collision", false}});
+    const Outcome rebuilt = median_run({{"particles_per_fiber", per_fiber}});
+    const Outcome refitted = median_run({{"particles_per_fiber", per_fiber}, {"refit_only", true}});
+    fmt::print("| {} | {:.0f} ms | {:.0f} ms | {:.0f} ms |\n", count, springs.milliseconds, rebuilt.milliseconds,
+               refitted.milliseconds);
+  }
+}
+
+void steps() {
+  fmt::print(
+      "\n## Time steps\n\nSum of all changes of length, m.\n\n| step | mean step | after 1 | 25 | 50 | 75 | 100 | "
+      "200 | 500 |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  const auto row = [](const std::string& name, const SettingValues& base) {
+    std::string cells;
+    Real step = 0;
+    for (const int iterations : {1, 25, 50, 75, 100, 200, 500}) {
+      SettingValues settings = base;
+      settings["iterations"] = iterations;
+      const Outcome outcome = run(settings);
+      cells += fmt::format(" {:.1f} |", outcome.length_changes / 1000);
+      step = outcome.step;
+    }
+    fmt::print("| {} | {:.3f} s |{}\n", name, step, cells);
+  };
+  row("constant, 0.4 s", {{"verlet_step", 0.4}});
+  row("constant, 0.7 s", {{"verlet_step", 0.7}});
+  row("adaptive, 0.04 s at least", {{"smallest_step", 0.04}});
+  row("constant, 0.4 s, critical damping", {{"verlet_step", 0.4}, {"damping_rule", "critical"}});
+  row("constant, 0.7 s, critical damping", {{"verlet_step", 0.7}, {"damping_rule", "critical"}});
+}
+
+}  // namespace
+
+}  // namespace gracilis
+
+int main() {
+  gracilis::layouts();
+  gracilis::neighbors();
+  gracilis::particles();
+  gracilis::steps();
+}

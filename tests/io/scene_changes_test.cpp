@@ -1,0 +1,69 @@
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/scene/scene_changes.hpp>
+#include <gracilis/methods/registry.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace gracilis {
+
+namespace {
+
+/// The built-in hip, whose muscles have settings of their own for its method.
+LoadedScene hip() {
+  LoadedScene loaded;
+  loaded.scene = builtin_hip();
+  loaded.preset = presets().front().name;
+  return loaded;
+}
+
+bool has_own_settings(const Scene& scene) {
+  return std::any_of(scene.muscles.begin(), scene.muscles.end(),
+                     [](const Muscle& muscle) { return !muscle.settings.empty(); });
+}
+
+}  // namespace
+
+TEST(SceneChanges, what_was_made_for_another_method_goes_with_it) {
+  LoadedScene loaded = hip();
+  ASSERT_TRUE(has_own_settings(loaded.scene));
+  loaded.scene.method.settings["bone_margin"] = 0.002;
+  change_scene(loaded, {"method=pbd", "iterations=5"}, {});
+  EXPECT_EQ(loaded.scene.method.name, "pbd");
+  EXPECT_EQ(loaded.scene.method.settings, (SettingValues{{"iterations", 5}}));
+  EXPECT_FALSE(has_own_settings(loaded.scene)) << "iterations of xpbd are none of pbd";
+}
+
+TEST(SceneChanges, naming_the_method_that_a_scene_has_changes_nothing) {
+  LoadedScene loaded = hip();
+  change_scene(loaded, {"method=xpbd"}, {});
+  EXPECT_TRUE(has_own_settings(loaded.scene));
+}
+
+TEST(SceneChanges, a_preset_brings_its_method_unless_one_is_named) {
+  LoadedScene loaded = hip();
+  change_scene(loaded, {"preset=pbd-2020"}, {});
+  EXPECT_EQ(loaded.scene.method.name, "pbd");
+  EXPECT_EQ(loaded.scene.method.settings, find_preset("pbd-2020")->method.settings);
+  EXPECT_EQ(loaded.preset, "pbd-2020");
+  LoadedScene named = hip();
+  change_scene(named, {"method=arap", "preset=pbd-2020"}, {});
+  EXPECT_EQ(named.scene.method.name, "arap");
+  EXPECT_TRUE(named.scene.method.settings.empty()) << "settings of the preset are none of arap's";
+}
+
+TEST(SceneChanges, an_unknown_preset_or_method_is_named) {
+  LoadedScene loaded = hip();
+  try {
+    change_scene(loaded, {"preset=pbd-2021", "method=pbx"}, {});
+    FAIL() << "no error";
+  } catch (const ConfigurationError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("there is no preset 'pbd-2021'"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("there is no method 'pbx'"));
+  }
+}
+
+}  // namespace gracilis
