@@ -43,11 +43,12 @@ ProjectionCounts project_dihedral_range(const DihedralSet& set, ColorRange range
             g2 = dot<Math>(dihedral.g2, dihedral.g2), g3 = dot<Math>(dihedral.g3, dihedral.g3);
     const V weight = hn::MulAdd(p0.w, g0, hn::MulAdd(p1.w, g1, hn::MulAdd(p2.w, g2, p3.w * g3)));
     const auto movable = hn::And(hn::Gt(weight, zero), hn::Gt(dihedral.valid, zero));
-    const auto motion = [&]() HWY_ATTR {
+    V motion = zero;
+    if constexpr (dissipative) {
       const float* from = start.xyzw.data();
-      return motion_along(dihedral.g0, p0.x, from, index[0]) + motion_along(dihedral.g1, p1.x, from, index[1]) +
-             motion_along(dihedral.g2, p2.x, from, index[2]) + motion_along(dihedral.g3, p3.x, from, index[3]);
-    };
+      motion = motion_along(dihedral.g0, p0.x, from, index[0]) + motion_along(dihedral.g1, p1.x, from, index[1]) +
+               motion_along(dihedral.g2, p2.x, from, index[2]) + motion_along(dihedral.g3, p3.x, from, index[3]);
+    }
     V step = multiplier_step<dissipative>(c, alpha, multiplier, weight, movable, parameters, motion);
     if (limiting) {
       const V reach2 =

@@ -29,10 +29,10 @@ ProjectionCounts project_distance_range(const DistanceSet& set, ColorRange range
     const V alpha = hn::LoadU(d, set.compliance.data() + at) * hn::Set(d, inverse_dt2);
     const V multiplier = hn::LoadU(d, lambda + at);
     const V moving_weight = edges.weight();
-    const auto motion = [&]() HWY_ATTR {
-      return motion_along(edge.direction, edges.b.x, start.xyzw.data(), edges.ib) -
-             motion_along(edge.direction, edges.a.x, start.xyzw.data(), edges.ia);
-    };
+    V motion = zero;
+    if constexpr (dissipative)
+      motion = motion_along(edge.direction, edges.b.x, start.xyzw.data(), edges.ib) -
+               motion_along(edge.direction, edges.a.x, start.xyzw.data(), edges.ia);
     // Between two fixed particles, and in padding, nothing moves.
     const V step = multiplier_step<dissipative>(c, alpha, multiplier, moving_weight, hn::Gt(moving_weight, zero),
                                                 parameters, motion);

@@ -20,16 +20,16 @@ HWY_INLINE V motion_along(Point gradient, Point x, const float* start, const Ind
 }
 
 /// Δλ of constraints of value `c` whose gradients have the inverse mass `weight` = ∇C w ∇Cᵀ; 0 where they are not
-/// `movable`. motion() gives ∇C·(x - xⁿ), and is asked only with dissipation.
-template <bool dissipative, class Motion>
+/// `movable`. `motion` is ∇C·(x - xⁿ), of no use without dissipation.
+template <bool dissipative>
 HWY_INLINE V multiplier_step(V c, V alpha, V multiplier, V weight, hn::Mask<D> movable,
-                             const ProjectionParameters& parameters, const Motion& motion) {
+                             const ProjectionParameters& parameters, V motion) {
   const D d;
   const V tiny = hn::Set(d, 1e-30f), zero = hn::Zero(d), one = hn::Set(d, 1.0f);
   V numerator = c + alpha * multiplier;
   if constexpr (dissipative) {
     const V gamma = alpha * hn::Set(d, parameters.time_step * parameters.rayleigh_beta);
-    numerator = numerator + gamma * motion();
+    numerator = numerator + gamma * motion;
     weight = weight * (one + gamma);
   }
   return hn::IfThenElse(movable, (zero - numerator) * Math::reciprocal(hn::Max(weight + alpha, tiny)), zero);
