@@ -3,6 +3,7 @@
 #include <gracilis/anatomy/activation/tendon.hpp>
 #include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/anatomy/fibers/surface_fibers.hpp>
+#include <gracilis/dynamics/constraints/compliance.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
@@ -106,7 +107,7 @@ void build_contractions(const Muscle& muscle, const MeshTopology& topology, Prep
     const Real share = (belly[static_cast<std::size_t>(pull.a)] + belly[static_cast<std::size_t>(pull.b)]) / 2;
     const Real stiffness = muscle.contraction.stiffness * share * shape;
     if (!(stiffness > 0)) continue;
-    constraints.push_back({pull.a, pull.b, pull.length, 1 / stiffness});
+    constraints.push_back({pull.a, pull.b, pull.length, compliance_of(stiffness)});
     squared_cosines.push_back(pull.squared_cosine);
   }
   DistanceSet& set = prepared.system.tensions;

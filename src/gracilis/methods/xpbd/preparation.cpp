@@ -1,6 +1,7 @@
 #include <gracilis/methods/xpbd/preparation.hpp>
 
 #include <gracilis/anatomy/attachments/skinning_weights.hpp>
+#include <gracilis/dynamics/constraints/compliance.hpp>
 #include <gracilis/dynamics/constraints/dihedral.hpp>
 #include <gracilis/dynamics/particle_order.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
@@ -138,7 +139,7 @@ void build_edges(const std::vector<Attachment>& attachments, const MeshTopology&
     const Real cosine = length > 0 ? direction_at(edge, directions).dot(along) / length : 0;
     const Real stiffness = edge_stiffness(x, prepared.faces, edge, prepared.settings) *
                            anisotropy(cosine, prepared.settings) * tendon_factor(prepared, edge);
-    constraints.push_back({edge.a, edge.b, length, 1 / stiffness});
+    constraints.push_back({edge.a, edge.b, length, compliance_of(stiffness)});
   }
   prepared.system.distances = build_distance_set(constraints, prepared.particle_count());
 }
@@ -163,7 +164,7 @@ void build_dihedrals(const MeshTopology& topology, PreparedMuscle& prepared) {
     dihedral.rest_angle = dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex));
     if (prepared.settings.dihedral_formula == DihedralFormula::arccos)
       dihedral.rest_angle = std::abs(dihedral.rest_angle);
-    dihedral.compliance = 1 / dihedral_stiffness(x, prepared.faces, edge, prepared.settings);
+    dihedral.compliance = compliance_of(dihedral_stiffness(x, prepared.faces, edge, prepared.settings));
     dihedral.edge_length = (x.col(edge.b) - x.col(edge.a)).norm();
     constraints.push_back(dihedral);
   }
