@@ -2,6 +2,8 @@
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 
+#include <build_paths.hpp>
+
 #include "app/program.hpp"
 
 #include <fmt/format.h>
@@ -53,7 +55,7 @@ Index through(const TriangleMesh& box, const TriangleMesh& plate, Real side) {
 
 TEST(BoxSqueeze, a_box_pressed_to_a_tenth_stays_between_the_plates_and_comes_back) {
   const SqueezedBox run;
-  const ProgramResult result = run_program(std::string("run ") + GRACILIS_SOURCE_DIR +
+  const ProgramResult result = run_program(std::string("run ") + build_paths::source_folder +
                                            "/scenes/box_squeeze/box_squeeze.toml --out " + run.folder.string());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const TriangleMesh rest = run.surface("box", 0);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <build_paths.hpp>
+
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -26,7 +28,7 @@ inline std::string read_all(std::FILE* pipe) {
 inline ProgramResult run_program(const std::string& arguments) {
   char errors[] = "/tmp/gracilis_stderr_XXXXXX";
   const int descriptor = mkstemp(errors);
-  const std::string command = std::string(GRACILIS_PROGRAM) + " " + arguments + " 2>" + errors;
+  const std::string command = std::string(build_paths::program) + " " + arguments + " 2>" + errors;
   ProgramResult result;
   std::FILE* pipe = popen(command.c_str(), "r");
   result.out = read_all(pipe);

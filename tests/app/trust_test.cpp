@@ -1,6 +1,8 @@
 #include <gracilis/io/run/run_folder.hpp>
 #include <gracilis/io/tables/table.hpp>
 
+#include <build_paths.hpp>
+
 #include "app/program.hpp"
 #include "io/scene_folder.hpp"
 
@@ -120,7 +122,7 @@ TEST_F(Trust, a_scene_named_after_a_path_stays_in_its_folder) {
   fs::create_directories(folder.path("deep/home"));
   const std::string command = "run " + scene(text);
   const std::string from_there = "--version >/dev/null; cd " + folder.path("deep/home").string() + " && " +
-                                 std::string(GRACILIS_PROGRAM) + " " + command;
+                                 std::string(build_paths::program) + " " + command;
   EXPECT_EQ(run_program(from_there).exit_code, 0);
   EXPECT_FALSE(fs::exists(folder.path("deep/outside")));
   EXPECT_FALSE(fs::exists(folder.path("outside")));
@@ -129,7 +131,7 @@ TEST_F(Trust, a_scene_named_after_a_path_stays_in_its_folder) {
 
 TEST_F(Trust, two_runs_into_one_folder_are_one_too_many) {
   const std::string slow = "run " + scene() + " --set iterations=20000 --out " + out();
-  const std::string program(GRACILIS_PROGRAM);
+  const std::string program(build_paths::program);
   const ProgramResult second = run_program(
       slow + " 2>/dev/null & pid=$!; while kill -0 $pid && [ ! -e " + frame_file(out(), "femur", 0).string() +
       " ]; do sleep 0.05; done; " + program + " run " + scene() + " --force --out " + out() + " 2>&1; echo exit $?; " +
@@ -182,7 +184,7 @@ TEST_F(Trust, what_cannot_be_printed_is_told_of) {
 }
 
 TEST_F(Trust, a_limit_on_the_size_of_files_is_a_message_and_no_signal) {
-  const std::string program(GRACILIS_PROGRAM);
+  const std::string program(build_paths::program);
   const ProgramResult limited = run_program("--version >/dev/null; ulimit -f 8; " + program + " run " + scene() +
                                             " --out " + out() + " --set fibers.count=100");
   EXPECT_EQ(limited.exit_code, 3) << limited.err;

@@ -1,3 +1,5 @@
+#include <build_paths.hpp>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -117,11 +119,12 @@ std::vector<Include> includes_below(const std::filesystem::path& root, const std
   return includes;
 }
 
-const std::filesystem::path source = std::filesystem::path(GRACILIS_SOURCE_DIR) / "src/gracilis";
+const std::filesystem::path source = std::filesystem::path(build_paths::source_folder) / "src/gracilis";
 
 TEST(Includes, go_down_only) {
   std::vector<Include> includes = includes_below(source, "");
-  const std::vector<Include> of_programs = includes_below(std::filesystem::path(GRACILIS_SOURCE_DIR) / "apps", "apps/");
+  const std::vector<Include> of_programs =
+      includes_below(std::filesystem::path(build_paths::source_folder) / "apps", "apps/");
   includes.insert(includes.end(), of_programs.begin(), of_programs.end());
   ASSERT_GT(includes.size(), 500u);
   for (const auto& [from, included] : includes)

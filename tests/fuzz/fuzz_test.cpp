@@ -1,3 +1,5 @@
+#include <build_paths.hpp>
+
 #include "targets.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +17,7 @@ namespace fs = std::filesystem;
 
 std::vector<fs::path> files_of(const std::string& part, const std::string& target) {
   std::vector<fs::path> files;
-  const fs::path folder = fs::path(GRACILIS_SOURCE_DIR) / "tests" / "fuzz" / part / target;
+  const fs::path folder = fs::path(build_paths::source_folder) / "tests" / "fuzz" / part / target;
   if (fs::exists(folder))
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
   std::sort(files.begin(), files.end());

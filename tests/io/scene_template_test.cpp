@@ -1,5 +1,7 @@
 #include <gracilis/io/scene/scene_template.hpp>
 
+#include <build_paths.hpp>
+
 #include <gracilis/anatomy/attachments/attachments.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/io/scene/data_root.hpp>
@@ -41,7 +43,7 @@ TEST_F(SceneReader, the_template_gives_unit_range_and_default_of_every_setting) 
 }
 
 TEST(Scenes, the_scenes_of_the_cadaver_hip_are_sound) {
-  const std::filesystem::path scenes = std::filesystem::path(GRACILIS_SOURCE_DIR) / "scenes" / "lhdl_hip";
+  const std::filesystem::path scenes = std::filesystem::path(build_paths::source_folder) / "scenes" / "lhdl_hip";
   if (!std::filesystem::exists(find_data_root(scenes / "hip.toml", {}) / "lhdl-hip")) {
     GTEST_SKIP() << "the cadaver's data is not there";
   }

@@ -2,6 +2,8 @@
 
 #include <gracilis/core/errors.hpp>
 
+#include <build_paths.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -38,7 +40,7 @@ class TestFolder {
 /// Where the real data is: GRACILIS_DATA, else ../shared/data beside the checkout.
 inline std::filesystem::path data_root() {
   if (const char* root = std::getenv("GRACILIS_DATA")) return root;
-  return std::filesystem::path(GRACILIS_SOURCE_DIR) / ".." / "shared" / "data";
+  return std::filesystem::path(build_paths::source_folder) / ".." / "shared" / "data";
 }
 
 inline std::string message_of_input_error(const std::function<void()>& action) {

@@ -3,6 +3,8 @@
 #include <gracilis/opensim/paths/length_by_opensim.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 
+#include <build_paths.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +22,8 @@ struct Reference {
   Table table;
 
   explicit Reference(const std::string& name) {
-    const std::filesystem::path folder = std::filesystem::path(GRACILIS_SOURCE_DIR) / "tests" / "opensim" / "reference";
+    const std::filesystem::path folder =
+        std::filesystem::path(build_paths::source_folder) / "tests" / "opensim" / "reference";
     model = read_model(folder / (name + ".osim"));
     table = read_table(folder / (name + ".sto"));
   }

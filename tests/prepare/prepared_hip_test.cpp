@@ -5,6 +5,8 @@
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/prepare_surfaces.hpp>
 
+#include <build_paths.hpp>
+
 #include "shapes.hpp"
 
 #include <gmock/gmock.h>
@@ -78,7 +80,7 @@ TEST(Preparation, gives_edges_the_length_asked_for) {
 
 TEST(PreparedHip, has_no_intersections_at_rest_and_keeps_its_shapes) {
   const std::filesystem::path scene_file =
-      std::filesystem::path(GRACILIS_SOURCE_DIR) / "scenes/lhdl_hip_prepared/hip.toml";
+      std::filesystem::path(build_paths::source_folder) / "scenes/lhdl_hip_prepared/hip.toml";
   const std::filesystem::path data = find_data_root(scene_file, {});
   if (data.empty() || !std::filesystem::is_directory(data / "lhdl-hip"))
     GTEST_SKIP() << "the cadaver's data are not here: set GRACILIS_DATA, or put them into ../shared/data";

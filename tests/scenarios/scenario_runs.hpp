@@ -6,6 +6,8 @@
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
+
+#include <build_paths.hpp>
 #ifdef GRACILIS_WITH_PREPARE
 #include <gracilis/prepare/prepare_surfaces.hpp>
 #endif
@@ -21,7 +23,7 @@
 namespace gracilis {
 
 inline std::filesystem::path scene_file(const std::string& name) {
-  return std::filesystem::path(GRACILIS_SOURCE_DIR) / "scenes" / "lhdl_hip" / (name + ".toml");
+  return std::filesystem::path(build_paths::source_folder) / "scenes" / "lhdl_hip" / (name + ".toml");
 }
 
 /// The folder with the cadaver's data, or empty: GRACILIS_DATA, else shared/data beside the checkout or above it.

@@ -1,3 +1,5 @@
+#include <build_paths.hpp>
+
 #include "app/program.hpp"
 #include "view/recorded_runs.hpp"
 
@@ -74,7 +76,7 @@ class ViewCommand : public testing::Test {
   /// after the other, `at X Y` moves the mouse, from the upper left corner. Returns what the program said.
   std::string drive(const std::string& what, const std::string& script) {
     const auto file = folder.write(
-        "drive.sh", "cd '" + folder.path().string() + "'\ntimeout 150 " + GRACILIS_PROGRAM + " view " + what +
+        "drive.sh", "cd '" + folder.path().string() + "'\ntimeout 150 " + build_paths::program + " view " + what +
                         " --size 800x600 --pictures . 2>log &\nprogram=$!\n"
                         "window=$(timeout 60 xdotool search --sync --onlyvisible --name '^Gracilis: ' | head -1)\n"
                         "xdotool windowmove $window 0 0 windowfocus $window\nsleep 1\n"

@@ -1,0 +1,9 @@
+#include "build_paths.hpp"
+
+namespace build_paths {
+
+const char* const source_folder = GRACILIS_SOURCE_DIR;
+const char* const program = GRACILIS_PROGRAM;
+const char* const failing_calls = GRACILIS_FAILING_CALLS;
+
+}  // namespace build_paths
