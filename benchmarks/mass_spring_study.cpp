@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/mass_spring/mass_spring_method.hpp>
 #include <gracilis/methods/registry.hpp>
@@ -127,9 +128,13 @@ void steps() {
     for (const int iterations : {1, 25, 50, 75, 100, 200, 500}) {
       SettingValues settings = base;
       settings["iterations"] = iterations;
-      const Outcome outcome = run(settings);
-      cells += fmt::format(" {:.1f} |", outcome.length_changes / 1000);
-      step = outcome.step;
+      try {
+        const Outcome outcome = run(settings);
+        cells += fmt::format(" {:.1f} |", outcome.length_changes / 1000);
+        step = outcome.step;
+      } catch (const QualityError&) {
+        cells += " not finite |";
+      }
     }
     fmt::print("| {} | {:.3f} s |{}\n", name, step, cells);
   };
