@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/solver/solver.hpp>
+#include <gracilis/dynamics/solver/surface_system.hpp>
 
 #include <Eigen/Dense>
 
@@ -42,7 +42,7 @@ class Accelerator {
     const auto part = [](const AlignedVector<float>& values) {
       return Eigen::Map<const Eigen::VectorXf>(values.data(), static_cast<Eigen::Index>(values.size()));
     };
-    const auto &x = part(state.particles.xyzw), &d = part(state.distance_lambda), &h = part(state.hinge_lambda);
+    const auto &x = part(state.particles.xyzw), &d = part(state.distance_lambda), &h = part(state.dihedral_lambda);
     Eigen::VectorXf all(x.size() + d.size() + h.size() + 1);
     all << x, d, h, static_cast<float>(state.volume_lambda);
     return all;
@@ -50,7 +50,7 @@ class Accelerator {
 
   static void unpack(const Eigen::VectorXf& all, SurfaceState& state) {
     const float* next = all.data();
-    for (AlignedVector<float>* part : {&state.particles.xyzw, &state.distance_lambda, &state.hinge_lambda}) {
+    for (AlignedVector<float>* part : {&state.particles.xyzw, &state.distance_lambda, &state.dihedral_lambda}) {
       std::copy(next, next + part->size(), part->begin());
       next += part->size();
     }

@@ -1,5 +1,9 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
+#include <gracilis/dynamics/contact/field/field_contact_listing.hpp>
+#include <gracilis/dynamics/solver/bone_contact.hpp>
+#include <gracilis/dynamics/solver/constraint_table.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/prediction.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
@@ -122,7 +126,7 @@ Points shape_of(const Prediction& p, const SurfaceState& state) {
 Curve iterate(const std::string& name, const Step& step, const Prediction& begin, Accelerator accelerate) {
   Curve curve{name, {}};
   SurfaceState state = begin.state;
-  SolveReport report;
+  SurfaceSolve surface{&begin.muscle.system, &begin.placements, begin.settings, &state, {}};
   Real spent = 0;
   int done = 0;
   for (const int count : looked_at) {
@@ -130,10 +134,9 @@ Curve iterate(const std::string& name, const Step& step, const Prediction& begin
     for (; done < count; ++done) {
       if (done == 0 || (done % 4 == 0 && largest_motion(state.listed, state.particles) > listed_motion))
         refresh_contacts(begin.muscle.system, begin.placements, state);
-      for (const ConstraintKind kind : projection_order)
-        project_kind(kind, begin.muscle.system, begin.placements, begin.settings, state, report);
+      for (const ConstraintRow& row : constraint_table()) project_kind(row.kind, surface);
       if (!accelerate.improve(state)) continue;
-      project_kind(ConstraintKind::bone_contact, begin.muscle.system, begin.placements, begin.settings, state, report);
+      project_kind(ConstraintKind::bone_contact, surface);
     }
     spent += milliseconds_since(started);
     const Points shape = shape_of(begin, state);

@@ -1,5 +1,6 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
+#include <gracilis/dynamics/solver/constraint_table.hpp>
 #include <gracilis/methods/xpbd/under_way.hpp>
 
 #include "benchmark_hip.hpp"
@@ -113,10 +114,8 @@ void compare(const Muscle& muscle) {
     put_back(begin, body);
     theirs.times.push_back(time_of([&] { btSoftBody::PSolve_Links(&body, 1, 0); }));
     state = begin.state;
-    SolveReport report;
-    ours.times.push_back(time_of([&] {
-      project_kind(ConstraintKind::distance, begin.muscle.system, begin.placements, begin.settings, state, report);
-    }));
+    SurfaceSolve surface{&begin.muscle.system, &begin.placements, begin.settings, &state, {}};
+    ours.times.push_back(time_of([&] { project_kind(ConstraintKind::distance, surface); }));
   }
   const auto bullet_position = [&](Index p) {
     const btVector3& x = body.m_nodes[p].m_x;

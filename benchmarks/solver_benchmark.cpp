@@ -1,4 +1,6 @@
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/solver/bone_contact.hpp>
+#include <gracilis/dynamics/solver/constraint_table.hpp>
 #include <gracilis/methods/xpbd/under_way.hpp>
 
 #include <gracilis/core/state_hash.hpp>
@@ -40,17 +42,16 @@ void iterate(benchmark::State& timer, std::size_t index, std::optional<Constrain
   const UnderWay& begin = prepared(index);
   const ThreadLimit limit(threads);
   SurfaceState state = begin.state;
-  SolveReport report;
+  SurfaceSolve surface{&begin.muscle.system, &begin.placements, begin.settings, &state, {}};
   for (auto _ : timer) {
     state = begin.state;
-    report = {};
+    surface.report = {};
     const auto started = std::chrono::steady_clock::now();
     for (int i = 0; i < repeats; ++i) {
       if (kind) {
-        project_kind(*kind, begin.muscle.system, begin.placements, begin.settings, state, report);
+        project_kind(*kind, surface);
       } else {
-        for (ConstraintKind each : projection_order)
-          project_kind(each, begin.muscle.system, begin.placements, begin.settings, state, report);
+        for (const ConstraintRow& row : constraint_table()) project_kind(row.kind, surface);
       }
     }
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
@@ -60,7 +61,7 @@ void iterate(benchmark::State& timer, std::size_t index, std::optional<Constrain
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(hash_of(state.particles.xyzw)));
   timer.SetLabel(hash);
   timer.counters["triangles"] = static_cast<double>(benchmark_hip().scene.muscles[index].surface.face_count());
-  if (!kind || *kind == ConstraintKind::bone_contact) timer.counters["contacts"] = report.contacts;
+  if (!kind || *kind == ConstraintKind::bone_contact) timer.counters["contacts"] = surface.report.contacts;
 }
 
 /// What happens once every few iterations beside them: listing what is near the bones.
@@ -91,10 +92,12 @@ const bool registered = [] {
       const std::string end = "/threads:" + std::to_string(threads);
       const std::string begin = "iteration/" + muscles[m].name + "/";
       add(begin + "all" + end, [=](benchmark::State& timer) { iterate(timer, m, std::nullopt, threads); });
-      // Benchmark muscles are passive: contractions would take no time, and Google Benchmark repeat them forever.
-      for (ConstraintKind kind : projection_order)
-        if (kind != ConstraintKind::contraction)
-          add(begin + name_of(kind) + end, [=](benchmark::State& timer) { iterate(timer, m, kind, threads); });
+      // Benchmark muscles are passive and alone: tensions and contact between muscles would take no time, and Google
+      // Benchmark repeat them forever.
+      for (const ConstraintRow& row : constraint_table())
+        if (row.kind != ConstraintKind::tension && row.kind != ConstraintKind::muscle_contact)
+          add(begin + row.name + end,
+              [=, kind = row.kind](benchmark::State& timer) { iterate(timer, m, kind, threads); });
       add("list_contacts/" + muscles[m].name + end, [=](benchmark::State& timer) { refresh(timer, m, threads); });
     }
   return true;

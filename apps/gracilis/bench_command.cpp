@@ -9,7 +9,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
-#include <gracilis/dynamics/constraints/projection.hpp>
+#include <gracilis/dynamics/simd/instruction_set.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/methods/registry.hpp>

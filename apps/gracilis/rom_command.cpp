@@ -1,21 +1,16 @@
 #include "rom_command.hpp"
 
+#include "moment_arm_output.hpp"
 #include "scene_options.hpp"
 #include "session.hpp"
 
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/suggestions.hpp>
-#include <gracilis/io/tables/table.hpp>
+#include <gracilis/io/tables/arm_reference.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/names.hpp>
-#include <gracilis/simulate/moment_arms.hpp>
-#include <gracilis/view/charts/run_charts.hpp>
-
-#include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,48 +94,6 @@ CoordinateRange set_motion(const std::vector<std::string>& texts, int max_frames
   return moving;
 }
 
-void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const CoordinateRange& moving) {
-  if (!is_there(folder / "fiber_lengths.sto")) {
-    spdlog::warn("no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
-    return;
-  }
-  Table table = read_table(folder / "fiber_lengths.sto");
-  // The rows before the range only lead there.
-  const auto rows = std::min(static_cast<Eigen::Index>(scene.motion.times.size()), table.values.rows());
-  table.values = table.values.bottomRows(rows).eval();
-  table.times.erase(table.times.begin(), table.times.end() - rows);
-  const auto coordinates = static_cast<Eigen::Index>(coordinate_names(scene).size());
-  // Every coordinate of the scene has a column.
-  const Real unit = moving.translation ? 1 : radians(1);  // tables have degrees and m
-  const Eigen::VectorXd angles = table.values.col(column_of(table, moving.name).value()) * unit;
-  const Eigen::Index lengths = table.values.cols() - coordinates;
-  table.name = "moment_arms";
-  table.values.rightCols(lengths) = moment_arms(angles, table.values.rightCols(lengths));
-  write_sto(folder / "moment_arms.sto", table);
-
-  const ChartCoordinate coordinate = chart_coordinate(scene, moving.name);
-  const std::string title = moving.translation ? "shortening" : "moment arms";
-  const std::string y_label = moving.translation ? "shortening (mm per m)" : "moment arm (mm)";
-  std::vector<std::string> muscles;
-  for (const Muscle& muscle : scene.muscles) {
-    const std::optional<Eigen::Index> found = column_of(table, muscle.name);
-    if (!found) continue;
-    muscles.push_back(muscle.name);
-    const Eigen::VectorXd arms = table.values.col(*found);
-    if (moving.translation)
-      fmt::print("{}: shortens by {:.1f} to {:.1f} mm per m of {}\n", muscle.name, 1e3 * arms.minCoeff(),
-                 1e3 * arms.maxCoeff(), moving.name);
-    else
-      fmt::print("{}: moment arm about {} {:.1f} to {:.1f} mm, largest step {:.3f} mm per degree\n", muscle.name,
-                 moving.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(),
-                 1e3 * largest_step_per_degree(angles, arms));
-    write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"),
-                fiber_chart(table, coordinate, muscle.name, muscle.name + ": " + title, y_label));
-  }
-  write_chart(folder / "plots" / "moment_arms.svg",
-              muscles_chart(table, coordinate, muscles, scene.name + ": " + title, y_label));
-}
-
 }  // namespace
 
 void add_rom_command(CLI::App& program, const std::vector<std::string>& words, Command& chosen) {
@@ -148,6 +101,7 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
     std::filesystem::path file;
     SceneOptions scene;
     std::vector<std::string> coordinates;
+    std::filesystem::path reference;
     SessionOptions session;
   };
   const auto options = std::make_shared<Options>();
@@ -159,17 +113,23 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
                    "translation; NAME=VALUE fixes another coordinate. May be repeated")
       ->required()
       ->allow_extra_args(false);
+  command->add_option(
+      "--reference", options->reference,
+      "Published moment arms to compare with and to draw: a .csv with the columns muscle, angle_deg and "
+      "moment_arm_mm, and perhaps coordinate, source, min and max");
   add_session_options(*command, options->session);
   options->session.command = words;
   command->callback([&chosen, options] {
     chosen = [options] {
+      std::vector<ArmCurve> references;
+      if (!options->reference.empty()) references = read_arm_reference(options->reference);
       LoadedScene loaded = read_scene(options->file, options->scene);
       if (options->session.out.empty())
         options->session.out = std::filesystem::path("runs") / (file_name_of(loaded.scene.name) + "_rom");
       const CoordinateRange moving = set_motion(options->coordinates, loaded.max_frames, loaded.scene);
       const int code = run_session(loaded, options->session);
       if (code != static_cast<int>(ExitCode::interrupted))
-        write_moment_arms(options->session.out, loaded.scene, moving);
+        write_moment_arms(options->session.out, loaded.scene, {moving.name, moving.translation}, references);
       return code;
     };
   });

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <fstream>
 
 namespace gracilis {
 namespace {
@@ -94,6 +96,42 @@ TEST_F(FiberCommands, rom_writes_moment_arms_over_its_range_alone) {
   EXPECT_NEAR(table.values(0, 0), -4, 1e-9);
   EXPECT_NEAR(table.values(4, 0), 4, 1e-9);
   EXPECT_TRUE(exists("out/plots/moment_arms.svg"));
+}
+
+TEST_F(FiberCommands, rom_compares_moment_arms_with_a_reference) {
+  folder.write("published.csv",
+               "muscle,angle_deg,coordinate,source,moment_arm_mm\n"
+               "muscle,-4,flexion,first,10\nmuscle,2,flexion,first,10\n"
+               "muscle,-4,flexion,second,20\nmuscle,4,flexion,second,20\n"
+               "muscle,0,rotation,first,99\nother,0,flexion,first,99\n");
+  const std::string reference = " --reference " + folder.path("published.csv").string();
+  const ProgramResult result =
+      run("rom", good_scene(), "--coord flexion=-4:4:2 --set method=skinning --set fibers.count=3" + reference);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("beside first: "));
+  EXPECT_THAT(result.out, HasSubstr("from -4 to 2 degrees"));
+  EXPECT_THAT(result.out, HasSubstr("from -4 to 4 degrees"));
+  EXPECT_THAT(result.out, HasSubstr("beyond the band of all 2"));
+  const Table arms = read_table(folder.path("out/moment_arms.sto"));
+  std::ifstream file(folder.path("out/reference.csv"));
+  std::string head, first, second, more;
+  std::getline(file, head), std::getline(file, first), std::getline(file, second);
+  EXPECT_FALSE(std::getline(file, more)) << more;
+  ASSERT_TRUE(first.starts_with("muscle,first,4,-4.00,2.00,")) << first;
+  ASSERT_TRUE(second.starts_with("muscle,second,5,-4.00,4.00,")) << second;
+  const Real rms = std::sqrt((arms.values.col(1).array() - 0.02).square().mean()) * 1e3;
+  EXPECT_NEAR(std::stod(second.substr(std::string("muscle,second,5,-4.00,4.00,").size())), rms, 1e-3);
+  std::ifstream chart(folder.path("out/plots/moment_arms_muscle.svg"));
+  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(chart), {}), HasSubstr("second"));
+}
+
+TEST_F(FiberCommands, rom_refuses_a_reference_that_is_no_table_before_it_runs) {
+  folder.write("published.csv", "angle_deg\n");
+  const ProgramResult result =
+      run("rom", good_scene(), "--coord flexion=-4:4:2 --reference " + folder.path("published.csv").string());
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("names no column 'muscle'"));
+  EXPECT_FALSE(exists("out"));
 }
 
 TEST_F(FiberCommands, rom_says_what_is_wrong_with_its_coordinates) {

@@ -49,8 +49,7 @@ const std::map<std::string, std::map<std::string, int>> room_ranks = {
       {"static_optimization", 4},
       {"import", 4},
       {"export", 4}}},
-    {"view",
-     {{"pictures", 0}, {"charts", 1}, {"export", 1}, {"report", 2}, {"window", 2}, {"comparison", 3}}}};
+    {"view", {{"pictures", 0}, {"charts", 1}, {"export", 1}, {"report", 2}, {"window", 2}, {"comparison", 3}}}};
 
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
 const std::vector<std::string> toolkit_libraries = {"vtk",  "fmt/",     "spdlog/", "toml++/", "nlohmann/",
@@ -65,7 +64,8 @@ std::vector<std::string> folders_of(const std::string& path) {
 
 /// The room of a path such as "dynamics/contact/field/points.cpp": "contact/field".
 std::string room_of(const std::string& path) {
-  const std::filesystem::path within = std::filesystem::path(path).parent_path().lexically_relative(folders_of(path)[0]);
+  const std::filesystem::path within =
+      std::filesystem::path(path).parent_path().lexically_relative(folders_of(path)[0]);
   return within.generic_string();
 }
 
@@ -131,6 +131,20 @@ TEST(Includes, go_down_only) {
 TEST(Includes, every_folder_has_a_rank) {
   for (const auto& entry : std::filesystem::directory_iterator(source))
     EXPECT_TRUE(ranks.contains(entry.path().filename().string())) << entry.path();
+}
+
+TEST(Includes, every_source_of_dynamics_includes_a_header_of_its_own_name_first) {
+  std::map<std::string, std::string> first;
+  for (const auto& [from, included] : includes_below(source / "dynamics", "gracilis/dynamics/"))
+    first.emplace(from, included);
+  int sources = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "dynamics")) {
+    if (entry.path().extension() != ".cpp") continue;
+    const std::string path = entry.path().lexically_relative(source.parent_path()).generic_string();
+    EXPECT_EQ(first[path], std::filesystem::path(path).replace_extension(".hpp").generic_string());
+    ++sources;
+  }
+  EXPECT_GT(sources, 40);
 }
 
 TEST(Includes, every_room_has_a_rank) {

@@ -112,4 +112,19 @@ TEST(Coloring, of_nothing_is_nothing) {
   EXPECT_TRUE(color_constraints({4, 10, {}}).empty());
 }
 
+TEST(Rounds, hold_every_pair_once_and_no_surface_twice) {
+  const std::vector<std::array<Index, 2>> pairs = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}, {2, 3}};
+  std::set<Index> seen;
+  for (const std::vector<Index>& round : rounds_of(pairs)) {
+    std::set<Index> surfaces;
+    for (const Index i : round) {
+      EXPECT_TRUE(seen.insert(i).second);
+      const auto [a, b] = pairs[static_cast<std::size_t>(i)];
+      EXPECT_TRUE(surfaces.insert(a).second);
+      EXPECT_TRUE(a == b || surfaces.insert(b).second);
+    }
+  }
+  EXPECT_EQ(seen.size(), pairs.size());
+}
+
 }  // namespace gracilis

@@ -1,4 +1,6 @@
-#include <gracilis/dynamics/constraints/constraint_sets.hpp>
+#include <gracilis/dynamics/constraints/dihedral.hpp>
+#include <gracilis/dynamics/constraints/distance.hpp>
+#include <gracilis/dynamics/constraints/volume.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 #include <shapes.hpp>
@@ -23,8 +25,8 @@ std::vector<DistanceConstraint> distances() {
   return result;
 }
 
-std::vector<HingeConstraint> hinges() {
-  std::vector<HingeConstraint> result;
+std::vector<DihedralConstraint> dihedrals() {
+  std::vector<DihedralConstraint> result;
   for (const MeshEdge& e : build_topology(ball().faces, ball().vertex_count()).edges) {
     const auto number = static_cast<Real>(result.size() + 1);
     result.push_back({{e.a, e.b, e.left_apex, e.right_apex}, 0.01 * number, 0.5 * number, 0.002 * number});
@@ -122,9 +124,9 @@ TEST(DistanceSet, no_particle_but_the_idle_one_stands_twice_in_a_color) {
   }
 }
 
-TEST(HingeSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers) {
-  const std::vector<HingeConstraint> input = hinges();
-  const HingeSet set = build_hinge_set(input, ball().vertex_count());
+TEST(DihedralSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers) {
+  const std::vector<DihedralConstraint> input = dihedrals();
+  const DihedralSet set = build_dihedral_set(input, ball().vertex_count());
   EXPECT_EQ(set.count, static_cast<Index>(input.size()));
   expect_whole_groups_that_follow_each_other(set, set.rest_angle.size());
   std::map<Index, std::size_t> input_of;  // by the edge's ends
@@ -137,11 +139,11 @@ TEST(HingeSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers) {
     }
     const auto found = input_of.find(edge(set.particles[0][at], set.particles[1][at]));
     ASSERT_NE(found, input_of.end()) << "not in the input, or twice in the set";
-    const HingeConstraint& hinge = input[found->second];
-    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(set.particles[k][at], hinge.particles[k]);
-    EXPECT_EQ(set.rest_angle[at], static_cast<float>(hinge.rest_angle));
-    EXPECT_EQ(set.compliance[at], static_cast<float>(hinge.compliance));
-    EXPECT_EQ(set.edge_length[at], static_cast<float>(hinge.edge_length));
+    const DihedralConstraint& dihedral = input[found->second];
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(set.particles[k][at], dihedral.particles[k]);
+    EXPECT_EQ(set.rest_angle[at], static_cast<float>(dihedral.rest_angle));
+    EXPECT_EQ(set.compliance[at], static_cast<float>(dihedral.compliance));
+    EXPECT_EQ(set.edge_length[at], static_cast<float>(dihedral.edge_length));
     input_of.erase(found);
   }
   EXPECT_TRUE(input_of.empty());
@@ -151,9 +153,9 @@ TEST(ConstraintSets, of_nothing_are_empty) {
   const DistanceSet distance = build_distance_set({}, 5);
   EXPECT_TRUE(distance.a.empty());
   EXPECT_TRUE(distance.order.colors.empty());
-  const HingeSet hinge = build_hinge_set({}, 5);
-  EXPECT_TRUE(hinge.rest_angle.empty());
-  EXPECT_TRUE(hinge.order.colors.empty());
+  const DihedralSet dihedrals = build_dihedral_set({}, 5);
+  EXPECT_TRUE(dihedrals.rest_angle.empty());
+  EXPECT_TRUE(dihedrals.order.colors.empty());
 }
 
 /// The neighbors in a volume set's ring of every particle that has one, without repetition at the end.

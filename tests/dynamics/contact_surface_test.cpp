@@ -1,4 +1,5 @@
 #include <gracilis/dynamics/contact/mesh/contact_surface.hpp>
+#include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
 
 #include <shapes.hpp>
 

@@ -1,4 +1,5 @@
 #include <gracilis/dynamics/contact/field/field_contact_away.hpp>
+#include <gracilis/dynamics/solver/bone_contact.hpp>
 
 #include "systems_for_tests.hpp"
 

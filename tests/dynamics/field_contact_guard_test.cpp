@@ -1,4 +1,7 @@
 #include <gracilis/dynamics/contact/field/field_contact.hpp>
+#include <gracilis/dynamics/contact/field/field_contact_guard.hpp>
+#include <gracilis/dynamics/contact/field/field_contact_near.hpp>
+#include <gracilis/dynamics/contact/field/field_contact_squeeze.hpp>
 
 #include "systems_for_tests.hpp"
 

@@ -1,5 +1,6 @@
-#include <gracilis/dynamics/constraints/hinge.hpp>
-#include <gracilis/dynamics/constraints/kernels-inl.hpp>
+#include <gracilis/dynamics/constraints/dihedral-inl.hpp>
+#include <gracilis/dynamics/constraints/dihedral.hpp>
+#include <gracilis/dynamics/constraints/distance-inl.hpp>
 
 #include <gtest/gtest.h>
 
@@ -12,7 +13,7 @@ namespace {
 namespace kernels = HWY_NAMESPACE;
 using kernels::Scalar;
 using KernelVector = kernels::Vector3<double>;
-using Hinge = std::array<Vec3, 4>;
+using Dihedral = std::array<Vec3, 4>;
 
 KernelVector kernel_vector(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 Vec3 plain(const KernelVector& v) { return {v.x, v.y, v.z}; }
@@ -23,26 +24,27 @@ struct AngleAndGradient {
   Real valid;
 };
 
-AngleAndGradient answer(const kernels::HingeAngle<double>& hinge) {
-  return {hinge.angle, {plain(hinge.g0), plain(hinge.g1), plain(hinge.g2), plain(hinge.g3)}, hinge.valid};
+AngleAndGradient answer(const kernels::DihedralAngle<double>& dihedral) {
+  return {
+      dihedral.angle, {plain(dihedral.g0), plain(dihedral.g1), plain(dihedral.g2), plain(dihedral.g3)}, dihedral.valid};
 }
 
-AngleAndGradient by_atan2(const Hinge& x) {
-  return answer(
-      kernels::hinge_angle<Scalar>(kernel_vector(x[0]), kernel_vector(x[1]), kernel_vector(x[2]), kernel_vector(x[3])));
+AngleAndGradient by_atan2(const Dihedral& x) {
+  return answer(kernels::dihedral_angle<Scalar>(kernel_vector(x[0]), kernel_vector(x[1]), kernel_vector(x[2]),
+                                                kernel_vector(x[3])));
 }
 
-AngleAndGradient by_arccos(const Hinge& x) {
-  return answer(kernels::hinge_angle_arccos<Scalar>(kernel_vector(x[0]), kernel_vector(x[1]), kernel_vector(x[2]),
-                                                    kernel_vector(x[3])));
+AngleAndGradient by_arccos(const Dihedral& x) {
+  return answer(kernels::dihedral_angle_arccos<Scalar>(kernel_vector(x[0]), kernel_vector(x[1]), kernel_vector(x[2]),
+                                                       kernel_vector(x[3])));
 }
 
 /// Two triangles over an edge of length `edge` along x, with heights and feet as given, folded by `angle`: the left one
 /// lies in the plane z = 0, the right one leaves it, downwards for a ridge (positive). Turned and moved, so that no
 /// coordinate is special.
-Hinge folded(Real angle, Real edge, Real height2, Real height3, Real foot2, Real foot3) {
-  Hinge x = {Vec3::Zero(), Vec3(edge, 0, 0), Vec3(foot2 * edge, height2, 0),
-             Vec3(foot3 * edge, -height3 * std::cos(angle), -height3 * std::sin(angle))};
+Dihedral folded(Real angle, Real edge, Real height2, Real height3, Real foot2, Real foot3) {
+  Dihedral x = {Vec3::Zero(), Vec3(edge, 0, 0), Vec3(foot2 * edge, height2, 0),
+                Vec3(foot3 * edge, -height3 * std::cos(angle), -height3 * std::sin(angle))};
   const RigidTransform somewhere =
       Eigen::Translation3d(edge * Vec3(5, -3, 7)) * Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized());
   for (Vec3& p : x) p = somewhere * p;
@@ -51,10 +53,10 @@ Hinge folded(Real angle, Real edge, Real height2, Real height3, Real foot2, Real
 
 Real angle_between(Real a, Real b) { return std::abs(std::remainder(a - b, 2 * pi)); }
 
-Real signed_angle(const Hinge& x) { return dihedral_angle(x[0], x[1], x[2], x[3]); }
+Real signed_angle(const Dihedral& x) { return dihedral_angle(x[0], x[1], x[2], x[3]); }
 
-/// Central differences of the angle over steps much shorter than the hinge's smallest feature.
-std::array<Vec3, 4> differences(Hinge x, Real step) {
+/// Central differences of the angle over steps much shorter than the triangles' smallest feature.
+std::array<Vec3, 4> differences(Dihedral x, Real step) {
   std::array<Vec3, 4> result;
   for (std::size_t k = 0; k < 4; ++k)
     for (int axis = 0; axis < 3; ++axis) {
@@ -75,12 +77,12 @@ Real largest(const std::array<Vec3, 4>& gradient) {
   return norm;
 }
 
-struct HingeCase {
+struct DihedralCase {
   const char* name;
   Real angle, edge, height2, height3, foot2, foot3;
 };
 
-const HingeCase hinge_cases[] = {
+const DihedralCase dihedral_cases[] = {
     {"open", 0.7, 0.004, 0.003, 0.0035, 0.4, 0.6},
     {"folded the other way", -2.1, 0.004, 0.003, 0.0035, 0.4, 0.6},
     {"flat", 0, 0.004, 0.003, 0.0035, 0.4, 0.6},
@@ -97,7 +99,7 @@ const HingeCase hinge_cases[] = {
     {"metres instead of millimetres", -0.3, 2, 1.5, 1, 0.2, 0.9},
 };
 
-Hinge hinge_of(const HingeCase& c) { return folded(c.angle, c.edge, c.height2, c.height3, c.foot2, c.foot3); }
+Dihedral dihedral_of(const DihedralCase& c) { return folded(c.angle, c.edge, c.height2, c.height3, c.foot2, c.foot3); }
 
 }  // namespace
 
@@ -145,76 +147,76 @@ TEST(Atan2Kernel, is_right_on_the_axes_and_zero_for_the_zero_vector) {
   EXPECT_NEAR(kernels::atan2<Scalar>(0.0, -2.0), pi, 1e-12);
 }
 
-TEST(HingeKernel, recovers_the_angle_a_hinge_was_folded_by) {
-  for (const HingeCase& c : hinge_cases) {
-    const AngleAndGradient hinge = by_atan2(hinge_of(c));
-    EXPECT_EQ(hinge.valid, 1) << c.name;
-    EXPECT_LT(angle_between(hinge.angle, c.angle), 5e-8) << c.name;
+TEST(DihedralKernel, recovers_the_angle_a_dihedral_was_folded_by) {
+  for (const DihedralCase& c : dihedral_cases) {
+    const AngleAndGradient dihedral = by_atan2(dihedral_of(c));
+    EXPECT_EQ(dihedral.valid, 1) << c.name;
+    EXPECT_LT(angle_between(dihedral.angle, c.angle), 5e-8) << c.name;
   }
 }
 
-TEST(HingeKernel, gradient_agrees_with_finite_differences_even_where_hinges_nearly_degenerate) {
-  for (const HingeCase& c : hinge_cases) {
-    const Hinge x = hinge_of(c);
+TEST(DihedralKernel, gradient_agrees_with_finite_differences_even_where_dihedrals_nearly_degenerate) {
+  for (const DihedralCase& c : dihedral_cases) {
+    const Dihedral x = dihedral_of(c);
     const Real smallest = std::min({c.edge, c.height2, c.height3});
-    const AngleAndGradient hinge = by_atan2(x);
+    const AngleAndGradient dihedral = by_atan2(x);
     const std::array<Vec3, 4> expected = differences(x, 3e-5 * smallest);
     ASSERT_GT(largest(expected), 0.1) << c.name;
     for (std::size_t k = 0; k < 4; ++k)
-      EXPECT_LT((hinge.gradient[k] - expected[k]).norm(), 2e-6 * largest(expected)) << c.name << ", particle " << k;
+      EXPECT_LT((dihedral.gradient[k] - expected[k]).norm(), 2e-6 * largest(expected)) << c.name << ", particle " << k;
   }
 }
 
-TEST(HingeKernel, gradient_pulls_no_hinge_as_a_whole_and_turns_none) {
-  for (const HingeCase& c : hinge_cases) {
-    const Hinge x = hinge_of(c);
-    const AngleAndGradient hinge = by_atan2(x);
+TEST(DihedralKernel, gradient_pulls_no_dihedral_as_a_whole_and_turns_none) {
+  for (const DihedralCase& c : dihedral_cases) {
+    const Dihedral x = dihedral_of(c);
+    const AngleAndGradient dihedral = by_atan2(x);
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
     for (std::size_t k = 0; k < 4; ++k) {
-      force += hinge.gradient[k];
-      torque += (x[k] - x[0]).cross(hinge.gradient[k]);
+      force += dihedral.gradient[k];
+      torque += (x[k] - x[0]).cross(dihedral.gradient[k]);
     }
     const Real extent = std::max({c.edge, c.height2, c.height3}) * 10;
-    EXPECT_LT(force.norm(), 1e-9 * largest(hinge.gradient)) << c.name;
-    EXPECT_LT(torque.norm(), 1e-9 * extent * largest(hinge.gradient)) << c.name;
+    EXPECT_LT(force.norm(), 1e-9 * largest(dihedral.gradient)) << c.name;
+    EXPECT_LT(torque.norm(), 1e-9 * extent * largest(dihedral.gradient)) << c.name;
   }
 }
 
-TEST(HingeKernel, a_degenerate_hinge_is_invalid_and_has_no_gradient) {
+TEST(DihedralKernel, a_degenerate_dihedral_is_invalid_and_has_no_gradient) {
   const Vec3 a(0.01, 0.02, 0.03), b(0.014, 0.02, 0.03), c(0.012, 0.024, 0.03), d(0.012, 0.017, 0.031);
-  const Hinge degenerate[] = {{a, a, c, d},
-                              {a, b, a, d},
-                              {a, b, c, b},
-                              {a, b, Vec3((a + b) / 2), d},
-                              {a, b, Vec3(a + 3 * (b - a)), d},
-                              {a, b, c, Vec3((a + b) / 2 + Vec3(0, 1e-8, 0))},
-                              {a, a, a, a}};
-  for (const Hinge& x : degenerate)
-    for (const AngleAndGradient& hinge : {by_atan2(x), by_arccos(x)}) {
-      EXPECT_EQ(hinge.valid, 0);
-      EXPECT_EQ(hinge.angle, 0);
-      EXPECT_EQ(largest(hinge.gradient), 0);
+  const Dihedral degenerate[] = {{a, a, c, d},
+                                 {a, b, a, d},
+                                 {a, b, c, b},
+                                 {a, b, Vec3((a + b) / 2), d},
+                                 {a, b, Vec3(a + 3 * (b - a)), d},
+                                 {a, b, c, Vec3((a + b) / 2 + Vec3(0, 1e-8, 0))},
+                                 {a, a, a, a}};
+  for (const Dihedral& x : degenerate)
+    for (const AngleAndGradient& dihedral : {by_atan2(x), by_arccos(x)}) {
+      EXPECT_EQ(dihedral.valid, 0);
+      EXPECT_EQ(dihedral.angle, 0);
+      EXPECT_EQ(largest(dihedral.gradient), 0);
     }
-  EXPECT_EQ(by_atan2({a, b, c, d}).valid, 1) << "the hinge that the others were made from is a good one";
+  EXPECT_EQ(by_atan2({a, b, c, d}).valid, 1) << "what the others were made from is a good one";
 }
 
-TEST(ArccosHingeKernel, is_the_angle_without_its_sign_with_the_gradient_of_that) {
+TEST(ArccosDihedralKernel, is_the_angle_without_its_sign_with_the_gradient_of_that) {
   for (Real angle : {0.7, -0.7, 2.5, -2.5, 0.01, -0.01}) {
-    const Hinge x = folded(angle, 0.004, 0.003, 0.0035, 0.4, 0.6);
-    const AngleAndGradient hinge = by_arccos(x);
-    EXPECT_EQ(hinge.valid, 1);
-    EXPECT_NEAR(hinge.angle, std::abs(angle), 5e-8);
+    const Dihedral x = folded(angle, 0.004, 0.003, 0.0035, 0.4, 0.6);
+    const AngleAndGradient dihedral = by_arccos(x);
+    EXPECT_EQ(dihedral.valid, 1);
+    EXPECT_NEAR(dihedral.angle, std::abs(angle), 5e-8);
     const std::array<Vec3, 4> expected = differences(x, 1e-7);
     for (std::size_t k = 0; k < 4; ++k)
-      EXPECT_LT((hinge.gradient[k] - std::copysign(1, angle) * expected[k]).norm(), 1e-6 * largest(expected));
+      EXPECT_LT((dihedral.gradient[k] - std::copysign(1, angle) * expected[k]).norm(), 1e-6 * largest(expected));
   }
 }
 
-TEST(ArccosHingeKernel, skips_hinges_that_are_nearly_flat_or_folded_up) {
+TEST(ArccosDihedralKernel, skips_dihedrals_that_are_nearly_flat_or_folded_up) {
   for (Real angle : {0.0, 1e-4, -1e-4, pi - 1e-4, -pi + 1e-4}) {
-    const AngleAndGradient hinge = by_arccos(folded(angle, 0.004, 0.003, 0.0035, 0.4, 0.6));
-    EXPECT_EQ(hinge.valid, 0) << angle;
-    EXPECT_EQ(largest(hinge.gradient), 0) << angle;
+    const AngleAndGradient dihedral = by_arccos(folded(angle, 0.004, 0.003, 0.0035, 0.4, 0.6));
+    EXPECT_EQ(dihedral.valid, 0) << angle;
+    EXPECT_EQ(largest(dihedral.gradient), 0) << angle;
   }
 }
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/constraints/projection.hpp>
+#include <gracilis/dynamics/constraints/strain_limit.hpp>
 
 #include "systems_for_tests.hpp"
 
@@ -61,27 +61,29 @@ TEST(Momentum, is_kept_by_distances) {
     });
 }
 
-TEST(Momentum, is_kept_by_hinges_with_and_without_their_limit) {
+TEST(Momentum, is_kept_by_dihedrals_with_and_without_their_limit) {
   const SurfaceSystem system = system_of(ball());
   for (float limit : {0.0f, 0.05f})
     for (bool arccos : {false, true}) {
       ProjectionParameters parameters;
-      parameters.hinge_limit = limit;
-      parameters.arccos_hinges = arccos;
+      parameters.dihedral_limit = limit;
+      parameters.arccos_dihedrals = arccos;
       SurfaceState state = shaken(system);
-      for (const ColorRange& color : system.hinges.order.colors)
+      for (const ColorRange& color : system.dihedrals.order.colors)
         expect_no_gain(state.particles, [&] {
-          project_hinges(system.hinges, color, state.hinge_lambda.data(), state.start, state.particles, parameters);
+          project_dihedrals(system.dihedrals, color, state.dihedral_lambda.data(), state.start, state.particles,
+                            parameters);
         });
     }
 }
 
-TEST(Momentum, is_kept_by_the_stretch_limit) {
+TEST(Momentum, is_kept_by_the_strain_limit) {
   const SurfaceSystem system = system_of(ball());
   SurfaceState state = shaken(system);
   Index limited = 0;
   for (const ColorRange& color : system.distances.order.colors)
-    expect_no_gain(state.particles, [&] { limited += limit_stretch(system.distances, color, 1.01f, state.particles); });
+    expect_no_gain(state.particles,
+                   [&] { limited += project_strain_limit(system.distances, color, 1.01f, state.particles); });
   EXPECT_GT(limited, 100);
 }
 

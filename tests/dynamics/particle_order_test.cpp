@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/constraints/constraint_sets.hpp>
+#include <gracilis/dynamics/constraints/distance.hpp>
 #include <gracilis/dynamics/particle_order.hpp>
 
 #include <shapes.hpp>

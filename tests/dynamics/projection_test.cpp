@@ -1,4 +1,5 @@
-#include <gracilis/dynamics/constraints/projection.hpp>
+#include <gracilis/dynamics/constraints/strain_limit.hpp>
+#include <gracilis/dynamics/constraints/volume.hpp>
 
 #include "reference_projection.hpp"
 #include "systems_for_tests.hpp"
@@ -33,8 +34,8 @@ Scenario shaken(unsigned seed) {
   std::uniform_real_distribution<float> uniform(-1, 1);
   for (Index slot : scenario.system.distances.slot)
     scenario.state.distance_lambda[static_cast<std::size_t>(slot)] = 1e-6f * uniform(generator);
-  for (Index slot : slots_of(scenario.system.hinges))
-    scenario.state.hinge_lambda[static_cast<std::size_t>(slot)] = 1e-9f * uniform(generator);
+  for (Index slot : slots_of(scenario.system.dihedrals))
+    scenario.state.dihedral_lambda[static_cast<std::size_t>(slot)] = 1e-9f * uniform(generator);
   return scenario;
 }
 
@@ -58,7 +59,7 @@ Real lambda_deviation(const AlignedVector<float>& lambda, const std::vector<Real
 std::vector<ProjectionParameters> parameter_sets() {
   ProjectionParameters plain, dissipative, limited;
   dissipative.rayleigh_beta = 0.5f;
-  limited.hinge_limit = 0.05f;
+  limited.dihedral_limit = 0.05f;
   return {plain, dissipative, limited};
 }
 
@@ -80,72 +81,73 @@ TEST(DistanceProjection, agrees_with_plain_double_precision) {
   }
 }
 
-TEST(HingeProjection, agrees_with_plain_double_precision) {
+TEST(DihedralProjection, agrees_with_plain_double_precision) {
   for (const ProjectionParameters& parameters : parameter_sets()) {
     Scenario scenario = shaken(12);
     SurfaceState& state = scenario.state;
     const Points before = positions_of(state.particles);
-    reference::State expected = reference::state_of(state.particles, state.start, state.hinge_lambda);
-    reference::project_hinges(scenario.system.hinges, expected, parameters);
-    for (const ColorRange& color : scenario.system.hinges.order.colors)
-      project_hinges(scenario.system.hinges, color, state.hinge_lambda.data(), state.start, state.particles,
-                     parameters);
+    reference::State expected = reference::state_of(state.particles, state.start, state.dihedral_lambda);
+    reference::project_dihedrals(scenario.system.dihedrals, expected, parameters);
+    for (const ColorRange& color : scenario.system.dihedrals.order.colors)
+      project_dihedrals(scenario.system.dihedrals, color, state.dihedral_lambda.data(), state.start, state.particles,
+                        parameters);
     EXPECT_LT(deviation(before, state.particles, expected.x), 1e-5);
-    EXPECT_LT(lambda_deviation(state.hinge_lambda, expected.lambda), 1e-5);
+    EXPECT_LT(lambda_deviation(state.dihedral_lambda, expected.lambda), 1e-5);
   }
 }
 
 namespace {
 
 /// Two triangles folded by `angle` that want to be flat.
-Scenario one_hinge(Real angle, Real compliance) {
+Scenario one_dihedral(Real angle, Real compliance) {
   Points x(3, 4);
   x.col(0) = Vec3::Zero(), x.col(1) = Vec3(0.004, 0, 0);
   x.col(2) = Vec3(0.002, 0.003, 0), x.col(3) = Vec3(0.002, -0.003 * std::cos(angle), -0.003 * std::sin(angle));
   Scenario scenario;
   scenario.system.rest = make_particles(x, Eigen::VectorXd::Constant(4, 1e4));
-  scenario.system.hinges = build_hinge_set({{{0, 1, 2, 3}, 0, compliance, 0.004}}, 4);
+  scenario.system.dihedrals = build_dihedral_set({{{0, 1, 2, 3}, 0, compliance, 0.004}}, 4);
   scenario.state = make_state(scenario.system);
   return scenario;
 }
 
 ProjectionCounts project_all(Scenario& scenario, const ProjectionParameters& parameters) {
-  return project_hinges(scenario.system.hinges, scenario.system.hinges.order.colors.at(0),
-                        scenario.state.hinge_lambda.data(), scenario.state.start, scenario.state.particles, parameters);
+  return project_dihedrals(scenario.system.dihedrals, scenario.system.dihedrals.order.colors.at(0),
+                           scenario.state.dihedral_lambda.data(), scenario.state.start, scenario.state.particles,
+                           parameters);
 }
 
 }  // namespace
 
-TEST(HingeProjection, moves_no_vertex_farther_than_the_limit_and_counts_it) {
+TEST(DihedralProjection, moves_no_vertex_farther_than_the_limit_and_counts_it) {
   ProjectionParameters parameters;
-  parameters.hinge_limit = 0.05f;
-  Scenario scenario = one_hinge(2.5, 0);
+  parameters.dihedral_limit = 0.05f;
+  Scenario scenario = one_dihedral(2.5, 0);
   const Points before = positions_of(scenario.state.particles);
   EXPECT_EQ(project_all(scenario, parameters).limited, 1);
   EXPECT_NEAR(farthest(before, positions_of(scenario.state.particles)), 0.05 * 0.004, 1e-8);
 
-  Scenario free = one_hinge(2.5, 0);
-  parameters.hinge_limit = 0;
+  Scenario free = one_dihedral(2.5, 0);
+  parameters.dihedral_limit = 0;
   EXPECT_EQ(project_all(free, parameters).limited, 0);
   EXPECT_GT(farthest(before, positions_of(free.state.particles)), 0.001);
 }
 
-TEST(HingeProjection, gives_back_the_multiplier_of_a_motion_held_back) {
+TEST(DihedralProjection, gives_back_the_multiplier_of_a_motion_held_back) {
   ProjectionParameters parameters;
-  Scenario free = one_hinge(2.5, 0), held = one_hinge(2.5, 0);
+  Scenario free = one_dihedral(2.5, 0), held = one_dihedral(2.5, 0);
   const Points before = positions_of(free.state.particles);
   project_all(free, parameters);
-  parameters.hinge_limit = 0.05f;
+  parameters.dihedral_limit = 0.05f;
   project_all(held, parameters);
-  const auto slot = static_cast<std::size_t>(slots_of(free.system.hinges)[0]);
+  const auto slot = static_cast<std::size_t>(slots_of(free.system.dihedrals)[0]);
   const Real motion_share =
       farthest(before, positions_of(held.state.particles)) / farthest(before, positions_of(free.state.particles));
-  EXPECT_NEAR(held.state.hinge_lambda[slot] / free.state.hinge_lambda[slot], motion_share, 1e-5);
+  EXPECT_NEAR(held.state.dihedral_lambda[slot] / free.state.dihedral_lambda[slot], motion_share, 1e-5);
 }
 
-TEST(HingeProjection, near_half_a_turn_takes_the_short_way_back) {
-  Scenario scenario = one_hinge(-pi + 0.01, 0);
-  scenario.system.hinges.rest_angle[static_cast<std::size_t>(slots_of(scenario.system.hinges)[0])] =
+TEST(DihedralProjection, near_half_a_turn_takes_the_short_way_back) {
+  Scenario scenario = one_dihedral(-pi + 0.01, 0);
+  scenario.system.dihedrals.rest_angle[static_cast<std::size_t>(slots_of(scenario.system.dihedrals)[0])] =
       static_cast<float>(pi - 0.01);
   const Points before = positions_of(scenario.state.particles);
   project_all(scenario, {});
@@ -154,8 +156,8 @@ TEST(HingeProjection, near_half_a_turn_takes_the_short_way_back) {
   EXPECT_GT(farthest(before, after), 0.003 * 0.002);
 }
 
-TEST(HingeProjection, a_flat_triangle_is_skipped_and_counted_and_moves_nothing) {
-  Scenario scenario = one_hinge(1, 0);
+TEST(DihedralProjection, a_flat_triangle_is_skipped_and_counted_and_moves_nothing) {
+  Scenario scenario = one_dihedral(1, 0);
   scenario.state.particles.position(2) = Eigen::Vector3f(0.002f, 0, 0);
   const AlignedVector<float> before = scenario.state.particles.xyzw;
   EXPECT_EQ(project_all(scenario, {}).skipped, 1);
@@ -181,7 +183,7 @@ TEST(DistanceProjection, an_edge_without_length_is_skipped_and_counted_and_moves
 TEST(Projection, padding_and_fixed_particles_stay_where_they_are_and_never_turn_nan) {
   for (ProjectionParameters parameters : parameter_sets())
     for (bool arccos : {false, true}) {
-      parameters.arccos_hinges = arccos;
+      parameters.arccos_dihedrals = arccos;
       Scenario scenario = shaken(13);
       SurfaceState& state = scenario.state;
       const Particles before = state.particles;
@@ -189,15 +191,15 @@ TEST(Projection, padding_and_fixed_particles_stay_where_they_are_and_never_turn_
         for (const ColorRange& color : scenario.system.distances.order.colors) {
           project_distances(scenario.system.distances, color, state.target_length.data(), state.distance_lambda.data(),
                             state.start, state.particles, parameters);
-          limit_stretch(scenario.system.distances, color, 1.01f, state.particles);
+          project_strain_limit(scenario.system.distances, color, 1.01f, state.particles);
         }
-        for (const ColorRange& color : scenario.system.hinges.order.colors)
-          project_hinges(scenario.system.hinges, color, state.hinge_lambda.data(), state.start, state.particles,
-                         parameters);
+        for (const ColorRange& color : scenario.system.dihedrals.order.colors)
+          project_dihedrals(scenario.system.dihedrals, color, state.dihedral_lambda.data(), state.start,
+                            state.particles, parameters);
       }
       EXPECT_TRUE(is_finite(state.particles));
       for (int k = 0; k < 4; ++k) EXPECT_EQ(state.particles.at(state.particles.count())[k], 0);
-      for (const AlignedVector<float>* lambdas : {&state.distance_lambda, &state.hinge_lambda})
+      for (const AlignedVector<float>* lambdas : {&state.distance_lambda, &state.dihedral_lambda})
         for (float lambda : *lambdas) EXPECT_TRUE(std::isfinite(lambda));
       Index fixed = 0;
       for (Index i = 0; i < before.count(); ++i) {
@@ -210,7 +212,7 @@ TEST(Projection, padding_and_fixed_particles_stay_where_they_are_and_never_turn_
     }
 }
 
-TEST(StretchLimit, shortens_what_is_too_long_to_the_limit_and_leaves_the_rest) {
+TEST(StrainLimit, shortens_what_is_too_long_to_the_limit_and_leaves_the_rest) {
   Points x(3, 6);
   for (Index i = 0; i < 6; ++i) x.col(i) = Vec3(0, 0.01 * i, 0);
   x.col(1).x() = 0.03, x.col(3).x() = 0.019, x.col(5).x() = 0.05;
@@ -220,13 +222,13 @@ TEST(StretchLimit, shortens_what_is_too_long_to_the_limit_and_leaves_the_rest) {
   Particles particles = make_particles(x, inverse_masses);
   const DistanceSet set = build_distance_set({{0, 1, 0.01, 0}, {2, 3, 0.01, 0}, {4, 5, 0.01, 0}}, 6);
   ASSERT_EQ(set.order.colors.size(), 1u);
-  EXPECT_EQ(limit_stretch(set, set.order.colors[0], 2, particles), 2);
+  EXPECT_EQ(project_strain_limit(set, set.order.colors[0], 2, particles), 2);
   EXPECT_NEAR((particles.position(1) - particles.position(0)).norm(), 0.02, 1e-8);
   EXPECT_NEAR(particles.position(0).x(), 0.01 / 4, 1e-8);  // the lighter end gives three times as much
   EXPECT_NEAR((particles.position(5) - particles.position(4)).norm(), 0.02, 1e-8);
   EXPECT_EQ(particles.position(4).x(), 0);
   EXPECT_EQ(particles.position(3).x(), 0.019f);
-  EXPECT_EQ(limit_stretch(set, set.order.colors[0], 2.001f, particles), 0);
+  EXPECT_EQ(project_strain_limit(set, set.order.colors[0], 2.001f, particles), 0);
 }
 
 /// Whether the first edge of a set is shortened that had the first length when distances were projected and has the
@@ -236,25 +238,25 @@ bool is_limited(const DistanceSet& set, double when_projected, float after) {
   x(0, 1) = when_projected;
   Particles particles = make_particles(x, Eigen::Vector3d(1, 1, 0));
   AlignedVector<float> lambda(set.a.size(), 0);
-  StretchWatch watch;
-  watch_stretch(set, 2, watch);
-  look_nowhere(watch);
+  StrainLimitActiveSet active;
+  build_active_set(set, 2, active);
+  deactivate_all(active);
   const Index group = set.slot[0] / group_width * group_width;
   const ColorRange range{group, group + group_width};
-  project_distances(set, range, set.rest_length.data(), lambda.data(), particles, particles, {}, &watch);
+  project_distances(set, range, set.rest_length.data(), lambda.data(), particles, particles, {}, &active);
   particles.at(1)[0] = after;
-  return limit_stretch(set, range, 2, particles, &watch) > 0;
+  return project_strain_limit(set, range, 2, particles, &active) > 0;
 }
 
 constexpr double soft = 1e9;  // so that projecting a distance moves nothing
 
-TEST(StretchLimit, looks_only_where_an_edge_came_near_it_when_distances_were_projected) {
+TEST(StrainLimit, looks_only_where_an_edge_came_near_it_when_distances_were_projected) {
   const DistanceSet set = build_distance_set({{0, 1, 0.01, soft}}, 3);
   EXPECT_FALSE(is_limited(set, 0.0179, 0.03f));
   EXPECT_TRUE(is_limited(set, 0.0181, 0.03f));
 }
 
-TEST(StretchLimit, comes_near_within_half_of_the_edge_or_of_a_longer_one_beside_it) {
+TEST(StrainLimit, comes_near_within_half_of_the_edge_or_of_a_longer_one_beside_it) {
   const DistanceSet alone = build_distance_set({{0, 1, 0.001, soft}}, 3);
   EXPECT_FALSE(is_limited(alone, 0.00149, 0.003f));
   EXPECT_TRUE(is_limited(alone, 0.00151, 0.003f));
@@ -263,18 +265,18 @@ TEST(StretchLimit, comes_near_within_half_of_the_edge_or_of_a_longer_one_beside_
   EXPECT_FALSE(is_limited(beside, 0.0004, 0.003f));
 }
 
-TEST(StretchWatch, begins_anew_only_for_another_limit) {
+TEST(StrainLimitActiveSet, begins_anew_only_for_another_limit) {
   const DistanceSet set = build_distance_set({{0, 1, 0.001, soft}}, 2);
-  StretchWatch watch;
-  watch_stretch(set, 2, watch);
-  EXPECT_EQ(watch.groups, std::vector<char>{1});
-  EXPECT_FLOAT_EQ(watch.from[static_cast<std::size_t>(set.slot[0])], 0.0015f);
-  watch.groups = {0};
-  watch_stretch(set, 2, watch);
-  EXPECT_EQ(watch.groups, std::vector<char>{0});
-  watch_stretch(set, 3, watch);
-  EXPECT_EQ(watch.groups, std::vector<char>{1});
-  EXPECT_FLOAT_EQ(watch.from[static_cast<std::size_t>(set.slot[0])], 0.0025f);
+  StrainLimitActiveSet active;
+  build_active_set(set, 2, active);
+  EXPECT_EQ(active.groups, std::vector<char>{1});
+  EXPECT_FLOAT_EQ(active.from[static_cast<std::size_t>(set.slot[0])], 0.0015f);
+  active.groups = {0};
+  build_active_set(set, 2, active);
+  EXPECT_EQ(active.groups, std::vector<char>{0});
+  build_active_set(set, 3, active);
+  EXPECT_EQ(active.groups, std::vector<char>{1});
+  EXPECT_FLOAT_EQ(active.from[static_cast<std::size_t>(set.slot[0])], 0.0025f);
 }
 
 }  // namespace gracilis

@@ -2,9 +2,6 @@
 
 #include "systems_for_tests.hpp"
 
-#include <gracilis/dynamics/constraints/hinge.hpp>
-#include <gracilis/dynamics/constraints/projection.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -81,20 +78,20 @@ inline void project_distances(const DistanceSet& set, const AlignedVector<float>
   }
 }
 
-inline void project_hinges(const HingeSet& set, State& state, const ProjectionParameters& parameters) {
+inline void project_dihedrals(const DihedralSet& set, State& state, const ProjectionParameters& parameters) {
   for (Index slot : slots_of(set)) {
     const auto at = static_cast<std::size_t>(slot);
     const std::vector<Index> members = {set.particles[0][at], set.particles[1][at], set.particles[2][at],
                                         set.particles[3][at]};
     const auto& x = state.x;
     const Real here = dihedral_angle(x.col(members[0]), x.col(members[1]), x.col(members[2]), x.col(members[3]));
-    // Measured from where the hinge is now, so that a difference never meets the jump at half a turn.
+    // Measured from where it is now, so that a difference never meets the jump at half a turn.
     const Value turned = [here](const std::vector<Vec3>& p) {
       return std::remainder(dihedral_angle(p[0], p[1], p[2], p[3]) - here, 2 * pi);
     };
     const Real c = std::remainder(here - set.rest_angle[at], 2 * pi);
     project(state, members, turned, c, set.compliance[at], state.lambda[at], parameters,
-            parameters.hinge_limit * static_cast<Real>(set.edge_length[at]));
+            parameters.dihedral_limit * static_cast<Real>(set.edge_length[at]));
   }
 }
 

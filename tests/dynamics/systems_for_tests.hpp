@@ -1,6 +1,5 @@
 #pragma once
 
-#include <gracilis/dynamics/constraints/hinge.hpp>
 #include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
@@ -13,14 +12,14 @@ namespace gracilis {
 
 /// How a closed surface becomes a system to solve.
 struct SystemOptions {
-  Real distance_stiffness = 50;  ///< N/m
-  Real hinge_stiffness = 1e-5;   ///< N·m
-  Real smallest_mass = 0.5e-4;   ///< kg; masses are drawn between this and three times this
-  Real fixed_share = 0;          ///< of the particles
+  Real distance_stiffness = 50;    ///< N/m
+  Real dihedral_stiffness = 1e-5;  ///< N·m
+  Real smallest_mass = 0.5e-4;     ///< kg; masses are drawn between this and three times this
+  Real fixed_share = 0;            ///< of the particles
   unsigned seed = 5;
 };
 
-/// Edges, hinges and volume of `mesh` with random masses.
+/// Edges, dihedrals and volume of `mesh` with random masses.
 inline SurfaceSystem system_of(const TriangleMesh& mesh, const SystemOptions& options = {}) {
   std::mt19937 generator(options.seed);
   std::uniform_real_distribution<Real> uniform(0, 1);
@@ -31,23 +30,23 @@ inline SurfaceSystem system_of(const TriangleMesh& mesh, const SystemOptions& op
     w = fixed ? 0 : 1 / (options.smallest_mass * (1 + 2 * uniform(generator)));
   }
   std::vector<DistanceConstraint> distances;
-  std::vector<HingeConstraint> hinges;
+  std::vector<DihedralConstraint> dihedrals;
   for (const MeshEdge& e : build_topology(mesh.faces, mesh.vertex_count()).edges) {
     const Real length = (x.col(e.a) - x.col(e.b)).norm();
     distances.push_back({e.a, e.b, length, 1 / options.distance_stiffness});
     const Real angle = dihedral_angle(x.col(e.a), x.col(e.b), x.col(e.left_apex), x.col(e.right_apex));
-    hinges.push_back({{e.a, e.b, e.left_apex, e.right_apex}, angle, 1 / options.hinge_stiffness, length});
+    dihedrals.push_back({{e.a, e.b, e.left_apex, e.right_apex}, angle, 1 / options.dihedral_stiffness, length});
   }
   SurfaceSystem system;
   system.rest = make_particles(x, inverse_masses);
   system.distances = build_distance_set(distances, mesh.vertex_count());
-  system.hinges = build_hinge_set(hinges, mesh.vertex_count());
+  system.dihedrals = build_dihedral_set(dihedrals, mesh.vertex_count());
   system.volume = build_volume_set(mesh.faces, mesh.vertex_count(), enclosed_volume(x, mesh.faces), 0);
   return system;
 }
 
-/// Where a set's hinges are, ascending; padding has edges without length.
-inline std::vector<Index> slots_of(const HingeSet& set) {
+/// Where a set's dihedrals are, ascending; padding has edges without length.
+inline std::vector<Index> slots_of(const DihedralSet& set) {
   std::vector<Index> slots;
   for (std::size_t at = 0; at < set.edge_length.size(); ++at)
     if (set.edge_length[at] > 0) slots.push_back(static_cast<Index>(at));

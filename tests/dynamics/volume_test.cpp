@@ -1,5 +1,5 @@
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/constraints/projection.hpp>
+#include <gracilis/dynamics/constraints/volume.hpp>
 
 #include "systems_for_tests.hpp"
 

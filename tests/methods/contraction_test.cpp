@@ -100,7 +100,7 @@ TEST(Contraction, has_the_same_tension_for_any_number_of_fibers) {
     settings.spread = spread;
     const Scene scene = active_tube(1, settings, fibers);
     const xpbd::PreparedMuscle muscle = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
-    const DistanceSet& set = muscle.system.contractions;
+    const DistanceSet& set = muscle.system.tensions;
     Real sum = 0;
     for (const Index slot : set.slot) {
       const auto at = static_cast<std::size_t>(slot);
@@ -121,7 +121,7 @@ TEST(Contraction, follows_lines_drawn_by_hand) {
   line << 0.0355, 0.0355, 0, 0, 0.075, -0.075;
   scene.muscles[0].given_surface_fibers = join({line});
   const xpbd::PreparedMuscle muscle = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
-  const DistanceSet& set = muscle.system.contractions;
+  const DistanceSet& set = muscle.system.tensions;
   ASSERT_GT(set.count, 10);
   for (const Index slot : set.slot)
     for (const Index p : {set.a[static_cast<std::size_t>(slot)], set.b[static_cast<std::size_t>(slot)]})

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/solver/solver.hpp>
+#include <gracilis/dynamics/solver/constraint_table.hpp>
 #include <gracilis/methods/pass_tracing.hpp>
 
 #include <scenes_for_tests.hpp>
@@ -43,7 +43,7 @@ TEST(SolverPasses, name_every_kind_and_every_iteration) {
     kinds.insert(pass.kind);
     iterations.insert(pass.iteration);
   }
-  for (const ConstraintKind kind : projection_order) EXPECT_TRUE(kinds.contains(name_of(kind))) << name_of(kind);
+  for (const ConstraintRow& row : constraint_table()) EXPECT_TRUE(kinds.contains(row.name)) << row.name;
   EXPECT_EQ(*iterations.begin(), 0);
   // The rounds that settle volume and contact come after the last iteration.
   EXPECT_EQ(*iterations.rbegin(), metric(report.muscles[0].metrics, "iterations"));

@@ -68,6 +68,7 @@ std::vector<Variant> all_variants() {
       // As published: free vertices follow only through constraints, and the margin pushes muscles off bones at rest.
       {"xpbd_thesis_2024", "xpbd", {}, thesis.method.settings},
       {"arap", "arap", everything},
+      {"strings", "strings", everything},
       {"rbf", "rbf", everything},
       // As published neither volume nor contact are asked for, and centers are drawn to where they were in space.
       {"rbf_2024", "rbf", all_but({Property::rigid_motion, Property::volume}),

@@ -1,5 +1,6 @@
 // A soft ball, shaken and pressed into a hard one, by the solver alone: prints where it ends. The same program is built
 // for this machine and for WebAssembly, whose numbers have to be the same within rounding.
+#include <gracilis/dynamics/simd/instruction_set.hpp>
 #include <gracilis/dynamics/solver/solver.hpp>
 
 #include "dynamics/systems_for_tests.hpp"
@@ -28,8 +29,8 @@ void solve() {
     state.particles.position(p) += 0.0003f * Eigen::Vector3f(std::sin(1.f * p), std::sin(2.f * p), std::sin(3.f * p));
   SolveSettings settings;
   settings.iterations = 20;
-  settings.projection.hinge_limit = 0.05f;
-  settings.stretch_limit = 1.5f;
+  settings.projection.dihedral_limit = 0.05f;
+  settings.strain_limit = 1.5f;
   const SolveReport report = solve_substep(system, {FieldPlacement{}}, settings, state);
   std::fprintf(stderr, "%s, %d contacts\n", instruction_set(), report.contacts);
   std::printf("%.9g\n", state.volume / system.volume.target);

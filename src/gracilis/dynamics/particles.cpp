@@ -1,5 +1,8 @@
 #include <gracilis/dynamics/particles.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 namespace gracilis {
 
 Particles make_particles(const Points& positions, const Eigen::VectorXd& inverse_masses) {
@@ -17,6 +20,10 @@ float largest_motion(const Particles& from, const Particles& to) {
   for (Index i = 0; i < to.count(); ++i)
     largest2 = std::max(largest2, (to.position(i) - from.position(i)).squaredNorm());
   return std::sqrt(largest2);
+}
+
+bool is_finite(const Particles& particles) {
+  return std::all_of(particles.xyzw.begin(), particles.xyzw.end(), [](float value) { return std::isfinite(value); });
 }
 
 }  // namespace gracilis

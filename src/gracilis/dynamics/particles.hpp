@@ -26,4 +26,7 @@ Particles make_particles(const Points& positions, const Eigen::VectorXd& inverse
 /// Length of the longest way that a particle went from one state to another of as many particles, m.
 float largest_motion(const Particles& from, const Particles& to);
 
+/// True when every coordinate is finite.
+bool is_finite(const Particles& particles);
+
 }  // namespace gracilis

@@ -6,6 +6,7 @@
 #include <gracilis/methods/pbd/pbd_method.hpp>
 #include <gracilis/methods/rbf/rbf_method.hpp>
 #include <gracilis/methods/skinning/skinning_method.hpp>
+#include <gracilis/methods/strings/strings_method.hpp>
 #include <gracilis/methods/tissue/tissue_method.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 
@@ -16,7 +17,8 @@ namespace gracilis {
 
 const std::vector<MethodEntry>& methods() {
   static const std::vector<MethodEntry> all = {xpbd_entry(), cylinder_entry(), skinning_entry(), tissue_entry(),
-                                               pbd_entry(),  arap_entry(),     rbf_entry(),      mass_spring_entry()};
+                                               pbd_entry(),  arap_entry(),     rbf_entry(),      strings_entry(),
+                                               mass_spring_entry()};
   return all;
 }
 

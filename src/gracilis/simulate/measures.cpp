@@ -1,7 +1,7 @@
 #include <gracilis/simulate/measures.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/constraints/hinge.hpp>
+#include <gracilis/dynamics/constraints/dihedral.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/constraints/sliver_groups.hpp>
+#include <gracilis/dynamics/constraints/lost_slivers.hpp>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "gracilis/dynamics/constraints/lost_slivers.cpp"

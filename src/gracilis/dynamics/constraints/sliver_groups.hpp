@@ -1,12 +1,11 @@
 #pragma once
 
 #include <gracilis/core/aligned.hpp>
-#include <gracilis/dynamics/constraints/constraint_sets.hpp>
 #include <gracilis/dynamics/face_fans.hpp>
 #include <gracilis/dynamics/particles.hpp>
+#include <gracilis/dynamics/simd/group_width.hpp>
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 namespace gracilis {
@@ -26,8 +25,5 @@ struct SliverGroup {
 
 /// Tips in groups, which give the same in their order as the tips do one after the other. `fans` are the surface's.
 std::vector<SliverGroup> group_slivers(const SliverSet& set, const FaceFans& fans, const Particles& rest);
-
-/// One bit per member: whether its tip may have to be moved; rounding never takes one away.
-std::uint32_t lost_tips(const SliverGroup& group, const Particles& particles);
 
 }  // namespace gracilis

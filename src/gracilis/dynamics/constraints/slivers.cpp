@@ -1,5 +1,6 @@
 #include <gracilis/dynamics/constraints/slivers.hpp>
 
+#include <gracilis/dynamics/constraints/lost_slivers.hpp>
 #include <gracilis/dynamics/face_fans.hpp>
 
 #include <Eigen/Geometry>

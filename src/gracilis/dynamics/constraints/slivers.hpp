@@ -17,7 +17,7 @@ struct SliverTip {
   Index begin = 0, end = 0;                          ///< the faces that tell the normal
 };
 
-/// All of a surface, the flattest last: theirs is the last word.
+/// All of a surface, the flattest last, so that nothing moves them afterwards.
 struct SliverSet {
   std::vector<SliverTip> tips;
   std::vector<Eigen::Vector3i> faces;

@@ -1,5 +1,11 @@
+#include <gracilis/dynamics/constraints/volume.hpp>
+
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/constraints/projection.hpp>
+#include <gracilis/dynamics/face_fans.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "gracilis/dynamics/constraints/volume.cpp"
@@ -66,6 +72,77 @@ HWY_AFTER_NAMESPACE();
 namespace gracilis {
 
 HWY_EXPORT(gather_gradients);
+
+namespace {
+
+/// Vertices sorted by the length of their rings stay within so many places of each other, so that a group's particles
+/// are near each other in memory.
+constexpr std::ptrdiff_t sorting_window = 16 * group_width;
+
+/// The neighbors of a particle in turn, the first once more at the end; none where it has no faces.
+void chain(const FaceFans& fans, Index particle, std::vector<Index>& ring) {
+  ring.clear();
+  const Index begin = fans.offsets[static_cast<std::size_t>(particle)];
+  const auto count = static_cast<Index>(fans.around(particle).size());
+  if (count == 0) return;
+  // Each face says: after its first end comes its second.
+  const auto after = [&](Index neighbor) {
+    Index i = begin;
+    while (i < begin + count && fans.ends(0, i) != neighbor) ++i;
+    assert(i < begin + count && "the surface is not closed");
+    return fans.ends(1, i);
+  };
+  Index next = fans.ends(0, begin);
+  for (Index i = 0; i < count; ++i, next = after(next)) ring.push_back(next);
+  ring.push_back(ring.front());
+}
+
+}  // namespace
+
+VolumeSet build_volume_set(const Eigen::Matrix3Xi& faces, Index particle_count, Real target, Real compliance) {
+  const FaceFans fans = build_face_fans(faces, particle_count);
+  const auto face_count = [&](Index p) { return fans.around(p).size(); };
+  std::vector<Index> order;
+  for (Index p = 0; p < particle_count; ++p)
+    if (face_count(p) > 0) order.push_back(p);
+  for (auto begin = order.begin(); begin != order.end();) {
+    const auto end = begin + std::min(sorting_window, order.end() - begin);
+    std::stable_sort(begin, end, [&](Index l, Index r) { return face_count(l) < face_count(r); });
+    begin = end;
+  }
+  const auto width = static_cast<std::size_t>(group_width);
+  order.resize((order.size() + width - 1) / width * width, particle_count);
+
+  VolumeSet set;
+  set.target = target;
+  set.compliance = compliance;
+  set.particles.assign(order.begin(), order.end());
+  set.ring_offsets.push_back(0);
+  const auto steps_of = [&](std::size_t group) {
+    std::size_t steps = 1;
+    for (std::size_t lane = 0; lane < width; ++lane)
+      if (order[group + lane] < particle_count) steps = std::max(steps, face_count(order[group + lane]) + 1);
+    return steps;
+  };
+  std::size_t all_steps = 0;
+  for (std::size_t group = 0; group < order.size(); group += width) all_steps += steps_of(group);
+  set.ring.reserve(all_steps * width);
+  std::array<std::vector<Index>, group_width> rings;
+  for (std::size_t group = 0; group < order.size(); group += width) {
+    const std::size_t steps = steps_of(group);
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const Index p = order[group + lane];
+      if (p == particle_count)
+        rings[lane] = {p};  // idle
+      else
+        chain(fans, p, rings[lane]);
+    }
+    for (std::size_t step = 0; step < steps; ++step)
+      for (const std::vector<Index>& ring : rings) set.ring.push_back(ring[std::min(step, ring.size() - 1)]);
+    set.ring_offsets.push_back(static_cast<Index>(set.ring.size() / width));
+  }
+  return set;
+}
 
 namespace {
 

@@ -1,5 +1,6 @@
+#include <gracilis/dynamics/havlicek_2024/virtual_edge_seeds.hpp>
+
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 
 #include <Eigen/Geometry>
 #include <nanoflann.hpp>

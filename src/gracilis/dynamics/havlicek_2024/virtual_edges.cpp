@@ -1,5 +1,6 @@
-#include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
+
+#include <gracilis/core/parallel.hpp>
 
 #include <algorithm>
 

@@ -66,9 +66,6 @@ struct VirtualEdgeState {
   int frames = 0;                   ///< begun so far; every update_period-th seeds
 };
 
-/// A state that is seeded at its first frame.
-VirtualEdgeState make_virtual_edge_state(const VirtualEdgeCrowd& crowd);
-
 /// Where a walk ended.
 struct EdgeWalk {
   VirtualEdge end;
@@ -96,11 +93,6 @@ Eigen::Vector3f parting_direction(EdgeResolution resolution, const Eigen::Vector
 bool part_ends(VirtualEdge edge, EdgeResolution resolution, float distance, const Eigen::Vector3f& shift,
                const Particles& first_before, const Particles& second_before, Particles& first, Particles& second);
 
-/// At the beginning of a frame, before the prediction: seeds all edges where the period is over. From each particle of
-/// a pair's first surface an edge goes to the nearest particle of the second, where it is within reach.
-void begin_edge_frame(const VirtualEdgeCrowd& crowd, const std::vector<const Particles*>& particles,
-                      VirtualEdgeState& state);
-
 /// At the beginning of a step, before the prediction: remembers where the particles are.
 void remember_positions(const std::vector<const Particles*>& particles, VirtualEdgeState& state);
 
@@ -112,9 +104,5 @@ void adapt_distances(const VirtualEdgeCrowd& crowd, const std::vector<const Part
 /// pushed.
 Index project_virtual_edges(const VirtualEdgeCrowd& crowd, const std::vector<Particles*>& particles,
                             VirtualEdgeState& state);
-
-/// At the end of a frame: counts the edges that coincide with one before them, and drops or re-seeds these as the
-/// settings say.
-void end_edge_frame(const VirtualEdgeCrowd& crowd, VirtualEdgeState& state);
 
 }  // namespace gracilis

@@ -1,7 +1,7 @@
 #include <gracilis/io/run/run_manifest.hpp>
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/dynamics/constraints/projection.hpp>
+#include <gracilis/dynamics/simd/instruction_set.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
 #include <gracilis/io/input_file.hpp>

@@ -31,16 +31,20 @@ struct BoxDescription {
   std::array<int, 3> cells{1, 1, 1};
 };
 
+/// Where the surface of an element comes from: a file, or a box of its own making.
+struct SurfaceDescription {
+  NamedFile file;
+  std::optional<BoxDescription> box;
+};
+
 struct BoneDescription {
   std::string name, body;
-  NamedFile file;  ///< or a box
-  std::optional<BoxDescription> box;
+  SurfaceDescription surface;
   Problem place;
 };
 
 struct AttachmentDescription {
-  std::string name;
-  AttachmentEnd end = AttachmentEnd::origin;
+  Attachment attachment;            ///< its body is not set, its vertices are those that the scene file lists
   std::string body;                 ///< empty: that of the bones
   std::vector<std::string> bones;   ///< surfaces to measure the distance from
   std::vector<std::string> clouds;  ///< names in the landmark file
@@ -48,36 +52,23 @@ struct AttachmentDescription {
   LineKind line = LineKind::cloud;
   Real bone_distance = 0;
   Real landmark_distance = 0;
-  std::vector<Index> vertices;
-  bool guessed = false;
   Problem place;
 };
 
-/// The line of a muscle made of sections, with the bodies' names.
-struct ActionLineDescription {
-  ActionLine line;  ///< its bodies and its path are empty
-  std::vector<std::string> bodies;
-  LinePathDescription path;
-};
-
 struct MuscleDescription {
-  std::string name;
-  NamedFile file;  ///< or a box
-  std::optional<BoxDescription> box;
-  SettingValues settings;  ///< of the scene's method, for this muscle alone
-  FiberSettings fibers;
-  NamedFile fiber_file;             ///< empty path: none
-  bool superficial_fibers = false;  ///< the file's lines lie on the surface
-  ContractionSettings contraction;
-  NamedFile contraction_file;  ///< surface fibers; empty path: none
+  Muscle muscle;  ///< without surface, attachments and given fibers; its action line without bodies and path
+  SurfaceDescription surface;
+  NamedFile fiber_file;          ///< empty path: none
+  NamedFile surface_fiber_file;  ///< along which it contracts; empty path: none
   std::vector<AttachmentDescription> attachments;
-  ActionLineDescription action_line;
+  std::vector<std::string> line_bodies;  ///< of each point of the action line
+  LinePathDescription line_path;
   Problem place;
 };
 
 struct JointDescription {
+  Joint joint;  ///< its bodies are not set
   std::string parent, child;
-  Joint joint;
   Problem place;
 };
 
@@ -107,14 +98,12 @@ struct ActivationDescription {
 
 /// A joint control unit whose samples stand in a file.
 struct ControlUnitDescription {
-  std::string name, joint;
+  JointControlUnit unit;                     ///< without samples; no coordinates: the joint's, no muscles: all known
   NamedFile samples;                         ///< or the files that `gracilis activations join` would make them from:
   NamedFile motion, results;                 ///< empty paths where samples are given
   NamedFile names;                           ///< which columns are which muscle; empty path: numbered parts join
   CombineParts combine = CombineParts::sum;  ///< how parts of a muscle become one
   NamedFile forces;                          ///< that weigh the parts, for the weighted mean
-  std::vector<std::string> coordinates, muscles;  ///< empty: the joint's, and all that the samples know
-  Real falloff = 0;
   Problem place;
 };
 
@@ -126,8 +115,8 @@ struct TransversalDescription {
 };
 
 struct SceneDescription {
-  std::string name, preset;
-  AnatomicalAxes axes;
+  Scene scene;  ///< what needs no other file: name, axes, sequence, distance fields, method
+  std::string preset;
   std::vector<BoneDescription> bones;
   std::vector<JointDescription> joints;
   std::vector<MuscleDescription> muscles;
@@ -135,11 +124,8 @@ struct SceneDescription {
   std::vector<ActivationDescription> activations;
   std::vector<ControlUnitDescription> control_units;
   std::vector<TransversalDescription> transversals;
-  Sequence sequence;
-  DistanceFieldSettings distance_fields;
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
   NamedFile landmarks;
-  MethodChoice method;
   std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
   std::vector<std::string> notes;
 };

@@ -3,6 +3,7 @@
 #include <gracilis/anatomy/activation/tendon.hpp>
 #include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/anatomy/fibers/surface_fibers.hpp>
+#include <gracilis/dynamics/constraints/compliance.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
@@ -106,10 +107,10 @@ void build_contractions(const Muscle& muscle, const MeshTopology& topology, Prep
     const Real share = (belly[static_cast<std::size_t>(pull.a)] + belly[static_cast<std::size_t>(pull.b)]) / 2;
     const Real stiffness = muscle.contraction.stiffness * share * shape;
     if (!(stiffness > 0)) continue;
-    constraints.push_back({pull.a, pull.b, pull.length, 1 / stiffness});
+    constraints.push_back({pull.a, pull.b, pull.length, compliance_of(stiffness)});
     squared_cosines.push_back(pull.squared_cosine);
   }
-  DistanceSet& set = prepared.system.contractions;
+  DistanceSet& set = prepared.system.tensions;
   set = build_distance_set(constraints, static_cast<Index>(prepared.rest.cols()));
   prepared.along_fibers.assign(set.a.size(), 1);
   for (std::size_t i = 0; i < squared_cosines.size(); ++i)
@@ -122,9 +123,9 @@ Real contraction_strength(const ContractionSettings& settings, Real activation) 
 }
 
 void set_contraction_lengths(const PreparedMuscle& muscle, Real activation, const strings::SkinnedSurface* skinned,
-                             AlignedVector<float>& contraction_length) {
+                             AlignedVector<float>& tension_length) {
   const auto share = static_cast<float>(contracted_share(muscle.contraction, activation));
-  const DistanceSet& set = muscle.system.contractions;
+  const DistanceSet& set = muscle.system.tensions;
   for (std::size_t slot = 0; slot < set.a.size(); ++slot) {
     const float c2 = muscle.along_fibers[slot], rest = set.rest_length[slot];
     float across = 1;
@@ -132,7 +133,7 @@ void set_contraction_lengths(const PreparedMuscle& muscle, Real activation, cons
       const Real length = (skinned->vertices.col(set.b[slot]) - skinned->vertices.col(set.a[slot])).norm();
       across = std::max(across, static_cast<float>(length) / rest);
     }
-    contraction_length[slot] = rest * std::sqrt(c2 * share * share + (1 - c2) * across * across);
+    tension_length[slot] = rest * std::sqrt(c2 * share * share + (1 - c2) * across * across);
   }
 }
 

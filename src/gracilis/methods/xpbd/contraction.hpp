@@ -1,6 +1,5 @@
 #pragma once
 
-#include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 
 namespace gracilis::xpbd {
@@ -19,6 +18,6 @@ Real contraction_strength(const ContractionSettings& settings, Real activation);
 /// Sets what the contractions aim at: along the fibers the contracted share of the length at rest, across them all of
 /// it, or what it is on the skinned surface (none: nullptr) where that is wider.
 void set_contraction_lengths(const PreparedMuscle& muscle, Real activation, const strings::SkinnedSurface* skinned,
-                             AlignedVector<float>& contraction_length);
+                             AlignedVector<float>& tension_length);
 
 }  // namespace gracilis::xpbd

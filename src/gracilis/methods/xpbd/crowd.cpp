@@ -1,6 +1,9 @@
 #include <gracilis/methods/xpbd/crowd.hpp>
 
 #include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
+#include <gracilis/dynamics/contact/surface/surface_search.hpp>
+#include <gracilis/dynamics/havlicek_2024/virtual_edge_seeds.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/xpbd/rest_gaps.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
 #include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 #include <gracilis/scene/scene.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/solver/solver.hpp>
+#include <gracilis/dynamics/solver/surface_system.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 #include <gracilis/scene/pose.hpp>
 

@@ -1,5 +1,7 @@
 #include <gracilis/methods/xpbd/pass_recorder.hpp>
 
+#include <gracilis/dynamics/solver/constraint_table.hpp>
+
 #include <algorithm>
 #include <memory>
 

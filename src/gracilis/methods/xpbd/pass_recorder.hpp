@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/solver/solver.hpp>
+#include <gracilis/dynamics/solver/surface_solve.hpp>
 #include <gracilis/methods/pass_tracing.hpp>
 #include <gracilis/methods/xpbd/step.hpp>
 

@@ -13,10 +13,10 @@ SolveSettings solve_settings(const XpbdSettings& settings, int substeps) {
   solve.projection.time_step =
       static_cast<float>(settings.constraint_time_step > 0 ? settings.constraint_time_step : solve.time_step);
   solve.projection.rayleigh_beta = static_cast<float>(settings.rayleigh_beta);
-  solve.projection.hinge_limit = static_cast<float>(settings.hinge_limit);
-  solve.projection.arccos_hinges = settings.dihedral_formula == DihedralFormula::arccos;
+  solve.projection.dihedral_limit = static_cast<float>(settings.hinge_limit);
+  solve.projection.arccos_dihedrals = settings.dihedral_formula == DihedralFormula::arccos;
   solve.pressure = settings.pressure;
-  solve.stretch_limit = static_cast<float>(settings.stretch_limit);
+  solve.strain_limit = static_cast<float>(settings.stretch_limit);
   solve.stop_displacement = static_cast<float>(settings.stop_displacement);
   solve.stop_milliseconds = settings.stop_milliseconds / substeps;
   return solve;
@@ -46,7 +46,7 @@ void predict(const PreparedMuscle& muscle, Real activation, const Pose& before, 
   move_attached(muscle, pose, state.particles);
   move_attached(muscle, pose, state.start);
   set_target_lengths(muscle, pose, state);
-  set_contraction_lengths(muscle, activation, state.skinned.get(), state.contraction_length);
+  set_contraction_lengths(muscle, activation, state.skinned.get(), state.tension_length);
 }
 
 }  // namespace gracilis::xpbd

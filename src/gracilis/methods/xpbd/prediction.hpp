@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/dynamics/solver/surface_solve.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 #include <gracilis/scene/pose.hpp>

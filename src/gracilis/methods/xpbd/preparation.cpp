@@ -1,7 +1,8 @@
 #include <gracilis/methods/xpbd/preparation.hpp>
 
 #include <gracilis/anatomy/attachments/skinning_weights.hpp>
-#include <gracilis/dynamics/constraints/hinge.hpp>
+#include <gracilis/dynamics/constraints/compliance.hpp>
+#include <gracilis/dynamics/constraints/dihedral.hpp>
 #include <gracilis/dynamics/particle_order.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/measures.hpp>
@@ -138,35 +139,36 @@ void build_edges(const std::vector<Attachment>& attachments, const MeshTopology&
     const Real cosine = length > 0 ? direction_at(edge, directions).dot(along) / length : 0;
     const Real stiffness = edge_stiffness(x, prepared.faces, edge, prepared.settings) *
                            anisotropy(cosine, prepared.settings) * tendon_factor(prepared, edge);
-    constraints.push_back({edge.a, edge.b, length, 1 / stiffness});
+    constraints.push_back({edge.a, edge.b, length, compliance_of(stiffness)});
   }
   prepared.system.distances = build_distance_set(constraints, prepared.particle_count());
 }
 
-/// Stiffness of one hinge: the setting, scaled by 3 l²/A so that bending does not depend on how finely the surface is
-/// triangulated (Grinspun et al. 2003).
-Real hinge_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshEdge& edge,
-                     const MaterialSettings& settings) {
+/// Stiffness of one dihedral: the setting, scaled by 3 l²/A so that bending does not depend on how finely the surface
+/// is triangulated (Grinspun et al. 2003).
+Real dihedral_stiffness(const Points& x, const Eigen::Matrix3Xi& faces, const MeshEdge& edge,
+                        const MaterialSettings& settings) {
   if (!settings.dihedral_shape_scaling) return settings.dihedral_stiffness;
   const Real area = area_at(edge, x, faces), length2 = (x.col(edge.b) - x.col(edge.a)).squaredNorm();
   return settings.dihedral_stiffness * (area > 0 ? std::min(3 * length2 / area, largest_shape) : largest_shape);
 }
 
-void build_hinges(const MeshTopology& topology, PreparedMuscle& prepared) {
+void build_dihedrals(const MeshTopology& topology, PreparedMuscle& prepared) {
   const Points& x = prepared.rest;
-  std::vector<HingeConstraint> constraints;
+  std::vector<DihedralConstraint> constraints;
   constraints.reserve(topology.edges.size());
   for (const MeshEdge& edge : topology.edges) {
     if (edge.left < 0 || edge.right < 0) continue;
-    HingeConstraint hinge;
-    hinge.particles = {edge.a, edge.b, edge.left_apex, edge.right_apex};
-    hinge.rest_angle = dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex));
-    if (prepared.settings.dihedral_formula == DihedralFormula::arccos) hinge.rest_angle = std::abs(hinge.rest_angle);
-    hinge.compliance = 1 / hinge_stiffness(x, prepared.faces, edge, prepared.settings);
-    hinge.edge_length = (x.col(edge.b) - x.col(edge.a)).norm();
-    constraints.push_back(hinge);
+    DihedralConstraint dihedral;
+    dihedral.particles = {edge.a, edge.b, edge.left_apex, edge.right_apex};
+    dihedral.rest_angle = dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex));
+    if (prepared.settings.dihedral_formula == DihedralFormula::arccos)
+      dihedral.rest_angle = std::abs(dihedral.rest_angle);
+    dihedral.compliance = compliance_of(dihedral_stiffness(x, prepared.faces, edge, prepared.settings));
+    dihedral.edge_length = (x.col(edge.b) - x.col(edge.a)).norm();
+    constraints.push_back(dihedral);
   }
-  prepared.system.hinges = build_hinge_set(constraints, prepared.particle_count());
+  prepared.system.dihedrals = build_dihedral_set(constraints, prepared.particle_count());
 }
 
 void build_predictor(const MeshTopology& topology, PreparedMuscle& prepared) {
@@ -267,7 +269,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   const MeshTopology topology = build_topology(prepared.faces, prepared.particle_count());
   build_predictor(topology, prepared);
   build_edges(attachments, topology, prepared);
-  build_hinges(topology, prepared);
+  build_dihedrals(topology, prepared);
   prepared.system.volume =
       build_volume_set(prepared.faces, prepared.particle_count(), enclosed_volume(prepared.rest, prepared.faces),
                        prepared.settings.volume_compliance);

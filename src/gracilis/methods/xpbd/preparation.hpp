@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/anatomy/sections/line_sections.hpp>
-#include <gracilis/dynamics/solver/solver.hpp>
+#include <gracilis/dynamics/solver/surface_system.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
@@ -55,7 +55,7 @@ struct PreparedMuscle {
   bool keeps_out_of_itself = false;  ///< not where there is a line: its sections run through each other
   ContractionSettings contraction;
   bool is_driven = false;             ///< the scene says how active it is
-  AlignedVector<float> along_fibers;  ///< per contraction slot: squared cosine between it and the fibers
+  AlignedVector<float> along_fibers;  ///< per tension slot: squared cosine between it and the fibers
   std::vector<Index> contact_bodies;  ///< per contact set: the body of its bone
 
   Index particle_count() const { return static_cast<Index>(rest.cols()); }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/anatomy/overlap/overlap_sides.hpp>
-#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
 
 #include <map>
 #include <utility>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/field/field_contact.hpp>
-#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
+#include <gracilis/dynamics/contact/field/field_contact_set.hpp>
+#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
 #include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 #include <gracilis/scene/scene.hpp>
 

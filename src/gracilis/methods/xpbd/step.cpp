@@ -2,8 +2,13 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/havlicek_2024/virtual_edge_seeds.hpp>
+#include <gracilis/dynamics/solver/bone_contact.hpp>
+#include <gracilis/dynamics/solver/constraint_table.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/geometry/screw.hpp>
 #include <gracilis/methods/xpbd/contraction.hpp>
+#include <gracilis/methods/xpbd/coupling.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/pass_recorder.hpp>
 #include <gracilis/methods/xpbd/prediction.hpp>
@@ -49,43 +54,7 @@ void place(const PreparedMuscle& muscle, Real activation, const Pose& pose, cons
   state.start = placed;
   if (muscle.settings.full_iterations == 0) return;
   set_target_lengths(muscle, pose, state);
-  set_contraction_lengths(muscle, activation, state.skinned.get(), state.contraction_length);
-}
-
-template <class Pointer>
-std::vector<Pointer> particles_of(const std::vector<MuscleStep>& steps) {
-  std::vector<Pointer> particles;
-  for (const MuscleStep& step : steps) particles.push_back(&step.state->particles);
-  return particles;
-}
-
-Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const SurfaceCrowd& crowd, CrowdState& state) {
-  const auto particles = particles_of<Particles*>(steps);
-  const auto seen = particles_of<const Particles*>(steps);
-  std::vector<const Particles*> start;
-  for (const MuscleStep& step : steps) start.push_back(&step.state->start);
-  find_touches(crowd, seen, state);
-  return {[&crowd, &state, seen](const Movers& movers) { follow_touches(crowd, seen, state, movers); },
-          [&crowd, &state, start, particles](const Movers& movers) {
-            return project_touches(crowd, state, start, particles, movers);
-          },
-          [&crowd, &state, particles](Movers& movers, int attempt) {
-            return mend_surfaces(crowd, state, attempt, particles, movers);
-          }};
-}
-
-Coupling couple_by_edges(const std::vector<MuscleStep>& steps, const VirtualEdgeCrowd& crowd, VirtualEdgeState& state) {
-  const auto particles = particles_of<Particles*>(steps);
-  adapt_distances(crowd, particles_of<const Particles*>(steps), state);
-  return {[](const Movers&) {},
-          [&crowd, &state, particles](const Movers&) { return project_virtual_edges(crowd, particles, state); }};
-}
-
-/// What acts between the muscles of a crowd, from where they are predicted.
-Coupling couple(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& state) {
-  if (!crowd.surfaces.pairs.empty()) return couple_by_surfaces(steps, crowd.surfaces, state.surfaces);
-  if (!crowd.edges.pairs.empty()) return couple_by_edges(steps, crowd.edges, state.edges);
-  return {};
+  set_contraction_lengths(muscle, activation, state.skinned.get(), state.tension_length);
 }
 
 /// The first thing after which a coordinate was not finite.
@@ -116,55 +85,74 @@ Failure find_failure(std::vector<SurfaceSolve>& solves, const std::vector<Partic
 void add_to(StepCounts& report, const SolveReport& solved, Real correction) {
   report.iterations += solved.iterations;
   report.contacts = solved.contacts;
-  report.limited_hinges += solved.limited_hinges;
+  report.limited_hinges += solved.limited_dihedrals;
   report.limited_edges += solved.limited_edges;
   report.skipped_constraints += solved.skipped_constraints;
   report.largest_correction = std::max(report.largest_correction, correction);
   report.milliseconds += solved.milliseconds;
 }
 
-/// With `placed`, the surfaces are where coarser copies put them, otherwise where bones and inertia do.
-void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
-                     int substeps, const Pose& before, const Pose& now,
-                     const std::vector<Particles>* placed = nullptr) {
-  std::vector<SurfaceSolve> solves(steps.size());
-  std::vector<std::vector<FieldPlacement>> placements(steps.size());
-  std::vector<Particles> predicted(steps.size());
+/// What a substep of all muscles is solved from.
+struct Substep {
+  std::vector<SurfaceSolve> solves;
+  std::vector<std::vector<FieldPlacement>> placements;
+  std::vector<Particles> predicted;  ///< where the solver begins
+  VirtualEdgeState edges_before;
+};
+
+/// Before anything moves: contact remembers where everything is.
+Substep begin_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state) {
   if (!crowd.edges.pairs.empty()) remember_positions(particles_of<const Particles*>(steps), crowd_state.edges);
   if (!crowd.surfaces.pairs.empty()) remember_places(particles_of<const Particles*>(steps), crowd_state.surfaces);
-  const VirtualEdgeState edges_before = crowd_state.edges;
-  parallel_for_each(steps.size(), [&](std::size_t i) {
-    const PreparedMuscle& muscle = *steps[i].muscle;
-    MuscleState& state = *steps[i].state;
-    solves[i] = {&muscle.system, &placements[i], solve_settings(muscle.settings, substeps), &state, {}};
-    solves[i].settings.contraction = static_cast<float>(contraction_strength(muscle.contraction, steps[i].activation));
-    placements[i] = place_fields(muscle, now);
-    remember_sides(muscle.system, place_fields(muscle, before), state);
-    if (placed) {
-      solves[i].settings.iterations = muscle.settings.full_iterations;
-      place(muscle, steps[i].activation, now, (*placed)[i], state);
-      if (solves[i].settings.iterations == 0) refresh_contacts(muscle.system, placements[i], state);
-    } else {
-      predict(muscle, steps[i].activation, before, now, static_cast<float>(solves[i].settings.time_step), state);
-    }
-    predicted[i] = state.particles;
-  });
+  const std::size_t count = steps.size();
+  return {std::vector<SurfaceSolve>(count), std::vector<std::vector<FieldPlacement>>(count),
+          std::vector<Particles>(count), crowd_state.edges};
+}
+
+/// Moves the bones of one muscle, which remembers on which side of each it is.
+void move_bones(const MuscleStep& step, int substeps, const Pose& before, const Pose& now,
+                std::vector<FieldPlacement>& placements, SurfaceSolve& solve) {
+  const PreparedMuscle& muscle = *step.muscle;
+  solve = {&muscle.system, &placements, solve_settings(muscle.settings, substeps), step.state, {}};
+  solve.settings.tension = static_cast<float>(contraction_strength(muscle.contraction, step.activation));
+  placements = place_fields(muscle, now);
+  remember_sides(muscle.system, place_fields(muscle, before), *step.state);
+}
+
+/// Solves from the prediction and adds to the reports. On failure the crowd is as it was.
+void solve_predicted(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
+                     Substep& substep) {
   for (std::size_t i = 0; i < steps.size(); ++i)
-    if (!is_finite(predicted[i]))
+    if (!is_finite(substep.predicted[i]))
       throw QualityError("muscle " + steps[i].muscle->name +
                          ": a vertex position is not finite before the solver; check the pose and the velocities");
-  solve_together(solves, couple(steps, crowd, crowd_state), record_passes(steps, solves));
+  solve_together(substep.solves, couple(steps, crowd, crowd_state), record_passes(steps, substep.solves));
   const auto is_lost = [](const MuscleStep& step) { return !is_finite(step.state->particles); };
   if (std::any_of(steps.begin(), steps.end(), is_lost)) {
-    crowd_state.edges = edges_before;
+    crowd_state.edges = substep.edges_before;
     forget_touches(crowd_state.surfaces);
-    throw_failure(steps, find_failure(solves, predicted, steps, crowd, crowd_state));
+    throw_failure(steps, find_failure(substep.solves, substep.predicted, steps, crowd, crowd_state));
   }
   parallel_for_each(steps.size(), [&](std::size_t i) {
-    SurfaceState& state = *steps[i].state;
-    if (!placed && steps[i].muscle->settings.time_mode == TimeMode::dynamic)
-      take_velocities(static_cast<float>(solves[i].settings.time_step), state);
-    add_to(*steps[i].report, solves[i].report, static_cast<Real>(largest_motion(predicted[i], state.particles)));
+    const float correction = largest_motion(substep.predicted[i], steps[i].state->particles);
+    add_to(*steps[i].report, substep.solves[i].report, static_cast<Real>(correction));
+  });
+}
+
+/// One of `substeps` steps of a frame: bones and inertia predict, the solver corrects.
+void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
+                     int substeps, const Pose& before, const Pose& now) {
+  Substep substep = begin_substep(steps, crowd, crowd_state);
+  const auto time_step = [&](std::size_t i) { return static_cast<float>(substep.solves[i].settings.time_step); };
+  parallel_for_each(steps.size(), [&](std::size_t i) {
+    const MuscleStep& step = steps[i];
+    move_bones(step, substeps, before, now, substep.placements[i], substep.solves[i]);
+    predict(*step.muscle, step.activation, before, now, time_step(i), *step.state);
+    substep.predicted[i] = step.state->particles;
+  });
+  solve_predicted(steps, crowd, crowd_state, substep);
+  parallel_for_each(steps.size(), [&](std::size_t i) {
+    if (steps[i].muscle->settings.time_mode == TimeMode::dynamic) take_velocities(time_step(i), *steps[i].state);
   });
 }
 
@@ -209,7 +197,17 @@ void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& c
 
 void refine_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                      const Pose& before, const Pose& now, const std::vector<Particles>& placed) {
-  advance_substep(steps, crowd, crowd_state, 1, before, now, &placed);
+  Substep substep = begin_substep(steps, crowd, crowd_state);
+  parallel_for_each(steps.size(), [&](std::size_t i) {
+    const MuscleStep& step = steps[i];
+    SurfaceSolve& solve = substep.solves[i];
+    move_bones(step, 1, before, now, substep.placements[i], solve);
+    solve.settings.iterations = step.muscle->settings.full_iterations;
+    place(*step.muscle, step.activation, now, placed[i], *step.state);
+    if (solve.settings.iterations == 0) refresh_contacts(step.muscle->system, substep.placements[i], *step.state);
+    substep.predicted[i] = step.state->particles;
+  });
+  solve_predicted(steps, crowd, crowd_state, substep);
 }
 
 }  // namespace gracilis::xpbd

@@ -1,6 +1,8 @@
 #include <gracilis/methods/xpbd/under_way.hpp>
 
 #include <gracilis/core/state_hash.hpp>
+#include <gracilis/dynamics/solver/bone_contact.hpp>
+#include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/methods/xpbd/prediction.hpp>
 #include <gracilis/methods/xpbd/step.hpp>
 
@@ -38,16 +40,13 @@ PhaseTime time_projection(const UnderWay& muscle, std::optional<ConstraintKind> 
   std::vector<double> rows;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     SurfaceState state = muscle.state;
-    SolveReport report;
-    const auto project = [&](ConstraintKind each) {
-      project_kind(each, muscle.muscle.system, muscle.placements, muscle.settings, state, report);
-    };
+    SurfaceSolve surface{&muscle.muscle.system, &muscle.placements, muscle.settings, &state, {}};
     const auto started = std::chrono::steady_clock::now();
     for (int i = 0; i < in_a_row; ++i) {
       if (kind)
-        project(*kind);
+        project_kind(*kind, surface);
       else
-        for (const ConstraintKind each : projection_order) project(each);
+        for (const ConstraintRow& row : constraint_table()) project_kind(row.kind, surface);
     }
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - started;
     rows.push_back(elapsed.count() / in_a_row);
@@ -69,7 +68,7 @@ constexpr Phase phases_of_iteration[] = {{"iteration", std::nullopt},
                                          {"distance", ConstraintKind::distance},
                                          {"dihedral", ConstraintKind::dihedral},
                                          {"volume", ConstraintKind::volume},
-                                         {"stretch_limit", ConstraintKind::stretch_limit},
+                                         {"stretch_limit", ConstraintKind::strain_limit},
                                          {"bone_contact", ConstraintKind::bone_contact}};
 
 class UnderWayTimer final : public PhaseTimer {

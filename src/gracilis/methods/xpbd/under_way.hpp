@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/dynamics/solver/constraint_table.hpp>
 #include <gracilis/methods/method_entry.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/scene/pose.hpp>

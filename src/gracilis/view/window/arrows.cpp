@@ -11,13 +11,13 @@ Color arrow_color(ConstraintKind kind) {
   switch (kind) {
     case ConstraintKind::distance:
       return Color(0.90, 0.62, 0.00);
-    case ConstraintKind::contraction:
+    case ConstraintKind::tension:
       return Color(0.84, 0.37, 0.00);
     case ConstraintKind::dihedral:
       return Color(0.34, 0.71, 0.91);
     case ConstraintKind::volume:
       return Color(0.00, 0.62, 0.45);
-    case ConstraintKind::stretch_limit:
+    case ConstraintKind::strain_limit:
       return Color(0.80, 0.47, 0.65);
     case ConstraintKind::muscle_contact:
       return Color(0.00, 0.45, 0.70);
@@ -44,18 +44,18 @@ std::vector<Displacement> displacements_of(const ShownShapes& shapes, const Show
   if (state.arrows == Arrows::none) return result;
   for (std::size_t m = 0; m < shapes.muscles.size(); ++m) {
     if (state.muscles[m] == MuscleState::hidden) continue;
-    for (const ConstraintKind kind : arrow_kinds) {
-      if (!state.arrow_kinds[static_cast<std::size_t>(kind)]) continue;
+    for (const ConstraintRow& row : constraint_table()) {
+      if (!state.arrow_kinds[static_cast<std::size_t>(row.kind)]) continue;
       const auto roots = static_cast<Index>(shapes.arrow_roots[m].size());
       ShownPoints moved = ShownPoints::Zero(3, roots);
       for (const ShownPass& pass : frame.passes)
-        if (pass.muscle == m && pass.kind == name_of(kind) &&
+        if (pass.muscle == m && pass.kind == row.name &&
             (state.arrows == Arrows::frame || pass.iteration == state.iteration))
           moved += pass.moved;
       for (Index i = 0; i < roots; ++i)
         if (!moved.col(i).isZero(0))
           result.push_back(
-              {frame.muscles[m].col(shapes.arrow_roots[m][static_cast<std::size_t>(i)]), moved.col(i), kind});
+              {frame.muscles[m].col(shapes.arrow_roots[m][static_cast<std::size_t>(i)]), moved.col(i), row.kind});
     }
   }
   return result;

@@ -1,20 +1,13 @@
 #pragma once
 
-#include <gracilis/dynamics/solver/solver.hpp>
+#include <gracilis/dynamics/solver/constraint_table.hpp>
 #include <gracilis/view/window/glyphs.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 #include <gracilis/view/window/window_state.hpp>
 
-#include <array>
 #include <vector>
 
 namespace gracilis {
-
-/// The kinds of constraints whose displacements are shown, in the order in which an iteration projects them.
-inline constexpr std::array arrow_kinds = {
-    ConstraintKind::distance, ConstraintKind::contraction,   ConstraintKind::dihedral,
-    ConstraintKind::volume,   ConstraintKind::stretch_limit, ConstraintKind::muscle_contact,
-    ConstraintKind::slivers,  ConstraintKind::tight_places,  ConstraintKind::bone_contact};
 
 /// After Okabe and Ito (2008): told apart by color-blind readers, too.
 Color arrow_color(ConstraintKind kind);

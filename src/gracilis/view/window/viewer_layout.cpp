@@ -119,9 +119,9 @@ void Viewer::lay_out_right() {
   if (state_.slice != Slice::none) bottom = lay_out_scale(slice_scale(), bottom);
   if (state_.arrows != Arrows::none) {
     std::vector<ListEntry> entries;
-    for (const ConstraintKind kind : arrow_kinds)
-      entries.push_back({gracilis::name_of(kind), arrow_color(kind),
-                         state_.arrow_kinds[static_cast<std::size_t>(kind)] ? 1.0 : 0.0, [this, kind] {
+    for (const ConstraintRow& row : constraint_table())
+      entries.push_back({row.name, arrow_color(row.kind),
+                         state_.arrow_kinds[static_cast<std::size_t>(row.kind)] ? 1.0 : 0.0, [this, kind = row.kind] {
                            const auto place = static_cast<std::size_t>(kind);
                            state_.arrow_kinds[place] = !state_.arrow_kinds[place];
                            changed_ = relaid_ = true;

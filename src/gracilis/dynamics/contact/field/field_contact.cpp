@@ -3,7 +3,6 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/contact/field/field_contact_edges.hpp>
 #include <gracilis/dynamics/contact/field/field_contact_guard.hpp>
-#include <gracilis/dynamics/contact/field/field_contact_points.hpp>
 
 #include <algorithm>
 #include <atomic>

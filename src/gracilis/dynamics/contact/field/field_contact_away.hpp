@@ -1,6 +1,9 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/field/field_contact.hpp>
+#include <gracilis/dynamics/contact/field/near_field.hpp>
+#include <gracilis/dynamics/particles.hpp>
+
+#include <Eigen/Geometry>
 
 namespace gracilis {
 

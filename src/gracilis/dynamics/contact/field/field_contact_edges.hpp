@@ -1,6 +1,8 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/field/field_contact.hpp>
+#include <gracilis/dynamics/constraints/distance.hpp>
+#include <gracilis/dynamics/contact/field/near_field.hpp>
+#include <gracilis/dynamics/particles.hpp>
 
 namespace gracilis {
 

@@ -1,4 +1,4 @@
-#include <gracilis/dynamics/contact/field/field_contact.hpp>
+#include <gracilis/dynamics/contact/field/field_contact_squeeze.hpp>
 
 #include <algorithm>
 #include <cmath>

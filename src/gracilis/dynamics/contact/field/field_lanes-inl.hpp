@@ -7,7 +7,7 @@
 #define GRACILIS_FIELD_LANES_INL
 #endif
 
-#include <gracilis/dynamics/contact/field/field_contact.hpp>
+#include <gracilis/dynamics/contact/field/near_field.hpp>
 #include <gracilis/dynamics/simd/particle_lanes-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
@@ -20,9 +20,9 @@ HWY_INLINE V number(float x) { return hn::Set(D(), x); }
 HWY_INLINE Point to_obstacle(const FieldPlacement& placement, const Point& x) {
   const Eigen::Matrix3f& r = placement.rotation;
   const auto row = [&](Index i) HWY_ATTR {
-    return hn::MulAdd(number(r(i, 0)), x.x,
-                      hn::MulAdd(number(r(i, 1)), x.y,
-                                 hn::MulAdd(number(r(i, 2)), x.z, number(placement.translation[i]))));
+    return hn::MulAdd(
+        number(r(i, 0)), x.x,
+        hn::MulAdd(number(r(i, 1)), x.y, hn::MulAdd(number(r(i, 2)), x.z, number(placement.translation[i]))));
   };
   return {row(0), row(1), row(2)};
 }
@@ -67,9 +67,8 @@ HWY_INLINE SampledField sample(const FieldGrid& grid, const Point& p, Mask asked
           v11 = hn::MulAdd(x, d11, v011);
   const V v0 = hn::MulAdd(y, v10 - v00, v00), v1 = hn::MulAdd(y, v11 - v01, v01);
   const V dx0 = hn::MulAdd(y, d10 - d00, d00), dx1 = hn::MulAdd(y, d11 - d01, d01);
-  const auto slope = [&](const V& per_cell, float cells_per_metre) HWY_ATTR {
-    return hn::IfThenElseZero(inside, per_cell * number(cells_per_metre));
-  };
+  const auto slope = [&](const V& per_cell, float cells_per_metre)
+                         HWY_ATTR { return hn::IfThenElseZero(inside, per_cell * number(cells_per_metre)); };
   SampledField sampled;
   sampled.distance = hn::IfThenElse(inside, hn::MulAdd(z, v1 - v0, v0), hn::Inf(d));
   sampled.gradient.x = slope(hn::MulAdd(z, dx1 - dx0, dx0), grid.cells_per_metre.x());

@@ -33,13 +33,6 @@ struct ContactSurface {
 /// Tables of a triangle list over `particle_count` particles.
 ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index particle_count);
 
-/// Unit normals at the particles, sums of the faces' normals weighted by their angles there (Bærentzen and Aanæs 2005);
-/// zero where all faces are flat.
-void particle_normals(const ContactSurface& surface, const Particles& particles, Eigen::Matrix3Xf& normals);
-/// The same for the particles listed; the others keep what they have.
-void particle_normals(const ContactSurface& surface, const Particles& particles, const std::vector<Index>& listed,
-                      Eigen::Matrix3Xf& normals);
-
 /// The area vector of a face: along its normal, twice its area long.
 inline Eigen::Vector3f face_area(const ContactSurface& surface, Index face, const Particles& particles) {
   const Eigen::Vector3f a = particles.position(surface.faces(0, face));

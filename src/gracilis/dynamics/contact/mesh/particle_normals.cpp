@@ -1,6 +1,8 @@
-#include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/contact/mesh/contact_surface.hpp>
+#include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
 
+#include <gracilis/core/parallel.hpp>
+
+#include <algorithm>
 #include <numeric>
 
 #undef HWY_TARGET_INCLUDE

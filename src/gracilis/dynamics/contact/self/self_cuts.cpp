@@ -1,6 +1,6 @@
 #include <gracilis/dynamics/contact/self/self_cuts.hpp>
 
-#include <gracilis/dynamics/constraints/hinge.hpp>
+#include <gracilis/dynamics/constraints/dihedral.hpp>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
 
 namespace gracilis {
 

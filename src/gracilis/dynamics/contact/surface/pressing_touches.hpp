@@ -1,8 +1,9 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
 
 #include <cstdint>
+#include <span>
 
 namespace gracilis {
 

@@ -1,10 +1,10 @@
 #include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/coloring.hpp>
 #include <gracilis/dynamics/contact/surface/pressing_touches.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <bit>
 #include <cmath>
@@ -197,12 +197,6 @@ Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const st
 }
 
 }  // namespace
-
-void arrange_rounds(SurfaceCrowd& crowd) {
-  std::vector<std::array<Index, 2>> pairs;
-  for (const SurfacePair& pair : crowd.pairs) pairs.push_back({pair.first, pair.second});
-  crowd.rounds = rounds_of(pairs);
-}
 
 Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
                       const std::vector<Particles*>& particles, const Movers& movers) {

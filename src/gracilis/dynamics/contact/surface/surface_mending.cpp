@@ -1,10 +1,11 @@
+#include <gracilis/dynamics/contact/surface/surface_mending.hpp>
+
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/contact/self/self_cuts.hpp>
-#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 
 #include <algorithm>
+#include <span>
 
-/// What a surface does about cutting itself and about folds: the mending behind surface_contact.hpp.
 namespace gracilis {
 
 namespace {

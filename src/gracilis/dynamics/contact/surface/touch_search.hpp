@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/dynamics/contact/self/self_contact.hpp>
-#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
+#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
 
 namespace gracilis {
 

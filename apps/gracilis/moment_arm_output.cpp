@@ -1,0 +1,128 @@
+#include "moment_arm_output.hpp"
+
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/input_file.hpp>
+#include <gracilis/io/tables/table.hpp>
+#include <gracilis/simulate/moment_arms.hpp>
+#include <gracilis/view/charts/run_charts.hpp>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis {
+
+namespace {
+
+std::vector<Real> as_list(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
+
+/// The lengths of a run, only along the range, turned into moment arms. Every coordinate has a column, then every
+/// muscle and fiber.
+Table arms_from_lengths(const std::filesystem::path& file, const Scene& scene, const MovedCoordinate& moved) {
+  Table table = read_table(file);
+  const auto rows = std::min(static_cast<Eigen::Index>(scene.motion.times.size()), table.values.rows());
+  table.values = table.values.bottomRows(rows).eval();
+  table.times.erase(table.times.begin(), table.times.end() - rows);
+  const Real unit = moved.translation ? 1 : radians(1);  // tables have degrees and m
+  const Eigen::VectorXd angles = table.values.col(column_of(table, moved.name).value()) * unit;
+  const auto coordinates = static_cast<Eigen::Index>(coordinate_names(scene).size());
+  const Eigen::Index lengths = table.values.cols() - coordinates;
+  table.values.rightCols(lengths) = moment_arms(angles, table.values.rightCols(lengths));
+  table.name = "moment_arms";
+  return table;
+}
+
+std::vector<ArmCurve> references_of(const std::vector<ArmCurve>& all, const std::string& muscle,
+                                    const MovedCoordinate& moved) {
+  std::vector<ArmCurve> found;
+  for (const ArmCurve& curve : all)
+    if (curve.muscle == muscle && (curve.coordinate.empty() || curve.coordinate == moved.name)) found.push_back(curve);
+  return found;
+}
+
+ChartSeries gray_series(const ArmCurve& curve, int number) {
+  ChartSeries series{curve.source, {}, {}, Color::Constant(0.45 + 0.12 * (number % 4)), 2};
+  for (std::size_t i = 0; i < curve.angles.size(); ++i) {
+    series.x.push_back(degrees(curve.angles[i]));
+    series.y.push_back(1e3 * curve.arms[i]);
+  }
+  return series;
+}
+
+/// Says how a muscle's arms lie beside the curves; rows of reference.csv.
+std::string compared(const std::string& muscle, const std::vector<Real>& angles, const std::vector<Real>& arms,
+                     const std::vector<ArmCurve>& curves) {
+  const Real per_degree = 1e3 * radians(1);
+  const Real beyond_band = 1e3 * mean_distance_from_band(angles, arms, curves);
+  std::string rows;
+  for (const ArmCurve& curve : curves) {
+    const ArmComparison c = compare_arms(angles, arms, curve);
+    if (c.angles == 0) continue;
+    fmt::print("  beside {}: {:.1f} mm RMS, {:.1f} mm at most, from {:.0f} to {:.0f} degrees", curve.source,
+               1e3 * c.rms, 1e3 * c.largest, degrees(c.from), degrees(c.to));
+    if (std::isfinite(c.slope))
+      fmt::print("; slope at 0 {:.2f} mm per degree, there {:.2f}", per_degree * c.slope,
+                 per_degree * c.reference_slope);
+    fmt::print("\n");
+    rows += fmt::format("{},{},{},{:.2f},{:.2f},{:.3f},{:.3f},{:.4f},{:.4f},{:.3f}\n", muscle, curve.source, c.angles,
+                        degrees(c.from), degrees(c.to), 1e3 * c.rms, 1e3 * c.largest, per_degree * c.slope,
+                        per_degree * c.reference_slope, beyond_band);
+  }
+  if (curves.size() > 1 && std::isfinite(beyond_band))
+    fmt::print("  beyond the band of all {}: {:.1f} mm on average\n", curves.size(), beyond_band);
+  return rows;
+}
+
+}  // namespace
+
+void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
+                       const std::vector<ArmCurve>& references) {
+  if (!is_there(folder / "fiber_lengths.sto")) {
+    spdlog::warn("no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
+    return;
+  }
+  const Table table = arms_from_lengths(folder / "fiber_lengths.sto", scene, moved);
+  write_sto(folder / "moment_arms.sto", table);
+
+  const ChartCoordinate coordinate = chart_coordinate(scene, moved.name);
+  const std::string title = moved.translation ? "shortening" : "moment arms";
+  const std::string y_label = moved.translation ? "shortening (mm per m)" : "moment arm (mm)";
+  const Eigen::VectorXd angles =
+      table.values.col(column_of(table, moved.name).value()) * (moved.translation ? 1 : radians(1));
+  std::string comparisons;
+  std::vector<std::string> muscles;
+  for (const Muscle& muscle : scene.muscles) {
+    const std::optional<Eigen::Index> found = column_of(table, muscle.name);
+    if (!found) continue;
+    muscles.push_back(muscle.name);
+    const Eigen::VectorXd arms = table.values.col(*found);
+    LineChart chart = fiber_chart(table, coordinate, muscle.name, muscle.name + ": " + title, y_label);
+    if (moved.translation) {
+      fmt::print("{}: shortens by {:.1f} to {:.1f} mm per m of {}\n", muscle.name, 1e3 * arms.minCoeff(),
+                 1e3 * arms.maxCoeff(), moved.name);
+    } else {
+      fmt::print("{}: moment arm about {} {:.1f} to {:.1f} mm, largest step {:.3f} mm per degree\n", muscle.name,
+                 moved.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), 1e3 * largest_step_per_degree(angles, arms));
+      const std::vector<ArmCurve> curves = references_of(references, muscle.name, moved);
+      comparisons += compared(muscle.name, as_list(angles), as_list(arms), curves);
+      for (std::size_t i = 0; i < curves.size(); ++i)
+        chart.series.push_back(gray_series(curves[i], static_cast<int>(i)));
+    }
+    write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"), chart);
+  }
+  write_chart(folder / "plots" / "moment_arms.svg",
+              muscles_chart(table, coordinate, muscles, scene.name + ": " + title, y_label));
+  if (references.empty()) return;
+  if (comparisons.empty())
+    spdlog::warn("the reference tells nothing of these muscles about {} in this range", moved.name);
+  else
+    write_text_atomically(folder / "reference.csv",
+                          "muscle,source,angles,from_deg,to_deg,rms_mm,largest_mm,slope_mm_per_deg,"
+                          "reference_slope_mm_per_deg,beyond_band_mm\n" +
+                              comparisons);
+}
+
+}  // namespace gracilis

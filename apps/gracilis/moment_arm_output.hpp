@@ -1,0 +1,25 @@
+#pragma once
+
+#include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/arm_comparison.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// The coordinate that a run through a range of motion moved.
+struct MovedCoordinate {
+  std::string name;
+  bool translation = false;
+};
+
+/// Writes what follows from the fiber lengths of a run folder along a coordinate, and says it on the standard output:
+/// moment_arms.sto, plots/moment_arms*.svg, and beside `references`, as far as they are of this coordinate,
+/// reference.csv. Of translations: how much muscles shorten. The scene's motion is the range; rows before it only led
+/// there. Throws InputError.
+void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
+                       const std::vector<ArmCurve>& references);
+
+}  // namespace gracilis

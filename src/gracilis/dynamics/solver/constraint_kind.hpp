@@ -1,0 +1,19 @@
+#pragma once
+
+namespace gracilis {
+
+/// Kinds of constraints; what each is called and does in an iteration: constraint_table.hpp.
+enum class ConstraintKind {
+  none,
+  distance,
+  tension,
+  dihedral,
+  volume,
+  strain_limit,
+  muscle_contact,
+  slivers,
+  tight_places,
+  bone_contact
+};
+
+}  // namespace gracilis

@@ -1,0 +1,171 @@
+#include <gracilis/io/scene/attachments.hpp>
+
+#include <gracilis/anatomy/attachments/attachment_reach.hpp>
+#include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/io/scene/bodies.hpp>
+#include <gracilis/io/scene/files.hpp>
+#include <gracilis/io/suggestions.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gracilis::sections {
+
+static AttachmentEnd read_end(TomlReader& table) {
+  const std::string end = table.required_text("end");
+  if (end == "insertion") return AttachmentEnd::insertion;
+  if (end != "origin" && !end.empty()) table.add_problem("end", "'end' must be \"origin\" or \"insertion\"");
+  return AttachmentEnd::origin;
+}
+
+static LineKind read_line_kind(TomlReader& table) {
+  const std::string line = table.text("line").value_or("cloud");
+  if (line == "open") return LineKind::open;
+  if (line == "closed") return LineKind::closed;
+  if (line == "outline") return LineKind::outline;
+  if (line != "cloud") table.add_problem("line", "'line' must be \"cloud\", \"open\", \"closed\" or \"outline\"");
+  return LineKind::cloud;
+}
+
+static Real millimetres(TomlReader& table, const std::string& key) {
+  return table.number(key, {0, 1000, "mm"}).value_or(0) / 1000;
+}
+
+/// Which of the four rules is meant follows from the keys; they must fit together.
+static void check_rule(TomlReader& table, const AttachmentDescription& description) {
+  const bool landmarks = !description.clouds.empty() || !description.points.empty();
+  const bool listed = description.attachment.listed;
+  const auto complain = [&](const std::string& what, const std::string& remedy) {
+    Problem problem = description.place;
+    problem.what = "attachment '" + description.attachment.name + "' " + what;
+    problem.remedy = remedy;
+    table.add_problem(problem);
+  };
+  if (description.bones.empty() && description.body.empty()) complain("is fixed to nothing", "give 'bone' or 'body'");
+  if (listed && (landmarks || description.bone_distance > 0 || description.landmark_distance > 0)) {
+    complain("lists its vertices and also asks for distances", "keep one of the two");
+  } else if (!listed && !landmarks && description.bones.empty()) {
+    complain("does not say which vertices it takes", "give 'cloud', 'points_mm', 'bone' or 'vertices'");
+  } else if (!listed && !description.bones.empty() && description.bone_distance == 0) {
+    complain("needs the key 'bone_distance_mm'", "the distance to the bone within which vertices are taken");
+  } else if (landmarks && description.landmark_distance == 0) {
+    complain("needs the key 'landmark_distance_mm'", "the distance to the landmarks within which vertices are taken");
+  } else if (description.line == LineKind::outline && description.bones.empty()) {
+    complain("has an outline but no bone", "give 'bone', on whose surface the inside lies");
+  } else if (!landmarks && description.landmark_distance > 0) {
+    complain("gives a distance to landmarks but no landmarks", "give 'cloud' or 'points_mm'");
+  }
+}
+
+AttachmentDescription read_attachment(TomlReader table) {
+  AttachmentDescription result;
+  Attachment& attachment = result.attachment;
+  result.place = table.place();
+  attachment.name = table.required_text("name");
+  attachment.end = read_end(table);
+  result.line = read_line_kind(table);
+  result.body = table.text("body").value_or("");
+  result.bones = table.texts("bone");
+  result.clouds = table.texts("cloud");
+  if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3))
+    result.points = {rows->transpose() / 1000};
+  result.bone_distance = millimetres(table, "bone_distance_mm");
+  result.landmark_distance = millimetres(table, "landmark_distance_mm");
+  attachment.vertices = table.indices("vertices");
+  attachment.listed = !attachment.vertices.empty();
+  attachment.guessed = table.flag("guessed").value_or(false);
+  table.reject_unknown_keys();
+  check_rule(table, result);
+  return result;
+}
+
+AttachmentSelector::AttachmentSelector(SceneInProgress& progress) : progress_(progress) {
+  const NamedFile& file = progress.description.landmarks;
+  if (file.path.empty()) return;
+  read_file(progress, file, [&](const std::filesystem::path& path) { landmarks_ = read_landmarks(path, file.unit); });
+}
+
+const NearestTriangle& AttachmentSelector::tree_of(Index bone) {
+  return trees_.try_emplace(bone, progress_.loaded.scene.bones[bone].surface).first->second;
+}
+
+Index AttachmentSelector::bone_index(const std::string& name) const {
+  const std::vector<Bone>& bones = progress_.loaded.scene.bones;
+  const auto found = std::find_if(bones.begin(), bones.end(), [&](const Bone& bone) { return bone.name == name; });
+  return static_cast<Index>(found - bones.begin());
+}
+
+std::vector<LandmarkSet> AttachmentSelector::landmarks_of(const AttachmentDescription& description) {
+  std::vector<LandmarkSet> sets;
+  std::vector<std::string> known;
+  for (const LandmarkCloud& cloud : landmarks_) known.push_back(cloud.name);
+  for (const std::string& name : description.clouds) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found != known.end()) {
+      sets.push_back({landmarks_[static_cast<std::size_t>(found - known.begin())].points, description.line});
+    } else {
+      progress_.add_problem(description.place, "the landmark file has no cloud '" + name + "'",
+                            suggestion(name, known));
+    }
+  }
+  for (const Points& points : description.points) sets.push_back({points, description.line});
+  return sets;
+}
+
+AttachmentRule AttachmentSelector::rule_of(const AttachmentDescription& description) {
+  if (description.attachment.listed) return ListedVertices{description.attachment.vertices};
+  std::vector<LandmarkSet> landmarks = landmarks_of(description);
+  if (description.clouds.empty() && description.points.empty()) return NearBone{description.bone_distance};
+  if (description.bones.empty()) return NearPoints{std::move(landmarks), description.landmark_distance};
+  if (description.line == LineKind::outline) {
+    std::vector<const TriangleMesh*> surfaces;
+    for (const std::string& bone : description.bones)
+      surfaces.push_back(&progress_.loaded.scene.bones[bone_index(bone)].surface);
+    for (LandmarkSet& set : landmarks) set = outline_on_bones(set.points, surfaces);
+  }
+  return NearLandmarks{std::move(landmarks), description.bone_distance, description.landmark_distance};
+}
+
+std::string AttachmentSelector::body_of(const AttachmentDescription& description) {
+  const Scene& scene = progress_.loaded.scene;
+  std::string body = description.body;
+  for (const std::string& bone : description.bones) {
+    const std::string& of_bone = scene.bodies[scene.bones[bone_index(bone)].body];
+    if (body.empty()) body = of_bone;
+    if (!description.body.empty() || body == of_bone) continue;
+    progress_.add_problem(description.place,
+                          "the bones of attachment '" + description.attachment.name + "' belong to different bodies",
+                          "split it, or say with 'body' to which one it is fixed");
+  }
+  return body;
+}
+
+Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDescription& description) {
+  Attachment attachment = description.attachment;
+  attachment.body = body_index(progress_.loaded.scene, body_of(description));
+  std::vector<const NearestTriangle*> trees;
+  for (const std::string& bone : description.bones) trees.push_back(&tree_of(bone_index(bone)));
+  attachment.vertices = select_vertices(muscle.surface, trees, rule_of(description));
+  if (attachment.vertices.empty()) {
+    progress_.add_problem(description.place,
+                          "attachment '" + attachment.name + "' of " + muscle.name + " holds no vertex",
+                          "give larger distances, or check the units and that the muscle reaches there");
+  }
+  return attachment;
+}
+
+void AttachmentSelector::attach(Muscle& muscle, const std::vector<AttachmentDescription>& attachments) {
+  for (const AttachmentDescription& description : attachments)
+    muscle.attachments.push_back(selected(muscle, description));
+}
+
+void let_go_of_attachments(LoadedScene& loaded) {
+  for (const LetGo& each : let_go_beyond_reach(loaded.scene, pose_sequence(loaded.scene, loaded.max_frames)))
+    loaded.warnings.push_back(
+        fmt::format("{}: attachment '{}' lets go of {} of its {} vertices, because the motion takes '{}' {:.1f} times "
+                    "as far from them as at rest (at most {:g}); list its vertices to hold them all",
+                    each.muscle, each.attachment, each.vertices, each.of, each.other, each.stretch, longest_reach));
+}
+
+}  // namespace gracilis::sections

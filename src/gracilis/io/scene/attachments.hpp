@@ -1,0 +1,43 @@
+#pragma once
+
+#include <gracilis/geometry/nearest_triangle.hpp>
+#include <gracilis/io/scene/landmarks.hpp>
+#include <gracilis/io/scene/scene_in_progress.hpp>
+#include <gracilis/io/toml_reader.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+/// [[muscles.attachments]] and the landmarks that they name.
+namespace gracilis::sections {
+
+AttachmentDescription read_attachment(TomlReader table);
+
+/// Selects the vertices that attachments hold.
+class AttachmentSelector {
+ public:
+  /// Reads the scene's landmarks.
+  explicit AttachmentSelector(SceneInProgress& progress);
+
+  /// Adds the described attachments to a muscle of the scene; one without a vertex is a problem. The scene's bones
+  /// stay as they are from the first call on.
+  void attach(Muscle& muscle, const std::vector<AttachmentDescription>& attachments);
+
+ private:
+  Attachment selected(const Muscle& muscle, const AttachmentDescription& description);
+  std::string body_of(const AttachmentDescription& description);
+  AttachmentRule rule_of(const AttachmentDescription& description);
+  std::vector<LandmarkSet> landmarks_of(const AttachmentDescription& description);
+  Index bone_index(const std::string& name) const;
+  const NearestTriangle& tree_of(Index bone);
+
+  SceneInProgress& progress_;
+  std::vector<LandmarkCloud> landmarks_;
+  std::map<Index, NearestTriangle> trees_;
+};
+
+/// Lets go of the vertices that could not follow the motion (distances to a bone take such, too), with a warning each.
+void let_go_of_attachments(LoadedScene& loaded);
+
+}  // namespace gracilis::sections

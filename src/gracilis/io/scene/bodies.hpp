@@ -1,0 +1,25 @@
+#pragma once
+
+#include <gracilis/io/scene/scene_in_progress.hpp>
+#include <gracilis/io/scene/surfaces.hpp>
+#include <gracilis/io/toml_reader.hpp>
+
+#include <string>
+
+/// [[bones]] and [[joints]].
+namespace gracilis::sections {
+
+BoneDescription read_bone(TomlReader table);
+JointDescription read_joint(TomlReader table);
+
+/// The index of the body with this name, which is added where there is none yet.
+Index body_index(Scene& scene, const std::string& name);
+
+/// Sets the scene's joints, parents before children, and its bodies in their order, the one that no joint moves first.
+/// Joints in a circle are a problem.
+void place_bodies(SceneInProgress& progress);
+
+/// Adds a bone with its surface.
+void add_bone(SceneInProgress& progress, SurfaceLoader& surfaces, const BoneDescription& description);
+
+}  // namespace gracilis::sections

@@ -1,0 +1,99 @@
+#include <gracilis/io/scene/muscles.hpp>
+
+#include <gracilis/io/mesh/polyline_file.hpp>
+#include <gracilis/io/scene/attachments.hpp>
+#include <gracilis/io/scene/bodies.hpp>
+#include <gracilis/io/scene/files.hpp>
+#include <gracilis/io/scene/method_reader.hpp>
+
+namespace gracilis::sections {
+
+static void read_fibers(TomlReader table, MuscleDescription& description) {
+  table.read_settings(description.muscle.fibers);
+  if (const std::optional<std::string> file = table.text("file")) description.fiber_file = named_file(table, *file);
+  const std::string kind = table.text("lines").value_or("inner");
+  description.muscle.given_are_superficial = kind == "superficial";
+  if (kind != "inner" && kind != "superficial") {
+    table.add_problem("lines", "'lines' must be \"inner\" or \"superficial\"");
+  } else if (table.has("lines") && description.fiber_file.path.empty()) {
+    table.add_problem("lines", "'lines' says what the key 'file' holds, which is missing");
+  }
+  table.reject_unknown_keys();
+}
+
+static void read_contraction(TomlReader table, MuscleDescription& description) {
+  table.read_settings(description.muscle.contraction);
+  if (const std::optional<std::string> file = table.text("file"))
+    description.surface_fiber_file = named_file(table, *file);
+  table.reject_unknown_keys();
+}
+
+static void read_action_line(TomlReader table, MuscleDescription& description) {
+  ActionLine& line = description.muscle.action_line;
+  if (!table.has("rays")) table.required_number("rays");
+  line.rays = table.integer("rays", 6, 1000).value_or(6);
+  line.scaling = table.integer("scaling", 0, 16).value_or(0);
+  const auto length = [&](const char* key) { return table.number(key, {0, 10'000, "mm"}).value_or(0) / 1000; };
+  line.tendon = length("tendon_mm");
+  line.origin_tendon = length("origin_tendon_mm");
+  line.optimal_fiber = length("optimal_fiber_mm");
+  line.pennation = radians(table.number("pennation_deg", {0, 89}).value_or(0));
+  if (const std::optional<Eigen::MatrixXd> rows = table.rows("centers_mm", 3)) line.centers = rows->transpose() / 1000;
+  description.line_bodies = table.texts("bodies");
+  if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3)) line.points = rows->transpose() / 1000;
+  if (line.points.cols() != static_cast<Index>(description.line_bodies.size()))
+    table.add_problem("bodies", "'bodies' must name a body for each of 'points_mm'");
+  description.line_path = read_line_path(table);
+  table.reject_unknown_keys();
+}
+
+MuscleDescription read_muscle(TomlReader table, const MuscleDefaults& defaults, std::set<std::string>& others) {
+  MuscleDescription description;
+  Muscle& muscle = description.muscle;
+  description.place = table.place();
+  muscle.name = table.required_text("name");
+  description.surface = read_surface(table);
+  muscle.fibers = defaults.fibers;
+  muscle.contraction = defaults.contraction;
+  if (std::optional<TomlReader> own = table.table("fibers")) read_fibers(std::move(*own), description);
+  if (std::optional<TomlReader> own = table.table("contraction")) read_contraction(std::move(*own), description);
+  if (std::optional<TomlReader> line = table.table("action_line")) read_action_line(std::move(*line), description);
+  if (std::optional<TomlReader> settings = table.table("settings")) {
+    read_method_settings(*settings, defaults.method, &MethodEntry::settings, muscle.settings, others);
+    settings->reject_unknown_keys();
+  }
+  for (TomlReader& attachment : table.tables("attachments"))
+    description.attachments.push_back(read_attachment(std::move(attachment)));
+  table.reject_unknown_keys();
+  return description;
+}
+
+static void place_line(ActionLine& line, const MuscleDescription& description, Scene& scene) {
+  const auto index = [&](const std::string& body) { return body_index(scene, body); };
+  for (const std::string& body : description.line_bodies) line.bodies.push_back(index(body));
+  line.path = place_line_path(description.line_path, scene, index);
+}
+
+/// Lines of a file; none where no file is named.
+static void read_lines(SceneInProgress& progress, const NamedFile& file, Polylines& lines) {
+  if (file.path.empty()) return;
+  read_file(progress, file, [&](const std::filesystem::path& path) { lines = read_polylines(path, file.unit); });
+}
+
+void add_muscle(SceneInProgress& progress, SurfaceLoader& surfaces, const MuscleDescription& description) {
+  Scene& scene = progress.loaded.scene;
+  Muscle& muscle = scene.muscles.emplace_back(description.muscle);
+  read_lines(progress, description.fiber_file, muscle.given_fibers);
+  place_line(muscle.action_line, description, scene);
+  read_lines(progress, description.surface_fiber_file, muscle.given_surface_fibers);
+  if (!surfaces.take(description.surface, SurfaceRole::muscle, muscle.surface)) return;
+  for (const AttachmentDescription& each : description.attachments) {
+    if (!each.attachment.listed) continue;
+    progress.add_problem(each.place,
+                         "attachment '" + each.attachment.name + "' of " + muscle.name +
+                             " lists vertices, but the surface had to be repaired, which may have renumbered them",
+                         "write the repaired surface to a file of its own, or describe the attachment by distances");
+  }
+}
+
+}  // namespace gracilis::sections

@@ -1,0 +1,84 @@
+#include <gracilis/io/scene/surfaces.hpp>
+
+#include <gracilis/geometry/box_mesh.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/scene/files.hpp>
+
+#include <algorithm>
+
+namespace gracilis::sections {
+
+namespace fs = std::filesystem;
+
+static constexpr long most_box_triangles = 2'000'000;
+
+static BoxDescription read_box(TomlReader table) {
+  const Vec3 center = table.vector("center_mm").value_or(Vec3::Zero()) / 1000;
+  const Vec3 size = table.required_vector("size_mm").value_or(Vec3::Ones()) / 1000;
+  const Vec3 cells = table.vector("cells").value_or(Vec3::Ones());
+  if (!(size.minCoeff() > 0)) table.add_problem("size_mm", "'size_mm' must be three numbers above 0");
+  if (!(cells.minCoeff() >= 1 && cells.maxCoeff() <= 1000 && cells == cells.array().round().matrix()))
+    table.add_problem("cells", "'cells' must be three integers from 1 to 1000");
+  const Real triangles = 4 * (cells[0] * cells[1] + cells[1] * cells[2] + cells[2] * cells[0]);
+  if (triangles > most_box_triangles)
+    table.add_problem("cells", "'cells' asks for " + std::to_string(static_cast<long>(triangles)) + " triangles",
+                      std::to_string(most_box_triangles) + " are the most that are made");
+  table.reject_unknown_keys();
+  const auto count = [&](int k) { return std::clamp(static_cast<int>(cells[k]), 1, 1000); };
+  return {center - size / 2, center + size / 2, {count(0), count(1), count(2)}};
+}
+
+SurfaceDescription read_surface(TomlReader& table) {
+  SurfaceDescription surface;
+  if (std::optional<TomlReader> box = table.table("box")) {
+    if (table.has("file")) table.add_problem("file", "the surface is given twice, by 'file' and by 'box'");
+    surface.box = read_box(std::move(*box));
+  } else {
+    surface.file = named_file(table, table.required_text("file"));
+  }
+  return surface;
+}
+
+SurfaceLoader::SurfaceLoader(SceneInProgress& progress, bool muscles_stay_raw)
+    : progress_(progress), muscles_stay_raw_(muscles_stay_raw) {
+  std::vector<const SurfaceDescription*> surfaces;
+  std::vector<SurfaceFile> files;
+  const auto add = [&](const SurfaceDescription& surface, SurfaceRole role) {
+    if (surface.box || stays_raw(surface, role)) return;
+    const fs::path path = located(progress, surface.file);
+    if (path.empty()) return;
+    surfaces.push_back(&surface);
+    files.push_back({path, surface.file.unit, role});
+  };
+  for (const BoneDescription& bone : progress.description.bones) add(bone.surface, SurfaceRole::bone);
+  for (const MuscleDescription& muscle : progress.description.muscles) add(muscle.surface, SurfaceRole::muscle);
+  std::vector<LoadOutcome> outcomes = load_surfaces(files);
+  for (std::size_t i = 0; i < files.size(); ++i) loaded_[surfaces[i]] = std::move(outcomes[i]);
+}
+
+bool SurfaceLoader::stays_raw(const SurfaceDescription& surface, SurfaceRole role) const {
+  return role == SurfaceRole::muscle && muscles_stay_raw_ && !surface.box;
+}
+
+bool SurfaceLoader::take(const SurfaceDescription& surface, SurfaceRole role, TriangleMesh& mesh) {
+  if (surface.box) {
+    mesh = box_mesh(surface.box->low, surface.box->high, surface.box->cells);
+    return false;
+  }
+  bool repaired = false;
+  read_file(progress_, surface.file, [&](const fs::path& path) {
+    if (stays_raw(surface, role)) {
+      mesh = read_mesh(path, surface.file.unit);
+      return;
+    }
+    LoadOutcome& outcome = loaded_.at(&surface);
+    if (outcome.error) throw InputError(*outcome.error);
+    mesh = std::move(outcome.loaded.mesh);
+    repaired = !outcome.loaded.repairs.empty();
+    progress_.add_warnings(outcome.loaded.repairs);
+    progress_.add_warnings(outcome.loaded.warnings);
+  });
+  return repaired;
+}
+
+}  // namespace gracilis::sections

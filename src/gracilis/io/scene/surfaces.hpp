@@ -1,0 +1,33 @@
+#pragma once
+
+#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
+#include <gracilis/io/scene/scene_in_progress.hpp>
+#include <gracilis/io/toml_reader.hpp>
+
+#include <map>
+
+namespace gracilis::sections {
+
+/// The surface of an element: its key `file`, or its table `box`.
+SurfaceDescription read_surface(TomlReader& table);
+
+/// Loads the surfaces of all bones and muscles side by side, and then hands them out one by one.
+class SurfaceLoader {
+ public:
+  /// `muscles_stay_raw`: muscles from files are taken as they are there, to be prepared.
+  SurfaceLoader(SceneInProgress& progress, bool muscles_stay_raw);
+
+  /// Sets `mesh` to a surface of the scene's description, fit for its role; what had to be repaired becomes a warning,
+  /// what is wrong with it a problem. Tells whether anything had to be repaired.
+  bool take(const SurfaceDescription& surface, SurfaceRole role, TriangleMesh& mesh);
+
+ private:
+  bool stays_raw(const SurfaceDescription& surface, SurfaceRole role) const;
+
+  SceneInProgress& progress_;
+  bool muscles_stay_raw_;
+  std::map<const SurfaceDescription*, LoadOutcome> loaded_;
+};
+
+}  // namespace gracilis::sections

@@ -1,0 +1,153 @@
+#include <gracilis/methods/strings/strings_method.hpp>
+
+#include <gracilis/anatomy/attachments/body_carriers.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/core/stop.hpp>
+#include <gracilis/methods/placed_method.hpp>
+#include <gracilis/methods/strings/settings.hpp>
+#include <gracilis/strings/bone_distances.hpp>
+#include <gracilis/strings/string_skin.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+namespace gracilis {
+
+namespace {
+
+/// What stays the same of one muscle.
+struct StrungMuscle {
+  std::string name;
+  TriangleMesh rest;  ///< world, in the capture pose, m
+  BodyCarriers carriers;
+  std::optional<strings::MuscleStrings> strings;  ///< none: its bodies carry it
+  strings::StringSkin skin;
+};
+
+bool is_attached_to_several(const Muscle& muscle) {
+  return std::any_of(muscle.attachments.begin(), muscle.attachments.end(),
+                     [&](const Attachment& each) { return each.body != muscle.attachments.front().body; });
+}
+
+StrungMuscle prepare(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones) {
+  constexpr Real no_tendon = 0;
+  StrungMuscle strung;
+  strung.name = muscle.name;
+  strung.rest = muscle.surface;
+  strung.carriers =
+      body_carriers(muscle, build_topology(muscle.surface.faces, muscle.surface.vertex_count()), no_tendon);
+  if (is_attached_to_several(muscle))
+    strung.strings = muscle_strings(scene, muscle, bones, muscle_settings<strings::StringSettings>(scene, muscle));
+  if (strung.strings) strung.skin = bind_skin(*strung.strings, muscle.surface, strung.carriers.fixed_body);
+  return strung;
+}
+
+/// The shape of a muscle that its bodies carry.
+Points carried_by_bodies(const StrungMuscle& muscle, const Pose& pose) {
+  const std::vector<RigidTransform> motions = carried_motions(muscle.carriers, pose);
+  Points shape(3, muscle.rest.vertices.cols());
+  for (Index v = 0; v < static_cast<Index>(shape.cols()); ++v)
+    shape.col(v) = motions[static_cast<std::size_t>(v)] * Vec3(muscle.rest.vertices.col(v));
+  return shape;
+}
+
+/// Where one muscle is.
+struct StrungState {
+  strings::StringState strings;
+  Points shape;  ///< world, m
+};
+
+class StringsMethod final : public DeformationMethod {
+ public:
+  StringsMethod(const Scene& scene, std::vector<DistanceField> far_fields)
+      : far_fields_(std::move(far_fields)),
+        bones_(strings::bone_distances(scene, far_fields_)),
+        body_count_(scene.bodies.size()),
+        muscles_(scene.muscles.size()) {
+    parallel_for_each(muscles_.size(), [&](std::size_t m) { muscles_[m] = prepare(scene, scene.muscles[m], bones_); });
+    reset();
+  }
+
+  void reset() override {
+    states_.clear();
+    for (const StrungMuscle& muscle : muscles_) states_.push_back(at_capture(muscle));
+  }
+
+  StepReport advance(const Pose& pose, Real) override {
+    StepReport report;
+    report.muscles.resize(muscles_.size());
+    std::vector<StrungState> next = states_;
+    parallel_for_each(muscles_.size(), [&](std::size_t m) {
+      const auto started = std::chrono::steady_clock::now();
+      follow(muscles_[m], pose, next[m].strings);
+      next[m].shape = shape_of(muscles_[m], pose, next[m].strings);
+      const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
+      report.muscles[m].milliseconds = taken.count();
+    });
+    for (std::size_t m = 0; m < muscles_.size(); ++m)
+      if (!next[m].shape.allFinite())
+        throw QualityError("muscle " + muscles_[m].name + ": a vertex position is not finite; check the pose");
+    states_ = std::move(next);
+    return report;
+  }
+
+  void write(Frame& frame) const override {
+    frame.muscles.clear();
+    for (const StrungState& state : states_) frame.muscles.push_back({state.shape});
+  }
+
+  /// Surfaces do not tell where strings are: they go through all poses again.
+  void restore(const std::vector<Pose>& poses, const Frame&, const Frame& last) override {
+    reset();
+    parallel_for_each(muscles_.size(), [&](std::size_t m) {
+      for (std::size_t frame = 1; frame < poses.size(); ++frame) follow(muscles_[m], poses[frame], states_[m].strings);
+      states_[m].shape = last.muscles[m].points;
+    });
+  }
+
+ private:
+  StrungState at_capture(const StrungMuscle& muscle) const {
+    StrungState state;
+    if (muscle.strings) state.strings = capture_state(*muscle.strings, body_count_);
+    state.shape = muscle.rest.vertices;
+    return state;
+  }
+
+  void follow(const StrungMuscle& muscle, const Pose& pose, strings::StringState& state) const {
+    throw_if_stopped();
+    if (muscle.strings) strings::follow(*muscle.strings, bones_, pose, state);
+  }
+
+  static Points shape_of(const StrungMuscle& muscle, const Pose& pose, const strings::StringState& state) {
+    if (!muscle.strings) return carried_by_bodies(muscle, pose);
+    return skinned_by_strings(*muscle.strings, muscle.skin, muscle.rest.vertices, muscle.rest.faces, state).vertices;
+  }
+
+  std::vector<DistanceField> far_fields_;
+  strings::BoneDistances bones_;
+  std::size_t body_count_;
+  std::vector<StrungMuscle> muscles_;
+  std::vector<StrungState> states_;
+};
+
+}  // namespace
+
+std::unique_ptr<DeformationMethod> make_strings_method(const Scene& scene, std::vector<DistanceField> far_fields) {
+  return made_near_origin(scene, std::move(far_fields), [](const Scene& near, std::vector<DistanceField> near_fields) {
+    return std::make_unique<StringsMethod>(near, std::move(near_fields));
+  });
+}
+
+MethodEntry strings_entry() {
+  return {.name = "strings",
+          .meaning = "their fibers, pulled tight among the bones, and the surface that follows them",
+          .settings = describe_settings<strings::StringSettings>(),
+          .make = [](const Scene& scene, const BoneFieldSource& fields) {
+            return make_strings_method(scene, fields(strings::far_field_settings()));
+          }};
+}
+
+}  // namespace gracilis

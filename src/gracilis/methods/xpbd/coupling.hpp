@@ -1,0 +1,23 @@
+#pragma once
+
+#include <gracilis/dynamics/solver/surface_solve.hpp>
+#include <gracilis/methods/xpbd/crowd.hpp>
+#include <gracilis/methods/xpbd/step.hpp>
+
+#include <vector>
+
+namespace gracilis::xpbd {
+
+/// The particles of all steps, as pointers to what may or may not be changed.
+template <class Pointer>
+std::vector<Pointer> particles_of(const std::vector<MuscleStep>& steps) {
+  std::vector<Pointer> particles;
+  for (const MuscleStep& step : steps) particles.push_back(&step.state->particles);
+  return particles;
+}
+
+/// What acts between the muscles of a crowd, from where they are predicted. The crowd, its state and the steps' states
+/// must outlive it.
+Coupling couple(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& state);
+
+}  // namespace gracilis::xpbd

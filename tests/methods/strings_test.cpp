@@ -1,0 +1,99 @@
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/methods/strings/strings_method.hpp>
+#include <gracilis/methods/xpbd/motion.hpp>
+#include <gracilis/strings/string_skin.hpp>
+
+#include "../strings/string_scenes.hpp"
+
+#include <gtest/gtest.h>
+
+/// `method = "strings"`.
+namespace gracilis {
+namespace {
+
+std::vector<DistanceField> far_fields(const Scene& scene) {
+  std::vector<DistanceField> fields;
+  for (const Bone& bone : scene.bones) fields.push_back(build_bone_field(bone, strings::far_field_settings()));
+  return fields;
+}
+
+Scene arm(const SettingValues& settings = {}) {
+  Scene scene = strings::arm_scene();
+  scene.method.name = "strings";
+  scene.method.settings = settings;
+  return scene;
+}
+
+Points shape_at(const Scene& scene, Real angle) {
+  const auto method = make_strings_method(scene, far_fields(scene));
+  const Pose pose = flexed(scene, angle);
+  method->advance(pose, usual_time_step);
+  return frame_of(*method, pose, 1).muscles[0].points;
+}
+
+TEST(Strings, are_what_the_predictor_of_xpbd_follows) {
+  const Scene scene = arm();
+  const strings::Strung strung(strings::arm_scene());
+  const Pose pose = flexed(scene, radians(60));
+  strings::StringState state = strings::capture_state(strung.muscle, scene.bodies.size());
+  strings::follow(strung.muscle, strung.bones, pose, state);
+  std::vector<Index> bodies(static_cast<std::size_t>(scene.muscles[0].surface.vertex_count()), -1);
+  for (const Attachment& attachment : scene.muscles[0].attachments)
+    for (const Index v : attachment.vertices) bodies[static_cast<std::size_t>(v)] = attachment.body;
+  const TriangleMesh& surface = scene.muscles[0].surface;
+  const strings::StringSkin skin = bind_skin(strung.muscle, surface, bodies);
+  EXPECT_EQ(skinned_by_strings(strung.muscle, skin, surface.vertices, surface.faces, state).vertices,
+            shape_at(scene, radians(60)));
+}
+
+TEST(Strings, keep_a_belly_with_the_bone_that_it_lies_along) {
+  const Scene scene = arm();
+  const Points& rest = scene.muscles[0].surface.vertices;
+  const Points bent = shape_at(scene, radians(90));
+  Vec3 moved = Vec3::Zero();
+  Index count = 0;
+  for (Index v = 0; v < static_cast<Index>(rest.cols()); ++v)
+    if (rest(2, v) > -0.05 && rest(2, v) < 0.05) moved += bent.col(v) - rest.col(v), ++count;
+  moved /= static_cast<Real>(count);
+  ASSERT_GT(count, 100);
+  EXPECT_LT(std::hypot(moved.x(), moved.y()), 0.003) << "across the limb";
+  EXPECT_NEAR(enclosed_volume(bent, scene.muscles[0].surface.faces),
+              enclosed_volume(rest, scene.muscles[0].surface.faces), 1e-6 * 1.5e-4);
+}
+
+TEST(Strings, settings_reach_them) {
+  const Points usual = shape_at(arm(), radians(60));
+  for (const auto& [key, value] : SettingValues{{"strings", 20},
+                                                {"segments", 12},
+                                                {"support_length", 0.02},
+                                                {"tie_length", 0.01},
+                                                {"tie_reach", 0.05},
+                                                {"bone_gap", 0.012},
+                                                {"neighbors", 0},
+                                                {"share_offset", 0.01},
+                                                {"iterations", 1}})
+    EXPECT_GT((shape_at(arm({{key, value}}), radians(60)) - usual).norm(), 1e-6) << key;
+}
+
+TEST(Strings, a_muscle_with_both_ends_on_one_body_goes_with_it) {
+  Scene scene = arm();
+  scene.muscles[0].attachments[0].body = 1;
+  const Points& rest = scene.muscles[0].surface.vertices;
+  const RigidTransform lower = flexed(scene, radians(70)).bodies[1];
+  const Points shape = shape_at(scene, radians(70));
+  for (Index v = 0; v < static_cast<Index>(rest.cols()); ++v)
+    EXPECT_LT((shape.col(v) - lower * Vec3(rest.col(v))).norm(), 1e-9);
+}
+
+TEST(Strings, a_muscle_without_an_insertion_is_carried_by_its_bodies) {
+  Scene scene = arm();
+  scene.muscles[0].attachments[1].end = AttachmentEnd::origin;
+  const Points shape = shape_at(scene, radians(40));
+  EXPECT_TRUE(shape.allFinite());
+  const RigidTransform lower = flexed(scene, radians(40)).bodies[1];
+  for (const Index v : scene.muscles[0].attachments[1].vertices)
+    EXPECT_LT((shape.col(v) - lower * Vec3(scene.muscles[0].surface.vertices.col(v))).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace gracilis

@@ -1,0 +1,61 @@
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/methods/xpbd/preparation.hpp>
+
+#include <scenes_for_tests.hpp>
+
+#include <gtest/gtest.h>
+
+namespace gracilis {
+
+TEST(XpbdPreparation, masses_sum_to_density_times_volume_and_attached_ones_cannot_move) {
+  Scene scene = tube_scene();
+  const Muscle& muscle = scene.muscles[0];
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, muscle, tube_fields());
+  const Eigen::VectorXd areas = vertex_areas(muscle.surface.vertices, muscle.surface.faces);
+  const Real mass = 1060 * enclosed_volume(muscle.surface.vertices, muscle.surface.faces);
+  Index fixed = 0;
+  for (Index p = 0; p < prepared.system.rest.count(); ++p) {
+    const Real w = prepared.system.rest.inverse_mass(p);
+    const Index v = prepared.order[static_cast<std::size_t>(p)];
+    EXPECT_EQ(w == 0, prepared.fixed_body[static_cast<std::size_t>(p)] >= 0);
+    fixed += w == 0;
+    if (w > 0) {
+      EXPECT_NEAR(1 / w, mass * areas[v] / areas.sum(), 1e-4 * mass / static_cast<Real>(areas.size()));
+    }
+  }
+  EXPECT_EQ(static_cast<std::size_t>(fixed),
+            muscle.attachments[0].vertices.size() + muscle.attachments[1].vertices.size());
+}
+
+TEST(XpbdPreparation, carrier_shares_sum_to_one_and_are_whole_at_attachments) {
+  const Scene scene = tube_scene();
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  ASSERT_EQ(prepared.carriers, (std::vector<Index>{0, 1}));
+  for (Index p = 0; p < prepared.rest.cols(); ++p) {
+    EXPECT_NEAR(prepared.carrier_shares.col(p).sum(), 1, 1e-5);
+    EXPECT_GE(prepared.carrier_shares.col(p).minCoeff(), -1e-5);
+    const Index body = prepared.fixed_body[static_cast<std::size_t>(p)];
+    if (body >= 0) {
+      EXPECT_NEAR(prepared.carrier_shares(body, p), 1, 1e-6);
+    }
+  }
+}
+
+TEST(XpbdPreparation, fibers_run_from_origin_to_insertion) {
+  const Scene scene = tube_scene();
+  const Muscle& muscle = scene.muscles[0];
+  const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
+  const Points directions =
+      xpbd::fiber_directions(muscle.surface.vertices, muscle.surface.faces, topology, muscle.attachments);
+  Index free = 0;
+  for (Index f = 0; f < directions.cols(); ++f) {
+    Vec3 middle = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) middle += muscle.surface.vertices.col(muscle.surface.faces(k, f)) / 3;
+    if (std::abs(middle.z()) > 0.065) continue;
+    ++free;
+    EXPECT_GT(directions.col(f).dot(-Vec3::UnitZ()), 0.99);
+  }
+  EXPECT_GT(free, 500);
+}
+
+}  // namespace gracilis
