@@ -14,8 +14,9 @@ namespace {
 
 /// The built-in hip, whose muscles have settings of their own for its method.
 LoadedScene hip() {
+  static const Scene built = builtin_hip();  // takes seconds
   LoadedScene loaded;
-  loaded.scene = builtin_hip();
+  loaded.scene = built;
   loaded.preset = presets().front().name;
   return loaded;
 }

@@ -240,13 +240,12 @@ TEST(MassSpring, the_published_preset_switches_off_what_this_project_added) {
   const MassSpringSettings settings = with_values(MassSpringSettings{}, find_preset("janak-2012")->method.settings);
   EXPECT_EQ(settings.layout, SpringLayout::nearest);
   EXPECT_EQ(settings.neighbors, 18);
-  EXPECT_EQ(settings.shortest_spring, 0);
   EXPECT_EQ(settings.fixed_near, FixedNear::bones);
   EXPECT_EQ(settings.carry_particles, MassSpringCarry::nearest_bone);
   EXPECT_EQ(settings.damping_rule, DampingRule::fitted);
   EXPECT_EQ(settings.bone_collision, MassSpringBones::spheres);
   EXPECT_EQ(settings.smallest_step, 0.04);
-  EXPECT_FALSE(settings.limit_step || settings.hold_attachments || settings.bone_rest_gap);
+  EXPECT_FALSE(settings.hold_attachments || settings.bone_rest_gap);
   EXPECT_EQ(settings.surface_smoothing, 0);
 }
 

@@ -76,10 +76,8 @@ std::vector<Variant> all_variants() {
       {"mass_spring", "mass-spring", all_but({Property::volume})},
       {"mass_spring_last", "mass-spring", all_but({Property::volume}), {{"start_from", "last"}}},
       {"mass_spring_spheres", "mass-spring", all_but({Property::volume}), {{"bone_collision", "spheres"}}},
-      // As published spheres that overlap at rest are pushed apart, and nothing bounds springs.
-      {"janak_2012",
-       "mass-spring",
-       {Property::rigid_motion},
+      // As published spheres that overlap at rest are pushed apart.
+      {"janak_2012", "mass-spring", {Property::rigid_motion, Property::any_jump},
        find_preset("janak-2012")->method.settings},
       {"pbd", "pbd", all_but({Property::capture_pose})},
       // As published free vertices follow only through constraints, and so remember by which way they came.

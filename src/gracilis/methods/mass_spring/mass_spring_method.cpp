@@ -192,16 +192,15 @@ bool asks_fields(const Scene& scene) {
 Preset janak_2012() {
   Preset preset;
   preset.name = "janak-2012";
-  preset.meaning = "mass-spring systems as published, with what this project added switched off";
+  preset.meaning = "mass-spring systems as published, with what this project added switched off, but for bounds";
   preset.method.name = "mass-spring";
+  // Without 'shortest_spring' and 'limit_step' particles that nearly coincide burst.
   MassSpringSettings published;
   published.particles_per_fiber = 40;
-  published.shortest_spring = 0;
   published.damping_rule = DampingRule::fitted;
   published.fixed_near = FixedNear::bones;
   published.carry_particles = MassSpringCarry::nearest_bone;
   published.smallest_step = 0.04;
-  published.limit_step = false;
   published.bone_collision = MassSpringBones::spheres;
   published.surface_smoothing = 0;
   published.hold_attachments = false;
