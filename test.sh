@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds Gracilis and runs its tests; ends with one line that counts them.
 #   ./test.sh           what a change must pass
+#   ./test.sh --quick   what takes less than a minute of it, for while one works
 #   ./test.sh --long    also the whole motions that take long
 #   ./test.sh --asan    the same tests in a build with address and undefined behavior sanitizers
 set -euo pipefail
@@ -8,20 +9,25 @@ cd "$(dirname "${BASH_SOURCE[0]}")"
 source tools/set_up.sh
 
 preset=release
+targets=()
 selection=(--label-exclude '^long$')
 for option in "$@"; do
   case $option in
+    --quick)
+      targets=(quick_tests)
+      selection=(--label-regex '^quick$')
+      ;;
     --long) selection=() ;;
     --asan) preset=asan ;;
     *)
-      echo "usage: ./test.sh [--long] [--asan]" >&2
+      echo "usage: ./test.sh [--quick | --long] [--asan]" >&2
       exit 2
       ;;
   esac
 done
 
 install_packages
-build "$preset"
+build "$preset" "${targets[@]}"
 
 results=$PWD/build/$preset/test_results.xml
 rm -f "$results"

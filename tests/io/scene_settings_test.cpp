@@ -1,4 +1,5 @@
 #include <gracilis/io/scene/scene_reader.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
 
 #include "io/scene_reader_fixture.hpp"
