@@ -78,7 +78,7 @@ TEST_F(SceneReader, what_is_not_toml_is_reported_with_its_place) {
 
 TEST_F(SceneReader, duplicates_are_reported_with_the_place_of_the_first) {
   EXPECT_THAT(problems(with(good_scene(), "name = \"femur\"", "name = \"pelvis\"")),
-              HasSubstr("bone 'pelvis' stands twice (the first one is at scene.toml:3:1)"));
+              HasSubstr("duplicate bone name 'pelvis' (the first one is at scene.toml:3:1)"));
 }
 
 TEST_F(SceneReader, references_to_what_is_not_there_suggest_what_is) {

@@ -83,7 +83,7 @@ TEST(Validate, surfaces_must_have_triangles_of_finite_existing_vertices) {
 }
 
 TEST(Validate, names_must_be_unique_and_fit_for_files) {
-  EXPECT_PROBLEM(s.bones[1].name = "pelvis", "bone 'pelvis': the name stands twice");
+  EXPECT_PROBLEM(s.bones[1].name = "pelvis", "bone 'pelvis': duplicate name");
   EXPECT_PROBLEM(s.muscles[0].name = "../muscle", "is not fit for a file's name");
   EXPECT_PROBLEM(s.muscles[0].name = "", "is not fit for a file's name");
 }
@@ -102,7 +102,7 @@ TEST(Validate, axes_must_be_unit_vectors_with_names_and_ranges) {
   EXPECT_PROBLEM(s.joints[0].axes[0].axis[1] = nan, "is not a unit vector");
   EXPECT_PROBLEM(s.joints[0].axes[0].capture_value = nan, "the capture value of 'flexion' is not finite");
   EXPECT_PROBLEM(s.joints[0].axes[0].range_min = 2, "the range of 'flexion' ends before it begins");
-  EXPECT_PROBLEM(s.joints[0].axes.push_back(s.joints[0].axes[0]), "the coordinate 'flexion' stands twice");
+  EXPECT_PROBLEM(s.joints[0].axes.push_back(s.joints[0].axes[0]), "duplicate coordinate 'flexion'");
   EXPECT_PROBLEM(s.joints[0].frame.translation()[0] = nan, "joint 'hip': its frame is not finite");
 }
 

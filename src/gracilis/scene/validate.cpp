@@ -64,7 +64,7 @@ struct Validation {
   void check_axis(const std::string& where, const JointAxis& axis, std::set<std::string>& coordinates) {
     if (axis.coordinate.empty()) add(where, "an axis has no coordinate");
     if (!coordinates.insert(axis.coordinate).second)
-      add(where, "the coordinate '" + axis.coordinate + "' stands twice");
+      add(where, "duplicate coordinate '" + axis.coordinate + "'");
     if (axis.axis.norm() < 1e-9) {
       add(where, "the axis of '" + axis.coordinate + "' has no length");
     } else if (!(std::abs(axis.axis.norm() - 1) < 1e-9)) {
@@ -283,7 +283,7 @@ struct Validation {
       for (const JointAxis& axis : joint.axes) known.insert(axis.coordinate);
     for (const std::string& coordinate : motion.coordinates) {
       if (!known.count(coordinate)) add(where, "no joint has the coordinate '" + coordinate + "'");
-      if (!named.insert(coordinate).second) add(where, "the coordinate '" + coordinate + "' stands twice");
+      if (!named.insert(coordinate).second) add(where, "duplicate coordinate '" + coordinate + "'");
     }
     if (motion.values.rows() != static_cast<Index>(motion.times.size()) ||
         (motion.values.rows() > 0 && motion.values.cols() != static_cast<Index>(motion.coordinates.size()))) {

@@ -25,7 +25,7 @@ static void check_files(const std::string& kind, const std::string& name, std::m
   const auto [other, is_new] = taken.emplace(name, kind);
   if (is_new) return;
   if (other->second == kind)
-    problems.push_back({"", bearer(kind, name), "the name stands twice", ""});
+    problems.push_back({"", bearer(kind, name), "duplicate name", ""});
   else
     problems.push_back({"", bearer(kind, name), "a " + other->second + " has the same name",
                         "rename one of them: each is a file of its name"});

@@ -18,7 +18,7 @@ namespace {
 constexpr float most_leverage = 2;
 
 /// How far anything may go at once, over the length of the side. Tips lie nearer to their sides than a tenth of that:
-/// what is missing beyond has been torn away, not turned over, and comes back by and by, or slivers and the limit of
+/// what is missing beyond has been torn away, not turned over, and comes back gradually, or slivers and the limit of
 /// stretch would throw it to and fro.
 constexpr float longest_push = 0.02f;
 

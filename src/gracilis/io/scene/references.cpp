@@ -26,7 +26,7 @@ static void reject_duplicates(const std::vector<Description>& list, const std::s
     const auto [found, inserted] = first.emplace(name, element.place);
     if (inserted || name.empty()) continue;
     Problem problem = element.place;
-    problem.what = kind + " '" + name + "' stands twice";
+    problem.what = "duplicate " + kind + " name '" + name + "'";
     problem.remedy = "the first one is at " + found->second.file + ":" + found->second.where;
     problems.push_back(problem);
   }

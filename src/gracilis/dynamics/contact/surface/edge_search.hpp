@@ -9,7 +9,7 @@ namespace gracilis {
 
 /// Pairs of edges, one of each surface, that cross closely, by what the particles of the first are near
 /// (`near_second`). Within one surface `self` tells which parts may meet; null for two. What crossed wrongly `before`
-/// the step is taken apart by and by, as overlaps are (overlap_release.hpp).
+/// the step is taken apart gradually, as overlaps are (overlap_release.hpp).
 void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::vector<const Particles*>& particles,
                 const std::vector<Particles>& before, const std::vector<PointTouch>& near_second, const SelfRule* self,
                 std::vector<EdgeTouch>& found);

@@ -5,7 +5,7 @@
 namespace gracilis {
 
 /// Bounds what a contact may ask for within a step by where the step began. What came in since then has to go out
-/// again; what was in before comes out by and by.
+/// again; what was in before comes out gradually.
 struct OverlapRelease {
   const ContactSurface& surface;      ///< that the particle is near to
   const Particles &probe, &target;    ///< before the step

@@ -19,7 +19,7 @@ struct SurfaceContactSettings {
 
 /// Two surfaces that must not pass through each other, or one with itself. A particle keeps its gap to the other
 /// surface: the margin, or what there was at rest where that is less. Particles that lie in the other at rest come to
-/// their gap by and by (overlap_release.hpp).
+/// their gap gradually (overlap_release.hpp).
 struct SurfacePair {
   Index first = 0, second = 0;                      ///< equal: self-contact
   Eigen::Vector3f shift = Eigen::Vector3f::Zero();  ///< from the first's coordinates to the second's, m
