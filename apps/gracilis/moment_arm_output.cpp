@@ -19,6 +19,11 @@ namespace {
 
 std::vector<Real> as_list(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
 
+/// The coordinate's values in a table, which has degrees and m, in rad or m.
+Eigen::VectorXd values_of(const Table& table, const MovedCoordinate& moved) {
+  return table.values.col(column_of(table, moved.name).value()) * (moved.translation ? 1 : radians(1));
+}
+
 /// The lengths of a run, only along the range, turned into moment arms. Every coordinate has a column, then every
 /// muscle and fiber.
 Table arms_from_lengths(const std::filesystem::path& file, const Scene& scene, const MovedCoordinate& moved) {
@@ -26,11 +31,9 @@ Table arms_from_lengths(const std::filesystem::path& file, const Scene& scene, c
   const auto rows = std::min(static_cast<Eigen::Index>(scene.motion.times.size()), table.values.rows());
   table.values = table.values.bottomRows(rows).eval();
   table.times.erase(table.times.begin(), table.times.end() - rows);
-  const Real unit = moved.translation ? 1 : radians(1);  // tables have degrees and m
-  const Eigen::VectorXd angles = table.values.col(column_of(table, moved.name).value()) * unit;
   const auto coordinates = static_cast<Eigen::Index>(coordinate_names(scene).size());
   const Eigen::Index lengths = table.values.cols() - coordinates;
-  table.values.rightCols(lengths) = moment_arms(angles, table.values.rightCols(lengths));
+  table.values.rightCols(lengths) = moment_arms(values_of(table, moved), table.values.rightCols(lengths));
   table.name = "moment_arms";
   return table;
 }
@@ -90,8 +93,7 @@ void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, 
   const ChartCoordinate coordinate = chart_coordinate(scene, moved.name);
   const std::string title = moved.translation ? "shortening" : "moment arms";
   const std::string y_label = moved.translation ? "shortening (mm per m)" : "moment arm (mm)";
-  const Eigen::VectorXd angles =
-      table.values.col(column_of(table, moved.name).value()) * (moved.translation ? 1 : radians(1));
+  const Eigen::VectorXd angles = values_of(table, moved);
   std::string comparisons;
   std::vector<std::string> muscles;
   for (const Muscle& muscle : scene.muscles) {

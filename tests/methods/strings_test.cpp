@@ -37,11 +37,8 @@ TEST(Strings, are_what_the_predictor_of_xpbd_follows) {
   const Pose pose = flexed(scene, radians(60));
   strings::StringState state = strings::capture_state(strung.muscle, scene.bodies.size());
   strings::follow(strung.muscle, strung.bones, pose, state);
-  std::vector<Index> bodies(static_cast<std::size_t>(scene.muscles[0].surface.vertex_count()), -1);
-  for (const Attachment& attachment : scene.muscles[0].attachments)
-    for (const Index v : attachment.vertices) bodies[static_cast<std::size_t>(v)] = attachment.body;
   const TriangleMesh& surface = scene.muscles[0].surface;
-  const strings::StringSkin skin = bind_skin(strung.muscle, surface, bodies);
+  const strings::StringSkin skin = bind_skin(strung.muscle, surface, strings::attached_bodies(scene.muscles[0]));
   EXPECT_EQ(skinned_by_strings(strung.muscle, skin, surface.vertices, surface.faces, state).vertices,
             shape_at(scene, radians(60)));
 }

@@ -40,6 +40,14 @@ inline Scene arm_scene(const Vec3& away = Vec3::Zero()) {
   return scene;
 }
 
+/// Per vertex of a muscle: the body that it is attached to, or -1.
+inline std::vector<Index> attached_bodies(const Muscle& muscle) {
+  std::vector<Index> bodies(static_cast<std::size_t>(muscle.surface.vertex_count()), -1);
+  for (const Attachment& attachment : muscle.attachments)
+    for (const Index v : attachment.vertices) bodies[static_cast<std::size_t>(v)] = attachment.body;
+  return bodies;
+}
+
 /// A scene's first muscle as strings, with all that it needs.
 struct Strung {
   explicit Strung(Scene given) : scene(std::move(given)) {

@@ -15,13 +15,6 @@ const Strung& arm() {
   return strung;
 }
 
-std::vector<Index> attached_bodies(const Muscle& muscle) {
-  std::vector<Index> bodies(static_cast<std::size_t>(muscle.surface.vertex_count()), -1);
-  for (const Attachment& attachment : muscle.attachments)
-    for (const Index v : attachment.vertices) bodies[static_cast<std::size_t>(v)] = attachment.body;
-  return bodies;
-}
-
 Points skinned(const Strung& strung, const StringState& state) {
   const TriangleMesh& surface = strung.scene.muscles[0].surface;
   const StringSkin skin = bind_skin(strung.muscle, surface, attached_bodies(strung.scene.muscles[0]));

@@ -165,6 +165,11 @@ void find_neighbors(MuscleStrings& result) {
 
 }  // namespace
 
+bool runs_between_bodies(const Muscle& muscle) {
+  return std::any_of(muscle.attachments.begin(), muscle.attachments.end(),
+                     [&](const Attachment& each) { return each.body != muscle.attachments.front().body; });
+}
+
 std::optional<MuscleStrings> muscle_strings(const Scene& scene, const Muscle& muscle, const BoneDistances& bones,
                                             const StringSettings& settings) {
   Muscle fibered = muscle;

@@ -68,6 +68,13 @@ std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const 
   return motions;
 }
 
+Points moved_by(const std::vector<RigidTransform>& motions, const Points& points) {
+  Points moved(3, points.cols());
+  for (Index i = 0; i < static_cast<Index>(points.cols()); ++i)
+    moved.col(i) = motions[static_cast<std::size_t>(i)] * Vec3(points.col(i));
+  return moved;
+}
+
 Points carried_on(const BodyCarriers& carriers, const Points& rest, const Pose& last, const Pose& now,
                   const Points& before) {
   const std::vector<RigidTransform> from = carried_motions(carriers, last), to = carried_motions(carriers, now);

@@ -29,6 +29,9 @@ std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const 
 std::vector<RigidTransform> carried_motions(const BodyCarriers& carriers, const Pose& pose,
                                             const std::vector<Index>& vertices);
 
+/// Each point (m) by the motion of its number.
+Points moved_by(const std::vector<RigidTransform>& motions, const Points& points);
+
 /// A surface at pose `last`, carried on to pose `now`; attached vertices go where `rest` says. Returning to a pose
 /// returns to the shape. 3 × n, m.
 Points carried_on(const BodyCarriers& carriers, const Points& rest, const Pose& last, const Pose& now,

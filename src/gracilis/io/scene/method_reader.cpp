@@ -17,6 +17,15 @@ const MethodEntry& read_method(TomlReader& top, MethodChoice& choice) {
   return usual;
 }
 
+std::optional<Preset> named_preset(TomlReader& top, const std::string& name) {
+  const std::optional<Preset> preset = find_preset(name);
+  if (preset) return preset;
+  std::vector<std::string> names;
+  for (const Preset& each : presets()) names.emplace_back(each.name);
+  top.add_problem("preset", "there is no preset '" + name + "'", suggestion(name, names));
+  return std::nullopt;
+}
+
 void read_method_settings(TomlReader& table, const MethodEntry& method,
                           std::vector<DescribedSetting> MethodEntry::*which, SettingValues& values,
                           std::set<std::string>& others) {

@@ -38,12 +38,7 @@ SettingValues read_values(TomlReader& top, const std::string& key) {
 void read_preset(TomlReader& top, LoadedScene& loaded) {
   const std::optional<std::string> name = top.text("preset");
   if (!name) return;
-  std::vector<std::string> names;
-  for (const Preset& preset : presets()) names.emplace_back(preset.name);
-  if (const std::optional<Preset> preset = find_preset(*name))
-    change_to_preset(*preset, loaded);
-  else
-    top.add_problem("preset", "there is no preset '" + *name + "'", suggestion(*name, names));
+  if (const std::optional<Preset> preset = named_preset(top, *name)) change_to_preset(*preset, loaded);
 }
 
 void read_method_tables(TomlReader& top, const MethodEntry& method, Scene& scene, std::set<std::string>& others) {

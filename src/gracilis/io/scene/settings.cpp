@@ -1,7 +1,6 @@
 #include <gracilis/io/scene/settings.hpp>
 
 #include <gracilis/io/scene/method_reader.hpp>
-#include <gracilis/io/suggestions.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <cmath>
@@ -26,13 +25,8 @@ static void read_axes(TomlReader& top, AnatomicalAxes& axes) {
 static MuscleDefaults start_from_preset(TomlReader& top, SceneDescription& description) {
   description.preset = top.text("preset").value_or(std::string(presets().front().name));
   Scene& scene = description.scene;
-  std::vector<std::string> names;
-  for (const Preset& each : presets()) names.emplace_back(each.name);
-  const std::optional<Preset> preset = find_preset(description.preset);
-  if (!preset)
-    top.add_problem("preset", "there is no preset '" + description.preset + "'", suggestion(description.preset, names));
-  else
-    scene.method.name = preset->method.name;
+  const std::optional<Preset> preset = named_preset(top, description.preset);
+  if (preset) scene.method.name = preset->method.name;
   MuscleDefaults defaults{read_method(top, scene.method)};
   if (!preset) return defaults;
   if (preset->method.name == scene.method.name) scene.method = preset->method;

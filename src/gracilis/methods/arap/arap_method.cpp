@@ -5,7 +5,7 @@
 #include <gracilis/core/stop.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/arap/surface.hpp>
-#include <gracilis/methods/bone_gap_rows.hpp>
+#include <gracilis/methods/shared_rows.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/shape_method.hpp>
 

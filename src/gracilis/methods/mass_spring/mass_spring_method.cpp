@@ -33,7 +33,7 @@ class MassSpringMethod final : public DeformationMethod {
     parallel_for_each(models_.size(),
                       [&](std::size_t m) { models_[m] = mass_spring::muscle_model(scene, scene.muscles[m], fields_); });
     for (const Muscle& muscle : scene.muscles) names_.push_back(muscle.name);
-    for (const MuscleModel& model : models_) spheres_.push_back(model.spheres);
+    for (const MuscleModel& model : models_) spheres_.push_back(muscle_spheres(model));
     if (std::any_of(spheres_.begin(), spheres_.end(), [](const auto& each) { return each.meets_bones; }))
       for (const Bone& bone : scene.bones) {
         bones_.push_back({mass_spring::bone_spheres(bone.surface, shared_.bone_sphere_rings)});

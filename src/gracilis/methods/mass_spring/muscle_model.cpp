@@ -30,23 +30,6 @@ SpringPairs pairs_of(const Muscle& muscle, const Polylines& particles, const Mas
   }
 }
 
-MuscleSpheres spheres_about(const MuscleModel& model) {
-  MuscleSpheres spheres;
-  for (Index p = 0; p < static_cast<Index>(model.radii.size()); ++p) {
-    const auto at = static_cast<std::size_t>(p);
-    if (!(model.radii[at] > 0)) continue;
-    spheres.particles.push_back(p);
-    spheres.rest.radii.push_back(model.radii[at]);
-    spheres.fixed.push_back(model.fixed[at]);
-  }
-  spheres.rest.centers.resize(3, spheres.rest.count());
-  for (std::size_t s = 0; s < spheres.particles.size(); ++s)
-    spheres.rest.centers.col(static_cast<Index>(s)) = model.particles.points.col(spheres.particles[s]);
-  spheres.meets_bones = model.settings.bone_collision == MassSpringBones::spheres;
-  spheres.keeps_rest_gap = model.settings.bone_rest_gap;
-  return spheres;
-}
-
 /// The particles nearest to each vertex, one column per vertex.
 Eigen::MatrixXi nearest_particles(const Points& vertices, const Points& particles, Index count) {
   const auto rows = std::min(count, static_cast<Index>(particles.cols()));
@@ -95,7 +78,6 @@ MuscleModel muscle_model(const Scene& scene, const Muscle& muscle, const std::ve
   model.net = build_spring_net(model.particles.points, pairs_of(muscle, model.particles, settings),
                                settings.spring_material, settings.shortest_spring);
   model.damping = damping_of(settings, model.net);
-  model.spheres = spheres_about(model);
   model.bound = nearest_particles(model.rest, model.particles.points, settings.surface_particles);
   if (settings.bone_collision != MassSpringBones::fields) return model;
   std::vector<Index> fixed_body;
@@ -108,6 +90,23 @@ MuscleModel muscle_model(const Scene& scene, const Muscle& muscle, const std::ve
   return model;
 }
 
+MuscleSpheres muscle_spheres(const MuscleModel& model) {
+  MuscleSpheres spheres;
+  for (Index p = 0; p < static_cast<Index>(model.radii.size()); ++p) {
+    const auto at = static_cast<std::size_t>(p);
+    if (!(model.radii[at] > 0)) continue;
+    spheres.particles.push_back(p);
+    spheres.rest.radii.push_back(model.radii[at]);
+    spheres.fixed.push_back(model.fixed[at]);
+  }
+  spheres.rest.centers.resize(3, spheres.rest.count());
+  for (std::size_t s = 0; s < spheres.particles.size(); ++s)
+    spheres.rest.centers.col(static_cast<Index>(s)) = model.particles.points.col(spheres.particles[s]);
+  spheres.meets_bones = model.settings.bone_collision == MassSpringBones::spheres;
+  spheres.keeps_rest_gap = model.settings.bone_rest_gap;
+  return spheres;
+}
+
 std::vector<RigidTransform> particle_motions(const MuscleModel& model, const Pose& pose) {
   std::vector<RigidTransform> motions = carried_motions(model.carriers, pose, model.carrier_vertex);
   for (std::size_t p = 0; p < motions.size(); ++p)
@@ -116,10 +115,7 @@ std::vector<RigidTransform> particle_motions(const MuscleModel& model, const Pos
 }
 
 Points carried_particles(const MuscleModel& model, const std::vector<RigidTransform>& motions) {
-  Points points(3, model.particles.points.cols());
-  for (Index p = 0; p < static_cast<Index>(points.cols()); ++p)
-    points.col(p) = motions[static_cast<std::size_t>(p)] * Vec3(model.particles.points.col(p));
-  return points;
+  return moved_by(motions, model.particles.points);
 }
 
 namespace {

@@ -26,7 +26,6 @@ struct MuscleModel {
   SpringNet net;
   Real damping = 0;         ///< kg/s
   std::vector<Real> radii;  ///< m, per particle; 0: no sphere
-  MuscleSpheres spheres;    ///< of particles with a radius
   Eigen::MatrixXi bound;    ///< per vertex: the particles that it follows; none where there are none
   BoneProjection particle_bones, vertex_bones;
 };
@@ -34,6 +33,9 @@ struct MuscleModel {
 /// Throws InputError, naming the muscle, where its particles have no tetrahedra and these are asked for. A muscle
 /// without origin and insertion has no fibers, and so no particles. `fields` (of all bones) must outlive the model.
 MuscleModel muscle_model(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields);
+
+/// The spheres of the particles that have a radius.
+MuscleSpheres muscle_spheres(const MuscleModel& model);
 
 /// How every particle is carried from the capture pose to this one, before springs move it.
 std::vector<RigidTransform> particle_motions(const MuscleModel& model, const Pose& pose);

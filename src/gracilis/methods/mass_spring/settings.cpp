@@ -1,6 +1,6 @@
 #include <gracilis/methods/mass_spring/settings.hpp>
 
-#include <gracilis/methods/bone_gap_rows.hpp>
+#include <gracilis/methods/shared_rows.hpp>
 
 namespace gracilis {
 
@@ -63,9 +63,7 @@ std::span<const Setting<MassSpringSettings>> setting_table() {
        "Rounds of smoothing of what particles add to the blend of the bodies' motions; 0: as published."},
       {"hold_attachments", &S::hold_attachments, "", 0, 0,
        "Attached vertices move exactly with their bodies; otherwise they follow particles, as published."},
-      {"tendon_length", &S::tendon_length, "m", 0, 1,
-       "Distance from the attachments over which the blend of the bodies' motions is graded from tendon to belly; 0 "
-       "grades nothing."},
+      tendon_length_row<S>(),
       bone_margin_row<S>(),
       bone_rest_gap_row<S>(),
   };

@@ -1,6 +1,6 @@
 #include <gracilis/methods/pbd/settings.hpp>
 
-#include <gracilis/methods/bone_gap_rows.hpp>
+#include <gracilis/methods/shared_rows.hpp>
 
 namespace gracilis {
 

@@ -4,7 +4,7 @@
 #include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/screw.hpp>
-#include <gracilis/methods/bone_gap_rows.hpp>
+#include <gracilis/methods/shared_rows.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/rbf/muscle_model.hpp>
 #include <gracilis/methods/rbf/surface_follow.hpp>
@@ -33,9 +33,7 @@ std::span<const Setting<RbfSettings>> setting_table() {
       {"volume", &S::volume, "", 0, 0,
        "How the volume is kept: 'offset' moves the level of the field that is the surface, or 'none'."},
       {"bones", &S::bones, "", 0, 0, "Whether centers and vertices are kept out of bones."},
-      {"tendon_length", &S::tendon_length, "m", 0, 1,
-       "Distance from the attachments over which the blend of the bodies' motions is graded from tendon to belly; 0 "
-       "grades nothing."},
+      tendon_length_row<S>(),
       bone_margin_row<S>(),
       bone_rest_gap_row<S>(),
   };

@@ -28,14 +28,8 @@ ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<
   const Real tendon_length = muscle_settings<SkinningSettings>(scene, muscle).tendon_length;
   const Points& rest = muscle.surface.vertices;
   return {muscle.name, rest,
-          [rest, carriers = body_carriers(muscle, topology, tendon_length)](const Pose&, const Pose& now,
-                                                                            const Points&) -> ShapeStep {
-            const std::vector<RigidTransform> motions = carried_motions(carriers, now);
-            Points shape(3, rest.cols());
-            for (Index v = 0; v < static_cast<Index>(rest.cols()); ++v)
-              shape.col(v) = motions[static_cast<std::size_t>(v)] * Vec3(rest.col(v));
-            return {std::move(shape)};
-          }};
+          [rest, carriers = body_carriers(muscle, topology, tendon_length)](const Pose&, const Pose& now, const Points&)
+              -> ShapeStep { return {moved_by(carried_motions(carriers, now), rest)}; }};
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include <gracilis/strings/bone_distances.hpp>
 #include <gracilis/strings/string_skin.hpp>
 
-#include <algorithm>
 #include <chrono>
 #include <optional>
 #include <utility>
@@ -27,11 +26,6 @@ struct StrungMuscle {
   strings::StringSkin skin;
 };
 
-bool is_attached_to_several(const Muscle& muscle) {
-  return std::any_of(muscle.attachments.begin(), muscle.attachments.end(),
-                     [&](const Attachment& each) { return each.body != muscle.attachments.front().body; });
-}
-
 StrungMuscle prepare(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones) {
   constexpr Real no_tendon = 0;
   StrungMuscle strung;
@@ -39,19 +33,10 @@ StrungMuscle prepare(const Scene& scene, const Muscle& muscle, const strings::Bo
   strung.rest = muscle.surface;
   strung.carriers =
       body_carriers(muscle, build_topology(muscle.surface.faces, muscle.surface.vertex_count()), no_tendon);
-  if (is_attached_to_several(muscle))
+  if (strings::runs_between_bodies(muscle))
     strung.strings = muscle_strings(scene, muscle, bones, muscle_settings<strings::StringSettings>(scene, muscle));
   if (strung.strings) strung.skin = bind_skin(*strung.strings, muscle.surface, strung.carriers.fixed_body);
   return strung;
-}
-
-/// The shape of a muscle that its bodies carry.
-Points carried_by_bodies(const StrungMuscle& muscle, const Pose& pose) {
-  const std::vector<RigidTransform> motions = carried_motions(muscle.carriers, pose);
-  Points shape(3, muscle.rest.vertices.cols());
-  for (Index v = 0; v < static_cast<Index>(shape.cols()); ++v)
-    shape.col(v) = motions[static_cast<std::size_t>(v)] * Vec3(muscle.rest.vertices.col(v));
-  return shape;
 }
 
 /// Where one muscle is.
@@ -79,9 +64,10 @@ class StringsMethod final : public DeformationMethod {
   StepReport advance(const Pose& pose, Real) override {
     StepReport report;
     report.muscles.resize(muscles_.size());
-    std::vector<StrungState> next = states_;
+    std::vector<StrungState> next(states_.size());
     parallel_for_each(muscles_.size(), [&](std::size_t m) {
       const auto started = std::chrono::steady_clock::now();
+      next[m].strings = states_[m].strings;
       follow(muscles_[m], pose, next[m].strings);
       next[m].shape = shape_of(muscles_[m], pose, next[m].strings);
       const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
@@ -122,7 +108,7 @@ class StringsMethod final : public DeformationMethod {
   }
 
   static Points shape_of(const StrungMuscle& muscle, const Pose& pose, const strings::StringState& state) {
-    if (!muscle.strings) return carried_by_bodies(muscle, pose);
+    if (!muscle.strings) return moved_by(carried_motions(muscle.carriers, pose), muscle.rest.vertices);
     return skinned_by_strings(*muscle.strings, muscle.skin, muscle.rest.vertices, muscle.rest.faces, state).vertices;
   }
 

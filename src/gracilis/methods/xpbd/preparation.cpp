@@ -233,8 +233,7 @@ bool asks_for_strings(const Scene& scene, const Muscle& muscle) {
   const XpbdSettings settings = xpbd_settings(scene, muscle);
   const bool is_carried = settings.predictor || settings.slack_uptake;
   if (settings.skinning != Skinning::strings || !is_carried || muscle.action_line.rays > 0) return false;
-  const auto other_body = [&](const Attachment& a) { return a.body != muscle.attachments.front().body; };
-  return std::any_of(muscle.attachments.begin(), muscle.attachments.end(), other_body);
+  return strings::runs_between_bodies(muscle);
 }
 
 CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones) {
