@@ -16,7 +16,7 @@ static constexpr Real greatest_weight = 10;
 /// Every place is trusted this far: parts without a fixed vertex are held, too.
 static constexpr Real least_trust = 1e-6;
 /// Of conjugate gradients, relative.
-static constexpr Real residual = 1e-5;
+static constexpr Real fit_residual = 1e-5;
 
 GradientFit::GradientFit(const TriangleMesh& rest, const std::vector<char>& is_fixed, const Eigen::VectorXd& trust,
                          Real smoothing, Index largest_factorized) {
@@ -104,7 +104,7 @@ Points GradientFit::solved(const Points& right_side) const {
 
 Points GradientFit::iterated(const Points& right_side, const Points& guess) const {
   Eigen::ConjugateGradient<Eigen::SparseMatrix<Real>, Eigen::Lower | Eigen::Upper> iteration(matrix_);
-  iteration.setTolerance(residual);
+  iteration.setTolerance(fit_residual);
   Points solution(3, unknowns_);
   parallel_for(3, 1, [&](Index begin, Index end) {
     for (Index axis = begin; axis < end; ++axis)

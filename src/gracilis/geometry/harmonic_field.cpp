@@ -11,7 +11,7 @@ namespace gracilis {
 
 static constexpr Real shortest_edge = 1e-9;
 /// Of conjugate gradients, relative.
-static constexpr Real residual = 1e-8;
+static constexpr Real harmonic_residual = 1e-8;
 
 /// Numbers the free vertices that a fixed vertex can reach; all others get -1.
 static std::vector<Index> number_unknowns(const MeshTopology& topology, const std::vector<Index>& fixed,
@@ -65,7 +65,7 @@ Eigen::MatrixXd HarmonicSolver::factorized(const Eigen::SparseMatrix<Real>& lapl
 Eigen::MatrixXd HarmonicSolver::iterated(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side,
                                          bool sums_to_one) {
   Eigen::ConjugateGradient<Eigen::SparseMatrix<Real>, Eigen::Lower | Eigen::Upper> iteration(laplacian);
-  iteration.setTolerance(residual);
+  iteration.setTolerance(harmonic_residual);
   iteration.setMaxIterations(unknown_count_);
   const Index last = static_cast<Index>(right_side.cols()) - 1;
   if (last_.cols() != right_side.cols()) last_ = Eigen::MatrixXd::Zero(unknown_count_, right_side.cols());

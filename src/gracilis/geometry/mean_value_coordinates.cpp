@@ -9,7 +9,7 @@ namespace gracilis {
 namespace {
 
 /// Of the arc between two vertices as seen from the point: its angle θ, and sine and cosine of half of it.
-struct Arc {
+struct SeenArc {
   Real angle, half_sine, half_cosine;
   Real sine() const { return 2 * half_sine * half_cosine; }
 };
@@ -46,15 +46,15 @@ Eigen::VectorXd MeanValueCoordinates::weights(const Vec3& p) const {
   }
   directions.array().rowwise() /= distances.array();
 
-  std::vector<Arc> arcs(edges_.size());
+  std::vector<SeenArc> arcs(edges_.size());
   for (std::size_t e = 0; e < edges_.size(); ++e) {
     const Real half = std::min((directions.col(edges_[e][0]) - directions.col(edges_[e][1])).norm() / 2, Real{1});
     arcs[e] = {2 * std::asin(half), half, std::sqrt(1 - half * half)};
   }
   for (Index f = 0; f < surface_.face_count(); ++f) {
     const Eigen::Vector3i v = surface_.faces.col(f), e = face_edges_.col(f);
-    const std::array<Arc, 3> arc = {arcs[static_cast<std::size_t>(e[0])], arcs[static_cast<std::size_t>(e[1])],
-                                    arcs[static_cast<std::size_t>(e[2])]};
+    const std::array<SeenArc, 3> arc = {arcs[static_cast<std::size_t>(e[0])], arcs[static_cast<std::size_t>(e[1])],
+                                        arcs[static_cast<std::size_t>(e[2])]};
     const auto sum = [&](Real s0, Real s1, Real s2) {
       return sine_of_sum(s0 * arc[0].half_sine, arc[0].half_cosine, s1 * arc[1].half_sine, arc[1].half_cosine,
                          s2 * arc[2].half_sine, arc[2].half_cosine);

@@ -7,23 +7,23 @@ namespace gracilis {
 namespace {
 
 template <class S>
-using Vector = Eigen::Matrix<S, 3, 1>;
+using Vector3 = Eigen::Matrix<S, 3, 1>;
 
 /// Parameter in [0, 1] of the point of segment (a, b) nearest to p; 0 when the segment has no length.
 template <class S>
-S nearest_on_segment(const Vector<S>& p, const Vector<S>& a, const Vector<S>& b) {
-  const Vector<S> ab = b - a;
+S nearest_on_segment(const Vector3<S>& p, const Vector3<S>& a, const Vector3<S>& b) {
+  const Vector3<S> ab = b - a;
   const S length2 = ab.squaredNorm();
   return length2 > 0 ? std::clamp((p - a).dot(ab) / length2, S{0}, S{1}) : S{0};
 }
 
 template <class S>
-Vector<S> nearest_on_boundary(const Vector<S>& p, const Vector<S>& a, const Vector<S>& b, const Vector<S>& c) {
+Vector3<S> nearest_on_boundary(const Vector3<S>& p, const Vector3<S>& a, const Vector3<S>& b, const Vector3<S>& c) {
   const S ab = nearest_on_segment(p, a, b), bc = nearest_on_segment(p, b, c), ca = nearest_on_segment(p, c, a);
-  const Vector<S> candidates[3] = {{1 - ab, ab, 0}, {0, 1 - bc, bc}, {ca, 0, 1 - ca}};
-  const Vector<S>* best = &candidates[0];
+  const Vector3<S> candidates[3] = {{1 - ab, ab, 0}, {0, 1 - bc, bc}, {ca, 0, 1 - ca}};
+  const Vector3<S>* best = &candidates[0];
   S best_distance2 = (a + ab * (b - a) - p).squaredNorm();
-  const auto consider = [&](const Vector<S>& candidate, const Vector<S>& point) {
+  const auto consider = [&](const Vector3<S>& candidate, const Vector3<S>& point) {
     const S distance2 = (point - p).squaredNorm();
     if (distance2 < best_distance2) best = &candidate, best_distance2 = distance2;
   };
@@ -33,16 +33,16 @@ Vector<S> nearest_on_boundary(const Vector<S>& p, const Vector<S>& a, const Vect
 }
 
 template <class S>
-Vector<S> nearest(const Vector<S>& p, const Vector<S>& a, const Vector<S>& b, const Vector<S>& c) {
-  const Vector<S> ab = b - a, ac = c - a, ap = p - a;
+Vector3<S> nearest(const Vector3<S>& p, const Vector3<S>& a, const Vector3<S>& b, const Vector3<S>& c) {
+  const Vector3<S> ab = b - a, ac = c - a, ap = p - a;
   const S d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
 
-  const Vector<S> bp = p - b;
+  const Vector3<S> bp = p - b;
   const S d3 = ab.dot(bp), d4 = ac.dot(bp);
   if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
 
-  const Vector<S> cp = p - c;
+  const Vector3<S> cp = p - c;
   const S d5 = ab.dot(cp), d6 = ac.dot(cp);
   if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
 

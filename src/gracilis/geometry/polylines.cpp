@@ -23,6 +23,13 @@ Polylines join(const std::vector<Points>& lines) {
   return joined;
 }
 
+Polylines spread_lines(const Polylines& lines, Index most) {
+  const Index count = std::min(lines.count(), most);
+  std::vector<Points> chosen;
+  for (Index i = 0; i < count; ++i) chosen.push_back(lines.line(i * lines.count() / count));
+  return join(chosen);
+}
+
 Real polyline_length(const Points& line) {
   Real length = 0;
   for (Eigen::Index i = 1; i < line.cols(); ++i) length += (line.col(i) - line.col(i - 1)).norm();

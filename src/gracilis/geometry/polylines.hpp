@@ -23,6 +23,9 @@ struct Polylines {
 /// All lines in one, in their order.
 Polylines join(const std::vector<Points>& lines);
 
+/// At most `most` of the lines, evenly spread over their numbers.
+Polylines spread_lines(const Polylines& lines, Index most);
+
 /// Sum of the lengths of a line's segments, m.
 Real polyline_length(const Points& line);
 

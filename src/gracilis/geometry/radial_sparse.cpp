@@ -19,7 +19,6 @@ namespace {
 using Matrix = Eigen::SparseMatrix<Real, Eigen::RowMajor>;
 using Vector = Eigen::VectorXd;
 
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
 Vector product(const Matrix& matrix, const Vector& x) {
   Vector result(matrix.rows());
   parallel_for(static_cast<Index>(matrix.rows()), 1024, [&](Index begin, Index end) {
@@ -128,7 +127,8 @@ SparseKernelSolver::SparseKernelSolver(const RadialKernel& kernel, const Points&
     vector = next * least;
     if (std::abs(least - before) <= settled * least) break;
   }
-  condition_ = factors_->is_sound && least > 0 && std::isfinite(least) ? largest / least : infinity;
+  condition_ =
+      factors_->is_sound && least > 0 && std::isfinite(least) ? largest / least : std::numeric_limits<Real>::infinity();
 }
 
 Eigen::VectorXd SparseKernelSolver::solve(const Eigen::VectorXd& right) const {

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 
 static constexpr std::string_view temporary_prefix = ".gracilis-";
 
-[[noreturn]] static void fail(const fs::path& path, const std::string& what) {
-  throw InputError({path.string(), "", what, "check the folder's permissions and the free space of the disk"});
+void throw_write_error(const fs::path& path, const std::string& what) {
+  throw InputError({path.string(), "", what, "check the folder\'s permissions and the free space of the disk"});
 }
 
 /// ".gracilis-HOST-PROCESS-STARTED-NUMBER.vtp" for "anything.vtp".
@@ -43,17 +43,17 @@ static fs::path new_temporary(const fs::path& path) {
       ::close(file);
       return temporary;
     }
-    if (errno != EEXIST) fail(path, std::string("cannot be written: ") + std::strerror(errno));
+    if (errno != EEXIST) throw_write_error(path, std::string("cannot be written: ") + std::strerror(errno));
   }
 }
 
 static void sync_to_disk(const fs::path& temporary, const fs::path& path) {
   const int file = ::open(temporary.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail(path, std::string("cannot be opened to sync it: ") + std::strerror(errno));
+  if (file < 0) throw_write_error(path, std::string("cannot be opened to sync it: ") + std::strerror(errno));
   const int result = ::fsync(file);
   const int reason = errno;
   ::close(file);
-  if (result != 0) fail(path, std::string("cannot be written: ") + std::strerror(reason));
+  if (result != 0) throw_write_error(path, std::string("cannot be written: ") + std::strerror(reason));
 }
 
 void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
@@ -65,7 +65,7 @@ void write_file_atomically(const fs::path& path, const std::function<void(const 
   } catch (const fs::filesystem_error& error) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
-    fail(path, "cannot be written: " + error.code().message());
+    throw_write_error(path, "cannot be written: " + error.code().message());
   } catch (...) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
@@ -78,7 +78,7 @@ void write_text_atomically(const fs::path& path, const std::string& text) {
     std::ofstream stream(temporary, std::ios::binary);
     stream << text;
     stream.close();
-    if (!stream) fail(path, std::string("cannot be written: ") + std::strerror(errno));
+    if (!stream) throw_write_error(path, std::string("cannot be written: ") + std::strerror(errno));
   });
 }
 

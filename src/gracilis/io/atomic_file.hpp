@@ -16,6 +16,9 @@ void write_file_atomically(const std::filesystem::path& path,
 /// The same for a text already in memory.
 void write_text_atomically(const std::filesystem::path& path, const std::string& text);
 
+/// Throws InputError: `what` is why the file at `path` could not be written.
+[[noreturn]] void throw_write_error(const std::filesystem::path& path, const std::string& what);
+
 /// Whose temporaries are left over: those of processes of this machine that run no more, or in a folder that nobody
 /// else writes to also those of other machines.
 enum class LeftBy { own_machine, any_machine };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -10,6 +11,9 @@ namespace gracilis {
 
 /// Told what somebody should know.
 using WarnFunction = std::function<void(const std::string&)>;
+
+/// `size` bytes from `data` on.
+inline std::string bytes_of(const void* data, std::size_t size) { return {static_cast<const char*>(data), size}; }
 
 /// Writes a file of the cache: the format's name, a checksum over the file's own name and the content, the content.
 /// Processes on any machines may write the same file at once. Throws InputError.

@@ -1,9 +1,8 @@
 #include <gracilis/io/input_file.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/text_cells.hpp>
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -50,11 +49,6 @@ std::string text_if_there(const fs::path& path) {
   return read_text(path);
 }
 
-std::string lower_case_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
+std::string lower_case_extension(const fs::path& path) { return lower_case(path.extension().string()); }
 
 }  // namespace gracilis

@@ -1,6 +1,7 @@
 #include <gracilis/io/text_cells.hpp>
 
 #include <algorithm>
+#include <cctype>
 
 namespace gracilis {
 
@@ -39,6 +40,13 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   }
   while (!cells.empty() && cells.back().empty()) cells.pop_back();
   return cells;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return result;
 }
 
 }  // namespace gracilis

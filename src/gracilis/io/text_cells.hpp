@@ -16,4 +16,7 @@ std::vector<std::string_view> words_of(std::string_view line);
 /// Without white space at either end.
 std::string_view trimmed(std::string_view text);
 
+/// ASCII letters in lower case, everything else as it is.
+std::string lower_case(std::string_view text);
+
 }  // namespace gracilis

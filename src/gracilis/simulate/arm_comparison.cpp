@@ -10,10 +10,11 @@ namespace {
 
 constexpr Real near_zero = radians(10);
 /// Angles that are told in degrees with few digits still belong to the range.
-constexpr Real rounding = 1e-9;
+constexpr Real angle_rounding = 1e-9;
 
 bool has(const ArmCurve& curve, Real angle) {
-  return !curve.angles.empty() && angle > curve.angles.front() - rounding && angle < curve.angles.back() + rounding;
+  return !curve.angles.empty() && angle > curve.angles.front() - angle_rounding &&
+         angle < curve.angles.back() + angle_rounding;
 }
 
 /// Linear between the angles. Precondition: the angle lies between the first and the last.

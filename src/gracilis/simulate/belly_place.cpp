@@ -17,7 +17,7 @@ constexpr std::size_t most_vertices = 160;
 constexpr Real reach = 0.010;      ///< m
 constexpr Real least_share = 0.1;  ///< of the belly's surface
 constexpr Real far_away = 1e3;     ///< m
-constexpr Real rounding = 1 + 1e-9;
+constexpr Real rounding_factor = 1 + 1e-9;
 
 std::vector<Index> attached_by(const Muscle& muscle, AttachmentEnd end) {
   std::vector<Index> vertices;
@@ -138,7 +138,7 @@ std::vector<BellyPlace::Contact> BellyPlace::contacts_of(std::size_t muscle, con
   for (Candidate& candidate : candidates) {
     const Real nearest = candidate.contact.rest_gap;
     if (nearest >= far_away || (nearest > reach && taken > least_share * area)) break;
-    const Real lies = std::max(reach, nearest * rounding);
+    const Real lies = std::max(reach, nearest * rounding_factor);
     for (std::size_t b = 0; b < candidate.bone_gaps.size(); ++b)
       if (candidate.bone_gaps[b] <= lies) candidate.contact.bones.push_back(b);
     for (std::size_t m = 0; m < candidate.muscle_gaps.size(); ++m)

@@ -12,7 +12,7 @@ using namespace builtin_elbow_shapes;
 
 constexpr Index scapula_body = 0, humerus_body = 1, ulna_body = 2, radius_body = 3;
 
-Skeleton make_skeleton() {
+Skeleton elbow_skeleton() {
   Skeleton skeleton;
   add_bone(skeleton, "scapula_r", scapula_body, right_scapula());
   add_bone(skeleton, "humerus_r", humerus_body, right_humerus());
@@ -36,12 +36,12 @@ std::vector<Joint> make_joints() {
 }  // namespace
 
 Scene builtin_elbow(const BuiltinElbowOptions& options) {
-  Skeleton skeleton = make_skeleton();
+  Skeleton skeleton = elbow_skeleton();
   Scene scene;
   scene.name = "builtin_elbow";
   scene.bodies = {"scapula_r", "humerus_r", "ulna_r", "radius_r"};
   scene.joints = make_joints();
-  scene.muscles = make_muscles(muscle_plans(), skeleton, {});
+  scene.muscles = make_muscles(elbow_muscle_plans(), skeleton, {});
   scene.bones = std::move(skeleton.bones);
   scene.motion = ramp_from_zero("elbow flexion", "elbow_flexion", options.last_flexion, options.flexion_step, 1.0 / 60);
   return scene;

@@ -140,7 +140,7 @@ MusclePlan brachioradialis() {
 
 }  // namespace
 
-std::vector<MusclePlan> muscle_plans() {
+std::vector<MusclePlan> elbow_muscle_plans() {
   return {brachialis(),   triceps_medial(),  biceps_long(),    biceps_short(),
           triceps_long(), triceps_lateral(), brachioradialis()};
 }

@@ -7,6 +7,6 @@
 namespace gracilis::builtin_elbow_shapes {
 
 /// The plans in the order in which the muscles are made: deep ones first, the others make room for them.
-std::vector<builtin_shapes::MusclePlan> muscle_plans();
+std::vector<builtin_shapes::MusclePlan> elbow_muscle_plans();
 
 }  // namespace gracilis::builtin_elbow_shapes

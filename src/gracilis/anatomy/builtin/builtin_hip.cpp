@@ -18,7 +18,7 @@ TriangleMesh mirrored_in_z(TriangleMesh mesh, Real plane_z) {
   return mesh;
 }
 
-Skeleton make_skeleton() {
+Skeleton hip_skeleton() {
   Skeleton skeleton;
   add_bone(skeleton, "hip_bone_r", pelvis_body, right_hip_bone());
   add_bone(skeleton, "sacrum", pelvis_body, sacrum(skeleton.solids[0]));
@@ -40,12 +40,12 @@ Joint make_joint() {
 }  // namespace
 
 Scene builtin_hip(const BuiltinHipOptions& options) {
-  Skeleton skeleton = make_skeleton();
+  Skeleton skeleton = hip_skeleton();
   Scene scene;
   scene.name = "builtin_hip";
   scene.bodies = {"pelvis", "femur_r"};
   scene.joints = {make_joint()};
-  scene.muscles = make_muscles(muscle_plans(), skeleton, {options.bone_gap, options.muscle_gap});
+  scene.muscles = make_muscles(hip_muscle_plans(), skeleton, {options.bone_gap, options.muscle_gap});
   scene.bones = std::move(skeleton.bones);
   scene.motion =
       ramp_from_zero("hip flexion", "hip_flexion_r", options.last_flexion, options.flexion_step, options.time_step);

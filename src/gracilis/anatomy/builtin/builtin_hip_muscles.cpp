@@ -82,7 +82,7 @@ MusclePlan adductor_longus() {
 
 }  // namespace
 
-std::vector<MusclePlan> muscle_plans() {
+std::vector<MusclePlan> hip_muscle_plans() {
   std::vector<MusclePlan> plans = {gluteus_minimus(), gluteus_medius(),  gluteus_maximus(),
                                    iliacus(),         adductor_brevis(), adductor_longus()};
   for (MusclePlan& plan : plans)

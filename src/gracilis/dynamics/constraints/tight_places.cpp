@@ -13,7 +13,7 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index chunk = 256;
+constexpr Index faces_per_task = 256;
 /// Nearer than this even what touched at rest is not allowed, m: well above what float tells apart.
 constexpr Real least_gap = 3e-6;
 /// Half of a distance at rest may be used up.
@@ -168,8 +168,8 @@ std::vector<TightPlace> find_tight_places(const Points& vertices, const Eigen::M
   for (Index p = 0; p < rest.count(); ++p) points.col(p) = rest.position(p);
   PatchTree tree = build_patch_tree(surface, points);
   refit(surface, rest, tree);
-  std::vector<TightPlace> places =
-      collect_in_order<TightPlace>(faces.cols(), chunk, [&](Index begin, Index end, std::vector<TightPlace>& part) {
+  std::vector<TightPlace> places = collect_in_order<TightPlace>(
+      faces.cols(), faces_per_task, [&](Index begin, Index end, std::vector<TightPlace>& part) {
         Finder finder{vertices, faces, rest, reach, part};
         std::vector<Index> patches;
         for (Index face = begin; face < end; ++face) {

@@ -23,8 +23,8 @@ namespace gracilis {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] static void fail(const fs::path& path, const std::string& what,
-                              const std::string& remedy = "export the surface again") {
+[[noreturn]] static void throw_read_error(const fs::path& path, const std::string& what,
+                                          const std::string& remedy = "export the surface again") {
   throw InputError({path.string(), "", what, remedy});
 }
 
@@ -37,11 +37,12 @@ static void require_whole_stl(const fs::path& path) {
   if (bytes.size() >= 84) std::memcpy(&triangles, bytes.data() + 80, sizeof triangles);
   const std::size_t expected = 84 + 50 * std::size_t{triangles};
   if (text && bytes.size() != expected && bytes.find("endsolid") == std::string::npos)
-    fail(path, "ends before 'endsolid'");
+    throw_read_error(path, "ends before 'endsolid'");
   if (text || bytes.size() == expected) return;
-  if (bytes.size() < 84 || bytes.starts_with("solid")) fail(path, "is neither a text nor a binary .stl file");
-  fail(path,
-       fmt::format("announces {} triangles, which takes {} bytes, but has {}", triangles, expected, bytes.size()));
+  if (bytes.size() < 84 || bytes.starts_with("solid"))
+    throw_read_error(path, "is neither a text nor a binary .stl file");
+  throw_read_error(
+      path, fmt::format("announces {} triangles, which takes {} bytes, but has {}", triangles, expected, bytes.size()));
 }
 
 /// VTK's reader drops triangles whose corners coincide.
@@ -51,7 +52,7 @@ static PolygonMesh read_stl(const fs::path& path) {
   vtkNew<vtkSTLReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
-  if (messages.has_errors()) fail(path, "is damaged or no .stl file: " + messages.first_error());
+  if (messages.has_errors()) throw_read_error(path, "is damaged or no .stl file: " + messages.first_error());
   vtkPolyData& data = *reader->GetOutput();
   PolygonMesh mesh;
   mesh.coordinates.resize(3 * static_cast<std::size_t>(data.GetNumberOfPoints()));
@@ -73,8 +74,8 @@ static PolygonMesh read_polygons(const fs::path& path) {
   if (extension == ".vtk") return read_legacy_vtk(path);
   if (extension == ".vtp") return read_vtp(path);
   if (extension == ".stl") return read_stl(path);
-  fail(path, fmt::format("'{}' is not a mesh format that can be read", extension),
-       "use .ply, .stl, .obj, .vtk or .vtp");
+  throw_read_error(path, fmt::format("'{}' is not a mesh format that can be read", extension),
+                   "use .ply, .stl, .obj, .vtk or .vtp");
 }
 
 TriangleMesh read_mesh(const fs::path& path, Real unit) {
@@ -82,9 +83,9 @@ TriangleMesh read_mesh(const fs::path& path, Real unit) {
   try {
     return triangulated(read_polygons(path), unit, path);
   } catch (const std::bad_alloc&) {
-    fail(path, "announces more data than memory can hold: the file is damaged");
+    throw_read_error(path, "announces more data than memory can hold: the file is damaged");
   } catch (const std::length_error&) {
-    fail(path, "announces more data than memory can hold: the file is damaged");
+    throw_read_error(path, "announces more data than memory can hold: the file is damaged");
   }
 }
 

@@ -60,7 +60,7 @@ static Encoding encoding_named(std::string_view name, const ValueReader& reader)
 }
 
 /// Reads up to and including the line "end_header"; `encoding` of the reader then is the body's.
-static std::vector<Element> read_header(ValueReader& reader) {
+static std::vector<Element> read_ply_header(ValueReader& reader) {
   if (reader.line() != "ply") reader.fail("is not a .ply file: the first line must be 'ply'");
   std::vector<Element> elements;
   Encoding encoding = Encoding::text;
@@ -130,7 +130,7 @@ PolygonMesh read_ply(const std::filesystem::path& path) {
   const std::string bytes = read_text(path);
   ValueReader reader(path, bytes);
   PolygonMesh mesh;
-  for (const Element& element : read_header(reader)) {
+  for (const Element& element : read_ply_header(reader)) {
     if (element.count > 0 && element.properties.empty())
       reader.fail("element '" + element.name + "' has no properties");
     read_element(element, reader, mesh);

@@ -1,25 +1,18 @@
 #include <gracilis/io/mesh/mesh_reader_vtk.hpp>
 
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/text_cells.hpp>
 #include <gracilis/io/value_reader.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <utility>
 
 namespace gracilis {
-
-static std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 /// The type named by the next word.
 static ScalarType read_type(ValueReader& reader) {
@@ -37,7 +30,7 @@ static ScalarType read_type(ValueReader& reader) {
        {"vtkidtype", ScalarType::int32},
        {"float", ScalarType::float32},
        {"double", ScalarType::float64}}};
-  const std::string name = lower(reader.word());
+  const std::string name = lower_case(reader.word());
   for (const auto& [known, type] : types) {
     if (name == known) return type;
   }
@@ -104,14 +97,14 @@ static void skip_fields(Encoding encoding, ValueReader& reader) {
   }
 }
 
-static Encoding read_header(ValueReader& reader) {
+static Encoding read_vtk_header(ValueReader& reader) {
   if (!reader.line().starts_with("# vtk DataFile"))
     reader.fail("is not a legacy .vtk file: '# vtk DataFile' is missing");
   reader.line();
-  const std::string encoding = lower(reader.word());
+  const std::string encoding = lower_case(reader.word());
   if (encoding != "ascii" && encoding != "binary") reader.fail("must say ASCII or BINARY in its third line");
-  if (lower(reader.word()) != "dataset") reader.fail("names no DATASET");
-  const std::string kind = lower(reader.word());
+  if (lower_case(reader.word()) != "dataset") reader.fail("names no DATASET");
+  const std::string kind = lower_case(reader.word());
   if (kind != "polydata") {
     reader.fail(fmt::format("holds a data set of kind {}, not a surface", kind.substr(0, 40)), "export POLYDATA");
   }
@@ -121,10 +114,10 @@ static Encoding read_header(ValueReader& reader) {
 PolygonMesh read_legacy_vtk(const std::filesystem::path& path) {
   const std::string bytes = read_text(path);
   ValueReader reader(path, bytes);
-  const Encoding encoding = read_header(reader);
+  const Encoding encoding = read_vtk_header(reader);
   PolygonMesh mesh;
   for (;;) {
-    const std::string keyword = lower(reader.word());
+    const std::string keyword = lower_case(reader.word());
     if (keyword.empty() || keyword == "point_data" || keyword == "cell_data") return mesh;
     if (keyword == "points") {
       const std::size_t count = reader.count(reader.word(), 3);

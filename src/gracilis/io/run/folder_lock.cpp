@@ -1,6 +1,7 @@
 #include <gracilis/io/run/folder_lock.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/process_mark.hpp>
 
 #include <fmt/format.h>
@@ -17,10 +18,6 @@
 namespace gracilis {
 
 namespace fs = std::filesystem;
-
-static void fail(const fs::path& path, const std::string& what) {
-  throw InputError({path.string(), "", what, "check the folder's permissions and the free space of the disk"});
-}
 
 /// Who holds it, as far as the file says.
 static std::optional<ProcessMark> holder_in(int file) {
@@ -51,7 +48,7 @@ static bool is_at(int file, const fs::path& path) {
 /// False: try again.
 bool FolderLock::take() {
   file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (file_ < 0) fail(path_, std::string("cannot be written: ") + std::strerror(errno));
+  if (file_ < 0) throw_write_error(path_, std::string("cannot be written: ") + std::strerror(errno));
   const bool locked = ::flock(file_, LOCK_EX | LOCK_NB) == 0;
   const int reason = errno;
   const std::optional<ProcessMark> holder = holder_in(file_);
@@ -65,7 +62,7 @@ bool FolderLock::take() {
   if (may_live) refuse(path_, holder, false);
   const std::string text = to_text(own_mark()) + "\n";
   if (::ftruncate(file_, 0) != 0 || ::pwrite(file_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size()))
-    fail(path_, std::string("cannot be written: ") + std::strerror(errno));
+    throw_write_error(path_, std::string("cannot be written: ") + std::strerror(errno));
   return true;
 }
 

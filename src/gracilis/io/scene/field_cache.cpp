@@ -17,13 +17,11 @@ namespace gracilis {
 namespace fs = std::filesystem;
 
 // Stands first in every file and in what is hashed: change it when fields are built or stored in another way.
-static constexpr std::string_view format_name = "gracilis field 5";
-
-static std::string bytes_of(const void* data, std::size_t size) { return {static_cast<const char*>(data), size}; }
+static constexpr std::string_view field_format = "gracilis field 5";
 
 static fs::path file_of(const Bone& bone, const DistanceFieldSettings& settings, const fs::path& folder) {
   const TriangleMesh& surface = bone.surface;
-  std::string bytes = std::string(format_name);
+  std::string bytes = std::string(field_format);
   bytes += bytes_of(surface.vertices.data(), sizeof(Real) * static_cast<std::size_t>(surface.vertices.size()));
   bytes += bytes_of(surface.faces.data(), sizeof(int) * static_cast<std::size_t>(surface.faces.size()));
   for (const auto& [key, value] : list_settings(settings)) bytes += key + "=" + to_text(value) + "\n";
@@ -76,7 +74,7 @@ static bool read_content(const std::string& content, DistanceField& field) {
 }
 
 static bool read_field(const fs::path& file, DistanceField& field, const WarnFunction& warn) {
-  const std::optional<std::string> content = read_cache_file(file, format_name, warn);
+  const std::optional<std::string> content = read_cache_file(file, field_format, warn);
   if (!content) return false;
   if (read_content(*content, field)) return true;
   warn_of_cache_file(file, "holds no distance field", warn);
@@ -94,7 +92,7 @@ DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& s
   fs::create_directories(folder, failed);
   if (failed) return field;
   try {
-    write_cache_file(file, format_name, content_of(field));
+    write_cache_file(file, field_format, content_of(field));
   } catch (const Error&) {
     // No room or no right to write: the field is as good without the file.
   }

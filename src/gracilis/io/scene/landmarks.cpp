@@ -13,14 +13,14 @@ namespace gracilis {
 namespace {
 
 /// Which cell of a row says what, and in which unit.
-struct Columns {
+struct LandmarkColumns {
   std::size_t cloud = 0;
   std::optional<std::size_t> index;
   std::array<std::size_t, 3> xyz{};
   Real unit = 1;  ///< m
 };
 
-Columns columns_of(const CsvRows& rows, Real default_unit) {
+LandmarkColumns columns_of(const CsvRows& rows, Real default_unit) {
   const char* remedy = "the first line must name the columns: cloud,index,x_mm,y_mm,z_mm";
   const auto cloud = rows.column("cloud");
   if (!cloud) rows.fail("names no column 'cloud'", remedy);
@@ -43,7 +43,7 @@ Points as_matrix(const std::vector<Vec3>& points) {
 std::vector<LandmarkCloud> read_landmarks(const std::filesystem::path& path, Real unit) {
   const std::string text = read_text(path);
   CsvRows rows(path, text);
-  const Columns columns = columns_of(rows, unit);
+  const LandmarkColumns columns = columns_of(rows, unit);
   std::vector<LandmarkCloud> clouds;
   std::vector<std::vector<Vec3>> points;  // of each cloud
   std::map<std::string, std::size_t> numbers;

@@ -15,9 +15,7 @@ namespace gracilis {
 namespace fs = std::filesystem;
 
 // Stands first in every file and in what is hashed.
-static constexpr std::string_view format_name = "gracilis muscles 2";
-
-static std::string bytes_of(const void* data, std::size_t size) { return {static_cast<const char*>(data), size}; }
+static constexpr std::string_view muscles_format = "gracilis muscles 2";
 
 static std::string bytes_of(const TriangleMesh& mesh) {
   const Index counts[2] = {mesh.vertex_count(), mesh.face_count()};
@@ -28,7 +26,7 @@ static std::string bytes_of(const TriangleMesh& mesh) {
 
 static fs::path file_of(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
                         const PrepareSettings& settings, const fs::path& folder) {
-  std::string bytes = std::string(format_name) + std::to_string(preparation_version) + "\n";
+  std::string bytes = std::string(muscles_format) + std::to_string(preparation_version) + "\n";
   for (const auto& [key, value] : list_settings(settings)) bytes += key + "=" + to_text(value) + "\n";
   for (const NamedSurface& muscle : muscles) bytes += "muscle " + bytes_of(muscle.mesh);
   for (const NamedSurface& bone : bones) bytes += "bone " + bytes_of(bone.mesh);
@@ -56,7 +54,7 @@ static bool take_mesh(std::string_view& content, TriangleMesh& mesh) {
 }
 
 static bool read_meshes(const fs::path& file, std::vector<TriangleMesh>& meshes, const WarnFunction& warn) {
-  const std::optional<std::string> content = read_cache_file(file, format_name, warn);
+  const std::optional<std::string> content = read_cache_file(file, muscles_format, warn);
   if (!content) return false;
   std::string_view rest(*content);
   const bool sound =
@@ -93,7 +91,7 @@ std::vector<TriangleMesh> cached_preparation(const std::vector<NamedSurface>& mu
     std::string bytes;
     for (const TriangleMesh& mesh : prepared.muscles) bytes += bytes_of(mesh);
     write_text_atomically(fs::path(file).replace_extension(".json"), to_json(prepared.report).dump(2) + "\n");
-    write_cache_file(file, format_name, bytes);
+    write_cache_file(file, muscles_format, bytes);
     say("kept in " + file.string());
   } catch (const Error&) {
     // No room or no right to write: the surfaces are as good without the file.

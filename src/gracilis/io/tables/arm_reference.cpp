@@ -12,7 +12,7 @@ namespace gracilis {
 namespace {
 
 /// Which cell of a row says what.
-struct Columns {
+struct ArmColumns {
   std::size_t muscle = 0, angle = 0, arm = 0;
   std::optional<std::size_t> coordinate, source, low, high;
   Real unit = 1;  ///< m, of arms
@@ -25,7 +25,7 @@ struct Arm {
 /// By angles, rad.
 using Arms = std::map<Real, Arm>;
 
-Columns columns_of(const CsvRows& rows) {
+ArmColumns columns_of(const CsvRows& rows) {
   const char* remedy = "the first line must name the columns: muscle,angle_deg,moment_arm_mm";
   const auto muscle = rows.column("muscle"), angle = rows.column("angle_deg");
   if (!muscle) rows.fail("names no column 'muscle'", remedy);
@@ -42,7 +42,7 @@ std::string text_in(const CsvRows& rows, const std::optional<std::size_t>& colum
   return column ? std::string(rows.cell(*column)) : std::string();
 }
 
-void read_arm(const CsvRows& rows, const Columns& columns, Arms& arms) {
+void read_arm(const CsvRows& rows, const ArmColumns& columns, Arms& arms) {
   const Real arm = columns.unit * rows.number(columns.arm, "a moment arm");
   const auto bound = [&](const std::optional<std::size_t>& column) {
     return column ? columns.unit * rows.number(*column, "a bound of a moment arm") : arm;
@@ -68,7 +68,7 @@ void take_arms(const Arms& arms, bool has_band, ArmCurve& curve) {
 std::vector<ArmCurve> read_arm_reference(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   CsvRows rows(path, text);
-  const Columns columns = columns_of(rows);
+  const ArmColumns columns = columns_of(rows);
   std::vector<ArmCurve> curves;
   std::vector<Arms> arms;  // of each curve
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> numbers;

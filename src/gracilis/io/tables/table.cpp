@@ -9,19 +9,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <set>
 
 namespace gracilis {
-
-static std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
 
 namespace {
 
@@ -37,7 +29,7 @@ class TableReader {
  public:
   TableReader(const std::filesystem::path& path, std::string_view text) : path_(path), text_(text) {
     if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
-    has_header_end_ = lower(text_).find("endheader") != std::string::npos;
+    has_header_end_ = lower_case(text_).find("endheader") != std::string::npos;
   }
 
   Table read() {
@@ -78,7 +70,7 @@ class TableReader {
     while (next_line()) {
       const std::vector<std::string_view> words = words_of(line_);
       if (words.empty()) continue;
-      if (lower(words[0]) == "endheader") return header;
+      if (lower_case(words[0]) == "endheader") return header;
       if (!has_header_end_) {
         position_ = static_cast<std::size_t>(line_.data() - text_.data());
         --number_;
@@ -95,10 +87,10 @@ class TableReader {
   void read_header_line(const std::vector<std::string_view>& words, bool first, Header& header) {
     const std::string_view line = trimmed(line_);
     const std::size_t equals = line.find('=');
-    const std::string key = lower(trimmed(equals == std::string_view::npos ? words[0] : line.substr(0, equals)));
+    const std::string key = lower_case(trimmed(equals == std::string_view::npos ? words[0] : line.substr(0, equals)));
     const std::string_view rest = trimmed(line.substr(equals == std::string_view::npos ? words[0].size() : equals + 1));
     const std::vector<std::string_view> values = words_of(rest);
-    const std::string value = values.empty() ? "" : lower(values[0]);
+    const std::string value = values.empty() ? "" : lower_case(values[0]);
     long long count = 0;
     if (key == "nrows" || key == "datarows") {
       if (parse_integer(value, count)) header.rows = count;
@@ -127,7 +119,7 @@ class TableReader {
     for (std::size_t i = 0; i < labels.size(); ++i) {
       if (!seen.insert(labels[i]).second)
         fail_here(fmt::format("column '{}' occurs twice", labels[i]), "rename one of them");
-      if (lower(labels[i]) == "time") {
+      if (lower_case(labels[i]) == "time") {
         time_column_ = i;
       } else {
         table_.columns.emplace_back(labels[i]);

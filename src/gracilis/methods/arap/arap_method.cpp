@@ -5,9 +5,9 @@
 #include <gracilis/core/stop.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/arap/surface.hpp>
-#include <gracilis/methods/shared_rows.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/shape_method.hpp>
+#include <gracilis/methods/shared_rows.hpp>
 
 namespace gracilis {
 
@@ -45,7 +45,7 @@ struct ArapMuscle {
   BoneProjection bones;
 };
 
-ArapMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+ArapMuscle prepare_arap(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
   const ArapSettings settings = muscle_settings<ArapSettings>(scene, muscle);
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
@@ -84,8 +84,8 @@ ShapeStep step(const ArapMuscle& muscle, const Pose& last, const Pose& now, cons
   return {std::move(points), {{"contacts", static_cast<Real>(contacts)}}};
 }
 
-ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
-  const auto prepared = std::make_shared<const ArapMuscle>(prepare(scene, muscle, fields));
+ShapedMuscle shaped_by_arap(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+  const auto prepared = std::make_shared<const ArapMuscle>(prepare_arap(scene, muscle, fields));
   return {muscle.name, muscle.surface.vertices, [prepared](const Pose& last, const Pose& now, const Points& before) {
             return step(*prepared, last, now, before);
           }};
@@ -95,7 +95,7 @@ ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<
 
 std::unique_ptr<DeformationMethod> make_arap_method(const Scene& scene, std::vector<DistanceField> fields) {
   return made_near_origin(scene, std::move(fields), [](const Scene& near, std::vector<DistanceField> near_fields) {
-    return shape_method(near, std::move(near_fields), shaped);
+    return shape_method(near, std::move(near_fields), shaped_by_arap);
   });
 }
 

@@ -24,7 +24,7 @@ struct PbdMuscle {
   BoneProjection bones;
 };
 
-PbdMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+PbdMuscle prepare_pbd(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
   const PbdSettings settings = muscle_settings<PbdSettings>(scene, muscle);
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
@@ -68,8 +68,8 @@ ShapeStep step(const PbdMuscle& muscle, const Pose& last, const Pose& now, const
            {"skipped_angles", static_cast<Real>(skipped_angles)}}};
 }
 
-ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
-  const auto prepared = std::make_shared<const PbdMuscle>(prepare(scene, muscle, fields));
+ShapedMuscle shaped_by_pbd(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+  const auto prepared = std::make_shared<const PbdMuscle>(prepare_pbd(scene, muscle, fields));
   return {muscle.name, muscle.surface.vertices, [prepared](const Pose& last, const Pose& now, const Points& before) {
             return step(*prepared, last, now, before);
           }};
@@ -92,7 +92,7 @@ Preset pbd_2020() {
 
 std::unique_ptr<DeformationMethod> make_pbd_method(const Scene& scene, std::vector<DistanceField> fields) {
   return made_near_origin(scene, std::move(fields), [](const Scene& near, std::vector<DistanceField> near_fields) {
-    return shape_method(near, std::move(near_fields), shaped,
+    return shape_method(near, std::move(near_fields), shaped_by_pbd,
                         "check the pose, or give 'edge_stiffness' and 'angle_stiffness' smaller values");
   });
 }

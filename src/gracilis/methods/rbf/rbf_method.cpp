@@ -4,11 +4,11 @@
 #include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/screw.hpp>
-#include <gracilis/methods/shared_rows.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/rbf/muscle_model.hpp>
 #include <gracilis/methods/rbf/surface_follow.hpp>
 #include <gracilis/methods/shape_method.hpp>
+#include <gracilis/methods/shared_rows.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -72,7 +72,7 @@ rbf::MuscleModel model_of(const Muscle& muscle, const MeshTopology& topology, co
   }
 }
 
-RbfMuscle prepare(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+RbfMuscle prepare_rbf(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
   const RbfSettings settings = muscle_settings<RbfSettings>(scene, muscle);
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
@@ -168,8 +168,8 @@ ShapeStep step(const RbfMuscle& muscle, const Pose& now) {
            {"offset_mm", 1000 * followed.offset}}};
 }
 
-ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
-  const auto prepared = std::make_shared<const RbfMuscle>(prepare(scene, muscle, fields));
+ShapedMuscle shaped_by_rbf(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields) {
+  const auto prepared = std::make_shared<const RbfMuscle>(prepare_rbf(scene, muscle, fields));
   return {muscle.name, muscle.surface.vertices,
           [prepared](const Pose&, const Pose& now, const Points&) { return step(*prepared, now); }};
 }
@@ -192,7 +192,7 @@ Preset rbf_2024() {
 
 std::unique_ptr<DeformationMethod> make_rbf_method(const Scene& scene, std::vector<DistanceField> fields) {
   return made_near_origin(scene, std::move(fields), [](const Scene& near, std::vector<DistanceField> near_fields) {
-    return shape_method(near, std::move(near_fields), shaped);
+    return shape_method(near, std::move(near_fields), shaped_by_rbf);
   });
 }
 

@@ -23,7 +23,7 @@ std::span<const Setting<SkinningSettings>> setting_table() {
 
 namespace {
 
-ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>&) {
+ShapedMuscle shaped_by_skinning(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>&) {
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   const Real tendon_length = muscle_settings<SkinningSettings>(scene, muscle).tendon_length;
   const Points& rest = muscle.surface.vertices;
@@ -34,7 +34,9 @@ ShapedMuscle shaped(const Scene& scene, const Muscle& muscle, const std::vector<
 
 }  // namespace
 
-std::unique_ptr<DeformationMethod> make_skinning_method(const Scene& scene) { return shape_method(scene, {}, shaped); }
+std::unique_ptr<DeformationMethod> make_skinning_method(const Scene& scene) {
+  return shape_method(scene, {}, shaped_by_skinning);
+}
 
 MethodEntry skinning_entry() {
   return {.name = "skinning",

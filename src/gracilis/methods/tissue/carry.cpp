@@ -10,7 +10,7 @@ namespace gracilis::tissue {
 namespace {
 
 constexpr int most_steps = 8;
-constexpr int halvings = 10;
+constexpr int carry_halvings = 10;
 /// A carried state has no tetrahedron with less of its volume.
 constexpr Real least_carried_ratio = 0.05;
 
@@ -82,7 +82,7 @@ void carry(const PreparedTissue& muscle, const std::vector<RigidTransform>& befo
   const Points aim = carried(muscle, before, now, nodes);
   const Real least = std::min(least_carried_ratio, least_volume_ratio(muscle.lattice, start) / 2);
   Real share = 1;
-  for (int i = 0; i < halvings; ++i, share /= 2) {
+  for (int i = 0; i < carry_halvings; ++i, share /= 2) {
     nodes = start + share * (aim - start);
     if (least_volume_ratio(muscle.lattice, nodes) > least) return;
   }

@@ -10,7 +10,7 @@ namespace gracilis::tissue {
 namespace {
 
 constexpr std::size_t remembered = 8;  // pairs of moves and changes of the gradient
-constexpr int halvings = 24;
+constexpr int step_halvings = 24;
 constexpr Real sufficient_decrease = 1e-4;
 /// Of the energy: differences below are rounding.
 constexpr Real rounding = 1e-14;
@@ -64,7 +64,7 @@ Minimized minimize(const EnergyFunction& energy, const MetricFunction& metric, c
     const Real slope = dot(direction, gradient);
     Real step = std::min(1.0, settings.largest_move / fastest);
     bool accepted = false;
-    for (int i = 0; i < halvings && !accepted; ++i, step = accepted ? step : step / 2) {
+    for (int i = 0; i < step_halvings && !accepted; ++i, step = accepted ? step : step / 2) {
       const Points next = points + step * direction;
       const Real there = energy(next, next_gradient);
       if (!(there <= done.energy + sufficient_decrease * step * slope + rounding * std::abs(done.energy))) continue;

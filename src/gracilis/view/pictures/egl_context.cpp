@@ -11,7 +11,7 @@
 
 namespace gracilis {
 
-static void require(bool ok, const char* step) {
+static void require_step(bool ok, const char* step) {
   if (ok) return;
   throw Error(ExitCode::unsupported,
               fmt::format("no picture can be drawn on this machine: {} failed (EGL error 0x{:x}; install libegl1 and "
@@ -23,31 +23,32 @@ static void require(bool ok, const char* step) {
 static EGLDisplay surfaceless_display() {
   const auto get_platform_display =
       reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
-  require(get_platform_display != nullptr, "eglGetPlatformDisplayEXT");
+  require_step(get_platform_display != nullptr, "eglGetPlatformDisplayEXT");
   const EGLDisplay display = get_platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-  require(display != EGL_NO_DISPLAY, "eglGetPlatformDisplay");
-  require(eglInitialize(display, nullptr, nullptr) == EGL_TRUE, "eglInitialize");
+  require_step(display != EGL_NO_DISPLAY, "eglGetPlatformDisplay");
+  require_step(eglInitialize(display, nullptr, nullptr) == EGL_TRUE, "eglInitialize");
   return display;
 }
 
 static EGLContext core_profile_context(EGLDisplay display) {
-  require(eglBindAPI(EGL_OPENGL_API) == EGL_TRUE, "eglBindAPI");
+  require_step(eglBindAPI(EGL_OPENGL_API) == EGL_TRUE, "eglBindAPI");
   const EGLint config_attributes[] = {EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
-  require(eglChooseConfig(display, config_attributes, &config, 1, &count) == EGL_TRUE && count > 0, "eglChooseConfig");
+  require_step(eglChooseConfig(display, config_attributes, &config, 1, &count) == EGL_TRUE && count > 0,
+               "eglChooseConfig");
   // VTK needs at least OpenGL 3.2.
   const EGLint context_attributes[] = {
       EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 2, EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, context_attributes);
-  require(context != EGL_NO_CONTEXT, "eglCreateContext");
+  require_step(context != EGL_NO_CONTEXT, "eglCreateContext");
   return context;
 }
 
 EglContext::EglContext() : display_(surfaceless_display()) {
   context_ = core_profile_context(display_);
-  require(eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE, "eglMakeCurrent");
+  require_step(eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) == EGL_TRUE, "eglMakeCurrent");
 }
 
 // The display stays initialized: Mesa shares one per process, and ending it would end every other context.

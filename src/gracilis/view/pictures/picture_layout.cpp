@@ -12,7 +12,7 @@ static constexpr int color_bar_width = 460;  // pixels
 static constexpr int entry_width = 100;      // pixels, least for a legend's entry
 static constexpr Real border = 1.06;         // free space around what is seen
 
-static void require(bool ok, const char* what) {
+static void require_drawable(bool ok, const char* what) {
   if (!ok) throw ConfigurationError({"", "picture", what, ""});
 }
 
@@ -30,7 +30,7 @@ static Extent extent_seen_by(const CameraView& camera, const Picture& picture) {
     if (!panel.looking.normalized().isApprox(camera.looking, 1e-9)) continue;
     const auto add = [&](const Points& points) {
       if (points.cols() == 0) return;
-      require(points.allFinite(), "a point is not finite");
+      require_drawable(points.allFinite(), "a point is not finite");
       const Points seen = axes * points;
       extent.low = extent.low.cwiseMin(seen.rowwise().minCoeff());
       extent.high = extent.high.cwiseMax(seen.rowwise().maxCoeff());
@@ -46,7 +46,8 @@ static CameraView camera_of(const Panel& panel) {
   CameraView camera;
   camera.looking = panel.looking.normalized();
   camera.right = camera.looking.cross(panel.up);
-  require(camera.right.norm() > 1e-9, "the camera's up direction must not be parallel to its looking direction");
+  require_drawable(camera.right.norm() > 1e-9,
+                   "the camera's up direction must not be parallel to its looking direction");
   camera.right.normalize();
   camera.up = camera.right.cross(camera.looking);
   return camera;
@@ -58,13 +59,13 @@ static Eigen::Vector2d place_cameras(const Picture& picture, PictureLayout& layo
   for (const Panel& panel : picture.panels) {
     CameraView camera = camera_of(panel);
     const Extent extent = extent_seen_by(camera, picture);
-    require(extent.low.allFinite() && extent.high.allFinite(), "there is nothing to see");
+    require_drawable(extent.low.allFinite() && extent.high.allFinite(), "there is nothing to see");
     const Vec3 middle = (extent.low + extent.high) / 2;
     camera.center = camera.right * middle.x() + camera.up * middle.y() + camera.looking * middle.z();
     needed = needed.cwiseMax(((extent.high - extent.low) / 2 * border).head<2>());
     layout.cameras.push_back(camera);
   }
-  require(needed.maxCoeff() > 0, "there is nothing to see: all points coincide");
+  require_drawable(needed.maxCoeff() > 0, "there is nothing to see: all points coincide");
   return needed;
 }
 
@@ -81,8 +82,8 @@ static std::vector<std::pair<std::string, Color>> legend_of(const Picture& pictu
 }
 
 PictureLayout lay_out(const Picture& picture) {
-  require(!picture.panels.empty(), "a picture needs at least one panel");
-  require(picture.panel_width > 0 && picture.panel_height >= 0, "a panel needs a width and a height");
+  require_drawable(!picture.panels.empty(), "a picture needs at least one panel");
+  require_drawable(picture.panel_width > 0 && picture.panel_height >= 0, "a panel needs a width and a height");
   const int count = static_cast<int>(picture.panels.size());
   const int columns = picture.columns > 0 ? std::min(picture.columns, count) : count;
   const int rows = (count + columns - 1) / columns;

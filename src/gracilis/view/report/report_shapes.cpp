@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 static constexpr int most_frames = 120;              // shown; the view blends between them
 static constexpr Index most_muscle_vertices = 4000;  // what one sees no longer, a file need not hold
 static constexpr Index most_bone_vertices = 4000;
-static constexpr int fibers_shown = 32;  // per muscle
+static constexpr int most_fibers = 32;  // per muscle
 
 /// Appends an array and returns where it begins.
 template <class Number>
@@ -105,24 +105,16 @@ static Json bone_surface(const RecordedRun& run, const std::string& name, const 
   return surface;
 }
 
-/// Some of the lines, evenly spread over their numbers.
-static Polylines some_lines(const Polylines& lines) {
-  const Index count = std::min(lines.count(), fibers_shown);
-  std::vector<Points> chosen;
-  for (Index i = 0; i < count; ++i) chosen.push_back(lines.line(i * lines.count() / count));
-  return join(chosen);
-}
-
 /// Null where the run has no fibers of this muscle, or not the same number in every frame.
 static Json muscle_fibers(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
                           std::string& bytes) {
-  const Polylines rest = some_lines(placed_fibers(run, name, 0));
+  const Polylines rest = spread_lines(placed_fibers(run, name, 0), most_fibers);
   if (rest.count() == 0) return nullptr;
   const std::vector<Real> rest_lengths = polyline_lengths(rest);
   std::vector<Points> points;
   std::vector<std::uint8_t> strain;
   for (const int frame : frames) {
-    const Polylines now = some_lines(placed_fibers(run, name, frame));
+    const Polylines now = spread_lines(placed_fibers(run, name, frame), most_fibers);
     if (now.offsets != rest.offsets) return nullptr;
     points.push_back(now.points);
     const std::vector<Real> lengths = polyline_lengths(now);

@@ -85,18 +85,10 @@ void FrameMaker::fill(const std::vector<Points>& muscles, std::vector<RigidTrans
   frame.contact_depth = depth_->of(muscles_, shown_, frame.bones);
 }
 
-/// Some of the lines, evenly spread over their numbers.
-static Polylines some_lines(const Polylines& lines) {
-  const Index count = std::min(lines.count(), fibers_shown);
-  std::vector<Points> chosen;
-  for (Index i = 0; i < count; ++i) chosen.push_back(lines.line(i * lines.count() / count));
-  return join(chosen);
-}
-
 void FrameMaker::fill_fibers(const std::vector<Polylines>& fibers, ShownFrame& frame) {
   const bool first = fiber_lengths_.empty();
   for (std::size_t m = 0; m < fibers.size(); ++m) {
-    frame.fibers.push_back(some_lines(fibers[m]));
+    frame.fibers.push_back(spread_lines(fibers[m], fibers_shown));
     std::vector<Real> lengths = polyline_lengths(frame.fibers[m]);
     if (first) fiber_lengths_.push_back(lengths);
     for (std::size_t i = 0; i < lengths.size(); ++i)

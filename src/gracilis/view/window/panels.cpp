@@ -9,8 +9,6 @@
 
 namespace gracilis {
 
-static const Color ink = Color::Constant(0.1), faint = Color::Constant(0.38), accent(0.04, 0.36, 0.68);
-
 std::string words_of(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;

@@ -13,6 +13,9 @@ namespace gracilis {
 
 struct WindowSlider;
 
+/// The colors of texts and marks.
+inline const Color ink = Color::Constant(0.1), faint = Color::Constant(0.38), accent(0.04, 0.36, 0.68);
+
 /// The parts that stand over a window's picture. All positions in pixels from the lower left corner.
 
 /// A swatch and a text that can be clicked.

@@ -15,8 +15,7 @@
 
 namespace gracilis {
 
-static const Color ink = Color::Constant(0.1), faint = Color::Constant(0.38), accent(0.04, 0.36, 0.68),
-                   background(0.96, 0.965, 0.97);
+static const Color background(0.96, 0.965, 0.97);
 static constexpr int margin = 16, right_width = 210, track_height = 66;
 
 void Viewer::lay_out() {

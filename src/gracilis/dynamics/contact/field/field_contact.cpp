@@ -13,8 +13,6 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index chunk = 512;
-constexpr float infinity = std::numeric_limits<float>::infinity();
 /// A distance exceeds its ceiling only by more than this, m.
 constexpr float rounding = 1e-7f;
 
@@ -25,7 +23,7 @@ Index project_edge_contacts(const FieldContactSet& set, const FieldPlacement& pl
   std::atomic<Index> touching = 0;
   const float longest_step = safe_step(*set.field.field) / 2;
   for (const ColorRange& color : near.edges.colors)
-    parallel_for(color.end - color.begin, chunk, [&](Index begin, Index end) {
+    parallel_for(color.end - color.begin, contacts_per_task, [&](Index begin, Index end) {
       touching += project_near_edges(set.field.grid, placement, longest_step, {color.begin + begin, color.begin + end},
                                      near.edges, particles);
     });
@@ -59,7 +57,7 @@ Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, co
                             NearField& near, Particles& particles) {
   std::atomic<Index> touching = 0;
   for (const ColorRange& color : near.faces.colors)
-    parallel_for(color.end - color.begin, chunk, [&](Index begin, Index end) {
+    parallel_for(color.end - color.begin, contacts_per_task, [&](Index begin, Index end) {
       Index count = 0;
       for (Index i = color.begin + begin; i < color.begin + end; ++i) {
         const auto slot = static_cast<std::size_t>(near.faces.slots[static_cast<std::size_t>(i)]);
@@ -97,15 +95,15 @@ Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement
                                 Particles& particles) {
   std::atomic<Index> touching = 0;
   const auto cell = static_cast<float>(set.field.field->cell_size.maxCoeff());
-  parallel_for(static_cast<Index>(near.particles.size()), chunk, [&](Index begin, Index end) {
+  parallel_for(static_cast<Index>(near.particles.size()), contacts_per_task, [&](Index begin, Index end) {
     Index count = 0;
     for (Index i = begin; i < end; ++i) {
       const Index particle = near.particles[static_cast<std::size_t>(i)];
       const auto p = static_cast<std::size_t>(particle);
       const float gap = near.gap[p];
       const Eigen::Vector3f moved = placement.to_obstacle(particles.position(particle));
-      const float ceiling = set.ceiling.empty() ? infinity : set.ceiling[p];
-      if (ceiling == infinity && !may_reach(near.last[p], moved, gap + cell)) continue;
+      const float ceiling = set.ceiling.empty() ? std::numeric_limits<float>::infinity() : set.ceiling[p];
+      if (ceiling == std::numeric_limits<float>::infinity() && !may_reach(near.last[p], moved, gap + cell)) continue;
       Eigen::Vector3f q = guarded(set, near.last[p], moved, gap);
       const FieldSample at = sample_bounded(set.field, q);
       const float slope2 = at.gradient.squaredNorm();

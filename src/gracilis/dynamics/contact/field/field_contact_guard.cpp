@@ -9,8 +9,6 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index chunk = 512;
-
 /// Cosine of the turn by which the published test knows a vertex that passed through a bone.
 const float turned_cosine = static_cast<float>(std::cos(radians(135)));
 
@@ -41,7 +39,7 @@ void remember_sides(const FieldContactSet& set, const FieldPlacement& placement,
   const bool known = near.last.size() == count;
   near.last.resize(count);
   const auto cell = static_cast<float>(set.field.field->cell_size.maxCoeff());
-  parallel_for(particles.count(), chunk, [&](Index begin, Index end) {
+  parallel_for(particles.count(), contacts_per_task, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       Sighting& last = near.last[static_cast<std::size_t>(i)];
       const Eigen::Vector3f q = placement.to_obstacle(particles.position(i));

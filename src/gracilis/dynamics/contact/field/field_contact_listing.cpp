@@ -12,8 +12,6 @@ namespace gracilis {
 
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// No point of an edge is nearer to its gap than this: distances fall by no more than what lies between a point and the
 /// ends.
 float least_clearance(float clearances, float length) { return (clearances - steepest * length) / 2; }
@@ -88,7 +86,8 @@ void list_edges(const FieldContactSet& set, const DistanceSet& distances, const 
                 particles, near);
     }
     const Index idle = particles.count();
-    while (near.edges.count() % group_width != 0) list_edge(idle, idle, 0, infinity, placement, particles, near);
+    while (near.edges.count() % group_width != 0)
+      list_edge(idle, idle, 0, std::numeric_limits<float>::infinity(), placement, particles, near);
     near.edges.colors.push_back({begin, near.edges.count()});
   }
 }
@@ -100,7 +99,7 @@ void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPla
     for (Index slot = color.begin; slot < color.end; ++slot) {
       std::array<ContactCorner, 3> corners;
       Eigen::Vector3f movable;
-      float longest2 = 0, clearance = infinity;
+      float longest2 = 0, clearance = std::numeric_limits<float>::infinity();
       for (std::size_t k = 0; k < 3; ++k) {
         const Index p = faces.particles[k][static_cast<std::size_t>(slot)];
         corners[k] = {placement.to_obstacle(particles.position(p)), near.gap[static_cast<std::size_t>(p)]};

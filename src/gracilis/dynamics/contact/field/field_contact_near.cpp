@@ -13,9 +13,6 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index chunk = 512;
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
 /// Clearance of every particle, those that are near, and where they are. A particle is asked again only once it may
 /// have used up what it was away when last seen.
 void see_particles(const FieldContactSet& set, const FieldPlacement& placement, float reach, Particles& particles,
@@ -24,9 +21,9 @@ void see_particles(const FieldContactSet& set, const FieldPlacement& placement, 
   const bool known = near.last.size() == count;
   near.last.resize(count);
   near.gap.resize(count + 1, 0);
-  near.clearance.resize(count + 1, infinity);
+  near.clearance.resize(count + 1, std::numeric_limits<float>::infinity());
   const auto cell = static_cast<float>(set.field.field->cell_size.maxCoeff());
-  parallel_for(particles.count(), chunk, [&](Index begin, Index end) {
+  parallel_for(particles.count(), contacts_per_task, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const auto p = static_cast<std::size_t>(i);
       const float gap = blended(set.captured.particle, set.released.particle, p, placement.release);

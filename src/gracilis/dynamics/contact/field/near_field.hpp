@@ -15,6 +15,9 @@ struct Sighting {
   float distance = 0;
 };
 
+/// How many particles, or edges of one color, a task takes.
+inline constexpr Index contacts_per_task = 512;
+
 /// A field's slope may exceed 1 by rounding and interpolation.
 inline constexpr float steepest = 1.1f;
 

@@ -11,7 +11,7 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index chunk = 1024;
+constexpr Index particles_per_task = 1024;
 /// Closer than this the direction from the nearest point is rounding (m).
 constexpr float same_place = 1e-7f;
 /// Steps of a walk; each comes nearer, so it ends anyway.
@@ -70,7 +70,7 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
 Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces) {
   const auto count = static_cast<Index>(surface.fans.offsets.size()) - 1;
   Eigen::Matrix3Xf sums(3, count);
-  parallel_for(count, chunk, [&](Index begin, Index end) {
+  parallel_for(count, particles_per_task, [&](Index begin, Index end) {
     for (Index p = begin; p < end; ++p)
       sums.col(p) = sum_around(surface, p, [&](Index face) { return of_faces.col(face); });
   });

@@ -22,7 +22,7 @@ constexpr float turn_weight = 0.1f;
 /// Pairs that are looked at for each face of a surface.
 constexpr Index most_looks = 500;
 
-using Corners = std::array<Eigen::Vector3d, 3>;
+using PreciseCorners = std::array<Eigen::Vector3d, 3>;
 
 void keep_each_once(std::vector<Index>& numbers) {
   std::sort(numbers.begin(), numbers.end());
@@ -34,7 +34,7 @@ double volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::V
   return (b - a).cross(c - a).dot(d - a);
 }
 
-bool passes_through(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Corners& triangle) {
+bool passes_through(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const PreciseCorners& triangle) {
   const auto& [a, b, c] = triangle;
   if (!(volume(a, b, c, p) * volume(a, b, c, q) < 0)) return false;
   const double u = volume(p, q, a, b), v = volume(p, q, b, c), w = volume(p, q, c, a);
@@ -44,11 +44,11 @@ bool passes_through(const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Co
 /// Whether two faces cut each other where place(particle) tells the corners are.
 template <class Place>
 bool cut_each_other(const ContactSurface& surface, Index one, Index other, const Place& place) {
-  const auto places_of = [&](Index face) -> Corners {
+  const auto places_of = [&](Index face) -> PreciseCorners {
     return {place(surface.faces(0, face)), place(surface.faces(1, face)), place(surface.faces(2, face))};
   };
-  const Corners a = places_of(one), b = places_of(other);
-  const auto side_passes = [](const Corners& of, int opposite, const Corners& through) {
+  const PreciseCorners a = places_of(one), b = places_of(other);
+  const auto side_passes = [](const PreciseCorners& of, int opposite, const PreciseCorners& through) {
     return passes_through(of[static_cast<std::size_t>((opposite + 1) % 3)],
                           of[static_cast<std::size_t>((opposite + 2) % 3)], through);
   };

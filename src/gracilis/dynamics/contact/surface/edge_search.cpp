@@ -13,11 +13,10 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index chunk = 256;
+constexpr Index edges_per_task = 256;
 /// Edges that cross as closely are listed (m). There are three times as many as particles; between two looks they
 /// hardly come nearer by more.
 constexpr float edges_listed_within = 0.0008f;
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// The edges of a face and of the faces behind its sides.
 void gather_edges(const ContactSurface& surface, Index face, std::vector<Index>& edges) {
@@ -55,11 +54,11 @@ std::optional<float> most_gap(const SurfacePair& pair, float distance, const std
                               const std::array<Index, 2>& second, const Particles& first_before,
                               const Particles& second_before, const Eigen::Vector3f& outward) {
   const bool overlapped = any_overlaps(pair.first_overlaps, first) || any_overlaps(pair.second_overlaps, second);
-  if (distance >= 0 && !overlapped) return infinity;
+  if (distance >= 0 && !overlapped) return std::numeric_limits<float>::infinity();
   const EdgeGap before =
       edge_gap(first_before.position(first[0]) + pair.shift, first_before.position(first[1]) + pair.shift,
                second_before.position(second[0]), second_before.position(second[1]), outward);
-  if (!before.crossing) return overlapped ? std::nullopt : std::optional(infinity);
+  if (!before.crossing) return overlapped ? std::nullopt : std::optional(std::numeric_limits<float>::infinity());
   const float gap = std::max(largest_gap(pair.first_gap, first), largest_gap(pair.second_gap, second));
   return released(before.distance, gap, overlapped ? pair.release : asked_at_once);
 }
@@ -97,7 +96,7 @@ class TouchTable {
 std::vector<Index> edges_around(const std::vector<PointTouch>& near, const TouchTable& table,
                                 const ContactSurface& surface, const Particles& particles) {
   return collect_in_order<Index>(
-      static_cast<Index>(near.size()), chunk, [&](Index begin, Index end, std::vector<Index>& part) {
+      static_cast<Index>(near.size()), edges_per_task, [&](Index begin, Index end, std::vector<Index>& part) {
         for (Index i = begin; i < end; ++i) {
           const PointTouch& touch = near[static_cast<std::size_t>(i)];
           for (const Index edge : surface.edges_at(touch.particle)) {
@@ -123,7 +122,7 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
   const TouchTable table(near_second, particles[a]->count());
   const std::vector<Index> edges = edges_around(near_second, table, first, *particles[a]);
   const auto count = static_cast<Index>(edges.size());
-  found = collect_in_order<EdgeTouch>(count, chunk, [&](Index begin, Index end, std::vector<EdgeTouch>& part) {
+  found = collect_in_order<EdgeTouch>(count, edges_per_task, [&](Index begin, Index end, std::vector<EdgeTouch>& part) {
     std::vector<Index> candidates;
     for (Index i = begin; i < end; ++i) {
       const Index e = edges[static_cast<std::size_t>(i)];
@@ -155,7 +154,8 @@ void find_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::v
         const Segment its = segment_of(candidate);
         const EdgeGap gap = edge_gap(edge.from, edge.to, its.from, its.to, outward);
         if (!gap.crossing || !(std::abs(gap.distance) < edges_listed_within)) continue;
-        EdgeTouch touch{e, candidate, side, self ? self->most_gap(ends, other) : infinity};
+        EdgeTouch touch{e, candidate, side,
+                        self ? self->most_gap(ends, other) : std::numeric_limits<float>::infinity()};
         const std::optional<float> most = most_gap(pair, gap.distance, ends, other, before[a], before[b], outward);
         if (!most) continue;
         touch.most_gap =

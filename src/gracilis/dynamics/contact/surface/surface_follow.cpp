@@ -16,19 +16,18 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index chunk = 256;
+constexpr Index points_per_task = 256;
 /// What comes nearer than this beyond its gap is projected until the next look (m).
 constexpr float listed_within = 0.0015f;
 /// Two surfaces in which nothing has drifted farther than this since the last look are not looked at again (m): what
 /// was too far away to be listed still is, even as an edge. One with itself always is: needles of hundredths of a
 /// millimeter turn over.
 constexpr float calm = 0.0005f;
-constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Walks each to its nearest face.
 void walk(std::vector<PointTouch>& near, const ContactSurface& surface, const Particles& probe, const Particles& target,
           const Eigen::Vector3f& shift) {
-  parallel_for(static_cast<Index>(near.size()), chunk, [&](Index begin, Index end) {
+  parallel_for(static_cast<Index>(near.size()), points_per_task, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       PointTouch& touch = near[static_cast<std::size_t>(i)];
       const Eigen::Vector3f p = probe.position(touch.particle) + shift;
@@ -54,7 +53,7 @@ void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, con
                const std::vector<float>& gaps, const OverlapRelease& release, const SelfRule* self,
                std::vector<PointTouch>& listed) {
   listed = collect_in_order<PointTouch>(
-      static_cast<Index>(near.size()), chunk, [&](Index begin, Index end, std::vector<PointTouch>& part) {
+      static_cast<Index>(near.size()), points_per_task, [&](Index begin, Index end, std::vector<PointTouch>& part) {
         for (Index i = begin; i < end; ++i) {
           PointTouch& touch = near[static_cast<std::size_t>(i)];
           const PointGap gap = point_gap(probe.position(touch.particle) + shift, surface,
@@ -62,7 +61,7 @@ void list_near(std::vector<PointTouch>& near, const ContactSurface& surface, con
           touch.distance = touch.side * gap.distance;
           if (touch.distance >= within) continue;
           if (self && self->side(touch.particle, touch.face) != touch.side) continue;
-          const float own = self ? self->most_gap(touch.particle, touch.face) : infinity;
+          const float own = self ? self->most_gap(touch.particle, touch.face) : std::numeric_limits<float>::infinity();
           const float kept = std::min(own, gaps[static_cast<std::size_t>(touch.particle)]);
           touch.most_gap = std::min(kept, release.most_gap(touch, kept));
           part.push_back(touch);

@@ -9,7 +9,7 @@ namespace gracilis {
 
 namespace {
 
-constexpr Index bundles_per_task = 16;
+constexpr Index bundles_searched_per_task = 16;
 
 /// The nearest face of a patch to which `side_of` gives a side, if it is nearer than `least2` (m², squared). Ties go to
 /// the lower face, so that the answer does not depend on the tree.
@@ -56,8 +56,8 @@ void search(const SearchedSurface& probe, const Eigen::Vector3f& shift, const Se
             const See& see, const Touch& touch, std::vector<PointTouch>& found) {
   const PatchTree& tree = probe.tree;
   const auto count = static_cast<Index>(tree.particle_bounds.size());
-  found =
-      collect_in_order<PointTouch>(count, bundles_per_task, [&](Index begin, Index end, std::vector<PointTouch>& part) {
+  found = collect_in_order<PointTouch>(
+      count, bundles_searched_per_task, [&](Index begin, Index end, std::vector<PointTouch>& part) {
         std::vector<Index> patches;
         BoundsLanes of_task, of_bundle;
         std::vector<NearPatch> workspace;
