@@ -10,6 +10,8 @@
 /// Small named surfaces with known answers, shared by all tests.
 namespace gracilis::shapes {
 
+inline constexpr Real mm = 0.001;  ///< m
+
 inline TriangleMesh mesh_of(const std::vector<Vec3>& vertices, const std::vector<Eigen::Vector3i>& faces) {
   TriangleMesh mesh;
   mesh.vertices.resize(3, static_cast<Index>(vertices.size()));

@@ -21,7 +21,7 @@ const Scene& elbow() {
   return scene;
 }
 
-const Bone& bone(const std::string& name) { return bone_of(elbow(), name); }
+const Bone& bone_of_elbow(const std::string& name) { return bone_of(elbow(), name); }
 
 const Muscle& muscle(const std::string& name) {
   return *std::find_if(elbow().muscles.begin(), elbow().muscles.end(), [&](const Muscle& m) { return m.name == name; });
@@ -148,7 +148,7 @@ TEST(BuiltinElbow, landmarks_lie_on_their_bones) {
                                 {"olecranon", "ulna_r", millimetres(-29, 5, -8)},
                                 {"ulnar styloid", "ulna_r", millimetres(-5, -254, 9)},
                                 {"radial styloid", "radius_r", millimetres(0, -251, 46)}};
-  for (const Landmark& landmark : landmarks) expect_on_bone(landmark, bone(landmark.bone));
+  for (const Landmark& landmark : landmarks) expect_on_bone(landmark, bone_of_elbow(landmark.bone));
 }
 
 TEST(BuiltinElbow, the_flexion_axis_runs_through_trochlea_and_capitulum) {
@@ -157,7 +157,7 @@ TEST(BuiltinElbow, the_flexion_axis_runs_through_trochlea_and_capitulum) {
   EXPECT_EQ(joint.axes[0].coordinate, "elbow_flexion");
   EXPECT_EQ(joint.axes[0].range_min, 0);
   EXPECT_NEAR(joint.axes[0].range_max, radians(130), 1e-12);
-  const SignedDistance humerus(bone("humerus_r").surface);
+  const SignedDistance humerus(bone_of_elbow("humerus_r").surface);
   const auto on_axis = [&](Real along) { return Vec3(joint.frame * (along * joint.axes[0].axis)); };
   for (Real z = -0.016; z < 0.018; z += 0.002) EXPECT_LT(humerus.query(on_axis(z)).distance, -0.005) << z;
   // What the forearm's bones glide on is round about the axis, in front and below.
@@ -169,11 +169,11 @@ TEST(BuiltinElbow, the_flexion_axis_runs_through_trochlea_and_capitulum) {
 }
 
 TEST(BuiltinElbow, the_forearm_s_bones_clear_the_humerus_from_straight_to_130_degrees) {
-  const SignedDistance humerus(bone("humerus_r").surface);
+  const SignedDistance humerus(bone_of_elbow("humerus_r").surface);
   for (Real flexion = 0; flexion <= 130; flexion += 10) {
     const Pose at = pose(0, flexion, -90);
     for (const char* name : {"ulna_r", "radius_r"}) {
-      const Real gap = least_distance(moved(bone(name), at), humerus);
+      const Real gap = least_distance(moved(bone_of_elbow(name), at), humerus);
       EXPECT_GT(gap, 0.0005) << name << " at " << flexion;
       EXPECT_LT(gap, 0.0025) << name << " at " << flexion << ": they glide on each other";
     }
@@ -182,8 +182,9 @@ TEST(BuiltinElbow, the_forearm_s_bones_clear_the_humerus_from_straight_to_130_de
 
 TEST(BuiltinElbow, the_olecranon_lies_in_its_fossa_when_straight_and_the_coronoid_process_in_its_when_bent) {
   const auto reach = [](Real flexion, Real front) {  // how deep the ulna reaches into the humerus' outline, m
-    const Points ulna = moved(bone("ulna_r"), pose(0, flexion, -90)).vertices;
-    const Eigen::AlignedBox3d tip = slice(ulna, 0.015), around = slice(bone("humerus_r").surface.vertices, 0.015);
+    const Points ulna = moved(bone_of_elbow("ulna_r"), pose(0, flexion, -90)).vertices;
+    const Eigen::AlignedBox3d tip = slice(ulna, 0.015),
+                              around = slice(bone_of_elbow("humerus_r").surface.vertices, 0.015);
     return front > 0 ? around.max().x() - tip.min().x() : tip.max().x() - around.min().x();
   };
   EXPECT_GT(reach(0, -1), 0.003);
@@ -191,11 +192,11 @@ TEST(BuiltinElbow, the_olecranon_lies_in_its_fossa_when_straight_and_the_coronoi
 }
 
 TEST(BuiltinElbow, the_radius_turns_about_the_ulna_and_the_humerus_in_the_socket_without_touching) {
-  const SignedDistance ulna(bone("ulna_r").surface), scapula(bone("scapula_r").surface);
+  const SignedDistance ulna(bone_of_elbow("ulna_r").surface), scapula(bone_of_elbow("scapula_r").surface);
   for (Real angle = -90; angle <= 80; angle += 17)
-    EXPECT_GT(least_distance(moved(bone("radius_r"), pose(0, 0, angle)), ulna), 0.0005) << angle;
+    EXPECT_GT(least_distance(moved(bone_of_elbow("radius_r"), pose(0, 0, angle)), ulna), 0.0005) << angle;
   for (Real angle : {-20, 0, 30})
-    EXPECT_GT(least_distance(moved(bone("humerus_r"), pose(angle, 0, -90)), scapula), 0.0005) << angle;
+    EXPECT_GT(least_distance(moved(bone_of_elbow("humerus_r"), pose(angle, 0, -90)), scapula), 0.0005) << angle;
 }
 
 TEST(BuiltinElbow, coordinates_turn_the_way_their_names_say) {

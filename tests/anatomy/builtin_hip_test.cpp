@@ -21,7 +21,7 @@ const Scene& hip() {
   return scene;
 }
 
-const Bone& bone(const std::string& name) { return bone_of(hip(), name); }
+const Bone& bone_of_hip(const std::string& name) { return bone_of(hip(), name); }
 
 TEST(BuiltinHip, has_two_bodies_four_bones_and_six_muscles_that_cross_the_hip) {
   EXPECT_EQ(hip().bodies, (std::vector<std::string>{"pelvis", "femur_r"}));
@@ -73,8 +73,8 @@ TEST(BuiltinHip, muscles_keep_clear_of_bones_at_rest) { expect_clear_of_bones(hi
 TEST(BuiltinHip, muscles_keep_clear_of_each_other_at_rest) { expect_clear_of_each_other(hip()); }
 
 TEST(BuiltinHip, attachments_are_areas_on_their_bones) {
-  const SignedDistance hip_bone(bone("hip_bone_r").surface), sacrum(bone("sacrum").surface),
-      femur(bone("femur_r").surface);
+  const SignedDistance hip_bone(bone_of_hip("hip_bone_r").surface), sacrum(bone_of_hip("sacrum").surface),
+      femur(bone_of_hip("femur_r").surface);
   for (const Muscle& m : hip().muscles) {
     const auto areas = vertex_areas(m.surface.vertices, m.surface.faces);
     std::set<Index> seen;
@@ -105,7 +105,7 @@ TEST(BuiltinHip, landmarks_lie_on_their_bones) {
                                 {"lesser trochanter", "femur_r", millimetres(-20, -60, 12)},
                                 {"lateral epicondyle", "femur_r", millimetres(-4, -393, 42)},
                                 {"medial epicondyle", "femur_r", millimetres(-4, -393, -42)}};
-  for (const Landmark& landmark : landmarks) expect_on_bone(landmark, bone(landmark.bone));
+  for (const Landmark& landmark : landmarks) expect_on_bone(landmark, bone_of_hip(landmark.bone));
 }
 
 TEST(BuiltinHip, the_joint_turns_about_the_head_without_the_bones_touching) {
@@ -127,8 +127,8 @@ TEST(BuiltinHip, the_joint_turns_about_the_head_without_the_bones_touching) {
   EXPECT_LT((turned(0, 0.5, 0) * knee).z(), -0.1) << "adduction moves the right knee to the left";
   EXPECT_LT((turned(0, 0, 0.5) * toes).z(), -0.04) << "internal rotation turns the right toes to the left";
 
-  const SignedDistance hip_bone(bone("hip_bone_r").surface);
-  const Points& femur = bone("femur_r").surface.vertices;
+  const SignedDistance hip_bone(bone_of_hip("hip_bone_r").surface);
+  const Points& femur = bone_of_hip("femur_r").surface.vertices;
   for (const Vec3& pose : {Vec3(0, 0, 0), Vec3(45, 0, 0), Vec3(90, 0, 0), Vec3(-20, 0, 0), Vec3(0, -30, 0),
                            Vec3(0, 15, 0), Vec3(0, 0, 30), Vec3(0, 0, -30)}) {
     const RigidTransform transform = turned(radians(pose.x()), radians(pose.y()), radians(pose.z()));
@@ -151,9 +151,9 @@ TEST(BuiltinHip, the_motion_flexes_to_ninety_degrees_one_by_one) {
 }
 
 TEST(BuiltinHip, bones_of_one_body_do_not_overlap) {
-  EXPECT_GT(least_distance(bone("sacrum").surface, SignedDistance(bone("hip_bone_r").surface)), 0);
-  EXPECT_GT(least_distance(bone("sacrum").surface, SignedDistance(bone("hip_bone_l").surface)), 0);
-  EXPECT_GT(least_distance(bone("hip_bone_r").surface, SignedDistance(bone("hip_bone_l").surface)), 0);
+  EXPECT_GT(least_distance(bone_of_hip("sacrum").surface, SignedDistance(bone_of_hip("hip_bone_r").surface)), 0);
+  EXPECT_GT(least_distance(bone_of_hip("sacrum").surface, SignedDistance(bone_of_hip("hip_bone_l").surface)), 0);
+  EXPECT_GT(least_distance(bone_of_hip("hip_bone_r").surface, SignedDistance(bone_of_hip("hip_bone_l").surface)), 0);
 }
 
 TEST(BuiltinHip, the_same_bits_for_any_number_of_threads) {

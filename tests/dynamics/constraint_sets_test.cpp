@@ -13,21 +13,21 @@
 namespace gracilis {
 namespace {
 
-const TriangleMesh& ball() {
+const TriangleMesh& ball_surface() {
   static const TriangleMesh mesh = shapes::sphere(Vec3::Zero(), 0.05, 2);
   return mesh;
 }
 
 std::vector<DistanceConstraint> distances() {
   std::vector<DistanceConstraint> result;
-  for (const MeshEdge& e : build_topology(ball().faces, ball().vertex_count()).edges)
+  for (const MeshEdge& e : build_topology(ball_surface().faces, ball_surface().vertex_count()).edges)
     result.push_back({e.a, e.b, 0.001 * static_cast<Real>(result.size() + 1), 0.5 * static_cast<Real>(result.size())});
   return result;
 }
 
 std::vector<DihedralConstraint> dihedrals() {
   std::vector<DihedralConstraint> result;
-  for (const MeshEdge& e : build_topology(ball().faces, ball().vertex_count()).edges) {
+  for (const MeshEdge& e : build_topology(ball_surface().faces, ball_surface().vertex_count()).edges) {
     const auto number = static_cast<Real>(result.size() + 1);
     result.push_back({{e.a, e.b, e.left_apex, e.right_apex}, 0.01 * number, 0.5 * number, 0.002 * number});
   }
@@ -85,7 +85,7 @@ TEST(DistanceSet, clusters_touch_no_particle_of_another_and_hold_most_constraint
 
 TEST(DistanceSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers) {
   const std::vector<DistanceConstraint> input = distances();
-  const DistanceSet set = build_distance_set(input, ball().vertex_count());
+  const DistanceSet set = build_distance_set(input, ball_surface().vertex_count());
   EXPECT_EQ(set.count, static_cast<Index>(input.size()));
   expect_whole_groups_that_follow_each_other(set, set.a.size());
   ASSERT_EQ(used_slots(set).size(), input.size());
@@ -99,26 +99,26 @@ TEST(DistanceSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers)
 }
 
 TEST(DistanceSet, pads_with_the_idle_particle) {
-  const DistanceSet set = build_distance_set(distances(), ball().vertex_count());
+  const DistanceSet set = build_distance_set(distances(), ball_surface().vertex_count());
   const std::set<Index> used = used_slots(set);
   Index padding = 0;
   for (std::size_t at = 0; at < set.a.size(); ++at) {
     if (used.contains(static_cast<Index>(at))) continue;
     ++padding;
-    EXPECT_EQ(set.a[at], ball().vertex_count());
-    EXPECT_EQ(set.b[at], ball().vertex_count());
+    EXPECT_EQ(set.a[at], ball_surface().vertex_count());
+    EXPECT_EQ(set.b[at], ball_surface().vertex_count());
     EXPECT_EQ(set.rest_length[at], 0);
   }
   EXPECT_GT(padding, 0);
 }
 
 TEST(DistanceSet, no_particle_but_the_idle_one_stands_twice_in_a_color) {
-  const DistanceSet set = build_distance_set(distances(), ball().vertex_count());
+  const DistanceSet set = build_distance_set(distances(), ball_surface().vertex_count());
   for (const ColorRange& color : set.order.colors) {
     std::set<Index> seen;
     for (Index slot = color.begin; slot < color.end; ++slot)
       for (Index p : {set.a[static_cast<std::size_t>(slot)], set.b[static_cast<std::size_t>(slot)]})
-        if (p != ball().vertex_count()) {
+        if (p != ball_surface().vertex_count()) {
           EXPECT_TRUE(seen.insert(p).second);
         }
   }
@@ -126,15 +126,15 @@ TEST(DistanceSet, no_particle_but_the_idle_one_stands_twice_in_a_color) {
 
 TEST(DihedralSet, puts_every_constraint_into_a_slot_of_its_own_with_its_numbers) {
   const std::vector<DihedralConstraint> input = dihedrals();
-  const DihedralSet set = build_dihedral_set(input, ball().vertex_count());
+  const DihedralSet set = build_dihedral_set(input, ball_surface().vertex_count());
   EXPECT_EQ(set.count, static_cast<Index>(input.size()));
   expect_whole_groups_that_follow_each_other(set, set.rest_angle.size());
   std::map<Index, std::size_t> input_of;  // by the edge's ends
-  const auto edge = [&](Index a, Index b) { return a * ball().vertex_count() + b; };
+  const auto edge = [&](Index a, Index b) { return a * ball_surface().vertex_count() + b; };
   for (std::size_t i = 0; i < input.size(); ++i) input_of[edge(input[i].particles[0], input[i].particles[1])] = i;
   for (std::size_t at = 0; at < set.rest_angle.size(); ++at) {
-    if (set.particles[0][at] == ball().vertex_count()) {  // padding
-      for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(set.particles[k][at], ball().vertex_count());
+    if (set.particles[0][at] == ball_surface().vertex_count()) {  // padding
+      for (std::size_t k = 1; k < 4; ++k) EXPECT_EQ(set.particles[k][at], ball_surface().vertex_count());
       continue;
     }
     const auto found = input_of.find(edge(set.particles[0][at], set.particles[1][at]));
@@ -178,14 +178,15 @@ std::map<Index, std::vector<Index>> rings_of(const VolumeSet& set, Index particl
 }
 
 TEST(VolumeSet, rings_hold_every_neighbor_once_and_turn_with_the_faces) {
-  const VolumeSet set = build_volume_set(ball().faces, ball().vertex_count(), 1, 0);
-  const VertexStars stars = build_topology(ball().faces, ball().vertex_count()).stars;
+  const VolumeSet set = build_volume_set(ball_surface().faces, ball_surface().vertex_count(), 1, 0);
+  const VertexStars stars = build_topology(ball_surface().faces, ball_surface().vertex_count()).stars;
   std::set<std::array<Index, 3>> corners;  // of every face, each corner first once
-  for (Index f = 0; f < ball().face_count(); ++f)
+  for (Index f = 0; f < ball_surface().face_count(); ++f)
     for (int k = 0; k < 3; ++k)
-      corners.insert({ball().faces(k, f), ball().faces((k + 1) % 3, f), ball().faces((k + 2) % 3, f)});
-  const auto rings = rings_of(set, ball().vertex_count());
-  ASSERT_EQ(rings.size(), static_cast<std::size_t>(ball().vertex_count()));
+      corners.insert(
+          {ball_surface().faces(k, f), ball_surface().faces((k + 1) % 3, f), ball_surface().faces((k + 2) % 3, f)});
+  const auto rings = rings_of(set, ball_surface().vertex_count());
+  ASSERT_EQ(rings.size(), static_cast<std::size_t>(ball_surface().vertex_count()));
   for (const auto& [v, ring] : rings) {
     const auto at = static_cast<std::size_t>(v);
     const std::set<Index> expected(stars.neighbors.begin() + stars.offsets[at],
@@ -198,10 +199,10 @@ TEST(VolumeSet, rings_hold_every_neighbor_once_and_turn_with_the_faces) {
 }
 
 TEST(VolumeSet, a_particle_without_faces_has_no_ring) {
-  const Index count = ball().vertex_count() + 1;
-  const auto rings = rings_of(build_volume_set(ball().faces, count, 1, 0), count);
-  EXPECT_EQ(rings.size(), static_cast<std::size_t>(ball().vertex_count()));
-  EXPECT_FALSE(rings.contains(ball().vertex_count()));
+  const Index count = ball_surface().vertex_count() + 1;
+  const auto rings = rings_of(build_volume_set(ball_surface().faces, count, 1, 0), count);
+  EXPECT_EQ(rings.size(), static_cast<std::size_t>(ball_surface().vertex_count()));
+  EXPECT_FALSE(rings.contains(ball_surface().vertex_count()));
 }
 
 }  // namespace gracilis

@@ -44,15 +44,10 @@ SurfaceState shaken(const SurfaceSystem& system) {
   return state;
 }
 
-const TriangleMesh& ball() {
-  static const TriangleMesh mesh = shapes::sphere({0.01, -0.02, 0.005}, 0.03, 3);
-  return mesh;
-}
-
 }  // namespace
 
 TEST(Momentum, is_kept_by_distances) {
-  const SurfaceSystem system = system_of(ball());
+  const SurfaceSystem system = system_of(off_center_ball());
   SurfaceState state = shaken(system);
   for (const ColorRange& color : system.distances.order.colors)
     expect_no_gain(state.particles, [&] {
@@ -62,7 +57,7 @@ TEST(Momentum, is_kept_by_distances) {
 }
 
 TEST(Momentum, is_kept_by_dihedrals_with_and_without_their_limit) {
-  const SurfaceSystem system = system_of(ball());
+  const SurfaceSystem system = system_of(off_center_ball());
   for (float limit : {0.0f, 0.05f})
     for (bool arccos : {false, true}) {
       ProjectionParameters parameters;
@@ -78,7 +73,7 @@ TEST(Momentum, is_kept_by_dihedrals_with_and_without_their_limit) {
 }
 
 TEST(Momentum, is_kept_by_the_strain_limit) {
-  const SurfaceSystem system = system_of(ball());
+  const SurfaceSystem system = system_of(off_center_ball());
   SurfaceState state = shaken(system);
   Index limited = 0;
   for (const ColorRange& color : system.distances.order.colors)
@@ -88,7 +83,7 @@ TEST(Momentum, is_kept_by_the_strain_limit) {
 }
 
 TEST(Momentum, is_kept_by_the_volume) {
-  const SurfaceSystem system = system_of(ball());
+  const SurfaceSystem system = system_of(off_center_ball());
   SurfaceState state = shaken(system);
   expect_no_gain(state.particles, [&] {
     project_volume(system.volume, 1.0 / 60, 1.2, state.volume_lambda, state.volume_gradients, state.particles);

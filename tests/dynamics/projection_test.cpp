@@ -11,22 +11,17 @@
 namespace gracilis {
 namespace {
 
-const TriangleMesh& ball() {
-  static const TriangleMesh mesh = shapes::sphere({0.01, -0.02, 0.005}, 0.03, 3);
-  return mesh;
-}
-
 /// A shaken system with multipliers under way, some particles fixed.
-struct Scenario {
+struct ShakenSystem {
   SurfaceSystem system;
   SurfaceState state;
 };
 
-Scenario shaken(unsigned seed) {
+ShakenSystem shaken(unsigned seed) {
   SystemOptions options;
   options.fixed_share = 0.1;
   options.seed = seed;
-  Scenario scenario{system_of(ball(), options), {}};
+  ShakenSystem scenario{system_of(off_center_ball(), options), {}};
   scenario.state = make_state(scenario.system);
   shake(scenario.state.start, 0.0002f, seed + 1);
   shake(scenario.state.particles, 0.0008f, seed + 2);
@@ -67,7 +62,7 @@ std::vector<ProjectionParameters> parameter_sets() {
 
 TEST(DistanceProjection, agrees_with_plain_double_precision) {
   for (const ProjectionParameters& parameters : parameter_sets()) {
-    Scenario scenario = shaken(11);
+    ShakenSystem scenario = shaken(11);
     SurfaceState& state = scenario.state;
     for (float& target : state.target_length) target *= 0.95f;
     const Points before = positions_of(state.particles);
@@ -83,7 +78,7 @@ TEST(DistanceProjection, agrees_with_plain_double_precision) {
 
 TEST(DihedralProjection, agrees_with_plain_double_precision) {
   for (const ProjectionParameters& parameters : parameter_sets()) {
-    Scenario scenario = shaken(12);
+    ShakenSystem scenario = shaken(12);
     SurfaceState& state = scenario.state;
     const Points before = positions_of(state.particles);
     reference::State expected = reference::state_of(state.particles, state.start, state.dihedral_lambda);
@@ -99,18 +94,18 @@ TEST(DihedralProjection, agrees_with_plain_double_precision) {
 namespace {
 
 /// Two triangles folded by `angle` that want to be flat.
-Scenario one_dihedral(Real angle, Real compliance) {
+ShakenSystem one_dihedral(Real angle, Real compliance) {
   Points x(3, 4);
   x.col(0) = Vec3::Zero(), x.col(1) = Vec3(0.004, 0, 0);
   x.col(2) = Vec3(0.002, 0.003, 0), x.col(3) = Vec3(0.002, -0.003 * std::cos(angle), -0.003 * std::sin(angle));
-  Scenario scenario;
+  ShakenSystem scenario;
   scenario.system.rest = make_particles(x, Eigen::VectorXd::Constant(4, 1e4));
   scenario.system.dihedrals = build_dihedral_set({{{0, 1, 2, 3}, 0, compliance, 0.004}}, 4);
   scenario.state = make_state(scenario.system);
   return scenario;
 }
 
-ProjectionCounts project_all(Scenario& scenario, const ProjectionParameters& parameters) {
+ProjectionCounts project_all(ShakenSystem& scenario, const ProjectionParameters& parameters) {
   return project_dihedrals(scenario.system.dihedrals, scenario.system.dihedrals.order.colors.at(0),
                            scenario.state.dihedral_lambda.data(), scenario.state.start, scenario.state.particles,
                            parameters);
@@ -121,12 +116,12 @@ ProjectionCounts project_all(Scenario& scenario, const ProjectionParameters& par
 TEST(DihedralProjection, moves_no_vertex_farther_than_the_limit_and_counts_it) {
   ProjectionParameters parameters;
   parameters.dihedral_limit = 0.05f;
-  Scenario scenario = one_dihedral(2.5, 0);
+  ShakenSystem scenario = one_dihedral(2.5, 0);
   const Points before = positions_of(scenario.state.particles);
   EXPECT_EQ(project_all(scenario, parameters).limited, 1);
   EXPECT_NEAR(farthest(before, positions_of(scenario.state.particles)), 0.05 * 0.004, 1e-8);
 
-  Scenario free = one_dihedral(2.5, 0);
+  ShakenSystem free = one_dihedral(2.5, 0);
   parameters.dihedral_limit = 0;
   EXPECT_EQ(project_all(free, parameters).limited, 0);
   EXPECT_GT(farthest(before, positions_of(free.state.particles)), 0.001);
@@ -134,7 +129,7 @@ TEST(DihedralProjection, moves_no_vertex_farther_than_the_limit_and_counts_it) {
 
 TEST(DihedralProjection, gives_back_the_multiplier_of_a_motion_held_back) {
   ProjectionParameters parameters;
-  Scenario free = one_dihedral(2.5, 0), held = one_dihedral(2.5, 0);
+  ShakenSystem free = one_dihedral(2.5, 0), held = one_dihedral(2.5, 0);
   const Points before = positions_of(free.state.particles);
   project_all(free, parameters);
   parameters.dihedral_limit = 0.05f;
@@ -146,7 +141,7 @@ TEST(DihedralProjection, gives_back_the_multiplier_of_a_motion_held_back) {
 }
 
 TEST(DihedralProjection, near_half_a_turn_takes_the_short_way_back) {
-  Scenario scenario = one_dihedral(-pi + 0.01, 0);
+  ShakenSystem scenario = one_dihedral(-pi + 0.01, 0);
   scenario.system.dihedrals.rest_angle[static_cast<std::size_t>(slots_of(scenario.system.dihedrals)[0])] =
       static_cast<float>(pi - 0.01);
   const Points before = positions_of(scenario.state.particles);
@@ -157,7 +152,7 @@ TEST(DihedralProjection, near_half_a_turn_takes_the_short_way_back) {
 }
 
 TEST(DihedralProjection, a_flat_triangle_is_skipped_and_counted_and_moves_nothing) {
-  Scenario scenario = one_dihedral(1, 0);
+  ShakenSystem scenario = one_dihedral(1, 0);
   scenario.state.particles.position(2) = Eigen::Vector3f(0.002f, 0, 0);
   const AlignedVector<float> before = scenario.state.particles.xyzw;
   EXPECT_EQ(project_all(scenario, {}).skipped, 1);
@@ -184,7 +179,7 @@ TEST(Projection, padding_and_fixed_particles_stay_where_they_are_and_never_turn_
   for (ProjectionParameters parameters : parameter_sets())
     for (bool arccos : {false, true}) {
       parameters.arccos_dihedrals = arccos;
-      Scenario scenario = shaken(13);
+      ShakenSystem scenario = shaken(13);
       SurfaceState& state = scenario.state;
       const Particles before = state.particles;
       for (int repeat = 0; repeat < 5; ++repeat) {

@@ -10,6 +10,12 @@
 
 namespace gracilis {
 
+/// Of the size of a thin muscle, beside the origin.
+inline const TriangleMesh& off_center_ball() {
+  static const TriangleMesh mesh = shapes::sphere({0.01, -0.02, 0.005}, 0.03, 3);
+  return mesh;
+}
+
 /// How a closed surface becomes a system to solve.
 struct SystemOptions {
   Real distance_stiffness = 50;    ///< N/m

@@ -15,7 +15,7 @@ namespace {
 
 using Edges = std::vector<std::array<Index, 2>>;
 
-Points random_points(Index count, unsigned seed) {
+Points scattered_points(Index count, unsigned seed) {
   std::mt19937 generator(seed);
   std::uniform_real_distribution<Real> uniform(-1, 1);
   Points points(3, count);
@@ -54,13 +54,13 @@ Edges by_brute_force(const Points& points) {
 
 TEST(DelaunayEdges, are_those_of_tetrahedra_whose_spheres_are_empty) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
-    const Points points = random_points(25, seed);
+    const Points points = scattered_points(25, seed);
     EXPECT_EQ(delaunay_edges(points), by_brute_force(points)) << seed;
   }
 }
 
 TEST(DelaunayEdges, of_a_tetrahedron_are_its_six_sides) {
-  EXPECT_EQ(delaunay_edges(random_points(4, 3)), (Edges{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}));
+  EXPECT_EQ(delaunay_edges(scattered_points(4, 3)), (Edges{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}));
 }
 
 TEST(DelaunayEdges, of_a_lattice_hold_every_side_of_its_cubes) {
@@ -78,22 +78,22 @@ TEST(DelaunayEdges, of_a_lattice_hold_every_side_of_its_cubes) {
 }
 
 TEST(DelaunayEdges, do_not_depend_on_the_unit) {
-  const Points points = random_points(60, 9);
+  const Points points = scattered_points(60, 9);
   EXPECT_EQ(delaunay_edges(1e-3 * points), delaunay_edges(points));
 }
 
 TEST(DelaunayEdges, points_in_a_plane_or_too_few_are_an_error) {
-  Points flat = random_points(10, 4);
+  Points flat = scattered_points(10, 4);
   flat.row(2).setZero();
   EXPECT_THROW(delaunay_edges(flat), InputError);
-  EXPECT_THROW(delaunay_edges(random_points(3, 4)), InputError);
-  Points broken = random_points(10, 4);
+  EXPECT_THROW(delaunay_edges(scattered_points(3, 4)), InputError);
+  Points broken = scattered_points(10, 4);
   broken(1, 3) = std::numeric_limits<Real>::quiet_NaN();
   EXPECT_THROW(delaunay_edges(broken), InputError);
 }
 
 TEST(DelaunayEdges, of_points_that_coincide_one_alone_has_them) {
-  Points points = random_points(12, 5);
+  Points points = scattered_points(12, 5);
   points.col(11) = points.col(2);
   Index own = 0, of_twin = 0;
   for (const auto& [a, b] : delaunay_edges(points)) {

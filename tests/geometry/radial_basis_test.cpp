@@ -1,5 +1,7 @@
 #include <gracilis/geometry/radial_basis.hpp>
 
+#include "radial_kernels.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,14 +10,7 @@
 namespace gracilis {
 namespace {
 
-constexpr int shape_count = 13;
 constexpr Real reach = 0.8;
-
-std::vector<RadialKernel> all_kernels() {
-  std::vector<RadialKernel> kernels;
-  for (int i = 0; i < shape_count; ++i) kernels.push_back({static_cast<RadialShape>(i), 1.7});
-  return kernels;
-}
 
 /// Of those that end, only these are twice differentiable at their center; the others' Hessians are off by a kink.
 bool has_kink(RadialShape shape) {

@@ -2,6 +2,8 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/radial_fit.hpp>
 
+#include "radial_kernels.hpp"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,12 +30,6 @@ Eigen::VectorXd values_of(const Points& points, const std::function<Real(const V
 }
 
 Real wave(const Vec3& p) { return std::sin(2 * p.x() + 0.3) * std::cos(1.5 * p.y()) + 0.5 * p.z() * p.z(); }
-
-std::vector<RadialKernel> all_kernels() {
-  std::vector<RadialKernel> kernels;
-  for (int i = 0; i < 13; ++i) kernels.push_back({static_cast<RadialShape>(i), 1.7});
-  return kernels;
-}
 
 }  // namespace
 

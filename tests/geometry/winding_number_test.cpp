@@ -18,7 +18,7 @@ Real exact(const TriangleMesh& mesh, const Vec3& p) {
   return sum;
 }
 
-std::vector<Vec3> random_points(int count, Real half_width) {
+std::vector<Vec3> random_places(int count, Real half_width) {
   std::mt19937 generator(6);
   std::uniform_real_distribution<Real> uniform(-half_width, half_width);
   std::vector<Vec3> points;
@@ -36,7 +36,7 @@ TriangleMesh without_faces(TriangleMesh mesh, Index count) {
 TEST(WindingNumber, is_one_inside_and_zero_outside_of_a_closed_surface) {
   const WindingNumber winding(shapes::sphere(Vec3::Zero(), 0.05, 4));
   int inside = 0;
-  for (const Vec3& p : random_points(1000, 0.08)) {
+  for (const Vec3& p : random_places(1000, 0.08)) {
     if (std::abs(p.norm() - 0.05) < 0.001) continue;
     EXPECT_NEAR(winding.query(p), p.norm() < 0.05 ? 1 : 0, 0.01);
     inside += p.norm() < 0.05;
@@ -48,7 +48,7 @@ TEST(WindingNumber, errs_by_less_than_a_hundredth_on_surfaces_with_holes) {
   const TriangleMesh mesh = without_faces(shapes::sphere(Vec3::Zero(), 0.05, 4), 300);
   const WindingNumber winding(mesh);
   Real between = 0;
-  for (const Vec3& p : random_points(1000, 0.12)) {
+  for (const Vec3& p : random_places(1000, 0.12)) {
     const Real expected = exact(mesh, p);
     EXPECT_NEAR(winding.query(p), expected, 0.01);
     between = std::max(between, std::min(expected, 1 - expected));

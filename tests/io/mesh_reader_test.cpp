@@ -85,7 +85,7 @@ std::string text_stl() {
   return text + "endsolid t\n";
 }
 
-std::string message(const std::filesystem::path& path) {
+std::string mesh_message(const std::filesystem::path& path) {
   return message_of_input_error([&] { read_mesh(path, 1); });
 }
 
@@ -197,10 +197,10 @@ TEST(MeshReader, damage_anywhere_is_survived) {
 
 TEST(MeshReader, a_file_that_is_not_there_or_not_a_file_is_named) {
   const TestFolder folder;
-  EXPECT_THAT(message(folder.path() / "no.ply"), HasSubstr("no.ply: does not exist"));
-  EXPECT_THAT(message(folder.path()), HasSubstr("is a folder"));
-  EXPECT_THAT(message(folder.write("empty.ply", "")), HasSubstr("empty.ply: is empty"));
-  EXPECT_THAT(message(folder.write("a.blend", "x")), HasSubstr("use .ply, .stl, .obj, .vtk or .vtp"));
+  EXPECT_THAT(mesh_message(folder.path() / "no.ply"), HasSubstr("no.ply: does not exist"));
+  EXPECT_THAT(mesh_message(folder.path()), HasSubstr("is a folder"));
+  EXPECT_THAT(mesh_message(folder.write("empty.ply", "")), HasSubstr("empty.ply: is empty"));
+  EXPECT_THAT(mesh_message(folder.write("a.blend", "x")), HasSubstr("use .ply, .stl, .obj, .vtk or .vtp"));
 }
 
 TEST(MeshReader, damaged_files_are_refused_with_the_place) {
@@ -209,36 +209,37 @@ TEST(MeshReader, damaged_files_are_refused_with_the_place) {
   const auto changed = [](std::string text, const std::string& from, const std::string& to) {
     return text.replace(text.find(from), from.size(), to);
   };
-  EXPECT_THAT(message(folder.write("cut.ply", cut(binary_ply(false), 9))),
+  EXPECT_THAT(mesh_message(folder.write("cut.ply", cut(binary_ply(false), 9))),
               HasSubstr("ends before all announced numbers"));
-  EXPECT_THAT(message(folder.write("text.ply", changed(ply_text, "0 1 0", "0 o 0"))),
+  EXPECT_THAT(mesh_message(folder.write("text.ply", changed(ply_text, "0 1 0", "0 o 0"))),
               HasSubstr("text.ply:13: 'o' is not"));
-  EXPECT_THAT(message(folder.write("many.ply", changed(ply_text, "vertex 4", "vertex 4000000000000"))),
+  EXPECT_THAT(mesh_message(folder.write("many.ply", changed(ply_text, "vertex 4", "vertex 4000000000000"))),
               HasSubstr("announces 4000000000000 elements"));
-  EXPECT_THAT(message(folder.write("index.ply", changed(ply_text, "3 2 0 3", "3 2 0 999"))),
+  EXPECT_THAT(mesh_message(folder.write("index.ply", changed(ply_text, "3 2 0 3", "3 2 0 999"))),
               HasSubstr("face 3: names vertex 999, but the vertices go from 0 to 3"));
-  EXPECT_THAT(message(folder.write("index.obj", changed(obj_text, "f 2 3 4", "f 2 3 9"))),
+  EXPECT_THAT(mesh_message(folder.write("index.obj", changed(obj_text, "f 2 3 4", "f 2 3 9"))),
               HasSubstr("face 2: names vertex 8"));
-  EXPECT_THAT(message(folder.write("word.obj", changed(obj_text, "v 1 0 0", "v 1 zero 0"))),
+  EXPECT_THAT(mesh_message(folder.write("word.obj", changed(obj_text, "v 1 0 0", "v 1 zero 0"))),
               HasSubstr("word.obj:3: 'zero'"));
-  EXPECT_THAT(message(folder.write("two.obj", changed(obj_text, "f 2 3 4", "f 2 3"))),
+  EXPECT_THAT(mesh_message(folder.write("two.obj", changed(obj_text, "f 2 3 4", "f 2 3"))),
               HasSubstr("face 2: has 2 corners"));
-  EXPECT_THAT(message(folder.write("cut.vtk", vtk_text.substr(0, vtk_text.find("3 1 2 3")))), HasSubstr("cut.vtk:17"));
-  EXPECT_THAT(message(folder.write("index.vtp", changed(vtp_text, "2 0 3<", "2 0 7<"))),
+  EXPECT_THAT(mesh_message(folder.write("cut.vtk", vtk_text.substr(0, vtk_text.find("3 1 2 3")))),
+              HasSubstr("cut.vtk:17"));
+  EXPECT_THAT(mesh_message(folder.write("index.vtp", changed(vtp_text, "2 0 3<", "2 0 7<"))),
               HasSubstr("face 3: names vertex 7"));
-  EXPECT_THAT(message(folder.write("cut.vtp", cut(vtp_text, 100))), HasSubstr("cut.vtp:1: is damaged"));
-  EXPECT_THAT(message(folder.write("cut.stl", cut(binary_stl(), 60))), HasSubstr("announces 4 triangles"));
-  EXPECT_THAT(message(folder.write("cut_text.stl", cut(text_stl(), 60))), HasSubstr("ends before 'endsolid'"));
+  EXPECT_THAT(mesh_message(folder.write("cut.vtp", cut(vtp_text, 100))), HasSubstr("cut.vtp:1: is damaged"));
+  EXPECT_THAT(mesh_message(folder.write("cut.stl", cut(binary_stl(), 60))), HasSubstr("announces 4 triangles"));
+  EXPECT_THAT(mesh_message(folder.write("cut_text.stl", cut(text_stl(), 60))), HasSubstr("ends before 'endsolid'"));
   for (const char* name : {"g.ply", "g.stl", "g.obj", "g.vtk", "g.vtp"}) {
-    EXPECT_THAT(message(folder.write(name, std::string(300, '?'))), HasSubstr(name));
+    EXPECT_THAT(mesh_message(folder.write(name, std::string(300, '?'))), HasSubstr(name));
   }
 }
 
 TEST(MeshReader, vtk_prints_nothing_of_its_own) {
   const TestFolder folder;
   testing::internal::CaptureStderr();
-  message(folder.write("g.vtp", std::string(300, '?')));
-  message(folder.write("g.stl", "solid x\nfacet\nvertex a b c\nendsolid\n"));
+  mesh_message(folder.write("g.vtp", std::string(300, '?')));
+  mesh_message(folder.write("g.stl", "solid x\nfacet\nvertex a b c\nendsolid\n"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 

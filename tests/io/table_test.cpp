@@ -19,7 +19,7 @@ std::string changed(std::string text, const std::string& from, const std::string
   return text.replace(text.find(from), from.size(), to);
 }
 
-std::string message(const std::filesystem::path& path) {
+std::string table_message(const std::filesystem::path& path) {
   return message_of_input_error([&] { read_table(path); });
 }
 
@@ -79,7 +79,7 @@ TEST(Table, wrong_counts_and_a_missing_unit_are_warnings) {
 TEST(Table, what_cannot_be_survived_is_named_with_its_line) {
   const TestFolder folder;
   const auto refused = [&](const std::string& from, const std::string& to) {
-    return message(folder.write("a.mot", changed(opensim_3, from, to)));
+    return table_message(folder.write("a.mot", changed(opensim_3, from, to)));
   };
   EXPECT_THAT(refused("-45", "-4x5"), HasSubstr("a.mot:11: '-4x5' in column 'hip_flexion_r' is not a number"));
   EXPECT_THAT(refused("-45", "nan"), HasSubstr("a.mot:11: column 'hip_flexion_r' is nan"));
@@ -91,9 +91,10 @@ TEST(Table, what_cannot_be_survived_is_named_with_its_line) {
   EXPECT_THAT(refused("0.6", "0.5"), HasSubstr("a.mot:11: time 0.5 does not come after 0.5"));
   EXPECT_THAT(refused("time", "tyme"), HasSubstr("a.mot:9: has no column 'time'"));
   EXPECT_THAT(refused("=yes", "=perhaps"), HasSubstr("a.mot:5: inDegrees must be yes or no, not 'perhaps'"));
-  EXPECT_THAT(message(folder.write("b.mot", "hello\n")), HasSubstr("b.mot:1: has no column 'time'"));
-  EXPECT_THAT(message(folder.write("c.mot", opensim_3.substr(0, opensim_3.find("0.5")))), HasSubstr("holds no rows"));
-  EXPECT_THAT(message(folder.write("d.mot", "x\nendheader\n")), HasSubstr("has no column 'time'"));
+  EXPECT_THAT(table_message(folder.write("b.mot", "hello\n")), HasSubstr("b.mot:1: has no column 'time'"));
+  EXPECT_THAT(table_message(folder.write("c.mot", opensim_3.substr(0, opensim_3.find("0.5")))),
+              HasSubstr("holds no rows"));
+  EXPECT_THAT(table_message(folder.write("d.mot", "x\nendheader\n")), HasSubstr("has no column 'time'"));
 }
 
 TEST(Table, only_angles_become_radians_in_a_motion) {

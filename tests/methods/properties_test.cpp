@@ -1,7 +1,6 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/core/state_hash.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/run.hpp>
@@ -9,6 +8,7 @@
 #include <scenes_for_tests.hpp>
 
 #include "line_scene.hpp"
+#include "shape_hash.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -77,7 +77,9 @@ std::vector<Variant> all_variants() {
       {"mass_spring_last", "mass-spring", all_but({Property::volume}), {{"start_from", "last"}}},
       {"mass_spring_spheres", "mass-spring", all_but({Property::volume}), {{"bone_collision", "spheres"}}},
       // As published spheres that overlap at rest are pushed apart.
-      {"janak_2012", "mass-spring", {Property::rigid_motion, Property::any_jump},
+      {"janak_2012",
+       "mass-spring",
+       {Property::rigid_motion, Property::any_jump},
        find_preset("janak-2012")->method.settings},
       {"pbd", "pbd", all_but({Property::capture_pose})},
       // As published free vertices follow only through constraints, and so remember by which way they came.
@@ -117,12 +119,6 @@ class Method : public ::testing::TestWithParam<Variant> {
   Frame shape() const { return frame_of(*method, {}, 0); }
   Frame input() const { return capture_frame(scene, at(0)); }
 };
-
-std::uint64_t hash_of_shapes(const Frame& frame) {
-  std::uint64_t hash = hash_seed;
-  for (const MuscleShape& muscle : frame.muscles) hash = hash_of(muscle.points, hash);
-  return hash;
-}
 
 Pose moved(const RigidTransform& by, Pose pose) {
   for (RigidTransform& body : pose.bodies) body = by * body;

@@ -2,8 +2,9 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 
-#include <gracilis/core/state_hash.hpp>
 #include <scenes_for_tests.hpp>
+
+#include "shape_hash.hpp"
 
 #include <gtest/gtest.h>
 
@@ -86,12 +87,6 @@ Pressed pressed(const Scene& scene) {
     result.depth = std::max(result.depth, deepest(scene, result.end));
   }
   return result;
-}
-
-std::uint64_t hash_of_shapes(const Frame& frame) {
-  std::uint64_t hash = hash_seed;
-  for (const MuscleShape& muscle : frame.muscles) hash = hash_of(muscle.points, hash);
-  return hash;
 }
 
 }  // namespace

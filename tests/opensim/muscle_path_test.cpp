@@ -69,12 +69,12 @@ static std::string cylinder(const std::string& more = "") {
   return set("WrapObjectSet",
              "<WrapCylinder name=\"around\"><radius>0.1</radius><length>1</length>" + more + "</WrapCylinder>");
 }
-static const char* around = "<PathWrap name=\"w\"><wrap_object>around</wrap_object></PathWrap>";
+static const char* around_cylinder = "<PathWrap name=\"w\"><wrap_object>around</wrap_object></PathWrap>";
 
 TEST(MusclePath, a_pulley_holds_the_moment_arm_at_its_radius) {
-  const Model model =
-      model_from(pendulum(muscle("m", point("/ground", "0.3 0 0") + point("/bodyset/rod", "0.05 -0.4 0"), "", around),
-                          cylinder("<quadrant>+x</quadrant>")));
+  const Model model = model_from(
+      pendulum(muscle("m", point("/ground", "0.3 0 0") + point("/bodyset/rod", "0.05 -0.4 0"), "", around_cylinder),
+               cylinder("<quadrant>+x</quadrant>")));
   // Far enough that the line would cut the pulley.
   const PathMeasure m = measure(model, {-1.4});
   EXPECT_NEAR(m.moment_arms[0], 0.1, 1e-12);
@@ -82,8 +82,9 @@ TEST(MusclePath, a_pulley_holds_the_moment_arm_at_its_radius) {
 }
 
 TEST(MusclePath, a_slanted_path_around_a_cylinder_is_straight_when_unrolled) {
-  const Model model = model_from(pendulum(
-      muscle("m", point("/ground", "-0.3 0.05 0") + point("/ground", "0.3 0.05 0.2"), "", around), cylinder()));
+  const Model model = model_from(
+      pendulum(muscle("m", point("/ground", "-0.3 0.05 0") + point("/ground", "0.3 0.05 0.2"), "", around_cylinder),
+               cylinder()));
   const Real distance = std::hypot(0.3, 0.05), tangent = std::sqrt(distance * distance - 0.01);
   // The angle between the two points seen from the axis, less those to the points of touch.
   const Real angle = pi - 2 * std::atan2(0.05, 0.3) - 2 * std::acos(0.1 / distance);
@@ -92,8 +93,10 @@ TEST(MusclePath, a_slanted_path_around_a_cylinder_is_straight_when_unrolled) {
 
 TEST(MusclePath, a_path_is_held_on_the_side_that_the_quadrant_names) {
   const std::string points = point("/ground", "-0.3 0.05 0") + point("/ground", "0.3 0.05 0");
-  const Model below = model_from(pendulum(muscle("m", points, "", around), cylinder("<quadrant>-y</quadrant>")));
-  const Model above = model_from(pendulum(muscle("m", points, "", around), cylinder("<quadrant>+y</quadrant>")));
+  const Model below =
+      model_from(pendulum(muscle("m", points, "", around_cylinder), cylinder("<quadrant>-y</quadrant>")));
+  const Model above =
+      model_from(pendulum(muscle("m", points, "", around_cylinder), cylinder("<quadrant>+y</quadrant>")));
   const Real distance = std::hypot(0.3, 0.05), tangent = std::sqrt(distance * distance - 0.01);
   const Real touch = 2 * std::acos(0.1 / distance), between = pi - 2 * std::atan2(0.05, 0.3);
   EXPECT_NEAR(measure(above, {0}).length, 2 * tangent + 0.1 * (between - touch), 1e-14);
@@ -101,22 +104,22 @@ TEST(MusclePath, a_path_is_held_on_the_side_that_the_quadrant_names) {
 }
 
 TEST(MusclePath, a_path_beyond_the_cylinders_length_runs_straight) {
-  const Model model = model_from(
-      pendulum(muscle("m", point("/ground", "-0.3 0.05 2") + point("/ground", "0.3 0.05 2"), "", around), cylinder()));
+  const Model model = model_from(pendulum(
+      muscle("m", point("/ground", "-0.3 0.05 2") + point("/ground", "0.3 0.05 2"), "", around_cylinder), cylinder()));
   EXPECT_NEAR(measure(model, {0}).length, 0.6, 1e-15);
 }
 
 TEST(MusclePath, several_wraps_are_flagged) {
   const std::string line = point("/ground", "-0.3 0.05 2") + point("/ground", "0.3 0.05 2");
   const std::string again = "<PathWrap name=\"v\"><wrap_object>around</wrap_object></PathWrap>";
-  EXPECT_FALSE(model_from(pendulum(muscle("m", line, "", around), cylinder())).muscles[0].path.approximate);
+  EXPECT_FALSE(model_from(pendulum(muscle("m", line, "", around_cylinder), cylinder())).muscles[0].path.approximate);
   EXPECT_TRUE(model_from(pendulum(muscle("m", line, "", around + again), cylinder())).muscles[0].path.approximate);
 }
 
 TEST(MusclePath, a_sphere_is_rounded_on_a_great_circle_and_flagged) {
   const std::string sphere = set("WrapObjectSet", "<WrapSphere name=\"around\"><radius>0.1</radius></WrapSphere>");
-  const Model model = model_from(
-      pendulum(muscle("m", point("/ground", "-0.3 0.05 0") + point("/ground", "0.3 0.05 0"), "", around), sphere));
+  const Model model = model_from(pendulum(
+      muscle("m", point("/ground", "-0.3 0.05 0") + point("/ground", "0.3 0.05 0"), "", around_cylinder), sphere));
   const Real distance = std::hypot(0.3, 0.05), tangent = std::sqrt(distance * distance - 0.01);
   const Real angle = pi - 2 * std::atan2(0.05, 0.3) - 2 * std::acos(0.1 / distance);
   EXPECT_NEAR(measure(model, {0}).length, 2 * tangent + 0.1 * angle, 1e-14);
@@ -125,8 +128,8 @@ TEST(MusclePath, a_sphere_is_rounded_on_a_great_circle_and_flagged) {
 
 /// From left to right past an object at the origin.
 static Model model_past(const std::string& object, const std::string& from, const std::string& to) {
-  return model_from(
-      pendulum(muscle("m", point("/ground", from) + point("/ground", to), "", around), set("WrapObjectSet", object)));
+  return model_from(pendulum(muscle("m", point("/ground", from) + point("/ground", to), "", around_cylinder),
+                             set("WrapObjectSet", object)));
 }
 
 TEST(MusclePath, an_ellipsoid_with_equal_radii_is_a_sphere) {

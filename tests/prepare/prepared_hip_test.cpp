@@ -18,9 +18,8 @@
 namespace gracilis {
 namespace {
 
+using shapes::mm;
 using shapes::sphere;
-
-constexpr Real mm = 0.001;
 
 void silent(const std::string&) {}
 

@@ -14,9 +14,8 @@ namespace gracilis {
 namespace {
 
 using shapes::box;
+using shapes::mm;
 using shapes::sphere;
-
-constexpr Real mm = 0.001;
 
 Index crossings(const TriangleMesh& a, const TriangleMesh& b) {
   const std::array<const TriangleMesh*, 2> both = {&a, &b};

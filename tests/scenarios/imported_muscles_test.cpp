@@ -11,7 +11,13 @@
 
 namespace gracilis {
 
-using namespace opensim;
+using opensim::coordinate_motion;
+using opensim::CoordinateMotion;
+using opensim::GeometryPlaces;
+using opensim::Model;
+using opensim::NamedMotion;
+using opensim::read_model;
+using opensim::SceneFolderSettings;
 
 /// The scene that import makes of a model and a motion, for XPBD, read with these options.
 static Scene imported(const Model& model, const GeometryPlaces& places, const NamedMotion& motion,
@@ -96,7 +102,7 @@ TEST(ImportedWalk, bellies_keep_out_of_each_other_while_tendons_run_past_and_mis
 }
 
 /// How far the middles of a tendon's sections are beside where the line carries them, at most, m.
-static Real tendon_beside_line(const gracilis::Muscle& muscle, const FrameRecord& record, const Points& now) {
+static Real tendon_beside_line(const Muscle& muscle, const FrameRecord& record, const Points& now) {
   const LineSections line = line_sections(muscle);
   const PlacedSections rest = sections_at(line, capture_pose(record.frame.pose.bodies.size())),
                        carried = sections_at(line, record.frame.pose);
@@ -116,7 +122,7 @@ static Real tendon_beside_line(const gracilis::Muscle& muscle, const FrameRecord
 TEST(ImportedWalk, active_muscles_do_not_draw_their_tendons_off_their_lines) {
   SKIP_WITHOUT_DATA();
   Scene scene = walking({"tib_ant_r", "ext_dig_r", "ext_hal_r", "per_long_r", "soleus_r"});
-  for (const gracilis::Muscle& muscle : scene.muscles) scene.activation.signals.push_back({muscle.name, {0}, {0.3}});
+  for (const Muscle& muscle : scene.muscles) scene.activation.signals.push_back({muscle.name, {0}, {0.3}});
   std::vector<Real> farthest(scene.muscles.size(), 0);
   const auto observe = [&](const FrameRecord& record) {
     for (std::size_t m = 0; m < scene.muscles.size(); ++m)
