@@ -18,7 +18,7 @@ namespace {
 
 constexpr Index loop_points = 128;
 constexpr Index working_segments = 60;  ///< while fibers are smoothed, whatever the resolution asked for
-constexpr Real depth = 1e-4;            ///< m below the surface at least
+constexpr Real least_depth = 1e-4;      ///< m below the surface at least
 constexpr Real end_depth = 1e-5;        ///< m, of the ends
 
 Eigen::VectorXd field_on(const Muscle& muscle, const MeshTopology& topology) {
@@ -197,11 +197,11 @@ Polylines fibers_through(const Muscle& muscle, const Sections& sections, const F
       line.col(0) = first;
       line.rightCols(1) = last;
       line = resampled(centripetal_spline(line, 6), working_segments);
-      smooth_inside(muscle.surface, distance, depth, muscle.fibers.smoothing, line);
+      smooth_inside(muscle.surface, distance, least_depth, muscle.fibers.smoothing, line);
       line = resampled(line, muscle.fibers.segments);
       // Cutting corners may have led out again.
       Points inner = line.middleCols(1, line.cols() - 2);
-      move_inside(muscle.surface, distance, depth, inner);
+      move_inside(muscle.surface, distance, least_depth, inner);
       line.middleCols(1, line.cols() - 2) = inner;
     }
   });
