@@ -11,16 +11,16 @@
 
 namespace gracilis {
 
-namespace {
-
 /// The circle in a triangle's plane that holds it. A triangle without a plane has no normal.
-struct Disk {
+struct EnclosingDisk {
   Vec3 center, normal;
   Real radius = 0;
 };
 
-Disk disk_around(const Vec3& a, const Vec3& b, const Vec3& c) {
-  Disk disk;
+namespace {
+
+EnclosingDisk disk_around(const Vec3& a, const Vec3& b, const Vec3& c) {
+  EnclosingDisk disk;
   disk.center = (a + b + c) / 3;
   disk.normal = (b - a).cross(c - a).stableNormalized();
   disk.radius = std::sqrt(
@@ -30,7 +30,7 @@ Disk disk_around(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 /// Whether no point of the disk is within `distance` of p: many triangles lie little farther than the nearest, and this
 /// knows them quickly.
-bool is_farther(const Disk& disk, const Vec3& p, Real distance) {
+bool is_farther(const EnclosingDisk& disk, const Vec3& p, Real distance) {
   constexpr Real rounding = 1e-9;
   const Vec3 away = p - disk.center;
   const Real height = away.dot(disk.normal), along2 = std::max(away.squaredNorm() - height * height, 0.0),
@@ -42,8 +42,8 @@ bool is_farther(const Disk& disk, const Vec3& p, Real distance) {
 
 struct NearestTriangle::Tree {
   TriangleMesh mesh;
-  std::vector<Disk> disks;    ///< around the faces
-  Vec3 place = Vec3::Zero();  ///< of Embree's origin: what is single precision is about here
+  std::vector<EnclosingDisk> disks;  ///< around the faces
+  Vec3 place = Vec3::Zero();         ///< of Embree's origin: what is single precision is about here
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
 
@@ -57,7 +57,7 @@ namespace {
 
 struct Query {
   const TriangleMesh& mesh;
-  const std::vector<Disk>& disks;
+  const std::vector<EnclosingDisk>& disks;
   Vec3 p;
   NearestPoint best;
 };
