@@ -12,7 +12,7 @@ static constexpr Real center_clearance = 0.004;  // m
 static constexpr Real farthest = 0.03;           // m, that a center goes
 static constexpr Real widest = 1.6;              // times its radius that a corner goes out
 static constexpr Real widest_beside = 2.2;       // the same beside other muscles
-static constexpr Real known = 0.06;              // m; no place in a bone is deeper
+static constexpr Real deepest_known = 0.06;      // m; no place in a bone is deeper
 
 SolidBone::SolidBone(const TriangleMesh& surface)
     : distance(surface), low(surface.vertices.rowwise().minCoeff()), high(surface.vertices.rowwise().maxCoeff()) {}
@@ -25,7 +25,7 @@ static Real outside_box(const SolidBone& bone, const Vec3& p) {
 /// The way from a point to where it is so far away from a bone; zero where it is.
 static Vec3 way_out(const SolidBone& bone, const Vec3& p, Real clearance) {
   if (outside_box(bone, p) >= clearance) return Vec3::Zero();
-  const SignedDistance::Answer answer = bone.distance.query(p, known);
+  const SignedDistance::Answer answer = bone.distance.query(p, deepest_known);
   if (!(answer.distance < clearance) || answer.distance == 0) return Vec3::Zero();
   const Vec3 to_surface = (answer.nearest.point - p).normalized();
   return answer.distance < 0 ? Vec3((clearance - answer.distance) * to_surface)
@@ -64,7 +64,7 @@ static Real way_along(const std::vector<SolidBone>& bones, const Vec3& from, con
     Real room = length;
     for (const SolidBone& bone : bones) {
       const Real box = outside_box(bone, p);
-      room = std::min(room, box > 2 * gap ? box : bone.distance.query(p, known).distance);
+      room = std::min(room, box > 2 * gap ? box : bone.distance.query(p, deepest_known).distance);
     }
     if (room < gap + 1e-5) break;
     way += room - gap / 2;
