@@ -11,12 +11,12 @@
 namespace gracilis {
 namespace {
 
-struct Surface {
+struct PatchedSurface {
   ContactSurface contact;
   Particles particles;
   PatchTree tree;
 
-  explicit Surface(const TriangleMesh& mesh)
+  explicit PatchedSurface(const TriangleMesh& mesh)
       : contact(build_contact_surface(mesh.faces, mesh.vertex_count())),
         particles(make_particles(mesh.vertices, Eigen::VectorXd::Ones(mesh.vertex_count()))),
         tree(build_patch_tree(contact, mesh.vertices.cast<float>())) {
@@ -64,7 +64,7 @@ struct Surface {
 }  // namespace
 
 TEST(PatchTree, holds_every_face_and_every_particle_once) {
-  const Surface surface(shapes::sphere(Vec3::Zero(), 0.01, 3));
+  const PatchedSurface surface(shapes::sphere(Vec3::Zero(), 0.01, 3));
   std::set<Index> faces, particles;
   for (const Index node : surface.tree.patches)
     for (Index i = surface.tree.nodes[static_cast<std::size_t>(node)].begin;
@@ -85,13 +85,13 @@ TEST(PatchTree, of_nothing_is_empty) {
 }
 
 TEST(PatchTree, a_ball_may_not_meet_itself) {
-  const Surface surface(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  const PatchedSurface surface(shapes::sphere(Vec3::Zero(), 0.01, 4));
   EXPECT_TRUE(surface.opposed(0.001f).empty());
   EXPECT_TRUE(surface.candidates(0.001f).empty());
 }
 
 TEST(PatchTree, finds_all_that_face_against_each_other_on_a_flattened_and_crumpled_ball) {
-  Surface surface(shapes::sphere(Vec3::Zero(), 0.01, 3));
+  PatchedSurface surface(shapes::sphere(Vec3::Zero(), 0.01, 3));
   std::mt19937 generator(7);
   std::uniform_real_distribution<float> crumple(-0.0004f, 0.0004f);
   for (Index p = 0; p < surface.particles.count(); ++p) {
@@ -108,7 +108,7 @@ TEST(PatchTree, finds_all_that_face_against_each_other_on_a_flattened_and_crumpl
 }
 
 TEST(PatchTree, survives_faces_without_area) {
-  Surface surface(shapes::sphere(Vec3::Zero(), 0.01, 2));
+  PatchedSurface surface(shapes::sphere(Vec3::Zero(), 0.01, 2));
   for (Index p = 0; p < surface.particles.count(); ++p) surface.particles.position(p).setConstant(0.001f);
   surface.look();
   for (const auto& bounds : surface.tree.bounds) EXPECT_TRUE(bounds.normals.low.allFinite());

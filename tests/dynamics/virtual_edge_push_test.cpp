@@ -1,5 +1,7 @@
 #include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 
+#include "millimeter.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,8 +10,6 @@ namespace gracilis {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr float mm = 0.001f;
 
 /// One particle, and where it was before.
 struct Point {

@@ -5,14 +5,14 @@
 
 #include "strips.hpp"
 
+#include "millimeter.hpp"
+
 #include <gtest/gtest.h>
 
 namespace gracilis {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr float mm = 0.001f;
 
 /// A surface by its particles and their neighbors.
 struct Surface {

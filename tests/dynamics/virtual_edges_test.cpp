@@ -9,6 +9,8 @@
 
 #include "strips.hpp"
 
+#include "millimeter.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,10 +21,8 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr float mm = 0.001f;
-
 /// Surfaces that keep out of each other by virtual edges, with nothing else that acts on them.
-struct Meeting {
+struct EdgeMeeting {
   VirtualEdgeCrowd crowd;
   VirtualEdgeState state;
   std::vector<Particles> particles;
@@ -66,8 +66,8 @@ struct Meeting {
 };
 
 /// Two balls of 10 mm, 1 mm apart, of particles with different masses.
-Meeting two_balls() {
-  Meeting meeting;
+EdgeMeeting two_balls() {
+  EdgeMeeting meeting;
   for (const Real x : {0.0, 0.021}) {
     const TriangleMesh ball = shapes::sphere({x, 0.0003, 0.0002}, 0.01, 4);
     Eigen::VectorXd inverse_masses(ball.vertex_count());
@@ -88,8 +88,8 @@ Real nearest_vertices(const Particles& first, const Particles& second) {
 }
 
 /// Seven edges, of which three end on (1, 1) and two on (2, 2).
-Meeting with_coinciding_edges(CoincidingEdgeRule rule) {
-  Meeting meeting = two_balls();
+EdgeMeeting with_coinciding_edges(CoincidingEdgeRule rule) {
+  EdgeMeeting meeting = two_balls();
   meeting.crowd.settings.coinciding = rule;
   PairEdges& pair = meeting.state.pairs[0];
   const Index ends[] = {1, 2, 1, 3, 2, 1, 4};
@@ -101,7 +101,7 @@ Meeting with_coinciding_edges(CoincidingEdgeRule rule) {
 }  // namespace
 
 TEST(VirtualEdgeSeeds, lead_from_every_particle_within_reach_to_the_nearest_of_the_other_surface) {
-  Meeting meeting = two_balls();
+  EdgeMeeting meeting = two_balls();
   meeting.crowd.settings.reach = 0.005f;
   meeting.frame(0, Vector3f::Zero(), 0);
   const Particles &first = meeting.particles[0], &second = meeting.particles[1];
@@ -121,7 +121,7 @@ TEST(VirtualEdgeSeeds, lead_from_every_particle_within_reach_to_the_nearest_of_t
 }
 
 TEST(VirtualEdgeSeeds, are_taken_anew_after_the_period_and_not_before) {
-  Meeting meeting = two_balls();
+  EdgeMeeting meeting = two_balls();
   meeting.frame(0, Vector3f::Zero(), 0);
   const std::size_t all = meeting.state.pairs[0].edges.size();
   meeting.state.pairs[0].edges.clear();
@@ -135,7 +135,7 @@ TEST(VirtualEdgeSeeds, are_taken_anew_after_the_period_and_not_before) {
 
 TEST(VirtualEdgeCrowd, two_balls_that_move_into_each_other_are_parted_to_the_contact_distance) {
   for (const auto resolution : {EdgeResolution::push, EdgeResolution::unit_sum, EdgeResolution::vector_sum}) {
-    Meeting meeting = two_balls();
+    EdgeMeeting meeting = two_balls();
     meeting.crowd.settings.resolution = resolution;
     Vec3 momentum = Vec3::Zero();
     const auto add_momentum = [&](Real sign) {
@@ -155,7 +155,7 @@ TEST(VirtualEdgeCrowd, two_balls_that_move_into_each_other_are_parted_to_the_con
 }
 
 TEST(VirtualEdgeCrowd, balls_farther_than_the_contact_distance_are_left_alone) {
-  Meeting meeting = two_balls();
+  EdgeMeeting meeting = two_balls();
   meeting.crowd.settings.distance = 0.9f * mm;
   const std::vector<Particles> before = meeting.particles;
   EXPECT_EQ(meeting.frame(0, Vector3f::Zero(), 5), 0);
@@ -163,7 +163,7 @@ TEST(VirtualEdgeCrowd, balls_farther_than_the_contact_distance_are_left_alone) {
 }
 
 TEST(VirtualEdgeCrowd, an_adaptive_contact_distance_is_what_the_ends_came_nearer) {
-  Meeting meeting = two_balls();
+  EdgeMeeting meeting = two_balls();
   meeting.crowd.settings.adaptive = true;
   meeting.crowd.settings.distance = 0.1f * mm;
   meeting.frame(0, {0.5f * mm, 0, 0}, 0);
@@ -180,7 +180,7 @@ TEST(VirtualEdgeCrowd, an_adaptive_contact_distance_is_what_the_ends_came_nearer
 
 TEST(VirtualEdgeCrowd, edges_stay_where_they_ended_or_begin_at_their_seeds_in_every_iteration) {
   for (const bool reset : {false, true}) {
-    Meeting meeting;
+    EdgeMeeting meeting;
     meeting.add(straight_strip(31)), meeting.add(tetrahedron({0.03, 0, 0.001}));
     meeting.start();
     meeting.crowd.settings.reset = reset;
@@ -198,7 +198,7 @@ TEST(VirtualEdgeCrowd, has_the_same_bits_for_any_number_of_threads) {
     std::set<std::uint64_t> hashes;
     for (const int threads : {1, 2, 2}) {
       const ThreadLimit limit(threads);
-      Meeting meeting;
+      EdgeMeeting meeting;
       for (const Real x : {0.0, 0.0195})
         for (const Real y : {0.0, 0.0195}) meeting.add(shapes::sphere({x, y, 0.1 * x + 0.05 * y}, 0.01, 3));
       meeting.start();
@@ -215,13 +215,13 @@ TEST(VirtualEdgeCrowd, has_the_same_bits_for_any_number_of_threads) {
 }
 
 TEST(CoincidingVirtualEdges, are_counted_and_left) {
-  const Meeting meeting = with_coinciding_edges(CoincidingEdgeRule::keep);
+  const EdgeMeeting meeting = with_coinciding_edges(CoincidingEdgeRule::keep);
   EXPECT_EQ(meeting.state.pairs[0].coinciding, 3);
   EXPECT_EQ(meeting.state.pairs[0].edges.size(), 7u);
 }
 
 TEST(CoincidingVirtualEdges, are_dropped_but_for_the_first) {
-  const Meeting meeting = with_coinciding_edges(CoincidingEdgeRule::drop);
+  const EdgeMeeting meeting = with_coinciding_edges(CoincidingEdgeRule::drop);
   const auto& edges = meeting.state.pairs[0].edges;
   EXPECT_EQ(meeting.state.pairs[0].coinciding, 3);
   ASSERT_EQ(edges.size(), 4u);
@@ -229,8 +229,8 @@ TEST(CoincidingVirtualEdges, are_dropped_but_for_the_first) {
 }
 
 TEST(CoincidingVirtualEdges, begin_again_between_ends_of_seeds_the_same_in_every_run) {
-  const Meeting one = with_coinciding_edges(CoincidingEdgeRule::reseed);
-  const Meeting other = with_coinciding_edges(CoincidingEdgeRule::reseed);
+  const EdgeMeeting one = with_coinciding_edges(CoincidingEdgeRule::reseed);
+  const EdgeMeeting other = with_coinciding_edges(CoincidingEdgeRule::reseed);
   const auto &edges = one.state.pairs[0].edges, &again = other.state.pairs[0].edges;
   ASSERT_EQ(edges.size(), 7u);
   for (std::size_t i = 0; i < 7; ++i) {

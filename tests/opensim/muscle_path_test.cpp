@@ -113,7 +113,8 @@ TEST(MusclePath, several_wraps_are_flagged) {
   const std::string line = point("/ground", "-0.3 0.05 2") + point("/ground", "0.3 0.05 2");
   const std::string again = "<PathWrap name=\"v\"><wrap_object>around</wrap_object></PathWrap>";
   EXPECT_FALSE(model_from(pendulum(muscle("m", line, "", around_cylinder), cylinder())).muscles[0].path.approximate);
-  EXPECT_TRUE(model_from(pendulum(muscle("m", line, "", around + again), cylinder())).muscles[0].path.approximate);
+  EXPECT_TRUE(
+      model_from(pendulum(muscle("m", line, "", around_cylinder + again), cylinder())).muscles[0].path.approximate);
 }
 
 TEST(MusclePath, a_sphere_is_rounded_on_a_great_circle_and_flagged) {
