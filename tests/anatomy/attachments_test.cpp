@@ -46,8 +46,6 @@ class Attachments : public testing::Test {
   const NearestTriangle tree{bone};
 };
 
-}  // namespace
-
 TEST_F(Attachments, near_the_bone_is_what_lies_above_it) {
   const std::vector<Index> vertices = select(NearBone{0.0011});
   EXPECT_EQ(vertices.size(), 6u * 11u) << "columns x = 0 ... 5 mm";
@@ -153,4 +151,5 @@ TEST(AttachmentOutline, its_inside_is_told_on_the_bone_in_whatever_order_its_poi
   }
 }
 
+}  // namespace
 }  // namespace gracilis

@@ -50,8 +50,6 @@ class FailingCalls : public testing::Test {
   SceneFolder folder;
 };
 
-}  // namespace
-
 TEST_F(FailingCalls, each_is_one_message_leaves_nothing_half_written_and_can_be_resumed) {
   const std::string whole = folder.path("whole").string();
   ASSERT_EQ(run_failing(whole, 0).exit_code, 0);
@@ -75,4 +73,5 @@ TEST_F(FailingCalls, each_is_one_message_leaves_nothing_half_written_and_can_be_
   }
 }
 
+}  // namespace
 }  // namespace gracilis

@@ -65,8 +65,6 @@ class FarScene : public testing::Test {
   }
 };
 
-}  // namespace
-
 TEST_F(FarScene, is_run_and_written_as_at_the_origin) {
   const Vec3 far_off(5000.3, -3000.7, 8000.1);
   const std::filesystem::path near = run_at("near", Vec3::Zero()), away = run_at("far", far_off);
@@ -76,4 +74,5 @@ TEST_F(FarScene, is_run_and_written_as_at_the_origin) {
         << name;
 }
 
+}  // namespace
 }  // namespace gracilis

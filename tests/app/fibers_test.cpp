@@ -29,8 +29,6 @@ class FiberCommands : public testing::Test {
   SceneFolder folder;
 };
 
-}  // namespace
-
 TEST_F(FiberCommands, fibers_writes_lines_and_says_how_long_they_are) {
   const ProgramResult result = run("fibers", good_scene(), "--set fibers.count=7 --set fibers.segments=4");
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -204,4 +202,5 @@ TEST_F(FiberCommands, activations_join_writes_samples_and_lists_problems) {
       3);
 }
 
+}  // namespace
 }  // namespace gracilis

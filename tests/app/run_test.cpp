@@ -35,8 +35,6 @@ class RunCommand : public testing::Test {
 
 std::string long_scene() { return good_scene() + "step_deg = 0.001\n"; }
 
-}  // namespace
-
 TEST_F(RunCommand, a_run_leaves_a_complete_folder_and_prints_its_path_alone_to_stdout) {
   const ProgramResult result = run(good_scene());
   EXPECT_EQ(result.exit_code, 0) << result.err;
@@ -155,4 +153,5 @@ TEST_F(RunCommand, no_escape_codes_reach_a_file) {
   EXPECT_EQ(result.err.find('\r'), std::string::npos);
 }
 
+}  // namespace
 }  // namespace gracilis

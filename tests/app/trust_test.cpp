@@ -44,8 +44,6 @@ class Trust : public testing::Test {
   SceneFolder folder;
 };
 
-}  // namespace
-
 // ---- Nothing is lost
 
 TEST_F(Trust, a_run_killed_between_surfaces_and_measures_resumes_to_the_same_files) {
@@ -228,4 +226,5 @@ TEST_F(Trust, settings_at_their_limits_name_what_is_too_large) {
   EXPECT_THAT(fibers.err, HasSubstr("'count' and 'segments' ask for"));
 }
 
+}  // namespace
 }  // namespace gracilis

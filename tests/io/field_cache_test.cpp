@@ -49,8 +49,6 @@ void expect_same(const DistanceField& a, const DistanceField& b) {
   EXPECT_TRUE(a.values == b.values);
 }
 
-}  // namespace
-
 TEST_F(FieldCache, a_field_reads_back_with_every_bit) {
   const DistanceField built = build_bone_field(bone, settings);
   expect_same(field(), built);
@@ -151,4 +149,5 @@ TEST_F(FieldCache, a_folder_that_cannot_be_made_costs_only_the_time_to_build) {
   expect_same(cached_bone_field(bone, settings, {}), build_bone_field(bone, settings));
 }
 
+}  // namespace
 }  // namespace gracilis

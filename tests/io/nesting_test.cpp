@@ -31,8 +31,6 @@ std::string repeated(const std::string& text, int times) {
   return result;
 }
 
-}  // namespace
-
 TEST_F(Nesting, keys_of_many_parts_are_refused_and_not_walked_through) {
   EXPECT_THAT(refused("schema = 1\n" + repeated("a.", 200'000) + "b = 1\n"),
               HasSubstr("scene.toml:2: a key has more than 16 parts"));
@@ -75,4 +73,5 @@ TEST_F(Nesting, includes_that_double_end_somewhere) {
   EXPECT_THAT(refused("include = \"part1.toml\"\n"), HasSubstr("includes more than 256 files"));
 }
 
+}  // namespace
 }  // namespace gracilis

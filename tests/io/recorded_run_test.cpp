@@ -44,8 +44,6 @@ class RecordedRuns : public testing::Test {
   std::string table;
 };
 
-}  // namespace
-
 TEST_F(RecordedRuns, reads_back_what_was_written) {
   const RecordedRun recorded = open_recorded_run(folder.path());
   EXPECT_EQ(recorded.frame_count, 3);
@@ -105,3 +103,5 @@ TEST_F(RecordedRuns, a_manifest_nested_without_end_is_no_stack_overflow) {
   folder.write("run.json", R"({"scene": ")" + std::string(100, '[') + R"("})");
   EXPECT_EQ(open_recorded_run(folder.path()).frame_count, 3) << "brackets in a text are no nesting";
 }
+
+}  // namespace

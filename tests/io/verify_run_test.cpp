@@ -50,8 +50,6 @@ class VerifyRun : public testing::Test {
   TinyRun run;
 };
 
-}  // namespace
-
 TEST_F(VerifyRun, a_run_as_it_was_written_has_no_findings) {
   const Verification result = verify_run(folder.path());
   EXPECT_THAT(result.findings, IsEmpty());
@@ -105,3 +103,5 @@ TEST_F(VerifyRun, a_list_that_leads_out_of_the_folder_is_refused) {
   folder.write("outputs.sha256", std::string(64, '0') + "  /etc/passwd\n");
   EXPECT_THAT(message_of_input_error([&] { read_output_hashes(folder.path()); }), HasSubstr("outputs.sha256:1: is no"));
 }
+
+}  // namespace

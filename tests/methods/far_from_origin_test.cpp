@@ -34,8 +34,6 @@ Polylines uneven_fibers() {
   return join(lines);
 }
 
-}  // namespace
-
 TEST_P(FarMethod, deforms_as_at_the_origin) {
   Scene near = tube_scene();
   near.method.name = GetParam();
@@ -59,4 +57,5 @@ INSTANTIATE_TEST_SUITE_P(Methods, FarMethod, ::testing::Values("pbd", "arap", "r
                            return name;
                          });
 
+}  // namespace
 }  // namespace gracilis

@@ -133,8 +133,6 @@ bool is_finite(const Frame& frame) {
 #define SKIP_UNLESS_CLAIMED(property) \
   if (!claims(property)) GTEST_SKIP() << GetParam().name << " does not claim this"
 
-}  // namespace
-
 TEST(Methods, every_registered_one_is_asked) {
   std::set<std::string_view> asked, registered;
   const std::vector<Variant> variants = all_variants();
@@ -291,4 +289,5 @@ TEST_P(Method, reports_every_muscle_by_the_names_of_its_entry) {
 INSTANTIATE_TEST_SUITE_P(Methods, Method, ::testing::ValuesIn(all_variants()),
                          [](const auto& variant) { return variant.param.name; });
 
+}  // namespace
 }  // namespace gracilis

@@ -20,8 +20,6 @@ std::vector<Points> shapes_of(const std::string& motion, const std::vector<std::
 
 class FastPreset : public ::testing::TestWithParam<std::string> {};
 
-}  // namespace
-
 TEST_P(FastPreset, stays_within_a_millimetre_of_the_default) {
   SKIP_WITHOUT_DATA();
   const std::vector<Points> whole = shapes_of(GetParam(), {}), fast = shapes_of(GetParam(), {"preset=fast"});
@@ -39,4 +37,5 @@ TEST_P(FastPreset, stays_within_a_millimetre_of_the_default) {
 INSTANTIATE_TEST_SUITE_P(Motions, FastPreset, ::testing::Values("flexion", "extension", "abduction", "rotation"),
                          [](const auto& motion) { return motion.param; });
 
+}  // namespace
 }  // namespace gracilis

@@ -31,8 +31,6 @@ std::filesystem::path with_motion(const std::filesystem::path& scene, const Rang
 
 class LimbRanges : public testing::TestWithParam<Range> {};
 
-}  // namespace
-
 TEST_P(LimbRanges, no_muscle_misses_a_gate_in_any_frame) {
   const std::filesystem::path file = data_folder() / GetParam().scene;
   if (data_folder().empty() || !std::filesystem::exists(file)) GTEST_SKIP() << file << " is not here";
@@ -56,4 +54,5 @@ INSTANTIATE_TEST_SUITE_P(Long, LimbRanges,
                                                "[[14], [0], [130]]"}),
                          name_of_range);
 
+}  // namespace
 }  // namespace gracilis

@@ -43,8 +43,6 @@ class RunPicture : public testing::Test {
   std::vector<RecordedRun> runs;
 };
 
-}  // namespace
-
 TEST_F(RunPicture, views_look_from_where_their_names_say) {
   const RecordedRun run = FlexingLeg(2).written(folder.path());
   EXPECT_TRUE(view_direction(run, "anterior").isApprox(Vec3::UnitX()));
@@ -117,3 +115,5 @@ TEST(ColorScale, goes_from_its_first_color_to_its_last_and_no_further) {
   EXPECT_EQ(color_at(scale, 99), scale.colors.back());
   EXPECT_TRUE(color_at(scale, 0.25).isApprox((scale.colors[2] + scale.colors[3]) / 2));
 }
+
+}  // namespace
