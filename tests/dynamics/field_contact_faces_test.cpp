@@ -37,14 +37,14 @@ TEST(FieldContact, pushes_a_face_out_where_the_obstacle_pokes_through_between_it
 }
 
 TEST(FieldContact, a_face_whose_fixed_corner_is_inside_is_not_thrown_away) {
-  Scenario scenario = points_at({{0, 0.029, 0}, {0.02, 0.0302, 0}, {0, 0.0302, 0.02}}, {0, 1, 1}, 0.0005f);
+  Scenario scenario = points_at({{0, 0.029, 0}, {0.008, 0.0302, 0}, {0, 0.0302, 0.008}}, {0, 1, 1}, 0.0005f);
   scenario.faces = build_face_set(Eigen::Vector3i(0, 1, 2), 3);
   scenario.contact.captured.face_sag = scenario.contact.released.face_sag = {0};
   const Particles before = scenario.particles;
   for (int pass = 0; pass < 20; ++pass) scenario.look(), scenario.push_faces();
-  // The fixed corner is 1.5 mm below its gap; what can move has to follow by no more than a lever of 1 to 4 makes of
+  // The fixed corner is 1.5 mm below its gap; what can move has to follow by no more than a lever of 1 to 1 makes of
   // it.
-  EXPECT_LT(largest_motion(before, scenario.particles), 0.0015 / 0.2);
+  EXPECT_LT(largest_motion(before, scenario.particles), 0.0015 / 0.5);
   EXPECT_GT(largest_motion(before, scenario.particles), 0);
 }
 

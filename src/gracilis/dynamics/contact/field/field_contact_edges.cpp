@@ -24,7 +24,6 @@ struct LoadedNearEdges {
 
 HWY_INLINE LoadedNearEdges load_near_edges(const NearEdges& edges, std::size_t at, const Particles& particles) {
   const D d;
-  const V zero = hn::Zero(d);
   LoadedNearEdges loaded;
   loaded.ia = edges.a.data() + at, loaded.ib = edges.b.data() + at;
   loaded.a = load_particles(particles.xyzw.data(), loaded.ia);
@@ -32,8 +31,8 @@ HWY_INLINE LoadedNearEdges load_near_edges(const NearEdges& edges, std::size_t a
   loaded.along = loaded.b.x - loaded.a.x;
   loaded.gap = hn::LoadU(d, edges.gap_a.data() + at);
   loaded.rise = hn::LoadU(d, edges.gap_b.data() + at) - loaded.gap;
-  loaded.low = hn::IfThenElse(hn::Gt(loaded.a.w, zero), zero, number(untested_share));
-  loaded.high = hn::IfThenElse(hn::Gt(loaded.b.w, zero), number(1), number(1 - untested_share));
+  loaded.low = hn::LoadU(d, edges.low.data() + at);
+  loaded.high = hn::LoadU(d, edges.high.data() + at);
   return loaded;
 }
 

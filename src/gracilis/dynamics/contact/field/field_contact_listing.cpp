@@ -23,6 +23,10 @@ void list_edge(Index a, Index b, float sag, float least, const FieldPlacement& p
   edges.a.push_back(a), edges.b.push_back(b);
   edges.gap_a.push_back(near.gap[static_cast<std::size_t>(a)] + sag);
   edges.gap_b.push_back(near.gap[static_cast<std::size_t>(b)] + sag);
+  const auto untested = [&](Index p) {
+    return untested_share(particles.inverse_mass(p) > 0, near.clearance[static_cast<std::size_t>(p)]);
+  };
+  edges.low.push_back(untested(a)), edges.high.push_back(1 - untested(b));
   edges.t.push_back(unknown_point);
   edges.seen_x.push_back(middle.x()), edges.seen_y.push_back(middle.y()), edges.seen_z.push_back(middle.z());
   edges.seen_above.push_back(least);
@@ -41,8 +45,8 @@ bool any_may_come_near(const DistanceSet& distances, const NearField& near) {
 
 void clear(NearEdges& edges) {
   edges.a.clear(), edges.b.clear();
-  for (AlignedVector<float>* each :
-       {&edges.gap_a, &edges.gap_b, &edges.t, &edges.seen_x, &edges.seen_y, &edges.seen_z, &edges.seen_above})
+  for (AlignedVector<float>* each : {&edges.gap_a, &edges.gap_b, &edges.low, &edges.high, &edges.t, &edges.seen_x,
+                                     &edges.seen_y, &edges.seen_z, &edges.seen_above})
     each->clear();
   edges.colors.clear();
 }
@@ -99,19 +103,22 @@ void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPla
     for (Index slot = color.begin; slot < color.end; ++slot) {
       std::array<ContactCorner, 3> corners;
       Eigen::Vector3f movable;
-      float longest2 = 0, clearance = std::numeric_limits<float>::infinity();
+      float longest2 = 0, clearance = std::numeric_limits<float>::infinity(), untested = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         const Index p = faces.particles[k][static_cast<std::size_t>(slot)];
         corners[k] = {placement.to_obstacle(particles.position(p)), near.gap[static_cast<std::size_t>(p)]};
-        clearance = std::min(clearance, near.clearance[static_cast<std::size_t>(p)]);
-        movable[static_cast<Eigen::Index>(k)] = particles.inverse_mass(p) > 0;
+        const float above = near.clearance[static_cast<std::size_t>(p)];
+        const bool moves = particles.inverse_mass(p) > 0;
+        clearance = std::min(clearance, above);
+        untested = std::max(untested, untested_share(moves, above));
+        movable[static_cast<Eigen::Index>(k)] = moves;
       }
       for (std::size_t k = 0; k < 3; ++k)
         longest2 = std::max(longest2, (corners[k].q - corners[(k + 1) % 3].q).squaredNorm());
       // No point of a triangle is farther from its nearest corner than this share of its longest edge.
       if (movable.isZero() || clearance > element_reach + 0.58f * steepest * std::sqrt(longest2)) continue;
       near.faces.slots.push_back(slot);
-      const Eigen::Vector3f where = deepest_tested(set.field.grid, corners, movable);
+      const Eigen::Vector3f where = deepest_tested(set.field.grid, corners, movable, untested);
       float gap =
           blended(set.captured.face_sag, set.released.face_sag, static_cast<std::size_t>(slot), placement.release);
       for (std::size_t k = 0; k < 3; ++k) gap += where[static_cast<Index>(k)] * corners[k].gap;

@@ -33,18 +33,18 @@ Eigen::Vector3f deepest_on_face(const FieldGrid& field, const std::array<Contact
 
 /// The part of a face that is tested, as barycentric coordinates of its corners, one per column. `movable` has ones and
 /// zeros, and sums to more than 0.
-static Eigen::Matrix3f tested_part(const Eigen::Vector3f& movable) {
+static Eigen::Matrix3f tested_part(const Eigen::Vector3f& movable, float untested) {
   Eigen::Matrix3f part = Eigen::Matrix3f::Identity();
   for (int k = 0; k < 3; ++k)
-    if (movable[k] == 0) part.col(k) += untested_share * (movable / movable.sum() - part.col(k));
+    if (movable[k] == 0) part.col(k) += untested * (movable / movable.sum() - part.col(k));
   return part;
 }
 
 Eigen::Vector3f deepest_tested(const FieldGrid& grid, const std::array<ContactCorner, 3>& corners,
-                               const Eigen::Vector3f& movable) {
+                               const Eigen::Vector3f& movable, float untested) {
   const Eigen::Vector3f deepest = deepest_on_face(grid, corners);
-  if (deepest.dot(movable) >= untested_share) return deepest;
-  const Eigen::Matrix3f part = tested_part(movable);
+  if (deepest.dot(movable) >= untested) return deepest;
+  const Eigen::Matrix3f part = tested_part(movable, untested);
   std::array<ContactCorner, 3> tested;
   for (int k = 0; k < 3; ++k) {
     ContactCorner& corner = tested[static_cast<std::size_t>(k)] = {Eigen::Vector3f::Zero(), 0};

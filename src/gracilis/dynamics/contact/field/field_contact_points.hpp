@@ -16,9 +16,9 @@ struct ContactCorner {
 /// 2020). A local minimum where the obstacle is not convex.
 Eigen::Vector3f deepest_on_face(const FieldGrid& field, const std::array<ContactCorner, 3>& corners);
 
-/// The deepest point of the part of a face that is tested, barycentric. `movable` has a one for each corner that can
-/// move, else a zero, and sums to more than 0.
+/// The deepest point of the part of a face that is tested, barycentric: all but a share at the corners that cannot
+/// move. `movable` has a one for each corner that can move, else a zero, and sums to more than 0.
 Eigen::Vector3f deepest_tested(const FieldGrid& grid, const std::array<ContactCorner, 3>& corners,
-                               const Eigen::Vector3f& movable);
+                               const Eigen::Vector3f& movable, float untested);
 
 }  // namespace gracilis

@@ -27,9 +27,13 @@ inline bool may_reach(const Sighting& seen, const Eigen::Vector3f& q, float leve
   return left <= 0 || steepest * steepest * (q - seen.place).squaredNorm() >= left * left;
 }
 
-/// The share of an edge or a face at an end or a corner that cannot move which is not tested: nothing can be pushed out
-/// there without throwing the other end far away.
-inline constexpr float untested_share = 0.2f;
+/// The share of an edge or a face at an end or a corner that is not tested, where that cannot move: nothing can be
+/// pushed out there without throwing the other end far away. More of it where a bone that it is not attached to has
+/// come over that end, which is deeper than its gap.
+inline float untested_share(bool movable, float clearance) {
+  if (movable) return 0;
+  return clearance < 0 ? 0.5f : 0.2f;
+}
 
 /// Gradients shorter than this, squared, tell no way out: on a field's ridges they fade.
 inline constexpr float least_slope2 = 1e-4f;
@@ -39,6 +43,7 @@ inline constexpr float least_slope2 = 1e-4f;
 struct NearEdges {
   AlignedVector<Index> a, b;                    ///< particles
   AlignedVector<float> gap_a, gap_b;            ///< m, that the ends keep, the edge's sag included
+  AlignedVector<float> low, high;               ///< the part that is tested, 0 at a, 1 at b
   AlignedVector<float> t;                       ///< the deepest point, 0 at a, 1 at b; or unknown_point
   AlignedVector<float> seen_x, seen_y, seen_z;  ///< where it was when the obstacle was last asked, m,
   AlignedVector<float> seen_above;              ///< and how far above its gap at least, m
