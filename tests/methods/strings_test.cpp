@@ -58,6 +58,51 @@ TEST(Strings, keep_a_belly_with_the_bone_that_it_lies_along) {
               enclosed_volume(rest, scene.muscles[0].surface.faces), 1e-6 * 1.5e-4);
 }
 
+TEST(Strings, are_the_fibers_of_a_frame) {
+  const Scene scene = arm({{"strings", 30}, {"segments", 16}});
+  const auto method = make_strings_method(scene, far_fields(scene));
+  const Frame capture = frame_of(*method, flexed(scene, 0), 0);
+  const Pose pose = flexed(scene, radians(60));
+  method->advance(pose, usual_time_step);
+  const Frame bent = frame_of(*method, pose, 1);
+  strings::StringSettings settings;
+  settings.count = 30, settings.segments = 16;
+  const strings::Strung strung(strings::arm_scene());
+  const auto muscle = muscle_strings(scene, scene.muscles[0], strung.bones, settings);
+  EXPECT_EQ(capture.muscles[0].fibers.count(), 30);
+  EXPECT_EQ(capture.muscles[0].fibers.points, muscle->taut) << "taut in the capture pose, too";
+  strings::StringState state = capture_state(*muscle, 2);
+  follow(*muscle, strung.bones, pose, state);
+  EXPECT_EQ(bent.muscles[0].fibers.points, state.places);
+  EXPECT_EQ(bent.muscles[0].fibers.size(0), 17);
+}
+
+TEST(Strings, of_fibers_that_a_scene_brings_are_as_many) {
+  Scene scene = arm();
+  const Points& rest = scene.muscles[0].surface.vertices;
+  for (const Real x : {-0.028, -0.02}) {
+    Points line(3, 2);
+    line << x, x, 0, 0, rest.row(2).maxCoeff() - 0.002, rest.row(2).minCoeff() + 0.002;
+    scene.muscles[0].given_fibers.append(line);
+  }
+  const auto method = make_strings_method(scene, far_fields(scene));
+  EXPECT_EQ(frame_of(*method, flexed(scene, 0), 0).muscles[0].fibers.count(), 2);
+}
+
+TEST(Strings, stand_where_a_scene_far_from_the_origin_does) {
+  const Vec3 away(40, -30, 20);
+  const Scene near = arm();
+  Scene far = strings::arm_scene(away);
+  far.method = near.method;
+  const auto here = make_strings_method(near, far_fields(near)), there = make_strings_method(far, far_fields(far));
+  here->advance(flexed(near, radians(50)), usual_time_step);
+  there->advance(flexed(far, radians(50)), usual_time_step);
+  const Points expected = frame_of(*here, {}, 1).muscles[0].fibers.points.colwise() + away;
+  const Points found = frame_of(*there, {}, 1).muscles[0].fibers.points;
+  // Fibers of a round tube turn with the rounding of its places; their middle does not.
+  EXPECT_LT((found.rowwise().mean() - expected.rowwise().mean()).norm(), 1e-3);
+}
+
 TEST(Strings, settings_reach_them) {
   const Points usual = shape_at(arm(), radians(60));
   for (const auto& [key, value] : SettingValues{{"strings", 20},

@@ -14,7 +14,10 @@ Pose shifted(Pose pose, const Vec3& by) {
 }
 
 void shift_shapes(Frame& frame, const Vec3& by) {
-  for (MuscleShape& shape : frame.muscles) shape.points.colwise() += by;
+  for (MuscleShape& shape : frame.muscles) {
+    shape.points.colwise() += by;
+    shape.fibers.points.colwise() += by;
+  }
 }
 
 Frame shifted(Frame frame, const Vec3& by) {

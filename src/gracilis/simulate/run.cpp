@@ -5,6 +5,7 @@
 #include <gracilis/core/stop.hpp>
 
 #include <future>
+#include <utility>
 
 namespace gracilis {
 
@@ -23,7 +24,7 @@ FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int n
   const Pose& pose = poses[static_cast<std::size_t>(number)];
   FrameRecord now;
   if (number == 0) {
-    now.frame = capture_frame(scene, pose);
+    now.frame = capture_frame(scene, pose, method);
     now.report.muscles.resize(scene.muscles.size());
   } else {
     try {
@@ -79,6 +80,15 @@ Frame capture_frame(const Scene& scene, const Pose& pose) {
   Frame frame;
   frame.pose = pose;
   for (const Muscle& muscle : scene.muscles) frame.muscles.push_back({muscle.surface.vertices});
+  return frame;
+}
+
+Frame capture_frame(const Scene& scene, const Pose& pose, const DeformationMethod& method) {
+  Frame frame = capture_frame(scene, pose), written;
+  written.pose = pose;
+  method.write(written);
+  for (std::size_t m = 0; m < frame.muscles.size(); ++m)
+    frame.muscles[m].fibers = std::move(written.muscles[m].fibers);
   return frame;
 }
 

@@ -39,5 +39,7 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
 
 /// Frame 0: the input surfaces at the capture pose.
 Frame capture_frame(const Scene& scene, const Pose& pose);
+/// The same, with the fibers that the method knows. Precondition: it stands at the capture pose.
+Frame capture_frame(const Scene& scene, const Pose& pose, const DeformationMethod& method);
 
 }  // namespace gracilis

@@ -45,6 +45,12 @@ struct StrungState {
   Points shape;  ///< world, m
 };
 
+Polylines as_lines(const strings::MuscleStrings& strings, const Points& places) {
+  Polylines lines{places, {}};
+  for (Index s = 0; s <= strings.strings; ++s) lines.offsets.push_back(strings.node(s, 0));
+  return lines;
+}
+
 class StringsMethod final : public DeformationMethod {
  public:
   StringsMethod(const Scene& scene, std::vector<DistanceField> far_fields)
@@ -82,7 +88,11 @@ class StringsMethod final : public DeformationMethod {
 
   void write(Frame& frame) const override {
     frame.muscles.clear();
-    for (const StrungState& state : states_) frame.muscles.push_back({state.shape});
+    for (std::size_t m = 0; m < states_.size(); ++m) {
+      MuscleShape& shape = frame.muscles.emplace_back();
+      shape.points = states_[m].shape;
+      if (muscles_[m].strings) shape.fibers = as_lines(*muscles_[m].strings, states_[m].strings.places);
+    }
   }
 
   /// Surfaces do not tell where strings are: they go through all poses again.
