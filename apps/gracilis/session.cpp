@@ -105,7 +105,7 @@ class Session {
             summary_.add(record);
             progress.show(record.frame.number);
           },
-          &*tracker_);
+          &*tracker_, options_.fiber_actions);
     } catch (const QualityError& error) {
       progress.clear();
       finish(std::string("failed: ") + error.what());

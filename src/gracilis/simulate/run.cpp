@@ -1,5 +1,6 @@
 #include <gracilis/simulate/run.hpp>
 
+#include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/stop.hpp>
@@ -19,7 +20,8 @@ Real time_before(const std::vector<Pose>& poses, int number) {
 }
 
 /// One frame, not measured yet. Throws Interrupted where it shall stop.
-FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int number, DeformationMethod& method) {
+FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int number, bool fiber_actions,
+                       DeformationMethod& method) {
   throw_if_stopped();
   const Pose& pose = poses[static_cast<std::size_t>(number)];
   FrameRecord now;
@@ -36,6 +38,7 @@ FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int n
     method.write(now.frame);
   }
   now.frame.number = number;
+  if (fiber_actions) now.actions = method.fiber_actions(joint_twists(scene, pose.coordinates));
   return now;
 }
 
@@ -94,7 +97,8 @@ Frame capture_frame(const Scene& scene, const Pose& pose, const DeformationMetho
 
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
-                 const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker) {
+                 const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker,
+                 bool fiber_actions) {
   try {
     const StopScope scope(&stop);
     Measurer measurer(scene, tracker);
@@ -109,7 +113,7 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
     for (; next < static_cast<int>(poses.size()); ++next) {
       FrameRecord now;
       try {
-        now = make_frame(scene, poses, next, method);
+        now = make_frame(scene, poses, next, fiber_actions, method);
       } catch (...) {
         recorder.finish();
         throw;

@@ -14,6 +14,9 @@ namespace {
 /// After so many iterations steps are damped, for strings that go to and fro between two bones.
 constexpr int undamped_iterations = 12;
 constexpr Real damping = 0.6;
+/// Strings are settled when no node moves further, m, or after so many iterations.
+constexpr Real settled_move = 1e-7;
+constexpr int settling_iterations = 300;
 
 /// One step of Gauss-Newton for one string, of which a share is taken; how far a node would move, m.
 Real relax_string(NodeForces& forces, Index string, Real taken, Points& places, StringSystem& system) {
@@ -33,8 +36,9 @@ Real relax_string(NodeForces& forces, Index string, Real taken, Points& places, 
   return farthest;
 }
 
-/// A string of which no node moved further than `stop_move` rests from then on; most are soon where they stay.
-void relax(NodeForces& forces, int iterations, Real stop_move, Points& places) {
+/// A string of which no node moved further than `stop_move` rests from then on; most are soon where they stay. Says
+/// which do.
+std::vector<char> relax(NodeForces& forces, int iterations, Real stop_move, Points& places) {
   const MuscleStrings& muscle = forces.muscle();
   StringSystem system(muscle.nodes);
   std::vector<char> rests(static_cast<std::size_t>(muscle.strings), 0);
@@ -45,8 +49,9 @@ void relax(NodeForces& forces, int iterations, Real stop_move, Points& places) {
       char& rest = rests[static_cast<std::size_t>(s)];
       if (!rest) rest = relax_string(forces, s, taken, places, system) < stop_move;
     }
-    if (std::all_of(rests.begin(), rests.end(), [](char rest) { return rest != 0; })) return;
+    if (std::all_of(rests.begin(), rests.end(), [](char rest) { return rest != 0; })) break;
   }
+  return rests;
 }
 
 /// The largest turn of a body from one pose to another, rad.
@@ -98,6 +103,13 @@ Points pulled_tight(const MuscleStrings& muscle, const BoneDistances& bones) {
   NodeForces forces(bare, bones, bodies);
   relax(forces, muscle.settings.rest_iterations, muscle.settings.rest_stop_move, places);
   return places;
+}
+
+std::vector<char> settle(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
+  NodeForces forces(muscle, bones, state.bodies);
+  std::vector<char> unsettled = relax(forces, settling_iterations, settled_move, state.places);
+  for (char& each : unsettled) each = !each;
+  return unsettled;
 }
 
 StringState capture_state(const MuscleStrings& muscle, std::size_t bodies) {
