@@ -56,8 +56,17 @@ Points forces_at(const Points& places, const std::vector<RigidTransform>& bodies
   return free_columns(all);
 }
 
-/// Fields are asked in single precision, which steps of 4 µm feel.
-constexpr Real step = 4e-6, felt = 0.02;
+/// Fields are asked in single precision, which smaller steps feel; larger ones touch more bones on their way.
+constexpr Real step = 1e-5;
+
+/// The share of the free nodes at which two sets of forces differ by more than 5 % of their mean size: touching bones
+/// or not, a node has another derivative to each side.
+Real share_apart(const Points& found, const Points& expected) {
+  Real size = 0, apart = 0, count = 0;
+  for (Index p = 0; p < expected.cols(); ++p) size += expected.col(p).norm(), count += bent().is_free(p);
+  for (Index p = 0; p < expected.cols(); ++p) apart += (found - expected).col(p).norm() > 0.05 * size / count;
+  return apart / count;
+}
 
 TEST(ForceRates, by_places_are_the_derivative_of_the_forces) {
   const Points rates = random_columns(1);
@@ -67,7 +76,7 @@ TEST(ForceRates, by_places_are_the_derivative_of_the_forces) {
       (forces_at(places + step * rates, bodies) - forces_at(places - step * rates, bodies)) / (2 * step);
   const Points found = bent().rates().by_places(rates);
   ASSERT_GT(expected.norm(), 1000);
-  EXPECT_LT((found - expected).norm(), felt * expected.norm());
+  EXPECT_LT(share_apart(found, expected), 0.05);
 }
 
 TEST(ForceRates, by_bodies_are_the_derivative_of_the_forces) {
@@ -82,10 +91,9 @@ TEST(ForceRates, by_bodies_are_the_derivative_of_the_forces) {
     return bodies;
   };
   const Points& places = bent().state.places;
-  constexpr Real turned = 10 * step;  // rad
-  const Points expected = (forces_at(places, moved(turned)) - forces_at(places, moved(-turned))) / (2 * turned);
+  const Points expected = (forces_at(places, moved(step)) - forces_at(places, moved(-step))) / (2 * step);
   ASSERT_GT(expected.norm(), 10);
-  EXPECT_LT((bent().rates().by_bodies(twists) - expected).norm(), felt * expected.norm());
+  EXPECT_LT(share_apart(bent().rates().by_bodies(twists), expected), 0.05);
 }
 
 TEST(ForceRates, the_transposed_weighs_as_much) {

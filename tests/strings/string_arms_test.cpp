@@ -18,10 +18,11 @@ constexpr Real radius = 0.02;
 /// to that body: straight in the capture pose, wound around the pulley where the coordinate falls.
 Scene pulley_scene() {
   Scene scene = arm_scene();
-  TriangleMesh pulley = shapes::cylinder(radius, 0.1, 60, 20);
+  constexpr Real width = 0.1;
+  TriangleMesh pulley = shapes::cylinder(radius, width, 60, 20);
   for (Index v = 0; v < pulley.vertex_count(); ++v) {
     const Vec3 p = pulley.vertices.col(v);
-    pulley.vertices.col(v) = Vec3(p.x(), -p.z(), p.y());
+    pulley.vertices.col(v) = Vec3(p.x(), width / 2 - p.z(), p.y());
   }
   scene.bones = {{"upper", 0, pulley}, {"lower", 1, shapes::box({-0.04, -0.01, -0.3}, {-0.03, 0.01, -0.25})}};
   scene.joints[0].axes[0] = {"turn", Vec3::UnitY(), 0, radians(-120), 0};
