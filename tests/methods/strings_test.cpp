@@ -1,3 +1,4 @@
+#include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/strings/strings_method.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
@@ -6,6 +7,8 @@
 #include "../strings/string_scenes.hpp"
 
 #include <gtest/gtest.h>
+
+#include <numeric>
 
 /// `method = "strings"`.
 namespace gracilis {
@@ -101,6 +104,51 @@ TEST(Strings, stand_where_a_scene_far_from_the_origin_does) {
   const Points found = frame_of(*there, {}, 1).muscles[0].fibers.points;
   // Fibers of a round tube turn with the rounding of its places; their middle does not.
   EXPECT_LT((found.rowwise().mean() - expected.rowwise().mean()).norm(), 1e-3);
+}
+
+/// What the method knows at an angle of the hinge, the one coordinate.
+FiberActions actions_at(const Scene& scene, Real angle) {
+  const auto method = make_strings_method(scene, far_fields(scene));
+  method->advance(flexed(scene, angle), usual_time_step);
+  return method->fiber_actions(joint_twists(scene, std::vector<Real>{angle})).at(0);
+}
+
+Real mean_length_at(const Scene& scene, Real angle) {
+  const auto method = make_strings_method(scene, far_fields(scene));
+  const Pose pose = flexed(scene, angle);
+  method->advance(pose, usual_time_step);
+  const std::vector<Real> lengths = polyline_lengths(frame_of(*method, pose, 1).muscles[0].fibers);
+  return std::accumulate(lengths.begin(), lengths.end(), Real{0}) / static_cast<Real>(lengths.size());
+}
+
+Real work_of(const FiberActions& actions, const std::vector<Twist>& twists) {
+  Real work = 0;
+  for (std::size_t b = 0; b < twists.size(); ++b) {
+    const auto wrench = actions.wrenches.col(static_cast<Index>(b));
+    work += wrench.head<3>().dot(twists[b].velocity) + wrench.tail<3>().dot(twists[b].turning);
+  }
+  return work;
+}
+
+TEST(Strings, know_their_moment_arms) {
+  Scene scene = arm();
+  const FiberActions actions = actions_at(scene, radians(60));
+  ASSERT_EQ(actions.arms.rows(), 48);
+  const Real by_lengths =
+      -(mean_length_at(scene, radians(62)) - mean_length_at(scene, radians(58))) / (2 * radians(2));
+  EXPECT_NEAR(actions.mean_arms[0], by_lengths, 1e-3);
+  EXPECT_GT(by_lengths, 0.01);
+  scene.muscles[0].fibers.count = 0;
+  EXPECT_EQ(actions_at(scene, radians(10)).arms.size(), 0) << "no fibers are wanted";
+}
+
+TEST(Strings, pull_where_a_scene_far_from_the_origin_is) {
+  Scene far = strings::arm_scene(Vec3(40, -30, 20));
+  far.method.name = "strings";
+  const FiberActions actions = actions_at(far, radians(50));
+  const Real near_arm = actions_at(arm(), radians(50)).mean_arms[0];
+  EXPECT_NEAR(actions.mean_arms[0], near_arm, 5e-4);
+  EXPECT_NEAR(work_of(actions, joint_twists(far, std::vector<Real>{radians(50)})[0]), actions.mean_arms[0], 1e-4);
 }
 
 TEST(Strings, settings_reach_them) {

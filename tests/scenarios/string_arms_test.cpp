@@ -1,5 +1,6 @@
 #include "scenario_runs.hpp"
 
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/io/scene/field_cache.hpp>

@@ -137,7 +137,8 @@ TEST(SectionRates, are_the_derivative_of_the_turns) {
 
 TEST(CoupledSolver, finds_the_moves_that_change_forces_so) {
   const ForceRates rates = bent().rates();
-  const CoupledSolver solver(bent().muscle(), rates);
+  const std::vector<char> none(static_cast<std::size_t>(bent().muscle().strings), 0);
+  const CoupledSolver solver(bent().muscle(), rates, none);
   const Points moves = free_columns(random_columns(5)), forces = rates.by_places(moves);
   EXPECT_LT((solver.moves(forces) - moves).norm(), 1e-3 * moves.norm());
   const Points weights = free_columns(random_columns(6));

@@ -13,13 +13,14 @@ constexpr Index most_directions = 40;
 
 }  // namespace
 
-CoupledSolver::CoupledSolver(const MuscleStrings& muscle, const ForceRates& rates) : muscle_(muscle), rates_(rates) {
+CoupledSolver::CoupledSolver(const MuscleStrings& muscle, const ForceRates& rates, const std::vector<char>& left_out)
+    : muscle_(muscle), rates_(rates), left_out_(left_out) {
   inverse_.assign(rates.here().size(), Eigen::Matrix3d::Zero());
   upper_ = inverse_;
   stable_.assign(static_cast<std::size_t>(muscle.strings), 1);
   for (Index s = 0; s < muscle.strings; ++s)
     for (Index i = 1; i + 1 < muscle.nodes; ++i) {
-      if (body_holding(muscle, s, i) >= 0) continue;
+      if (!moves_freely(s, i)) continue;
       const auto row = static_cast<std::size_t>(muscle.node(s, i));
       const Eigen::Matrix3d pivot = rates.here()[row] - rates.before()[row] * upper_[row - 1];
       if (!(pivot.determinant() > 0)) stable_[static_cast<std::size_t>(s)] = 0;
@@ -31,7 +32,7 @@ CoupledSolver::CoupledSolver(const MuscleStrings& muscle, const ForceRates& rate
 Points CoupledSolver::free_part(Points columns) const {
   for (Index s = 0; s < muscle_.strings; ++s)
     for (Index i = 0; i < muscle_.nodes; ++i)
-      if (body_holding(muscle_, s, i) >= 0) columns.col(muscle_.node(s, i)).setZero();
+      if (!moves_freely(s, i)) columns.col(muscle_.node(s, i)).setZero();
   return columns;
 }
 

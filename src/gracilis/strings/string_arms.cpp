@@ -3,6 +3,7 @@
 #include <gracilis/strings/coupled_solver.hpp>
 
 #include <algorithm>
+#include <utility>
 
 namespace gracilis::strings {
 
@@ -23,16 +24,12 @@ Points length_rates(const MuscleStrings& muscle, const Points& places) {
   return rates;
 }
 
-/// How nodes move that go with bodies.
-Points held_motions(const MuscleStrings& muscle, const Points& places, const std::vector<Twist>& twists) {
-  Points motions = Points::Zero(3, places.cols());
-  for (Index s = 0; s < muscle.strings; ++s)
-    for (Index i = 0; i < muscle.nodes; ++i)
-      if (const Index body = body_holding(muscle, s, i); body >= 0) {
-        const Index p = muscle.node(s, i);
-        motions.col(p) = twists[static_cast<std::size_t>(body)].velocity_at(places.col(p));
-      }
-  return motions;
+/// By how much a node goes with each body where it is not free: fully with the one that holds it; by the bodies' shares
+/// where its string is left out; empty where it is free.
+Eigen::VectorXd carried_by(const MuscleStrings& muscle, Index string, Index i, bool left_out) {
+  const Index body = body_holding(muscle, string, i);
+  if (body >= 0) return Eigen::VectorXd::Unit(muscle.shares.rows(), body);
+  return left_out ? Eigen::VectorXd(muscle.shares.col(muscle.node(string, i))) : Eigen::VectorXd();
 }
 
 Points string_columns(const MuscleStrings& muscle, const Points& columns, Index string) {
@@ -42,33 +39,35 @@ Points string_columns(const MuscleStrings& muscle, const Points& columns, Index 
 /// The derivative of a muscle's strings at rest, and what follows from it.
 class Equilibrium {
  public:
-  Equilibrium(const MuscleStrings& muscle, const BoneDistances& bones, const StringState& settled)
+  /// `left_out`: strings that go with the bodies by their shares, for all others, too. All must outlive this.
+  Equilibrium(const MuscleStrings& muscle, const ForceRates& rates, const Points& places,
+              const std::vector<char>& left_out)
       : muscle_(muscle),
-        places_(settled.places),
-        rates_(muscle, bones, settled.places, settled.bodies),
-        solver_(muscle, rates_),
-        by_length_(length_rates(muscle, settled.places)) {}
+        places_(places),
+        rates_(rates),
+        left_out_(left_out),
+        solver_(muscle, rates, left_out),
+        by_length_(length_rates(muscle, places)) {}
 
-  const Points& length_rates_by_nodes() const { return by_length_; }
   bool is_stable(Index string) const { return solver_.is_stable(string); }
 
   /// -dL/dq of each string about a coordinate. Marks those that run off.
-  Eigen::VectorXd arms(const std::vector<Twist>& twists, std::vector<char>& doubtful) const {
+  Eigen::VectorXd arms(const std::vector<Twist>& twists, std::vector<char>& runs_off) const {
     Eigen::VectorXd arms = Eigen::VectorXd::Zero(muscle_.strings);
-    Points motions = held_motions(muscle_, places_, twists);
+    Points motions = carried_motions(twists);
     const Real ends = motions.colwise().norm().maxCoeff();
     const Points forces = rates_.by_places(motions) + rates_.by_bodies(twists);
     motions -= solver_.moves(forces);
     for (Index s = 0; s < muscle_.strings; ++s) {
       const Points of_string = string_columns(muscle_, motions, s);
       arms[s] = -of_string.cwiseProduct(string_columns(muscle_, by_length_, s)).sum();
-      const bool runs_off = !of_string.allFinite() || of_string.colwise().norm().maxCoeff() > fastest * ends;
-      if (runs_off) doubtful[static_cast<std::size_t>(s)] = 1;
+      if (!of_string.allFinite() || of_string.colwise().norm().maxCoeff() > fastest * ends)
+        runs_off[static_cast<std::size_t>(s)] = 1;
     }
     return arms;
   }
 
-  /// Force and moment on each of the bodies by the strings that count, whose tensions sum to 1.
+  /// Force and moment on each of the bodies by the strings that are not doubtful, whose tensions sum to 1.
   Eigen::MatrixXd wrenches(const std::vector<char>& doubtful) const {
     const auto counted = static_cast<Real>(std::count(doubtful.begin(), doubtful.end(), 0));
     Points weights = by_length_;
@@ -77,20 +76,38 @@ class Equilibrium {
           doubtful[static_cast<std::size_t>(s)] ? 0 : 1 / counted;
     const Points adjoint = solver_.transposed(weights);
     Eigen::MatrixXd wrenches = rates_.by_bodies_transposed(adjoint);
-    const Points at_held = rates_.by_places_transposed(adjoint) - weights;
-    for (Index p = 0; p < places_.cols(); ++p)
-      if (const Index body = body_holding(muscle_, p / muscle_.nodes, p % muscle_.nodes); body >= 0) {
-        const Vec3 force = at_held.col(p), place = places_.col(p);
-        wrenches.col(body).head<3>() += force;
-        wrenches.col(body).tail<3>() += place.cross(force);
+    const Points at_carried = rates_.by_places_transposed(adjoint) - weights;
+    for (Index p = 0; p < places_.cols(); ++p) {
+      const Vec3 force = at_carried.col(p), place = places_.col(p);
+      const Eigen::VectorXd shares = carried(p);
+      for (Index body = 0; body < shares.size(); ++body) {
+        wrenches.col(body).head<3>() += shares[body] * force;
+        wrenches.col(body).tail<3>() += shares[body] * place.cross(force);
       }
+    }
     return wrenches;
   }
 
  private:
+  Eigen::VectorXd carried(Index p) const {
+    const Index string = p / muscle_.nodes;
+    return carried_by(muscle_, string, p % muscle_.nodes, left_out_[static_cast<std::size_t>(string)] != 0);
+  }
+
+  Points carried_motions(const std::vector<Twist>& twists) const {
+    Points motions = Points::Zero(3, places_.cols());
+    for (Index p = 0; p < places_.cols(); ++p) {
+      const Eigen::VectorXd shares = carried(p);
+      for (Index body = 0; body < shares.size(); ++body)
+        motions.col(p) += shares[body] * twists[static_cast<std::size_t>(body)].velocity_at(places_.col(p));
+    }
+    return motions;
+  }
+
   const MuscleStrings& muscle_;
-  const Points places_;
-  ForceRates rates_;
+  const Points& places_;
+  const ForceRates& rates_;
+  const std::vector<char>& left_out_;
   CoupledSolver solver_;
   Points by_length_;
 };
@@ -103,6 +120,17 @@ Eigen::VectorXd mean_of_counted(const Eigen::MatrixXd& arms, const std::vector<c
   return counted > 0 ? Eigen::VectorXd(sum / counted) : sum;
 }
 
+/// Every string about every coordinate. Returns which are about to snap.
+std::vector<char> find_arms(const MuscleStrings& muscle, const Equilibrium& equilibrium,
+                            const std::vector<std::vector<Twist>>& coordinates, Eigen::MatrixXd& arms) {
+  std::vector<char> snap;
+  for (Index s = 0; s < muscle.strings; ++s) snap.push_back(!equilibrium.is_stable(s));
+  arms.resize(muscle.strings, static_cast<Index>(coordinates.size()));
+  for (std::size_t c = 0; c < coordinates.size(); ++c)
+    arms.col(static_cast<Index>(c)) = equilibrium.arms(coordinates[c], snap);
+  return snap;
+}
+
 }  // namespace
 
 FiberActions string_actions(const MuscleStrings& muscle, const BoneDistances& bones, const StringState& state,
@@ -110,19 +138,25 @@ FiberActions string_actions(const MuscleStrings& muscle, const BoneDistances& bo
   StringState settled = state;
   FiberActions actions;
   actions.doubtful = settle(muscle, bones, settled);
-  const Equilibrium equilibrium(muscle, bones, settled);
-  actions.arms.resize(muscle.strings, static_cast<Index>(coordinates.size()));
-  for (std::size_t c = 0; c < coordinates.size(); ++c)
-    actions.arms.col(static_cast<Index>(c)) = equilibrium.arms(coordinates[c], actions.doubtful);
-  const Points& by_length = equilibrium.length_rates_by_nodes();
+  const Points by_length = length_rates(muscle, settled.places);
   actions.origin_directions.resize(3, muscle.strings), actions.insertion_directions.resize(3, muscle.strings);
   for (Index s = 0; s < muscle.strings; ++s) {
-    if (!equilibrium.is_stable(s)) actions.doubtful[static_cast<std::size_t>(s)] = 1;
     actions.origin_directions.col(s) = -by_length.col(muscle.node(s, 0));
     actions.insertion_directions.col(s) = -by_length.col(muscle.node(s, muscle.nodes - 1));
   }
+  const ForceRates rates(muscle, bones, settled.places, settled.bodies);
+  // A string that is about to snap would drag its neighbors along: found out, it is left out, and all begins again.
+  std::vector<char> left_out(actions.doubtful.size(), 0);
+  for (bool found = true; found;) {
+    const Equilibrium equilibrium(muscle, rates, settled.places, left_out);
+    const std::vector<char> snap = find_arms(muscle, equilibrium, coordinates, actions.arms);
+    found = false;
+    for (std::size_t s = 0; s < snap.size(); ++s)
+      if (snap[s]) found |= !left_out[s], actions.doubtful[s] = 1;
+    if (!found) actions.wrenches = equilibrium.wrenches(actions.doubtful);
+    for (std::size_t s = 0; s < snap.size(); ++s) left_out[s] |= snap[s];
+  }
   actions.mean_arms = mean_of_counted(actions.arms, actions.doubtful);
-  actions.wrenches = equilibrium.wrenches(actions.doubtful);
   return actions;
 }
 
