@@ -26,12 +26,15 @@ TEST(StringArmsOfTheHip, are_those_of_differences) {
   const Scene scene = cadaver_scene("flexion_60", {}, {"method=strings"});
   const std::vector<DistanceField> fields = cached_bone_fields(scene, strings::far_field_settings());
   const strings::BoneDistances bones = strings::bone_distances(scene, fields);
-  constexpr Real step = radians(0.25);
+  constexpr Real step = radians(0.1);
+  // Where the differences to both sides are further apart than an arm changes over a step, a string nearby snapped or
+  // touched a bone in between, and they tell no derivative.
+  constexpr Real same = 3e-4;
   for (const Muscle& muscle : scene.muscles) {
     const auto made = strings::muscle_strings(scene, muscle, bones, {});
     ASSERT_TRUE(made) << muscle.name;
     strings::StringState state = strings::capture_state(*made, scene.bodies.size());
-    Index strings = 0, doubtful = 0, near = 0;
+    Index strings = 0, doubtful = 0, compared = 0, near = 0;
     for (const Real angle : {8.0, 32.0, 56.0}) {
       std::vector<Real> at = capture_coordinates(scene);
       at[0] = radians(angle);
@@ -39,6 +42,7 @@ TEST(StringArmsOfTheHip, are_those_of_differences) {
       const FiberActions actions = string_actions(*made, bones, state, joint_twists(scene, at));
       strings::StringState settled = state;
       settle(*made, bones, settled);
+      const std::vector<Real> here = lengths_of(*made, settled.places);
       std::vector<Real> ends[2];
       for (int side : {0, 1}) {
         std::vector<Real> beside = at;
@@ -51,7 +55,9 @@ TEST(StringArmsOfTheHip, are_those_of_differences) {
       Real sum = 0, kept = 0;
       for (std::size_t s = 0; s < ends[0].size(); ++s) {
         ++strings, doubtful += actions.doubtful[s];
-        if (actions.doubtful[s]) continue;
+        const bool smooth = std::abs(ends[0][s] + ends[1][s] - 2 * here[s]) < same * step;
+        if (actions.doubtful[s] || !smooth) continue;
+        ++compared;
         const Real off = actions.arms(static_cast<Index>(s), 0) + (ends[1][s] - ends[0][s]) / (2 * step);
         near += std::abs(off) < 1e-4;
         sum += off, ++kept;
@@ -59,7 +65,8 @@ TEST(StringArmsOfTheHip, are_those_of_differences) {
       EXPECT_LT(std::abs(sum) / kept, 1e-4) << muscle.name << " at " << angle;
     }
     EXPECT_LT(doubtful, strings / 8) << muscle.name;
-    EXPECT_GT(near, 92 * (strings - doubtful) / 100) << muscle.name;
+    EXPECT_GT(compared, 2 * strings / 3) << muscle.name;
+    EXPECT_GT(near, 95 * compared / 100) << muscle.name;
   }
 }
 
