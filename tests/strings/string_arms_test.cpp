@@ -133,6 +133,19 @@ TEST(StringArms, of_a_tube_around_a_hinge_are_those_of_differences) {
   EXPECT_GT(near, 95 * counted / 100);
 }
 
+TEST(StringArms, a_body_that_hardly_matters_makes_no_string_doubtful) {
+  Scene scene = arm_scene();
+  scene.bodies.push_back("other");
+  scene.bones.push_back({"other", 2, shapes::box({0.2, -0.05, 0}, {0.25, 0.05, 0.2})});
+  const Strung strung(scene);
+  ASSERT_GT(strung.muscle.shares.row(2).maxCoeff(), 0);
+  std::vector<Twist> twists(3);
+  twists[2].turning = Vec3(1, 2, 3);
+  const FiberActions actions = string_actions(strung.muscle, strung.bones, capture_state(strung.muscle, 3), {twists});
+  EXPECT_EQ(std::count(actions.doubtful.begin(), actions.doubtful.end(), 1), 0);
+  EXPECT_LT(actions.arms.cwiseAbs().maxCoeff(), 1e-3);
+}
+
 TEST(StringArms, about_a_coordinate_that_moves_nothing_of_the_muscle_are_zero) {
   const StringState state = capture_state(bare_pulley(), 2);
   const FiberActions actions = string_actions(bare_pulley(), pulley().bones, state, {std::vector<Twist>(2)});

@@ -9,8 +9,10 @@ namespace gracilis::strings {
 
 namespace {
 
-/// A string whose nodes move so many times as fast as the fastest of its muscle's ends is about to snap.
+/// A string one of whose nodes moves so many times as fast as bodies carry any node of its muscle is about to snap ...
 constexpr Real fastest = 6;
+/// ... but not one that hardly moves, m per unit of a coordinate.
+constexpr Real least_speed = 0.001;
 
 /// The derivative of each string's length by its nodes.
 Points length_rates(const MuscleStrings& muscle, const Points& places) {
@@ -55,13 +57,13 @@ class Equilibrium {
   Eigen::VectorXd arms(const std::vector<Twist>& twists, std::vector<char>& runs_off) const {
     Eigen::VectorXd arms = Eigen::VectorXd::Zero(muscle_.strings);
     Points motions = carried_motions(twists);
-    const Real ends = motions.colwise().norm().maxCoeff();
+    const Real usual = std::max(fastest_carried(twists), motions.colwise().norm().maxCoeff());
     const Points forces = rates_.by_places(motions) + rates_.by_bodies(twists);
     motions -= solver_.moves(forces);
     for (Index s = 0; s < muscle_.strings; ++s) {
       const Points of_string = string_columns(muscle_, motions, s);
       arms[s] = -of_string.cwiseProduct(string_columns(muscle_, by_length_, s)).sum();
-      if (!of_string.allFinite() || of_string.colwise().norm().maxCoeff() > fastest * ends)
+      if (!of_string.allFinite() || of_string.colwise().norm().maxCoeff() > fastest * usual)
         runs_off[static_cast<std::size_t>(s)] = 1;
     }
     return arms;
@@ -92,6 +94,18 @@ class Equilibrium {
   Eigen::VectorXd carried(Index p) const {
     const Index string = p / muscle_.nodes;
     return carried_by(muscle_, string, p % muscle_.nodes, left_out_[static_cast<std::size_t>(string)] != 0);
+  }
+
+  /// By the shares of bodies.
+  Real fastest_carried(const std::vector<Twist>& twists) const {
+    Real speed = least_speed;
+    for (Index p = 0; p < places_.cols(); ++p) {
+      Vec3 velocity = Vec3::Zero();
+      for (std::size_t body = 0; body < twists.size(); ++body)
+        velocity += muscle_.shares(static_cast<Index>(body), p) * twists[body].velocity_at(places_.col(p));
+      speed = std::max(speed, velocity.norm());
+    }
+    return speed;
   }
 
   Points carried_motions(const std::vector<Twist>& twists) const {
