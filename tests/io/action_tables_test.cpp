@@ -38,9 +38,7 @@ Table read_back(const ActionTable& table) {
   return read;
 }
 
-Real value(const Table& table, const std::string& column) {
-  return table.values(0, column_of(table, column).value());
-}
+Real value(const Table& table, const std::string& column) { return table.values(0, column_of(table, column).value()); }
 
 TEST(ActionTables, tell_the_arms_of_each_coordinate_and_how_many_fibers_are_left_out) {
   const Scene scene = tube_scene();
@@ -48,8 +46,7 @@ TEST(ActionTables, tell_the_arms_of_each_coordinate_and_how_many_fibers_are_left
   ASSERT_EQ(tables.size(), 2u);
   EXPECT_EQ(tables[0].name, "moment_arms_flexion.sto");
   const Table arms = read_back(tables[0]);
-  EXPECT_THAT(arms.columns,
-              testing::ElementsAre("flexion", "tube", "tube_f000", "tube_f001", "tube_left_out"));
+  EXPECT_THAT(arms.columns, testing::ElementsAre("flexion", "tube", "tube_f000", "tube_f001", "tube_left_out"));
   EXPECT_NEAR(value(arms, "flexion"), 30, 1e-9);
   EXPECT_EQ(value(arms, "tube"), 0.02);
   EXPECT_EQ(value(arms, "tube_f001"), 0.05);

@@ -85,8 +85,8 @@ TEST(ForceRates, by_bodies_are_the_derivative_of_the_forces) {
     std::vector<RigidTransform> bodies = bent().state.bodies;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const Vec3 turn = by * twists[b].turning;
-      bodies[b] = Eigen::Translation3d(by * twists[b].velocity) * Eigen::AngleAxisd(turn.norm(), turn.normalized()) *
-                  bodies[b];
+      bodies[b] =
+          Eigen::Translation3d(by * twists[b].velocity) * Eigen::AngleAxisd(turn.norm(), turn.normalized()) * bodies[b];
     }
     return bodies;
   };

@@ -11,9 +11,10 @@ struct CurvedSample {
   Eigen::Matrix3d curvature = Eigen::Matrix3d::Zero();  ///< second derivatives, 1/m
 };
 
-/// Distance and gradient of the quadratic B-spline with the grid's values as coefficients (de Boor 1978), whose gradient
-/// has no jumps at the borders of cells. It passes near the values, not through them: by h²/8 times the surface's
-/// curvature off, h the size of a cell. In the outermost cells, where it lacks neighbors, the trilinear interpolant.
+/// Distance and gradient of the quadratic B-spline with the grid's values as coefficients (de Boor 1978), whose
+/// gradient has no jumps at the borders of cells. It passes near the values, not through them: by h²/8 times the
+/// surface's curvature off, h the size of a cell. In the outermost cells, where it lacks neighbors, the trilinear
+/// interpolant.
 FieldSample sample_spline(const FieldGrid& grid, const Eigen::Vector3f& p);
 
 /// The same in double precision, with second derivatives, piecewise constant along each axis; none in the outermost

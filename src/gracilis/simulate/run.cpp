@@ -90,8 +90,7 @@ Frame capture_frame(const Scene& scene, const Pose& pose, const DeformationMetho
   Frame frame = capture_frame(scene, pose), written;
   written.pose = pose;
   method.write(written);
-  for (std::size_t m = 0; m < frame.muscles.size(); ++m)
-    frame.muscles[m].fibers = std::move(written.muscles[m].fibers);
+  for (std::size_t m = 0; m < frame.muscles.size(); ++m) frame.muscles[m].fibers = std::move(written.muscles[m].fibers);
   return frame;
 }
 

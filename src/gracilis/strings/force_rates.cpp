@@ -16,9 +16,9 @@ Eigen::Matrix3d cross_matrix(const Vec3& v) {
 
 /// A bone near a point: how much nearer than wanted, which way leads out, and how both change with the point.
 struct BoneContact {
-  Real depth = 0;   ///< m, negative
-  Real slope = 0;   ///< of the distance along the normal
-  Vec3 normal;      ///< unit, world
+  Real depth = 0;               ///< m, negative
+  Real slope = 0;               ///< of the distance along the normal
+  Vec3 normal;                  ///< unit, world
   Eigen::Matrix3d normal_rate;  ///< by the point, 1/m
 };
 
@@ -138,9 +138,8 @@ Real ForceRates::support_by_bones(const Node& node, const BoneDistances& bones) 
       continue;
     const Real stiffness = slide.share * k;
     const Eigen::Matrix3d across = node.projection();
-    const Eigen::Matrix3d pull =
-        stiffness * (contact.slope * node.across(contact.normal) * contact.normal.transpose() +
-                     contact.depth * across * contact.normal_rate);
+    const Eigen::Matrix3d pull = stiffness * (contact.slope * node.across(contact.normal) * contact.normal.transpose() +
+                                              contact.depth * across * contact.normal_rate);
     here_[static_cast<std::size_t>(node.p)] += pull;
     go_with_body(node, body, pull, node.place);
     turn_with_body(node, body, -stiffness * contact.depth * across * cross_matrix(contact.normal));
@@ -204,8 +203,8 @@ void ForceRates::keep_from_bones(const Node& node, const BoneDistances& bones) {
     BoneContact contact;
     const auto press = [&](const Vec3& place, Real kept, Real stiffness, Eigen::Matrix3d& pull) {
       if (!touches(bones.fields[bone], poses_[static_cast<std::size_t>(body)], place, kept, contact)) return false;
-      pull = stiffness * (contact.slope * contact.normal * contact.normal.transpose() +
-                          contact.depth * contact.normal_rate);
+      pull = stiffness *
+             (contact.slope * contact.normal * contact.normal.transpose() + contact.depth * contact.normal_rate);
       go_with_body(node, body, pull, place);
       turn_with_body(node, body, -stiffness * contact.depth * cross_matrix(contact.normal));
       return true;

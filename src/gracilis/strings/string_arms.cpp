@@ -74,8 +74,7 @@ class Equilibrium {
     const auto counted = static_cast<Real>(std::count(doubtful.begin(), doubtful.end(), 0));
     Points weights = by_length_;
     for (Index s = 0; s < muscle_.strings; ++s)
-      weights.middleCols(muscle_.node(s, 0), muscle_.nodes) *=
-          doubtful[static_cast<std::size_t>(s)] ? 0 : 1 / counted;
+      weights.middleCols(muscle_.node(s, 0), muscle_.nodes) *= doubtful[static_cast<std::size_t>(s)] ? 0 : 1 / counted;
     const Points adjoint = solver_.transposed(weights);
     Eigen::MatrixXd wrenches = rates_.by_bodies_transposed(adjoint);
     const Points at_carried = rates_.by_places_transposed(adjoint) - weights;

@@ -195,8 +195,7 @@ void RunFolder::write_fibers(const FrameRecord& record) {
 }
 
 void RunFolder::truncate_tables(int announced) const {
-  for (const std::string& name : fiber_tables(scene_))
-    truncate_fiber_lengths(folder_ / name, frame_count_, announced);
+  for (const std::string& name : fiber_tables(scene_)) truncate_fiber_lengths(folder_ / name, frame_count_, announced);
 }
 
 void RunFolder::write_manifest(RunManifest manifest) const {

@@ -94,7 +94,8 @@ class StringsMethod final : public DeformationMethod {
     for (std::size_t m = 0; m < states_.size(); ++m) {
       MuscleShape& shape = frame.muscles.emplace_back();
       shape.points = states_[m].shape;
-      if (muscles_[m].strings && muscles_[m].wants_fibers) shape.fibers = as_lines(*muscles_[m].strings, states_[m].strings.places);
+      if (muscles_[m].strings && muscles_[m].wants_fibers)
+        shape.fibers = as_lines(*muscles_[m].strings, states_[m].strings.places);
     }
   }
 
