@@ -3,6 +3,7 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/tables/action_tables.hpp>
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/simulate/moment_arms.hpp>
 #include <gracilis/view/charts/run_charts.hpp>
@@ -24,18 +25,35 @@ Eigen::VectorXd values_of(const Table& table, const MovedCoordinate& moved) {
   return table.values.col(column_of(table, moved.name).value()) * (moved.translation ? 1 : radians(1));
 }
 
-/// The lengths of a run, only along the range, turned into moment arms. Every coordinate has a column, then every
-/// muscle and fiber.
-Table arms_from_lengths(const std::filesystem::path& file, const Scene& scene, const MovedCoordinate& moved) {
-  Table table = read_table(file);
+/// Only along the range.
+Table rows_of_range(Table table, const Scene& scene) {
   const auto rows = std::min(static_cast<Eigen::Index>(scene.motion.times.size()), table.values.rows());
   table.values = table.values.bottomRows(rows).eval();
   table.times.erase(table.times.begin(), table.times.end() - rows);
+  table.name = "moment_arms";
+  return table;
+}
+
+/// The moment arms that the run's method knows, or else those that its lengths say. Every coordinate has a column, then
+/// every muscle and fiber.
+Table arms_of(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved) {
+  if (const auto known = folder / moment_arm_file(moved.name); is_there(known))
+    return rows_of_range(read_table(known), scene);
+  Table table = rows_of_range(read_table(folder / "fiber_lengths.sto"), scene);
   const auto coordinates = static_cast<Eigen::Index>(coordinate_names(scene).size());
   const Eigen::Index lengths = table.values.cols() - coordinates;
   table.values.rightCols(lengths) = moment_arms(values_of(table, moved), table.values.rightCols(lengths));
-  table.name = "moment_arms";
   return table;
+}
+
+/// Says where fibers were left out of a muscle's mean, because they are about to snap to another way or not at rest.
+void tell_left_out(const Table& table, const std::string& muscle) {
+  const std::optional<Eigen::Index> column = column_of(table, muscle + "_left_out");
+  if (!column) return;
+  const Eigen::VectorXd counts = table.values.col(*column);
+  if (counts.isZero(0)) return;
+  fmt::print("  at most {:.0f} fibers, in {} of {} poses, are near a snap and left out\n", counts.maxCoeff(),
+             (counts.array() > 0).count(), counts.size());
 }
 
 std::vector<ArmCurve> references_of(const std::vector<ArmCurve>& all, const std::string& muscle,
@@ -87,7 +105,7 @@ void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, 
     spdlog::warn("no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
     return;
   }
-  const Table table = arms_from_lengths(folder / "fiber_lengths.sto", scene, moved);
+  const Table table = arms_of(folder, scene, moved);
   write_sto(folder / "moment_arms.sto", table);
 
   const ChartCoordinate coordinate = chart_coordinate(scene, moved.name);
@@ -113,6 +131,7 @@ void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, 
       for (std::size_t i = 0; i < curves.size(); ++i)
         chart.series.push_back(gray_series(curves[i], static_cast<int>(i)));
     }
+    tell_left_out(table, muscle.name);
     write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"), chart);
   }
   write_chart(folder / "plots" / "moment_arms.svg",

@@ -15,7 +15,8 @@ struct MovedCoordinate {
   bool translation = false;
 };
 
-/// Writes what follows from the fiber lengths of a run folder along a coordinate, and says it on the standard output:
+/// Writes the moment arms of a run folder along a coordinate (those that its method knows, or else what its fiber
+/// lengths say), and says them on the standard output:
 /// moment_arms.sto, plots/moment_arms*.svg, and beside `references`, as far as they are of this coordinate,
 /// reference.csv. Of translations: how much muscles shorten. The scene's motion is the range; rows before it only led
 /// there. Throws InputError.

@@ -127,6 +127,7 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
       if (options->session.out.empty())
         options->session.out = std::filesystem::path("runs") / (file_name_of(loaded.scene.name) + "_rom");
       const CoordinateRange moving = set_motion(options->coordinates, loaded.max_frames, loaded.scene);
+      options->session.fiber_actions = true;
       const int code = run_session(loaded, options->session);
       if (code != static_cast<int>(ExitCode::interrupted))
         write_moment_arms(options->session.out, loaded.scene, {moving.name, moving.translation}, references);

@@ -105,7 +105,7 @@ class Session {
             summary_.add(record);
             progress.show(record.frame.number);
           },
-          &*tracker_);
+          &*tracker_, options_.fiber_actions);
     } catch (const QualityError& error) {
       progress.clear();
       finish(std::string("failed: ") + error.what());
@@ -121,10 +121,11 @@ class Session {
     const StopScope scope(&stop_requested());
     overlaps_ = report_overlaps(loaded_.scene);
     for (const std::string& warning : overlap_warnings(overlaps_, keeps_surfaces_apart(loaded_.scene))) warn(warning);
-    spdlog::info("fibers");
-    tracker_.emplace(loaded_.scene);
     method_ =
         make_method(loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
+    spdlog::info("fibers");
+    const Frame capture = capture_frame(loaded_.scene, capture_pose(loaded_.scene.bodies.size()), *method_);
+    tracker_.emplace(loaded_.scene, &capture);
   }
 
   std::filesystem::path out_folder() const {

@@ -17,6 +17,7 @@ struct SessionOptions {
   bool resume = false;               ///< go on where the run in `out` was interrupted
   bool force = false;                ///< replace the run in `out`
   bool strict = false;               ///< exit with code 5 when a frame misses a quality gate
+  bool fiber_actions = false;        ///< also write moment arms and lines of action, where the method knows them
   bool print_folder = true;          ///< its path to stdout, once the run is complete
   std::vector<std::string> command;  ///< the command line, for the manifest
 };

@@ -49,6 +49,25 @@ TEST(FiberTracker, has_the_same_bits_for_any_number_of_threads_and_nothing_for_m
   EXPECT_TRUE(FiberTracker(scene).follow(rest_frame(scene))[0].lengths.empty());
 }
 
+TEST(FiberTracker, follows_the_fibers_of_a_method_that_knows_them) {
+  Scene scene = tube_scene();
+  Frame frame = rest_frame(scene);
+  Points line(3, 3);
+  line << 0, 0, 0, 0, 0, 0, 0.07, 0, -0.07;
+  frame.muscles[0].fibers.append(line);
+  const FiberTracker tracker(scene, &frame);
+  EXPECT_EQ(tracker.rest(0).points, line);
+  EXPECT_NEAR(tracker.follow(frame)[0].mean_length, 0.14, 1e-12);
+  frame.muscles[0].fibers.points *= 1.5;
+  const MuscleFibers fibers = tracker.follow(frame)[0];
+  EXPECT_EQ(fibers.lines.points, 1.5 * line);
+  EXPECT_NEAR(fibers.mean_length, 0.21, 1e-12);
+  EXPECT_NEAR(fibers.mean_strain, 0.5, 1e-12) << "the surface stays";
+  EXPECT_GT(fibers.cross_section, 2e-4);
+  scene.muscles[0].fibers.count = 0;
+  EXPECT_TRUE(FiberTracker(scene, &frame).follow(frame)[0].lengths.empty()) << "none are wanted";
+}
+
 TEST(CrossSection, counts_the_piece_around_the_point_only) {
   // A plane through both ends of a bent tube.
   TriangleMesh bent = shapes::cylinder(0.01, 0.3, 40, 100);

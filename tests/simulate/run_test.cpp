@@ -29,6 +29,14 @@ class Stepping final : public DeformationMethod {
   void write(Frame& frame) const override { frame.muscles = {{rest_.colwise() + Vec3(0.001 * steps_, 0, 0)}}; }
   void restore(const std::vector<Pose>&, const Frame&, const Frame& last) override { steps_ = last.number; }
 
+  std::vector<FiberActions> fiber_actions(const std::vector<std::vector<Twist>>& coordinates) const override {
+    FiberActions actions;
+    actions.arms.resize(1, static_cast<Index>(coordinates.size()));
+    for (std::size_t c = 0; c < coordinates.size(); ++c)
+      actions.arms(0, static_cast<Index>(c)) = coordinates[c].at(1).turning.y() * steps_;
+    return {actions};
+  }
+
   int resets = 0;
   std::vector<Real> time_steps;
 
@@ -86,6 +94,18 @@ TEST(RunScene, hands_over_every_frame_with_its_pose_and_measures) {
     ASSERT_EQ(record.measures.size(), 1u);
     EXPECT_NEAR(record.measures[0].volume_ratio, 1, 1e-12);
   }
+}
+
+TEST(RunScene, asks_in_every_frame_what_fibers_do_where_it_is_told_to) {
+  const Scene scene = tube_scene();
+  Stepping method(scene);
+  Recorder asked, not_asked;
+  const std::vector<Pose> poses = poses_of(scene, 3);
+  run_scene(scene, poses, method, nullptr, never, asked.function(), nullptr, true);
+  ASSERT_EQ(asked.records.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(asked.records[i].actions.at(0).arms(0, 0), static_cast<Real>(i));
+  run_scene(scene, poses, method, nullptr, never, not_asked.function());
+  EXPECT_TRUE(not_asked.records.at(2).actions.empty());
 }
 
 TEST(RunScene, tells_the_method_how_much_time_passes) {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
+#include <gracilis/scene/fiber_actions.hpp>
 #include <gracilis/scene/frame.hpp>
 #include <gracilis/scene/pose.hpp>
+#include <gracilis/scene/twist.hpp>
 
 #include <string>
 #include <string_view>
@@ -61,6 +63,9 @@ class DeformationMethod {
   virtual bool watches_clock() const { return false; }
   /// What has to be known about all frames since the capture pose together; empty: nothing.
   virtual std::string remark() const { return {}; }
+  /// What the fibers do to the bodies in the present pose, per muscle in the scene's order. `coordinates`: per
+  /// coordinate, how it moves every body. Of methods that hold fibers in an equilibrium; empty: it does not.
+  virtual std::vector<FiberActions> fiber_actions(const std::vector<std::vector<Twist>>&) const { return {}; }
   /// Of methods that have passes; null: it has none.
   virtual PassTracing* pass_tracing() { return nullptr; }
 };

@@ -14,7 +14,10 @@ Pose shifted(Pose pose, const Vec3& by) {
 }
 
 void shift_shapes(Frame& frame, const Vec3& by) {
-  for (MuscleShape& shape : frame.muscles) shape.points.colwise() += by;
+  for (MuscleShape& shape : frame.muscles) {
+    shape.points.colwise() += by;
+    shape.fibers.points.colwise() += by;
+  }
 }
 
 Frame shifted(Frame frame, const Vec3& by) {
@@ -34,6 +37,18 @@ class PlacedMethod final : public DeformationMethod {
   }
   bool watches_clock() const override { return method_->watches_clock(); }
   std::string remark() const override { return method_->remark(); }
+
+  std::vector<FiberActions> fiber_actions(const std::vector<std::vector<Twist>>& coordinates) const override {
+    std::vector<std::vector<Twist>> near = coordinates;
+    for (std::vector<Twist>& bodies : near)
+      for (Twist& twist : bodies) twist.velocity = twist.velocity_at(place_);
+    std::vector<FiberActions> actions = method_->fiber_actions(near);
+    for (FiberActions& muscle : actions)
+      for (Index body = 0; body < muscle.wrenches.cols(); ++body)
+        muscle.wrenches.col(body).tail<3>() += place_.cross(Vec3(muscle.wrenches.col(body).head<3>()));
+    return actions;
+  }
+
   PassTracing* pass_tracing() override { return method_->pass_tracing(); }  // passes tell of motion, not of places
 
   void write(Frame& frame) const override {

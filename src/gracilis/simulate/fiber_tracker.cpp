@@ -9,30 +9,33 @@
 
 namespace gracilis {
 
-FiberTracker::FiberTracker(const Scene& scene) : scene_(scene) {
-  for (const Muscle& muscle : scene.muscles) {
+FiberTracker::FiberTracker(const Scene& scene, const Frame* capture) : scene_(scene) {
+  for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
+    const Muscle& muscle = scene.muscles[m];
     Bound& bound = muscles_.emplace_back();
-    bound.rest = fibers_of(muscle);
+    if (muscle.fibers.count == 0) continue;
+    const bool known = capture && capture->muscles[m].fibers.count() > 0;
+    bound.rest = known ? capture->muscles[m].fibers : fibers_of(muscle);
     if (bound.rest.count() == 0) continue;
     bound.rest_lengths = polyline_lengths(bound.rest);
-    bound.binding.emplace(muscle.surface, bound.rest.points);
+    if (!known) bound.binding.emplace(muscle.surface, bound.rest.points);
     bound.topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   }
 }
 
-MuscleFibers FiberTracker::follow(std::size_t muscle, const Points& vertices) const {
+MuscleFibers FiberTracker::follow(std::size_t muscle, const MuscleShape& shape) const {
   const Bound& bound = muscles_[muscle];
   MuscleFibers fibers;
-  if (!bound.binding) return fibers;
+  if (bound.rest.count() == 0) return fibers;
   fibers.lines = bound.rest;
-  fibers.lines.points = bound.binding->evaluate(vertices);
+  fibers.lines.points = bound.binding ? bound.binding->evaluate(shape.points) : shape.fibers.points;
   fibers.lengths = polyline_lengths(fibers.lines);
   const auto count = static_cast<Real>(fibers.lengths.size());
   for (std::size_t i = 0; i < fibers.lengths.size(); ++i) {
     fibers.mean_length += fibers.lengths[i] / count;
     if (bound.rest_lengths[i] > 0) fibers.mean_strain += (fibers.lengths[i] / bound.rest_lengths[i] - 1) / count;
   }
-  const TriangleMesh now = {vertices, scene_.muscles[muscle].surface.faces};
+  const TriangleMesh now = {shape.points, scene_.muscles[muscle].surface.faces};
   fibers.cross_section = largest_cross_section(now, bound.topology, fibers.lines);
   if (fibers.mean_length > 0)
     fibers.physiological_cross_section = enclosed_volume(now.vertices, now.faces) / fibers.mean_length;
@@ -41,7 +44,7 @@ MuscleFibers FiberTracker::follow(std::size_t muscle, const Points& vertices) co
 
 std::vector<MuscleFibers> FiberTracker::follow(const Frame& frame) const {
   std::vector<MuscleFibers> all(muscles_.size());
-  parallel_for_each(all.size(), [&](std::size_t m) { all[m] = follow(m, frame.muscles[m].points); });
+  parallel_for_each(all.size(), [&](std::size_t m) { all[m] = follow(m, frame.muscles[m]); });
   return all;
 }
 

@@ -21,11 +21,13 @@ struct MuscleFibers {
   Real physiological_cross_section = 0;  ///< m², volume over mean length
 };
 
-/// Carries the fibers of all muscles of a scene along with their surfaces, to which they are bound in the capture pose.
+/// Follows the fibers of all muscles of a scene. Those that a method knows itself are where its frames say; all others
+/// are carried along with their surfaces, to which they are bound in the capture pose.
 class FiberTracker {
  public:
-  /// Makes and binds all fibers; takes seconds. The scene must outlive this.
-  explicit FiberTracker(const Scene& scene);
+  /// Makes and binds all fibers; takes seconds. Not those that stand in `capture`, the method's frame in the capture
+  /// pose; all frames to come must have these, too. The scene must outlive this.
+  explicit FiberTracker(const Scene& scene, const Frame* capture = nullptr);
 
   /// The fibers of every muscle, in the scene's order; deterministic for any number of threads.
   std::vector<MuscleFibers> follow(const Frame& frame) const;
@@ -40,7 +42,7 @@ class FiberTracker {
     std::optional<SurfaceBinding> binding;
     MeshTopology topology;
   };
-  MuscleFibers follow(std::size_t muscle, const Points& vertices) const;
+  MuscleFibers follow(std::size_t muscle, const MuscleShape& shape) const;
 
   const Scene& scene_;
   std::vector<Bound> muscles_;

@@ -1,10 +1,12 @@
 #include <gracilis/simulate/run.hpp>
 
+#include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/stop.hpp>
 
 #include <future>
+#include <utility>
 
 namespace gracilis {
 
@@ -18,12 +20,13 @@ Real time_before(const std::vector<Pose>& poses, int number) {
 }
 
 /// One frame, not measured yet. Throws Interrupted where it shall stop.
-FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int number, DeformationMethod& method) {
+FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int number, bool fiber_actions,
+                       DeformationMethod& method) {
   throw_if_stopped();
   const Pose& pose = poses[static_cast<std::size_t>(number)];
   FrameRecord now;
   if (number == 0) {
-    now.frame = capture_frame(scene, pose);
+    now.frame = capture_frame(scene, pose, method);
     now.report.muscles.resize(scene.muscles.size());
   } else {
     try {
@@ -35,6 +38,7 @@ FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int n
     method.write(now.frame);
   }
   now.frame.number = number;
+  if (fiber_actions) now.actions = method.fiber_actions(joint_twists(scene, pose.coordinates));
   return now;
 }
 
@@ -82,9 +86,18 @@ Frame capture_frame(const Scene& scene, const Pose& pose) {
   return frame;
 }
 
+Frame capture_frame(const Scene& scene, const Pose& pose, const DeformationMethod& method) {
+  Frame frame = capture_frame(scene, pose), written;
+  written.pose = pose;
+  method.write(written);
+  for (std::size_t m = 0; m < frame.muscles.size(); ++m) frame.muscles[m].fibers = std::move(written.muscles[m].fibers);
+  return frame;
+}
+
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
-                 const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker) {
+                 const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker,
+                 bool fiber_actions) {
   try {
     const StopScope scope(&stop);
     Measurer measurer(scene, tracker);
@@ -99,7 +112,7 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
     for (; next < static_cast<int>(poses.size()); ++next) {
       FrameRecord now;
       try {
-        now = make_frame(scene, poses, next, method);
+        now = make_frame(scene, poses, next, fiber_actions, method);
       } catch (...) {
         recorder.finish();
         throw;

@@ -18,6 +18,8 @@ struct FrameRecord {
   StepReport report;                      ///< empty muscles in frame 0
   std::vector<MuscleMeasures> measures;   ///< in the scene's order
   std::vector<MuscleFibers> fibers = {};  ///< in the scene's order; empty where fibers are not followed
+  /// In the scene's order, about its coordinates in theirs; empty where the method knows none or nobody asked.
+  std::vector<FiberActions> actions = {};
 };
 
 /// Where an interrupted run goes on: a frame whose number is a multiple of resume_period(scene), and the one before it.
@@ -32,12 +34,15 @@ enum class RunEnd { complete, interrupted };
 /// its next reset or restore. With `resume`, starts after its last frame. Throws QualityError,
 /// naming the frame, when a coordinate stops being finite; all frames before it have been recorded then. Frames are
 /// measured and recorded in order, but on a thread of their own while the next one is made. With `tracker`, fibers are
-/// followed.
+/// followed; with `fiber_actions` the method is asked for these in every frame.
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
-                 const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker = nullptr);
+                 const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker = nullptr,
+                 bool fiber_actions = false);
 
 /// Frame 0: the input surfaces at the capture pose.
 Frame capture_frame(const Scene& scene, const Pose& pose);
+/// The same, with the fibers that the method knows. Precondition: it stands at the capture pose.
+Frame capture_frame(const Scene& scene, const Pose& pose, const DeformationMethod& method);
 
 }  // namespace gracilis

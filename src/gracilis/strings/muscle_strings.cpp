@@ -1,6 +1,7 @@
 #include <gracilis/strings/muscle_strings.hpp>
 
 #include <gracilis/anatomy/fibers/muscle_fibers.hpp>
+#include <gracilis/geometry/field_spline.hpp>
 #include <gracilis/strings/relaxation.hpp>
 
 #include <algorithm>
@@ -109,7 +110,7 @@ void measure_bone_distances(const BoneDistances& bones, MuscleStrings& result) {
   for (std::size_t b = 0; b < bones.fields.size(); ++b)
     for (Index p = 0; p < result.fibers.cols(); ++p)
       result.bone_distances(static_cast<Index>(b), p) =
-          static_cast<Real>(sample_bounded(bones.fields[b], result.fibers.col(p).cast<float>()).distance);
+          static_cast<Real>(sample_spline_bounded(bones.fields[b], result.fibers.col(p).cast<float>()).distance);
 }
 
 /// Per body with a share in a node: its nearest bone under the support, where the string may slide over it.
@@ -122,7 +123,7 @@ std::vector<Slide> slides_under(const MuscleStrings& muscle, const BoneDistances
     Vec3 gradient = Vec3::Zero();
     for (std::size_t b = 0; b < bones.fields.size(); ++b) {
       if (bones.bodies[b] != body) continue;
-      const FieldSample seen = sample(bones.fields[b].grid, muscle.fibers.col(node).cast<float>());
+      const FieldSample seen = sample_spline(bones.fields[b].grid, muscle.fibers.col(node).cast<float>());
       if (static_cast<Real>(seen.distance) >= slide.distance) continue;
       slide.bone = static_cast<Index>(b), slide.distance = static_cast<Real>(seen.distance);
       gradient = seen.gradient.cast<Real>();

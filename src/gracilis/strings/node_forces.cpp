@@ -1,5 +1,6 @@
 #include <gracilis/strings/node_forces.hpp>
 
+#include <gracilis/geometry/field_spline.hpp>
 #include <gracilis/strings/cross_sections.hpp>
 #include <gracilis/strings/relaxation.hpp>
 
@@ -13,10 +14,21 @@ namespace gracilis::strings {
 static constexpr Real chord_allowance = 0.0005;
 /// Gaps at rest that are larger than this are not asked for, m.
 static constexpr Real farthest_gap = 0.06;
-/// A support whose slides take more than the rest of this has no plane left.
-static constexpr Real least_plane_share = 0.01;
 /// Stiffness of what goes with a body, over that of a segment.
 static constexpr Real held_stiffness = 1e4;
+
+static Real gap_at_rest(const MuscleStrings& muscle, std::size_t bone, Index node) {
+  return std::min(muscle.bone_distances(static_cast<Index>(bone), node), farthest_gap);
+}
+
+Real kept_at_node(const MuscleStrings& muscle, std::size_t bone, Index node) {
+  return std::min(gap_at_rest(muscle, bone, node), muscle.settings.bone_gap);
+}
+
+Real kept_at_middle(const MuscleStrings& muscle, std::size_t bone, Index node, Index other) {
+  const Real gap = (gap_at_rest(muscle, bone, node) + gap_at_rest(muscle, bone, other)) / 2;
+  return std::min(gap, muscle.settings.bone_gap) - chord_allowance;
+}
 
 /// An inner node while its forces are summed.
 struct NodeForces::Node {
@@ -95,7 +107,7 @@ void NodeForces::find_clear_bones(Index string, const Points& places) {
     Real nearest = std::numeric_limits<Real>::infinity();
     for (Index i = 0; i < muscle_.nodes; ++i) {
       const Eigen::Vector3f local = to_bones_[bone] * places.col(muscle_.node(string, i)).cast<float>();
-      nearest = std::min(nearest, static_cast<Real>(sample_bounded(bones_.fields[bone], local).distance));
+      nearest = std::min(nearest, static_cast<Real>(sample_spline_bounded(bones_.fields[bone], local).distance));
     }
     clear_(static_cast<Index>(bone), string) = nearest - longest / 2 - muscle_.settings.bone_gap;
   }
@@ -130,7 +142,7 @@ void NodeForces::support(const Node& node, StringSystem& system) const {
   for (const Slide& slide : support.slides) {
     plane_share -= slide.share;
     const auto bone = static_cast<std::size_t>(slide.bone);
-    const FieldSample seen = sample(bones_.fields[bone].grid, to_bones_[bone] * node.place.cast<float>());
+    const FieldSample seen = sample_spline(bones_.fields[bone].grid, to_bones_[bone] * node.place.cast<float>());
     const Real slope = static_cast<Real>(seen.gradient.norm()), distance = static_cast<Real>(seen.distance);
     if (slope < least_slope || distance >= slide.distance) continue;
     const Vec3 outward = (to_bones_[bone].linear().transpose() * seen.gradient).cast<Real>() / slope;
@@ -164,7 +176,7 @@ bool NodeForces::bone_force(std::size_t bone, const Vec3& place, Real kept, Seen
   const Eigen::Vector3f local = to_bones_[bone] * place.cast<float>();
   const auto far = static_cast<float>(kept);
   if (seen.distance > far && (local - seen.place).norm() < seen.distance - far) return false;
-  const FieldSample here = sample_bounded(bones_.fields[bone], local);
+  const FieldSample here = sample_spline_bounded(bones_.fields[bone], local);
   seen = {local, here.distance};
   const float slope = here.gradient.norm();
   if (here.distance >= far || static_cast<Real>(slope) < least_slope) return false;
@@ -180,18 +192,15 @@ void NodeForces::keep_from_bones(const Node& node, const Points& places, StringS
   const std::size_t count = static_cast<std::size_t>(places.cols());
   for (std::size_t bone = 0; bone < bones_.fields.size(); ++bone) {
     if (clear_(static_cast<Index>(bone), node.string) > travelled_[static_cast<std::size_t>(node.string)]) continue;
-    const auto rest = [&](Index p) {
-      return std::min(muscle_.bone_distances(static_cast<Index>(bone), p), farthest_gap);
-    };
     Real depth = 0;
     Vec3 normal;
     const std::size_t here = bone * count + static_cast<std::size_t>(node.p);
-    if (bone_force(bone, node.place, std::min(rest(node.p), settings.bone_gap), seen_nodes_[here], depth, normal))
+    if (bone_force(bone, node.place, kept_at_node(muscle_, bone, node.p), seen_nodes_[here], depth, normal))
       system.add_spring(node.i, k, normal, depth);
     // The middle of a segment is shared by its two nodes.
     const auto middle = [&](Index other, Seen& seen) {
       const Vec3 place = (node.place + places.col(other)) / 2;
-      const Real kept = std::min((rest(node.p) + rest(other)) / 2, settings.bone_gap) - chord_allowance;
+      const Real kept = kept_at_middle(muscle_, bone, node.p, other);
       if (bone_force(bone, place, kept, seen, depth, normal)) system.add_spring(node.i, k / 2, normal, depth);
     };
     if (node.i + 2 < muscle_.nodes) middle(node.p + 1, seen_middles_[here]);

@@ -7,6 +7,14 @@
 
 namespace gracilis::strings {
 
+/// A support whose slides take more than the rest of this has no plane left.
+inline constexpr Real least_plane_share = 0.01;
+
+/// The distance that a node keeps to a bone, m: the gap at rest, or less.
+Real kept_at_node(const MuscleStrings& muscle, std::size_t bone, Index node);
+/// That of the middle of a segment between two nodes.
+Real kept_at_middle(const MuscleStrings& muscle, std::size_t bone, Index node, Index other);
+
 /// What acts on the nodes of a muscle's strings in one pose: tension, ties, supports, neighbors, bones. Forces are over
 /// the tension, so in 1; stiffnesses in 1/m. Formulas: docs/mathematics.md, "Taut strings".
 class NodeForces {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace gracilis::strings {
 
@@ -14,6 +15,13 @@ namespace {
 /// After so many iterations steps are damped, for strings that go to and fro between two bones.
 constexpr int undamped_iterations = 12;
 constexpr Real damping = 0.6;
+/// Strings settle until no node moves further, m, or for so many iterations; the last ones take small steps, which end
+/// most going to and fro.
+constexpr Real settled_move = 1e-7;
+constexpr int settling_iterations = 300, settling_quenched_from = 80;
+constexpr Real quenching = 0.25;
+/// One that would still move further than this then, m, has no place; less matters nothing to its derivative.
+constexpr Real unsettled_move = 5e-6;
 
 /// One step of Gauss-Newton for one string, of which a share is taken; how far a node would move, m.
 Real relax_string(NodeForces& forces, Index string, Real taken, Points& places, StringSystem& system) {
@@ -33,20 +41,24 @@ Real relax_string(NodeForces& forces, Index string, Real taken, Points& places, 
   return farthest;
 }
 
-/// A string of which no node moved further than `stop_move` rests from then on; most are soon where they stay.
-void relax(NodeForces& forces, int iterations, Real stop_move, Points& places) {
+/// A string of which no node moved further than `stop_move` rests from then on; most are soon where they stay. After
+/// `quenched_from` iterations steps are small. Returns how far a node of each string moved last, m.
+std::vector<Real> relax(NodeForces& forces, int iterations, Real stop_move, Points& places,
+                        int quenched_from = std::numeric_limits<int>::max()) {
   const MuscleStrings& muscle = forces.muscle();
   StringSystem system(muscle.nodes);
-  std::vector<char> rests(static_cast<std::size_t>(muscle.strings), 0);
+  std::vector<Real> moved(static_cast<std::size_t>(muscle.strings), std::numeric_limits<Real>::infinity());
+  const auto rests = [&](Real move) { return move < stop_move; };
   for (int iteration = 0; iteration < iterations; ++iteration) {
     forces.begin_iteration(places);
-    const Real taken = iteration > undamped_iterations ? damping : 1;
+    const Real taken = iteration > quenched_from ? quenching : iteration > undamped_iterations ? damping : 1;
     for (Index s = 0; s < muscle.strings; ++s) {
-      char& rest = rests[static_cast<std::size_t>(s)];
-      if (!rest) rest = relax_string(forces, s, taken, places, system) < stop_move;
+      Real& move = moved[static_cast<std::size_t>(s)];
+      if (!rests(move)) move = relax_string(forces, s, taken, places, system);
     }
-    if (std::all_of(rests.begin(), rests.end(), [](char rest) { return rest != 0; })) return;
+    if (std::all_of(moved.begin(), moved.end(), rests)) break;
   }
+  return moved;
 }
 
 /// The largest turn of a body from one pose to another, rad.
@@ -98,6 +110,14 @@ Points pulled_tight(const MuscleStrings& muscle, const BoneDistances& bones) {
   NodeForces forces(bare, bones, bodies);
   relax(forces, muscle.settings.rest_iterations, muscle.settings.rest_stop_move, places);
   return places;
+}
+
+std::vector<char> settle(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
+  NodeForces forces(muscle, bones, state.bodies);
+  std::vector<char> unsettled;
+  for (const Real move : relax(forces, settling_iterations, settled_move, state.places, settling_quenched_from))
+    unsettled.push_back(!(move < unsettled_move));
+  return unsettled;
 }
 
 StringState capture_state(const MuscleStrings& muscle, std::size_t bodies) {

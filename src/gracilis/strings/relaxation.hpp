@@ -27,4 +27,8 @@ StringState capture_state(const MuscleStrings& muscle, std::size_t bodies);
 /// depends on the way of the poses where a string has two equilibria.
 void follow(const MuscleStrings& muscle, const BoneDistances& bones, const Pose& pose, StringState& state);
 
+/// Lets the strings come to rest in the pose that they are in, which `follow` does not wait for. Returns per string
+/// whether it did not.
+std::vector<char> settle(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state);
+
 }  // namespace gracilis::strings

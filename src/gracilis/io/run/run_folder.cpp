@@ -10,6 +10,7 @@
 #include <gracilis/io/mesh/polyline_file.hpp>
 #include <gracilis/io/run/measures_table.hpp>
 #include <gracilis/io/run/output_hashes.hpp>
+#include <gracilis/io/tables/action_tables.hpp>
 #include <gracilis/io/tables/fiber_table.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/methods/registry.hpp>
@@ -126,10 +127,10 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
   remove_frames_from(folder_ / "frames", frame_count_);
   remove_frames_from(folder_ / "fibers", frame_count_);
   truncate_measures(folder_ / "measures.csv", frame_count_);
-  truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_, static_cast<int>(poses_.size()));
+  truncate_tables(static_cast<int>(poses_.size()));
   if (frame_count_ == 0) {
     fs::remove(folder_ / "measures.csv");
-    fs::remove(folder_ / "fiber_lengths.sto");
+    for (const std::string& name : fiber_tables(scene_)) fs::remove(folder_ / name);
   }
   write_index();
 }
@@ -186,9 +187,15 @@ void RunFolder::write_fibers(const FrameRecord& record) {
                       fibers.lines, {{"length_m", fibers.lengths}});
     }
   });
+  for (const ActionTable& table : action_tables(scene_, record, static_cast<int>(poses_.size())))
+    append_measures(folder_ / table.name, table.head, table.row);
   append_measures(folder_ / "fiber_lengths.sto",
                   fiber_lengths_head(scene_, record.fibers, static_cast<int>(poses_.size())),
                   fiber_lengths_row(scene_, record.frame.pose, record.fibers));
+}
+
+void RunFolder::truncate_tables(int announced) const {
+  for (const std::string& name : fiber_tables(scene_)) truncate_fiber_lengths(folder_ / name, frame_count_, announced);
 }
 
 void RunFolder::write_manifest(RunManifest manifest) const {
@@ -203,7 +210,7 @@ void RunFolder::finish() {
   if (indexed_frames_ != frame_count_) write_index();
   // Until now the head announced all rows to come.
   if (frame_count_ < static_cast<int>(poses_.size())) {
-    truncate_fiber_lengths(folder_ / "fiber_lengths.sto", frame_count_, frame_count_);
+    truncate_tables(frame_count_);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/strings/settings.hpp>
 #include <gracilis/strings/bone_distances.hpp>
+#include <gracilis/strings/string_arms.hpp>
 #include <gracilis/strings/string_skin.hpp>
 
 #include <chrono>
@@ -23,6 +24,7 @@ struct StrungMuscle {
   TriangleMesh rest;  ///< world, in the capture pose, m
   BodyCarriers carriers;
   std::optional<strings::MuscleStrings> strings;  ///< none: its bodies carry it
+  bool wants_fibers = true;
   strings::StringSkin skin;
 };
 
@@ -31,6 +33,7 @@ StrungMuscle prepare(const Scene& scene, const Muscle& muscle, const strings::Bo
   StrungMuscle strung;
   strung.name = muscle.name;
   strung.rest = muscle.surface;
+  strung.wants_fibers = muscle.fibers.count > 0;
   strung.carriers =
       body_carriers(muscle, build_topology(muscle.surface.faces, muscle.surface.vertex_count()), no_tendon);
   if (strings::runs_between_bodies(muscle))
@@ -44,6 +47,12 @@ struct StrungState {
   strings::StringState strings;
   Points shape;  ///< world, m
 };
+
+Polylines as_lines(const strings::MuscleStrings& strings, const Points& places) {
+  Polylines lines{places, {}};
+  for (Index s = 0; s <= strings.strings; ++s) lines.offsets.push_back(strings.node(s, 0));
+  return lines;
+}
 
 class StringsMethod final : public DeformationMethod {
  public:
@@ -82,7 +91,22 @@ class StringsMethod final : public DeformationMethod {
 
   void write(Frame& frame) const override {
     frame.muscles.clear();
-    for (const StrungState& state : states_) frame.muscles.push_back({state.shape});
+    for (std::size_t m = 0; m < states_.size(); ++m) {
+      MuscleShape& shape = frame.muscles.emplace_back();
+      shape.points = states_[m].shape;
+      if (muscles_[m].strings && muscles_[m].wants_fibers)
+        shape.fibers = as_lines(*muscles_[m].strings, states_[m].strings.places);
+    }
+  }
+
+  std::vector<FiberActions> fiber_actions(const std::vector<std::vector<Twist>>& coordinates) const override {
+    std::vector<FiberActions> actions(muscles_.size());
+    parallel_for_each(muscles_.size(), [&](std::size_t m) {
+      throw_if_stopped();
+      if (muscles_[m].strings && muscles_[m].wants_fibers)
+        actions[m] = string_actions(*muscles_[m].strings, bones_, states_[m].strings, coordinates);
+    });
+    return actions;
   }
 
   /// Surfaces do not tell where strings are: they go through all poses again.

@@ -197,13 +197,15 @@ bool LiveSimulation::may_step() {
   return true;
 }
 
-void LiveSimulation::prepare() {
+Frame LiveSimulation::prepare() {
   method_ = make_method_();
   method_->reset();
-  tracker_.emplace(scene_);
-  history_.replace(0, shown(capture_frame(scene_, pose_at(scene_, reached_.coordinates))));
+  const Frame capture = capture_frame(scene_, pose_at(scene_, reached_.coordinates), *method_);
+  tracker_.emplace(scene_, &capture);
+  history_.replace(0, shown(capture));
   tell("ready");
   spdlog::info("ready: pull the sliders");
+  return capture;
 }
 
 /// Collects what the next step moves, where somebody wants to see it.
@@ -262,7 +264,7 @@ void LiveSimulation::work() {
   Frame last = capture_frame(scene_, pose_at(scene_, reached_.coordinates));
   for (Task task = Task::step; task != Task::stop;) {
     try {
-      if (!method_) prepare();
+      if (!method_) last = prepare();
       task = next_task();
       if (task == Task::reset) method_->reset();
       if (task == Task::step || task == Task::reset) {

@@ -57,7 +57,7 @@ class LiveSimulation {
   };
   enum class Task { step, reset, look_again, stop };
   void work();
-  void prepare();
+  Frame prepare();
   Task next_task();
   bool approach();
   bool may_step();

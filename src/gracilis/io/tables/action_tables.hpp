@@ -1,0 +1,35 @@
+#pragma once
+
+#include <gracilis/simulate/run.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// A .sto table of a run to which each frame adds a row.
+struct ActionTable {
+  std::string name;       ///< of the file
+  std::string head, row;  ///< text, with line breaks
+};
+
+/// What a frame's fiber actions add to the run's tables; nothing where it has none. All begin as fiber_lengths.sto
+/// does: the time, then the scene's coordinates (degrees or m).
+///
+/// moment_arms_<coordinate>.sto, one per coordinate: per muscle `<muscle>`, the mean, `<muscle>_f000` ... (m), and
+/// `<muscle>_left_out`, how many fibers the mean leaves out because they are about to snap to another way or not at
+/// rest.
+///
+/// lines_of_action.sto: per muscle `<muscle>_f000_origin_x`, `_y`, `_z`, the unit direction in which the fiber pulls at
+/// its origin, and `_insertion_x` ...; `<muscle>_f000_left_out`, 1 or 0; and per body that the muscle pulls at
+/// `<muscle>_on_<body>_force_x` ... (1) and `_moment_x` ... (m) about the body's origin, the place of the ground's
+/// origin in the capture pose, which went with the body. All in the directions of the ground.
+std::vector<ActionTable> action_tables(const Scene& scene, const FrameRecord& record, int rows);
+
+/// The names of all tables of fibers that a run of the scene may have.
+std::vector<std::string> fiber_tables(const Scene& scene);
+
+/// moment_arms_<coordinate>.sto
+std::string moment_arm_file(const std::string& coordinate);
+
+}  // namespace gracilis

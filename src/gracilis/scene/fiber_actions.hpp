@@ -1,0 +1,22 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// What a muscle's fibers do to the bodies in one pose, as the equilibrium says that they are in; empty for a muscle
+/// without such fibers. World directions.
+struct FiberActions {
+  Eigen::MatrixXd arms;        ///< fibers × coordinates: -dL/dq, m per rad (of a translation m per m)
+  std::vector<char> doubtful;  ///< per fiber: it is not at rest, or about to snap to another way; its arms mean nothing
+  Eigen::VectorXd mean_arms;   ///< per coordinate, over the fibers that are not doubtful; 0 where all are
+  /// 6 × bodies: the force (1) and the moment about the world's origin (m) with which the muscle pulls at each body,
+  /// directly and through all that holds its fibers, at a tension of 1 that the fibers which are not doubtful share
+  /// equally. In the motion that a coordinate makes they work as much as its mean arm says.
+  Eigen::MatrixXd wrenches;
+  Points origin_directions, insertion_directions;  ///< per fiber, unit: how it pulls at its ends
+};
+
+}  // namespace gracilis

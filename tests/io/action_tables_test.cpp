@@ -1,0 +1,84 @@
+#include <gracilis/io/tables/action_tables.hpp>
+#include <gracilis/io/tables/table.hpp>
+
+#include <scenes_for_tests.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace gracilis {
+namespace {
+
+/// Two fibers, of which the second is about to snap.
+FrameRecord record_of(const Scene& scene, Real angle) {
+  FrameRecord record;
+  record.frame.pose = flexed(scene, angle);
+  FiberActions& actions = record.actions.emplace_back();
+  actions.arms.resize(2, 1);
+  actions.arms << 0.02, 0.05;
+  actions.mean_arms = actions.arms.row(0).transpose();
+  actions.doubtful = {0, 1};
+  actions.wrenches = Eigen::MatrixXd::Zero(6, 2);
+  actions.wrenches.col(1) << 1, 2, 3, 0.1, 0.2, 0.3;
+  actions.origin_directions = Points::Zero(3, 2);
+  actions.origin_directions.row(2).setConstant(-1);
+  actions.insertion_directions = -actions.origin_directions;
+  return record;
+}
+
+Table read_back(const ActionTable& table) {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("gracilis_" + table.name);
+  std::ofstream(path) << table.head << table.row;
+  const Table read = read_table(path);
+  std::filesystem::remove(path);
+  EXPECT_THAT(read.warnings, testing::IsEmpty());
+  return read;
+}
+
+Real value(const Table& table, const std::string& column) { return table.values(0, column_of(table, column).value()); }
+
+TEST(ActionTables, tell_the_arms_of_each_coordinate_and_how_many_fibers_are_left_out) {
+  const Scene scene = tube_scene();
+  const std::vector<ActionTable> tables = action_tables(scene, record_of(scene, radians(30)), 1);
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[0].name, "moment_arms_flexion.sto");
+  const Table arms = read_back(tables[0]);
+  EXPECT_THAT(arms.columns, testing::ElementsAre("flexion", "tube", "tube_f000", "tube_f001", "tube_left_out"));
+  EXPECT_NEAR(value(arms, "flexion"), 30, 1e-9);
+  EXPECT_EQ(value(arms, "tube"), 0.02);
+  EXPECT_EQ(value(arms, "tube_f001"), 0.05);
+  EXPECT_EQ(value(arms, "tube_left_out"), 1);
+}
+
+TEST(ActionTables, tell_moments_about_the_origins_of_bodies) {
+  const Scene scene = tube_scene();
+  const FrameRecord record = record_of(scene, radians(30));
+  const Table lines = read_back(action_tables(scene, record, 1).at(1));
+  const Vec3 origin = record.frame.pose.bodies[1].translation(), force(1, 2, 3);
+  ASSERT_GT(origin.norm(), 1e-3) << "the hinge is not at the ground's origin";
+  const Vec3 moment = Vec3(0.1, 0.2, 0.3) + (Vec3::Zero() - origin).cross(force);
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::string letter(1, "xyz"[axis]);
+    EXPECT_EQ(value(lines, "tube_on_lower_force_" + letter), force[axis]);
+    EXPECT_NEAR(value(lines, "tube_on_lower_moment_" + letter), moment[axis], 1e-9);
+    EXPECT_EQ(value(lines, "tube_f000_origin_" + letter), axis == 2 ? -1 : 0);
+    EXPECT_EQ(value(lines, "tube_f001_insertion_" + letter), axis == 2 ? 1 : 0);
+  }
+  EXPECT_EQ(value(lines, "tube_f000_left_out"), 0);
+  EXPECT_EQ(value(lines, "tube_f001_left_out"), 1);
+}
+
+TEST(ActionTables, there_are_none_where_nothing_is_known) {
+  const Scene scene = tube_scene();
+  FrameRecord record;
+  record.frame.pose = flexed(scene, 0);
+  EXPECT_TRUE(action_tables(scene, record, 1).empty());
+  record.actions.resize(1);
+  EXPECT_TRUE(action_tables(scene, record, 1).empty());
+}
+
+}  // namespace
+}  // namespace gracilis

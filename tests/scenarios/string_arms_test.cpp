@@ -1,0 +1,73 @@
+#include "scenario_runs.hpp"
+
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_twists.hpp>
+#include <gracilis/geometry/polylines.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/strings/string_arms.hpp>
+
+#include <algorithm>
+
+/// Moment arms that strings know, on the real hip, beside differences of strings at rest.
+namespace gracilis {
+namespace {
+
+std::vector<Real> lengths_of(const strings::MuscleStrings& muscle, const Points& places) {
+  std::vector<Real> lengths;
+  for (Index s = 0; s < muscle.strings; ++s)
+    lengths.push_back(polyline_length(places.middleCols(muscle.node(s, 0), muscle.nodes)));
+  return lengths;
+}
+
+}  // namespace
+
+TEST(StringArmsOfTheHip, are_those_of_differences) {
+  SKIP_WITHOUT_DATA();
+  const Scene scene = cadaver_scene("flexion_60", {}, {"method=strings"});
+  const std::vector<DistanceField> fields = cached_bone_fields(scene, strings::far_field_settings());
+  const strings::BoneDistances bones = strings::bone_distances(scene, fields);
+  constexpr Real step = radians(0.1);
+  // Where the differences to both sides are further apart than an arm changes over a step, a string nearby snapped or
+  // touched a bone in between, and they tell no derivative.
+  constexpr Real same = 3e-4;
+  for (const Muscle& muscle : scene.muscles) {
+    const auto made = strings::muscle_strings(scene, muscle, bones, {});
+    ASSERT_TRUE(made) << muscle.name;
+    strings::StringState state = strings::capture_state(*made, scene.bodies.size());
+    Index strings = 0, doubtful = 0, compared = 0, near = 0;
+    for (const Real angle : {8.0, 32.0, 56.0}) {
+      std::vector<Real> at = capture_coordinates(scene);
+      at[0] = radians(angle);
+      follow(*made, bones, pose_at(scene, at), state);
+      const FiberActions actions = string_actions(*made, bones, state, joint_twists(scene, at));
+      strings::StringState settled = state;
+      settle(*made, bones, settled);
+      const std::vector<Real> here = lengths_of(*made, settled.places);
+      std::vector<Real> ends[2];
+      for (int side : {0, 1}) {
+        std::vector<Real> beside = at;
+        beside[0] += side == 0 ? -step : step;
+        strings::StringState moved = settled;
+        follow(*made, bones, pose_at(scene, beside), moved);
+        settle(*made, bones, moved);
+        ends[side] = lengths_of(*made, moved.places);
+      }
+      Real sum = 0, kept = 0;
+      for (std::size_t s = 0; s < ends[0].size(); ++s) {
+        ++strings, doubtful += actions.doubtful[s];
+        const bool smooth = std::abs(ends[0][s] + ends[1][s] - 2 * here[s]) < same * step;
+        if (actions.doubtful[s] || !smooth) continue;
+        ++compared;
+        const Real off = actions.arms(static_cast<Index>(s), 0) + (ends[1][s] - ends[0][s]) / (2 * step);
+        near += std::abs(off) < 1e-4;
+        sum += off, ++kept;
+      }
+      EXPECT_LT(std::abs(sum) / kept, 1e-4) << muscle.name << " at " << angle;
+    }
+    EXPECT_LT(doubtful, strings / 8) << muscle.name;
+    EXPECT_GT(compared, 2 * strings / 3) << muscle.name;
+    EXPECT_GT(near, 95 * compared / 100) << muscle.name;
+  }
+}
+
+}  // namespace gracilis
