@@ -103,16 +103,18 @@ TEST_P(HipInMotion, hinges_do_not_fold) { expect_held(contact_check::folded_shar
 
 TEST_P(HipInMotion, volume_is_kept) { expect_held(contact_check::volume_error); }
 
+TEST_P(HipInMotion, no_muscle_cuts_itself_at_rest) {
+  for (const Real step : GetParam().steps)
+    for (const contact_check::MuscleVerdict& muscle : run(step).rest.muscles) EXPECT_EQ(muscle.self_pairs, 0);
+}
+
 TEST_P(HipInMotion, nothing_overlaps_at_rest_where_it_was_prepared) {
-  for (const Real step : GetParam().steps) {
-    const contact_check::FrameVerdict& rest = run(step).rest;
-    const bool raw = !GetParam().file.empty() && GetParam().folder == "lhdl_hip";
-    for (const contact_check::PairVerdict& pair : rest.pairs) {
-      EXPECT_TRUE(raw || pair.face_pairs == 0);
-      EXPECT_TRUE(raw || pair.depth == 0);
+  if (!GetParam().file.empty() && GetParam().folder == "lhdl_hip") GTEST_SKIP() << "as scanned, muscles overlap";
+  for (const Real step : GetParam().steps)
+    for (const contact_check::PairVerdict& pair : run(step).rest.pairs) {
+      EXPECT_EQ(pair.face_pairs, 0);
+      EXPECT_EQ(pair.depth, 0);
     }
-    for (const contact_check::MuscleVerdict& muscle : rest.muscles) EXPECT_EQ(muscle.self_pairs, 0);
-  }
 }
 
 TEST_P(HipInMotion, every_frame_meets_the_gates_of_a_run) {
