@@ -58,7 +58,7 @@ void query(benchmark::State& timer, std::size_t bone) {
       static_cast<double>(points.size()), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-const bool registered = [] {
+const bool field_benchmarks_registered = [] {
   const std::vector<Bone>& bones = benchmark_hip().scene.bones;
   for (std::size_t b = 0; b < bones.size(); ++b) {
     for (int threads : {1, 2}) {

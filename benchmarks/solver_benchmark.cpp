@@ -85,7 +85,7 @@ void add(const std::string& name, const std::function<void(benchmark::State&)>& 
   benchmark::RegisterBenchmark(name.c_str(), body)->UseManualTime()->Unit(benchmark::kMillisecond);
 }
 
-const bool registered = [] {
+const bool solver_benchmarks_registered = [] {
   const std::vector<Muscle>& muscles = benchmark_hip().scene.muscles;
   for (std::size_t m = 0; m < muscles.size(); ++m)
     for (int threads : {1, 2}) {
