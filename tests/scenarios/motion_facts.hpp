@@ -7,7 +7,9 @@
 
 #include "judged_run.hpp"
 
+#include <algorithm>
 #include <ostream>
+#include <vector>
 
 /// What must hold in every motion of a hip, one fact each. The facts of one motion share its runs, so CTest starts one
 /// process per motion (CMakeLists.txt).
@@ -108,13 +110,15 @@ TEST_P(HipInMotion, no_muscle_cuts_itself_at_rest) {
     for (const contact_check::MuscleVerdict& muscle : run(step).rest.muscles) EXPECT_EQ(muscle.self_pairs, 0);
 }
 
-TEST_P(HipInMotion, nothing_overlaps_at_rest_where_it_was_prepared) {
-  if (!GetParam().file.empty() && GetParam().folder == "lhdl_hip") GTEST_SKIP() << "as scanned, muscles overlap";
-  for (const Real step : GetParam().steps)
-    for (const contact_check::PairVerdict& pair : run(step).rest.pairs) {
-      EXPECT_EQ(pair.face_pairs, 0);
-      EXPECT_EQ(pair.depth, 0);
-    }
+TEST_P(HipInMotion, muscles_overlap_at_rest_as_they_were_scanned_and_nowhere_else) {
+  const bool as_scanned = !GetParam().file.empty() && GetParam().folder == "lhdl_hip";
+  for (const Real step : GetParam().steps) {
+    const std::vector<contact_check::PairVerdict>& pairs = run(step).rest.pairs;
+    const auto overlapping = std::count_if(pairs.begin(), pairs.end(), [](const contact_check::PairVerdict& pair) {
+      return pair.face_pairs > 0 || pair.depth > 0;
+    });
+    EXPECT_EQ(overlapping > 0, as_scanned) << overlapping << " pairs of muscles";
+  }
 }
 
 TEST_P(HipInMotion, every_frame_meets_the_gates_of_a_run) {
