@@ -9,8 +9,8 @@ namespace gracilis {
 
 namespace {
 
-/// Most attempts at mending what cannot stay; what is crushed may resist them, and more leave it no better.
-constexpr int mending_attempts = 2;
+/// Most attempts at mending what cannot stay; what is crushed may resist them all.
+constexpr int mending_attempts = 4;
 
 bool settles(const SurfaceSolve& surface) { return surface.settings.settling_rounds > 0; }
 

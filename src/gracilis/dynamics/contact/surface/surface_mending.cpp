@@ -12,8 +12,9 @@ namespace {
 
 /// How far a particle goes at once to be mended, in neighborhoods (of some edges each).
 constexpr float mended_within = 0.5f;
-/// How often what could not be unfolded is smoothed.
-constexpr int smoothing_rounds = 2;
+/// Attempts in which folds are unfolded that have nothing to do with an overlap. What is unfolded may cut itself; the
+/// attempts that follow are for that.
+constexpr int unfolding_attempts = 2;
 
 /// The faces that may cut each other: where the surface is folded, and where parts of it meet.
 std::vector<Index> suspects(const ContactSurface& surface, const PairTouches& touches, const Particles& particles) {
@@ -69,13 +70,13 @@ bool mend_surfaces(const SurfaceCrowd& crowd, CrowdState& state, int attempt, co
                                                 suspects(surface, state.touches[i], *particles[at]));
     std::vector<FacePair> folds = find_folds(surface, crowd.rest[at], state.before[at], *particles[at]);
     const std::vector<FacePair> overlapping = let_go_of_overlaps(crowd, at, folds, state.torn[at]);
-    if (!cuts.empty()) folds = overlapping;
+    if (attempt >= unfolding_attempts || !cuts.empty()) folds = overlapping;
     cuts.insert(cuts.end(), folds.begin(), folds.end());
     const float most = mended_within * crowd.neighborhood[at];
-    if (attempt == 0)
+    if (attempt % 2 == 0)
       unfold(surface, crowd.rest[at], cuts, most, *particles[at]);
     else
-      smooth(surface, cuts, smoothing_rounds, most, *particles[at]);
+      smooth(surface, cuts, attempt + 1, most, *particles[at]);
     mended[at] = !cuts.empty();
   });
   movers.listed = std::move(mended);
