@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 static constexpr std::string_view temporary_prefix = ".gracilis-";
 
 void throw_write_error(const fs::path& path, const std::string& what) {
-  throw InputError({path.string(), "", what, "check the folder\'s permissions and the free space of the disk"});
+  throw InputError({path.string(), "", what, "check the folder's permissions and the free space of the disk"});
 }
 
 /// ".gracilis-HOST-PROCESS-STARTED-NUMBER.vtp" for "anything.vtp".

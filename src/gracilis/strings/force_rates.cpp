@@ -68,27 +68,24 @@ ForceRates::ForceRates(const MuscleStrings& muscle, const BoneDistances& bones, 
   before_ = after_ = neighbor_pull_ = here_;
   by_body_.assign(count * bodies.size(), BodyRate::Zero());
   const Real segments = static_cast<Real>(muscle.nodes - 1);
-  for (Index s = 0; s < muscle.strings; ++s)
-    for (Index i = 1; i + 1 < muscle.nodes; ++i) {
-      if (!is_free(s, i)) continue;
-      const Index p = muscle.node(s, i);
-      const Real length = muscle.lengths[static_cast<std::size_t>(s)];
-      const Node node{s,
-                      i,
-                      p,
-                      segments / length,
-                      length / segments,
-                      places.col(p),
-                      string_direction(muscle, places, s, i),
-                      (places.col(p + 1) - places.col(p - 1)).norm()};
-      const auto row = static_cast<std::size_t>(p);
-      here_[row].diagonal().array() += 2 * node.tension;
-      before_[row].diagonal().array() -= node.tension, after_[row].diagonal().array() -= node.tension;
-      tie(node);
-      support_by_plane(node, support_by_bones(node, bones));
-      hold_among_neighbors(node);
-      keep_from_bones(node, bones);
-    }
+  for_each_free_node([&](Index s, Index i, Index p) {
+    const Real length = muscle.lengths[static_cast<std::size_t>(s)];
+    const Node node{s,
+                    i,
+                    p,
+                    segments / length,
+                    length / segments,
+                    places.col(p),
+                    string_direction(muscle, places, s, i),
+                    (places.col(p + 1) - places.col(p - 1)).norm()};
+    const auto row = static_cast<std::size_t>(p);
+    here_[row].diagonal().array() += 2 * node.tension;
+    before_[row].diagonal().array() -= node.tension, after_[row].diagonal().array() -= node.tension;
+    tie(node);
+    support_by_plane(node, support_by_bones(node, bones));
+    hold_among_neighbors(node);
+    keep_from_bones(node, bones);
+  });
 }
 
 void ForceRates::turn_with_string(const Node& node, const Eigen::Matrix3d& by_difference) {
@@ -167,7 +164,7 @@ void ForceRates::support_by_plane(const Node& node, Real share) {
   const Eigen::Matrix3d by_normal = k * (normal * offset.transpose() + depth * Eigen::Matrix3d::Identity());
   here_[static_cast<std::size_t>(node.p)] += pull;
   turn_with_string(node, -by_normal * node.across_rate(unit));
-  const Eigen::Matrix3d unit_rate = (Eigen::Matrix3d::Identity() - unit * unit.transpose()) / blend.norm();
+  const Eigen::Matrix3d unit_rate = rate_of_unit(blend);
   for (Index b = 0; b < bodies_; ++b) {
     const Real of_body = muscle_.shares(b, node.p);
     if (!(of_body > 0)) continue;
@@ -224,42 +221,34 @@ void ForceRates::keep_from_bones(const Node& node, const BoneDistances& bones) {
 Points ForceRates::by_places(const Points& rates) const {
   Points forces = Points::Zero(3, rates.cols());
   const Points turning = sections_.turning(rates);
-  for (Index s = 0; s < muscle_.strings; ++s) {
+  for_each_free_node([&](Index s, Index i, Index p) {
     const std::vector<Index>& neighbors = muscle_.neighbors[static_cast<std::size_t>(s)];
-    for (Index i = 1; i + 1 < muscle_.nodes; ++i) {
-      if (!is_free(s, i)) continue;
-      const Index p = muscle_.node(s, i);
-      const auto row = static_cast<std::size_t>(p);
-      forces.col(p) = before_[row] * rates.col(p - 1) + here_[row] * rates.col(p) + after_[row] * rates.col(p + 1);
-      if (neighbors.empty()) continue;
-      Vec3 there = Vec3(turning.col(i)).cross(Vec3(neighbor_arms_.col(p)));
-      for (const Index neighbor : neighbors)
-        there += rates.col(muscle_.node(neighbor, i)) / static_cast<Real>(neighbors.size());
-      forces.col(p) -= neighbor_pull_[row] * there;
-    }
-  }
+    const auto row = static_cast<std::size_t>(p);
+    forces.col(p) = before_[row] * rates.col(p - 1) + here_[row] * rates.col(p) + after_[row] * rates.col(p + 1);
+    if (neighbors.empty()) return;
+    Vec3 there = Vec3(turning.col(i)).cross(Vec3(neighbor_arms_.col(p)));
+    for (const Index neighbor : neighbors)
+      there += rates.col(muscle_.node(neighbor, i)) / static_cast<Real>(neighbors.size());
+    forces.col(p) -= neighbor_pull_[row] * there;
+  });
   return forces;
 }
 
 Points ForceRates::by_places_transposed(const Points& weights) const {
   Points rates = Points::Zero(3, weights.cols()), turning = Points::Zero(3, muscle_.nodes);
-  for (Index s = 0; s < muscle_.strings; ++s) {
+  for_each_free_node([&](Index s, Index i, Index p) {
     const std::vector<Index>& neighbors = muscle_.neighbors[static_cast<std::size_t>(s)];
-    for (Index i = 1; i + 1 < muscle_.nodes; ++i) {
-      if (!is_free(s, i)) continue;
-      const Index p = muscle_.node(s, i);
-      const auto row = static_cast<std::size_t>(p);
-      const Vec3 weight = weights.col(p);
-      rates.col(p - 1) += before_[row].transpose() * weight;
-      rates.col(p) += here_[row].transpose() * weight;
-      rates.col(p + 1) += after_[row].transpose() * weight;
-      if (neighbors.empty()) continue;
-      const Vec3 there = -(neighbor_pull_[row].transpose() * weight);
-      turning.col(i) += Vec3(neighbor_arms_.col(p)).cross(there);
-      for (const Index neighbor : neighbors)
-        rates.col(muscle_.node(neighbor, i)) += there / static_cast<Real>(neighbors.size());
-    }
-  }
+    const auto row = static_cast<std::size_t>(p);
+    const Vec3 weight = weights.col(p);
+    rates.col(p - 1) += before_[row].transpose() * weight;
+    rates.col(p) += here_[row].transpose() * weight;
+    rates.col(p + 1) += after_[row].transpose() * weight;
+    if (neighbors.empty()) return;
+    const Vec3 there = -(neighbor_pull_[row].transpose() * weight);
+    turning.col(i) += Vec3(neighbor_arms_.col(p)).cross(there);
+    for (const Index neighbor : neighbors)
+      rates.col(muscle_.node(neighbor, i)) += there / static_cast<Real>(neighbors.size());
+  });
   sections_.add_transposed(turning, rates);
   return rates;
 }

@@ -44,7 +44,13 @@ class ForceRates {
   void go_with_body(const Node& node, Index body, const Eigen::Matrix3d& pull, const Vec3& place);
   void turn_with_body(const Node& node, Index body, const Eigen::Matrix3d& by_turn);
   BodyRate& body_rate(Index node, Index body) { return by_body_[static_cast<std::size_t>(node * bodies_ + body)]; }
-  bool is_free(Index string, Index i) const { return body_holding(muscle_, string, i) < 0; }
+  /// Calls act(string, i, p) for every node that is free, p its column.
+  template <class Act>
+  void for_each_free_node(const Act& act) const {
+    for (Index s = 0; s < muscle_.strings; ++s)
+      for (Index i = 1; i + 1 < muscle_.nodes; ++i)
+        if (body_holding(muscle_, s, i) < 0) act(s, i, muscle_.node(s, i));
+  }
 
   const MuscleStrings& muscle_;
   const Points places_;

@@ -6,8 +6,7 @@
 
 namespace gracilis::strings {
 
-/// The derivative of v / |v| by v.
-static Eigen::Matrix3d rate_of_unit(const Vec3& v) {
+Eigen::Matrix3d rate_of_unit(const Vec3& v) {
   const Real length = v.norm();
   if (!(length > 0)) return Eigen::Matrix3d::Zero();
   const Vec3 unit = v / length;

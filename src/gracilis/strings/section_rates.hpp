@@ -6,6 +6,9 @@
 
 namespace gracilis::strings {
 
+/// The derivative of v / |v| by v; zero where v is.
+Eigen::Matrix3d rate_of_unit(const Vec3& v);
+
 /// How fast the cross-sections turn where nodes move: the derivative of `section_turns`, at one state of the strings.
 class SectionRates {
  public:

@@ -34,6 +34,14 @@ Eigen::VectorXd carried_by(const MuscleStrings& muscle, Index string, Index i, b
   return left_out ? Eigen::VectorXd(muscle.shares.col(muscle.node(string, i))) : Eigen::VectorXd();
 }
 
+/// The velocity of a place that goes with bodies by these shares.
+Vec3 carried_velocity(const Eigen::VectorXd& shares, const std::vector<Twist>& twists, const Vec3& place) {
+  Vec3 velocity = Vec3::Zero();
+  for (Index body = 0; body < shares.size(); ++body)
+    velocity += shares[body] * twists[static_cast<std::size_t>(body)].velocity_at(place);
+  return velocity;
+}
+
 Points string_columns(const MuscleStrings& muscle, const Points& columns, Index string) {
   return columns.middleCols(muscle.node(string, 0), muscle.nodes);
 }
@@ -98,22 +106,14 @@ class Equilibrium {
   /// By the shares of bodies.
   Real fastest_carried(const std::vector<Twist>& twists) const {
     Real speed = least_speed;
-    for (Index p = 0; p < places_.cols(); ++p) {
-      Vec3 velocity = Vec3::Zero();
-      for (std::size_t body = 0; body < twists.size(); ++body)
-        velocity += muscle_.shares(static_cast<Index>(body), p) * twists[body].velocity_at(places_.col(p));
-      speed = std::max(speed, velocity.norm());
-    }
+    for (Index p = 0; p < places_.cols(); ++p)
+      speed = std::max(speed, carried_velocity(muscle_.shares.col(p), twists, places_.col(p)).norm());
     return speed;
   }
 
   Points carried_motions(const std::vector<Twist>& twists) const {
     Points motions = Points::Zero(3, places_.cols());
-    for (Index p = 0; p < places_.cols(); ++p) {
-      const Eigen::VectorXd shares = carried(p);
-      for (Index body = 0; body < shares.size(); ++body)
-        motions.col(p) += shares[body] * twists[static_cast<std::size_t>(body)].velocity_at(places_.col(p));
-    }
+    for (Index p = 0; p < places_.cols(); ++p) motions.col(p) = carried_velocity(carried(p), twists, places_.col(p));
     return motions;
   }
 

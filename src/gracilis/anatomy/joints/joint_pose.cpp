@@ -1,5 +1,7 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 
+#include <gracilis/anatomy/joints/axis_motion.hpp>
+
 #include <cassert>
 
 namespace gracilis {
@@ -18,18 +20,13 @@ std::vector<Real> capture_coordinates(const Scene& scene) {
   return values;
 }
 
-static RigidTransform motion_of(const JointAxis& axis, Real value) {
-  if (axis.translation) return RigidTransform(Eigen::Translation3d(value * axis.axis));
-  return RigidTransform(Eigen::AngleAxisd(value, axis.axis));
-}
-
 /// X(q) X(q_capture)⁻¹. The identity without any rounding when q is q_capture.
 static RigidTransform motion_since_capture(const Joint& joint, std::span<const Real> values) {
   RigidTransform now = RigidTransform::Identity(), capture = RigidTransform::Identity();
   bool moved = false;
   for (std::size_t i = 0; i < joint.axes.size(); ++i) {
-    now = now * motion_of(joint.axes[i], values[i]);
-    capture = capture * motion_of(joint.axes[i], joint.axes[i].capture_value);
+    now = now * axis_motion(joint.axes[i], values[i]);
+    capture = capture * axis_motion(joint.axes[i], joint.axes[i].capture_value);
     moved |= values[i] != joint.axes[i].capture_value;
   }
   if (!moved) return RigidTransform::Identity();

@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/joints/joint_twists.hpp>
 
+#include <gracilis/anatomy/joints/axis_motion.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 
 namespace gracilis {
@@ -33,9 +34,7 @@ std::vector<std::vector<Twist>> joint_twists(const Scene& scene, std::span<const
       std::vector<Twist>& of_bodies = twists.emplace_back(scene.bodies.size());
       for (std::size_t body = 0; body < of_bodies.size(); ++body)
         if (hangs_on(scene, static_cast<Index>(body), joint)) of_bodies[body] = twist;
-      const Real value = coordinates[coordinate++];
-      frame = frame * (axis.translation ? RigidTransform(Eigen::Translation3d(value * axis.axis))
-                                        : RigidTransform(Eigen::AngleAxisd(value, axis.axis)));
+      frame = frame * axis_motion(axis, coordinates[coordinate++]);
     }
   }
   return twists;
