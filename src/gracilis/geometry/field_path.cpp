@@ -6,7 +6,7 @@
 namespace gracilis {
 
 /// Between nodes a field may tell more than the distance: by its slope and by rounding off ridges.
-static constexpr float trusted_share = 0.9f;
+static constexpr float trusted_part = 0.9f;
 static constexpr int most_steps = 512;
 /// A step that brings the end nearer by less than this share of its length slides no further.
 static constexpr float least_headway = 0.01f;
@@ -41,7 +41,7 @@ Eigen::Vector3f kept_path(const BoundedField& bounded, const Eigen::Vector3f& fr
   for (int step = 0; step < most_steps; ++step) {
     const Eigen::Vector3f rest = to - p;
     const float left = rest.norm();
-    const float stride = std::max(safe, trusted_share * (at.distance - level) - cell);
+    const float stride = std::max(safe, trusted_part * (at.distance - level) - cell);
     if (!(left > 0)) return p;
     Eigen::Vector3f next = stride < left ? Eigen::Vector3f(p + rest * (stride / left)) : to;
     at = sample_bounded(bounded, next);
