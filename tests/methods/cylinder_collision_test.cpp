@@ -1,7 +1,7 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
-#include <gracilis/methods/cylinder/action_line.hpp>
+#include <gracilis/anatomy/sections/action_line.hpp>
+#include <gracilis/anatomy/sections/cylinder_surface.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
 #include <gracilis/methods/cylinder/section_collision.hpp>
 #include <gracilis/scene/validate.hpp>
 

@@ -1,8 +1,8 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/resolution/coarser_muscle.hpp>
 #include <gracilis/anatomy/resolution/finer_muscle.hpp>
+#include <gracilis/anatomy/sections/cylinder_surface.hpp>
 #include <gracilis/anatomy/sections/line_sections.hpp>
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 #include <gracilis/scene/validate.hpp>

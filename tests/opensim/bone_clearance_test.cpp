@@ -1,6 +1,6 @@
+#include <gracilis/anatomy/sections/cylinder_surface.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/section_frames.hpp>
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
 #include <gracilis/opensim/import/bone_clearance.hpp>
 
 #include <shapes.hpp>

@@ -2,13 +2,13 @@
 
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/anatomy/sections/action_line.hpp>
+#include <gracilis/anatomy/sections/spindle.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
-#include <gracilis/methods/cylinder/action_line.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
-#include <gracilis/methods/cylinder/spindle.hpp>
 #include <gracilis/opensim/import/scene_folder.hpp>
 #include <gracilis/opensim/kinematics/skeleton.hpp>
 #include <gracilis/scene/validate.hpp>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/methods/cylinder/tetrahedra.hpp>
+#include <gracilis/anatomy/sections/tetrahedra.hpp>
 
 #include <filesystem>
 

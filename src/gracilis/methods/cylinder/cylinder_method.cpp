@@ -1,9 +1,9 @@
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 
+#include <gracilis/anatomy/sections/cylinder_surface.hpp>
 #include <gracilis/anatomy/sections/line_sections.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
 #include <gracilis/methods/cylinder/section_collision.hpp>
 
 #include <algorithm>

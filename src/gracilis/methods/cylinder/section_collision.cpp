@@ -1,23 +1,11 @@
 #include <gracilis/methods/cylinder/section_collision.hpp>
 
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
+#include <gracilis/anatomy/sections/cylinder_surface.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace gracilis {
-
-static Real triangle_area(const SectionRings& rings, Index k, Index ray) {
-  const Vec3 center = rings.centers.col(k);
-  const Vec3 a = rings.corner(k, ray) - center, b = rings.corner(k, (ray + 1) % rings.rays) - center;
-  return a.cross(b).norm() / 2;
-}
-
-Real section_area(const SectionRings& rings, Index section) {
-  Real area = 0;
-  for (Index i = 0; i < rings.rays; ++i) area += triangle_area(rings, section, i);
-  return area;
-}
 
 /// What lies on the way from a corner to its center of the way to the other corner; 0 where the angle is not acute.
 static Real depth_at(const Vec3& corner, const Vec3& center, const Vec3& other) {

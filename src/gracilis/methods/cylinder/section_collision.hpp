@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/anatomy/sections/section_rings.hpp>
 #include <gracilis/geometry/segment_hits.hpp>
 #include <gracilis/scene/scene.hpp>
 
@@ -9,20 +10,6 @@
 namespace gracilis {
 
 /// Sections that give way to each other and to bones (Laclé 2014, chapter 4).
-
-/// One muscle's sections as they are in a frame. Corner i of section k is column k * rays + i.
-struct SectionRings {
-  Index rays = 0;
-  Points centers;
-  Points corners;  ///< those of all sections; without the two ends
-
-  Index sections() const { return static_cast<Index>(centers.cols()); }
-  auto corner(Index k, Index ray) { return corners.col(k * rays + ray); }
-  Vec3 corner(Index k, Index ray) const { return corners.col(k * rays + ray); }
-};
-
-/// Area about the center of the polygon that a section's corners make: the sum of its triangles, m².
-Real section_area(const SectionRings& rings, Index section);
 
 /// How far two sections joined by a transversal lie in each other, m: at each end where the angle between the
 /// transversal and the direction to the section's own center is acute, the transversal's projection on that direction.

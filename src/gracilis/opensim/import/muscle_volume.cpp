@@ -1,11 +1,11 @@
 #include <gracilis/opensim/import/muscle_volume.hpp>
 
+#include <gracilis/anatomy/sections/action_line.hpp>
+#include <gracilis/anatomy/sections/cylinder_surface.hpp>
+#include <gracilis/anatomy/sections/enhancement.hpp>
+#include <gracilis/anatomy/sections/spindle.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/polylines.hpp>
-#include <gracilis/methods/cylinder/action_line.hpp>
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
-#include <gracilis/methods/cylinder/enhancement.hpp>
-#include <gracilis/methods/cylinder/spindle.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 
 #include <fmt/format.h>

@@ -1,12 +1,12 @@
 #include <gracilis/view/export/export.hpp>
 
+#include <gracilis/anatomy/sections/action_line.hpp>
+#include <gracilis/anatomy/sections/tetrahedra.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/whole_number.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/mesh/tetrahedra_writer.hpp>
-#include <gracilis/methods/cylinder/action_line.hpp>
-#include <gracilis/methods/cylinder/tetrahedra.hpp>
 
 #include <fmt/format.h>
 

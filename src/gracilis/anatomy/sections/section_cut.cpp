@@ -1,4 +1,4 @@
-#include <gracilis/methods/cylinder/section_cut.hpp>
+#include <gracilis/anatomy/sections/section_cut.hpp>
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
+#include <gracilis/anatomy/sections/action_line.hpp>
+#include <gracilis/anatomy/sections/cylinder_surface.hpp>
+#include <gracilis/anatomy/sections/spindle.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/polylines.hpp>
-#include <gracilis/methods/cylinder/action_line.hpp>
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
-#include <gracilis/methods/cylinder/spindle.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
-#include <gracilis/methods/cylinder/section_cut.hpp>
+#include <gracilis/anatomy/sections/cylinder_surface.hpp>
+#include <gracilis/anatomy/sections/section_cut.hpp>
 
 #include <vector>
 

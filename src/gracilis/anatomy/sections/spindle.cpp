@@ -1,4 +1,4 @@
-#include <gracilis/methods/cylinder/spindle.hpp>
+#include <gracilis/anatomy/sections/spindle.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include <gracilis/methods/cylinder/tetrahedra.hpp>
+#include <gracilis/anatomy/sections/tetrahedra.hpp>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

@@ -1,4 +1,4 @@
-#include <gracilis/methods/cylinder/enhancement.hpp>
+#include <gracilis/anatomy/sections/enhancement.hpp>
 
 #include <algorithm>
 #include <cassert>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/methods/cylinder/section_collision.hpp>
+#include <gracilis/anatomy/sections/section_rings.hpp>
 
 #include <vector>
 

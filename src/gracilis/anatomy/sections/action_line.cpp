@@ -1,4 +1,4 @@
-#include <gracilis/methods/cylinder/action_line.hpp>
+#include <gracilis/anatomy/sections/action_line.hpp>
 
 #include <cassert>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/sections/action_line.hpp>
+#include <gracilis/anatomy/sections/enhancement.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
-#include <gracilis/methods/cylinder/action_line.hpp>
-#include <gracilis/methods/cylinder/enhancement.hpp>
 
 #include <shapes.hpp>
 

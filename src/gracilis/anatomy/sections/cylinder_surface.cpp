@@ -1,4 +1,4 @@
-#include <gracilis/methods/cylinder/cylinder_surface.hpp>
+#include <gracilis/anatomy/sections/cylinder_surface.hpp>
 
 #include <algorithm>
 #include <cmath>
