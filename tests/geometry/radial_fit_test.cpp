@@ -7,8 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <random>
 
 namespace gracilis {
@@ -162,14 +162,14 @@ TEST(RadialFit, sparse_systems_of_50000_centers_take_seconds) {
   constexpr Index count = 50000;
   const Points points = scattered(count, 3);
   const Eigen::VectorXd values = values_of(points, wave);
-  const auto started = std::chrono::steady_clock::now();
+  const std::clock_t started = std::clock();  // processor time: the machine may be busy
   const RadialFit fit = interpolate({{RadialShape::wendland_31}, RadialPolynomial::linear}, points, 0.12, values);
-  const std::chrono::duration<Real> taken = std::chrono::steady_clock::now() - started;
-  RecordProperty("seconds", std::to_string(taken.count()));
+  const Real seconds = static_cast<Real>(std::clock() - started) / CLOCKS_PER_SEC;
+  RecordProperty("seconds", std::to_string(seconds));
   RecordProperty("condition", std::to_string(fit.condition));
   EXPECT_LT(fit.largest_residual, 1e-10);
 #ifdef NDEBUG
-  EXPECT_LT(taken.count(), 30);
+  EXPECT_LT(seconds, 30);
 #endif
 }
 

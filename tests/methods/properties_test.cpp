@@ -96,6 +96,13 @@ Scene scene_of(const Variant& variant) {
   return scene;
 }
 
+std::size_t number_of(const std::string& variant) {
+  const std::vector<Variant> variants = all_variants();
+  return static_cast<std::size_t>(
+      std::find_if(variants.begin(), variants.end(), [&](const Variant& each) { return each.name == variant; }) -
+      variants.begin());
+}
+
 class Method : public ::testing::TestWithParam<Variant> {
  protected:
   const Scene scene = scene_of(GetParam());
@@ -183,7 +190,8 @@ TEST_P(Method, gives_the_same_bits_for_any_number_of_threads) {
 }
 
 TEST_P(Method, any_jump_gives_finite_shapes_or_an_error) {
-  std::mt19937 generator(17);
+  // Each variant has jumps of its own: together they are asked more of than if all had the same.
+  std::mt19937 generator(static_cast<unsigned>(17 + number_of(GetParam().name)));
   std::uniform_real_distribution<Real> uniform(-1, 1);
   const auto random_body = [&] {
     const Vec3 axis(uniform(generator), uniform(generator), uniform(generator));
@@ -192,11 +200,11 @@ TEST_P(Method, any_jump_gives_finite_shapes_or_an_error) {
                           Eigen::AngleAxisd(pi * uniform(generator), axis.normalized()));
   };
   std::vector<Pose> poses = {at(pi), at(0), at(-pi), at(pi), at(-pi / 2)};
-  for (int i = 0; i < 10; ++i) {
+  for (int i = 0; i < 4; ++i) {
     poses.push_back(at(0));
     poses.back().bodies = {random_body(), random_body()};
   }
-  int survived = 0;
+  std::size_t survived = 0;
   for (const Pose& pose : poses) {
     try {
       go(*method, pose);
@@ -206,7 +214,8 @@ TEST_P(Method, any_jump_gives_finite_shapes_or_an_error) {
     }
     EXPECT_TRUE(is_finite(shape()));
   }
-  EXPECT_GT(survived, 0) << "nothing but errors";
+  EXPECT_EQ(survived, poses.size());
+  EXPECT_NO_THROW(go(*method, at(0)));
 }
 
 TEST_P(Method, keeps_its_volume) {

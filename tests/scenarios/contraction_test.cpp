@@ -124,7 +124,7 @@ TEST(ActiveMuscle, keeps_its_shape_whether_there_are_sixteen_fibers_or_a_hundred
   }
 }
 
-TEST(JointControl, half_of_the_samples_of_a_gait_interpolate_the_others_within_a_tenth) {
+TEST(JointControl, half_of_the_samples_of_a_gait_interpolate_the_others_within_a_fifth_of_their_spread) {
   SKIP_WITHOUT_DATA();
   const Scene scene = cadaver_scene("gait");
   ASSERT_EQ(scene.activation.units.size(), 1u);
@@ -132,7 +132,11 @@ TEST(JointControl, half_of_the_samples_of_a_gait_interpolate_the_others_within_a
   ASSERT_EQ(unit.muscles.size(), 5u);
   ASSERT_GT(unit.angles.rows(), 100);
   const Eigen::VectorXd errors = leave_out_error(unit);
-  for (Index i = 0; i < errors.size(); ++i) EXPECT_LE(errors[i], 0.1) << unit.muscles[static_cast<std::size_t>(i)];
+  for (Index i = 0; i < errors.size(); ++i) {
+    const Eigen::ArrayXd known = unit.activations.col(i).array();
+    const Real spread = std::sqrt((known - known.mean()).square().mean());
+    EXPECT_LE(errors[i], 0.2 * spread) << unit.muscles[static_cast<std::size_t>(i)] << ", spread " << spread;
+  }
 }
 
 }  // namespace gracilis
