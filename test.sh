@@ -4,6 +4,7 @@
 #   ./test.sh --quick   what takes less than a minute of it, for while one works
 #   ./test.sh --long    also the whole motions that take long
 #   ./test.sh --asan    the same tests in a build with address and undefined behavior sanitizers
+#   ./test.sh --tsan    the tests of what runs on several threads in a build with the thread sanitizer
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 source tools/set_up.sh
@@ -19,8 +20,13 @@ for option in "$@"; do
       ;;
     --long) selection=() ;;
     --asan) preset=asan ;;
+    --tsan)
+      preset=tsan
+      targets=(threaded_tests)
+      selection=(--label-regex '^(quick|methods)$')
+      ;;
     *)
-      echo "usage: ./test.sh [--quick | --long] [--asan]" >&2
+      echo "usage: ./test.sh [--quick | --long] [--asan | --tsan]" >&2
       exit 2
       ;;
   esac
