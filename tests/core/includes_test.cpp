@@ -54,8 +54,8 @@ const std::map<std::string, std::map<std::string, int>> room_ranks = {
     {"view", {{"pictures", 0}, {"charts", 1}, {"export", 1}, {"report", 2}, {"window", 2}, {"comparison", 3}}}};
 
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
-const std::vector<std::string> toolkit_libraries = {"vtk",  "fmt/",     "spdlog/", "toml++/", "nlohmann/",
-                                                    "CLI/", "openssl/", "EGL/",    "pugixml", "SimTK"};
+const std::vector<std::string> toolkit_libraries = {"vtk",      "fmt/", "spdlog/", "toml++/", "nlohmann/", "CLI/",
+                                                    "openssl/", "EGL/", "pugixml", "gif_lib", "SimTK"};
 
 /// Folder names of a path such as "methods/xpbd/motion.hpp", without the file.
 std::vector<std::string> folders_of(const std::string& path) {

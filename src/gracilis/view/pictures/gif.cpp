@@ -1,11 +1,13 @@
 #include <gracilis/view/pictures/gif.hpp>
 
-#include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 
+#include <gif_lib.h>
+
 #include <algorithm>
-#include <cstdint>
-#include <fstream>
+#include <limits>
+#include <new>
+#include <utility>
 
 namespace gracilis {
 
@@ -25,7 +27,8 @@ static std::pair<int, std::size_t> widest_channel(const std::vector<Rgb>& colors
   return widest;
 }
 
-std::vector<Rgb> gif_palette(const std::vector<PixelImage>& images) {
+/// At most 255 colors that stand for those of the images: median cut (Heckbert 1982) over every few pixels.
+static std::vector<Rgb> gif_palette(const std::vector<PixelImage>& images) {
   std::vector<std::vector<Rgb>> boxes(1);
   for (const PixelImage& image : images)
     for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4 * 7)
@@ -63,79 +66,6 @@ std::vector<Rgb> gif_palette(const std::vector<PixelImage>& images) {
 
 namespace {
 
-/// Codes of growing length, least significant bit first, in sub-blocks of at most 255 bytes.
-class CodeWriter {
- public:
-  void write(unsigned code, int length) {
-    bits_ |= static_cast<std::uint64_t>(code) << count_;
-    for (count_ += length; count_ >= 8; count_ -= 8, bits_ >>= 8) push(static_cast<char>(bits_ & 255));
-  }
-  std::string finish() {
-    if (count_ > 0) push(static_cast<char>(bits_ & 255));
-    flush();
-    return std::move(out_) + '\0';
-  }
-
- private:
-  void push(char byte) {
-    block_ += byte;
-    if (block_.size() == 255) flush();
-  }
-  void flush() {
-    if (block_.empty()) return;
-    out_ += static_cast<char>(block_.size()) + block_;
-    block_.clear();
-  }
-
-  std::uint64_t bits_ = 0;
-  int count_ = 0;
-  std::string block_, out_;
-};
-
-}  // namespace
-
-std::string gif_codes(const std::vector<unsigned char>& pixels, int bits) {
-  const unsigned clear = 1u << bits, end = clear + 1;
-  static constexpr unsigned full = 4096;  // codes have 12 bits at most
-  CodeWriter writer;
-  // next[code][pixel]: the code for what `code` stands for with one more pixel; 0: none yet.
-  std::vector<std::array<std::uint16_t, 256>> next(full);
-  const auto restart = [&] {
-    for (auto& row : next) row.fill(0);
-  };
-  restart();
-  unsigned known = end + 1;
-  int length = bits + 1;
-  writer.write(clear, length);
-  if (pixels.empty()) return static_cast<char>(bits) + (writer.write(end, length), writer.finish());
-  unsigned code = pixels[0];
-  for (std::size_t i = 1; i < pixels.size(); ++i) {
-    const std::uint16_t longer = next[code][pixels[i]];
-    if (longer != 0) {
-      code = longer;
-      continue;
-    }
-    writer.write(code, length);
-    if (known < full) {
-      next[code][pixels[i]] = static_cast<std::uint16_t>(known);
-      if (known++ == (1u << length)) ++length;
-    } else {
-      writer.write(clear, length);
-      restart();
-      known = end + 1;
-      length = bits + 1;
-    }
-    code = pixels[i];
-  }
-  writer.write(code, length);
-  // A reader knows one more code by now and may have gone to longer ones.
-  if (known < full && known == (1u << length)) ++length;
-  writer.write(end, length);
-  return static_cast<char>(bits) + writer.finish();
-}
-
-namespace {
-
 /// The palette's nearest color, remembered for 5 bits of each channel.
 class NearestColor {
  public:
@@ -164,38 +94,88 @@ class NearestColor {
 
 }  // namespace
 
-static std::string two_bytes(int number) {
-  return {static_cast<char>(number & 255), static_cast<char>(number >> 8 & 255)};
-}
+namespace {
 
-static std::string gif_head(const PixelImage& first, const std::vector<Rgb>& palette) {
-  std::string head = "GIF89a" + two_bytes(first.width) + two_bytes(first.height) + "\xf7" + std::string(2, '\0');
-  for (std::size_t i = 0; i < 256; ++i)
-    for (std::size_t k = 0; k < 3; ++k) head += static_cast<char>(i < palette.size() ? palette[i][k] : 0);
-  return head + std::string("\x21\xff\x0bNETSCAPE2.0\x03\x01\0\0\0", 19);  // for ever
-}
+/// A file of giflib's that is written into memory.
+class GifText {
+ public:
+  GifText() {
+    int problem = 0;
+    file_ = EGifOpen(&text_, append, &problem);
+    if (file_ == nullptr) throw std::bad_alloc();
+    EGifSetGifVersion(file_, true);
+  }
+  ~GifText() {
+    if (file_ != nullptr) EGifCloseFile(file_, nullptr);
+  }
+  GifText(const GifText&) = delete;
+  GifText& operator=(const GifText&) = delete;
+
+  /// Size, colors, and that it repeats for ever.
+  void begin(int width, int height, const std::vector<Rgb>& palette) {
+    std::array<GifColorType, 256> colors{};
+    for (std::size_t i = 0; i < palette.size(); ++i) colors[i] = {palette[i][0], palette[i][1], palette[i][2]};
+    ColorMapObject* const map = GifMakeMapObject(256, colors.data());
+    if (map == nullptr) throw std::bad_alloc();
+    const int result = EGifPutScreenDesc(file_, width, height, 8, 0, map);
+    GifFreeMapObject(map);
+    check(result);
+    check(EGifPutExtensionLeader(file_, APPLICATION_EXT_FUNC_CODE));
+    check(EGifPutExtensionBlock(file_, 11, "NETSCAPE2.0"));
+    check(EGifPutExtensionBlock(file_, 3, "\x01\0\0"));
+    check(EGifPutExtensionTrailer(file_));
+  }
+
+  /// An image that stays where the next one is transparent.
+  void add(int width, int height, std::vector<unsigned char> pixels, int hundredths) {
+    const GraphicsControlBlock control{DISPOSE_DO_NOT, false, hundredths, unchanged};
+    std::array<GifByteType, 4> bytes{};
+    EGifGCBToExtension(&control, bytes.data());
+    check(EGifPutExtension(file_, GRAPHICS_EXT_FUNC_CODE, 4, bytes.data()));
+    check(EGifPutImageDesc(file_, 0, 0, width, height, false, nullptr));
+    check(EGifPutLine(file_, pixels.data(), static_cast<int>(pixels.size())));
+  }
+
+  std::string end() {
+    check(EGifCloseFile(std::exchange(file_, nullptr), nullptr));
+    return std::move(text_);
+  }
+
+ private:
+  static int append(GifFileType* file, const GifByteType* bytes, int count) {
+    static_cast<std::string*>(file->UserData)
+        ->append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
+    return count;
+  }
+  /// Memory takes all that is written: what can fail is memory.
+  static void check(int result) {
+    if (result != GIF_OK) throw std::bad_alloc();
+  }
+
+  std::string text_;
+  GifFileType* file_;
+};
+
+}  // namespace
 
 void write_gif(const std::filesystem::path& path, int count, int frames_per_second,
                const std::function<PixelImage(int)>& image) {
   const std::vector<Rgb> palette = gif_palette({image(0), image(count / 2), image(count - 1)});
   NearestColor nearest(palette);
-  std::string gif;
+  GifText gif;
   std::vector<unsigned char> last;
   for (int i = 0; i < count; ++i) {
     const PixelImage now = image(i);
-    if (i == 0) gif = gif_head(now, palette);
+    if (i == 0) gif.begin(now.width, now.height, palette);
     std::vector<unsigned char> pixels(now.rgba.size() / 4);
     for (std::size_t p = 0; p < pixels.size(); ++p) pixels[p] = nearest(&now.rgba[4 * p]);
     std::vector<unsigned char> changes = pixels;
     for (std::size_t p = 0; p < last.size(); ++p)
       if (pixels[p] == last[p]) changes[p] = unchanged;
-    // Shown for 1/100 s each, left standing, transparent where unchanged.
-    gif +=
-        std::string("\x21\xf9\x04\x05", 4) + two_bytes(100 / frames_per_second) + static_cast<char>(unchanged) + '\0';
-    gif += ',' + std::string(4, '\0') + two_bytes(now.width) + two_bytes(now.height) + '\0' + gif_codes(changes, 8);
+    gif.add(now.width, now.height, std::move(changes), 100 / frames_per_second);
     last = std::move(pixels);
   }
-  write_text_atomically(path, gif + ';');
+  write_text_atomically(path, gif.end());
 }
 
 }  // namespace gracilis
