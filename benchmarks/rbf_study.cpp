@@ -4,6 +4,7 @@
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/radial_solid.hpp>
 #include <gracilis/geometry/rbf_centers.hpp>
+#include <gracilis/geometry/rbf_feature_centers.hpp>
 #include <gracilis/geometry/surface_extraction.hpp>
 
 #include <height_fields.hpp>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/geometry/rbf_centers.hpp>
+#include <gracilis/geometry/rbf_feature_centers.hpp>
 
 #include <cmath>
 #include <functional>

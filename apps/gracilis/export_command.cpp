@@ -4,7 +4,9 @@
 #include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/export/run_points.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
-#include <gracilis/view/export/export.hpp>
+#include <gracilis/view/export/export_gltf.hpp>
+#include <gracilis/view/export/export_tables.hpp>
+#include <gracilis/view/export/export_tetrahedra.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

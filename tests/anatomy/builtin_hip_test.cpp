@@ -1,6 +1,7 @@
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/builtin/builtin_hip_bones.hpp>
 #include <gracilis/anatomy/builtin/builtin_hip_muscles.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip_sacrum.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>

@@ -1,4 +1,5 @@
 #include <gracilis/geometry/rbf_centers.hpp>
+#include <gracilis/geometry/rbf_feature_centers.hpp>
 
 #include <height_fields.hpp>
 

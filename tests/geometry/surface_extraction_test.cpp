@@ -3,6 +3,7 @@
 #include <gracilis/geometry/implicit_surface_spline.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/surface_extraction.hpp>
+#include <gracilis/geometry/surface_remeshing.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #include <gracilis/geometry/wrapping.hpp>
+#include <gracilis/geometry/wrapping_ellipsoid.hpp>
 
 #include <gtest/gtest.h>
 

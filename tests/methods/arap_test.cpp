@@ -1,6 +1,6 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/arap/arap_method.hpp>
-#include <gracilis/methods/arap/surface.hpp>
+#include <gracilis/methods/arap/volume.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <member_count.hpp>

@@ -1,6 +1,7 @@
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/tables/table.hpp>
-#include <gracilis/view/export/export.hpp>
+#include <gracilis/view/export/export_gltf.hpp>
+#include <gracilis/view/export/export_tables.hpp>
 
 #include "view/recorded_runs.hpp"
 

@@ -58,15 +58,6 @@ class Spreading {
 
 }  // namespace
 
-Points HeightField::nodes() const {
-  Points points(3, heights.size());
-  for (Index j = 0; j < rows; ++j)
-    for (Index i = 0; i < columns; ++i) points.col(j * columns + i) = node(i, j);
-  return points;
-}
-
-Eigen::AlignedBox3d HeightField::box() const { return {Vec3::Zero(), node(columns - 1, rows - 1)}; }
-
 Points grid_centers(const Eigen::AlignedBox3d& box, const Eigen::Vector3i& counts) {
   std::vector<Vec3> centers;
   for (Index k = 0; k < counts.z(); ++k)

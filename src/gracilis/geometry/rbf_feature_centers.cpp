@@ -1,4 +1,4 @@
-#include <gracilis/geometry/rbf_centers.hpp>
+#include <gracilis/geometry/rbf_feature_centers.hpp>
 
 #include <algorithm>
 #include <array>
@@ -62,6 +62,15 @@ Eigen::Vector2d slope_at(const HeightField& field, Index i, Index j) {
 }
 
 }  // namespace
+
+Points HeightField::nodes() const {
+  Points points(3, heights.size());
+  for (Index j = 0; j < rows; ++j)
+    for (Index i = 0; i < columns; ++i) points.col(j * columns + i) = node(i, j);
+  return points;
+}
+
+Eigen::AlignedBox3d HeightField::box() const { return {Vec3::Zero(), node(columns - 1, rows - 1)}; }
 
 Points extremum_centers(const HeightField& field) {
   std::vector<char> marked = unmarked(field);

@@ -1,6 +1,7 @@
 #include <gracilis/geometry/surface_extraction.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/surface_remeshing.hpp>
 
 #include <algorithm>
 #include <array>

@@ -38,11 +38,6 @@ TriangleMesh largest_component(const TriangleMesh& mesh);
 /// Moves every vertex along the gradient onto the surface of `solid`; at most one grid step.
 void project_to_surface(TriangleMesh& mesh, const SampledSolid& solid);
 
-/// Makes all edges about `edge_length` long and triangles near equilateral by splitting, collapsing and flipping edges
-/// and by moving vertices within the surface of `solid` (Botsch and Kobbelt 2004). The mesh stays closed, manifold,
-/// oriented, and of its genus. Precondition: `mesh` is closed, manifold and lies near the surface of `solid`.
-TriangleMesh remesh(const TriangleMesh& mesh, const SampledSolid& solid, Real edge_length);
-
 /// The solid's surface as a mesh with edges about `edge_length` long: sample, extract, largest component, remesh.
 /// `step` is the grid's; details finer than two steps are lost.
 TriangleMesh mesh_solid(const ImplicitSolid& solid, Real step, Real edge_length);

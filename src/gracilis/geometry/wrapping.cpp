@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <gracilis/geometry/wrapping_ellipsoid.hpp>
 #include <vector>
 
 namespace gracilis {

@@ -1,4 +1,4 @@
-#include <gracilis/geometry/wrapping.hpp>
+#include <gracilis/geometry/wrapping_ellipsoid.hpp>
 
 #include <Eigen/Cholesky>
 

@@ -1,7 +1,10 @@
 #include <gracilis/anatomy/builtin/builtin_elbow.hpp>
 
 #include <gracilis/anatomy/builtin/builtin_elbow_bones.hpp>
+#include <gracilis/anatomy/builtin/builtin_elbow_forearm.hpp>
+#include <gracilis/anatomy/builtin/builtin_elbow_humerus.hpp>
 #include <gracilis/anatomy/builtin/builtin_elbow_muscles.hpp>
+#include <gracilis/anatomy/builtin/builtin_elbow_scapula.hpp>
 #include <gracilis/anatomy/builtin/builtin_parts.hpp>
 
 namespace gracilis {

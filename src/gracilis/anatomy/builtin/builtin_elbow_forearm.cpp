@@ -1,4 +1,6 @@
-#include <gracilis/anatomy/builtin/builtin_elbow_bones.hpp>
+#include <gracilis/anatomy/builtin/builtin_elbow_forearm.hpp>
+
+#include <gracilis/anatomy/builtin/builtin_elbow_humerus.hpp>
 #include <gracilis/geometry/implicit_surface_spline.hpp>
 
 namespace gracilis::builtin_elbow_shapes {

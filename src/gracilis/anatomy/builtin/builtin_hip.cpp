@@ -1,7 +1,10 @@
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
 
 #include <gracilis/anatomy/builtin/builtin_hip_bones.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip_femur.hpp>
 #include <gracilis/anatomy/builtin/builtin_hip_muscles.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip_pelvis.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip_sacrum.hpp>
 #include <gracilis/anatomy/builtin/builtin_parts.hpp>
 
 namespace gracilis {

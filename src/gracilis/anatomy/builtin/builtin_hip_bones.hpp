@@ -2,7 +2,6 @@
 
 #include <gracilis/anatomy/builtin/builtin_shapes.hpp>
 #include <gracilis/core/types.hpp>
-#include <gracilis/geometry/implicit_surface.hpp>
 
 namespace gracilis {
 
@@ -17,11 +16,6 @@ using namespace builtin_shapes;
 inline constexpr Real median_plane = -0.084;
 inline constexpr Real head_radius = 0.0245;    ///< of the femoral head
 inline constexpr Real socket_radius = 0.0262;  ///< of the acetabulum: leaves a joint gap of 1.7 mm
-
-ImplicitSolid right_hip_bone();
-/// The sacrum with the coccyx, kept clear of the right hip bone and its mirror image.
-ImplicitSolid sacrum(const ImplicitSolid& right_hip_bone);
-ImplicitSolid right_femur();
 
 }  // namespace builtin_hip_shapes
 }  // namespace gracilis

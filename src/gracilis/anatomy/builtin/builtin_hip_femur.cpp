@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/builtin/builtin_hip_bones.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip_femur.hpp>
 
 namespace gracilis::builtin_hip_shapes {
 

@@ -1,4 +1,5 @@
-#include <gracilis/anatomy/builtin/builtin_hip_bones.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip_pelvis.hpp>
+
 #include <gracilis/geometry/implicit_surface_spline.hpp>
 
 namespace gracilis::builtin_hip_shapes {

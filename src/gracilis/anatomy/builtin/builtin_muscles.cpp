@@ -2,6 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/surface_remeshing.hpp>
 
 #include <algorithm>
 #include <cmath>

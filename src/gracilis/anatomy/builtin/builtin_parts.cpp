@@ -2,6 +2,7 @@
 
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/surface_extraction.hpp>
+#include <gracilis/geometry/surface_remeshing.hpp>
 
 #include <cmath>
 #include <utility>

@@ -2,7 +2,9 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/io/run/inspect_kinds.hpp>
+#include <gracilis/io/run/inspect_data.hpp>
+#include <gracilis/io/run/inspect_model.hpp>
+#include <gracilis/io/run/inspect_run.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

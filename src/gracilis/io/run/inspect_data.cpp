@@ -1,7 +1,8 @@
+#include <gracilis/io/run/inspect_data.hpp>
+
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
-#include <gracilis/io/run/inspect_kinds.hpp>
 #include <gracilis/io/scene/landmarks.hpp>
 #include <gracilis/io/tables/table.hpp>
 

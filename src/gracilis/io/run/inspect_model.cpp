@@ -1,6 +1,7 @@
+#include <gracilis/io/run/inspect_model.hpp>
+
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/io/run/inspect_kinds.hpp>
 
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>

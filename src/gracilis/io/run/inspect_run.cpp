@@ -1,7 +1,8 @@
+#include <gracilis/io/run/inspect_run.hpp>
+
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/io/run/inspect_kinds.hpp>
 #include <gracilis/io/run/run_manifest.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/io/text_cells.hpp>

@@ -4,7 +4,7 @@
 #include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/methods/arap/surface.hpp>
+#include <gracilis/methods/arap/volume.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/shape_method.hpp>
 #include <gracilis/methods/shared_rows.hpp>

@@ -1,5 +1,6 @@
+#include <gracilis/methods/arap/volume.hpp>
+
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/methods/arap/surface.hpp>
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include <gracilis/opensim/reader/model_parts.hpp>
+#include <gracilis/opensim/reader/curved_joints.hpp>
 
 #include <fmt/format.h>
 

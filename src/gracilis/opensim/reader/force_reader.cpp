@@ -1,6 +1,7 @@
-#include <gracilis/opensim/reader/model_parts.hpp>
+#include <gracilis/opensim/reader/force_reader.hpp>
 
 #include <fmt/format.h>
+#include <gracilis/opensim/reader/path_reader.hpp>
 
 #include <cmath>
 

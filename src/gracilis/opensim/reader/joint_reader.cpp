@@ -1,5 +1,8 @@
+#include <gracilis/opensim/reader/joint_reader.hpp>
+
+#include <gracilis/opensim/reader/body_reader.hpp>
+#include <gracilis/opensim/reader/curved_joints.hpp>
 #include <gracilis/opensim/reader/function_reader.hpp>
-#include <gracilis/opensim/reader/model_parts.hpp>
 
 #include <gracilis/io/text_cells.hpp>
 

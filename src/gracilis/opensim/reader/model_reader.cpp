@@ -2,7 +2,9 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
-#include <gracilis/opensim/reader/model_parts.hpp>
+#include <gracilis/opensim/reader/body_reader.hpp>
+#include <gracilis/opensim/reader/force_reader.hpp>
+#include <gracilis/opensim/reader/joint_reader.hpp>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
+#include <gracilis/opensim/reader/path_reader.hpp>
+
 #include <gracilis/opensim/reader/function_reader.hpp>
-#include <gracilis/opensim/reader/model_parts.hpp>
 
 #include <gracilis/io/text_cells.hpp>
 

@@ -1,5 +1,6 @@
+#include <gracilis/view/export/export_gltf.hpp>
+
 #include <gracilis/geometry/decimation.hpp>
-#include <gracilis/view/export/export.hpp>
 #include <gracilis/view/pictures/palette.hpp>
 
 #include <gracilis/io/atomic_file.hpp>

@@ -1,4 +1,4 @@
-#include <gracilis/view/export/export.hpp>
+#include <gracilis/view/export/export_tables.hpp>
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>

@@ -1,4 +1,4 @@
-#include <gracilis/view/export/export.hpp>
+#include <gracilis/view/export/export_tetrahedra.hpp>
 
 #include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/tetrahedra.hpp>

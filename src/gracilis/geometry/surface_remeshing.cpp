@@ -1,4 +1,4 @@
-#include <gracilis/geometry/surface_extraction.hpp>
+#include <gracilis/geometry/surface_remeshing.hpp>
 
 #include <algorithm>
 #include <array>

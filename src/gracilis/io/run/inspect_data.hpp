@@ -4,14 +4,11 @@
 
 #include <filesystem>
 
-/// One function per kind of file; `kind` is their first entry.
+/// Each answer begins with the `kind` of what was found.
 namespace gracilis {
 
 nlohmann::ordered_json inspect_surface(const std::filesystem::path& path);
 nlohmann::ordered_json inspect_table(const std::filesystem::path& path);
 nlohmann::ordered_json inspect_landmarks(const std::filesystem::path& path);
-nlohmann::ordered_json inspect_model(const std::filesystem::path& path);
-nlohmann::ordered_json inspect_scene(const std::filesystem::path& path);
-nlohmann::ordered_json inspect_run(const std::filesystem::path& folder);
 
 }  // namespace gracilis

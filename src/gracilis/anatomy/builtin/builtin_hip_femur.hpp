@@ -1,0 +1,10 @@
+#pragma once
+
+#include <gracilis/anatomy/builtin/builtin_hip_bones.hpp>
+#include <gracilis/geometry/implicit_surface.hpp>
+
+namespace gracilis::builtin_hip_shapes {
+
+ImplicitSolid right_femur();
+
+}  // namespace gracilis::builtin_hip_shapes

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
+
+/// Each answer begins with the `kind` of what was found.
+namespace gracilis {
+
+nlohmann::ordered_json inspect_model(const std::filesystem::path& path);
+
+}  // namespace gracilis

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <gracilis/opensim/reader/model_parts.hpp>
+
+namespace gracilis::opensim {
+
+/// Muscles and actuators below <set><objects>.
+void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char* set);
+
+}  // namespace gracilis::opensim
