@@ -23,7 +23,7 @@ for option in "$@"; do
     --tsan)
       preset=tsan
       targets=(threaded_tests)
-      selection=(--label-regex '^(quick|methods)$')
+      selection=(--label-regex '^(quick|methods|view)$')
       ;;
     *)
       echo "usage: ./test.sh [--quick | --long] [--asan | --tsan]" >&2

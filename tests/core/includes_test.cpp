@@ -136,18 +136,25 @@ TEST(Includes, every_folder_has_a_rank) {
     EXPECT_TRUE(ranks.contains(entry.path().filename().string())) << entry.path();
 }
 
-TEST(Includes, every_source_of_dynamics_includes_a_header_of_its_own_name_first) {
+/// Sources whose functions another header declares: what stands in for one source, parts of one class, and what asks
+/// CGAL, one compiler run each.
+const std::vector<std::string> without_header = {"core/parallel_", "methods/xpbd/xpbd_entry", "prepare/cgal_",
+                                                 "view/window/viewer_"};
+
+TEST(Includes, every_source_includes_a_header_of_its_own_name_first) {
   std::map<std::string, std::string> first;
-  for (const auto& [from, included] : includes_below(source / "dynamics", "gracilis/dynamics/"))
-    first.emplace(from, included);
+  for (const auto& [from, included] : includes_below(source, "gracilis/")) first.emplace(from, included);
   int sources = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(source / "dynamics")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source)) {
     if (entry.path().extension() != ".cpp") continue;
-    const std::string path = entry.path().lexically_relative(source.parent_path()).generic_string();
+    const std::string within = entry.path().lexically_relative(source).generic_string(), path = "gracilis/" + within;
+    if (std::any_of(without_header.begin(), without_header.end(),
+                    [&](const std::string& start) { return within.starts_with(start); }))
+      continue;
     EXPECT_EQ(first[path], std::filesystem::path(path).replace_extension(".hpp").generic_string());
     ++sources;
   }
-  EXPECT_GT(sources, 40);
+  EXPECT_GT(sources, 300);
 }
 
 TEST(Includes, every_room_has_a_rank) {

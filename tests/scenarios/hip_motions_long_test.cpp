@@ -11,8 +11,9 @@ static HipMotion to_the_limit(const std::string& name, const std::string& file, 
   return motion;
 }
 
-/// Where the thigh crushes a muscle against the pelvis, beyond 105 degrees of flexion and 45 of outward rotation, up to
-/// 400 of its 10,000 faces crumple. None explodes, and nothing enters another muscle.
+/// Where the thigh crushes a muscle against the pelvis it crumples: at 1 degree per frame iliacus cuts itself in 61
+/// pairs of its 7,600 faces beyond 105 degrees of flexion, and gluteus maximus has 11 edges, at its attachment, in the
+/// pelvis beyond 45 degrees of outward rotation. None explodes, and nothing enters another muscle.
 static HipMotion crushing(HipMotion motion, Index own_cuts, Index bone_cuts) {
   motion.own_cuts = own_cuts;
   motion.bone_cuts = bone_cuts;
@@ -20,13 +21,13 @@ static HipMotion crushing(HipMotion motion, Index own_cuts, Index bone_cuts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Long, HipInMotion,
-                         testing::Values(crushing(to_the_limit("flexion_120", "flexion_limit", true), 200, 0),
+                         testing::Values(crushing(to_the_limit("flexion_120", "flexion_limit", true), 80, 0),
                                          to_the_limit("extension_40", "extension_limit", false),
                                          to_the_limit("abduction_50", "abduction_limit", false),
                                          to_the_limit("adduction_30", "adduction", true),
                                          to_the_limit("rotation_inward_60", "rotation", true),
-                                         crushing(to_the_limit("rotation_outward_60", "rotation_outward", true), 400,
-                                                  20)),
+                                         crushing(to_the_limit("rotation_outward_60", "rotation_outward", true), 20,
+                                                  15)),
                          name_of);
 
 TEST_P(HipInMotion, the_end_depends_little_on_the_size_of_the_steps) {

@@ -1,6 +1,7 @@
+#include <gracilis/anatomy/scene_warnings.hpp>
+
 #include <gracilis/anatomy/attachments/attachments.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
-#include <gracilis/anatomy/scene_warnings.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
+#include <gracilis/io/toml_reader.hpp>
+
 #include <gracilis/core/whole_number.hpp>
 #include <gracilis/io/suggestions.hpp>
-#include <gracilis/io/toml_reader.hpp>
 
 #include <algorithm>
 #include <cmath>

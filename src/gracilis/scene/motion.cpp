@@ -1,5 +1,6 @@
-#include <gracilis/core/errors.hpp>
 #include <gracilis/scene/motion.hpp>
+
+#include <gracilis/core/errors.hpp>
 
 #include <algorithm>
 #include <cmath>

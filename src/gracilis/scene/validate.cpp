@@ -1,5 +1,6 @@
-#include <gracilis/scene/setting_table.hpp>
 #include <gracilis/scene/validate.hpp>
+
+#include <gracilis/scene/setting_table.hpp>
 #include <gracilis/scene/validate_names.hpp>
 #include <gracilis/scene/validate_sizes.hpp>
 
@@ -63,8 +64,7 @@ struct Validation {
 
   void check_axis(const std::string& where, const JointAxis& axis, std::set<std::string>& coordinates) {
     if (axis.coordinate.empty()) add(where, "an axis has no coordinate");
-    if (!coordinates.insert(axis.coordinate).second)
-      add(where, "duplicate coordinate '" + axis.coordinate + "'");
+    if (!coordinates.insert(axis.coordinate).second) add(where, "duplicate coordinate '" + axis.coordinate + "'");
     if (axis.axis.norm() < 1e-9) {
       add(where, "the axis of '" + axis.coordinate + "' has no length");
     } else if (!(std::abs(axis.axis.norm() - 1) < 1e-9)) {

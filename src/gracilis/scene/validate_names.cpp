@@ -1,5 +1,6 @@
-#include <gracilis/scene/names.hpp>
 #include <gracilis/scene/validate_names.hpp>
+
+#include <gracilis/scene/names.hpp>
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,6 @@
-#include <gracilis/anatomy/builtin/builtin_elbow_bones.hpp>
 #include <gracilis/anatomy/builtin/builtin_elbow_muscles.hpp>
+
+#include <gracilis/anatomy/builtin/builtin_elbow_bones.hpp>
 
 namespace gracilis::builtin_elbow_shapes {
 

@@ -1,5 +1,6 @@
-#include <gracilis/anatomy/builtin/builtin_hip_bones.hpp>
 #include <gracilis/anatomy/builtin/builtin_hip_muscles.hpp>
+
+#include <gracilis/anatomy/builtin/builtin_hip_bones.hpp>
 
 #include <cassert>
 

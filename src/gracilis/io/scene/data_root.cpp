@@ -1,5 +1,6 @@
-#include <gracilis/core/errors.hpp>
 #include <gracilis/io/scene/data_root.hpp>
+
+#include <gracilis/core/errors.hpp>
 
 #include <cstdlib>
 

@@ -1,8 +1,9 @@
+#include <gracilis/io/scene/field_cache.hpp>
+
 #include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/io/content_hash.hpp>
-#include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/scene/setting_table.hpp>
 
 #include <algorithm>

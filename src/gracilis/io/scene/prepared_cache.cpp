@@ -1,8 +1,9 @@
+#include <gracilis/io/scene/prepared_cache.hpp>
+
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
 #include <gracilis/io/scene/preparation_report.hpp>
-#include <gracilis/io/scene/prepared_cache.hpp>
 #include <gracilis/scene/setting_table.hpp>
 
 #include <algorithm>

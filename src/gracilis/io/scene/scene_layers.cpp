@@ -1,7 +1,8 @@
+#include <gracilis/io/scene/scene_layers.hpp>
+
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/parse_toml.hpp>
-#include <gracilis/io/scene/scene_layers.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/toml_reader.hpp>
 
