@@ -1,6 +1,7 @@
 #include <gracilis/anatomy/overlap/overlap_report.hpp>
 #include <gracilis/anatomy/overlap/overlap_sides.hpp>
 #include <gracilis/anatomy/overlap/rest_overlap.hpp>
+#include <gracilis/geometry/rotations.hpp>
 
 #include <scenes_for_tests.hpp>
 #include <shapes.hpp>
@@ -23,9 +24,7 @@ TriangleMesh moved(TriangleMesh mesh, const Eigen::Affine3d& motion) {
 /// A tube with radius 10 mm and length 100 mm about a line through `center`.
 TriangleMesh tube(const Vec3& center, const Vec3& along, Real radius = 0.01) {
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
-  motion.translate(center)
-      .rotate(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), along))
-      .translate(Vec3(0, 0, -0.05));
+  motion.translate(center).rotate(turn_from_to(Vec3::UnitZ(), along)).translate(Vec3(0, 0, -0.05));
   return moved(shapes::cylinder(radius, 0.1, 32, 40), motion);
 }
 

@@ -1,5 +1,7 @@
 #include <gracilis/geometry/section_frames.hpp>
 
+#include <gracilis/geometry/rotations.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -43,7 +45,7 @@ SectionFrames section_frames(const Points& line, const Vec3& first) {
   Vec3 ray = first;
   for (Eigen::Index k = 0; k < n; ++k) {
     const Vec3 normal = frames.normals.col(k);
-    if (k > 0) ray = Eigen::Quaterniond::FromTwoVectors(frames.normals.col(k - 1), normal) * ray;
+    if (k > 0) ray = turn_from_to(frames.normals.col(k - 1), normal) * ray;
     ray -= ray.dot(normal) * normal;  // rounding, or the first ray as given
     if (ray.norm() < 1e-6) ray = normal.unitOrthogonal();
     frames.first_rays.col(k) = ray.normalized();

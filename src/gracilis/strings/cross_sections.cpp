@@ -1,6 +1,6 @@
 #include <gracilis/strings/cross_sections.hpp>
 
-#include <Eigen/SVD>
+#include <gracilis/geometry/rotations.hpp>
 
 namespace gracilis::strings {
 
@@ -23,10 +23,7 @@ std::vector<Eigen::Matrix3d> section_turns(const MuscleStrings& muscle, const Po
     }
     // The direction counts as much as all nodes, so that sections stay across the strings.
     correlation += spread * direction.normalized() * rest_direction.normalized().transpose();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d u = svd.matrixU();
-    if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
-    turns.push_back(u * svd.matrixV().transpose());
+    turns.push_back(nearest_rotation(correlation));
   }
   return turns;
 }

@@ -1,5 +1,7 @@
 #include <gracilis/strings/string_frames.hpp>
 
+#include <gracilis/geometry/rotations.hpp>
+
 #include <cmath>
 
 namespace gracilis::strings {
@@ -10,7 +12,7 @@ using Quaternion = Eigen::Quaterniond;
 
 /// The turn that goes on from `turn` to where the direction `rest` becomes `now`, by the least rotation.
 Quaternion aligned(const Quaternion& turn, const Vec3& rest, const Vec3& now) {
-  return Quaternion::FromTwoVectors(turn * rest, now) * turn;
+  return turn_from_to(turn * rest, now) * turn;
 }
 
 /// The angle of a rotation about an axis that it nearly leaves in place, in (-π, π].

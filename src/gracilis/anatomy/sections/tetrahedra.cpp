@@ -1,7 +1,8 @@
 #include <gracilis/anatomy/sections/tetrahedra.hpp>
 
+#include <gracilis/geometry/rotations.hpp>
+
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
 #include <cassert>
 #include <cmath>
@@ -119,12 +120,8 @@ SectionRings rings_of(const Points& vertices, Index rays, const Points& rest, co
     const Vec3 middle = before.rowwise().mean(), moved = now.rowwise().mean();
     const Points from = before.colwise() - middle, to = now.colwise() - moved;
     const Eigen::Matrix3d both = to * from.transpose();
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(both, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d sign = Eigen::Matrix3d::Identity();
-    sign(2, 2) = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
     const Real size = from.squaredNorm() > 0 ? std::sqrt(to.squaredNorm() / from.squaredNorm()) : 1;
-    rings.centers.col(k) =
-        moved + size * (svd.matrixU() * sign * svd.matrixV().transpose() * (rest_centers.col(k) - middle));
+    rings.centers.col(k) = moved + size * (nearest_rotation(both) * (rest_centers.col(k) - middle));
   }
   return rings;
 }

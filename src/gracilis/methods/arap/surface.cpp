@@ -1,8 +1,9 @@
 #include <gracilis/methods/arap/surface.hpp>
 
+#include <gracilis/geometry/rotations.hpp>
+
 #include <gracilis/core/parallel.hpp>
 
-#include <Eigen/SVD>
 #include <Eigen/SparseCholesky>
 
 #include <algorithm>
@@ -75,11 +76,7 @@ Rotations Surface::best_rotations(const Points& points) const {
         covariance += weights_[static_cast<std::size_t>(k)] * (rest_.col(i) - rest_.col(j)) *
                       (points.col(i) - points.col(j)).transpose();
       }
-      const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-      Eigen::Matrix3d u = svd.matrixU();
-      // No reflection: the direction that matters least turns around.
-      if ((svd.matrixV() * u.transpose()).determinant() < 0) u.col(2) = -u.col(2);
-      rotations[at] = svd.matrixV() * u.transpose();
+      rotations[at] = nearest_rotation(covariance).transpose();
     }
   });
   return rotations;

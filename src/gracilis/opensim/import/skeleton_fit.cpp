@@ -1,5 +1,7 @@
 #include <gracilis/opensim/import/skeleton_fit.hpp>
 
+#include <gracilis/geometry/rotations.hpp>
+
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/parse_toml.hpp>
@@ -89,7 +91,7 @@ class SkeletonFit {
       if (!(old_way.norm() > 1e-6 && way.norm() > 1e-6))
         fail(fit.body, "has no length", "its start and end must differ, in the model, too");
       child.scale = Vec3::Constant(way.norm() / old_way.norm());
-      child.turned = Eigen::Quaterniond::FromTwoVectors(old_way, way).toRotationMatrix();
+      child.turned = turn_from_to(old_way, way).toRotationMatrix();
     }
     child.scale = child.scale.cwiseProduct(fit.scale);
     child.turned = body_fixed_xyz(fit.turn, Vec3::Zero()).linear() * child.turned;

@@ -1,5 +1,7 @@
 #include <gracilis/opensim/reader/curved_joints.hpp>
 
+#include <gracilis/geometry/rotations.hpp>
+
 #include <fmt/format.h>
 
 namespace gracilis::opensim {
@@ -58,9 +60,7 @@ Joint read_scapulothoracic_joint(ModelReading& reading, const pugi::xml_node& no
   // The winging axis lies in the scapula's plane; 0 is along y.
   RigidTransform winging = RigidTransform::Identity();
   winging.translation() = Vec3(origin[0], origin[1], 0);
-  winging.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), Vec3(-std::sin(direction), std::cos(direction), 0))
-          .toRotationMatrix();
+  winging.linear() = turn_from_to(Vec3::UnitZ(), Vec3(-std::sin(direction), std::cos(direction), 0)).toRotationMatrix();
 
   Joint wing;
   wing.name = joint.name + "_winging";
