@@ -1,8 +1,7 @@
 #include <gracilis/methods/arap/surface.hpp>
 
-#include <gracilis/geometry/rotations.hpp>
-
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/rotations.hpp>
 
 #include <Eigen/SparseCholesky>
 

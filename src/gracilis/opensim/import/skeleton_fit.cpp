@@ -1,8 +1,7 @@
 #include <gracilis/opensim/import/skeleton_fit.hpp>
 
-#include <gracilis/geometry/rotations.hpp>
-
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/rotations.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/parse_toml.hpp>
 #include <gracilis/io/suggestions.hpp>

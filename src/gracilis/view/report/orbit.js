@@ -1,5 +1,6 @@
 // A camera that turns about a point: drag to turn, Shift or the right button to move, the wheel or two fingers to zoom,
-// arrow keys, + and - for those without a mouse. `up` stays up.
+// arrow keys, + and - for those without a mouse. `up` stays up. OrbitControls of Debian 12's three.js (r111)
+// cannot stand in: its keys move instead of turning, and none of them zooms.
 class Orbit {
   constructor(element, up, changed) {
     this.element = element;
