@@ -1,6 +1,8 @@
 #include "export_command.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/opensim/export/export_check.hpp>
 #include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/export/run_points.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
@@ -11,19 +13,19 @@
 
 #include <memory>
 #include <numeric>
-#include <optional>
 
 namespace gracilis {
 
 namespace {
 
 struct ExportOptions {
-  std::filesystem::path run, out, model;
+  std::filesystem::path run, out, model, check;
   std::string to;
   std::vector<int> frames;
   GltfOptions gltf;
   Real specific_tension = 6.1e5;
   Index points = 12;
+  opensim::MuscleFitSettings fit;
 };
 
 /// One thing that `--to` can say.
@@ -46,6 +48,33 @@ std::vector<int> frames_or_all(const RecordedRun& run, const std::vector<int>& c
                                 fmt::format("the run has frames 0 to {}", run.frame_count - 1)});
   }
   return chosen;
+}
+
+/// Says what became of muscles and, with --check, of static optimization.
+void say_left_out(const std::vector<std::string>& left_out) {
+  for (const std::string& line : left_out) spdlog::warn("{}; it keeps its original path", line);
+}
+
+void check_against(const opensim::Model& before, const opensim::Model& after, const std::filesystem::path& setup) {
+  for (const std::string& line : opensim::check_lines(opensim::check_export(before, after, opensim::read_setup(setup))))
+    spdlog::info("{}", line);
+}
+
+void export_functions(const std::filesystem::path& out, const ExportOptions& options) {
+  if (options.model.empty())
+    spdlog::warn("without --model polynomials are fitted to the run's own poses alone, and the joints are the scene's");
+  const opensim::Model model =
+      options.model.empty() ? opensim::joints_of_run(options.run) : opensim::read_model(options.model);
+  const opensim::FittedMuscles fitted =
+      opensim::fit_muscles(opensim::run_lengths(options.run, model), model, options.fit);
+  write_text_atomically(out, opensim::function_path_set(model, fitted.muscles));
+  for (const opensim::FittedMuscle& muscle : fitted.muscles) spdlog::info("{}", opensim::fit_line(model, muscle));
+  say_left_out(fitted.left_out);
+  spdlog::info("{}", opensim::fit_summary(model, fitted.muscles));
+  if (model.muscles.empty()) return;
+  opensim::Model after = model;
+  opensim::replace_paths(out, after);
+  if (!options.check.empty()) check_against(model, after, options.check);
 }
 
 /// A new format is a line here.
@@ -73,10 +102,7 @@ const std::vector<ExportFormat>& formats() {
        "the fibers' mean lengths as polynomials of the coordinates, which OpenSim 4.5 and later read as "
        "FunctionBasedPaths",
        [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
-         std::optional<opensim::Model> model;
-         if (!options.model.empty()) model = opensim::read_model(options.model);
-         for (const std::string& line : opensim::export_function_paths(options.run, out, model ? &*model : nullptr))
-           spdlog::info("{}", line);
+         export_functions(out, options);
        }},
       {"osim-points", "point_paths.osim",
        "the mean fibers as path points of the --model, a force set that OpenSim appends to it or puts in the place of "
@@ -119,11 +145,25 @@ void add_export_command(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   command->add_option(
       "--model", options->model,
-      "The OpenSim model that the run's scene was made of (osim-points; osim-function then takes only coordinates "
-      "of joints that a muscle crosses)");
+      "The OpenSim model that the run's scene was made of (osim-function, osim-points)");
   command->add_option("--points", options->points, "Points of a path, its ends among them (osim-points)")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
+  command->add_option("--check", options->check,
+                      "OpenSim's set-up of static optimization: solved with the model's own paths and the exported ones, "
+                      "and compared (osim-function, osim-points)");
+  command
+      ->add_option("--sample", options->fit.poses,
+                   "Poses of the model's own paths that polynomials are fitted to, spread over each muscle's coordinates "
+                   "(osim-function)")
+      ->check(CLI::Range(64, 1'000'000))
+      ->capture_default_str();
+  command->add_flag("--whole-ranges", options->fit.whole_ranges,
+                    "Over the whole ranges of the model's coordinates instead of 10 degrees around where the run goes "
+                    "(osim-function)");
+  command->add_flag("--run-alone", options->fit.run_alone,
+                    "Fit to the run's lengths alone; otherwise muscles become the model's own path and a correction "
+                    "(osim-function)");
   command->callback([&chosen, options] {
     chosen = [options] {
       for (const ExportFormat& format : formats()) {
