@@ -110,7 +110,7 @@ static PathErrors held_out_errors(const LegendreTerms& terms, const PathSamples&
       errors.arm_largest = std::max(errors.arm_largest, arms_off.lpNorm<Eigen::Infinity>());
     }
   }
-  const auto root = [](Real sum, Eigen::Index count) { return count > 0 ? std::sqrt(sum / static_cast<Real>(count)) : 0; };
+  const auto root = [](Real sum, Eigen::Index n) { return n > 0 ? std::sqrt(sum / static_cast<Real>(n)) : 0; };
   errors.length_root_mean_square = root(errors.length_root_mean_square, samples.lengths.size());
   errors.arm_root_mean_square = root(errors.arm_root_mean_square, samples.arms.size());
   return errors;
@@ -124,7 +124,7 @@ static int told_order(const LegendreTerms& terms, int largest, Eigen::Index numb
 }
 
 PathFit fit_path(const PathSamples& samples, const PathFitSettings& settings) {
-  const Real rounding = 1e-9;  // m
+  const Real enough = 1e-6;  // m
   Eigen::VectorXd least = samples.coordinates.colwise().minCoeff(), most = samples.coordinates.colwise().maxCoeff();
   const bool drawn = settings.towards.lengths.size() > 0;
   if (drawn) {
@@ -155,7 +155,7 @@ PathFit fit_path(const PathSamples& samples, const PathFitSettings& settings) {
     if (drawn) all.add(towards, ridge * static_cast<Real>(known) / static_cast<Real>(towards.numbers));
     for (int n = 1; n <= order; ++n) {
       const Real error = left_out_error(parts, all, terms.count(n));
-      if (found && error > 0.99 * best.left_out - rounding) continue;
+      if (found && error > 0.99 * best.left_out - enough) continue;
       found = true;
       best.left_out = error;
       best.ridge = ridge;
