@@ -27,9 +27,11 @@ std::string function_path_set(const Model& model, const std::vector<FittedMuscle
 }
 
 static std::string errors_text(const PathErrors& errors) {
-  return fmt::format("lengths {:.3f} mm root mean square, {:.3f} at most; arms {:.3f} mm, {:.3f} at most",
-                     1000 * errors.length_root_mean_square, 1000 * errors.length_largest,
-                     1000 * errors.arm_root_mean_square, 1000 * errors.arm_largest);
+  std::string text = fmt::format("lengths {:.3f} mm root mean square, {:.3f} at most; arms ",
+                                 1000 * errors.length_root_mean_square, 1000 * errors.length_largest);
+  if (errors.arm_largest == 0) return text + "not known";
+  return text + fmt::format("{:.3f} mm root mean square, {:.3f} at most", 1000 * errors.arm_root_mean_square,
+                            1000 * errors.arm_largest);
 }
 
 std::string fit_line(const Model& model, const FittedMuscle& muscle) {
