@@ -60,6 +60,11 @@ void check_against(const opensim::Model& before, const opensim::Model& after, co
     spdlog::info("{}", line);
 }
 
+std::vector<opensim::Muscle> muscles_in(const std::filesystem::path& force_set, opensim::Model model) {
+  opensim::read_force_set(force_set, true, model);
+  return model.muscles;
+}
+
 void export_functions(const std::filesystem::path& out, const ExportOptions& options) {
   if (options.model.empty())
     spdlog::warn("without --model polynomials are fitted to the run's own poses alone, and the joints are the scene's");
@@ -111,8 +116,16 @@ const std::vector<ExportFormat>& formats() {
          if (options.model.empty())
            throw ConfigurationError({"--to osim-points", "", "needs the model", "add --model MODEL.osim"});
          const opensim::Model model = opensim::read_model(options.model);
-         for (const std::string& line : opensim::export_points(options.run, model, options.points, out))
-           spdlog::info("{}", line);
+         const opensim::PointExport written = opensim::export_points(options.run, model, options.points, out);
+         for (const std::string& line : written.lines) spdlog::info("{}", line);
+         say_left_out(written.left_out);
+         if (options.check.empty()) return;
+         opensim::Model after = model;
+         for (const opensim::Muscle& muscle : muscles_in(out, model)) {
+           const Index known = opensim::index_of(after.muscles, muscle.name);
+           if (known >= 0) after.muscles[static_cast<std::size_t>(known)].path = muscle.path;
+         }
+         check_against(model, after, options.check);
        }}};
   return list;
 }

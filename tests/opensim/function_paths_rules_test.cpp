@@ -107,9 +107,9 @@ TEST(FunctionPathRules, our_set_holds_no_element_that_opensim_s_own_does_not) {
 }
 
 TEST(ReplacePaths, what_is_written_is_put_in_the_place_of_the_model_s_paths) {
-  const TestFolder folder;
   Model model = model_from(two_links());
   const Model before = model;
+  const TestFolder folder;
   replace_paths(folder.write("set.xml", function_path_set(model, fit_muscles(run_of(model), model).muscles)), model);
   Skeleton skeleton(model);
   const Eigen::Vector2d q(0.3, -0.5);
@@ -124,8 +124,8 @@ TEST(ReplacePaths, what_is_written_is_put_in_the_place_of_the_model_s_paths) {
 }
 
 TEST(ReplacePaths, a_coordinate_without_its_joint_is_refused_as_opensim_does) {
-  const TestFolder folder;
   Model model = model_from(two_links());
+  const TestFolder folder;
   std::string text = function_path_set(model, fit_muscles(run_of(model), model).muscles);
   text.replace(text.find("/jointset/hip/swing"), 19, "swing");
   EXPECT_THAT(message_of_input_error([&] { replace_paths(folder.write("set.xml", text), model); }),
