@@ -123,7 +123,9 @@ const std::vector<ExportFormat>& formats() {
          opensim::Model after = model;
          for (const opensim::Muscle& muscle : muscles_in(out, model)) {
            const Index known = opensim::index_of(after.muscles, muscle.name);
-           if (known >= 0) after.muscles[static_cast<std::size_t>(known)].path = muscle.path;
+           if (known < 0) continue;
+           after.muscles[static_cast<std::size_t>(known)].path = muscle.path;
+           after.muscles[static_cast<std::size_t>(known)].tendon_slack_length = muscle.tendon_slack_length;
          }
          check_against(model, after, options.check);
        }}};

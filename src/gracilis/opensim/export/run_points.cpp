@@ -6,6 +6,7 @@
 #include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/opensim/export/fiber_points.hpp>
 #include <gracilis/opensim/export/muscle_text.hpp>
+#include <gracilis/opensim/export/path_samples.hpp>
 #include <gracilis/opensim/export/run_lengths.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 #include <gracilis/opensim/reader/crossed_coordinates.hpp>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gracilis::opensim {
 
@@ -33,7 +35,9 @@ static std::vector<FollowedCoordinate> followed_coordinates(const Model& model, 
   std::vector<FollowedCoordinate> followed;
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
     const auto column = values.col(static_cast<Eigen::Index>(i));
-    if (column.maxCoeff() - column.minCoeff() > 1e-4)
+    // What hardly moves tells nothing about how points would follow it.
+    const Real enough = model.coordinates[i].rotation ? radians(5) : 0.005;
+    if (column.maxCoeff() - column.minCoeff() > enough)
       followed.push_back({static_cast<Index>(i), {column.begin(), column.end()}});
   }
   if (!known) return followed;
@@ -44,39 +48,67 @@ static std::vector<FollowedCoordinate> followed_coordinates(const Model& model, 
   return followed;
 }
 
-/// How far a path's lengths are from those of the fibers, and its arms from the run's or else from those of `own`.
-static std::string errors_of(const Model& model, const Path& path, const Path* own, const LengthSamples& run,
-                             const MuscleLengths& arms, const std::vector<Points>& fibers) {
-  Skeleton skeleton(model);
-  Real length_sum = 0, length_largest = 0, arm_sum = 0, arm_largest = 0;
+/// How far a path's lengths are from those of the fibers, and its arms from the run's or else from those of `own`; of
+/// angles.
+static PathErrors errors_of(Skeleton& skeleton, const Path& path, const Path* own, const LengthSamples& run,
+                            const MuscleLengths& muscle, const std::vector<Points>& fibers) {
+  PathErrors errors;
   Eigen::Index arm_count = 0;
   for (std::size_t f = 0; f < fibers.size(); ++f) {
     const auto row = static_cast<Eigen::Index>(f);
     const Eigen::VectorXd coordinates = run.coordinates.row(row);
     skeleton.place(coordinates);
     const PathMeasure measure = measure_path(skeleton, path, coordinates);
-    const Real error = measure.length - polyline_length(fibers[f]);
-    length_sum += error * error;
-    length_largest = std::max(length_largest, std::abs(error));
+    const Real off = measure.length - polyline_length(fibers[f]);
+    errors.length_root_mean_square += off * off;
+    errors.length_largest = std::max(errors.length_largest, std::abs(off));
     Eigen::VectorXd others;
-    if (arms.arms.cols() > 0)
-      others = arms.arms.row(row);
+    if (muscle.arms.cols() > 0)
+      others = muscle.arms.row(row);
     else if (own)
       others = measure_path(skeleton, *own, coordinates).moment_arms;
     for (Eigen::Index i = 0; i < others.size(); ++i) {
-      if (std::abs(others[i]) < 1e-6 || !model.coordinates[static_cast<std::size_t>(i)].rotation) continue;
-      arm_sum += std::pow(measure.moment_arms[i] - others[i], 2);
-      arm_largest = std::max(arm_largest, std::abs(measure.moment_arms[i] - others[i]));
+      if (!skeleton.model().coordinates[static_cast<std::size_t>(i)].rotation) continue;
+      if (std::abs(others[i]) < 1e-6 && std::abs(measure.moment_arms[i]) < 1e-6) continue;
+      const Real arm_off = std::abs(measure.moment_arms[i] - others[i]);
+      errors.arm_root_mean_square += arm_off * arm_off;
+      errors.arm_largest = std::max(errors.arm_largest, arm_off);
       ++arm_count;
     }
   }
-  std::string text = fmt::format("lengths {:.3f} mm root mean square, {:.3f} at most",
-                                 1000 * std::sqrt(length_sum / static_cast<Real>(fibers.size())), 1000 * length_largest);
-  if (arm_count > 0)
-    text += fmt::format("; arms {:.3f} mm root mean square, {:.3f} at most{}",
-                        1000 * std::sqrt(arm_sum / static_cast<Real>(arm_count)), 1000 * arm_largest,
-                        arms.arms.cols() > 0 ? "" : " from the model's own");
-  return text;
+  const auto root = [](Real sum, Real count) { return count > 0 ? std::sqrt(sum / count) : 0; };
+  errors.length_root_mean_square = root(errors.length_root_mean_square, static_cast<Real>(fibers.size()));
+  errors.arm_root_mean_square = root(errors.arm_root_mean_square, static_cast<Real>(arm_count));
+  return errors;
+}
+
+/// Points that follow all of the coordinates, one of them or none: those with the smallest errors of lengths and arms
+/// together. In a motion in which coordinates go together, points that follow the wrong one have the right lengths and
+/// wrong arms.
+static std::vector<FiberPoint> best_points(Skeleton& skeleton, const Path* own, const LengthSamples& run,
+                                           const MuscleLengths& muscle, const std::vector<Points>& fibers,
+                                           const std::vector<std::vector<RigidTransform>>& poses,
+                                           const std::vector<FollowedCoordinate>& followed) {
+  std::vector<std::vector<FollowedCoordinate>> choices = {followed, {}};
+  for (const FollowedCoordinate& each : followed) choices.push_back({each});
+  std::vector<FiberPoint> best;
+  Real least = std::numeric_limits<Real>::infinity();
+  for (const auto& choice : choices) {
+    std::vector<FiberPoint> points = fit_points(fibers, poses, choice);
+    const PathErrors errors = errors_of(skeleton, path_of(points), own, run, muscle, fibers);
+    const Real cost = std::hypot(errors.length_root_mean_square, errors.arm_root_mean_square);
+    if (!(cost < least)) continue;
+    least = cost;
+    best = std::move(points);
+  }
+  return best;
+}
+
+static std::string point_errors_text(const PathErrors& errors, bool beside_model) {
+  return fmt::format("lengths {:.3f} mm root mean square, {:.3f} at most; arms {:.3f} mm root mean square, {:.3f} at most{}",
+                     1000 * errors.length_root_mean_square, 1000 * errors.length_largest,
+                     1000 * errors.arm_root_mean_square, 1000 * errors.arm_largest,
+                     beside_model ? " from the model's own" : "");
 }
 
 PointExport export_points(const std::filesystem::path& folder, const Model& model, Index count,
@@ -106,7 +138,8 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
     if (!lines.empty()) {
       why = "has no fibers";
       if (lines.front().cols() > 0)
-        points = fit_points(lines, poses, followed_coordinates(model, own, lengths.coordinates.topRows(run.frame_count)));
+        points = best_points(skeleton, own ? &own->path : nullptr, lengths, each, lines, poses,
+                             followed_coordinates(model, own, lengths.coordinates.topRows(run.frame_count)));
       if (!points.empty() && std::max(points.front().left, points.back().left) > 0.005) {
         why = "its ends move with no body of the model";
         points.clear();
@@ -120,6 +153,13 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
     Muscle muscle = own ? *own : Muscle{};
     muscle.name = each.name;
     muscle.path = path_of(points);
+    if (own) {
+      // Fibers are no longer than they were in the capture pose: what the way is longer is tendon.
+      skeleton.place(lengths.coordinates.row(0));
+      const Real more = measure_path(skeleton, muscle.path, lengths.coordinates.row(0)).length -
+                        measure_path(skeleton, own->path, lengths.coordinates.row(0)).length;
+      muscle.tendon_slack_length = std::max(muscle.tendon_slack_length + more, 0.0);
+    }
     text += muscle_text(model, muscle);
     fibers.push_back(std::move(lines));
     written.push_back(&each);
@@ -131,13 +171,16 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
                                          folder.filename().string(), text));
   Model read = model;
   read_force_set(out, true, read);
+  Skeleton read_skeleton(read);
   for (std::size_t m = 0; m < written.size(); ++m) {
     const std::string& name = written[m]->name;
     const Index known = index_of(model.muscles, name);
     const Path* own = known < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(known)].path;
     const Path& path = read.muscles[static_cast<std::size_t>(index_of(read.muscles, name))].path;
     result.lines.push_back(
-        fmt::format("{}: {} points; {}", name, count, errors_of(read, path, own, lengths, *written[m], fibers[m])));
+        fmt::format("{}: {} points; {}", name, count,
+                    point_errors_text(errors_of(read_skeleton, path, own, lengths, *written[m], fibers[m]),
+                                written[m]->arms.cols() == 0)));
   }
   return result;
 }
