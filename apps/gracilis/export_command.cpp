@@ -1,16 +1,25 @@
 #include "export_command.hpp"
 
+#include "console.hpp"
+#include "scene_options.hpp"
+
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/run/run_manifest.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/opensim/export/export_check.hpp>
 #include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/export/run_points.hpp>
+#include <gracilis/opensim/export/scene_lengths.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 #include <gracilis/view/export/export.hpp>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
 
@@ -26,6 +35,7 @@ struct ExportOptions {
   Real specific_tension = 6.1e5;
   Index points = 12;
   opensim::MuscleFitSettings fit;
+  Index sampled = 0;  ///< poses that --sample asked for
 };
 
 /// One thing that `--to` can say.
@@ -65,13 +75,50 @@ std::vector<opensim::Muscle> muscles_in(const std::filesystem::path& force_set, 
   return model.muscles;
 }
 
+/// The scene that a run was made of, by the command line in its manifest.
+LoadedScene scene_of_run(const std::filesystem::path& run) {
+  const nlohmann::ordered_json manifest = read_manifest(run);
+  std::vector<std::string> words = manifest.value("command", std::vector<std::string>{});
+  if (words.size() < 3 || (words[1] != "run" && words[1] != "rom"))
+    throw ConfigurationError({"--sample", "", "the run was not made of a scene file", "run a scene file"});
+  CLI::App parser;
+  std::filesystem::path file;
+  SceneOptions options;
+  add_scene_options(parser, file, options);
+  parser.allow_extras();
+  words.erase(words.begin(), words.begin() + 2);
+  std::reverse(words.begin(), words.end());
+  parser.parse(words);
+  return read_scene(file, options);
+}
+
+/// The run's lengths; of strings, where poses are asked for, lengths and arms of its scene in such poses.
+opensim::LengthSamples lengths_for(const opensim::Model& model, const ExportOptions& options) {
+  opensim::LengthSamples run = opensim::run_lengths(options.run, model);
+  if (options.sampled == 0 || !read_manifest(options.run).value("settings", "").starts_with("method = \"strings\""))
+    return run;
+  const LoadedScene loaded = scene_of_run(options.run);
+  const auto method = make_method(loaded.scene, [&](const DistanceFieldSettings& settings) {
+    return cached_bone_fields(loaded.scene, settings);
+  });
+  const opensim::CoordinateBox box =
+      opensim::box_around(model, opensim::moved_coordinates(run, model, loaded.scene), run.coordinates,
+                          options.fit.whole_ranges);
+  Progress progress(0, static_cast<int>(options.sampled));
+  run = opensim::scene_lengths(loaded.scene, *method, model, box, options.sampled,
+                               [&](Index done) { progress.show(static_cast<int>(done)); });
+  progress.clear();
+  return run;
+}
+
 void export_functions(const std::filesystem::path& out, const ExportOptions& options) {
   if (options.model.empty())
     spdlog::warn("without --model polynomials are fitted to the run's own poses alone, and the joints are the scene's");
   const opensim::Model model =
       options.model.empty() ? opensim::joints_of_run(options.run) : opensim::read_model(options.model);
-  const opensim::FittedMuscles fitted =
-      opensim::fit_muscles(opensim::run_lengths(options.run, model), model, options.fit);
+  opensim::MuscleFitSettings settings = options.fit;
+  if (options.sampled > 0) settings.poses = options.sampled;
+  const opensim::FittedMuscles fitted = opensim::fit_muscles(lengths_for(model, options), model, settings);
   write_text_atomically(out, opensim::function_path_set(model, fitted.muscles));
   for (const opensim::FittedMuscle& muscle : fitted.muscles) spdlog::info("{}", opensim::fit_line(model, muscle));
   say_left_out(fitted.left_out);
@@ -168,11 +215,10 @@ void add_export_command(CLI::App& program, Command& chosen) {
                       "OpenSim's set-up of static optimization: solved with the model's own paths and the exported ones, "
                       "and compared (osim-function, osim-points)");
   command
-      ->add_option("--sample", options->fit.poses,
-                   "Poses of the model's own paths that polynomials are fitted to, spread over each muscle's coordinates "
-                   "(osim-function)")
-      ->check(CLI::Range(64, 1'000'000))
-      ->capture_default_str();
+      ->add_option("--sample", options->sampled,
+                   "Poses that polynomials are fitted to, spread over each muscle's coordinates: of the model's own paths, "
+                   "and of a run by strings those of its scene, which is solved in them (osim-function; 1000 of the model)")
+      ->check(CLI::Range(64, 1'000'000));
   command->add_flag("--whole-ranges", options->fit.whole_ranges,
                     "Over the whole ranges of the model's coordinates instead of 10 degrees around where the run goes "
                     "(osim-function)");

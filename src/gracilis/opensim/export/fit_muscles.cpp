@@ -55,11 +55,21 @@ static CoordinateBox acting_part(const CoordinateBox& box, const PathSamples& sa
   return part;
 }
 
+/// The poses in which the muscle has a length.
+static std::vector<Eigen::Index> known_rows(const MuscleLengths& muscle) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index row = 0; row < muscle.lengths.size(); ++row)
+    if (std::isfinite(muscle.lengths[row])) rows.push_back(row);
+  if (rows.size() < 4) throw InputError({"", "", "is known in too few poses", ""});
+  return rows;
+}
+
 /// Some columns of the run's coordinates and arms.
 static PathSamples samples_of(const LengthSamples& run, const MuscleLengths& muscle, const CoordinateBox& box,
                               const Model& model) {
-  PathSamples samples{run.coordinates(Eigen::all, box.coordinates), muscle.lengths, {}, box.scales(model)};
-  if (muscle.arms.cols() > 0) samples.arms = muscle.arms(Eigen::all, box.coordinates);
+  const std::vector<Eigen::Index> rows = known_rows(muscle);
+  PathSamples samples{run.coordinates(rows, box.coordinates), muscle.lengths(rows), {}, box.scales(model)};
+  if (muscle.arms.cols() > 0) samples.arms = muscle.arms(rows, box.coordinates);
   return samples;
 }
 
@@ -109,7 +119,7 @@ static std::optional<FittedMuscle> fit_known(const LengthSamples& run, const Mus
   result.arms = arm_errors(fit.function, held_out);
   if (run.follow_lines) return result;
   const PathSamples of_run = samples_of(run, muscle, box, model);
-  const PathSamples difference = beyond_path(of_run, run.coordinates, skeleton, path, box);
+  const PathSamples difference = beyond_path(of_run, run.coordinates(known_rows(muscle), Eigen::all), skeleton, path, box);
   const PathFit correction = fit_correction(difference, box, run.spread);
   result.length = sum_of(fit.function, correction.function);
   result.corrects = true;

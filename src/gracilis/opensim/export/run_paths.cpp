@@ -55,14 +55,21 @@ std::string fit_summary(const Model& model, const std::vector<FittedMuscle>& mus
   std::vector<Real> lengths, arms;
   Real worst = 0;
   std::string where;
+  const auto add_arm = [&](Real error, const std::string& of) {
+    arms.push_back(1000 * error);
+    if (arms.back() <= worst) return;
+    worst = arms.back();
+    where = of;
+  };
   for (const FittedMuscle& muscle : muscles) {
     lengths.push_back(1000 * muscle.held_out.length_root_mean_square);
+    if (muscle.from_run) {
+      if (muscle.held_out.arm_largest > 0) add_arm(muscle.held_out.arm_root_mean_square, muscle.name);
+      continue;
+    }
     for (Eigen::Index i = 0; i < muscle.arms.size(); ++i) {
       const Index coordinate = muscle.coordinates[static_cast<std::size_t>(i)];
-      arms.push_back(1000 * muscle.arms[i]);
-      if (arms.back() <= worst) continue;
-      worst = arms.back();
-      where = muscle.name + " about " + model.coordinates[static_cast<std::size_t>(coordinate)].name;
+      add_arm(muscle.arms[i], muscle.name + " about " + model.coordinates[static_cast<std::size_t>(coordinate)].name);
     }
   }
   if (lengths.empty()) return "no muscle was written";
