@@ -208,7 +208,7 @@ void add_export_command(CLI::App& program, Command& chosen) {
   command->add_option(
       "--model", options->model,
       "The OpenSim model that the run's scene was made of (osim-function, osim-points)");
-  command->add_option("--points", options->points, "Points of a path, its ends among them (osim-points)")
+  command->add_option("--points", options->points, "Points of a path at most, its ends among them (osim-points)")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   command->add_option("--check", options->check,

@@ -82,9 +82,19 @@ static PathErrors errors_of(Skeleton& skeleton, const Path& path, const Path* ow
   return errors;
 }
 
-/// Points that follow all of the coordinates, one of them or none: those with the smallest errors of lengths and arms
-/// together. In a motion in which coordinates go together, points that follow the wrong one have the right lengths and
-/// wrong arms.
+/// Evenly chosen points of each line, its ends among them.
+static std::vector<Points> fewer_points(const std::vector<Points>& lines, Eigen::Index count) {
+  std::vector<Eigen::Index> kept;
+  const Eigen::Index last = lines.front().cols() - 1;
+  for (Eigen::Index i = 0; i < count; ++i) kept.push_back((2 * i * last + count - 1) / (2 * (count - 1)));
+  std::vector<Points> fewer;
+  for (const Points& line : lines) fewer.push_back(line(Eigen::all, kept));
+  return fewer;
+}
+
+/// As many points or fewer, which follow all of the coordinates, one of them or none: those with the smallest errors of
+/// lengths and arms together. In a motion in which coordinates go together, points that follow the wrong one have the
+/// right lengths and wrong arms.
 static std::vector<FiberPoint> best_points(Skeleton& skeleton, const Path* own, const LengthSamples& run,
                                            const MuscleLengths& muscle, const std::vector<Points>& fibers,
                                            const std::vector<std::vector<RigidTransform>>& poses,
@@ -93,13 +103,17 @@ static std::vector<FiberPoint> best_points(Skeleton& skeleton, const Path* own, 
   for (const FollowedCoordinate& each : followed) choices.push_back({each});
   std::vector<FiberPoint> best;
   Real least = std::numeric_limits<Real>::infinity();
-  for (const auto& choice : choices) {
-    std::vector<FiberPoint> points = fit_points(fibers, poses, choice);
-    const PathErrors errors = errors_of(skeleton, path_of(points), own, run, muscle, fibers);
-    const Real cost = std::hypot(errors.length_root_mean_square, errors.arm_root_mean_square);
-    if (!(cost < least)) continue;
-    least = cost;
-    best = std::move(points);
+  const Eigen::Index most = fibers.front().cols();
+  for (Eigen::Index count = most; count >= 2; count = count > 2 ? std::max<Eigen::Index>(2, count * 2 / 3) : 1) {
+    const std::vector<Points> lines = fewer_points(fibers, count);
+    for (const auto& choice : choices) {
+      std::vector<FiberPoint> points = fit_points(lines, poses, choice);
+      const PathErrors errors = errors_of(skeleton, path_of(points), own, run, muscle, fibers);
+      const Real cost = std::hypot(errors.length_root_mean_square, errors.arm_root_mean_square);
+      if (!(cost < 0.99 * least)) continue;
+      least = cost;
+      best = std::move(points);
+    }
   }
   return best;
 }
@@ -109,6 +123,11 @@ static std::string point_errors_text(const PathErrors& errors, bool beside_model
                      1000 * errors.length_root_mean_square, 1000 * errors.length_largest,
                      1000 * errors.arm_root_mean_square, 1000 * errors.arm_largest,
                      beside_model ? " from the model's own" : "");
+}
+
+/// Whether an end goes with its body; it may glide on it where the model's own does.
+static bool holds_end(const FiberPoint& end, const PathPoint* own) {
+  return (own && own->moving ? end.left : end.moves) <= 0.005;
 }
 
 PointExport export_points(const std::filesystem::path& folder, const Model& model, Index count,
@@ -130,6 +149,10 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
   for (const MuscleLengths& each : lengths.muscles) {
     const Index known = index_of(model.muscles, each.name);
     const Muscle* own = known < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(known)];
+    if (own && own->path.points.empty()) {
+      result.left_out.push_back(fmt::format("{}: its path is a function", each.name));
+      continue;
+    }
     std::vector<Points> lines;
     for (int f = 0; f < run.frame_count && !(own && lengths.follow_lines); ++f)
       lines.push_back(mean_fiber(run, each.name, f, count));
@@ -140,7 +163,8 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
       if (lines.front().cols() > 0)
         points = best_points(skeleton, own ? &own->path : nullptr, lengths, each, lines, poses,
                              followed_coordinates(model, own, lengths.coordinates.topRows(run.frame_count)));
-      if (!points.empty() && std::max(points.front().left, points.back().left) > 0.005) {
+      if (!points.empty() && !(holds_end(points.front(), own ? &own->path.points.front() : nullptr) &&
+                               holds_end(points.back(), own ? &own->path.points.back() : nullptr))) {
         why = "its ends move with no body of the model";
         points.clear();
       }
@@ -178,7 +202,7 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
     const Path* own = known < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(known)].path;
     const Path& path = read.muscles[static_cast<std::size_t>(index_of(read.muscles, name))].path;
     result.lines.push_back(
-        fmt::format("{}: {} points; {}", name, count,
+        fmt::format("{}: {} points; {}", name, path.points.size(),
                     point_errors_text(errors_of(read_skeleton, path, own, lengths, *written[m], fibers[m]),
                                 written[m]->arms.cols() == 0)));
   }

@@ -14,7 +14,7 @@ struct PointExport {
   std::vector<std::string> left_out;  ///< those that keep the model's path: which, and why
 };
 
-/// Writes the mean fibers of a run's muscles as paths of `count` points (fit_points): a ForceSet that OpenSim appends to
+/// Writes the mean fibers of a run's muscles as paths of `count` points or fewer (fit_points): a ForceSet that OpenSim appends to
 /// the model or puts in the place of its forces. Points follow those coordinates, of the ones that the muscle crosses
 /// (of a muscle that the model lacks: that the run moves) by 5 degrees or 5 mm, that give the smallest errors of lengths
 /// and arms together: all of them, one or none. Muscles that the model has keep their parameters but for the tendon's
