@@ -316,4 +316,20 @@ TEST(ModelReader, a_joint_of_no_bodies_is_left_out) {
   EXPECT_THAT(model.unsupported.at(0), HasSubstr("'nothing': names no bodies"));
 }
 
+TEST(ModelReader, a_force_set_that_repeats_a_name_replaces_that_force_and_says_so) {
+  Model model = model_from(pendulum(muscle("m", point("/ground", "1 0 0") + point("rod", "0 -1 0")) +
+                                    "<CoordinateActuator name=\"swing_reserve\"><coordinate>swing</coordinate>"
+                                    "<optimal_force>1</optimal_force></CoordinateActuator>"));
+  const TestFolder folder;
+  read_force_set(folder.write("more.xml", "<OpenSimDocument Version=\"30000\"><ForceSet><objects>"
+                                          "<CoordinateActuator name=\"swing_reserve\"><coordinate>swing</coordinate>"
+                                          "<optimal_force>100</optimal_force></CoordinateActuator></objects></ForceSet>"
+                                          "</OpenSimDocument>"),
+                 false, model);
+  ASSERT_EQ(model.actuators.size(), 1u);
+  EXPECT_EQ(model.actuators[0].optimal_force, 100);
+  EXPECT_EQ(model.muscles.size(), 1u);
+  EXPECT_THAT(model.unsupported.at(0), HasSubstr("'swing_reserve': replaces the force"));
+}
+
 }  // namespace gracilis::opensim

@@ -79,6 +79,12 @@ static Actuator read_actuator(ModelReading& reading, const pugi::xml_node& node)
   return actuator;
 }
 
+/// Takes the force of this name away; whether there was one.
+static bool forget(Model& model, const std::string& name) {
+  const auto is_it = [&](const auto& force) { return force.name == name; };
+  return std::erase_if(model.muscles, is_it) + std::erase_if(model.actuators, is_it) > 0;
+}
+
 /// The first body that a muscle's points name and the model does not have; empty: it has all.
 static std::string missing_body(const ModelReading& reading, const pugi::xml_node& force) {
   for (const pugi::xml_node& holder : {force, force.child("path")})
@@ -99,8 +105,7 @@ void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char
       continue;
     }
     if (name.empty()) reading.context.fail(node, "has no name", "give every force its own name");
-    if (index_of(reading.model.muscles, name) >= 0 || index_of(reading.model.actuators, name) >= 0)
-      reading.context.fail(node, "occurs twice", "give every force its own name");
+    if (forget(reading.model, name)) reading.leave_out(node, "replaces the force of this name that was there before");
     if (const std::string body = muscle ? missing_body(reading, node) : ""; !body.empty())
       reading.leave_out(node, fmt::format("has a point on '{}', which does not exist; left out", body));
     else if (muscle)

@@ -15,6 +15,7 @@ namespace gracilis::opensim {
 Model read_model(const std::filesystem::path& path);
 
 /// Adds the forces of a file that holds a ForceSet to the model, or replaces the model's muscles and actuators by them.
+/// One of a name that was there before takes its place, which Model::unsupported tells.
 void read_force_set(const std::filesystem::path& path, bool replace, Model& model);
 
 }  // namespace gracilis::opensim
