@@ -82,7 +82,9 @@ static Actuator read_actuator(ModelReading& reading, const pugi::xml_node& node)
 /// Takes the force of this name away; whether there was one.
 static bool forget(Model& model, const std::string& name) {
   const auto is_it = [&](const auto& force) { return force.name == name; };
-  return std::erase_if(model.muscles, is_it) + std::erase_if(model.actuators, is_it) > 0;
+  return std::erase_if(model.muscles, is_it) + std::erase_if(model.actuators, is_it) +
+             std::erase_if(model.passive_forces, is_it) >
+         0;
 }
 
 /// The first body that a muscle's points name and the model does not have; empty: it has all.
@@ -100,16 +102,19 @@ void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char
     const std::string_view kind = node.name();
     const std::string name = name_of(node);
     const bool muscle = kind.find("Muscle") != std::string_view::npos || node.child("max_isometric_force");
-    if (!muscle && kind != "CoordinateActuator" && kind != "PointActuator" && kind != "TorqueActuator") {
+    const bool passive = !muscle && is_passive_force(node);
+    if (!muscle && !passive && kind != "CoordinateActuator" && kind != "PointActuator" && kind != "TorqueActuator") {
       reading.leave_out(node, "kind of force not known; left out");
       continue;
     }
     if (name.empty()) reading.context.fail(node, "has no name", "give every force its own name");
     if (forget(reading.model, name)) reading.leave_out(node, "replaces the force of this name that was there before");
-    if (const std::string body = muscle ? missing_body(reading, node) : ""; !body.empty())
+    if (const std::string body = muscle || passive ? missing_body(reading, node) : ""; !body.empty())
       reading.leave_out(node, fmt::format("has a point on '{}', which does not exist; left out", body));
     else if (muscle)
       reading.model.muscles.push_back(read_muscle(reading, node));
+    else if (passive)
+      reading.model.passive_forces.push_back(read_passive_force(reading, node));
     else
       reading.model.actuators.push_back(read_actuator(reading, node));
   }

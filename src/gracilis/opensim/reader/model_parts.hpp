@@ -55,7 +55,11 @@ void read_constraints(ModelReading& reading, const pugi::xml_node& model);
 void read_wrap_objects(ModelReading& reading, const pugi::xml_node& holder, const PlacedFrame& frame);
 Path read_path(ModelReading& reading, const pugi::xml_node& force);
 
-/// Muscles and actuators below <set><objects>.
+/// Whether a force of this kind is a passive one that is known, and what it is.
+bool is_passive_force(const pugi::xml_node& node);
+PassiveForce read_passive_force(ModelReading& reading, const pugi::xml_node& node);
+
+/// Muscles, actuators and passive forces below <set><objects>.
 void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char* set);
 
 }  // namespace gracilis::opensim

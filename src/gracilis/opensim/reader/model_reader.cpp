@@ -112,6 +112,7 @@ void read_force_set(const std::filesystem::path& path, bool replace, Model& mode
   if (replace) {
     model.muscles.clear();
     model.actuators.clear();
+    model.passive_forces.clear();
   }
   ModelReading reading{{path, set.child("defaults"), file.version}, model};
   read_forces(reading, file.root, "ForceSet");
