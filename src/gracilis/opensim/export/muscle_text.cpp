@@ -14,7 +14,7 @@ static Index any_coordinate(const PathPoint& point) {
   return 0;
 }
 
-static std::string component_text(const Function& function) {
+static std::string moved_component_text(const Function& function) {
   if (function.kind == Function::Kind::constant)
     return fmt::format("<Constant><value>{}</value></Constant>", function.scale * function.coefficients[0]);
   std::vector<Real> y;
@@ -30,7 +30,7 @@ static std::string moving_text(const Model& model, const PathPoint& point) {
         "            <socket_{0}_coordinate>{1}</socket_{0}_coordinate>\n"
         "            <{0}_location>{2}</{0}_location>\n",
         names[i], coordinate_path(model, point.moves_with[i] < 0 ? any_coordinate(point) : point.moves_with[i]),
-        component_text(point.moves_to[i]));
+        moved_component_text(point.moves_to[i]));
   return text;
 }
 
@@ -50,7 +50,7 @@ static std::string point_text(const Model& model, const PathPoint& point) {
   return text + fmt::format("          </{}>\n", kind);
 }
 
-static std::string wrap_text(const Model& model, const PathWrap& wrap, std::size_t number) {
+static std::string path_wrap_text(const Model& model, const PathWrap& wrap, std::size_t number) {
   const std::string& object = model.wrap_objects[static_cast<std::size_t>(wrap.object)].name;
   if (object.ends_with("/V")) return "";  // the second cylinder of the object before it
   const char* plane = wrap.plane == WrapSurface::Plane::hybrid     ? "hybrid"
@@ -76,7 +76,7 @@ std::string muscle_text(const Model& model, const Muscle& muscle) {
   text += "          </objects></PathPointSet>\n";
   if (!muscle.path.wraps.empty()) {
     text += "          <PathWrapSet><objects>\n";
-    for (std::size_t i = 0; i < muscle.path.wraps.size(); ++i) text += wrap_text(model, muscle.path.wraps[i], i + 1);
+    for (std::size_t i = 0; i < muscle.path.wraps.size(); ++i) text += path_wrap_text(model, muscle.path.wraps[i], i + 1);
     text += "          </objects></PathWrapSet>\n";
   }
   return text + fmt::format("        </GeometryPath>\n      </{}>\n", type);
