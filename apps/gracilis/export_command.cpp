@@ -1,31 +1,43 @@
 #include "export_command.hpp"
 
+#include "console.hpp"
+#include "scene_options.hpp"
+
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/run/run_manifest.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
+#include <gracilis/methods/registry.hpp>
+#include <gracilis/opensim/export/export_check.hpp>
 #include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/export/run_points.hpp>
+#include <gracilis/opensim/export/scene_lengths.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 #include <gracilis/view/export/export_gltf.hpp>
 #include <gracilis/view/export/export_tables.hpp>
 #include <gracilis/view/export/export_tetrahedra.hpp>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <numeric>
-#include <optional>
 
 namespace gracilis {
 
 namespace {
 
 struct ExportOptions {
-  std::filesystem::path run, out, model;
+  std::filesystem::path run, out, model, check;
   std::string to;
   std::vector<int> frames;
   GltfOptions gltf;
   Real specific_tension = 6.1e5;
   Index points = 12;
+  opensim::MuscleFitSettings fit;
+  Index sampled = 0;  ///< poses that --sample asked for
 };
 
 /// One thing that `--to` can say.
@@ -48,6 +60,75 @@ std::vector<int> frames_or_all(const RecordedRun& run, const std::vector<int>& c
                                 fmt::format("the run has frames 0 to {}", run.frame_count - 1)});
   }
   return chosen;
+}
+
+/// Says what became of muscles and, with --check, of static optimization.
+void say_left_out(const std::vector<std::string>& left_out) {
+  for (const std::string& line : left_out) spdlog::warn("{}; it keeps its original path", line);
+}
+
+void check_against(const opensim::Model& before, const opensim::Model& after, const std::filesystem::path& setup) {
+  for (const std::string& line : opensim::check_lines(opensim::check_export(before, after, opensim::read_setup(setup))))
+    spdlog::info("{}", line);
+}
+
+std::vector<opensim::Muscle> muscles_in(const std::filesystem::path& force_set, opensim::Model model) {
+  opensim::read_force_set(force_set, true, model);
+  return model.muscles;
+}
+
+/// The scene that a run was made of, by the command line in its manifest.
+LoadedScene scene_of_run(const std::filesystem::path& run) {
+  const nlohmann::ordered_json manifest = read_manifest(run);
+  std::vector<std::string> words = manifest.value("command", std::vector<std::string>{});
+  if (words.size() < 3 || (words[1] != "run" && words[1] != "rom"))
+    throw ConfigurationError({"--sample", "", "the run was not made of a scene file", "run a scene file"});
+  CLI::App parser;
+  std::filesystem::path file;
+  SceneOptions options;
+  add_scene_options(parser, file, options);
+  parser.allow_extras();
+  words.erase(words.begin(), words.begin() + 2);
+  std::reverse(words.begin(), words.end());
+  parser.parse(words);
+  return read_scene(file, options);
+}
+
+/// The run's lengths; of strings, where poses are asked for, lengths and arms of its scene in such poses.
+opensim::LengthSamples lengths_for(const opensim::Model& model, const ExportOptions& options) {
+  opensim::LengthSamples run = opensim::run_lengths(options.run, model);
+  if (options.sampled == 0 || !read_manifest(options.run).value("settings", "").starts_with("method = \"strings\""))
+    return run;
+  const LoadedScene loaded = scene_of_run(options.run);
+  const auto method = make_method(loaded.scene, [&](const DistanceFieldSettings& settings) {
+    return cached_bone_fields(loaded.scene, settings);
+  });
+  const opensim::CoordinateBox box =
+      opensim::box_around(model, opensim::moved_coordinates(run, model, loaded.scene), run.coordinates,
+                          options.fit.whole_ranges);
+  Progress progress(0, static_cast<int>(options.sampled));
+  run = opensim::scene_lengths(loaded.scene, *method, model, box, options.sampled,
+                               [&](Index done) { progress.show(static_cast<int>(done)); });
+  progress.clear();
+  return run;
+}
+
+void export_functions(const std::filesystem::path& out, const ExportOptions& options) {
+  if (options.model.empty())
+    spdlog::warn("without --model polynomials are fitted to the run's own poses alone, and the joints are the scene's");
+  const opensim::Model model =
+      options.model.empty() ? opensim::joints_of_run(options.run) : opensim::read_model(options.model);
+  opensim::MuscleFitSettings settings = options.fit;
+  if (options.sampled > 0) settings.poses = options.sampled;
+  const opensim::FittedMuscles fitted = opensim::fit_muscles(lengths_for(model, options), model, settings);
+  write_text_atomically(out, opensim::function_path_set(model, fitted.muscles));
+  for (const opensim::FittedMuscle& muscle : fitted.muscles) spdlog::info("{}", opensim::fit_line(model, muscle));
+  say_left_out(fitted.left_out);
+  spdlog::info("{}", opensim::fit_summary(model, fitted.muscles));
+  if (model.muscles.empty()) return;
+  opensim::Model after = model;
+  opensim::replace_paths(out, after);
+  if (!options.check.empty()) check_against(model, after, options.check);
 }
 
 /// A new format is a line here.
@@ -75,10 +156,7 @@ const std::vector<ExportFormat>& formats() {
        "the fibers' mean lengths as polynomials of the coordinates, which OpenSim 4.5 and later read as "
        "FunctionBasedPaths",
        [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
-         std::optional<opensim::Model> model;
-         if (!options.model.empty()) model = opensim::read_model(options.model);
-         for (const std::string& line : opensim::export_function_paths(options.run, out, model ? &*model : nullptr))
-           spdlog::info("{}", line);
+         export_functions(out, options);
        }},
       {"osim-points", "point_paths.osim",
        "the mean fibers as path points of the --model, a force set that OpenSim appends to it or puts in the place of "
@@ -87,8 +165,18 @@ const std::vector<ExportFormat>& formats() {
          if (options.model.empty())
            throw ConfigurationError({"--to osim-points", "", "needs the model", "add --model MODEL.osim"});
          const opensim::Model model = opensim::read_model(options.model);
-         for (const std::string& line : opensim::export_points(options.run, model, options.points, out))
-           spdlog::info("{}", line);
+         const opensim::PointExport written = opensim::export_points(options.run, model, options.points, out);
+         for (const std::string& line : written.lines) spdlog::info("{}", line);
+         say_left_out(written.left_out);
+         if (options.check.empty()) return;
+         opensim::Model after = model;
+         for (const opensim::Muscle& muscle : muscles_in(out, model)) {
+           const Index known = opensim::index_of(after.muscles, muscle.name);
+           if (known < 0) continue;
+           after.muscles[static_cast<std::size_t>(known)].path = muscle.path;
+           after.muscles[static_cast<std::size_t>(known)].tendon_slack_length = muscle.tendon_slack_length;
+         }
+         check_against(model, after, options.check);
        }}};
   return list;
 }
@@ -121,11 +209,24 @@ void add_export_command(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   command->add_option(
       "--model", options->model,
-      "The OpenSim model that the run's scene was made of (osim-points; osim-function then takes only coordinates "
-      "of joints that a muscle crosses)");
-  command->add_option("--points", options->points, "Points of a path, its ends among them (osim-points)")
+      "The OpenSim model that the run's scene was made of (osim-function, osim-points)");
+  command->add_option("--points", options->points, "Points of a path at most, its ends among them (osim-points)")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
+  command->add_option("--check", options->check,
+                      "OpenSim's set-up of static optimization: solved with the model's own paths and the exported ones, "
+                      "and compared (osim-function, osim-points)");
+  command
+      ->add_option("--sample", options->sampled,
+                   "Poses that polynomials are fitted to, spread over each muscle's coordinates: of the model's own paths, "
+                   "and of a run by strings those of its scene, which is solved in them (osim-function; 1000 of the model)")
+      ->check(CLI::Range(64, 1'000'000));
+  command->add_flag("--whole-ranges", options->fit.whole_ranges,
+                    "Over the whole ranges of the model's coordinates instead of 10 degrees around where the run goes "
+                    "(osim-function)");
+  command->add_flag("--run-alone", options->fit.run_alone,
+                    "Fit to the run's lengths alone; otherwise muscles become the model's own path and a correction "
+                    "(osim-function)");
   command->callback([&chosen, options] {
     chosen = [options] {
       for (const ExportFormat& format : formats()) {

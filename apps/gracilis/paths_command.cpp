@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct PathsOptions {
   fs::path model, motion, out;
-  std::string sweep, prefix, lengths = "opensim";
+  std::string sweep, prefix, lengths = "way";
   bool strict = false;
 };
 
@@ -51,15 +51,17 @@ opensim::CoordinateMotion parse_sweep(const opensim::Model& model, const std::st
 }
 
 /// Names the muscles whose length by OpenSim is not that of the way that the moment arms are of.
-void warn_of_other_ways(const opensim::PathTables& tables) {
+void warn_of_other_ways(const opensim::PathTables& tables, bool ways) {
   const Eigen::RowVectorXd apart = (tables.lengths.values - tables.way_lengths.values).cwiseAbs().colwise().maxCoeff();
   for (std::size_t i = 0; i < tables.lengths.columns.size(); ++i) {
     const Real most = apart[static_cast<Eigen::Index>(i)];
     if (most > 1e-4)
-      spdlog::warn(
-          "{}: lengths are as OpenSim computes them, up to {:.1f} mm off those of the way around its wraps; "
-          "--lengths way gives the latter",
-          tables.lengths.columns[i], 1000 * most);
+      spdlog::warn("{}: {}, up to {:.1f} mm off {}", tables.lengths.columns[i],
+                   ways ? "lengths are those of the way around its wraps, of which the moment arms are"
+                        : "lengths are as OpenSim computes them (--lengths opensim)",
+                   1000 * most,
+                   ways ? "what OpenSim computes; --lengths opensim gives that"
+                        : "those of the way around its wraps, of which the moment arms are; --lengths way gives these");
   }
 }
 
@@ -87,7 +89,7 @@ int write_paths(const PathsOptions& options) {
     fmt::print("{}\n", path.string());
   };
   const bool ways = options.lengths == "way";
-  if (!ways) warn_of_other_ways(tables);
+  warn_of_other_ways(tables, ways);
   write("MuscleAnalysis_Length", ways ? tables.way_lengths : tables.lengths);
   for (const auto& [coordinate, table] : tables.moment_arms) write("MuscleAnalysis_MomentArm_" + coordinate, table);
   if (options.motion.empty()) write("coordinates", opensim::coordinate_table(model, motion));
@@ -104,7 +106,7 @@ void add_paths_command(CLI::App& program, Command& chosen) {
   command->add_option("--coord", options->sweep, "Or one coordinate, NAME=FROM:TO:STEP in degrees or m");
   command->add_option("--out", options->out, "Folder for the tables")->required();
   command->add_option("--prefix", options->prefix, "Start of the tables' names (default: the model's name)");
-  command->add_option("--lengths", options->lengths, "As 'opensim' computes them, or of the 'way' (default: opensim)")
+  command->add_option("--lengths", options->lengths, "Of the 'way' that moment arms are of, or as 'opensim' computes them (default: way)")
       ->check(CLI::IsMember({"opensim", "way"}));
   command->add_flag("--strict", options->strict, "Fail where the model holds what is not supported (exit code 4)");
   command->callback([&chosen, options] { chosen = [options] { return write_paths(*options); }; });

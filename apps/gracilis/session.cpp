@@ -188,6 +188,7 @@ class Session {
     manifest.warnings = warnings_;
     for (const Muscle& muscle : loaded_.scene.muscles)
       if (muscle.action_line.rays > 0) manifest.lines.emplace_back(muscle.name, muscle.action_line);
+    manifest.joints = loaded_.scene.joints;
     manifest.overlaps = overlaps_;
     manifest.axes = loaded_.scene.axes;
     manifest.status = status;

@@ -92,6 +92,24 @@ TEST(PoseSequence, frame_zero_is_the_capture_pose_and_the_ramp_takes_one_degree_
   EXPECT_EQ(poses[9].coordinates[1], -0.08) << "coordinates that the motion does not name keep their capture value";
 }
 
+TEST(PoseSequence, a_joint_that_carries_everything_makes_no_ramp_longer) {
+  Scene scene = leg();
+  scene.bodies.insert(scene.bodies.begin(), "ground");
+  for (Joint& joint : scene.joints) ++joint.parent_body, ++joint.child_body;
+  Joint root{"ground_pelvis", 0, 1, RigidTransform::Identity(), {{"pelvis_tx", Vec3::UnitX(), 0, -10, 10, true}}};
+  scene.joints.insert(scene.joints.begin(), root);
+  for (const Index body : {1, 2, 3}) {
+    scene.bones.emplace_back();
+    scene.bones.back().body = body;
+  }
+  Eigen::MatrixXd values(2, 2);
+  values << 0.6, 0.03 + radians(2.5), 0.6, 0.03 + radians(2.5);
+  scene.motion = motion({"pelvis_tx", "flexion"}, {0, 0.1}, values);
+  EXPECT_EQ(pose_sequence(scene).size(), 1u + 3u + 1u);  // 2.5 degrees, not 600 mm
+  scene.bones[0].body = 0;                               // now the pelvis moves against something
+  EXPECT_EQ(pose_sequence(scene).size(), 1u + 600u + 1u);
+}
+
 TEST(PoseSequence, the_motion_keeps_its_times_and_the_ramp_comes_before) {
   Scene scene = leg();
   scene.motion = motion({"flexion"}, {2, 2.5, 3}, Eigen::Vector3d(0.5, 0.6, 0.7));

@@ -87,8 +87,7 @@ TEST(Table, what_cannot_be_survived_is_named_with_its_line) {
   EXPECT_THAT(refused("\t2.5", ""), HasSubstr("a.mot:11: has 2 numbers where there are 3 columns"));
   EXPECT_THAT(refused("\t2.5", "\t2.5\t3"), HasSubstr("a.mot:11: has 4 numbers where there are 3 columns"));
   EXPECT_THAT(refused("-45", ""), HasSubstr("a.mot:11: '' in column 'hip_flexion_r'"));
-  EXPECT_THAT(refused("pelvis_tx", "hip_flexion_r"), HasSubstr("a.mot:9: column 'hip_flexion_r' occurs twice"));
-  EXPECT_THAT(refused("0.6", "0.5"), HasSubstr("a.mot:11: time 0.5 does not come after 0.5"));
+  EXPECT_THAT(refused("0.6", "0.4"), HasSubstr("a.mot:11: time 0.4 does not come after 0.5"));
   EXPECT_THAT(refused("time", "tyme"), HasSubstr("a.mot:9: has no column 'time'"));
   EXPECT_THAT(refused("=yes", "=perhaps"), HasSubstr("a.mot:5: inDegrees must be yes or no, not 'perhaps'"));
   EXPECT_THAT(table_message(folder.write("b.mot", "hello\n")), HasSubstr("b.mot:1: has no column 'time'"));
@@ -188,4 +187,23 @@ TEST(Landmarks, the_cadaver_s_are_read) {
   Index total = 0;
   for (const LandmarkCloud& cloud : clouds) total += static_cast<Index>(cloud.points.cols());
   EXPECT_EQ(total, 199);
+}
+
+TEST(Table, what_opensim_itself_writes_is_read_with_a_warning) {
+  const TestFolder folder;
+  const std::string head = "states\nversion=1\ninDegrees=no\nendheader\n";
+  const Table repeated = read_table(folder.write("a.sto", head + "time\tq\tr\tq\n0\t1\t2\t3\n0\t4\t5\t6\n1\t7\t8\t9\n"));
+  EXPECT_EQ(repeated.columns, (std::vector<std::string>{"q", "r"}));
+  EXPECT_EQ(repeated.times, (std::vector<Real>{0, 1}));
+  EXPECT_EQ(repeated.values(0, 0), 1);
+  EXPECT_EQ(repeated.values(1, 1), 8);
+  EXPECT_EQ(repeated.warnings.size(), 2u);
+  const Table turned = read_table(folder.write(
+      "b.sto", "DataRate=40\nDataType=Quaternion\ninDegrees=no\nendheader\ntime\ttorso_imu\n0\t1,0,0,0\n1\t0,1,0,0\n"));
+  EXPECT_TRUE(turned.columns.empty());
+  EXPECT_EQ(turned.values.rows(), 2);
+  EXPECT_THAT(turned.warnings.at(0), HasSubstr("'torso_imu' holds several numbers"));
+  const Table bare = read_table(folder.write("c.sto", head + "time\n0\n1\n"));
+  EXPECT_EQ(bare.times.size(), 2u);
+  EXPECT_THAT(bare.warnings.at(0), HasSubstr("no column beside 'time'"));
 }

@@ -173,7 +173,7 @@ TEST(ModelReader, elements_nested_a_hundred_thousand_times_do_no_harm) {
 TEST(ModelReader, refuses_what_is_no_model) {
   EXPECT_THAT(complaint_about("<OpenSimDocument Version=\"40000\"><Model>"), HasSubstr("is not XML"));
   EXPECT_THAT(complaint_about("<html/>"), HasSubstr("is no OpenSim document"));
-  EXPECT_THAT(complaint_about(document("", "20302")), HasSubstr("30000 (OpenSim 3.0) is the oldest"));
+  EXPECT_THAT(complaint_about(document("", "905")), HasSubstr("10000 (OpenSim 1.0) is the oldest"));
   EXPECT_THAT(complaint_about(pendulum(muscle("m", point("rod", "0 zero 0")))),
               HasSubstr("'zero', which is not a number"));
   EXPECT_THAT(complaint_about(pendulum(muscle("m", point("rod", "0 0 0")))), HasSubstr("less than two points"));
@@ -256,6 +256,80 @@ TEST(ModelReader, the_cadaver_hip_has_8_muscles_and_bones_in_millimetres) {
   ASSERT_EQ(model.bodies[1].geometry.size(), 1u);
   EXPECT_EQ(model.bodies[1].geometry[0].file, "geometry/LHDL_pelvis.vtp");
   EXPECT_NEAR(model.bodies[1].geometry[0].scale.x(), 0.001, 1e-15);
+}
+
+TEST(ModelReader, paths_that_go_up_name_what_holds_them) {
+  const std::string frame =
+      "<components><PhysicalOffsetFrame name=\"off\"><socket_parent>..</socket_parent><translation>0 -0.1 "
+      "0</translation></PhysicalOffsetFrame></components>";
+  const Model model = model_from(
+      pendulum(muscle("m", point("/ground", "1 0 0") + point("/bodyset/rod/off", "0 -1 0")) +
+                   muscle("n", point("../../../../../ground", "1 0 0") + point("/bodyset/other/../rod", "0 -1 0")),
+               frame));
+  EXPECT_EQ(model.muscles[0].path.points[1].body, 1);
+  EXPECT_NEAR(model.muscles[0].path.points[1].location.y(), -1.1, 1e-12);
+  EXPECT_EQ(model.muscles[1].path.points[0].body, 0);
+  EXPECT_EQ(model.muscles[1].path.points[1].body, 1);
+}
+
+TEST(ModelReader, documents_of_opensim_1_and_2_are_read_by_what_changed_since) {
+  const std::string points =
+      "<MusclePointSet><objects><MusclePoint name=\"a\"><location>1 0 0</location><body>ground</body></MusclePoint>"
+      "<MuscleViaPoint name=\"b\"><location>0.5 0 0</location><body>ground</body><range>-1 1</range>"
+      "<coordinate>swing</coordinate></MuscleViaPoint><MusclePoint name=\"c\"><location>0 -1 0</location><body>rod</body>"
+      "</MusclePoint></objects></MusclePointSet>";
+  const std::string old_joint =
+      "<Joint><PinJoint name=\"hinge\"><parent_body>ground</parent_body><CoordinateSet><objects>" + coordinate("swing") +
+      "</objects></CoordinateSet></PinJoint></Joint>";
+  for (const char* version : {"10905", "20303"}) {
+    const Model model = model_from(
+        document("<DynamicsEngine><SimbodyEngine name=\"e\">" + set("BodySet", body("rod", old_joint)) +
+                     "</SimbodyEngine></DynamicsEngine>" +
+                     set("ActuatorSet", "<Thelen2003Muscle name=\"m\">" + points + "</Thelen2003Muscle>"),
+                 version));
+    ASSERT_EQ(model.muscles.size(), 1u) << version;
+    EXPECT_EQ(model.muscles[0].path.points.size(), 3u);
+    EXPECT_EQ(model.muscles[0].path.points[1].condition, 0);
+    EXPECT_THAT(model.unsupported.at(0), HasSubstr("read as one of OpenSim 3"));
+  }
+}
+
+TEST(ModelReader, what_a_force_lacks_is_told_and_the_model_is_read) {
+  const std::string way = point("/ground", "1 0 0") + point("rod", "0 -1 0");
+  const Model model = model_from(
+      pendulum("<NobodysForce><strength>1</strength></NobodysForce>" +
+               muscle("lost", point("/ground", "1 0 0") + point("/body", "0 -1 0")) +
+               muscle("still", way, "<max_contraction_velocity>0</max_contraction_velocity>")));
+  ASSERT_EQ(model.muscles.size(), 1u);
+  EXPECT_EQ(model.muscles[0].name, "still");
+  EXPECT_EQ(model.muscles[0].max_contraction_velocity, 10);
+  ASSERT_EQ(model.unsupported.size(), 3u);
+  EXPECT_THAT(model.unsupported[1], HasSubstr("'lost': has a point on '/body', which does not exist"));
+}
+
+TEST(ModelReader, a_joint_of_no_bodies_is_left_out) {
+  const Model model = model_from(document(
+      set("BodySet", body("rod")) +
+      set("JointSet", joint("PinJoint", "hinge", "/ground", "rod", coordinate("swing")) +
+                          "<PinJoint name=\"nothing\"><socket_parent_frame></socket_parent_frame></PinJoint>")));
+  EXPECT_EQ(model.joints.size(), 1u);
+  EXPECT_THAT(model.unsupported.at(0), HasSubstr("'nothing': names no bodies"));
+}
+
+TEST(ModelReader, a_force_set_that_repeats_a_name_replaces_that_force_and_says_so) {
+  Model model = model_from(pendulum(muscle("m", point("/ground", "1 0 0") + point("rod", "0 -1 0")) +
+                                    "<CoordinateActuator name=\"swing_reserve\"><coordinate>swing</coordinate>"
+                                    "<optimal_force>1</optimal_force></CoordinateActuator>"));
+  const TestFolder folder;
+  read_force_set(folder.write("more.xml", "<OpenSimDocument Version=\"30000\"><ForceSet><objects>"
+                                          "<CoordinateActuator name=\"swing_reserve\"><coordinate>swing</coordinate>"
+                                          "<optimal_force>100</optimal_force></CoordinateActuator></objects></ForceSet>"
+                                          "</OpenSimDocument>"),
+                 false, model);
+  ASSERT_EQ(model.actuators.size(), 1u);
+  EXPECT_EQ(model.actuators[0].optimal_force, 100);
+  EXPECT_EQ(model.muscles.size(), 1u);
+  EXPECT_THAT(model.unsupported.at(0), HasSubstr("'swing_reserve': replaces the force"));
 }
 
 }  // namespace gracilis::opensim

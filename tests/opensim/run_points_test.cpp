@@ -1,7 +1,8 @@
 #include "opensim/model_texts.hpp"
 
 #include <gracilis/geometry/polylines.hpp>
-#include <gracilis/opensim/export/run_points.hpp>
+#include <gracilis/opensim/export/fiber_points.hpp>
+#include <gracilis/opensim/export/muscle_text.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 
 #include <gmock/gmock.h>
@@ -54,12 +55,12 @@ TEST(RunPoints, ends_stay_with_the_bodies_that_they_move_with) {
 
 TEST(RunPoints, points_that_move_with_the_only_coordinate_give_the_runs_lengths) {
   const SwungFibers run;
-  const Path still = path_of(fit_points(run.fibers, run.poses, {}), -1);
-  const Path moving = path_of(fit_points(run.fibers, run.poses, run.angles), 0);
+  const Path still = path_of(fit_points(run.fibers, run.poses, {}));
+  const Path moving = path_of(fit_points(run.fibers, run.poses, {{0, run.angles}}));
   EXPECT_FALSE(still.points[2].moving);
   EXPECT_TRUE(moving.points[2].moving);
   EXPECT_FALSE(moving.points[4].moving);
-  EXPECT_LT(run.largest_error(moving), 1e-4);  // 15 knots for 29 frames
+  EXPECT_LT(run.largest_error(moving), 1e-4);
   EXPECT_GT(run.largest_error(still), 1e-3);
 }
 
@@ -69,13 +70,58 @@ TEST(RunPoints, what_is_written_is_read_back_with_the_same_lengths_and_parameter
   muscle.name = "m";
   muscle.type = "Millard2012EquilibriumMuscle";
   muscle.max_isometric_force = 321;
-  muscle.path = path_of(fit_points(run.fibers, run.poses, run.angles), 0);
+  muscle.path = path_of(fit_points(run.fibers, run.poses, {{0, run.angles}}));
   const Model read = model_from(pendulum(muscle_text(run.model, muscle)));
   ASSERT_EQ(read.muscles.size(), 1u);
   EXPECT_EQ(read.muscles[0].max_isometric_force, 321);
   EXPECT_EQ(read.muscles[0].type, muscle.type);
   EXPECT_TRUE(read.unsupported.empty());
   EXPECT_NEAR(run.largest_error(read.muscles[0].path), run.largest_error(muscle.path), 1e-9);
+}
+
+TEST(RunPoints, components_of_a_point_follow_a_coordinate_each) {
+  std::vector<Points> fibers;
+  std::vector<std::vector<RigidTransform>> poses(40, {RigidTransform::Identity()});
+  FollowedCoordinate first{3, {}}, second{7, {}};
+  for (int f = 0; f < 40; ++f) {
+    first.values.push_back(0.02 * f);
+    second.values.push_back(0.5 * std::sin(1.7 * f));
+    Points fiber(3, 3);
+    fiber.col(0) = Vec3::Zero();
+    fiber.col(1) = Vec3(0.1 + 0.02 * first.values.back(), 0.03 * second.values.back(), 0.2);
+    fiber.col(2) = Vec3(0, 0, 0.4);
+    fibers.push_back(fiber);
+  }
+  const std::vector<FiberPoint> points = fit_points(fibers, poses, {first, second});
+  EXPECT_EQ(points[1].follows[0].coordinate, 3);
+  EXPECT_EQ(points[1].follows[1].coordinate, 7);
+  EXPECT_EQ(points[1].follows[2].coordinate, -1);
+  EXPECT_LT(points[1].left, 1e-6);
+}
+
+TEST(RunPoints, a_path_that_stays_the_model_s_is_written_with_its_conditions_and_wraps) {
+  const std::string points =
+      point("/ground", "0.05 0.1 0") +
+      "<ConditionalPathPoint name=\"c\"><socket_parent_frame>/bodyset/rod</socket_parent_frame><location>0.06 -0.1 "
+      "0</location><socket_coordinate>/jointset/hinge/swing</socket_coordinate><range>-0.2 "
+      "0.4</range></ConditionalPathPoint>" +
+      point("/bodyset/rod", "0.03 -0.4 0");
+  const std::string object =
+      set("WrapObjectSet", "<WrapCylinder name=\"roll\"><quadrant>+x</quadrant><radius>0.04</radius><length>1</length>"
+                           "</WrapCylinder>");
+  const std::string wraps =
+      "<PathWrap name=\"w\"><wrap_object>roll</wrap_object><method>hybrid</method><range>-1 -1</range></PathWrap>";
+  const Model model = model_from(pendulum(muscle("m", points, "", wraps), object));
+  const Model again = model_from(pendulum(muscle_text(model, model.muscles[0]), object));
+  ASSERT_EQ(again.muscles[0].path.wraps.size(), 1u);
+  Skeleton one(model), other(again);
+  for (const Real swing : {-0.6, 0.1, 0.7}) {
+    const Eigen::VectorXd q = Eigen::VectorXd::Constant(1, swing);
+    one.place(q);
+    other.place(q);
+    EXPECT_NEAR(measure_path(one, model.muscles[0].path, q).length,
+                measure_path(other, again.muscles[0].path, q).length, 1e-12);
+  }
 }
 
 }  // namespace gracilis::opensim

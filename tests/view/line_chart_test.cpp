@@ -42,4 +42,12 @@ TEST(AxisTicks, are_round_numbers_within_the_range) {
                           testing::DoubleNear(0.2, 1e-12), testing::DoubleNear(0.4, 1e-12)));
 }
 
+TEST(AxisTicks, of_a_range_near_rounding_or_without_end_are_few) {
+  for (const auto& [low, high] : {std::pair{0.3, 0.3}, std::pair{0.3, 0.3 + 1e-16}, std::pair{1e9, 1e9 + 1e-7},
+                                  std::pair{1.0, 1.0 + 2e-12}, std::pair{0.0, 1e-320}, std::pair{-1e300, 1e308}}) {
+    EXPECT_GE(axis_ticks(low, high, 10).size(), 1u) << low << " " << high;
+    EXPECT_LE(axis_ticks(low, high, 10).size(), 22u) << low << " " << high;
+  }
+}
+
 }  // namespace gracilis

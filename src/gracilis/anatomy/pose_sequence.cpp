@@ -30,15 +30,37 @@ static std::vector<Coordinates> motion_rows(const Scene& scene) {
   return rows;
 }
 
-/// How many frames a ramp takes: what the scene says, or as many as steps of 1 degree (or mm) need.
+/// Per joint: whether it moves all that muscles and bones hang on alike, which deforms nothing.
+static std::vector<bool> carries_all(const Scene& scene) {
+  std::vector<bool> used(scene.bodies.size(), false);
+  for (const Bone& bone : scene.bones) used[static_cast<std::size_t>(bone.body)] = true;
+  for (const Muscle& muscle : scene.muscles)
+    for (const Attachment& attachment : muscle.attachments) used[static_cast<std::size_t>(attachment.body)] = true;
+  if (std::find(used.begin(), used.end(), true) == used.end()) return std::vector<bool>(scene.joints.size(), false);
+  std::vector<bool> carries;
+  for (const Joint& joint : scene.joints) {
+    std::vector<bool> beyond(scene.bodies.size(), false);
+    beyond[static_cast<std::size_t>(joint.child_body)] = true;
+    for (const Joint& other : scene.joints)  // parents stand before children
+      if (beyond[static_cast<std::size_t>(other.parent_body)]) beyond[static_cast<std::size_t>(other.child_body)] = true;
+    bool all = true;
+    for (std::size_t body = 0; body < used.size(); ++body) all = all && (!used[body] || beyond[body]);
+    carries.push_back(all);
+  }
+  return carries;
+}
+
+/// How many frames a ramp takes: what the scene says, or as many as steps of 1 degree (or mm) need of what
+/// moves bodies against each other.
 static std::int64_t ramp_length(const Scene& scene, const Coordinates& from, const Coordinates& to) {
   if (from == to) return 0;
   if (scene.sequence.ramp_frames > 0) return scene.sequence.ramp_frames;
+  const std::vector<bool> free = carries_all(scene);
   Real largest = 0;
   std::size_t i = 0;
-  for (const Joint& joint : scene.joints)
-    for (const JointAxis& axis : joint.axes) {
-      largest = std::max(largest, shown_value(axis, std::abs(to[i] - from[i])));
+  for (std::size_t j = 0; j < scene.joints.size(); ++j)
+    for (const JointAxis& axis : scene.joints[j].axes) {
+      if (!free[j]) largest = std::max(largest, shown_value(axis, std::abs(to[i] - from[i])));
       ++i;
     }
   return steps_over(largest, 1);

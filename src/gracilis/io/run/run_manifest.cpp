@@ -54,6 +54,18 @@ static nlohmann::ordered_json action_lines(const RunManifest& manifest) {
   return lines;
 }
 
+/// What exports to OpenSim need (opensim/export/run_lengths).
+static nlohmann::ordered_json joints_json(const std::vector<Joint>& joints) {
+  nlohmann::ordered_json list = nlohmann::json::array();
+  for (const Joint& joint : joints) {
+    nlohmann::ordered_json coordinates = nlohmann::json::array();
+    for (const JointAxis& axis : joint.axes)
+      coordinates.push_back({{"name", axis.coordinate}, {"translation", axis.translation}});
+    list.push_back({{"name", joint.name}, {"coordinates", coordinates}});
+  }
+  return list;
+}
+
 nlohmann::ordered_json overlaps_json(const OverlapReport& report) {
   nlohmann::ordered_json pairs = nlohmann::json::array();
   for (const MuscleOverlap& pair : report.pairs)
@@ -93,7 +105,7 @@ nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
   require(
       {"frames", "seconds", "threads", "processors"}, [](const Json& json) { return json.is_number(); }, "a number");
   require({"command", "guessed", "warnings"}, is_texts, "a list of texts");
-  require({"inputs"}, is_objects, "a list of objects");
+  require({"inputs", "joints"}, is_objects, "a list of objects");
   require(
       {"axes", "action_lines", "rest_overlaps", "libraries"}, [](const Json& json) { return json.is_object(); },
       "an object");
@@ -119,6 +131,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"instruction_set", instruction_set()},  // results differ in the last bits between sets
       {"processors", std::thread::hardware_concurrency()},
       {"axes", {{"anterior", components(manifest.axes.anterior)}, {"superior", components(manifest.axes.superior)}}},
+      {"joints", joints_json(manifest.joints)},
       {"action_lines", action_lines(manifest)},
       {"rest_overlaps", overlaps_json(manifest.overlaps)},
       {"guessed", manifest.guessed},

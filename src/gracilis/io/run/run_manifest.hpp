@@ -22,6 +22,7 @@ struct RunManifest {
   std::vector<std::string> guessed;           ///< what was guessed rather than measured, e.g. "psoas_r origin"
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, ActionLine>> lines;  ///< of muscles that have one, by their names
+  std::vector<Joint> joints;                              ///< of the scene
   OverlapReport overlaps;                                 ///< in the capture pose
   AnatomicalAxes axes;                                    ///< how the subject stands
   std::string status = "running";                         ///< running, complete, interrupted, or "failed: why"

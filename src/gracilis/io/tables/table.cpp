@@ -117,52 +117,83 @@ class TableReader {
     }
     std::set<std::string_view> seen;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-      if (!seen.insert(labels[i]).second)
-        fail_here(fmt::format("column '{}' occurs twice", labels[i]), "rename one of them");
-      if (lower_case(labels[i]) == "time") {
+      labels_.emplace_back(labels[i]);
+      left_out_.push_back(false);
+      if (lower_case(labels[i]) == "time" && time_column_ == none) {
         time_column_ = i;
-      } else {
-        table_.columns.emplace_back(labels[i]);
+      } else if (!seen.insert(labels[i]).second) {
+        leave_out(i, "occurs again; the first one counts");
       }
     }
     if (time_column_ == none) fail_here("has no column 'time'", "name the column of times 'time'");
-    if (table_.columns.empty()) fail_here("has no column beside 'time'", "export the table again");
+    if (labels_.size() == 1) warn("has no column beside 'time'");
+  }
+
+  void warn(const std::string& what) { table_.warnings.push_back(path_.string() + ": " + what); }
+
+  void leave_out(std::size_t column, const std::string& why) {
+    left_out_[column] = true;
+    warn(fmt::format("column '{}' {}", labels_[column], why));
+  }
+
+  /// Cells between tabs where the row has some: those of quaternions hold four numbers between commas.
+  std::vector<std::string_view> cells_of_row() const {
+    if (line_.find('\t') == std::string_view::npos || line_.find(',') == std::string_view::npos) return cells_of(line_);
+    std::vector<std::string_view> cells;
+    for (std::size_t begin = 0; begin <= line_.size();) {
+      const std::size_t end = std::min(line_.find('\t', begin), line_.size());
+      cells.push_back(trimmed(line_.substr(begin, end - begin)));
+      begin = end + 1;
+    }
+    while (!cells.empty() && cells.back().empty()) cells.pop_back();
+    return cells.size() == labels_.size() ? cells : cells_of(line_);
+  }
+
+  /// Once the first row shows which columns hold one number.
+  void choose_columns(const std::vector<std::string_view>& cells) {
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+      if (i == time_column_) continue;
+      if (cells[i].find(',') != std::string_view::npos)
+        leave_out(i, "holds several numbers in a cell (quaternions or vectors) and is left out");
+      if (!left_out_[i]) table_.columns.push_back(labels_[i]);
+    }
   }
 
   void read_row() {
-    const std::vector<std::string_view> cells = cells_of(line_);
-    const std::size_t expected = table_.columns.size() + 1;
-    if (cells.size() != expected) {
-      fail_here(fmt::format("has {} numbers where there are {} columns", cells.size(), expected));
+    const std::vector<std::string_view> cells = cells_of_row();
+    if (cells.size() != labels_.size())
+      fail_here(fmt::format("has {} numbers where there are {} columns", cells.size(), labels_.size()));
+    if (table_.times.empty()) choose_columns(cells);
+    const Real time = number_in(cells[time_column_], time_label_);
+    if (!table_.times.empty() && time < table_.times.back())
+      fail_here(fmt::format("time {} does not come after {}", time, table_.times.back()), "sort the rows by time");
+    if (!table_.times.empty() && time == table_.times.back()) {
+      ++repeated_rows_;
+      return;
     }
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::string& column = i == time_column_ ? time_label_ : table_.columns[i - (i > time_column_ ? 1 : 0)];
-      double value = 0;
-      if (!parse_number(cells[i], value))
-        fail_here(fmt::format("'{}' in column '{}' is not a number", cells[i], column));
-      if (!std::isfinite(value))
-        fail_here(fmt::format("column '{}' is {}, which is not a finite number", column, cells[i]));
-      if (i != time_column_) {
-        numbers_.push_back(value);
-        continue;
-      }
-      if (!table_.times.empty() && value <= table_.times.back()) {
-        fail_here(fmt::format("time {} does not come after {}", value, table_.times.back()), "sort the rows by time");
-      }
-      table_.times.push_back(value);
-    }
+    table_.times.push_back(time);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (i != time_column_ && !left_out_[i]) numbers_.push_back(number_in(cells[i], labels_[i]));
+  }
+
+  Real number_in(std::string_view cell, const std::string& column) const {
+    double value = 0;
+    if (!parse_number(cell, value)) fail_here(fmt::format("'{}' in column '{}' is not a number", cell, column));
+    if (!std::isfinite(value))
+      fail_here(fmt::format("column '{}' is {}, which is not a finite number", column, cell));
+    return value;
   }
 
   void judge(const Header& header) {
-    const auto warn = [&](const std::string& what) { table_.warnings.push_back(path_.string() + ": " + what); };
     table_.name = header.name.empty() ? path_.stem().string() : header.name;
     table_.in_degrees = header.in_degrees.value_or(header.simm);
     if (!header.in_degrees) {
       warn(fmt::format("does not say inDegrees; angles are taken as {}", header.simm ? "degrees" : "radians"));
     }
-    const auto rows = static_cast<long long>(table_.times.size());
+    if (repeated_rows_ > 0) warn(fmt::format("repeats {} times; the first row of each counts", repeated_rows_));
+    const auto rows = static_cast<long long>(table_.times.size()) + repeated_rows_;
     if (header.rows && *header.rows != rows) warn(fmt::format("announces {} rows but has {}", *header.rows, rows));
-    const auto columns = static_cast<long long>(table_.columns.size()) + 1;
+    const auto columns = static_cast<long long>(labels_.size());
     if (header.columns && *header.columns != columns) {
       warn(fmt::format("announces {} columns but has {}", *header.columns, columns));
     }
@@ -176,6 +207,9 @@ class TableReader {
   bool has_header_end_ = true;
   std::size_t time_column_ = none;
   std::string time_label_ = "time";
+  std::vector<std::string> labels_;  ///< of all columns, as they stand
+  std::vector<bool> left_out_;       ///< per label
+  long long repeated_rows_ = 0;
   std::vector<Real> numbers_;
   Table table_;
 };

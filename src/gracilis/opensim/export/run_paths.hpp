@@ -1,7 +1,6 @@
 #pragma once
 
-#include <gracilis/opensim/export/path_fit.hpp>
-#include <gracilis/opensim/reader/model.hpp>
+#include <gracilis/opensim/export/fit_muscles.hpp>
 
 #include <filesystem>
 #include <string>
@@ -10,23 +9,19 @@
 /// What a run found, in forms that OpenSim reads.
 namespace gracilis::opensim {
 
-/// A muscle's length as a polynomial of the coordinates that change it.
-struct FittedMuscle {
-  std::string name;
-  std::vector<std::string> coordinates;
-  PathFit fit;
-};
+/// The set of FunctionBasedPaths as OpenSim 4.5 and later write and read it (Set_FunctionBasedPath_), for muscles of a
+/// force set: component paths of forces and coordinates, coefficients in ascending powers from the last coordinate on.
+std::string function_path_set(const Model& model, const std::vector<FittedMuscle>& muscles);
 
-/// Fits the mean lengths of all muscles' fibers in a run's fiber_lengths.sto. A muscle is fitted over those of the
-/// coordinates that vary in the run and that matter to it: leaving one out must make it worse by a tenth. Throws
-/// InputError. With the model, only coordinates of joints that the muscle crosses are taken.
-std::vector<FittedMuscle> fit_run(const std::filesystem::path& run, const Model* model = nullptr);
+/// A line that says how well a muscle was fitted: lengths and arms by the same statistic, on poses held out.
+std::string fit_line(const Model& model, const FittedMuscle& muscle);
 
-/// The set of FunctionBasedPaths as OpenSim 4.5 and later read it, for muscles of a force set.
-std::string function_path_set(const std::string& name, const std::vector<FittedMuscle>& muscles);
+/// One line for all of them: medians over muscles and the worst of them.
+std::string fit_summary(const Model& model, const std::vector<FittedMuscle>& muscles);
 
-/// Fits and writes the set; returns a line for each muscle: order, coordinates, error.
-std::vector<std::string> export_function_paths(const std::filesystem::path& run, const std::filesystem::path& out,
-                                               const Model* model = nullptr);
+/// Puts the paths of such a set in the place of the model's, as OpenSim's ModOpReplacePathsWithFunctionBasedPaths does.
+/// Throws InputError where OpenSim would: another root, a force or coordinate that is not there by this path, no
+/// coordinates, a function of another number of arguments, an order below 1, another number of coefficients.
+void replace_paths(const std::filesystem::path& set, Model& model);
 
 }  // namespace gracilis::opensim

@@ -4,158 +4,21 @@
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
-#include <gracilis/opensim/kinematics/coordinate_motion.hpp>
+#include <gracilis/opensim/export/fiber_points.hpp>
+#include <gracilis/opensim/export/muscle_text.hpp>
+#include <gracilis/opensim/export/path_samples.hpp>
+#include <gracilis/opensim/export/run_lengths.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 #include <gracilis/opensim/reader/crossed_coordinates.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace gracilis::opensim {
-
-using Poses = std::vector<RigidTransform>;
-
-/// The point's places in a body, 3 × frames.
-static Points places_in(const std::vector<Points>& fibers, Eigen::Index point, const std::vector<Poses>& poses,
-                        std::size_t body) {
-  Points places(3, static_cast<Eigen::Index>(fibers.size()));
-  for (std::size_t f = 0; f < fibers.size(); ++f)
-    places.col(static_cast<Eigen::Index>(f)) = poses[f][body].inverse() * fibers[f].col(point);
-  return places;
-}
-
-static Real movement(const Points& places) {
-  const Points off = places.colwise() - places.rowwise().mean();
-  return std::sqrt(off.squaredNorm() / static_cast<Real>(places.cols()));
-}
-
-/// The point's places by the moving coordinate: means over up to 15 equal parts of its range, unless that explains too
-/// little of the movement.
-static void follow(const std::vector<Real>& moving, const Points& places, FiberPoint& point) {
-  struct Part {
-    Real value = 0;
-    Vec3 place = Vec3::Zero();
-    int count = 0;
-  };
-  const auto [least, most] = std::minmax_element(moving.begin(), moving.end());
-  std::vector<Part> parts(std::min<std::size_t>(15, moving.size()));
-  for (std::size_t f = 0; f < moving.size(); ++f) {
-    const Real share = (moving[f] - *least) / std::max(*most - *least, 1e-12);
-    Part& part = parts[std::min(static_cast<std::size_t>(share * static_cast<Real>(parts.size())), parts.size() - 1)];
-    part.value += moving[f];
-    part.place += places.col(static_cast<Eigen::Index>(f));
-    ++part.count;
-  }
-  std::erase_if(parts, [](const Part& part) { return part.count == 0; });
-  if (parts.size() < 2) return;
-  FiberPoint moved = point;
-  moved.places.resize(3, static_cast<Eigen::Index>(parts.size()));
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    moved.knots.push_back(parts[k].value / parts[k].count);
-    moved.places.col(static_cast<Eigen::Index>(k)) = parts[k].place / parts[k].count;
-  }
-  Real left = 0;
-  for (Eigen::Index i = 0; i < 3; ++i) {
-    const Eigen::VectorXd y = moved.places.row(i);
-    const Function spline = simm_spline(moved.knots, {y.begin(), y.end()});
-    for (std::size_t f = 0; f < moving.size(); ++f)
-      left += std::pow(value(spline, {moving[f]}) - places(i, static_cast<Eigen::Index>(f)), 2);
-  }
-  moved.left = std::sqrt(left / static_cast<Real>(moving.size()));
-  if (moved.left <= 0.7 * point.moves) point = moved;
-}
-
-std::vector<FiberPoint> fit_points(const std::vector<Points>& fibers, const std::vector<Poses>& poses,
-                                   const std::vector<Real>& moving) {
-  std::vector<FiberPoint> result;
-  const Eigen::Index count = fibers.front().cols();
-  for (Eigen::Index p = 0; p < count; ++p) {
-    FiberPoint point;
-    Points places = places_in(fibers, p, poses, 0);
-    point.moves = movement(places);
-    // A body that does not move beside the ground is the better home.
-    for (std::size_t body = 1; body < poses.front().size(); ++body) {
-      const Points here = places_in(fibers, p, poses, body);
-      const Real moves = movement(here);
-      if (moves > point.moves - (point.body == 0 ? -1e-9 : 1e-9)) continue;
-      point.body = static_cast<Index>(body);
-      point.moves = moves;
-      places = here;
-    }
-    point.location = places.rowwise().mean();
-    point.left = point.moves;
-    const bool end = p == 0 || p + 1 == count;
-    if (!moving.empty() && point.moves > (end ? 5e-4 : 1e-5)) follow(moving, places, point);
-    result.push_back(std::move(point));
-  }
-  return result;
-}
-
-Path path_of(const std::vector<FiberPoint>& points, Index coordinate) {
-  Path path;
-  for (const FiberPoint& fitted : points) {
-    PathPoint point;
-    point.name = fmt::format("p{}", path.points.size() + 1);
-    point.body = fitted.body;
-    point.location = fitted.location;
-    point.moving = fitted.knots.size() > 1;
-    for (std::size_t i = 0; i < 3 && point.moving; ++i) {
-      const Eigen::VectorXd y = fitted.places.row(static_cast<Eigen::Index>(i));
-      point.moves_with[i] = coordinate;
-      point.moves_to[i] = simm_spline(fitted.knots, {y.begin(), y.end()});
-    }
-    path.points.push_back(std::move(point));
-  }
-  return path;
-}
-
-static std::string moving_text(const Model& model, const PathPoint& point) {
-  std::string text;
-  const char* names[3] = {"x", "y", "z"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(point.moves_with[i])];
-    const std::string& joint = model.joints[static_cast<std::size_t>(coordinate.joint)].name;
-    std::vector<Real> y;
-    for (const Real knot : point.moves_to[i].knots) y.push_back(value(point.moves_to[i], {knot}));
-    text += fmt::format(
-        "            <socket_{0}_coordinate>/jointset/{1}/{2}</socket_{0}_coordinate>\n"
-        "            <{0}_location><SimmSpline><x>{3}</x><y>{4}</y></SimmSpline></{0}_location>\n",
-        names[i], joint, coordinate.name, fmt::join(point.moves_to[i].knots, " "), fmt::join(y, " "));
-  }
-  return text;
-}
-
-static std::string point_text(const Model& model, const PathPoint& point) {
-  const std::string& body = model.bodies[static_cast<std::size_t>(point.body)].name;
-  const std::string frame = point.body == 0 ? "/ground" : "/bodyset/" + body;
-  const char* kind = point.moving ? "MovingPathPoint" : "PathPoint";
-  std::string text =
-      fmt::format("          <{} name=\"{}\">\n            <socket_parent_frame>{}</socket_parent_frame>\n", kind,
-                  point.name, frame);
-  text += point.moving ? moving_text(model, point)
-                       : fmt::format("            <location>{} {} {}</location>\n", point.location.x(),
-                                     point.location.y(), point.location.z());
-  return text + fmt::format("          </{}>\n", kind);
-}
-
-std::string muscle_text(const Model& model, const Muscle& muscle) {
-  const std::string type = muscle.type.empty() ? "Thelen2003Muscle" : muscle.type;
-  std::string text = fmt::format(
-      "      <{} name=\"{}\">\n        <max_isometric_force>{}</max_isometric_force>\n"
-      "        <optimal_fiber_length>{}</optimal_fiber_length>\n"
-      "        <tendon_slack_length>{}</tendon_slack_length>\n"
-      "        <pennation_angle_at_optimal>{}</pennation_angle_at_optimal>\n        <GeometryPath name=\"path\">\n"
-      "          <PathPointSet><objects>\n",
-      type, muscle.name, muscle.max_isometric_force, muscle.optimal_fiber_length, muscle.tendon_slack_length,
-      muscle.pennation_angle_at_optimal);
-  for (const PathPoint& point : muscle.path.points) text += point_text(model, point);
-  return text + fmt::format("          </objects></PathPointSet>\n        </GeometryPath>\n      </{}>\n", type);
-}
 
 /// The mean of a muscle's fibers in a frame, `count` points; none where the run has none of it.
 static Points mean_fiber(const RecordedRun& run, const std::string& muscle, int frame, Index count) {
@@ -166,109 +29,184 @@ static Points mean_fiber(const RecordedRun& run, const std::string& muscle, int 
   return mean / fibers.count();
 }
 
-/// The coordinate that changes most in a motion, or -1.
-static Index most_moving(const CoordinateMotion& motion) {
-  const Eigen::VectorXd range = motion.values.colwise().maxCoeff() - motion.values.colwise().minCoeff();
-  Eigen::Index found = -1;
-  return range.size() > 0 && range.maxCoeff(&found) > 1e-4 ? static_cast<Index>(found) : -1;
-}
-
-static std::vector<Real> values_of(const CoordinateMotion& motion, Index coordinate, std::size_t frames) {
-  std::vector<Real> values;
-  for (std::size_t f = 0; f < frames && coordinate >= 0; ++f)
-    values.push_back(motion.values(static_cast<Eigen::Index>(f), coordinate));
-  return values;
-}
-
-/// How far a path's lengths are from those of the fibers, m: root mean square and largest.
-static std::pair<Real, Real> errors_of(const Model& model, const Path& path, const CoordinateMotion& motion,
-                                       const std::vector<Points>& fibers) {
-  Skeleton skeleton(model);
-  Real sum = 0, largest = 0;
-  for (std::size_t f = 0; f < fibers.size(); ++f) {
-    const Eigen::VectorXd coordinates = motion.values.row(static_cast<Eigen::Index>(f));
-    skeleton.place(coordinates);
-    const Real error = measure_path(skeleton, path, coordinates).length - polyline_length(fibers[f]);
-    sum += error * error;
-    largest = std::max(largest, std::abs(error));
+/// The coordinates that points of the muscle may follow.
+static std::vector<FollowedCoordinate> followed_coordinates(const Model& model, const Muscle* known,
+                                                            const Eigen::MatrixXd& values) {
+  std::vector<FollowedCoordinate> followed;
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
+    const auto column = values.col(static_cast<Eigen::Index>(i));
+    // What hardly moves tells nothing about how points would follow it.
+    const Real enough = model.coordinates[i].rotation ? radians(5) : 0.005;
+    if (column.maxCoeff() - column.minCoeff() > enough)
+      followed.push_back({static_cast<Index>(i), {column.begin(), column.end()}});
   }
-  return {std::sqrt(sum / static_cast<Real>(fibers.size())), largest};
+  if (!known) return followed;
+  const std::vector<Index> crossed = crossed_coordinates(model, known->path);
+  std::erase_if(followed, [&](const FollowedCoordinate& each) {
+    return std::find(crossed.begin(), crossed.end(), each.coordinate) == crossed.end();
+  });
+  return followed;
 }
 
-/// Points that move with that coordinate, of those that the muscle crosses and `otherwise`, that leaves least of their
-/// movement.
-static std::vector<FiberPoint> best_points(const Model& model, const Muscle* known, const CoordinateMotion& motion,
-                                           const std::vector<Points>& lines, const std::vector<Poses>& poses,
-                                           Index otherwise, Index& chosen) {
-  std::vector<Index> candidates;
-  if (known)
-    for (const Index i : crossed_coordinates(model, known->path))
-      if (motion.values.col(i).maxCoeff() - motion.values.col(i).minCoeff() > 1e-4) candidates.push_back(i);
-  candidates.push_back(otherwise);
+/// How far a path's lengths are from those of the fibers, and its arms from the run's or else from those of `own`; of
+/// angles.
+static PathErrors errors_of(Skeleton& skeleton, const Path& path, const Path* own, const LengthSamples& run,
+                            const MuscleLengths& muscle, const std::vector<Points>& fibers) {
+  PathErrors errors;
+  Eigen::Index arm_count = 0;
+  for (std::size_t f = 0; f < fibers.size(); ++f) {
+    const auto row = static_cast<Eigen::Index>(f);
+    const Eigen::VectorXd coordinates = run.coordinates.row(row);
+    skeleton.place(coordinates);
+    const PathMeasure measure = measure_path(skeleton, path, coordinates);
+    const Real off = measure.length - polyline_length(fibers[f]);
+    errors.length_root_mean_square += off * off;
+    errors.length_largest = std::max(errors.length_largest, std::abs(off));
+    Eigen::VectorXd others;
+    if (muscle.arms.cols() > 0)
+      others = muscle.arms.row(row);
+    else if (own)
+      others = measure_path(skeleton, *own, coordinates).moment_arms;
+    for (Eigen::Index i = 0; i < others.size(); ++i) {
+      if (!skeleton.model().coordinates[static_cast<std::size_t>(i)].rotation) continue;
+      if (std::abs(others[i]) < 1e-6 && std::abs(measure.moment_arms[i]) < 1e-6) continue;
+      const Real arm_off = std::abs(measure.moment_arms[i] - others[i]);
+      errors.arm_root_mean_square += arm_off * arm_off;
+      errors.arm_largest = std::max(errors.arm_largest, arm_off);
+      ++arm_count;
+    }
+  }
+  const auto root = [](Real sum, Real count) { return count > 0 ? std::sqrt(sum / count) : 0; };
+  errors.length_root_mean_square = root(errors.length_root_mean_square, static_cast<Real>(fibers.size()));
+  errors.arm_root_mean_square = root(errors.arm_root_mean_square, static_cast<Real>(arm_count));
+  return errors;
+}
+
+/// Evenly chosen points of each line, its ends among them.
+static std::vector<Points> fewer_points(const std::vector<Points>& lines, Eigen::Index count) {
+  std::vector<Eigen::Index> kept;
+  const Eigen::Index last = lines.front().cols() - 1;
+  for (Eigen::Index i = 0; i < count; ++i) kept.push_back((2 * i * last + count - 1) / (2 * (count - 1)));
+  std::vector<Points> fewer;
+  for (const Points& line : lines) fewer.push_back(line(Eigen::all, kept));
+  return fewer;
+}
+
+/// As many points or fewer, which follow all of the coordinates, one of them or none: those with the smallest errors of
+/// lengths and arms together. In a motion in which coordinates go together, points that follow the wrong one have the
+/// right lengths and wrong arms.
+static std::vector<FiberPoint> best_points(Skeleton& skeleton, const Path* own, const LengthSamples& run,
+                                           const MuscleLengths& muscle, const std::vector<Points>& fibers,
+                                           const std::vector<std::vector<RigidTransform>>& poses,
+                                           const std::vector<FollowedCoordinate>& followed) {
+  std::vector<std::vector<FollowedCoordinate>> choices = {followed, {}};
+  for (const FollowedCoordinate& each : followed) choices.push_back({each});
   std::vector<FiberPoint> best;
   Real least = std::numeric_limits<Real>::infinity();
-  for (const Index candidate : candidates) {
-    std::vector<FiberPoint> points = fit_points(lines, poses, values_of(motion, candidate, lines.size()));
-    Real left = 0;
-    for (const FiberPoint& point : points) left += point.left * point.left;
-    if (!(left < least)) continue;
-    least = left;
-    best = std::move(points);
-    chosen = candidate;
+  const Eigen::Index most = fibers.front().cols();
+  for (Eigen::Index count = most; count >= 2; count = count > 2 ? std::max<Eigen::Index>(2, count * 2 / 3) : 1) {
+    const std::vector<Points> lines = fewer_points(fibers, count);
+    for (const auto& choice : choices) {
+      std::vector<FiberPoint> points = fit_points(lines, poses, choice);
+      const PathErrors errors = errors_of(skeleton, path_of(points), own, run, muscle, fibers);
+      const Real cost = std::hypot(errors.length_root_mean_square, errors.arm_root_mean_square);
+      if (!(cost < 0.99 * least)) continue;
+      least = cost;
+      best = std::move(points);
+    }
   }
   return best;
 }
 
-std::vector<std::string> export_points(const std::filesystem::path& folder, const Model& model, Index count,
-                                       const std::filesystem::path& out) {
+static std::string point_errors_text(const PathErrors& errors, bool beside_model) {
+  return fmt::format("lengths {:.3f} mm root mean square, {:.3f} at most; arms {:.3f} mm root mean square, {:.3f} at most{}",
+                     1000 * errors.length_root_mean_square, 1000 * errors.length_largest,
+                     1000 * errors.arm_root_mean_square, 1000 * errors.arm_largest,
+                     beside_model ? " from the model's own" : "");
+}
+
+/// Whether an end goes with its body; it may glide on it where the model's own does.
+static bool holds_end(const FiberPoint& end, const PathPoint* own) {
+  return (own && own->moving ? end.left : end.moves) <= 0.005;
+}
+
+PointExport export_points(const std::filesystem::path& folder, const Model& model, Index count,
+                          const std::filesystem::path& out) {
   const RecordedRun run = open_recorded_run(folder);
-  const CoordinateMotion motion = coordinate_motion(model, read_table(folder / "fiber_lengths.sto"));
-  if (static_cast<int>(motion.times.size()) < run.frame_count)
+  const LengthSamples lengths = run_lengths(folder, model);
+  if (lengths.coordinates.rows() < run.frame_count)
     throw InputError({folder.string(), "", "has fewer rows of fiber lengths than frames", "run the scene again"});
   Skeleton skeleton(model);
-  std::vector<Poses> poses;
+  std::vector<std::vector<RigidTransform>> poses;
   for (int f = 0; f < run.frame_count; ++f) {
-    skeleton.place(motion.values.row(f));
+    skeleton.place(lengths.coordinates.row(f));
     poses.push_back(skeleton.poses());
   }
-  const Index most = most_moving(motion);
-
+  PointExport result;
   std::string text;
   std::vector<std::vector<Points>> fibers;
-  std::vector<std::string> names;
-  for (const std::string& name : run.muscles) {
+  std::vector<const MuscleLengths*> written;
+  for (const MuscleLengths& each : lengths.muscles) {
+    const Index known = index_of(model.muscles, each.name);
+    const Muscle* own = known < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(known)];
+    if (own && own->path.points.empty()) {
+      result.left_out.push_back(fmt::format("{}: its path is a function", each.name));
+      continue;
+    }
     std::vector<Points> lines;
-    for (int f = 0; f < run.frame_count; ++f) lines.push_back(mean_fiber(run, name, f, count));
-    if (lines.front().cols() == 0) continue;
-    const Index known = index_of(model.muscles, name);
-    Index coordinate = -1;
-    const std::vector<FiberPoint> points =
-        best_points(model, known < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(known)], motion, lines, poses,
-                    most, coordinate);
-    if (std::max(points.front().left, points.back().left) > 0.005)
-      throw InputError({folder.string(), name, "has ends that move with no body of the model",
-                        "name the model that the run's scene was made of"});
-    Muscle muscle = known >= 0 ? model.muscles[static_cast<std::size_t>(known)] : Muscle{};
-    muscle.name = name;
-    muscle.path = path_of(points, coordinate);
+    for (int f = 0; f < run.frame_count && !(own && lengths.follow_lines); ++f)
+      lines.push_back(mean_fiber(run, each.name, f, count));
+    std::vector<FiberPoint> points;
+    std::string why = "it follows the model's line";
+    if (!lines.empty()) {
+      why = "has no fibers";
+      if (lines.front().cols() > 0)
+        points = best_points(skeleton, own ? &own->path : nullptr, lengths, each, lines, poses,
+                             followed_coordinates(model, own, lengths.coordinates.topRows(run.frame_count)));
+      if (!points.empty() && !(holds_end(points.front(), own ? &own->path.points.front() : nullptr) &&
+                               holds_end(points.back(), own ? &own->path.points.back() : nullptr))) {
+        why = "its ends move with no body of the model";
+        points.clear();
+      }
+    }
+    if (points.empty()) {
+      result.left_out.push_back(fmt::format("{}: {}", each.name, why));
+      if (own) text += muscle_text(model, *own);
+      continue;
+    }
+    Muscle muscle = own ? *own : Muscle{};
+    muscle.name = each.name;
+    muscle.path = path_of(points);
+    if (own) {
+      // Fibers are no longer than they were in the capture pose: what the way is longer is tendon.
+      skeleton.place(lengths.coordinates.row(0));
+      const Real more = measure_path(skeleton, muscle.path, lengths.coordinates.row(0)).length -
+                        measure_path(skeleton, own->path, lengths.coordinates.row(0)).length;
+      muscle.tendon_slack_length = std::max(muscle.tendon_slack_length + more, 0.0);
+    }
     text += muscle_text(model, muscle);
     fibers.push_back(std::move(lines));
-    names.push_back(name);
+    written.push_back(&each);
   }
-  if (names.empty()) throw InputError({folder.string(), "", "has no fibers", "run the scene with fibers"});
+  if (text.empty()) throw InputError({folder.string(), "", "has no fibers", "run the scene with fibers"});
   write_text_atomically(out, fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument "
                                          "Version=\"40000\">\n  <ForceSet name=\"{}\">\n    <objects>\n{}    "
                                          "</objects>\n  </ForceSet>\n</OpenSimDocument>\n",
                                          folder.filename().string(), text));
   Model read = model;
   read_force_set(out, true, read);
-  std::vector<std::string> lines;
-  for (std::size_t m = 0; m < names.size(); ++m) {
-    const auto [root_mean_square, largest] = errors_of(read, read.muscles[m].path, motion, fibers[m]);
-    lines.push_back(fmt::format("{}: {} points; {:.3f} mm root mean square, {:.3f} mm at most", names[m], count,
-                                1000 * root_mean_square, 1000 * largest));
+  Skeleton read_skeleton(read);
+  for (std::size_t m = 0; m < written.size(); ++m) {
+    const std::string& name = written[m]->name;
+    const Index known = index_of(model.muscles, name);
+    const Path* own = known < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(known)].path;
+    const Path& path = read.muscles[static_cast<std::size_t>(index_of(read.muscles, name))].path;
+    result.lines.push_back(
+        fmt::format("{}: {} points; {}", name, path.points.size(),
+                    point_errors_text(errors_of(read_skeleton, path, own, lengths, *written[m], fibers[m]),
+                                written[m]->arms.cols() == 0)));
   }
-  return lines;
+  return result;
 }
 
 }  // namespace gracilis::opensim

@@ -164,17 +164,21 @@ static Real sine_product(const std::vector<Real>& c, const std::vector<Real>& x,
   return std::all_of(by.begin(), by.end(), known) ? product : 0;
 }
 
-static Real multivariate(const Function& function, const std::vector<Real>& arguments, const std::vector<int>& by) {
+/// The terms from `argument` on, whose powers together are `left` at most, in the order of the coefficients.
+static Real sum_of_terms(const Function& function, const std::vector<Real>& arguments, const std::vector<int>& by,
+                         int argument, int left, std::size_t& term) {
+  if (argument == function.dimension) return function.coefficients[term++];
+  const auto derived = static_cast<int>(std::count(by.begin(), by.end(), argument));
   Real sum = 0;
-  std::size_t term = 0;
-  for (const std::vector<int>& powers : monomials(function.dimension, function.order)) {
-    Real product = function.coefficients[term++];
-    for (std::size_t i = 0; i < powers.size(); ++i)
-      product *= power_derivative(arguments[i], powers[i],
-                                  static_cast<int>(std::count(by.begin(), by.end(), static_cast<int>(i))));
-    sum += product;
-  }
+  for (int power = 0; power <= left; ++power)
+    sum += power_derivative(arguments[static_cast<std::size_t>(argument)], power, derived) *
+           sum_of_terms(function, arguments, by, argument + 1, left - power, term);
   return sum;
+}
+
+static Real multivariate(const Function& function, const std::vector<Real>& arguments, const std::vector<int>& by) {
+  std::size_t term = 0;
+  return sum_of_terms(function, arguments, by, 0, function.order, term);
 }
 
 static Real unscaled(const Function& function, const std::vector<Real>& arguments, const std::vector<int>& by) {

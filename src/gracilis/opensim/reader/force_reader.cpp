@@ -1,6 +1,7 @@
 #include <gracilis/opensim/reader/force_reader.hpp>
 
 #include <fmt/format.h>
+#include <gracilis/opensim/reader/passive_force_reader.hpp>
 #include <gracilis/opensim/reader/path_reader.hpp>
 
 #include <cmath>
@@ -33,8 +34,12 @@ static Muscle read_muscle(ModelReading& reading, const pugi::xml_node& node) {
   if (!(muscle.tendon_slack_length >= 0))
     context.fail(node, fmt::format("<tendon_slack_length> is {}", muscle.tendon_slack_length), "give 0 or more");
   muscle.pennation_angle_at_optimal = context.number(node, "pennation_angle_at_optimal", 0);
-  muscle.max_contraction_velocity =
-      positive(context, node, "max_contraction_velocity", muscle.max_contraction_velocity);
+  if (const Real velocity = context.number(node, "max_contraction_velocity", muscle.max_contraction_velocity);
+      velocity > 0)
+    muscle.max_contraction_velocity = velocity;
+  else
+    reading.leave_out(node, fmt::format("<max_contraction_velocity> is {}; {} is taken", velocity,
+                                        muscle.max_contraction_velocity));
   muscle.min_control = context.number(node, "min_control", muscle.min_control);
   muscle.max_control = context.number(node, "max_control", muscle.max_control);
   muscle.active_shape = positive(context, node, "KshapeActive", muscle.active_shape);
@@ -76,19 +81,44 @@ static Actuator read_actuator(ModelReading& reading, const pugi::xml_node& node)
   return actuator;
 }
 
+/// Takes the force of this name away; whether there was one.
+static bool forget(Model& model, const std::string& name) {
+  const auto is_it = [&](const auto& force) { return force.name == name; };
+  return std::erase_if(model.muscles, is_it) + std::erase_if(model.actuators, is_it) +
+             std::erase_if(model.passive_forces, is_it) >
+         0;
+}
+
+/// The first body that a muscle's points name and the model does not have; empty: it has all.
+static std::string missing_body(const ModelReading& reading, const pugi::xml_node& force) {
+  for (const pugi::xml_node& holder : {force, force.child("path")})
+    for (const pugi::xml_node& point : objects_of(holder.child("GeometryPath"), "PathPointSet"))
+      if (const std::string body = reading.context.socket(point, "parent_frame", "body");
+          !reading.knows_frame(point, body))
+        return body.empty() ? "''" : body;
+  return "";
+}
+
 void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char* set) {
   for (const pugi::xml_node& node : objects_of(holder, set)) {
     const std::string_view kind = node.name();
     const std::string name = name_of(node);
-    if (name.empty()) reading.context.fail(node, "has no name", "give every force its own name");
-    if (index_of(reading.model.muscles, name) >= 0 || index_of(reading.model.actuators, name) >= 0)
-      reading.context.fail(node, "occurs twice", "give every force its own name");
-    if (kind.find("Muscle") != std::string_view::npos || node.child("max_isometric_force"))
-      reading.model.muscles.push_back(read_muscle(reading, node));
-    else if (kind == "CoordinateActuator" || kind == "PointActuator" || kind == "TorqueActuator")
-      reading.model.actuators.push_back(read_actuator(reading, node));
-    else
+    const bool muscle = kind.find("Muscle") != std::string_view::npos || node.child("max_isometric_force");
+    const bool passive = !muscle && is_passive_force(node);
+    if (!muscle && !passive && kind != "CoordinateActuator" && kind != "PointActuator" && kind != "TorqueActuator") {
       reading.leave_out(node, "kind of force not known; left out");
+      continue;
+    }
+    if (name.empty()) reading.context.fail(node, "has no name", "give every force its own name");
+    if (forget(reading.model, name)) reading.leave_out(node, "replaces the force of this name that was there before");
+    if (const std::string body = muscle || passive ? missing_body(reading, node) : ""; !body.empty())
+      reading.leave_out(node, fmt::format("has a point on '{}', which does not exist; left out", body));
+    else if (muscle)
+      reading.model.muscles.push_back(read_muscle(reading, node));
+    else if (passive)
+      reading.model.passive_forces.push_back(read_passive_force(reading, node));
+    else
+      reading.model.actuators.push_back(read_actuator(reading, node));
   }
 }
 

@@ -151,6 +151,11 @@ static void read_joint(ModelReading& reading, const pugi::xml_node& node, const 
   joint.name = name_of(node);
   joint.type = node.name();
   read_frames(reading, node, "frames", joint.name);
+  if (child.empty() && context.socket(node, "parent_frame", "parent_body").empty() &&
+      context.socket(node, "child_frame", "child_body").empty()) {
+    reading.leave_out(node, "names no bodies; left out");
+    return;
+  }
   if (child.empty()) {
     const PlacedFrame parent = reading.frame(node, context.socket(node, "parent_frame", "parent_body"), joint.name);
     const PlacedFrame own = reading.frame(node, context.socket(node, "child_frame", "child_body"), joint.name);

@@ -25,6 +25,7 @@ struct ModelReading {
 
   /// What a path such as "/bodyset/femur_r" or "femur_r_offset" names, seen from inside `owner`.
   PlacedFrame frame(const pugi::xml_node& node, const std::string& reference, const std::string& owner) const;
+  bool knows_frame(const pugi::xml_node& node, const std::string& reference) const;
   /// Index of the coordinate that a name or path names.
   Index coordinate(const pugi::xml_node& node, const std::string& reference) const;
   void leave_out(const pugi::xml_node& node, const std::string& what);

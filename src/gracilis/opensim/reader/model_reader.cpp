@@ -21,8 +21,26 @@ static std::vector<std::string> names(const std::vector<T>& things) {
   return result;
 }
 
-PlacedFrame ModelReading::frame(const pugi::xml_node& node, const std::string& reference,
-                                const std::string& owner) const {
+/// Without "NAME/..": OpenSim's paths may go up and down. What ends in ".." names what holds the element: its owner.
+static std::string plain_reference(const std::string& reference, const std::string& owner) {
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin <= reference.size();) {
+    const std::size_t end = std::min(reference.find('/', begin), reference.size());
+    const std::string part = reference.substr(begin, end - begin);
+    begin = end + 1;
+    if (part == ".." && !parts.empty() && parts.back() != "..")
+      parts.pop_back();
+    else if (part != "." && !part.empty())
+      parts.push_back(part);
+  }
+  if (parts.empty() || parts.back() == "..") return parts.empty() && !reference.starts_with("..") ? reference : owner;
+  std::string plain = reference.starts_with('/') ? "/" : "";
+  for (std::size_t i = 0; i < parts.size(); ++i) plain += (i > 0 ? "/" : "") + parts[i];
+  return plain;
+}
+
+PlacedFrame ModelReading::frame(const pugi::xml_node& node, const std::string& given, const std::string& owner) const {
+  const std::string reference = given.find("..") == std::string::npos ? given : plain_reference(given, owner);
   const std::string name = last_name(reference);
   const std::string above = reference.substr(0, reference.size() - name.size());
   if (above.size() > 1)
@@ -35,6 +53,15 @@ PlacedFrame ModelReading::frame(const pugi::xml_node& node, const std::string& r
     if (last_name(key) == name) return placed;
   context.fail(node, fmt::format("names the body '{}', which does not exist", reference),
                suggestion(name, names(model.bodies)));
+}
+
+bool ModelReading::knows_frame(const pugi::xml_node& node, const std::string& reference) const {
+  try {
+    frame(node, reference, "");
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
 Index ModelReading::coordinate(const pugi::xml_node& node, const std::string& reference) const {
@@ -65,6 +92,8 @@ Model read_model(const std::filesystem::path& path) {
   Model model;
   model.name = name_of(root);
   model.version = file.version;
+  if (model.version < 30000)
+    model.unsupported.push_back(fmt::format("document version {}, read as one of OpenSim 3", model.version));
   if (model.version > newest_version)
     model.unsupported.push_back(fmt::format("document version {}; {} (OpenSim 4.6) is the newest that is known",
                                             model.version, newest_version));
@@ -85,6 +114,7 @@ void read_force_set(const std::filesystem::path& path, bool replace, Model& mode
   if (replace) {
     model.muscles.clear();
     model.actuators.clear();
+    model.passive_forces.clear();
   }
   ModelReading reading{{path, set.child("defaults"), file.version}, model};
   read_forces(reading, file.root, "ForceSet");

@@ -4,6 +4,7 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/text_cells.hpp>
 #include <gracilis/io/value_reader.hpp>
+#include <gracilis/opensim/reader/old_versions.hpp>
 
 #include <fmt/format.h>
 
@@ -58,11 +59,12 @@ XmlFile read_xml(const std::filesystem::path& path) {
   file.root = file.document->child("OpenSimDocument");
   if (!file.root) throw InputError({path.string(), "", "is no OpenSim document", "is it an OpenSim file?"});
   file.version = file.root.attribute("Version").as_int();
-  if (file.version < 30000)
+  if (file.version < 10000)
     throw InputError({path.string(), "",
-                      fmt::format("has document version {}; 30000 (OpenSim 3.0) is the oldest that can be read",
+                      fmt::format("has document version '{}'; 10000 (OpenSim 1.0) is the oldest that can be read",
                                   file.root.attribute("Version").value()),
                       "open it in OpenSim 3 or 4 and save it"});
+  if (file.version < 30000) bring_to_version_3(file.root);
   return file;
 }
 

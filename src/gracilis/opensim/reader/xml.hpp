@@ -20,8 +20,8 @@ struct XmlFile {
   int version = 0;      ///< of the document
 };
 
-/// Throws InputError with the line where the XML is broken, and where the file is no OpenSim document of version 3.0 or
-/// later.
+/// Throws InputError with the line where the XML is broken, and where the file is no OpenSim document of version 1.0 or
+/// later. One of a version below 3.0 is brought into that form (old_versions).
 XmlFile read_xml(const std::filesystem::path& path);
 
 /// A file being read, and what its <defaults> say about elements that leave something out.

@@ -3,6 +3,7 @@
 #include <gracilis/opensim/kinematics/quintic_spline.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 #include <gracilis/opensim/static_optimization/bounded_qp.hpp>
+#include <gracilis/opensim/static_optimization/passive_forces.hpp>
 #include <gracilis/opensim/static_optimization/rigid_tendon.hpp>
 
 #include <algorithm>
@@ -39,9 +40,10 @@ static Eigen::VectorXd needed_forces(Skeleton& skeleton, const Kinematics& kinem
   skeleton.place(coordinates);
   BodyForces applied = BodyForces::Zero(6, static_cast<Eigen::Index>(skeleton.poses().size()));
   add_loads(loads, kinematics.motion.times[row], skeleton.poses(), applied);
+  const Eigen::VectorXd passive = passive_forces(skeleton, coordinates, kinematics.speeds.row(i));
   return onto_independent(
       skeleton.model(), coordinates,
-      skeleton.inverse_dynamics(kinematics.speeds.row(i), kinematics.accelerations.row(i), applied));
+      skeleton.inverse_dynamics(kinematics.speeds.row(i), kinematics.accelerations.row(i), applied) - passive);
 }
 
 /// What an actuator does to each coordinate, per unit of force.

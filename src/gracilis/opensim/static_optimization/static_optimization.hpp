@@ -28,7 +28,8 @@ struct StaticOptimizationResult {
 /// Crowninshield and Brand 1981), at the given rows. Speeds and accelerations come from quintic splines through all
 /// rows: those of the speeds through the slopes of the coordinates', as OpenSim does. A muscle's force is its
 /// activation times rigid_tendon_force (or its maximum isometric force), an actuator's its control times its optimal
-/// force. Locked coordinates ask for nothing; dependent ones work through their couplers. `progress` is told every
+/// force. Passive forces (passive_forces) do their part beforehand. Locked coordinates ask
+/// for nothing; dependent ones work through their couplers. `progress` is told every
 /// finished row.
 StaticOptimizationResult static_optimization(const Model& model, const CoordinateMotion& motion,
                                              const ExternalLoads& loads, const std::vector<std::size_t>& rows,

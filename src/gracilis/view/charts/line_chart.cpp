@@ -61,10 +61,15 @@ std::string text_at(Real x, Real y, const std::string& anchor, int size, const s
 }  // namespace
 
 std::vector<Real> axis_ticks(Real low, Real high, int count) {
+  // A range near rounding has no ticks between its ends: they could not be told apart.
+  const Real size = std::max(std::abs(low), std::abs(high));
+  if (!(high - low > 1e-12 * size && high - low > 1e-300 && std::isfinite(size))) return {low};
   const Real rough = (high - low) / count, power = std::pow(10, std::floor(std::log10(rough)));
   const Real share = rough / power, step = power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
   std::vector<Real> ticks;
-  for (Real i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) ticks.push_back(i * step + 0.0);  // never -0
+  const Real first = std::ceil(low / step - 1e-9);
+  for (int i = 0; i <= 2 * count + 2 && (first + i) * step <= high + 1e-9 * step; ++i)
+    ticks.push_back((first + i) * step + 0.0);  // never -0
   return ticks;
 }
 

@@ -14,7 +14,8 @@ function ticks(low, high, count) {
   const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
   const step = power * [1, 2, 2.5, 5, 10].find(each => each * power >= rough * 0.999);
   const list = [];
-  for (let i = Math.ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) list.push(i * step);
+  const first = Math.ceil(low / step - 1e-9);
+  for (let k = 0; k <= 2 * count + 2 && (first + k) * step <= high + 1e-9 * step; ++k) list.push((first + k) * step);
   return list;
 }
 

@@ -1,0 +1,119 @@
+#include <gracilis/opensim/export/scene_lengths.hpp>
+
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_twists.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/opensim/import/scene_joints.hpp>
+#include <gracilis/simulate/fiber_tracker.hpp>
+#include <gracilis/simulate/run.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gracilis::opensim {
+
+namespace {
+
+/// An axis of a scene, as the model knows it.
+struct KnownAxis {
+  std::size_t place;  ///< in the scene's coordinates
+  SceneAxis axis;
+};
+
+}  // namespace
+
+static std::vector<KnownAxis> known_axes(const Model& model, const Scene& scene) {
+  const std::vector<std::string> names = coordinate_names(scene);
+  std::vector<KnownAxis> known;
+  for (const Joint& joint : model.joints)
+    for (const SceneAxis& axis : scene_axes(model, joint))
+      if (const auto found = std::find(names.begin(), names.end(), axis.coordinate); found != names.end())
+        known.push_back({static_cast<std::size_t>(found - names.begin()), axis});
+  return known;
+}
+
+/// Values of the model's coordinates in the scene's capture pose, where the scene has them; else their default ones.
+static Eigen::VectorXd captured(const Model& model, const Scene& scene, const std::vector<KnownAxis>& known) {
+  Eigen::VectorXd values = default_coordinates(model);
+  const std::vector<Real> capture = capture_coordinates(scene);
+  for (const auto& [place, axis] : known)
+    if (const Index index = index_of(model.coordinates, axis.coordinate); index >= 0) values[index] = capture[place];
+  apply_couplers(model, values);
+  return values;
+}
+
+/// Arms about the scene's axes as arms about the model's coordinates.
+static Eigen::VectorXd arms_of_model(const std::vector<KnownAxis>& known, const Eigen::VectorXd& scene_arms,
+                                     const Eigen::VectorXd& values) {
+  Eigen::VectorXd arms = Eigen::VectorXd::Zero(values.size());
+  for (const auto& [place, axis] : known) {
+    std::vector<Real> arguments;
+    for (const Index i : axis.axis->coordinates) arguments.push_back(values[i]);
+    for (std::size_t k = 0; k < arguments.size(); ++k)
+      arms[axis.axis->coordinates[k]] += scene_arms[static_cast<Eigen::Index>(place)] *
+                                         derivative(axis.axis->function, arguments, {static_cast<int>(k)});
+  }
+  return arms;
+}
+
+static bool is_doubtful(const FiberActions& actions) {
+  return 2 * std::count(actions.doubtful.begin(), actions.doubtful.end(), 1) >
+         static_cast<std::ptrdiff_t>(actions.doubtful.size());
+}
+
+LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const Model& model, const CoordinateBox& box,
+                            Index count, const std::function<void(Index)>& progress) {
+  const std::vector<KnownAxis> known = known_axes(model, scene);
+  const Eigen::VectorXd capture = captured(model, scene, known);
+  const Eigen::MatrixXd poses = spread_poses(box, count);
+  method.reset();
+  const Frame rest = capture_frame(scene, capture_pose(scene.bodies.size()), method);
+  const FiberTracker tracker(scene, &rest);
+  LengthSamples samples;
+  samples.spread = true;
+  samples.coordinates = capture.transpose().replicate(count + 1, 1);
+  for (const gracilis::Muscle& muscle : scene.muscles)
+    samples.muscles.push_back({muscle.name, Eigen::VectorXd(count + 1), Eigen::MatrixXd(count + 1, capture.size())});
+  for (Index row = 0; row <= count; ++row) {
+    Eigen::VectorXd values = capture;
+    std::vector<Real> axes = capture_coordinates(scene);
+    method.reset();
+    if (row > 0) {
+      for (std::size_t i = 0; i < box.coordinates.size(); ++i)
+        values[box.coordinates[i]] = poses(row - 1, static_cast<Eigen::Index>(i));
+      apply_couplers(model, values);
+      for (const auto& [place, axis] : known) axes[place] = value_of(axis, values);
+      method.advance(pose_at(scene, axes), usual_time_step);
+    }
+    samples.coordinates.row(row) = values;
+    Frame frame = rest;
+    method.write(frame);
+    const std::vector<MuscleFibers> fibers = tracker.follow(frame);
+    const std::vector<FiberActions> actions = method.fiber_actions(joint_twists(scene, axes));
+    if (actions.empty())
+      throw ConfigurationError({"--sample", "", "the run's method knows no moment arms", "run it with method=strings"});
+    for (std::size_t m = 0; m < samples.muscles.size(); ++m) {
+      const bool whole = actions[m].arms.rows() > 0 && !is_doubtful(actions[m]);
+      samples.muscles[m].lengths[row] = whole ? fibers[m].mean_length : std::numeric_limits<Real>::quiet_NaN();
+      samples.muscles[m].arms.row(row).setZero();
+      if (whole) samples.muscles[m].arms.row(row) = arms_of_model(known, actions[m].mean_arms, values);
+    }
+    if (progress) progress(row);
+  }
+  return samples;
+}
+
+std::vector<Index> moved_coordinates(const LengthSamples& run, const Model& model, const Scene& scene) {
+  const std::vector<std::string> names = coordinate_names(scene);
+  std::vector<Index> moved;
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
+    const auto column = run.coordinates.col(static_cast<Eigen::Index>(i));
+    if (column.maxCoeff() - column.minCoeff() > 1e-6 &&
+        std::find(names.begin(), names.end(), model.coordinates[i].name) != names.end())
+      moved.push_back(static_cast<Index>(i));
+  }
+  return moved;
+}
+
+}  // namespace gracilis::opensim

@@ -1,0 +1,115 @@
+#include <gracilis/opensim/reader/passive_force_reader.hpp>
+
+#include <gracilis/opensim/reader/function_reader.hpp>
+#include <gracilis/opensim/reader/path_reader.hpp>
+
+#include <map>
+#include <string_view>
+
+namespace gracilis::opensim {
+
+static const std::map<std::string_view, PassiveForce::Kind>& passive_kinds() {
+  using Kind = PassiveForce::Kind;
+  static const std::map<std::string_view, Kind> kinds = {
+      {"CoordinateLimitForce", Kind::limit}, {"SpringGeneralizedForce", Kind::coordinate_spring},
+      {"PathSpring", Kind::path_spring},     {"Ligament", Kind::ligament},
+      {"PointToPointSpring", Kind::point_spring}, {"BushingForce", Kind::bushing}};
+  return kinds;
+}
+
+bool is_passive_force(const pugi::xml_node& node) { return passive_kinds().count(node.name()) > 0; }
+
+/// Limits are in degrees where the coordinate is an angle, and so is what stiffness and damping are per.
+static void read_limit(const ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
+  const XmlContext& context = reading.context;
+  const Real unit =
+      reading.model.coordinates[static_cast<std::size_t>(force.coordinate)].rotation ? radians(1) : 1;
+  force.upper_limit = unit * context.number(node, "upper_limit", 0);
+  force.lower_limit = unit * context.number(node, "lower_limit", 0);
+  force.upper_stiffness = context.number(node, "upper_stiffness", 1) / unit;
+  force.lower_stiffness = context.number(node, "lower_stiffness", 1) / unit;
+  force.damping = context.number(node, "damping", 0.001) / unit;
+  force.transition = unit * context.number(node, "transition", 0.1);
+}
+
+/// OpenSim's curve of a ligament that gives none.
+static Function ligament_curve() {
+  return simm_spline({-5, 0.998, 0.999, 1, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6, 1.601, 1.602, 5},
+                     {0, 0, 0, 0, 0.035, 0.12, 0.26, 0.55, 1.17, 2, 2, 2, 2});
+}
+
+/// The two frames of a bushing: 4.x names them, 3.x their bodies and where the frames lie in these.
+static void read_bushing(ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
+  const XmlContext& context = reading.context;
+  read_frames(reading, node, "frames", force.name);
+  for (const int side : {1, 2}) {
+    const std::string number = std::to_string(side);
+    const PlacedFrame placed =
+        reading.frame(node, context.socket(node, "frame" + number, ("body_" + number).c_str()), force.name);
+    const RigidTransform frame =
+        placed.in_body * body_fixed_xyz(context.vector(node, ("orientation_body_" + number).c_str(), Vec3::Zero()),
+                                        context.vector(node, ("location_body_" + number).c_str(), Vec3::Zero()));
+    (side == 1 ? force.body : force.other_body) = placed.body;
+    (side == 1 ? force.frame : force.other_frame) = frame;
+  }
+  force.stiffnesses << context.vector(node, "rotational_stiffness", Vec3::Zero()),
+      context.vector(node, "translational_stiffness", Vec3::Zero());
+  force.dampings << context.vector(node, "rotational_damping", Vec3::Zero()),
+      context.vector(node, "translational_damping", Vec3::Zero());
+}
+
+static void read_point_spring(const ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
+  for (const int side : {1, 2}) {
+    const std::string number = std::to_string(side);
+    const PlacedFrame placed =
+        reading.frame(node, reading.context.socket(node, "body" + number, ("body" + number).c_str()), "");
+    const Vec3 point = reading.context.vector(node, ("point" + number).c_str(), Vec3::Zero());
+    (side == 1 ? force.body : force.other_body) = placed.body;
+    (side == 1 ? force.frame : force.other_frame) = placed.in_body * Eigen::Translation3d(point);
+  }
+  force.stiffness = reading.context.number(node, "stiffness", 1);
+  force.rest_length = reading.context.number(node, "rest_length", 0);
+}
+
+PassiveForce read_passive_force(ModelReading& reading, const pugi::xml_node& node) {
+  const XmlContext& context = reading.context;
+  PassiveForce force;
+  force.name = name_of(node);
+  force.kind = passive_kinds().at(node.name());
+  force.applies_force = context.boolean(node, "appliesForce", !context.boolean(node, "isDisabled", false));
+  switch (force.kind) {
+    case PassiveForce::Kind::limit:
+    case PassiveForce::Kind::coordinate_spring:
+      force.coordinate = reading.coordinate(node, context.socket(node, "coordinate", "coordinate"));
+      if (force.kind == PassiveForce::Kind::limit) {
+        read_limit(reading, node, force);
+      } else {
+        force.stiffness = context.number(node, "stiffness", 0);
+        force.rest_length = context.number(node, "rest_length", 0);
+        force.damping = context.number(node, "viscosity", 0);
+      }
+      break;
+    case PassiveForce::Kind::path_spring:
+    case PassiveForce::Kind::ligament:
+      force.path = read_path(reading, node);
+      force.rest_length = context.number(node, "resting_length", 0);
+      if (!(force.rest_length > 0)) context.fail(node, "has no <resting_length> above zero", "give it");
+      force.stiffness = context.number(node, "stiffness", 0);
+      force.damping = context.number(node, "dissipation", 0);
+      force.pcsa_force = context.number(node, "pcsa_force", 0);
+      force.curve = ligament_curve();
+      if (const pugi::xml_node holder = node.child("force_length_curve"))
+        if (const pugi::xml_node curve = function_below(holder))
+          force.curve = read_function(context, curve, 1, reading.model.unsupported);
+      break;
+    case PassiveForce::Kind::point_spring:
+      read_point_spring(reading, node, force);
+      break;
+    case PassiveForce::Kind::bushing:
+      read_bushing(reading, node, force);
+      break;
+  }
+  return force;
+}
+
+}  // namespace gracilis::opensim
