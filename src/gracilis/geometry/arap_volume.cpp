@@ -1,5 +1,6 @@
+#include <gracilis/geometry/arap_volume.hpp>
+
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/methods/arap/surface.hpp>
 
 #include <cmath>
 

@@ -28,6 +28,9 @@ class Surface {
   /// Global step: the free vertices' places where the sum is least for these rotations; held ones stay.
   void place(const Rotations& rotations, Points& points) const;
 
+  /// Both steps in turn, so many times.
+  void relax(int rounds, Points& points) const;
+
   /// Displacements of all vertices under forces on the free ones (3 × n), as the sum's second derivative says.
   Points response(const Points& forces) const;
 
@@ -46,14 +49,5 @@ class Surface {
   std::vector<Index> unknown_;  ///< per vertex: which of the free ones, or -1
   std::unique_ptr<Solver> solver_;
 };
-
-/// Brings the volume enclosed by the free vertices' motion back to `target`, m³, to a millionth: x + μ y, y the
-/// response to forces along the volume's gradient, μ the multiplier.
-void restore_volume_by_multiplier(const Surface& surface, const Eigen::Matrix3Xi& faces, const std::vector<char>& held,
-                                  Real target, Points& points);
-
-/// The same by scaling the free vertices about the surface's center by (target / V)^(1/3), once.
-void restore_volume_by_scaling(const Eigen::Matrix3Xi& faces, const std::vector<char>& held, Real target,
-                               Points& points);
 
 }  // namespace gracilis::arap
