@@ -9,6 +9,7 @@
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/opensim/export/export_check.hpp>
+#include <gracilis/opensim/export/replace_paths.hpp>
 #include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/export/run_points.hpp>
 #include <gracilis/opensim/export/scene_lengths.hpp>

@@ -1,6 +1,7 @@
+#include <gracilis/geometry/arap_surface.hpp>
+#include <gracilis/geometry/arap_volume.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/arap/arap_method.hpp>
-#include <gracilis/methods/arap/volume.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <member_count.hpp>

@@ -64,6 +64,8 @@ std::vector<Variant> all_variants() {
       {"xpbd_dynamic_frames", "xpbd", everything, {{"time_mode", "dynamic"}, {"time_step", 0.0}}},
       {"xpbd_coarser_copy", "xpbd", everything, {{"simulated_edge", 0.006}, {"full_iterations", 1}}},
       {"xpbd_coarser_copy_dynamic", "xpbd", everything, {{"simulated_edge", 0.006}, {"time_mode", "dynamic"}}},
+      // Drawn through bones and brought out again a surface gets so rough that rounding shows.
+      {"xpbd_arap", "xpbd", all_but({Property::rigid_motion}), {{"predictor", "arap"}}},
       {"xpbd_dissipative", "xpbd", everything, {{"rayleigh_beta", 0.01}}},
       // As published: free vertices follow only through constraints, and the margin pushes muscles off bones at rest.
       {"xpbd_thesis_2024", "xpbd", {}, thesis.method.settings},
@@ -82,6 +84,8 @@ std::vector<Variant> all_variants() {
        {Property::rigid_motion, Property::any_jump},
        find_preset("janak-2012")->method.settings},
       {"pbd", "pbd", all_but({Property::capture_pose})},
+      {"pbd_voxels", "pbd", all_but({Property::capture_pose}), {{"collision", "voxels"}}},
+      {"pbd_arap", "pbd", all_but({Property::capture_pose, Property::volume}), {{"predictor", "arap"}}},
       // As published free vertices follow only through constraints, and so remember by which way they came.
       {"pbd_2020", "pbd", all_but({Property::rigid_motion, Property::capture_pose}), pbd_2020.method.settings},
   };

@@ -30,7 +30,7 @@ TEST(UnderWay, every_setting_of_the_solver_reaches_what_is_timed) {
       {"constraint_time_step", [](XpbdSettings& s) { s.constraint_time_step = 0.1; }},
       {"time_step", [](XpbdSettings& s) { s.time_step = 0.1; }},
       {"substeps", [](XpbdSettings& s) { s.substeps = 4; }},
-      {"predictor", [](XpbdSettings& s) { s.predictor = false; }},
+      {"predictor", [](XpbdSettings& s) { s.predictor = Predictor::none; }},
       {"hinge_limit", [](XpbdSettings& s) { s.hinge_limit = 0.001; }},
       {"stretch_limit", [](XpbdSettings& s) { s.stretch_limit = 1.01; }}};
   const std::uint64_t unchanged = hash_of_an_iteration({});

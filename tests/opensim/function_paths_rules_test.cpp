@@ -3,6 +3,7 @@
 
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/opensim/export/model_samples.hpp>
+#include <gracilis/opensim/export/replace_paths.hpp>
 #include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 

@@ -13,6 +13,8 @@ namespace {
 constexpr float tolerance = 1e-6f;
 /// Gradients shorter than this, squared, tell no way out: on a field's ridges they fade.
 constexpr float least_slope2 = 1e-2f;
+/// Shortest step on a way back, m.
+constexpr Real shortest_step = 1e-5;
 
 FieldSample sample_at(const FieldGrid& field, const RigidTransform& to_bone, const Points& points, Index v) {
   return sample(field, Eigen::Vector3f((to_bone * Vec3(points.col(v))).cast<float>()));
@@ -60,6 +62,32 @@ Index BoneProjection::push_out(const Pose& pose, Points& points) const {
     pushed += static_cast<Index>(std::count(touched.begin(), touched.end(), 1));
   }
   return pushed;
+}
+
+Index BoneProjection::take_back(const Pose& pose, const Points& began, Points& points) const {
+  Index taken = 0;
+  for (const PerBone& bone : bones_) {
+    const RigidTransform to_bone = pose.bodies[static_cast<std::size_t>(bone.body)].inverse();
+    std::vector<char> touched(bone.gap.size(), 0);
+    parallel_for(static_cast<Index>(bone.gap.size()), 1024, [&](Index begin, Index end) {
+      for (Index v = begin; v < end; ++v) {
+        const Vec3 from = points.col(v), way = began.col(v) - from;
+        const Real length = way.norm();
+        Real gone = 0;
+        while (gone <= length) {
+          // What is missing is the least that it must go.
+          const float missing =
+              bone.gap[static_cast<std::size_t>(v)] - sample_at(bone.field, to_bone, points, v).distance;
+          if (!(missing > tolerance)) break;
+          touched[static_cast<std::size_t>(v)] = 1;
+          gone += std::max(static_cast<Real>(missing), shortest_step);
+          points.col(v) = gone < length ? Vec3(from + gone / length * way) : Vec3(began.col(v));
+        }
+      }
+    });
+    taken += static_cast<Index>(std::count(touched.begin(), touched.end(), 1));
+  }
+  return taken;
 }
 
 Index BoneProjection::take_along(const Pose& last, const Pose& now, const Points& before, Points& points) const {

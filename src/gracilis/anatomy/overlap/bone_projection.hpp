@@ -27,6 +27,10 @@ class BoneProjection {
   /// Pushes `points` out of the bones as they lie in `pose`, bone after bone. Returns how many pushes that took.
   Index push_out(const Pose& pose, Points& points) const;
 
+  /// Takes `points` that are in bones back on the straight way to where they `began`, as far as they must; those that
+  /// cannot be brought out so end where they began. Bone after bone; returns how many went back.
+  Index take_back(const Pose& pose, const Points& began, Points& points) const;
+
   /// Where a bone has moved over a vertex: its place in `points` becomes that in `before`, moved as the bone is from
   /// pose `last` to pose `now`. Returns how many vertices were taken along.
   Index take_along(const Pose& last, const Pose& now, const Points& before, Points& points) const;

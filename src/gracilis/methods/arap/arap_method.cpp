@@ -3,8 +3,9 @@
 #include <gracilis/anatomy/attachments/body_carriers.hpp>
 #include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/core/stop.hpp>
+#include <gracilis/geometry/arap_surface.hpp>
+#include <gracilis/geometry/arap_volume.hpp>
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/methods/arap/volume.hpp>
 #include <gracilis/methods/placed_method.hpp>
 #include <gracilis/methods/shape_method.hpp>
 #include <gracilis/methods/shared_rows.hpp>

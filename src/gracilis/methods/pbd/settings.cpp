@@ -1,5 +1,6 @@
 #include <gracilis/methods/pbd/settings.hpp>
 
+#include <gracilis/geometry/voxel_solid.hpp>
 #include <gracilis/methods/shared_rows.hpp>
 
 namespace gracilis {
@@ -19,11 +20,19 @@ std::span<const Setting<PbdSettings>> setting_table() {
       {"volume_stiffness", &S::volume_stiffness, "", 0, 1, "The same share of the volume's error."},
       {"fiber_anisotropy", &S::fiber_anisotropy, "", 0, 0,
        "Correct an edge by 1 - |u·v| of its error, u its direction and v that of the nearest fiber."},
-      {"carry", &S::carry, "", 0, 0,
-       "Where free vertices are when a frame begins: 'none' leaves them where they were, as published, 'bodies' "
-       "carries them by a blend of the motions of the bodies that the muscle is attached to."},
-      {"tendon_length", &S::tendon_length, "m", 0, 1,
-       "Distance from the attachments over which that blend is graded from tendon to belly; 0 grades nothing."},
+      predictor_row<S>(),
+      tendon_length_row<S>(),
+      {"collision", &S::collision, "", 0, 0,
+       "What tells where bones are: 'fields' their distance fields, 'voxels' boxes that are full or empty, as "
+       "published; "
+       "by these no 'bone_margin' is kept, and with 'bone_rest_gap' a bone leaves vertices alone that are in its boxes "
+       "at "
+       "rest."},
+      {"voxels", &S::voxels, "", 1, VoxelSolid::most_boxes, "Boxes along each axis of a bone's bounding box.", true},
+      {"push_back", &S::push_back, "", 0, 0,
+       "Which way a vertex that moved into a bone goes back: 'normal' the shortest out, 'entry' the way that it came "
+       "in, "
+       "as published."},
       bone_margin_row<S>(),
       bone_rest_gap_row<S>(),
   };

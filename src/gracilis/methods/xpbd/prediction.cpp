@@ -32,16 +32,28 @@ static void coast(const SolverSettings& settings, float time_step, SurfaceState&
   }
 }
 
+void carry(const PreparedMuscle& muscle, bool active, const Pose& before, const Pose& pose, MuscleState& state) {
+  carry_free(muscle, before, pose, active, state);
+  if (!muscle.predicted) return;
+  move_attached(muscle, pose, state.particles);
+  Points points(3, state.particles.count());
+  for (Index p = 0; p < state.particles.count(); ++p) points.col(p) = state.particles.position(p).cast<Real>();
+  muscle.predicted->relax(arap_predictor_rounds, points);
+  for (Index p = 0; p < state.particles.count(); ++p)
+    if (state.particles.inverse_mass(p) > 0) state.particles.position(p) = points.col(p).cast<float>();
+}
+
 void predict(const PreparedMuscle& muscle, Real activation, const Pose& before, const Pose& pose, float time_step,
              MuscleState& state) {
   const XpbdSettings& settings = muscle.settings;
   state.start = state.particles;
-  if (settings.predictor)
-    carry_free(muscle, before, pose, contraction_strength(muscle.contraction, activation) > 0, state);
+  const bool is_carried = settings.predictor != Predictor::none;
+  if (is_carried)
+    carry(muscle, contraction_strength(muscle.contraction, activation) > 0, before, pose, state);
   else
     follow_strings(muscle, pose, state);
   // Velocities are relative to the carried motion, so the predictor adds no momentum of its own.
-  if (settings.predictor) state.start = state.particles;
+  if (is_carried) state.start = state.particles;
   if (settings.time_mode == TimeMode::dynamic) coast(settings, time_step, state);
   move_attached(muscle, pose, state.particles);
   move_attached(muscle, pose, state.start);

@@ -12,6 +12,10 @@ namespace gracilis::xpbd {
 /// a step takes its settings from here.
 SolveSettings solve_settings(const XpbdSettings& settings, int substeps);
 
+/// What the predictor does: carries the particles (carry_free, for muscles that are `active` or not) and, where it is
+/// asked for, brings them nearer to an as-rigid-as-possible surface.
+void carry(const PreparedMuscle& muscle, bool active, const Pose& before, const Pose& pose, MuscleState& state);
+
 /// Moves the state from one pose to another as far as bones and inertia alone tell: what the solver begins with.
 /// `time_step` (s) is the substep's.
 void predict(const PreparedMuscle& muscle, Real activation, const Pose& before, const Pose& pose, float time_step,

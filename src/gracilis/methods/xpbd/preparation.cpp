@@ -178,6 +178,13 @@ void build_predictor(const MeshTopology& topology, PreparedMuscle& prepared) {
   std::sort(prepared.carriers.begin(), prepared.carriers.end());
   prepared.carrier_shares = skinning_weights({prepared.rest, prepared.faces}, topology, prepared.fixed_body,
                                              prepared.carriers, prepared.settings.tendon_length);
+  if (prepared.settings.predictor != Predictor::arap || prepared.carriers.empty()) return;
+  std::vector<char> held;
+  for (Index p = 0; p < prepared.particle_count(); ++p)
+    held.push_back(prepared.fixed_body[static_cast<std::size_t>(p)] >= 0 ||
+                   !(prepared.carrier_shares.col(p).sum() > 0));
+  prepared.predicted =
+      std::make_shared<const arap::Surface>(TriangleMesh{prepared.rest, prepared.faces}, topology, held);
 }
 
 /// Between the edges of these faces something as sharp as a bone can poke through.
@@ -231,7 +238,7 @@ Points fiber_directions(const Points& vertices, const Eigen::Matrix3Xi& faces, c
 
 bool asks_for_strings(const Scene& scene, const Muscle& muscle) {
   const XpbdSettings settings = xpbd_settings(scene, muscle);
-  const bool is_carried = settings.predictor || settings.slack_uptake;
+  const bool is_carried = settings.predictor != Predictor::none || settings.slack_uptake;
   if (settings.skinning != Skinning::strings || !is_carried || muscle.action_line.rays > 0) return false;
   return strings::runs_between_bodies(muscle);
 }

@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/sections/line_sections.hpp>
 #include <gracilis/dynamics/solver/surface_system.hpp>
+#include <gracilis/geometry/arap_surface.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
@@ -46,13 +47,14 @@ struct PreparedMuscle {
   std::vector<Index> carriers;     ///< bodies with attachments on this muscle
   Eigen::MatrixXf carrier_shares;  ///< carriers × particles: harmonic shares of their motion, columns sum to 1
   CarryingStrings carrying;        ///< coarser copies share theirs with the whole surface
-  std::shared_ptr<const CarriedSurface> carried;  ///< where there are strings: its own, or that of which it is a copy
-  std::vector<Index> carried_vertex;              ///< per particle, on that surface; empty: each its own
-  std::optional<LineSections> line;               ///< where its surface is made of sections, whose frames carry it then
-  std::vector<Index> section;                     ///< per particle, where there is a line
-  std::vector<RigidTransform> to_sections;        ///< from world to each section's frame, in the capture pose
-  std::vector<Real> belly;           ///< per particle, where there is a line: 0 in a tendon, 1 away from it
-  bool keeps_out_of_itself = false;  ///< not where there is a line: its sections run through each other
+  std::shared_ptr<const CarriedSurface> carried;   ///< where there are strings: its own, or that of which it is a copy
+  std::vector<Index> carried_vertex;               ///< per particle, on that surface; empty: each its own
+  std::shared_ptr<const arap::Surface> predicted;  ///< where the predictor asks for it
+  std::optional<LineSections> line;         ///< where its surface is made of sections, whose frames carry it then
+  std::vector<Index> section;               ///< per particle, where there is a line
+  std::vector<RigidTransform> to_sections;  ///< from world to each section's frame, in the capture pose
+  std::vector<Real> belly;                  ///< per particle, where there is a line: 0 in a tendon, 1 away from it
+  bool keeps_out_of_itself = false;         ///< not where there is a line: its sections run through each other
   ContractionSettings contraction;
   bool is_driven = false;             ///< the scene says how active it is
   AlignedVector<float> along_fibers;  ///< per tension slot: squared cosine between it and the fibers

@@ -31,7 +31,7 @@ static Preset thesis_2024() {
   xpbd.bone_rest_gap = false;
   xpbd.edge_contact = false;
   xpbd.tunnelling = MotionGuard::turned_direction;
-  xpbd.predictor = false;
+  xpbd.predictor = Predictor::none;
   xpbd.skinning = Skinning::bodies;
   xpbd.tendon_length = 0;
   xpbd.step_turn = 0;

@@ -70,8 +70,7 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "distance "
        "and slide along it; empty for none."},
       {"slide_reach", &S::slide_reach, "m", 0, 0.1, "Vertices this near to that bone in the capture pose slide on it."},
-      {"predictor", &S::predictor, "", 0, 0,
-       "Carries the free vertices with the bones before the solver relaxes them."},
+      predictor_row<S>(),
       {"skinning", &S::skinning, "", 0, 0,
        "What carries them: 'strings', the muscle's fibers pulled tight among the bones, or 'bodies', a blend of the "
        "motions "

@@ -3,6 +3,7 @@
 #include <gracilis/dynamics/contact/field/field_contact_set.hpp>
 #include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
 #include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
+#include <gracilis/methods/predictor.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <string>
@@ -33,15 +34,15 @@ struct SolverSettings {
   Real time_step = 1.0 / 60;      ///< s, per frame; 0: the motion's
   Real constraint_time_step = 0;  ///< s, used inside distance and dihedral projections; 0: the substep's
   TimeMode time_mode = TimeMode::quasi_static;
-  Real damping = 0.9;              ///< factor on velocities per step, dynamic mode
-  Vec3 gravity = Vec3::Zero();     ///< m/s²
-  Real rayleigh_beta = 0;          ///< N·s/m, N·m·s: dissipation of the distance and dihedral constraints
-  Real stop_displacement = 0;      ///< m; stop a substep early when no vertex moved further; 0: never
-  Real stop_milliseconds = 0;      ///< ms; stop a frame early after this time; 0: never
+  Real damping = 0.9;           ///< factor on velocities per step, dynamic mode
+  Vec3 gravity = Vec3::Zero();  ///< m/s²
+  Real rayleigh_beta = 0;       ///< N·s/m, N·m·s: dissipation of the distance and dihedral constraints
+  Real stop_displacement = 0;   ///< m; stop a substep early when no vertex moved further; 0: never
+  Real stop_milliseconds = 0;   ///< ms; stop a frame early after this time; 0: never
   Real step_turn = radians(2);  ///< rad; a frame that turns bones further is taken in several steps; 0: in one
-  int settling_rounds = 4;         ///< of volume and contact alone, after the last iteration
-  Real hinge_limit = 0.05;         ///< largest motion by one hinge projection, as a share of its edge; 0: off
-  Real stretch_limit = 2.5;        ///< longest an edge may become, over its length at rest; 0: no limit
+  int settling_rounds = 4;      ///< of volume and contact alone, after the last iteration
+  Real hinge_limit = 0.05;      ///< largest motion by one hinge projection, as a share of its edge; 0: off
+  Real stretch_limit = 2.5;     ///< longest an edge may become, over its length at rest; 0: no limit
 };
 
 /// How much of a surface is simulated, and how fast.
@@ -78,7 +79,7 @@ struct BoneContactSettings {
 
 /// Where the solver begins.
 struct PredictorSettings {
-  bool predictor = true;                  ///< carry free vertices with the bones before solving
+  Predictor predictor = Predictor::carried;
   Skinning skinning = Skinning::strings;  ///< what the predictor follows
   Real tendon_length = 0.03;              ///< m from attachments, graded from tendon to belly; 0: no tendons
   Real shape_recovery = 0.03;             ///< share of its displacement that a vertex gives up per step

@@ -7,6 +7,7 @@
 #include <gracilis/methods/xpbd/level.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
 #include <gracilis/methods/xpbd/pace.hpp>
+#include <gracilis/methods/xpbd/prediction.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
 #include <gracilis/methods/xpbd/step_counts.hpp>
 #include <gracilis/scene/scene_place.hpp>
@@ -125,7 +126,7 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
               last.muscles[m].velocities.col(muscle.order[static_cast<std::size_t>(p)]).cast<float>();
       } else {
         // The mean over the frame is all that two shapes can tell.
-        if (muscle.settings.predictor) carry_start(muscle, m, before.pose, last.pose, state);
+        if (muscle.settings.predictor != Predictor::none) carry_start(muscle, m, before.pose, last.pose, state);
         take_velocities(static_cast<float>(time_step_of(m, last.pose.time - before.pose.time)), state);
       }
       full_.states[m] = std::move(state);
@@ -142,7 +143,7 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
     MuscleState carried = make_muscle_state(muscle, full_.bodies);
     carried.particles = state.start;
     follow_strings(muscle, before, carried);
-    carry_free(muscle, before, last, activation_of(m, last) > muscle.contraction.threshold, carried);
+    carry(muscle, activation_of(m, last) > muscle.contraction.threshold, before, last, carried);
     state.start = carried.particles;
   }
 

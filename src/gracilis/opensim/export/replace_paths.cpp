@@ -1,7 +1,8 @@
-#include <gracilis/core/whole_number.hpp>
+#include <gracilis/opensim/export/replace_paths.hpp>
+
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/whole_number.hpp>
 #include <gracilis/io/text_cells.hpp>
-#include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/reader/function_reader.hpp>
 #include <gracilis/opensim/reader/xml.hpp>
 

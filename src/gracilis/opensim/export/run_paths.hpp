@@ -2,7 +2,6 @@
 
 #include <gracilis/opensim/export/fit_muscles.hpp>
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,10 +17,5 @@ std::string fit_line(const Model& model, const FittedMuscle& muscle);
 
 /// One line for all of them: medians over muscles and the worst of them.
 std::string fit_summary(const Model& model, const std::vector<FittedMuscle>& muscles);
-
-/// Puts the paths of such a set in the place of the model's, as OpenSim's ModOpReplacePathsWithFunctionBasedPaths does.
-/// Throws InputError where OpenSim would: another root, a force or coordinate that is not there by this path, no
-/// coordinates, a function of another number of arguments, an order below 1, another number of coefficients.
-void replace_paths(const std::filesystem::path& set, Model& model);
 
 }  // namespace gracilis::opensim

@@ -1,5 +1,6 @@
 #include <gracilis/opensim/reader/passive_force_reader.hpp>
 
+#include <gracilis/opensim/reader/body_reader.hpp>
 #include <gracilis/opensim/reader/function_reader.hpp>
 #include <gracilis/opensim/reader/path_reader.hpp>
 

@@ -65,17 +65,24 @@ std::string main_coordinate(const Table& table, const Scene& scene) {
   return found;
 }
 
-/// One column of measures.csv per muscle against the frame, as a change in percent.
-static LineChart measures_chart(const fs::path& file, const Scene& scene, std::string_view measure,
-                                const std::string& title, const std::string& y_label) {
+/// A column of measures.csv as a chart shows it.
+struct ShownMeasure {
+  std::string_view column;
+  Real rest = 0;    ///< what it is where nothing has changed
+  Real factor = 1;  ///< of what is above that
+  std::string file, title, y_label;
+};
+
+/// The column per muscle against the frame.
+static LineChart measures_chart(const fs::path& file, const Scene& scene, const ShownMeasure& shown) {
   const std::string text = read_text(file);
   ValueReader reader(file, text);
   const std::vector<std::string_view> names = cells_of(reader.line());
   const auto index_of = [&](std::string_view name) {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
-  const std::size_t frame = index_of("frame"), muscle = index_of("muscle"), value = index_of(measure);
-  LineChart chart{title, "frame", y_label, {}};
+  const std::size_t frame = index_of("frame"), muscle = index_of("muscle"), value = index_of(shown.column);
+  LineChart chart{scene.name + ": " + shown.title, "frame", shown.y_label, {}};
   for (std::size_t i = 0; i < scene.muscles.size(); ++i)
     chart.series.push_back({scene.muscles[i].name, {}, {}, muscle_color(static_cast<Index>(i), Palette::okabe_ito), 2});
   while (!reader.at_end()) {
@@ -86,7 +93,7 @@ static LineChart measures_chart(const fs::path& file, const Scene& scene, std::s
     for (ChartSeries& series : chart.series) {
       if (series.name != cells[muscle]) continue;
       series.x.push_back(x);
-      series.y.push_back(100 * (y - 1));
+      series.y.push_back(shown.factor * (y - shown.rest));
     }
   }
   return chart;
@@ -96,10 +103,12 @@ void write_run_charts(const fs::path& run_folder, const Scene& scene) {
   fs::create_directories(run_folder / "plots");
   const fs::path measures = run_folder / "measures.csv", lengths = run_folder / "fiber_lengths.sto";
   if (fs::exists(measures)) {
-    write_chart(run_folder / "plots" / "volume.svg",
-                measures_chart(measures, scene, "volume_ratio", scene.name + ": volume", "change of volume (%)"));
-    write_chart(run_folder / "plots" / "edges.svg",
-                measures_chart(measures, scene, "edge_ratio_mean", scene.name + ": edges", "mean change of edges (%)"));
+    const ShownMeasure shown[] = {
+        {"volume_ratio", 1, 100, "volume.svg", "volume", "change of volume (%)"},
+        {"edge_ratio_mean", 1, 100, "edges.svg", "edges", "mean change of edges (%)"},
+        {"dihedral_change_mean_deg", 0, 1, "angles.svg", "angles", "mean change of dihedral angles (degrees)"}};
+    for (const ShownMeasure& each : shown)
+      write_chart(run_folder / "plots" / each.file, measures_chart(measures, scene, each));
   }
   if (!fs::exists(lengths)) return;
   const Table table = read_table(lengths);

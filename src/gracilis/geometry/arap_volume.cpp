@@ -1,4 +1,4 @@
-#include <gracilis/methods/arap/volume.hpp>
+#include <gracilis/geometry/arap_volume.hpp>
 
 #include <gracilis/geometry/measures.hpp>
 

@@ -28,6 +28,9 @@ class Surface {
   /// Global step: the free vertices' places where the sum is least for these rotations; held ones stay.
   void place(const Rotations& rotations, Points& points) const;
 
+  /// Both steps in turn, so many times.
+  void relax(int rounds, Points& points) const;
+
   /// Displacements of all vertices under forces on the free ones (3 × n), as the sum's second derivative says.
   Points response(const Points& forces) const;
 

@@ -1,7 +1,10 @@
 #pragma once
 
-#include <gracilis/methods/arap/surface.hpp>
+#include <gracilis/geometry/arap_surface.hpp>
 
+#include <vector>
+
+/// What brings an as-rigid-as-possible surface back to its volume, of which its energy knows nothing.
 namespace gracilis::arap {
 
 /// Brings the volume enclosed by the free vertices' motion back to `target`, m³, to a millionth: x + μ y, y the

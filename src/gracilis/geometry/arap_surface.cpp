@@ -1,4 +1,4 @@
-#include <gracilis/methods/arap/surface.hpp>
+#include <gracilis/geometry/arap_surface.hpp>
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/rotations.hpp>
@@ -113,6 +113,10 @@ void Surface::place(const Rotations& rotations, Points& points) const {
   const Points change = solve(right);
   for (std::size_t i = 0; i < unknown_.size(); ++i)
     if (unknown_[i] >= 0) points.col(static_cast<Index>(i)) += change.col(unknown_[i]);
+}
+
+void Surface::relax(int rounds, Points& points) const {
+  for (int round = 0; round < rounds; ++round) place(best_rotations(points), points);
 }
 
 Points Surface::response(const Points& forces) const {
