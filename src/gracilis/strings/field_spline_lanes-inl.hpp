@@ -58,31 +58,68 @@ HWY_INLINE SplineLanes spline_lanes(V cells, Index nodes) {
           {hn::Zero(d) - low, lanes_of(-2) * x, high}};
 }
 
+/// Four numbers in a row for each lane, the first three of which are asked for.
+struct RowLanes {
+  V v[3];
+};
+
+#if HWY_HAVE_SCALABLE || HWY_TARGET == HWY_SCALAR
+HWY_INLINE RowLanes load_rows(const float* values, hn::Vec<hn::RebindToSigned<D>> at) {
+  const D d;
+  return {{hn::GatherIndex(d, values, at), hn::GatherIndex(d, values + 1, at), hn::GatherIndex(d, values + 2, at)}};
+}
+#else
+/// The row of every fourth lane from the first on, one per block of 128 bits.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> load_every_fourth_row(Tag tag, const float* values, const std::int32_t* at) {
+  if constexpr (hn::MaxLanes(Tag()) == 4) {
+    return hn::LoadU(tag, values + *at);
+  } else {
+    const hn::Half<Tag> half;
+    return hn::Combine(tag, load_every_fourth_row(half, values, at + hn::MaxLanes(Tag()) / 2),
+                       load_every_fourth_row(half, values, at));
+  }
+}
+
+/// Rows are loaded whole and transposed: gathers take several times as long.
+HWY_INLINE RowLanes load_rows(const float* values, const std::int32_t* at) {
+  const D d;
+  const Rows columns = transposed({load_every_fourth_row(d, values, at), load_every_fourth_row(d, values, at + 1),
+                                   load_every_fourth_row(d, values, at + 2), load_every_fourth_row(d, values, at + 3)});
+  return {{columns.r0, columns.r1, columns.r2}};
+}
+#endif
+
 struct SplineSample {
   V distance;
   Point gradient;  ///< by the point in cells
 };
 
-/// Precondition: inside. Other lanes get anything.
+/// Preconditions: inside, at least four nodes along each axis. Other lanes get anything.
 HWY_INLINE SplineSample sample_spline_lanes(const FieldGrid& grid, const GridPlace& place) {
   const D d;
   const hn::RebindToSigned<D> di;
   const auto inside = [&](V x) HWY_ATTR { return hn::IfThenElseZero(place.inside, x); };
   const SplineLanes x = spline_lanes(inside(place.cells.x), grid.nodes[0]),
                     y = spline_lanes(inside(place.cells.y), grid.nodes[1]),
-                    z = spline_lanes(inside(place.cells.z), grid.nodes[2]);
+                    z = spline_lanes(inside(place.cells.z), grid.nodes[2] - 1);  // rows are read one number too far
   const Index row = grid.nodes[0], slice = grid.nodes[0] * grid.nodes[1];
   const auto at = x.first + hn::Set(di, row) * y.first + hn::Set(di, slice) * z.first;
+#if !(HWY_HAVE_SCALABLE || HWY_TARGET == HWY_SCALAR)
+  HWY_ALIGN std::int32_t offsets[group_width];
+  hn::Store(at, di, offsets);
+#else
+  const auto offsets = at;
+#endif
   const V zero = hn::Zero(d);
   SplineSample sum{zero, {zero, zero, zero}};
   for (int k = 0; k < 3; ++k) {
     V plane = zero, plane_by_x = zero, plane_by_y = zero;
     for (int j = 0; j < 3; ++j) {
-      const float* values = grid.values + (j * row + k * slice);
-      const V v0 = hn::GatherIndex(d, values, at), v1 = hn::GatherIndex(d, values + 1, at),
-              v2 = hn::GatherIndex(d, values + 2, at);
-      const V along = hn::MulAdd(x.weight[0], v0, hn::MulAdd(x.weight[1], v1, x.weight[2] * v2));
-      const V along_by_x = hn::MulAdd(x.slope[0], v0, hn::MulAdd(x.slope[1], v1, x.slope[2] * v2));
+      const RowLanes at_row = load_rows(grid.values + (j * row + k * slice), offsets);
+      const V* v = at_row.v;
+      const V along = hn::MulAdd(x.weight[0], v[0], hn::MulAdd(x.weight[1], v[1], x.weight[2] * v[2]));
+      const V along_by_x = hn::MulAdd(x.slope[0], v[0], hn::MulAdd(x.slope[1], v[1], x.slope[2] * v[2]));
       plane = hn::MulAdd(y.weight[j], along, plane);
       plane_by_y = hn::MulAdd(y.slope[j], along, plane_by_y);
       plane_by_x = hn::MulAdd(y.weight[j], along_by_x, plane_by_x);

@@ -296,6 +296,15 @@ class LaneRelaxation {
     store(node.gradient, w_.gradient, at);
   }
 
+  /// A middle cannot be near before its node is: both travel, and the segment may grow as fast.
+  HWY_INLINE void defer_middle(LaneWorkspace::Bone& bone, const StringLanes::Bone& kept, std::size_t at, V travelled,
+                               Point segment) const {
+    const V half = lanes_of(0.5f);
+    const V least = load(bone.asked_from, at) + farthest_asked(kept, at) - travelled -
+                    half * hn::Sqrt(dot<Math>(segment, segment)) - load(kept.kept_middle, at);
+    store(hn::Max(load(bone.asked_from_middle, at), travelled + half * least), bone.asked_from_middle, at);
+  }
+
   /// Nodes and middles of segments keep to a bone the gap at rest, or less; supports let them slide over it.
   void keep_from_bone(std::size_t b, std::size_t s) {
     LaneWorkspace::Bone& bone = w_.bones[b];
@@ -333,7 +342,9 @@ class LaneRelaxation {
                    across(load(w_.direction, at), seen.outward), nearer);
       }
       if (i + 1 == inner_) continue;
-      const Point middle = scaled(lanes_of(0.5f), here + load(w_.place, at + width_));
+      const Point next_place = load(w_.place, at + width_);
+      defer_middle(bone, kept, at, travelled, here - next_place);
+      const Point middle = scaled(lanes_of(0.5f), here + next_place);
       if (!ask(middle, load(kept.kept_middle, at), bone.asked_from_middle, at, seen)) continue;
       const V depth = seen.distance - load(kept.kept_middle, at);
       const auto pressed = hn::And(seen.has_direction, hn::Lt(depth, hn::Zero(D())));
