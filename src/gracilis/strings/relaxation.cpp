@@ -13,7 +13,7 @@ namespace gracilis::strings {
 namespace {
 
 /// Strings settle until no node moves further, m, or for so many iterations, of which the last take small steps.
-constexpr Real settled_move = 1e-7;
+constexpr Real settled_move = 2e-7;
 constexpr int settling_iterations = 300, settling_quenched_from = 80;
 /// One that would still move further than this then, m, has no place; less matters nothing to its derivative.
 constexpr Real unsettled_move = 5e-6;
