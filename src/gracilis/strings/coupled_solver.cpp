@@ -8,7 +8,7 @@ namespace gracilis::strings {
 namespace {
 
 /// Relative residual that is left, and how many directions are tried for it.
-constexpr Real tolerance = 1e-6;
+constexpr Real tolerance = 1e-5;
 constexpr Index most_directions = 40;
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gracilis/strings/node_forces.hpp>
 #include <gracilis/strings/relaxation.hpp>
 
+#include <algorithm>
+
 namespace gracilis::strings {
 
 namespace {
@@ -22,12 +24,17 @@ struct BoneContact {
   Eigen::Matrix3d normal_rate;  ///< by the point, 1/m
 };
 
+/// The spline and the trilinear interpolant, which is asked first, differ by far less than this, m.
+constexpr Real margin = 0.002;
+
+Real trilinear_distance(const BoundedField& field, const RigidTransform& body, const Vec3& place) {
+  return static_cast<Real>(sample_bounded(field, (body.inverse() * place).cast<float>()).distance);
+}
+
 bool touches(const BoundedField& field, const RigidTransform& body, const Vec3& place, Real kept,
              BoneContact& contact) {
   const Vec3 local = body.inverse() * place;
-  // Near cells' borders the two interpolants differ by far less than this.
-  constexpr float margin = 0.002f;
-  if (sample_bounded(field, local.cast<float>()).distance > static_cast<float>(kept) + margin) return false;
+  if (static_cast<Real>(sample_bounded(field, local.cast<float>()).distance) > kept + margin) return false;
   const CurvedSample seen = sample_spline_curved(field.grid, local);
   contact.slope = seen.gradient.norm();
   contact.depth = seen.distance - kept;
@@ -68,7 +75,9 @@ ForceRates::ForceRates(const MuscleStrings& muscle, const BoneDistances& bones, 
   before_ = after_ = neighbor_pull_ = here_;
   by_body_.assign(count * bodies.size(), BodyRate::Zero());
   const Real segments = static_cast<Real>(muscle.nodes - 1);
+  Index searched = -1;
   for_each_free_node([&](Index s, Index i, Index p) {
+    if (s != searched) find_near_bones(s, bones), searched = s;
     const Real length = muscle.lengths[static_cast<std::size_t>(s)];
     const Node node{s,
                     i,
@@ -192,11 +201,31 @@ void ForceRates::hold_among_neighbors(const Node& node) {
   turn_with_string(node, -k * node.across_rate(node.place - there - neighbor_arms_.col(node.p)));
 }
 
+/// No bone is nearer to a node, or to the middles beside it, than a few nodes of its string tell.
+void ForceRates::find_near_bones(Index string, const BoneDistances& bones) {
+  constexpr Index stride = 4;
+  near_bones_.clear();
+  for (std::size_t bone = 0; bone < bones.fields.size(); ++bone) {
+    const RigidTransform& body = poses_[static_cast<std::size_t>(bones.bodies[bone])];
+    bool is_near = false;
+    for (Index i = 0; i < muscle_.nodes && !is_near; i += stride) {
+      const Vec3 place = places_.col(muscle_.node(string, i));
+      Real reach = 0;
+      for (Index j = std::max<Index>(i - stride, 0); j <= std::min(i + stride, muscle_.nodes - 1); ++j)
+        reach = std::max(reach, (places_.col(muscle_.node(string, j)) - place).norm());
+      is_near = trilinear_distance(bones.fields[bone], body, place) <= reach + muscle_.settings.bone_gap + margin;
+    }
+    if (is_near) near_bones_.push_back(bone);
+  }
+}
+
 void ForceRates::keep_from_bones(const Node& node, const BoneDistances& bones) {
   const Real k = muscle_.settings.bone_stiffness * node.tension;
   const auto row = static_cast<std::size_t>(node.p);
-  for (std::size_t bone = 0; bone < bones.fields.size(); ++bone) {
+  for (const std::size_t bone : near_bones_) {
     const Index body = bones.bodies[bone];
+    const Real distance =
+        trilinear_distance(bones.fields[bone], poses_[static_cast<std::size_t>(body)], node.place);
     BoneContact contact;
     const auto press = [&](const Vec3& place, Real kept, Real stiffness, Eigen::Matrix3d& pull) {
       if (!touches(bones.fields[bone], poses_[static_cast<std::size_t>(body)], place, kept, contact)) return false;
@@ -209,6 +238,8 @@ void ForceRates::keep_from_bones(const Node& node, const BoneDistances& bones) {
     Eigen::Matrix3d pull;
     if (press(node.place, kept_at_node(muscle_, bone, node.p), k, pull)) here_[row] += pull;
     const auto middle = [&](Index other, Eigen::Matrix3d& by_other) {
+      const Real half = (places_.col(other) - node.place).norm() / 2;
+      if (distance - half > muscle_.settings.bone_gap + margin) return;
       const Vec3 place = (node.place + places_.col(other)) / 2;
       if (!press(place, kept_at_middle(muscle_, bone, node.p, other), k / 2, pull)) return;
       here_[row] += pull / 2, by_other += pull / 2;

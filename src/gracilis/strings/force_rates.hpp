@@ -38,6 +38,7 @@ class ForceRates {
   void hold_among_neighbors(const Node& node);
   void support_by_plane(const Node& node, Real share);
   Real support_by_bones(const Node& node, const BoneDistances& bones);
+  void find_near_bones(Index string, const BoneDistances& bones);
   void keep_from_bones(const Node& node, const BoneDistances& bones);
 
   void turn_with_string(const Node& node, const Eigen::Matrix3d& by_difference);
@@ -61,6 +62,7 @@ class ForceRates {
   std::vector<Eigen::Matrix3d> neighbor_pull_;  ///< per node, by the mean place of its neighbors
   Points neighbor_arms_;                        ///< per node: from that mean place to where they want the node, m
   std::vector<BodyRate> by_body_;               ///< node by node
+  std::vector<std::size_t> near_bones_;         ///< of the string whose nodes are looked at
 };
 
 }  // namespace gracilis::strings

@@ -188,6 +188,7 @@ std::optional<MuscleStrings> muscle_strings(const Scene& scene, const Muscle& mu
   find_supports(bones, result);
   find_neighbors(result);
   result.taut = pulled_tight(result, bones);
+  result.lanes = string_lanes(result);
   return result;
 }
 

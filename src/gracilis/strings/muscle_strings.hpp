@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/strings/bone_distances.hpp>
+#include <gracilis/strings/string_lanes.hpp>
 #include <gracilis/strings/string_settings.hpp>
 
 #include <optional>
@@ -38,6 +39,7 @@ struct MuscleStrings {
   std::vector<NodeSupport> supports;          ///< per node
   Eigen::MatrixXd bone_distances;             ///< bones × nodes, m; beyond a field's reach a lower bound
   std::vector<std::vector<Index>> neighbors;  ///< of each string
+  StringLanes lanes;                          ///< all of this for the vector kernel
 
   Index node(Index string, Index i) const { return string * nodes + i; }
 };

@@ -2,6 +2,8 @@
 
 #include <gracilis/core/types.hpp>
 
+#include <limits>
+
 namespace gracilis::strings {
 
 /// What holds a taut string in its place. All strings have the tension 1, so stiffnesses are ratios to it; per length
@@ -29,5 +31,21 @@ struct StringSettings {
   Real longest_move = 0.004;    ///< m, of a node in one iteration
   Real stop_move = 2e-5;        ///< m; a string rests for the rest of a step once none of its nodes moves further
 };
+
+/// How strings come to rest. One of which no node moved further than `stop_move` (m) rests from then on; after iteration
+/// `quenched_from` steps are small, which ends most going to and fro.
+struct Relaxation {
+  int iterations = 0;
+  Real stop_move = 0;
+  int quenched_from = std::numeric_limits<int>::max();
+};
+
+/// The share of its step that a string takes in an iteration: damped after some, for strings that go to and fro between
+/// two bones.
+inline Real taken_share(const Relaxation& relaxation, int iteration) {
+  constexpr int undamped_iterations = 12;
+  if (iteration > relaxation.quenched_from) return 0.25;
+  return iteration > undamped_iterations ? 0.6 : 1;
+}
 
 }  // namespace gracilis::strings

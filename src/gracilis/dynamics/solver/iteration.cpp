@@ -14,6 +14,15 @@ constexpr int motion_check = 4;
 /// Iterations between two looks at what is near between surfaces, which walk and list with reserve.
 constexpr int coupling_refresh = 15;
 
+/// Where contact settles after the last iteration it is projected in every other one, but for so many at the end: the
+/// shapes are as good, and contact takes most of an iteration's time.
+constexpr int contact_period = 2, last_with_contact = 8;
+
+bool projects_contact(const SolveSettings& settings, int iteration) {
+  const bool settles = settings.settling_rounds > 0;
+  return !settles || iteration % contact_period == 1 || iteration + last_with_contact >= settings.iterations;
+}
+
 /// Where one surface stands in its iterations.
 struct Progress {
   bool last = false, done = false;
@@ -21,8 +30,10 @@ struct Progress {
 };
 
 void project_phase(ConstraintPhase phase, JointSolve& solve, std::size_t i) {
+  const SurfaceSolve& surface = solve.surfaces[i];
+  const bool with_contact = projects_contact(surface.settings, surface.report.iterations);
   for (const ConstraintRow& row : constraint_table()) {
-    if (row.phase != phase) continue;
+    if (row.phase != phase || (row.kind == ConstraintKind::bone_contact && !with_contact)) continue;
     row.project(solve.surfaces[i]);
     solve.tell(i, row.kind);
   }
@@ -53,6 +64,13 @@ void end_iteration(JointSolve& solve, std::size_t i, Progress& progress) {
   progress.done = progress.last || (least > 0 && largest_motion(progress.before, surface.state->particles) < least);
 }
 
+template <class Holds>
+bool any_of_surfaces(const JointSolve& solve, const Holds& holds) {
+  for (std::size_t i = 0; i < solve.surfaces.size(); ++i)
+    if (holds(i)) return true;
+  return false;
+}
+
 }  // namespace
 
 void iterate(JointSolve& solve) {
@@ -69,7 +87,10 @@ void iterate(JointSolve& solve) {
     });
     if (std::all_of(progress.begin(), progress.end(), is_done)) return;
     if (solve.coupling.project && iteration % coupling_refresh == 0) solve.coupling.refresh(solve.movers);
-    solve.project_contact();
+    const auto touches = [&](std::size_t i) {
+      return !progress[i].done && projects_contact(solve.surfaces[i].settings, iteration);
+    };
+    if (any_of_surfaces(solve, touches)) solve.project_contact();
   }
 }
 

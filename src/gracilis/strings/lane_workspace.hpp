@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gracilis/strings/string_lanes.hpp>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace gracilis::strings {
+
+/// What the vector kernel needs for one muscle in one pose, in the order of StringLanes; m, seen from `center`.
+struct LaneWorkspace {
+  Vec3 center = Vec3::Zero();
+  LanePoints begun, moved, place;  ///< where the nodes were carried, how far they moved since, and the sum
+  LanePoints before;               ///< `place` at the beginning of an iteration
+  LanePoints bend;                 ///< second difference of `begun`, from double precision
+  LanePoints tied_to, support, normal;
+
+  std::vector<float> last_move, travelled;  ///< per string, m
+
+  /// A bone from here: to cells of its grid, and from there back for directions.
+  struct Bone {
+    Eigen::Matrix<float, 3, 4> to_cells, from_cells;
+    /// How far a string must have travelled before a node, or the middle after it, can be near the bone; m. The least of
+    /// all nodes per string.
+    std::vector<float> asked_from, asked_from_middle, clear_until;
+  };
+  std::vector<Bone> bones;
+
+  /// Of one group of strings: the system of each node.
+  std::array<std::vector<float>, 6> stiffness, inverse;
+  LanePoints gradient, direction, solution;
+
+  std::array<std::vector<float>, 9> correlation, turn;  ///< of the cross-sections, row by row; a node per lane
+};
+
+}  // namespace gracilis::strings
