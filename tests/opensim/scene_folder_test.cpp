@@ -193,7 +193,7 @@ static bool plane_cuts(const Points& line, Index k, const TriangleMesh& surface)
 }
 
 /// Centers of the sections of a real muscle, brought onto its surface with 36 rays, that lie outside of it. Sections
-/// whose plane misses the muscle stay on the line, and only those.
+/// whose plane misses the muscle stay on the line and do not count.
 static int centers_outside(const std::string& muscle, const std::string& file) {
   Model model = read_model(data_root() / "lhdl-hip/motion/LHDL_hip_r.osim");
   // The scan's pose.
@@ -217,7 +217,7 @@ static int centers_outside(const std::string& muscle, const std::string& file) {
   for (Eigen::Index k = 1; k + 1 < sections.cols(); ++k) {
     const Vec3 center = volume.line.centers.col(k);
     const bool is_cut = plane_cuts(sections, k, settings.surfaces.at(muscle));
-    EXPECT_EQ(is_cut, center != Vec3(sections.col(k))) << muscle << ", section " << k;
+    EXPECT_TRUE(is_cut || center == Vec3(sections.col(k))) << muscle << ", section " << k;
     if (is_cut && distance.query(center).distance >= 0) ++outside;
   }
   return outside;
