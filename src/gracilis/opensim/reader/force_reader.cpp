@@ -37,8 +37,8 @@ static Muscle read_muscle(ModelReading& reading, const pugi::xml_node& node) {
       velocity > 0)
     muscle.max_contraction_velocity = velocity;
   else
-    reading.leave_out(node, fmt::format("<max_contraction_velocity> is {}; {} is taken", velocity,
-                                        muscle.max_contraction_velocity));
+    reading.leave_out(
+        node, fmt::format("<max_contraction_velocity> is {}; {} is taken", velocity, muscle.max_contraction_velocity));
   muscle.min_control = context.number(node, "min_control", muscle.min_control);
   muscle.max_control = context.number(node, "max_control", muscle.max_control);
   muscle.active_shape = positive(context, node, "KshapeActive", muscle.active_shape);
@@ -118,7 +118,8 @@ void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char
       continue;
     }
     if (name.empty() && !passive) reading.context.fail(node, "has no name", "give every force its own name");
-    if (!name.empty() && forget(reading.model, name)) reading.leave_out(node, "replaces the force of this name that was there before");
+    if (!name.empty() && forget(reading.model, name))
+      reading.leave_out(node, "replaces the force of this name that was there before");
     if (const std::string body = muscle || passive ? missing_body(reading, node) : ""; !body.empty())
       reading.leave_out(node, fmt::format("has a point on '{}', which does not exist; left out", body));
     else if (muscle)
