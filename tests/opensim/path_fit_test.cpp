@@ -110,7 +110,8 @@ static std::string lengths_table() {
 }
 
 static const char* const joints =
-    R"({"scene": "s", "settings": "", "joints": [{"name": "hinge", "coordinates": [{"name": "swing", "translation": false},
+    R"({"scene": "s", "settings": "", "joints": [{"name": "hinge", "coordinates": [
+    {"name": "swing", "translation": false},
     {"name": "other", "translation": false}, {"name": "hinge_translation1", "translation": true},
     {"name": "slide", "translation": true}]}]})";
 
