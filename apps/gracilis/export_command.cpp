@@ -19,8 +19,8 @@
 #include <gracilis/view/export/export_tetrahedra.hpp>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -101,12 +101,10 @@ opensim::LengthSamples lengths_for(const opensim::Model& model, const ExportOpti
   if (options.sampled == 0 || !read_manifest(options.run).value("settings", "").starts_with("method = \"strings\""))
     return run;
   const LoadedScene loaded = scene_of_run(options.run);
-  const auto method = make_method(loaded.scene, [&](const DistanceFieldSettings& settings) {
-    return cached_bone_fields(loaded.scene, settings);
-  });
-  const opensim::CoordinateBox box =
-      opensim::box_around(model, opensim::moved_coordinates(run, model, loaded.scene), run.coordinates,
-                          options.fit.whole_ranges);
+  const auto method = make_method(
+      loaded.scene, [&](const DistanceFieldSettings& settings) { return cached_bone_fields(loaded.scene, settings); });
+  const opensim::CoordinateBox box = opensim::box_around(model, opensim::moved_coordinates(run, model, loaded.scene),
+                                                         run.coordinates, options.fit.whole_ranges);
   Progress progress(0, static_cast<int>(options.sampled));
   run = opensim::scene_lengths(loaded.scene, *method, model, box, options.sampled,
                                [&](Index done) { progress.show(static_cast<int>(done)); });
@@ -208,19 +206,20 @@ void add_export_command(CLI::App& program, Command& chosen) {
                    "Force per physiological cross-section area, N/m² (tetrahedra)")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option(
-      "--model", options->model,
-      "The OpenSim model that the run's scene was made of (osim-function, osim-points)");
+  command->add_option("--model", options->model,
+                      "The OpenSim model that the run's scene was made of (osim-function, osim-points)");
   command->add_option("--points", options->points, "Points of a path at most, its ends among them (osim-points)")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
-  command->add_option("--check", options->check,
-                      "OpenSim's set-up of static optimization: solved with the model's own paths and the exported ones, "
-                      "and compared (osim-function, osim-points)");
+  command->add_option(
+      "--check", options->check,
+      "OpenSim's set-up of static optimization: solved with the model's own paths and the exported ones, "
+      "and compared (osim-function, osim-points)");
   command
-      ->add_option("--sample", options->sampled,
-                   "Poses that polynomials are fitted to, spread over each muscle's coordinates: of the model's own paths, "
-                   "and of a run by strings those of its scene, which is solved in them (osim-function; 1000 of the model)")
+      ->add_option(
+          "--sample", options->sampled,
+          "Poses that polynomials are fitted to, spread over each muscle's coordinates: of the model's own paths, "
+          "and of a run by strings those of its scene, which is solved in them (osim-function; 1000 of the model)")
       ->check(CLI::Range(64, 1'000'000));
   command->add_flag("--whole-ranges", options->fit.whole_ranges,
                     "Over the whole ranges of the model's coordinates instead of 10 degrees around where the run goes "

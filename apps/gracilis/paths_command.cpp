@@ -106,7 +106,9 @@ void add_paths_command(CLI::App& program, Command& chosen) {
   command->add_option("--coord", options->sweep, "Or one coordinate, NAME=FROM:TO:STEP in degrees or m");
   command->add_option("--out", options->out, "Folder for the tables")->required();
   command->add_option("--prefix", options->prefix, "Start of the tables' names (default: the model's name)");
-  command->add_option("--lengths", options->lengths, "Of the 'way' that moment arms are of, or as 'opensim' computes them (default: way)")
+  command
+      ->add_option("--lengths", options->lengths,
+                   "Of the 'way' that moment arms are of, or as 'opensim' computes them (default: way)")
       ->check(CLI::IsMember({"opensim", "way"}));
   command->add_flag("--strict", options->strict, "Fail where the model holds what is not supported (exit code 4)");
   command->callback([&chosen, options] { chosen = [options] { return write_paths(*options); }; });

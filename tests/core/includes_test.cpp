@@ -50,7 +50,7 @@ const std::map<std::string, std::map<std::string, int>> room_ranks = {
       {"paths", 3},
       {"static_optimization", 4},
       {"import", 4},
-      {"export", 4}}},
+      {"export", 5}}},
     {"view", {{"pictures", 0}, {"charts", 1}, {"export", 1}, {"report", 2}, {"window", 2}, {"comparison", 3}}}};
 
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.

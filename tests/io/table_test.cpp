@@ -192,7 +192,8 @@ TEST(Landmarks, the_cadaver_s_are_read) {
 TEST(Table, what_opensim_itself_writes_is_read_with_a_warning) {
   const TestFolder folder;
   const std::string head = "states\nversion=1\ninDegrees=no\nendheader\n";
-  const Table repeated = read_table(folder.write("a.sto", head + "time\tq\tr\tq\n0\t1\t2\t3\n0\t4\t5\t6\n1\t7\t8\t9\n"));
+  const Table repeated =
+      read_table(folder.write("a.sto", head + "time\tq\tr\tq\n0\t1\t2\t3\n0\t4\t5\t6\n1\t7\t8\t9\n"));
   EXPECT_EQ(repeated.columns, (std::vector<std::string>{"q", "r"}));
   EXPECT_EQ(repeated.times, (std::vector<Real>{0, 1}));
   EXPECT_EQ(repeated.values(0, 0), 1);

@@ -62,10 +62,12 @@ static std::set<std::string> elements_of(const std::string& text) {
 }
 
 TEST(FunctionPathRules, the_set_that_opensim_wrote_breaks_none) {
-  const std::set<std::string> components = {
-      "/forceset/addbrev_r",           "/forceset/bfsh_r",
-      "/jointset/hip_r/hip_flexion_r", "/jointset/hip_r/hip_adduction_r",
-      "/jointset/hip_r/hip_rotation_r", "/jointset/walker_knee_r/knee_angle_r"};
+  const std::set<std::string> components = {"/forceset/addbrev_r",
+                                            "/forceset/bfsh_r",
+                                            "/jointset/hip_r/hip_flexion_r",
+                                            "/jointset/hip_r/hip_adduction_r",
+                                            "/jointset/hip_r/hip_rotation_r",
+                                            "/jointset/walker_knee_r/knee_angle_r"};
   EXPECT_THAT(broken_rules(reference_set(), components), testing::IsEmpty());
 }
 

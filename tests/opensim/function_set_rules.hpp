@@ -56,7 +56,8 @@ inline std::vector<std::string> broken_rules(const std::string& file, const std:
     require(names.insert(path.force).second, path.force + " occurs once");
     require(!path.coordinates.empty(), path.force + " depends on coordinates");
     for (const std::string& coordinate : path.coordinates)
-      require(coordinate.starts_with("/jointset/") && components.count(coordinate) > 0, coordinate + " is a coordinate");
+      require(coordinate.starts_with("/jointset/") && components.count(coordinate) > 0,
+              coordinate + " is a coordinate");
     const std::set<std::string> different(path.coordinates.begin(), path.coordinates.end());
     require(different.size() == path.coordinates.size(), path.force + " names each coordinate once");
     for (const pugi::xml_node& child : node.children()) {

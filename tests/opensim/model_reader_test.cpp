@@ -276,17 +276,18 @@ TEST(ModelReader, documents_of_opensim_1_and_2_are_read_by_what_changed_since) {
   const std::string points =
       "<MusclePointSet><objects><MusclePoint name=\"a\"><location>1 0 0</location><body>ground</body></MusclePoint>"
       "<MuscleViaPoint name=\"b\"><location>0.5 0 0</location><body>ground</body><range>-1 1</range>"
-      "<coordinate>swing</coordinate></MuscleViaPoint><MusclePoint name=\"c\"><location>0 -1 0</location><body>rod</body>"
+      "<coordinate>swing</coordinate></MuscleViaPoint><MusclePoint name=\"c\"><location>0 -1 "
+      "0</location><body>rod</body>"
       "</MusclePoint></objects></MusclePointSet>";
   const std::string old_joint =
-      "<Joint><PinJoint name=\"hinge\"><parent_body>ground</parent_body><CoordinateSet><objects>" + coordinate("swing") +
-      "</objects></CoordinateSet></PinJoint></Joint>";
+      "<Joint><PinJoint name=\"hinge\"><parent_body>ground</parent_body><CoordinateSet><objects>" +
+      coordinate("swing") + "</objects></CoordinateSet></PinJoint></Joint>";
   for (const char* version : {"10905", "20303"}) {
-    const Model model = model_from(
-        document("<DynamicsEngine><SimbodyEngine name=\"e\">" + set("BodySet", body("rod", old_joint)) +
-                     "</SimbodyEngine></DynamicsEngine>" +
-                     set("ActuatorSet", "<Thelen2003Muscle name=\"m\">" + points + "</Thelen2003Muscle>"),
-                 version));
+    const Model model =
+        model_from(document("<DynamicsEngine><SimbodyEngine name=\"e\">" + set("BodySet", body("rod", old_joint)) +
+                                "</SimbodyEngine></DynamicsEngine>" +
+                                set("ActuatorSet", "<Thelen2003Muscle name=\"m\">" + points + "</Thelen2003Muscle>"),
+                            version));
     ASSERT_EQ(model.muscles.size(), 1u) << version;
     EXPECT_EQ(model.muscles[0].path.points.size(), 3u);
     EXPECT_EQ(model.muscles[0].path.points[1].condition, 0);
@@ -296,10 +297,10 @@ TEST(ModelReader, documents_of_opensim_1_and_2_are_read_by_what_changed_since) {
 
 TEST(ModelReader, what_a_force_lacks_is_told_and_the_model_is_read) {
   const std::string way = point("/ground", "1 0 0") + point("rod", "0 -1 0");
-  const Model model = model_from(
-      pendulum("<NobodysForce><strength>1</strength></NobodysForce>" +
-               muscle("lost", point("/ground", "1 0 0") + point("/body", "0 -1 0")) +
-               muscle("still", way, "<max_contraction_velocity>0</max_contraction_velocity>")));
+  const Model model =
+      model_from(pendulum("<NobodysForce><strength>1</strength></NobodysForce>" +
+                          muscle("lost", point("/ground", "1 0 0") + point("/body", "0 -1 0")) +
+                          muscle("still", way, "<max_contraction_velocity>0</max_contraction_velocity>")));
   ASSERT_EQ(model.muscles.size(), 1u);
   EXPECT_EQ(model.muscles[0].name, "still");
   EXPECT_EQ(model.muscles[0].max_contraction_velocity, 10);
@@ -321,10 +322,11 @@ TEST(ModelReader, a_force_set_that_repeats_a_name_replaces_that_force_and_says_s
                                     "<CoordinateActuator name=\"swing_reserve\"><coordinate>swing</coordinate>"
                                     "<optimal_force>1</optimal_force></CoordinateActuator>"));
   const TestFolder folder;
-  read_force_set(folder.write("more.xml", "<OpenSimDocument Version=\"30000\"><ForceSet><objects>"
-                                          "<CoordinateActuator name=\"swing_reserve\"><coordinate>swing</coordinate>"
-                                          "<optimal_force>100</optimal_force></CoordinateActuator></objects></ForceSet>"
-                                          "</OpenSimDocument>"),
+  read_force_set(folder.write("more.xml",
+                              "<OpenSimDocument Version=\"30000\"><ForceSet><objects>"
+                              "<CoordinateActuator name=\"swing_reserve\"><coordinate>swing</coordinate>"
+                              "<optimal_force>100</optimal_force></CoordinateActuator></objects></ForceSet>"
+                              "</OpenSimDocument>"),
                  false, model);
   ASSERT_EQ(model.actuators.size(), 1u);
   EXPECT_EQ(model.actuators[0].optimal_force, 100);

@@ -22,8 +22,10 @@ static Real force_of(const std::string& force, Real swing, Real speed = 0) {
 
 TEST(PassiveForces, a_limit_pushes_back_beyond_its_values_and_nowhere_else) {
   const std::string limit =
-      "<CoordinateLimitForce name=\"l\"><coordinate>swing</coordinate><upper_stiffness>2</upper_stiffness><upper_limit>30"
-      "</upper_limit><lower_stiffness>3</lower_stiffness><lower_limit>-10</lower_limit><damping>0.1</damping><transition>5"
+      "<CoordinateLimitForce "
+      "name=\"l\"><coordinate>swing</coordinate><upper_stiffness>2</upper_stiffness><upper_limit>30"
+      "</upper_limit><lower_stiffness>3</lower_stiffness><lower_limit>-10</lower_limit><damping>0.1</"
+      "damping><transition>5"
       "</transition></CoordinateLimitForce>";
   EXPECT_EQ(force_of(limit, radians(20), 5), 0);
   EXPECT_NEAR(force_of(limit, radians(40)), -2 * 10, 1e-9);  // N·m per degree, 10 degrees beyond
@@ -46,12 +48,12 @@ static std::pair<Real, Real> way_at(Real swing) {
   return {length, -(to - from).dot(Vec3(0.4 * std::cos(swing), 0.4 * std::sin(swing), 0)) / length};
 }
 
-static const std::string way =
+static const std::string spring_way =
     "<GeometryPath>" + set("PathPointSet", point("/ground", "0.3 0 0") + point("/bodyset/rod", "0 -0.4 0")) +
     "</GeometryPath>";
 
 TEST(PassiveForces, a_path_s_spring_pulls_only_when_longer_than_at_rest) {
-  const std::string spring = "<PathSpring name=\"p\">" + way +
+  const std::string spring = "<PathSpring name=\"p\">" + spring_way +
                              "<resting_length>0.45</resting_length><stiffness>1000</stiffness><dissipation>0.2"
                              "</dissipation></PathSpring>";
   const auto [length, arm] = way_at(-0.3);
@@ -64,7 +66,8 @@ TEST(PassiveForces, a_path_s_spring_pulls_only_when_longer_than_at_rest) {
 
 TEST(PassiveForces, a_ligament_pulls_by_its_curve) {
   const std::string ligament =
-      "<Ligament name=\"l\">" + way + "<resting_length>0.5</resting_length><pcsa_force>300</pcsa_force>"
+      "<Ligament name=\"l\">" + spring_way +
+      "<resting_length>0.5</resting_length><pcsa_force>300</pcsa_force>"
       "<force_length_curve><PiecewiseLinearFunction><x>0 1 2</x><y>0 0 4</y></PiecewiseLinearFunction>"
       "</force_length_curve></Ligament>";
   const auto [length, arm] = way_at(-0.4);

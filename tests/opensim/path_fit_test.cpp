@@ -67,8 +67,8 @@ TEST(PathFit, arms_of_the_written_polynomial_are_those_that_errors_are_told_of) 
   Real largest = 0;
   for (Eigen::Index row = 0; row < 49; ++row)
     for (int i = 0; i < 2; ++i)
-      largest = std::max(largest, std::abs(derivative(
-                                      function, {samples.coordinates(row, 0), samples.coordinates(row, 1)}, {i})));
+      largest = std::max(
+          largest, std::abs(derivative(function, {samples.coordinates(row, 0), samples.coordinates(row, 1)}, {i})));
   EXPECT_NEAR(path_errors(function, samples).arm_largest, largest, 1e-12);
 }
 
@@ -110,7 +110,8 @@ static std::string lengths_table() {
 }
 
 static const char* const joints =
-    R"({"scene": "s", "settings": "", "joints": [{"name": "hinge", "coordinates": [{"name": "swing", "translation": false},
+    R"({"scene": "s", "settings": "", "joints": [{"name": "hinge", "coordinates": [
+    {"name": "swing", "translation": false},
     {"name": "other", "translation": false}, {"name": "hinge_translation1", "translation": true},
     {"name": "slide", "translation": true}]}]})";
 
@@ -151,9 +152,9 @@ TEST(RunLengths, arms_about_what_follows_a_coordinate_count_as_the_model_says) {
       "<LinearFunction><coefficients>1 0</coefficients></LinearFunction></TransformAxis>"
       "<TransformAxis name=\"translation1\"><coordinates>swing</coordinates><axis>1 0 0</axis>"
       "<LinearFunction><coefficients>0.5 0</coefficients></LinearFunction></TransformAxis></SpatialTransform>";
-  const Model model = model_from(document(
-      set("BodySet", body("rod")) +
-      set("JointSet", joint("CustomJoint", "hinge", "/ground", "rod", coordinate("swing"), moved))));
+  const Model model =
+      model_from(document(set("BodySet", body("rod")) + set("JointSet", joint("CustomJoint", "hinge", "/ground", "rod",
+                                                                              coordinate("swing"), moved))));
   const TestFolder folder;
   folder.write("fiber_lengths.sto", lengths_table());
   const auto arms = [](const std::string& name, Real arm) {

@@ -107,8 +107,9 @@ TEST(RunPoints, a_path_that_stays_the_model_s_is_written_with_its_conditions_and
       "0.4</range></ConditionalPathPoint>" +
       point("/bodyset/rod", "0.03 -0.4 0");
   const std::string object =
-      set("WrapObjectSet", "<WrapCylinder name=\"roll\"><quadrant>+x</quadrant><radius>0.04</radius><length>1</length>"
-                           "</WrapCylinder>");
+      set("WrapObjectSet",
+          "<WrapCylinder name=\"roll\"><quadrant>+x</quadrant><radius>0.04</radius><length>1</length>"
+          "</WrapCylinder>");
   const std::string wraps =
       "<PathWrap name=\"w\"><wrap_object>roll</wrap_object><method>hybrid</method><range>-1 -1</range></PathWrap>";
   const Model model = model_from(pendulum(muscle("m", points, "", wraps), object));

@@ -42,7 +42,8 @@ static std::vector<bool> carries_all(const Scene& scene) {
     std::vector<bool> beyond(scene.bodies.size(), false);
     beyond[static_cast<std::size_t>(joint.child_body)] = true;
     for (const Joint& other : scene.joints)  // parents stand before children
-      if (beyond[static_cast<std::size_t>(other.parent_body)]) beyond[static_cast<std::size_t>(other.child_body)] = true;
+      if (beyond[static_cast<std::size_t>(other.parent_body)])
+        beyond[static_cast<std::size_t>(other.child_body)] = true;
     bool all = true;
     for (std::size_t body = 0; body < used.size(); ++body) all = all && (!used[body] || beyond[body]);
     carries.push_back(all);

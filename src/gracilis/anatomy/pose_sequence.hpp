@@ -14,11 +14,12 @@ namespace gracilis {
 ///
 /// A ramp moves all coordinates in equal steps. It takes `Sequence::ramp_frames` frames, the last of which is the pose
 /// it leads to; 0 means as many as it takes for no coordinate to change by more than 1 degree in a frame, not counting
-/// those of a joint that carries all bones and attachments, as the pelvis' on the ground; and none where the pose is the
-/// capture pose already. The motion's rows keep their times; the frames before and after them follow at the motion's mean spacing (1/60 s for a single row), so the capture pose usually has a negative time.
-/// Coordinates that the motion does not name keep their capture value. Every pose says how active the muscles are. A
-/// motion without rows leaves frame 0 alone. Requires a scene in which `validate` finds nothing.
-/// Throws ConfigurationError, before it makes any, where there are more than `max_frames`.
+/// those of a joint that carries all bones and attachments, as the pelvis' on the ground; and none where the pose is
+/// the capture pose already. The motion's rows keep their times; the frames before and after them follow at the
+/// motion's mean spacing (1/60 s for a single row), so the capture pose usually has a negative time. Coordinates that
+/// the motion does not name keep their capture value. Every pose says how active the muscles are. A motion without rows
+/// leaves frame 0 alone. Requires a scene in which `validate` finds nothing. Throws ConfigurationError, before it makes
+/// any, where there are more than `max_frames`.
 std::vector<Pose> pose_sequence(const Scene& scene, int max_frames = default_max_frames);
 
 }  // namespace gracilis

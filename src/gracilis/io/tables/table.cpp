@@ -179,8 +179,7 @@ class TableReader {
   Real number_in(std::string_view cell, const std::string& column) const {
     double value = 0;
     if (!parse_number(cell, value)) fail_here(fmt::format("'{}' in column '{}' is not a number", cell, column));
-    if (!std::isfinite(value))
-      fail_here(fmt::format("column '{}' is {}, which is not a finite number", column, cell));
+    if (!std::isfinite(value)) fail_here(fmt::format("column '{}' is {}, which is not a finite number", column, cell));
     return value;
   }
 

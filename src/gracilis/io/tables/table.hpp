@@ -26,11 +26,11 @@ std::optional<Eigen::Index> column_of(const Table& table, const std::string& nam
 /// Reads a .mot, .sto or .csv: headers as OpenSim up to 3 writes them (name, version=, nRows=, nColumns=, inDegrees=),
 /// as SIMM does (name, datacolumns, datarows, range), as OpenSim 4 does (DataType=, OpenSimVersion=), or none at all;
 /// columns between tabs, spaces or commas, in any order. Survived with a warning: wrong row and column counts, a
-/// missing inDegrees (radians; degrees under a SIMM header); a time that is repeated or a column of a name that was there
-/// before (the first one counts); columns with several numbers in a cell, as OpenSim writes quaternions (left out); no
-/// column beside the time. Survived in silence: blank lines, separators at the ends
-/// of lines, \r\n, a byte order mark. Throws InputError with file and line: no header end, no column "time",
-/// rows of a wrong length, cells that are not finite numbers, times that decrease, no rows.
+/// missing inDegrees (radians; degrees under a SIMM header); a time that is repeated or a column of a name that was
+/// there before (the first one counts); columns with several numbers in a cell, as OpenSim writes quaternions (left
+/// out); no column beside the time. Survived in silence: blank lines, separators at the ends of lines, \r\n, a byte
+/// order mark. Throws InputError with file and line: no header end, no column "time", rows of a wrong length, cells
+/// that are not finite numbers, times that decrease, no rows.
 Table read_table(const std::filesystem::path& path);
 
 /// Writes a table with the header that OpenSim 4 reads (version 1, inDegrees), whole or not at all.

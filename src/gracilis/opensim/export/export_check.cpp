@@ -57,7 +57,8 @@ std::vector<std::string> check_lines(const ExportCheck& check, Real bar) {
   if (!check.differences.empty())
     all += fmt::format("; the largest difference {:.4f} ({})", check.differences[0].second, check.differences[0].first);
   if (check.infeasible_before + check.infeasible_after > 0)
-    all += fmt::format("; too weak at {} instants before and {} after", check.infeasible_before, check.infeasible_after);
+    all +=
+        fmt::format("; too weak at {} instants before and {} after", check.infeasible_before, check.infeasible_after);
   lines.push_back(all);
   return lines;
 }

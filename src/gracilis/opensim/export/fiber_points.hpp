@@ -30,9 +30,9 @@ struct FiberPoint {
 };
 
 /// Where points (3 × n each, ground frame, one matrix per frame) stay best: for each the body in which it moves least.
-/// `poses` are the bodies' in each frame. Components of inner points follow one coordinate each, so a point up to three of
-/// `moving`: that which predicts left-out frames best, by a polynomial of up to the sixth order, where that leaves less
-/// than 0.7 of the component's movement. The ends stay, unless they move by more than 0.5 mm.
+/// `poses` are the bodies' in each frame. Components of inner points follow one coordinate each, so a point up to three
+/// of `moving`: that which predicts left-out frames best, by a polynomial of up to the sixth order, where that leaves
+/// less than 0.7 of the component's movement. The ends stay, unless they move by more than 0.5 mm.
 std::vector<FiberPoint> fit_points(const std::vector<Points>& fibers,
                                    const std::vector<std::vector<RigidTransform>>& poses,
                                    const std::vector<FollowedCoordinate>& moving);

@@ -38,7 +38,8 @@ static std::vector<Index> free_coordinates(const Model& model, const Path& path)
 
 /// OpenSim's polynomials take six (MultivariatePolynomialFunction.h).
 static void require_arguments(std::size_t count) {
-  if (count > 6) throw InputError({"", "", fmt::format("depends on {} coordinates, of which OpenSim takes 6", count), ""});
+  if (count > 6)
+    throw InputError({"", "", fmt::format("depends on {} coordinates, of which OpenSim takes 6", count), ""});
 }
 
 /// The box without the coordinates about which the path has no arm.
@@ -119,7 +120,8 @@ static std::optional<FittedMuscle> fit_known(const LengthSamples& run, const Mus
   result.arms = arm_errors(fit.function, held_out);
   if (run.follow_lines) return result;
   const PathSamples of_run = samples_of(run, muscle, box, model);
-  const PathSamples difference = beyond_path(of_run, run.coordinates(known_rows(muscle), Eigen::all), skeleton, path, box);
+  const PathSamples difference =
+      beyond_path(of_run, run.coordinates(known_rows(muscle), Eigen::all), skeleton, path, box);
   const PathFit correction = fit_correction(difference, box, run.spread);
   result.length = sum_of(fit.function, correction.function);
   result.corrects = true;
@@ -181,8 +183,9 @@ FittedMuscles fit_muscles(const LengthSamples& samples, const Model& model, cons
                                 [](Real c) { return std::isfinite(c); }))
         result.muscles.push_back(*fitted);
       else
-        result.left_out.push_back(fmt::format(
-            "{}: {}", muscle.name, fitted ? "its lengths are not finite" : "no coordinate of the run changes its length"));
+        result.left_out.push_back(
+            fmt::format("{}: {}", muscle.name,
+                        fitted ? "its lengths are not finite" : "no coordinate of the run changes its length"));
     } catch (const Error& error) {
       result.left_out.push_back(fmt::format("{}: {}", muscle.name, error.what()));
     }

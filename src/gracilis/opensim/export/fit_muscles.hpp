@@ -16,11 +16,11 @@ struct FittedMuscle {
   std::string name;
   std::vector<Index> coordinates;  ///< of the model
   Function length;
-  PathErrors held_out;     ///< of poses that the fit did not see, spread over the box
-  Eigen::VectorXd arms;    ///< root mean square of arms' errors there, a coordinate each, m per rad
-  PathErrors beside_run;   ///< of the run's poses, left out in cross-validation, where these say more than the path
-  bool corrects = false;   ///< it is the model's path and a correction from the run
-  bool from_run = false;   ///< the run's lengths alone
+  PathErrors held_out;    ///< of poses that the fit did not see, spread over the box
+  Eigen::VectorXd arms;   ///< root mean square of arms' errors there, a coordinate each, m per rad
+  PathErrors beside_run;  ///< of the run's poses, left out in cross-validation, where these say more than the path
+  bool corrects = false;  ///< it is the model's path and a correction from the run
+  bool from_run = false;  ///< the run's lengths alone
 };
 
 /// What became of a run's muscles.
@@ -34,8 +34,8 @@ struct FittedMuscles {
 /// the capture pose than the path did, which is drawn to nothing where the run does not tell (ridge regression, by the
 /// weight that predicts left-out poses best). So lengths are those of the path in the capture pose, for which the
 /// model's fiber and tendon lengths hold. Muscles that follow the model's lines (method cylinder) need no correction.
-/// One that the model lacks, and all with `run_alone`, are fitted to the run's lengths as they are, over the coordinates
-/// whose loss would make it worse by a tenth.
+/// One that the model lacks, and all with `run_alone`, are fitted to the run's lengths as they are, over the
+/// coordinates whose loss would make it worse by a tenth.
 FittedMuscles fit_muscles(const LengthSamples& samples, const Model& model, const MuscleFitSettings& settings = {});
 
 }  // namespace gracilis::opensim

@@ -57,7 +57,8 @@ static std::string path_wrap_text(const Model& model, const PathWrap& wrap, std:
                       : wrap.plane == WrapSurface::Plane::midpoint ? "midpoint"
                                                                    : "axial";
   return fmt::format(
-      "          <PathWrap name=\"wrap{}\"><wrap_object>{}</wrap_object><method>{}</method><range>{} {}</range></PathWrap>\n",
+      "          <PathWrap name=\"wrap{}\"><wrap_object>{}</wrap_object><method>{}</method><range>{} "
+      "{}</range></PathWrap>\n",
       number, object, plane, wrap.first_point, wrap.last_point);
 }
 
@@ -76,7 +77,8 @@ std::string muscle_text(const Model& model, const Muscle& muscle) {
   text += "          </objects></PathPointSet>\n";
   if (!muscle.path.wraps.empty()) {
     text += "          <PathWrapSet><objects>\n";
-    for (std::size_t i = 0; i < muscle.path.wraps.size(); ++i) text += path_wrap_text(model, muscle.path.wraps[i], i + 1);
+    for (std::size_t i = 0; i < muscle.path.wraps.size(); ++i)
+      text += path_wrap_text(model, muscle.path.wraps[i], i + 1);
     text += "          </objects></PathWrapSet>\n";
   }
   return text + fmt::format("        </GeometryPath>\n      </{}>\n", type);

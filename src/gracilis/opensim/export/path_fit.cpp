@@ -20,7 +20,8 @@ struct Normal {
   Real squares = 0;
   Eigen::Index numbers = 0;  ///< how many are known
 
-  explicit Normal(Eigen::Index terms) : matrix(Eigen::MatrixXd::Zero(terms, terms)), right(Eigen::VectorXd::Zero(terms)) {}
+  explicit Normal(Eigen::Index terms)
+      : matrix(Eigen::MatrixXd::Zero(terms, terms)), right(Eigen::VectorXd::Zero(terms)) {}
 
   void add(const Eigen::MatrixXd& rows, const Eigen::VectorXd& known) {
     matrix.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose());
@@ -56,8 +57,9 @@ static void add_samples(const LegendreTerms& terms, const PathSamples& samples, 
                         Real offset, Normal& normal) {
   const std::size_t most = 256;  // rows at a time, for memory
   for (std::size_t begin = 0; begin < chosen.size(); begin += most) {
-    const std::vector<Eigen::Index> some(chosen.begin() + static_cast<std::ptrdiff_t>(begin),
-                                         chosen.begin() + static_cast<std::ptrdiff_t>(std::min(begin + most, chosen.size())));
+    const std::vector<Eigen::Index> some(
+        chosen.begin() + static_cast<std::ptrdiff_t>(begin),
+        chosen.begin() + static_cast<std::ptrdiff_t>(std::min(begin + most, chosen.size())));
     const Eigen::MatrixXd coordinates = samples.coordinates(some, Eigen::all);
     normal.add(terms.rows(coordinates), samples.lengths(some).array() - offset);
     for (Eigen::Index i = 0; i < samples.arms.cols(); ++i)

@@ -26,8 +26,9 @@ struct PathFitSettings {
 /// Fits polynomials of order 1, 2 ... up to the largest to lengths and arms together by least squares (dL/dq of a
 /// polynomial is linear in its coefficients, too; van den Bogert et al. 2013), arms times scales, and keeps the order
 /// and the ridge that predict left-out samples best: a fifth of them is left out in turn. Orders with more terms than
-/// half of the numbers that are known are not tried; a higher order must be better by 1 % and a micrometer. Terms are products of
-/// Legendre's polynomials over the samples' ranges until the end, where they become powers. At least two samples.
+/// half of the numbers that are known are not tried; a higher order must be better by 1 % and a micrometer. Terms are
+/// products of Legendre's polynomials over the samples' ranges until the end, where they become powers. At least two
+/// samples.
 PathFit fit_path(const PathSamples& samples, const PathFitSettings& settings = {});
 
 }  // namespace gracilis::opensim

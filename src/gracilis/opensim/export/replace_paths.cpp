@@ -40,7 +40,8 @@ static Path function_path(const XmlContext& context, const pugi::xml_node& node,
 void replace_paths(const std::filesystem::path& set, Model& model) {
   const XmlFile file = read_xml(set);
   const pugi::xml_node root = file.root.child("Set_FunctionBasedPath_");
-  if (!root) throw InputError({set.string(), "", "holds no Set_FunctionBasedPath_", "name a set of FunctionBasedPaths"});
+  if (!root)
+    throw InputError({set.string(), "", "holds no Set_FunctionBasedPath_", "name a set of FunctionBasedPaths"});
   const XmlContext context{set, root.child("defaults"), file.version};
   for (const pugi::xml_node& node : root.child("objects").children("FunctionBasedPath")) {
     const std::string name = name_of(node);

@@ -27,8 +27,7 @@ static void add_axis_arms(const Table& table, const SceneAxis& axis, LengthSampl
   for (MuscleLengths& muscle : samples.muscles) {
     const auto column = column_of(table, muscle.name);
     if (!column || table.values.rows() != samples.coordinates.rows()) continue;
-    muscle.arms.conservativeResizeLike(
-        Eigen::MatrixXd::Zero(samples.coordinates.rows(), samples.coordinates.cols()));
+    muscle.arms.conservativeResizeLike(Eigen::MatrixXd::Zero(samples.coordinates.rows(), samples.coordinates.cols()));
     for (Eigen::Index row = 0; row < table.values.rows(); ++row) {
       std::vector<Real> arguments;
       for (const Index i : axis.axis->coordinates) arguments.push_back(samples.coordinates(row, i));
@@ -49,8 +48,7 @@ LengthSamples run_lengths(const std::filesystem::path& run, const Model& model) 
   const std::filesystem::path path = run / "fiber_lengths.sto";
   const Table table = read_table(path);
   const std::vector<std::size_t> means = mean_columns(table);
-  if (means.empty())
-    throw InputError({path.string(), "", "holds no lengths of muscles", "name the folder of a run"});
+  if (means.empty()) throw InputError({path.string(), "", "holds no lengths of muscles", "name the folder of a run"});
   LengthSamples samples;
   samples.coordinates = coordinate_motion(model, table).values;
   samples.follow_lines = follows_lines(run);

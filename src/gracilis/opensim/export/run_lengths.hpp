@@ -23,9 +23,9 @@ struct LengthSamples {
   bool spread = false;        ///< the poses are spread over the coordinates' ranges instead of following a motion
 };
 
-/// The lengths in a run's fiber_lengths.sto and, where there are some, its moment_arms_*.sto. What the scene moves beside
-/// its coordinates (knee_r_translation1) counts as what it is in the model. Throws InputError where there are none, or
-/// where the run does not move.
+/// The lengths in a run's fiber_lengths.sto and, where there are some, its moment_arms_*.sto. What the scene moves
+/// beside its coordinates (knee_r_translation1) counts as what it is in the model. Throws InputError where there are
+/// none, or where the run does not move.
 LengthSamples run_lengths(const std::filesystem::path& run, const Model& model);
 
 /// The joints and coordinates alone of the scene that a run was made of, from its manifest. Throws InputError where

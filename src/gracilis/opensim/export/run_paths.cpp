@@ -37,12 +37,11 @@ static std::string errors_text(const PathErrors& errors) {
 std::string fit_line(const Model& model, const FittedMuscle& muscle) {
   std::vector<std::string> coordinates;
   for (const Index i : muscle.coordinates) coordinates.push_back(model.coordinates[static_cast<std::size_t>(i)].name);
-  std::string line = fmt::format("{}: order {} in {}; ", muscle.name, muscle.length.order, fmt::join(coordinates, ", "));
-  if (muscle.from_run)
-    return line + fmt::format("held-out poses of the run: {}", errors_text(muscle.beside_run));
+  std::string line =
+      fmt::format("{}: order {} in {}; ", muscle.name, muscle.length.order, fmt::join(coordinates, ", "));
+  if (muscle.from_run) return line + fmt::format("held-out poses of the run: {}", errors_text(muscle.beside_run));
   line += fmt::format("held-out poses of the model's path: {}", errors_text(muscle.held_out));
-  if (muscle.corrects)
-    line += fmt::format("; held-out poses of the run: {}", errors_text(muscle.beside_run));
+  if (muscle.corrects) line += fmt::format("; held-out poses of the run: {}", errors_text(muscle.beside_run));
   return line;
 }
 
@@ -73,9 +72,11 @@ std::string fit_summary(const Model& model, const std::vector<FittedMuscle>& mus
     }
   }
   if (lengths.empty()) return "no muscle was written";
-  std::string text = fmt::format("{} muscles; root mean square on held-out poses: lengths {:.3f} mm (median), {:.3f} (worst)",
-                                 muscles.size(), median_of(lengths), *std::max_element(lengths.begin(), lengths.end()));
-  if (!arms.empty()) text += fmt::format("; arms {:.3f} mm (median), {:.3f} (worst, {})", median_of(arms), worst, where);
+  std::string text =
+      fmt::format("{} muscles; root mean square on held-out poses: lengths {:.3f} mm (median), {:.3f} (worst)",
+                  muscles.size(), median_of(lengths), *std::max_element(lengths.begin(), lengths.end()));
+  if (!arms.empty())
+    text += fmt::format("; arms {:.3f} mm (median), {:.3f} (worst, {})", median_of(arms), worst, where);
   return text;
 }
 

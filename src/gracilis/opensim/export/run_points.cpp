@@ -119,10 +119,10 @@ static std::vector<FiberPoint> best_points(Skeleton& skeleton, const Path* own, 
 }
 
 static std::string point_errors_text(const PathErrors& errors, bool beside_model) {
-  return fmt::format("lengths {:.3f} mm root mean square, {:.3f} at most; arms {:.3f} mm root mean square, {:.3f} at most{}",
-                     1000 * errors.length_root_mean_square, 1000 * errors.length_largest,
-                     1000 * errors.arm_root_mean_square, 1000 * errors.arm_largest,
-                     beside_model ? " from the model's own" : "");
+  return fmt::format(
+      "lengths {:.3f} mm root mean square, {:.3f} at most; arms {:.3f} mm root mean square, {:.3f} at most{}",
+      1000 * errors.length_root_mean_square, 1000 * errors.length_largest, 1000 * errors.arm_root_mean_square,
+      1000 * errors.arm_largest, beside_model ? " from the model's own" : "");
 }
 
 /// Whether an end goes with its body; it may glide on it where the model's own does.
@@ -204,7 +204,7 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
     result.lines.push_back(
         fmt::format("{}: {} points; {}", name, path.points.size(),
                     point_errors_text(errors_of(read_skeleton, path, own, lengths, *written[m], fibers[m]),
-                                written[m]->arms.cols() == 0)));
+                                      written[m]->arms.cols() == 0)));
   }
   return result;
 }

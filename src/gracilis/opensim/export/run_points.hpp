@@ -14,14 +14,14 @@ struct PointExport {
   std::vector<std::string> left_out;  ///< those that keep the model's path: which, and why
 };
 
-/// Writes the mean fibers of a run's muscles as paths of `count` points or fewer (fit_points): a ForceSet that OpenSim appends to
-/// the model or puts in the place of its forces. Points follow those coordinates, of the ones that the muscle crosses
-/// (of a muscle that the model lacks: that the run moves) by 5 degrees or 5 mm, that give the smallest errors of lengths
-/// and arms together: all of them, one or none. Muscles that the model has keep their parameters but for the tendon's
-/// slack length, which takes what the way is longer in the capture pose than the model's path. Muscles whose ends move
-/// with no body of the model, or that follow the model's lines (method cylinder), keep the model's path, which is written.
-/// The set is read again, and what is told is told of that. The run's scene must have been made of the model, or share its
-/// bodies' places and coordinates. Throws InputError.
+/// Writes the mean fibers of a run's muscles as paths of `count` points or fewer (fit_points): a ForceSet that OpenSim
+/// appends to the model or puts in the place of its forces. Points follow those coordinates, of the ones that the
+/// muscle crosses (of a muscle that the model lacks: that the run moves) by 5 degrees or 5 mm, that give the smallest
+/// errors of lengths and arms together: all of them, one or none. Muscles that the model has keep their parameters but
+/// for the tendon's slack length, which takes what the way is longer in the capture pose than the model's path. Muscles
+/// whose ends move with no body of the model, or that follow the model's lines (method cylinder), keep the model's
+/// path, which is written. The set is read again, and what is told is told of that. The run's scene must have been made
+/// of the model, or share its bodies' places and coordinates. Throws InputError.
 PointExport export_points(const std::filesystem::path& run, const Model& model, Index count,
                           const std::filesystem::path& out);
 

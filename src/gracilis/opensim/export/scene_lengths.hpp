@@ -9,11 +9,11 @@
 
 namespace gracilis::opensim {
 
-/// Lengths and moment arms of a scene's muscles in poses spread over the box (spread_poses), each reached from the capture
-/// pose at once, by a method that holds fibers in an equilibrium (strings). The capture pose comes first. Coordinates
-/// outside of the box keep their capture values. A muscle with more than half of its fibers about to snap has no length
-/// (nan) in that pose. The scene's axes are the model's, by their names. `progress` is told every pose. Throws
-/// ConfigurationError where the method knows no moment arms.
+/// Lengths and moment arms of a scene's muscles in poses spread over the box (spread_poses), each reached from the
+/// capture pose at once, by a method that holds fibers in an equilibrium (strings). The capture pose comes first.
+/// Coordinates outside of the box keep their capture values. A muscle with more than half of its fibers about to snap
+/// has no length (nan) in that pose. The scene's axes are the model's, by their names. `progress` is told every pose.
+/// Throws ConfigurationError where the method knows no moment arms.
 LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const Model& model, const CoordinateBox& box,
                             Index count, const std::function<void(Index)>& progress = {});
 

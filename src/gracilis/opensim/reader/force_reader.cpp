@@ -1,8 +1,10 @@
 #include <gracilis/opensim/reader/force_reader.hpp>
 
-#include <fmt/format.h>
+#include <gracilis/core/errors.hpp>
 #include <gracilis/opensim/reader/passive_force_reader.hpp>
 #include <gracilis/opensim/reader/path_reader.hpp>
+
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -38,8 +40,8 @@ static Muscle read_muscle(ModelReading& reading, const pugi::xml_node& node) {
       velocity > 0)
     muscle.max_contraction_velocity = velocity;
   else
-    reading.leave_out(node, fmt::format("<max_contraction_velocity> is {}; {} is taken", velocity,
-                                        muscle.max_contraction_velocity));
+    reading.leave_out(
+        node, fmt::format("<max_contraction_velocity> is {}; {} is taken", velocity, muscle.max_contraction_velocity));
   muscle.min_control = context.number(node, "min_control", muscle.min_control);
   muscle.max_control = context.number(node, "max_control", muscle.max_control);
   muscle.active_shape = positive(context, node, "KshapeActive", muscle.active_shape);
@@ -99,6 +101,15 @@ static std::string missing_body(const ModelReading& reading, const pugi::xml_nod
   return "";
 }
 
+/// One that lacks what it needs is left out.
+static void add_passive_force(ModelReading& reading, const pugi::xml_node& node) {
+  try {
+    reading.model.passive_forces.push_back(read_passive_force(reading, node));
+  } catch (const InputError& error) {
+    reading.leave_out(node, fmt::format("left out: {}", error.problems().front().what));
+  }
+}
+
 void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char* set) {
   for (const pugi::xml_node& node : objects_of(holder, set)) {
     const std::string_view kind = node.name();
@@ -109,14 +120,15 @@ void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char
       reading.leave_out(node, "kind of force not known; left out");
       continue;
     }
-    if (name.empty()) reading.context.fail(node, "has no name", "give every force its own name");
-    if (forget(reading.model, name)) reading.leave_out(node, "replaces the force of this name that was there before");
+    if (name.empty() && !passive) reading.context.fail(node, "has no name", "give every force its own name");
+    if (!name.empty() && forget(reading.model, name))
+      reading.leave_out(node, "replaces the force of this name that was there before");
     if (const std::string body = muscle || passive ? missing_body(reading, node) : ""; !body.empty())
       reading.leave_out(node, fmt::format("has a point on '{}', which does not exist; left out", body));
     else if (muscle)
       reading.model.muscles.push_back(read_muscle(reading, node));
     else if (passive)
-      reading.model.passive_forces.push_back(read_passive_force(reading, node));
+      add_passive_force(reading, node);
     else
       reading.model.actuators.push_back(read_actuator(reading, node));
   }

@@ -119,12 +119,12 @@ struct Actuator {
 /// A force that follows from the pose and its speed alone.
 struct PassiveForce {
   enum class Kind {
-    limit,             ///< of a coordinate beyond two values (CoordinateLimitForce)
-    coordinate_spring, ///< of a coordinate (SpringGeneralizedForce)
-    path_spring,       ///< along a path longer than at rest (PathSpring)
-    ligament,          ///< the same by a curve of the relative length (Ligament)
-    point_spring,      ///< between two points (PointToPointSpring)
-    bushing            ///< between two frames (BushingForce)
+    limit,              ///< of a coordinate beyond two values (CoordinateLimitForce)
+    coordinate_spring,  ///< of a coordinate (SpringGeneralizedForce)
+    path_spring,        ///< along a path longer than at rest (PathSpring)
+    ligament,           ///< the same by a curve of the relative length (Ligament)
+    point_spring,       ///< between two points (PointToPointSpring)
+    bushing             ///< between two frames (BushingForce)
   };
   std::string name;
   Kind kind = Kind::limit;
@@ -133,10 +133,10 @@ struct PassiveForce {
   Real upper_limit = 0, lower_limit = 0, upper_stiffness = 0, lower_stiffness = 0;  ///< rad (m), N·m/rad (N/m)
   Real transition = 0;  ///< rad (m), over which a limit's stiffness grows
   Path path;
-  Real rest_length = 0;                ///< m; of a coordinate's spring its value at rest
-  Real stiffness = 0, damping = 0;     ///< N/m (N·m/rad); N·m·s/rad, of path springs s/m
-  Real pcsa_force = 0;                 ///< N
-  Function curve;                      ///< force over pcsa_force by length over rest length
+  Real rest_length = 0;             ///< m; of a coordinate's spring its value at rest
+  Real stiffness = 0, damping = 0;  ///< N/m (N·m/rad); N·m·s/rad, of path springs s/m
+  Real pcsa_force = 0;              ///< N
+  Function curve;                   ///< force over pcsa_force by length over rest length
   Index body = 0, other_body = 0;
   RigidTransform frame = RigidTransform::Identity(), other_frame = RigidTransform::Identity();  ///< in their bodies
   Eigen::Matrix<Real, 6, 1> stiffnesses = Eigen::Matrix<Real, 6, 1>::Zero();  ///< of a bushing: rotations, translations

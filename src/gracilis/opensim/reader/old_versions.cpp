@@ -8,15 +8,15 @@ namespace gracilis::opensim {
 
 /// Names that elements had, and their present ones.
 static const std::map<std::string_view, const char*> new_names = {{"MusclePoint", "PathPoint"},
-                                                                   {"MuscleViaPoint", "ConditionalPathPoint"},
-                                                                   {"MovingMusclePoint", "MovingPathPoint"},
-                                                                   {"MusclePointSet", "PathPointSet"},
-                                                                   {"MuscleWrap", "PathWrap"},
-                                                                   {"MuscleWrapSet", "PathWrapSet"},
-                                                                   {"natCubicSpline", "SimmSpline"},
-                                                                   {"NatCubicSpline", "SimmSpline"},
-                                                                   {"Schutte1993Muscle", "Schutte1993Muscle_Deprecated"},
-                                                                   {"Thelen2003Muscle_Old", "Thelen2003Muscle"}};
+                                                                  {"MuscleViaPoint", "ConditionalPathPoint"},
+                                                                  {"MovingMusclePoint", "MovingPathPoint"},
+                                                                  {"MusclePointSet", "PathPointSet"},
+                                                                  {"MuscleWrap", "PathWrap"},
+                                                                  {"MuscleWrapSet", "PathWrapSet"},
+                                                                  {"natCubicSpline", "SimmSpline"},
+                                                                  {"NatCubicSpline", "SimmSpline"},
+                                                                  {"Schutte1993Muscle", "Schutte1993Muscle_Deprecated"},
+                                                                  {"Thelen2003Muscle_Old", "Thelen2003Muscle"}};
 
 static void rename_all(const pugi::xml_node& root) {
   struct Renamer : pugi::xml_tree_walker {

@@ -12,8 +12,8 @@ namespace gracilis::opensim {
 static const std::map<std::string_view, PassiveForce::Kind>& passive_kinds() {
   using Kind = PassiveForce::Kind;
   static const std::map<std::string_view, Kind> kinds = {
-      {"CoordinateLimitForce", Kind::limit}, {"SpringGeneralizedForce", Kind::coordinate_spring},
-      {"PathSpring", Kind::path_spring},     {"Ligament", Kind::ligament},
+      {"CoordinateLimitForce", Kind::limit},      {"SpringGeneralizedForce", Kind::coordinate_spring},
+      {"PathSpring", Kind::path_spring},          {"Ligament", Kind::ligament},
       {"PointToPointSpring", Kind::point_spring}, {"BushingForce", Kind::bushing}};
   return kinds;
 }
@@ -23,8 +23,7 @@ bool is_passive_force(const pugi::xml_node& node) { return passive_kinds().count
 /// Limits are in degrees where the coordinate is an angle, and so is what stiffness and damping are per.
 static void read_limit(const ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
   const XmlContext& context = reading.context;
-  const Real unit =
-      reading.model.coordinates[static_cast<std::size_t>(force.coordinate)].rotation ? radians(1) : 1;
+  const Real unit = reading.model.coordinates[static_cast<std::size_t>(force.coordinate)].rotation ? radians(1) : 1;
   force.upper_limit = unit * context.number(node, "upper_limit", 0);
   force.lower_limit = unit * context.number(node, "lower_limit", 0);
   force.upper_stiffness = context.number(node, "upper_stiffness", 1) / unit;

@@ -28,10 +28,9 @@ static Eigen::VectorXd path_force(const Skeleton& skeleton, const PassiveForce& 
   const PathMeasure path = measure_path(skeleton, force.path, coordinates);
   if (path.length <= force.rest_length) return Eigen::VectorXd::Zero(coordinates.size());
   const Real speed = -path.moment_arms.dot(speeds);
-  const Real tension =
-      force.kind == PassiveForce::Kind::ligament
-          ? force.pcsa_force * value(force.curve, {path.length / force.rest_length})
-          : force.stiffness * (path.length - force.rest_length) * (1 + force.damping * speed);
+  const Real tension = force.kind == PassiveForce::Kind::ligament
+                           ? force.pcsa_force * value(force.curve, {path.length / force.rest_length})
+                           : force.stiffness * (path.length - force.rest_length) * (1 + force.damping * speed);
   return tension * path.moment_arms;
 }
 
@@ -77,8 +76,8 @@ static Eigen::VectorXd bushing_force(Skeleton& skeleton, const PassiveForce& for
     rates.col(i) = (after - bushing_place(skeleton, force)) / (2 * step);
   }
   skeleton.place(coordinates);
-  const Vec6 pull = -force.stiffnesses.cwiseProduct(bushing_place(skeleton, force)) -
-                    force.dampings.cwiseProduct(rates * speeds);
+  const Vec6 pull =
+      -force.stiffnesses.cwiseProduct(bushing_place(skeleton, force)) - force.dampings.cwiseProduct(rates * speeds);
   return rates.transpose() * pull;
 }
 
