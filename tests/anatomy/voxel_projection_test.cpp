@@ -27,8 +27,11 @@ struct Pushed {
     EXPECT_GT(moved_back(0, vertex), 0.015 - 2e-6);
     EXPECT_LT(back.normalized().cross(way.normalized()).norm(), 1e-3);
     EXPECT_GT(back.dot(way), 0);
-    for (Index v = 0; v < static_cast<Index>(began.cols()); ++v)
-      if (v != vertex) EXPECT_EQ(moved_back.col(v), began.col(v));
+    for (Index v = 0; v < static_cast<Index>(began.cols()); ++v) {
+      if (v != vertex) {
+        EXPECT_EQ(moved_back.col(v), began.col(v));
+      }
+    }
   }
 };
 
