@@ -39,8 +39,9 @@ TEST_F(FiberCommands, fibers_writes_lines_and_says_how_long_they_are) {
 }
 
 TEST_F(FiberCommands, a_muscle_may_bring_fibers_of_its_own) {
-  write_polylines(folder.path("own.vtp"),
-                  join({(Points(3, 2) << 0.005, 0.005, 0.005, 0.005, 0.012, 0.028).finished()}));
+  Polylines own;
+  own.append((Points(3, 2) << 0.005, 0.005, 0.005, 0.005, 0.012, 0.028).finished());
+  write_polylines(folder.path("own.vtp"), own);
   const std::string scene =
       with(good_scene(), "[[muscles.attachments]]\nname = \"top\"",
            "[muscles.fibers]\nfile = \"own.vtp\"\nsegments = 3\n[[muscles.attachments]]\nname = \"top\"");
