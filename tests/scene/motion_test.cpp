@@ -11,7 +11,8 @@ namespace gracilis {
 using testing::ElementsAre;
 
 TEST(Motion, key_poses_are_met_exactly_with_equal_steps_between_them) {
-  const Eigen::MatrixXd keys = (Eigen::MatrixXd(3, 2) << 0, 0, 1, 0.5, 1, 0.75).finished();
+  Eigen::MatrixXd keys(3, 2);
+  keys << 0, 0, 1, 0.5, 1, 0.75;
   const Motion motion = motion_through({"a", "b"}, keys, 0.25, 0.1);
   ASSERT_EQ(motion.times.size(), 1u + 4u + 1u);
   EXPECT_EQ(motion.values.row(0), keys.row(0));
