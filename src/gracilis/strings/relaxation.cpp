@@ -13,7 +13,7 @@ namespace gracilis::strings {
 namespace {
 
 /// Strings settle until no node moves further, m, or for so many iterations, of which the last take small steps.
-constexpr Real settled_move = 2e-7;
+constexpr Real settled_move = 1e-7;
 constexpr int settling_iterations = 300, settling_quenched_from = 80;
 /// One that would still move further than this then, m, has no place; less matters nothing to its derivative.
 constexpr Real unsettled_move = 5e-6;
@@ -50,12 +50,14 @@ Points pulled_tight(const MuscleStrings& muscle, const BoneDistances& bones) {
 }
 
 std::vector<char> settle(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
-  LanePlaces places = lane_places(muscle.lanes, state.places);
   const Relaxation relaxation{settling_iterations, settled_move, settling_quenched_from};
-  std::vector<char> unsettled;
-  for (const float move : relax_lanes(muscle, bones, state.bodies, relaxation, places))
-    unsettled.push_back(!(static_cast<Real>(move) < unsettled_move));
+  LanePlaces places = lane_places(muscle.lanes, state.places);
+  relax_lanes(muscle, bones, state.bodies, relaxation, places);
   state.places = places_of(muscle.lanes, places);
+  // Single precision leaves more than differences of lengths between near poses allow.
+  NodeForces forces(muscle, bones, state.bodies);
+  std::vector<char> unsettled;
+  for (const Real move : relax_nodes(forces, relaxation, state.places)) unsettled.push_back(!(move < unsettled_move));
   return unsettled;
 }
 

@@ -15,12 +15,13 @@ constexpr int motion_check = 4;
 constexpr int coupling_refresh = 15;
 
 /// Where contact settles after the last iteration it is projected in every other one, but for so many at the end: the
-/// shapes are as good, and contact takes most of an iteration's time.
+/// shapes are as good, and contact takes most of an iteration's time. A muscle that contracts would be pulled into what
+/// it touches and out again, and small differences would grow.
 constexpr int contact_period = 2, last_with_contact = 8;
 
 bool projects_contact(const SolveSettings& settings, int iteration) {
-  const bool settles = settings.settling_rounds > 0;
-  return !settles || iteration % contact_period == 1 || iteration + last_with_contact >= settings.iterations;
+  const bool settles = settings.settling_rounds > 0, contracts = settings.tension > 0;
+  return !settles || contracts || iteration % contact_period == 1 || iteration + last_with_contact >= settings.iterations;
 }
 
 /// Where one surface stands in its iterations.
