@@ -19,8 +19,10 @@ constexpr int coupling_refresh = 15;
 /// it touches and out again, and small differences would grow.
 constexpr int contact_period = 2, last_with_contact = 8;
 
-bool projects_contact(const SolveSettings& settings, int iteration) {
-  const bool settles = settings.settling_rounds > 0, contracts = settings.tension > 0;
+bool projects_contact(const SurfaceSolve& surface, int iteration) {
+  const SolveSettings& settings = surface.settings;
+  const bool settles = settings.settling_rounds > 0;
+  const bool contracts = settings.tension > 0 && !surface.system->tensions.a.empty();
   return !settles || contracts || iteration % contact_period == 1 || iteration + last_with_contact >= settings.iterations;
 }
 
@@ -32,7 +34,7 @@ struct Progress {
 
 void project_phase(ConstraintPhase phase, JointSolve& solve, std::size_t i) {
   const SurfaceSolve& surface = solve.surfaces[i];
-  const bool with_contact = projects_contact(surface.settings, surface.report.iterations);
+  const bool with_contact = projects_contact(surface, surface.report.iterations);
   for (const ConstraintRow& row : constraint_table()) {
     if (row.phase != phase || (row.kind == ConstraintKind::bone_contact && !with_contact)) continue;
     row.project(solve.surfaces[i]);
@@ -89,7 +91,7 @@ void iterate(JointSolve& solve) {
     if (std::all_of(progress.begin(), progress.end(), is_done)) return;
     if (solve.coupling.project && iteration % coupling_refresh == 0) solve.coupling.refresh(solve.movers);
     const auto touches = [&](std::size_t i) {
-      return !progress[i].done && projects_contact(solve.surfaces[i].settings, iteration);
+      return !progress[i].done && projects_contact(solve.surfaces[i], iteration);
     };
     if (any_of_surfaces(solve, touches)) solve.project_contact();
   }
