@@ -42,12 +42,12 @@ TEST(CompareCommand, runs_the_builtin_hip_by_several_methods_and_shows_them_side
   std::filesystem::remove_all(folder);
   const ProgramResult result = run_program(
       "compare demo --flexion 4 --only iliacus_r,adductor_brevis_r "
-      "--methods xpbd,pbd,pbd-2020,arap,rbf,mass-spring,skinning --frames 0,4 --out " +
+      "--methods xpbd,tissue,strings,pbd,pbd-2020,arap,rbf,mass-spring,skinning,cylinder --frames 0,4 --out " +
       folder.string());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, (folder / "comparison.html").string() + "\n" + (folder / "comparison.csv").string() + "\n");
   auto rows = rows_of(folder / "comparison.csv");
-  EXPECT_EQ(rows.size(), 14u);
+  EXPECT_EQ(rows.size(), 20u);
   for (const std::string method : {"xpbd", "pbd", "pbd-2020", "arap", "rbf"}) {
     EXPECT_LT(std::stod(rows.at(method + " iliacus_r").at("volume_error_percent")), 0.5) << method;
     EXPECT_EQ(rows.at(method + " iliacus_r").at("frames"), "5");
@@ -76,11 +76,11 @@ TEST(CompareCommand, an_unknown_method_is_a_usage_error_before_anything_runs) {
   EXPECT_FALSE(std::filesystem::exists(folder));
 }
 
-TEST(CompareCommand, a_method_that_cannot_take_the_scene_is_named) {
-  const ProgramResult result = run_program("compare demo --methods skinning,cylinder --out /nowhere");
+TEST(CompareCommand, a_method_whose_settings_do_not_fit_together_is_told_before_anything_runs) {
+  const ProgramResult result = run_program(
+      "compare demo --set method=mass-spring --set smallest_step=0.5 --methods skinning,mass-spring --out /nowhere");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("--methods cylinder"));
-  EXPECT_THAT(result.err, HasSubstr("needs its action line"));
+  EXPECT_THAT(result.err, HasSubstr("'smallest_step' is above 'verlet_step'"));
 }
 
 TEST(CompareCommand, a_frame_that_is_not_there_is_a_usage_error_before_anything_runs) {

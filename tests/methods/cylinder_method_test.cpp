@@ -1,9 +1,14 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
+#include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
+#include <gracilis/methods/cylinder/surface_sections.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/validate.hpp>
+
+#include <scenes_for_tests.hpp>
 
 #include "line_scene.hpp"
 
@@ -77,10 +82,77 @@ TEST(CylinderMethod, a_surface_that_is_not_made_of_the_lines_sections_is_refused
   scene.muscles[0].action_line.scaling = 2;
   ASSERT_EQ(validate(scene).size(), 1u);
   EXPECT_THAT(validate(scene)[0].what, testing::HasSubstr("9 sections and two ends have 74"));
-  scene.muscles[0].action_line = {};
-  EXPECT_THAT(validate(scene), testing::IsEmpty());
-  ASSERT_EQ(validate_method(scene).size(), 1u);
-  EXPECT_THAT(validate_method(scene)[0].what, testing::HasSubstr("needs its action line"));
+  EXPECT_THAT(validate_method(line_scene(0.05)), testing::IsEmpty());
+}
+
+namespace {
+
+Scene surface_scene() {
+  Scene scene = tube_scene();
+  scene.method.name = "cylinder";
+  return scene;
+}
+
+Real volume_of(const Scene& scene, const Points& points) {
+  return enclosed_volume(points, scene.muscles[0].surface.faces);
+}
+
+}  // namespace
+
+TEST(CylinderMethod, a_surface_without_an_action_line_has_sections_across_its_middle) {
+  const Muscle muscle = surface_scene().muscles[0];
+  const SurfaceSections sections = surface_sections(muscle);
+  ASSERT_GE(sections.centers.cols(), 10);
+  for (Eigen::Index k = 0; k < sections.centers.cols(); ++k)
+    EXPECT_LT((sections.centers.col(k) - Vec3(0.0255, 0, sections.centers(2, k))).norm(), 0.002) << k;
+  for (Eigen::Index k = 1; k < sections.centers.cols(); ++k)
+    EXPECT_NE(sections.centers(2, k), sections.centers(2, k - 1)) << k;
+  for (const Attachment& attachment : muscle.attachments)
+    for (const Index v : attachment.vertices)
+      EXPECT_EQ(sections.places[v], attachment.end == AttachmentEnd::origin ? 0 : sections.centers.cols() - 1);
+}
+
+TEST(CylinderMethod, a_bent_surface_keeps_its_volume_better_than_a_blend_of_the_bones_does) {
+  Scene scene = surface_scene();
+  EXPECT_THAT(validate_method(scene), testing::IsEmpty());
+  const Pose pose = flexed(scene, radians(60));
+  const Real rest = volume_of(scene, scene.muscles[0].surface.vertices);
+  const Real error = std::abs(volume_of(scene, shape_at(scene, pose)) / rest - 1);
+  scene.method.name = "skinning";
+  const auto skinning = make_method(scene, [](const DistanceFieldSettings&) { return tube_fields(); });
+  skinning->advance(pose, usual_time_step);
+  const Real by_skinning = std::abs(volume_of(scene, frame_of(*skinning, pose, 1).muscles[0].points) / rest - 1);
+  EXPECT_LT(error, 0.5 * by_skinning);
+}
+
+TEST(CylinderMethod, attached_vertices_of_a_surface_go_with_their_bodies_and_nothing_tears_there) {
+  const Scene scene = surface_scene();
+  const Pose pose = flexed(scene, radians(60));
+  const Points points = shape_at(scene, pose);
+  const Muscle& muscle = scene.muscles[0];
+  const Points& rest = muscle.surface.vertices;
+  std::vector<char> is_attached(static_cast<std::size_t>(muscle.surface.vertex_count()), 0);
+  for (const Attachment& attachment : muscle.attachments)
+    for (const Index v : attachment.vertices) {
+      is_attached[static_cast<std::size_t>(v)] = 1;
+      const RigidTransform& body = pose.bodies[static_cast<std::size_t>(attachment.body)];
+      EXPECT_LT((points.col(v) - body * Vec3(rest.col(v))).norm(), 1e-12);
+    }
+  for (const MeshEdge& edge : build_topology(muscle.surface.faces, muscle.surface.vertex_count()).edges) {
+    if (is_attached[static_cast<std::size_t>(edge.a)] == is_attached[static_cast<std::size_t>(edge.b)]) continue;
+    EXPECT_LT((points.col(edge.a) - points.col(edge.b)).norm(), 1.6 * (rest.col(edge.a) - rest.col(edge.b)).norm());
+  }
+}
+
+TEST(CylinderMethod, a_surface_without_both_ends_follows_its_bodies_and_one_without_any_stays) {
+  Scene scene = surface_scene();
+  const Points rest = scene.muscles[0].surface.vertices;
+  const Pose pose = flexed(scene, radians(20));
+  scene.muscles[0].attachments.resize(1);
+  const RigidTransform& body = pose.bodies[static_cast<std::size_t>(scene.muscles[0].attachments[0].body)];
+  EXPECT_LT((shape_at(scene, pose) - Points(body * rest)).norm(), 1e-9);
+  scene.muscles[0].attachments.clear();
+  EXPECT_LT((shape_at(scene, pose) - rest).norm(), 1e-12);
 }
 
 }  // namespace gracilis

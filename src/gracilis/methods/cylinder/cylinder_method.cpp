@@ -5,18 +5,19 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/cylinder/section_collision.hpp>
+#include <gracilis/methods/cylinder/surface_sections.hpp>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 namespace gracilis {
 
 namespace {
 
-/// What stays the same of one muscle.
+/// What stays the same of one muscle with an action line.
 struct CylinderMuscle {
-  std::string name;
   LineSections sections;
   Index rays = 0;
   Eigen::VectorXd spacing;  ///< m, what belongs to each section of the line, in the capture pose
@@ -25,18 +26,6 @@ struct CylinderMuscle {
 };
 
 }  // namespace
-
-/// Half of the way to each neighbor.
-static Eigen::VectorXd spacing_of(const Points& centers) {
-  const Eigen::Index n = centers.cols();
-  Eigen::VectorXd spacing = Eigen::VectorXd::Zero(n);
-  for (Eigen::Index k = 1; k < n; ++k) {
-    const Real half = (centers.col(k) - centers.col(k - 1)).norm() / 2;
-    spacing[k - 1] += half;
-    spacing[k] += half;
-  }
-  return spacing;
-}
 
 namespace {
 
@@ -78,7 +67,6 @@ static CylinderShape shape_at(const CylinderMuscle& muscle, const Pose& pose) {
 /// The vertices' places in their sections, and the sections' on the line, from the surface as it was captured.
 static CylinderMuscle prepare(const Pose& capture, const Muscle& muscle) {
   CylinderMuscle result;
-  result.name = muscle.name;
   result.sections = line_sections(muscle);
   result.rays = muscle.action_line.rays;
   const auto count = static_cast<Index>(result.sections.places.size());
@@ -151,10 +139,15 @@ class CylinderMethod final : public DeformationMethod {
     const Pose capture = capture_pose(scene.bodies.size());
     if (!transversals_.empty()) bones_ = scene.bones;
     for (const Bone& bone : bones_) hits_.emplace_back(bone.surface);
-    for (const Muscle& muscle : lines_) {
-      muscles_.push_back(prepare(capture, muscle));
-      shapes_.push_back(muscle.surface.vertices);
-    }
+    surfaces_.resize(lines_.size());
+    muscles_.resize(lines_.size());
+    parallel_for_each(lines_.size(), [&](std::size_t m) {
+      if (lines_[m].action_line.rays > 0)
+        muscles_[m] = prepare(capture, lines_[m]);
+      else
+        surfaces_[m] = surface_sections(lines_[m]);
+    });
+    for (const Muscle& muscle : lines_) shapes_.push_back(muscle.surface.vertices);
   }
 
   void reset() override {
@@ -165,19 +158,23 @@ class CylinderMethod final : public DeformationMethod {
     StepReport report;
     report.muscles.resize(muscles_.size());
     std::vector<CylinderShape> shapes(muscles_.size());
+    std::vector<Points> next(muscles_.size());
     parallel_for(static_cast<Index>(muscles_.size()), 8, [&](Index begin, Index end) {
       for (auto m = static_cast<std::size_t>(begin); m < static_cast<std::size_t>(end); ++m) {
         const auto start = std::chrono::steady_clock::now();
-        shapes[m] = shape_at(muscles_[m], pose);
+        if (surfaces_[m])
+          next[m] = surface_at(*surfaces_[m], pose);
+        else
+          shapes[m] = shape_at(muscles_[m], pose);
         const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - start;
         report.muscles[m].milliseconds = taken.count();
       }
     });
     if (!transversals_.empty()) resolve(transversals_, bones_, hits_, pose, shapes);
-    std::vector<Points> next;
-    for (const CylinderShape& shape : shapes) next.push_back(shape.vertices());
-    for (std::size_t m = 0; m < muscles_.size(); ++m)
-      if (!next[m].allFinite()) throw QualityError("muscle " + muscles_[m].name + ": a section is not finite");
+    for (std::size_t m = 0; m < muscles_.size(); ++m) {
+      if (!surfaces_[m]) next[m] = shapes[m].vertices();
+      if (!next[m].allFinite()) throw QualityError("muscle " + lines_[m].name + ": a section is not finite");
+    }
     shapes_ = std::move(next);
     return report;
   }
@@ -195,26 +192,17 @@ class CylinderMethod final : public DeformationMethod {
   std::vector<Muscle> lines_;  ///< the scene's, which need not outlive this
   std::vector<Transversal> transversals_;
   std::vector<Bone> bones_;
-  std::vector<SegmentHits> hits_;  ///< of each bone
-  std::vector<CylinderMuscle> muscles_;
+  std::vector<SegmentHits> hits_;                         ///< of each bone
+  std::vector<CylinderMuscle> muscles_;                   ///< with an action line
+  std::vector<std::optional<SurfaceSections>> surfaces_;  ///< without
   std::vector<Points> shapes_;
 };
 
 }  // namespace
 
-static std::vector<Problem> validate_cylinder(const Scene& scene) {
-  std::vector<Problem> problems;
-  for (const Muscle& muscle : scene.muscles)
-    if (muscle.action_line.rays == 0)
-      problems.push_back({"", "muscle '" + muscle.name + "'", "the method 'cylinder' needs its action line",
-                          "add [muscles.action_line]"});
-  return problems;
-}
-
 MethodEntry cylinder_entry() {
   return {.name = "cylinder",
-          .meaning = "sections across an action line, without a solver, for muscles that 'gracilis import' made",
-          .validate = validate_cylinder,
+          .meaning = "sections across an action line, or across the middle of a surface, without a solver",
           .make = [](const Scene& scene, const BoneFieldSource&) { return make_cylinder_method(scene); }};
 }
 
