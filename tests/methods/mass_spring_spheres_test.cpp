@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 namespace gracilis::mass_spring {
 namespace {
@@ -95,6 +96,22 @@ TEST(MassSpringSpheres, trees_find_the_pairs_that_brute_force_finds_while_sphere
         one.centers.col(s) += Vec3(normal(generator), normal(generator), normal(generator));
     }
     EXPECT_GT(found, 1000u);
+  }
+}
+
+TEST(MassSpringSpheres, in_rounds_all_meet_all_once_and_nobody_meets_two_at_a_time) {
+  for (std::size_t count = 0; count < 12; ++count) {
+    std::set<std::array<std::size_t, 2>> met;
+    for (const auto& round : rounds_of_pairs(count)) {
+      std::set<std::size_t> busy;
+      for (const auto& [a, b] : round) {
+        EXPECT_LT(a, b);
+        EXPECT_LT(b, count);
+        EXPECT_TRUE(busy.insert(a).second && busy.insert(b).second) << count;
+        EXPECT_TRUE(met.insert({a, b}).second) << count;
+      }
+    }
+    EXPECT_EQ(met.size(), count < 2 ? 0 : count * (count - 1) / 2);
   }
 }
 

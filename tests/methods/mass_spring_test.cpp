@@ -212,6 +212,29 @@ TEST(MassSpring, a_vertex_follows_the_mean_motion_of_its_nearest_particles) {
   }
 }
 
+TEST(MassSpring, fibers_run_through_the_particles_and_are_there_again_after_a_resume) {
+  for (const std::string start : {"capture", "last"}) {
+    Scene scene = mass_spring_scene({{"fiber_count", 9}, {"particles_per_fiber", 12}, {"start_from", start}});
+    const auto method = method_of_scene(scene), resumed = method_of_scene(scene);
+    const Polylines rest = frame_of(*method, flexed(scene, 0), 0).muscles[0].fibers;
+    const MuscleModel model = muscle_model(scene, scene.muscles[0], tube_fields());
+    ASSERT_EQ(rest.offsets, model.particles.offsets);
+    EXPECT_EQ(rest.count(), 9);
+    EXPECT_EQ(rest.points, model.particles.points);
+    std::vector<Pose> poses = {flexed(scene, 0), flexed(scene, radians(20)), flexed(scene, radians(40))};
+    method->advance(poses[1], usual_time_step);
+    method->advance(poses[2], usual_time_step);
+    const Frame last = frame_of(*method, poses[2], 2);
+    const Polylines& fibers = last.muscles[0].fibers;
+    EXPECT_EQ(fibers.offsets, rest.offsets);
+    EXPECT_GT((fibers.points - rest.points).colwise().norm().maxCoeff(), 0.01);
+    resumed->restore(poses, {}, last);
+    EXPECT_EQ(frame_of(*resumed, poses[2], 2).muscles[0].fibers.points, fibers.points) << start;
+    scene.muscles[0].fibers.count = 0;
+    EXPECT_EQ(frame_of(*method_of_scene(scene), flexed(scene, 0), 0).muscles[0].fibers.count(), 0);
+  }
+}
+
 TEST(MassSpring, a_muscle_without_both_ends_follows_its_bodies_and_one_without_any_stays) {
   Scene scene = mass_spring_scene();
   scene.muscles[0].attachments.resize(1);

@@ -32,7 +32,10 @@ class MassSpringMethod final : public DeformationMethod {
         models_(scene.muscles.size()) {
     parallel_for_each(models_.size(),
                       [&](std::size_t m) { models_[m] = mass_spring::muscle_model(scene, scene.muscles[m], fields_); });
-    for (const Muscle& muscle : scene.muscles) names_.push_back(muscle.name);
+    for (const Muscle& muscle : scene.muscles) {
+      names_.push_back(muscle.name);
+      wants_fibers_.push_back(muscle.fibers.count > 0);
+    }
     for (const MuscleModel& model : models_) spheres_.push_back(muscle_spheres(model));
     if (std::any_of(spheres_.begin(), spheres_.end(), [](const auto& each) { return each.meets_bones; }))
       for (const Bone& bone : scene.bones) {
@@ -78,14 +81,21 @@ class MassSpringMethod final : public DeformationMethod {
 
   void write(Frame& frame) const override {
     frame.muscles.clear();
-    for (const Points& shape : shapes_) frame.muscles.push_back({shape});
+    for (std::size_t m = 0; m < shapes_.size(); ++m) {
+      MuscleShape& shape = frame.muscles.emplace_back();
+      shape.points = shapes_[m];
+      // As published fibers run from particle to particle.
+      if (wants_fibers_[m] && models_[m].particles.count() > 0)
+        shape.fibers = {states_[m].particles, models_[m].particles.offsets};
+    }
   }
 
   void restore(const std::vector<Pose>& poses, const Frame&, const Frame& last) override {
     reset();
-    // Surfaces do not tell where particles are; where frames go on from them, all are made again.
-    if (shared_.start_from == MassSpringStart::last)
-      for (std::size_t i = 1; i < poses.size(); ++i) advance(poses[i], usual_time_step);
+    // Surfaces do not tell where particles are: the last frame is made again or, where frames go on from each other,
+    // all.
+    const std::size_t from = shared_.start_from == MassSpringStart::last ? 1 : poses.size() - 1;
+    for (std::size_t i = std::max(from, std::size_t{1}); i < poses.size(); ++i) advance(poses[i], usual_time_step);
     for (std::size_t m = 0; m < shapes_.size(); ++m) shapes_[m] = last.muscles[m].points;
   }
 
@@ -169,6 +179,7 @@ class MassSpringMethod final : public DeformationMethod {
   std::size_t body_count_;
   MassSpringSettings shared_;
   std::vector<std::string> names_;
+  std::vector<char> wants_fibers_;  ///< per muscle
   std::vector<MuscleModel> models_;
   std::vector<mass_spring::MuscleSpheres> spheres_;
   std::vector<mass_spring::PlacedSpheres> bones_;

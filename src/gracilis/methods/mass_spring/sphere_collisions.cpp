@@ -1,5 +1,7 @@
 #include <gracilis/methods/mass_spring/sphere_collisions.hpp>
 
+#include <gracilis/core/parallel.hpp>
+
 #include <algorithm>
 
 namespace gracilis::mass_spring {
@@ -25,9 +27,27 @@ Response response(const Vec3& a, const Vec3& b, Real reach, bool a_is_fixed, boo
   return {missing / 2, -missing / 2};
 }
 
+std::vector<std::vector<std::array<std::size_t, 2>>> rounds_of_pairs(std::size_t count) {
+  std::vector<std::vector<std::array<std::size_t, 2>>> rounds;
+  // The last seat stays, all others move on by one; of an odd number whoever meets the empty seat rests.
+  const std::size_t seats = count + count % 2;
+  for (std::size_t round = 0; round + 1 < seats; ++round) {
+    rounds.emplace_back();
+    for (std::size_t i = 0; i < seats / 2; ++i) {
+      const std::size_t a = (round + i) % (seats - 1);
+      const std::size_t b = i == 0 ? seats - 1 : (round + seats - 1 - i) % (seats - 1);
+      if (std::max(a, b) < count) rounds.back().push_back({std::min(a, b), std::max(a, b)});
+    }
+  }
+  return rounds;
+}
+
 SphereCollisions::SphereCollisions(const std::vector<MuscleSpheres>& muscles, const std::vector<PlacedSpheres>& bones,
                                    bool between_muscles, TreeUpdate update)
-    : muscles_(muscles), between_muscles_(between_muscles), answers_(muscles.size()) {
+    : muscles_(muscles),
+      between_muscles_(between_muscles),
+      answers_(muscles.size()),
+      rounds_(rounds_of_pairs(muscles.size() + bones.size())) {
   for (const MuscleSpheres& muscle : muscles) {
     auto placed = std::make_unique<Placed>(Placed{muscle.rest, muscle.rest, nullptr});
     placed->tree = std::make_unique<SphereTree>(placed->now, update);
@@ -73,30 +93,42 @@ void SphereCollisions::meet_bone(std::size_t m, Placed& bone) {
   }
 }
 
+/// Two muscles, or a muscle and a bone; nothing else collides.
+void SphereCollisions::meet(std::size_t a, std::size_t b) {
+  const std::size_t muscle_count = muscles_.size();
+  if (b < muscle_count) {
+    if (between_muscles_) meet_muscles(a, b);
+  } else if (a < muscle_count && muscles_[a].meets_bones) {
+    meet_bone(a, *bones_[b - muscle_count]);
+  }
+}
+
+/// Moves the particles that were hit, and stops them.
+void SphereCollisions::answer(std::size_t m, Motion& motion) const {
+  for (std::size_t s = 0; s < answers_[m].is_hit.size(); ++s) {
+    if (!answers_[m].is_hit[s] || muscles_[m].fixed[s]) continue;
+    const Index p = muscles_[m].particles[s];
+    motion.now.col(p) += answers_[m].shifts.col(static_cast<Index>(s));
+    motion.before.col(p) = motion.now.col(p);
+  }
+}
+
 std::vector<Index> SphereCollisions::resolve(std::vector<RelaxedMuscle>& muscles) {
-  for (std::size_t m = 0; m < muscles.size(); ++m) {
+  parallel_for_each(muscles.size(), [&](std::size_t m) {
     const std::vector<Index>& particles = muscles_[m].particles;
     for (std::size_t s = 0; s < particles.size(); ++s)
       placed_[m]->now.centers.col(static_cast<Index>(s)) = muscles[m].motion.now.col(particles[s]);
     placed_[m]->tree->update();
     answers_[m] = {Points::Zero(3, static_cast<Index>(particles.size())), std::vector<char>(particles.size(), 0), 0};
-  }
-  for (std::size_t m = 0; m < muscles.size(); ++m) {
-    for (std::size_t n = m + 1; between_muscles_ && n < muscles.size(); ++n) meet_muscles(m, n);
-    if (!muscles_[m].meets_bones) continue;
-    for (const std::unique_ptr<Placed>& bone : bones_) meet_bone(m, *bone);
-  }
-  std::vector<Index> collisions;
-  for (std::size_t m = 0; m < muscles.size(); ++m) {
-    Motion& motion = muscles[m].motion;
-    for (std::size_t s = 0; s < answers_[m].is_hit.size(); ++s) {
-      if (!answers_[m].is_hit[s] || muscles_[m].fixed[s]) continue;
-      const Index p = muscles_[m].particles[s];
-      motion.now.col(p) += answers_[m].shifts.col(static_cast<Index>(s));
-      motion.before.col(p) = motion.now.col(p);
-    }
-    collisions.push_back(answers_[m].collisions);
-  }
+  });
+  // Looking for pairs divides both trees, so no two pairs with one in common are looked for at once.
+  for (const auto& round : rounds_)
+    parallel_for_each(round.size(), [&](std::size_t i) { meet(round[i][0], round[i][1]); });
+  std::vector<Index> collisions(muscles.size());
+  parallel_for_each(muscles.size(), [&](std::size_t m) {
+    answer(m, muscles[m].motion);
+    collisions[m] = answers_[m].collisions;
+  });
   return collisions;
 }
 

@@ -3,6 +3,7 @@
 #include <gracilis/methods/mass_spring/relaxation.hpp>
 #include <gracilis/methods/mass_spring/sphere_tree.hpp>
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct Response {
 };
 Response response(const Vec3& a, const Vec3& b, Real reach, bool a_is_fixed, bool b_is_fixed);
 
+/// All pairs of `count` players in rounds, each of whom is in one pair of a round at most (the circle method of
+/// tournaments): pairs of a round can meet at the same time, and the order in which a player meets the others is given.
+std::vector<std::vector<std::array<std::size_t, 2>>> rounds_of_pairs(std::size_t count);
+
 /// Keeps the spheres of muscles out of each other and out of bones, in one pose.
 class SphereCollisions {
  public:
@@ -53,13 +58,16 @@ class SphereCollisions {
     Index collisions = 0;
   };
 
+  void meet(std::size_t a, std::size_t b);
   void meet_muscles(std::size_t m, std::size_t n);
   void meet_bone(std::size_t m, Placed& bone);
+  void answer(std::size_t m, Motion& motion) const;
 
   const std::vector<MuscleSpheres>& muscles_;
   bool between_muscles_;
   std::vector<std::unique_ptr<Placed>> placed_, bones_;
   std::vector<Answer> answers_;
+  std::vector<std::vector<std::array<std::size_t, 2>>> rounds_;  ///< of muscles, then bones
 };
 
 }  // namespace gracilis::mass_spring
