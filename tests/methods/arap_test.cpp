@@ -119,17 +119,22 @@ TEST(Arap, the_multiplier_restores_the_volume_and_scaling_nearly) {
     }
 }
 
-TEST(Arap, rigid_motion_of_all_bodies_is_followed_to_1e_10) {
-  const Scene scene = arap_scene();
-  const auto method = method_of_scene(scene);
-  Pose pose = flexed(scene, 0);
-  for (int i = 1; i <= 10; ++i) {
-    const RigidTransform motion =
-        Eigen::Translation3d(0.02 * i, -0.01 * i, 0.03 * i) * Eigen::AngleAxisd(0.1 * i, Vec3(1, 2, -1).normalized());
-    pose.bodies = {motion, motion};
-    method->advance(pose, usual_time_step);
-    const Points expected = motion * scene.muscles[0].surface.vertices;
-    EXPECT_LT((frame_of(*method, pose, i).muscles[0].points - expected).colwise().norm().maxCoeff(), 1e-10) << i;
+TEST(Arap, rigid_motion_of_all_bodies_is_followed_to_1e_10_also_as_a_predictor) {
+  for (const std::string name : {"arap", "pbd"}) {
+    Scene scene = arap_scene();
+    scene.method = {name, {}};
+    if (name == "pbd") scene.method.settings["predictor"] = std::string("arap");
+    const auto method = method_of_scene(scene);
+    Pose pose = flexed(scene, 0);
+    for (int i = 1; i <= 10; ++i) {
+      const RigidTransform motion =
+          Eigen::Translation3d(0.02 * i, -0.01 * i, 0.03 * i) * Eigen::AngleAxisd(0.1 * i, Vec3(1, 2, -1).normalized());
+      pose.bodies = {motion, motion};
+      method->advance(pose, usual_time_step);
+      const Points expected = motion * scene.muscles[0].surface.vertices;
+      EXPECT_LT((frame_of(*method, pose, i).muscles[0].points - expected).colwise().norm().maxCoeff(), 1e-10)
+          << name << i;
+    }
   }
 }
 

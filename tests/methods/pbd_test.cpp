@@ -1,4 +1,5 @@
 #include <gracilis/geometry/arap_surface.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/methods/pbd/constraints.hpp>
 #include <gracilis/methods/pbd/pbd_method.hpp>
@@ -238,6 +239,22 @@ TEST(Pbd, the_predictor_arap_leaves_a_surface_with_less_energy_where_no_bone_is)
     energy[is_arap] = surface.energy(points, surface.best_rotations(points));
   }
   EXPECT_LT(energy[1], 0.8 * energy[0]);
+}
+
+TEST(Pbd, where_bones_press_the_predictor_arap_leaves_the_volume_as_it_is) {
+  Scene scene = tube_scene();
+  scene.method = {"pbd", {{"predictor", std::string("arap")}}};
+  const TriangleMesh& rest = scene.muscles[0].surface;
+  const auto method = make_method(scene, [](const DistanceFieldSettings&) { return tube_fields(); });
+  Real contacts = 0, off = 0;
+  for (int degree = 1; degree <= 60; ++degree) {
+    const StepReport report = method->advance(flexed(scene, radians(degree)), usual_time_step);
+    contacts += metric(report.muscles[0].metrics, "contacts");
+    const Points points = frame_of(*method, {}, 0).muscles[0].points;
+    off = std::max(off, std::abs(enclosed_volume(points, rest.faces) / enclosed_volume(rest.vertices, rest.faces) - 1));
+  }
+  EXPECT_GT(contacts, 0);
+  EXPECT_LT(off, 0.01);
 }
 
 TEST(Pbd, no_setting_is_forgotten) { EXPECT_EQ(setting_table<PbdSettings>().size(), member_count<PbdSettings>()); }

@@ -57,6 +57,8 @@ std::vector<Variant> all_variants() {
       // Frame 0 is the input; then the fibers come under tension, which moves it a little.
       {"tissue", "tissue", all_but({Property::rest_stays, Property::capture_pose})},
       {"cylinder", "cylinder", all_but({Property::volume}), {}, [] { return line_scene(0.05); }},
+      // A blend of the bones' motions carries the line through its middle.
+      {"cylinder_surface", "cylinder", all_but({Property::volume, Property::any_jump})},
       {"xpbd_physical", "xpbd", everything},
       {"xpbd_substeps", "xpbd", everything, {{"substeps", 3}, {"iterations", 12}}},
       {"xpbd_dynamic", "xpbd", everything, {{"time_mode", "dynamic"}}},
@@ -64,8 +66,9 @@ std::vector<Variant> all_variants() {
       {"xpbd_dynamic_frames", "xpbd", everything, {{"time_mode", "dynamic"}, {"time_step", 0.0}}},
       {"xpbd_coarser_copy", "xpbd", everything, {{"simulated_edge", 0.006}, {"full_iterations", 1}}},
       {"xpbd_coarser_copy_dynamic", "xpbd", everything, {{"simulated_edge", 0.006}, {"time_mode", "dynamic"}}},
-      // Drawn through bones and brought out again a surface gets so rough that rounding shows.
+      // Edges are drawn through bones, and of the points of such an edge rounding decides which one is brought out.
       {"xpbd_arap", "xpbd", all_but({Property::rigid_motion}), {{"predictor", "arap"}}},
+      {"xpbd_arap_vertices", "xpbd", everything, {{"predictor", "arap"}, {"edge_contact", false}}},
       {"xpbd_dissipative", "xpbd", everything, {{"rayleigh_beta", 0.01}}},
       // As published: free vertices follow only through constraints, and the margin pushes muscles off bones at rest.
       {"xpbd_thesis_2024", "xpbd", {}, thesis.method.settings},
@@ -85,7 +88,7 @@ std::vector<Variant> all_variants() {
        find_preset("janak-2012")->method.settings},
       {"pbd", "pbd", all_but({Property::capture_pose})},
       {"pbd_voxels", "pbd", all_but({Property::capture_pose}), {{"collision", "voxels"}}},
-      {"pbd_arap", "pbd", all_but({Property::capture_pose, Property::volume}), {{"predictor", "arap"}}},
+      {"pbd_arap", "pbd", all_but({Property::capture_pose}), {{"predictor", "arap"}}},
       // As published free vertices follow only through constraints, and so remember by which way they came.
       {"pbd_2020", "pbd", all_but({Property::rigid_motion, Property::capture_pose}), pbd_2020.method.settings},
   };

@@ -11,12 +11,9 @@ namespace gracilis {
 enum class Predictor {
   none,     ///< where they were, so that they follow through constraints alone
   carried,  ///< carried by what carries the surface
-  arap      ///< carried, then brought nearer to an as-rigid-as-possible surface held at its attachments
+  arap      ///< carried, then brought nearer to an as-rigid-as-possible surface (methods/arap_predictor.hpp)
 };
 constexpr std::array<std::string_view, 3> choices_of(Predictor) { return {"none", "carried", "arap"}; }
-
-/// Local and global steps by which `arap` comes nearer (geometry/arap_surface.hpp).
-inline constexpr int arap_predictor_rounds = 4;
 
 template <class Settings>
 Setting<Settings> predictor_row() {

@@ -5,7 +5,7 @@
 #include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/anatomy/overlap/voxel_projection.hpp>
 #include <gracilis/core/stop.hpp>
-#include <gracilis/geometry/arap_surface.hpp>
+#include <gracilis/methods/arap_predictor.hpp>
 #include <gracilis/methods/pbd/settings.hpp>
 #include <gracilis/methods/pbd/surface.hpp>
 #include <gracilis/methods/placed_method.hpp>
@@ -20,13 +20,16 @@ namespace gracilis {
 
 namespace {
 
+/// Rounds of volume and contact alone that end a frame with an as-rigid-as-possible predictor, as in the method `arap`.
+constexpr int predicted_settling_rounds = 4;
+
 /// What stays the same of one muscle.
 struct PbdMuscle {
   PbdSettings settings;
   Points rest;  ///< world, in the capture pose, m
   BodyCarriers carriers;
   pbd::Surface surface;
-  std::optional<arap::Surface> predicted;  ///< where the predictor asks for it
+  std::optional<ArapPredictor> predicted;  ///< where the predictor asks for it
   std::variant<BoneProjection, VoxelProjection> bones;
 };
 
@@ -37,7 +40,7 @@ PbdMuscle prepare_pbd(const Scene& scene, const Muscle& muscle, const std::vecto
   BodyCarriers carriers = body_carriers(muscle, topology, settings.tendon_length);
   const Polylines fibers = settings.fiber_anisotropy ? fibers_of(muscle) : Polylines{};
   pbd::Surface surface = pbd::build_surface(muscle.surface, topology, carriers.fixed_body, fibers);
-  std::optional<arap::Surface> predicted;
+  std::optional<ArapPredictor> predicted;
   if (settings.predictor == Predictor::arap) predicted.emplace(muscle.surface, topology, held_vertices(carriers));
   std::variant<BoneProjection, VoxelProjection> bones;
   if (settings.collision == PbdCollision::voxels)
@@ -55,7 +58,10 @@ Real per_iteration(Real stiffness, int iterations) { return 1 - std::pow(1 - sti
 Points begin_frame(const PbdMuscle& muscle, const Pose& last, const Pose& now, const Points& before) {
   if (muscle.settings.predictor != Predictor::none) {
     Points points = carried_on(muscle.carriers, muscle.rest, last, now, before);
-    if (muscle.predicted) muscle.predicted->relax(arap_predictor_rounds, points);
+    if (muscle.predicted)
+      muscle.predicted->bring_nearer(
+          [&](Points& places) { std::visit([&](const auto& bones) { bones.push_out(now, places); }, muscle.bones); },
+          points);
     return points;
   }
   Points points = before;
@@ -76,9 +82,7 @@ ShapeStep step(const PbdMuscle& muscle, const Pose& last, const Pose& now, const
                                     per_iteration(muscle.settings.angle_stiffness, iterations),
                                     per_iteration(muscle.settings.volume_stiffness, iterations),
                                     muscle.settings.hinge_limit};
-  for (int i = 0; i < iterations; ++i) {
-    throw_if_stopped();
-    skipped_angles += pbd::project_edges_and_angles(muscle.surface, stiffness, points);
+  const auto restore_and_push = [&] {
     pbd::project_volume(muscle.surface, stiffness.volume, points);
     contacts = std::visit(
         [&](const auto& bones) {
@@ -86,7 +90,14 @@ ShapeStep step(const PbdMuscle& muscle, const Pose& last, const Pose& now, const
                                                                  : bones.push_out(now, points);
         },
         muscle.bones);
+  };
+  for (int i = 0; i < iterations; ++i) {
+    throw_if_stopped();
+    skipped_angles += pbd::project_edges_and_angles(muscle.surface, stiffness, points);
+    restore_and_push();
   }
+  // Edges pull what was predicted against a bone through it, so much of the volume goes with the last contact.
+  for (int i = 0; muscle.predicted && i < predicted_settling_rounds && contacts > 0; ++i) restore_and_push();
   return {std::move(points),
           {{"contacts", static_cast<Real>(contacts)},
            {"taken_along", static_cast<Real>(taken_along)},

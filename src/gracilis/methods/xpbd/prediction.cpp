@@ -38,7 +38,14 @@ void carry(const PreparedMuscle& muscle, bool active, const Pose& before, const 
   move_attached(muscle, pose, state.particles);
   Points points(3, state.particles.count());
   for (Index p = 0; p < state.particles.count(); ++p) points.col(p) = state.particles.position(p).cast<Real>();
-  muscle.predicted->relax(arap_predictor_rounds, points);
+  const Vec3 origin = muscle.origin;
+  muscle.predicted->bring_nearer(
+      [&](Points& places) {
+        places.colwise() += origin;
+        muscle.predicted_bones.push_out(pose, places);
+        places.colwise() -= origin;
+      },
+      points);
   for (Index p = 0; p < state.particles.count(); ++p)
     if (state.particles.inverse_mass(p) > 0) state.particles.position(p) = points.col(p).cast<float>();
 }

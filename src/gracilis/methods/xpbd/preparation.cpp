@@ -171,7 +171,8 @@ void build_dihedrals(const MeshTopology& topology, PreparedMuscle& prepared) {
   prepared.system.dihedrals = build_dihedral_set(constraints, prepared.particle_count());
 }
 
-void build_predictor(const MeshTopology& topology, PreparedMuscle& prepared) {
+void build_predictor(const Scene& scene, const MeshTopology& topology, const std::vector<DistanceField>& fields,
+                     PreparedMuscle& prepared) {
   for (Index body : prepared.fixed_body)
     if (body >= 0 && std::find(prepared.carriers.begin(), prepared.carriers.end(), body) == prepared.carriers.end())
       prepared.carriers.push_back(body);
@@ -184,7 +185,10 @@ void build_predictor(const MeshTopology& topology, PreparedMuscle& prepared) {
     held.push_back(prepared.fixed_body[static_cast<std::size_t>(p)] >= 0 ||
                    !(prepared.carrier_shares.col(p).sum() > 0));
   prepared.predicted =
-      std::make_shared<const arap::Surface>(TriangleMesh{prepared.rest, prepared.faces}, topology, held);
+      std::make_shared<const ArapPredictor>(TriangleMesh{prepared.rest, prepared.faces}, topology, std::move(held));
+  const std::vector<Real> margins(prepared.fixed_body.size(), prepared.settings.bone_margin);
+  prepared.predicted_bones =
+      BoneProjection(scene, prepared.rest, prepared.fixed_body, fields, margins, prepared.settings.bone_rest_gap);
 }
 
 /// Between the edges of these faces something as sharp as a bone can poke through.
@@ -273,7 +277,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
     prepared.system.tight_places = find_tight_places(prepared.rest, prepared.faces, tight, prepared.system.rest);
   }
   const MeshTopology topology = build_topology(prepared.faces, prepared.particle_count());
-  build_predictor(topology, prepared);
+  build_predictor(scene, topology, fields, prepared);
   build_edges(attachments, topology, prepared);
   build_dihedrals(topology, prepared);
   prepared.system.volume =

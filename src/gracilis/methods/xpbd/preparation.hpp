@@ -1,10 +1,11 @@
 #pragma once
 
+#include <gracilis/anatomy/overlap/bone_projection.hpp>
 #include <gracilis/anatomy/sections/line_sections.hpp>
 #include <gracilis/dynamics/solver/surface_system.hpp>
-#include <gracilis/geometry/arap_surface.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/topology.hpp>
+#include <gracilis/methods/arap_predictor.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/strings/string_skin.hpp>
@@ -49,7 +50,8 @@ struct PreparedMuscle {
   CarryingStrings carrying;        ///< coarser copies share theirs with the whole surface
   std::shared_ptr<const CarriedSurface> carried;   ///< where there are strings: its own, or that of which it is a copy
   std::vector<Index> carried_vertex;               ///< per particle, on that surface; empty: each its own
-  std::shared_ptr<const arap::Surface> predicted;  ///< where the predictor asks for it
+  std::shared_ptr<const ArapPredictor> predicted;  ///< where the predictor asks for it
+  BoneProjection predicted_bones;                  ///< that it keeps out of
   std::optional<LineSections> line;         ///< where its surface is made of sections, whose frames carry it then
   std::vector<Index> section;               ///< per particle, where there is a line
   std::vector<RigidTransform> to_sections;  ///< from world to each section's frame, in the capture pose
