@@ -6,6 +6,7 @@
 #include <gracilis/geometry/rbf_centers.hpp>
 #include <gracilis/geometry/rbf_feature_centers.hpp>
 #include <gracilis/geometry/surface_extraction.hpp>
+#include <gracilis/view/charts/line_chart.hpp>
 
 #include <height_fields.hpp>
 
@@ -176,7 +177,19 @@ Real farthest(const TriangleMesh& from, const TriangleMesh& to) {
   return distance;
 }
 
-void compress_fields(std::ostream& page) {
+/// Adds a point of a share and the logarithm of an error to a chart's line.
+void add_point(Real share, Real error, ChartSeries& series) {
+  series.x.push_back(100 * share);
+  series.y.push_back(std::log10(error));
+}
+
+/// Writes a chart beside the page, and shows it there.
+void show(const LineChart& chart, const std::string& docs, const std::string& name, std::ostream& page) {
+  write_chart(docs + "/pictures/" + name + ".svg", chart);
+  page << fmt::format("\n![{}](pictures/{}.svg)\n", chart.title, name);
+}
+
+void compress_fields(const std::string& docs, std::ostream& page) {
   page << "\nNo placement is best on all fields. What features suggest helps where they are what the field is made of "
           "(extrema of bumps), and costs where they leave other places bare or stand so close that their functions "
           "hardly "
@@ -186,16 +199,33 @@ void compress_fields(std::ostream& page) {
           "sequence, and greedy up to 5 %.\n\n| field | 1 % | 2.5 % | 5 % | 10 % | greedy 1 % | greedy 2.5 % | greedy "
           "5 % |\n"
           "| --- | --- | --- | --- | --- | --- | --- | --- |\n";
+  LineChart chart{"Compression of height fields",
+                  "share of the heights that are centers, %",
+                  "log10 of the mean squared error",
+                  {}};
+  int number = 0;
   for (const auto& [name, field] : fields()) {
+    const Color color = muscle_color(number++, Palette::okabe_ito);
+    ChartSeries halton{name + ", Halton", {}, {}, color, 2}, greedy{name + ", greedy", {}, {}, color, 1};
     page << "| " << name << " |";
-    for (const Index count : {17, 42, 84, 168})
-      page << fmt::format(" {:.1e} |", best_error(field, halton_centers(field.box(), count)));
-    for (const Index count : {17, 42, 84}) page << fmt::format(" {:.1e} |", greedy_error(field, count));
+    for (const Index count : {17, 42, 84, 168}) {
+      const Real error = best_error(field, halton_centers(field.box(), count));
+      add_point(count / Real{1681}, error, halton);
+      page << fmt::format(" {:.1e} |", error);
+    }
+    for (const Index count : {17, 42, 84}) {
+      const Real error = greedy_error(field, count);
+      add_point(count / Real{1681}, error, greedy);
+      page << fmt::format(" {:.1e} |", error);
+    }
     page << '\n';
+    chart.series.push_back(std::move(halton));
+    chart.series.push_back(std::move(greedy));
   }
+  show(chart, docs, "rbf_compression_heights", page);
 }
 
-void compress_muscle(std::ostream& page) {
+void compress_muscle(const std::string& docs, std::ostream& page) {
   const Scene scene = builtin_hip();
   const auto found_muscle = std::find_if(scene.muscles.begin(), scene.muscles.end(),
                                          [](const Muscle& each) { return each.name == "gluteus_maximus_r"; });
@@ -208,15 +238,22 @@ void compress_muscle(std::ostream& page) {
       "| --- | --- | --- | --- | --- |\n",
       found_muscle->name, muscle.vertex_count());
   const Real volume = enclosed_volume(muscle.vertices, muscle.faces);
+  ChartSeries by_volume{"volume error, %", {}, {}, muscle_color(0, Palette::okabe_ito), 2},
+      by_distance{"Hausdorff distance, mm", {}, {}, muscle_color(1, Palette::okabe_ito), 2};
   for (const Real share : {0.025, 0.05, 0.1, 0.2}) {
     RadialSolidSettings settings;
     settings.centers = static_cast<Index>(share * muscle.vertex_count());
     const RadialSolid solid = fit_solid(muscle, settings);
     const TriangleMesh found = largest_component(extract_surface(sample(implicit_solid(solid), 0.003)));
-    page << fmt::format("| {} | {:.1f} % | {:.2f} % | {:.1f} mm | {:.1e} |\n", settings.centers, 100 * share,
-                        100 * std::abs(enclosed_volume(found.vertices, found.faces) / volume - 1),
-                        1000 * std::max(farthest(found, muscle), farthest(muscle, found)), solid.fit.condition);
+    const Real error = 100 * std::abs(enclosed_volume(found.vertices, found.faces) / volume - 1);
+    const Real distance = 1000 * std::max(farthest(found, muscle), farthest(muscle, found));
+    add_point(share, error, by_volume);
+    add_point(share, distance, by_distance);
+    page << fmt::format("| {} | {:.1f} % | {:.2f} % | {:.1f} mm | {:.1e} |\n", settings.centers, 100 * share, error,
+                        distance, solid.fit.condition);
   }
+  show({"Compression of a muscle", "share of the vertices that are centers, %", "log10", {by_volume, by_distance}},
+       docs, "rbf_compression_muscle", page);
 }
 
 }  // namespace
@@ -258,6 +295,6 @@ int main(int count, char** arguments) {
           "narrow "
           "functions, unlike what the report says. Thin plates hardly depend on the shape parameter.\n";
   compare_placements(page);
-  compress_fields(page);
-  compress_muscle(page);
+  compress_fields(docs, page);
+  compress_muscle(docs, page);
 }
