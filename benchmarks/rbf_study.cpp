@@ -206,7 +206,8 @@ void compress_fields(const std::string& docs, std::ostream& page) {
   int number = 0;
   for (const auto& [name, field] : fields()) {
     const Color color = muscle_color(number++, Palette::okabe_ito);
-    ChartSeries halton{name + ", Halton", {}, {}, color, 2}, greedy{name + ", greedy", {}, {}, color, 1};
+    const std::string in_short = name.substr(0, name.find(" ("));
+    ChartSeries halton{in_short + ", Halton", {}, {}, color, 2}, greedy{in_short + ", greedy", {}, {}, color, 2};
     page << "| " << name << " |";
     for (const Index count : {17, 42, 84, 168}) {
       const Real error = best_error(field, halton_centers(field.box(), count));
@@ -252,7 +253,7 @@ void compress_muscle(const std::string& docs, std::ostream& page) {
     page << fmt::format("| {} | {:.1f} % | {:.2f} % | {:.1f} mm | {:.1e} |\n", settings.centers, 100 * share, error,
                         distance, solid.fit.condition);
   }
-  show({"Compression of a muscle", "share of the vertices that are centers, %", "log10", {by_volume, by_distance}},
+  show({"Compression of a muscle", "share of the vertices that are centers, %", "log10 of % or mm", {by_volume, by_distance}},
        docs, "rbf_compression_muscle", page);
 }
 

@@ -27,6 +27,20 @@ TEST(LineChart, draws_a_line_per_series_and_names_those_with_a_name) {
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
 }
 
+TEST(LineChart, named_lines_of_one_color_are_told_apart_by_their_dashes) {
+  const Color red(1, 0, 0), blue(0, 0, 1);
+  const std::string svg = to_svg({"",
+                                  "",
+                                  "",
+                                  {{"first", {0, 1}, {2, 3}, red},
+                                   {"", {0, 1}, {2, 2}, red},
+                                   {"other", {0, 1}, {1, 3}, blue},
+                                   {"second", {0, 1}, {3, 4}, red},
+                                   {"third", {0, 1}, {4, 4}, red}}});
+  EXPECT_EQ(count(svg, "stroke-dasharray"), 4) << "two lines, and two in the legend";
+  EXPECT_EQ(count(svg, "stroke-dasharray=\"7 3\""), 2);
+}
+
 TEST(LineChart, breaks_a_line_where_a_value_is_not_finite_and_draws_none_of_nothing) {
   const Real nan = std::numeric_limits<Real>::quiet_NaN();
   EXPECT_EQ(count(to_svg({"", "", "", {{"", {0, 1, 2, 3, 4}, {0, 1, nan, 1, 0}}}}), "<polyline"), 2);

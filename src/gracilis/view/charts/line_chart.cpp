@@ -52,6 +52,15 @@ std::string hex(const Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(color.x()), byte(color.y()), byte(color.z()));
 }
 
+/// Named lines of a color that a named one before has are dashed, and the next ones dotted.
+std::string dashes(const std::vector<ChartSeries>& all, std::size_t number) {
+  if (all[number].name.empty()) return "";
+  const auto repeats =
+      std::count_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(number),
+                    [&](const ChartSeries& other) { return !other.name.empty() && other.color == all[number].color; });
+  return repeats == 0 ? "" : repeats == 1 ? " stroke-dasharray=\"7 3\"" : " stroke-dasharray=\"2 2\"";
+}
+
 std::string text_at(Real x, Real y, const std::string& anchor, int size, const std::string& text,
                     const std::string& more = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-size=\"{}\" {}>{}</text>\n", x, y, anchor,
@@ -75,11 +84,11 @@ std::vector<Real> axis_ticks(Real low, Real high, int count) {
 
 std::string to_svg(const LineChart& chart) {
   Range x_range, y_range;
-  std::vector<const ChartSeries*> named;
-  for (const ChartSeries& series : chart.series) {
-    for (const Real x : series.x) x_range.add(x);
-    for (const Real y : series.y) y_range.add(y);
-    if (!series.name.empty()) named.push_back(&series);
+  std::vector<std::size_t> named;
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    for (const Real x : chart.series[s].x) x_range.add(x);
+    for (const Real y : chart.series[s].y) y_range.add(y);
+    if (!chart.series[s].name.empty()) named.push_back(s);
   }
   x_range.close(0);
   y_range.close(0.04);
@@ -115,12 +124,13 @@ std::string to_svg(const LineChart& chart) {
   svg += text_at(0, 0, "middle", 14, chart.y_label,
                  fmt::format("transform=\"translate(20 {:.1f}) rotate(-90)\"", (top + bottom_edge) / 2));
 
-  for (const ChartSeries& series : chart.series) {
+  for (std::size_t s = 0; s < chart.series.size(); ++s) {
+    const ChartSeries& series = chart.series[s];
     std::string points;
     const auto flush = [&] {
       if (!points.empty())
-        svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n", points,
-                           hex(series.color), series.width);
+        svg += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", points,
+                           hex(series.color), series.width, dashes(chart.series, s));
       points.clear();
     };
     for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i) {
@@ -135,9 +145,11 @@ std::string to_svg(const LineChart& chart) {
   for (std::size_t i = 0; legend_height > 0 && i < named.size(); ++i) {
     const Real x = left + static_cast<Real>(i % per_row) * (right_edge - left) / per_row;
     const Real y = height + legend_row * static_cast<Real>(i / per_row);
-    svg += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"16\" height=\"4\" fill=\"{}\"/>\n", x, y,
-                       hex(named[i]->color));
-    svg += text_at(x + 22, y + 6, "start", 13, named[i]->name);
+    const ChartSeries& series = chart.series[named[i]];
+    svg += fmt::format(
+        "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" stroke-width=\"4\"{}/>\n", x,
+        y + 2, x + 16, y + 2, hex(series.color), dashes(chart.series, named[i]));
+    svg += text_at(x + 22, y + 6, "start", 13, series.name);
   }
   return svg + "</svg>\n";
 }
