@@ -155,6 +155,9 @@ TEST_F(SceneReader, wrong_settings_on_the_command_line_are_named) {
               HasSubstr("--set iterations: is not of the form key=value"));
   EXPECT_THAT(problems(good_scene(), {"", {"iteration=3"}, {}}),
               HasSubstr("--set iteration=3: unknown key 'iteration' in [settings] (did you mean 'iterations'?)"));
+  EXPECT_THAT(problems(good_scene(), {"", {"quux=3"}, {}}),
+              HasSubstr("unknown key 'quux' in [settings] ('gracilis print-config' lists all that are known)"))
+      << "there are more than a hundred";
   EXPECT_THAT(problems(good_scene(), {"", {"iterations=0"}, {}}),
               HasSubstr("--set iterations=0: 'iterations' must be an integer from 1 to 100000"));
   EXPECT_THAT(problems(good_scene(), {"", {"muscel.iterations=3"}, {}}),

@@ -243,6 +243,9 @@ std::optional<SettingValue> TomlReader::setting(const SettingInfo& info) {
   return value;
 }
 
+/// A list of more keys than this helps nobody.
+static constexpr std::size_t most_listed = 40;
+
 void TomlReader::reject_unknown_keys() {
   for (const auto& [key, node] : *table_) {
     if (std::find(known_.begin(), known_.end(), key.str()) != known_.end()) continue;
@@ -252,7 +255,8 @@ void TomlReader::reject_unknown_keys() {
       problem.where = std::to_string(key.source().begin.line) + ":" + std::to_string(key.source().begin.column);
     }
     problem.what = "unknown key '" + std::string(key.str()) + "' in " + title_;
-    problem.remedy = suggestion(key.str(), known_);
+    const bool is_too_long = known_.size() > most_listed && nearest_word(key.str(), known_).empty();
+    problem.remedy = is_too_long ? "'gracilis print-config' lists all that are known" : suggestion(key.str(), known_);
     problems_->push_back(std::move(problem));
   }
 }
