@@ -253,7 +253,10 @@ void compress_muscle(const std::string& docs, std::ostream& page) {
     page << fmt::format("| {} | {:.1f} % | {:.2f} % | {:.1f} mm | {:.1e} |\n", settings.centers, 100 * share, error,
                         distance, solid.fit.condition);
   }
-  show({"Compression of a muscle", "share of the vertices that are centers, %", "log10 of % or mm", {by_volume, by_distance}},
+  show({"Compression of a muscle",
+        "share of the vertices that are centers, %",
+        "log10 of % or mm",
+        {by_volume, by_distance}},
        docs, "rbf_compression_muscle", page);
 }
 
