@@ -1,3 +1,4 @@
+#include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/box_mesh.hpp>
 #include <gracilis/methods/mass_spring/mass_spring_method.hpp>
 #include <gracilis/methods/mass_spring/muscle_model.hpp>
@@ -151,6 +152,23 @@ TEST(MassSpring, muscles_keep_out_of_each_other) {
   };
   EXPECT_GT(contacts(true), 0);
   EXPECT_EQ(contacts(false), 0);
+}
+
+TEST(MassSpring, collisions_give_the_same_bits_for_any_number_of_threads) {
+  Scene scene = two_tubes({{"bone_collision", "spheres"}});
+  scene.muscles.push_back(scene.muscles[0]);
+  scene.muscles[2].name = "third tube";
+  scene.muscles[2].surface.vertices.colwise() += Vec3(0, 0.019, 0);
+  std::vector<Points> shapes;
+  for (const int threads : {1, 64}) {
+    const ThreadLimit limit(threads);
+    const auto method = method_of_scene(scene);
+    const StepReport report = method->advance(flexed(scene, radians(30)), usual_time_step);
+    for (const MuscleReport& muscle : report.muscles) EXPECT_GT(metric(muscle.metrics, "contacts"), 0);
+    for (const MuscleShape& shape : frame_of(*method, {}, 1).muscles) shapes.push_back(shape.points);
+  }
+  ASSERT_EQ(shapes.size(), 6u);
+  for (std::size_t m = 0; m < 3; ++m) EXPECT_EQ(shapes[m], shapes[m + 3]);
 }
 
 TEST(MassSpring, refitting_alone_gives_the_shapes_that_rebuilding_gives) {
