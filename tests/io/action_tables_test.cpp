@@ -29,7 +29,7 @@ FrameRecord record_of(const Scene& scene, Real angle) {
   return record;
 }
 
-Table read_back(const ActionTable& table) {
+Table read_back(const RunTable& table) {
   const std::filesystem::path path = std::filesystem::temp_directory_path() / ("gracilis_" + table.name);
   std::ofstream(path) << table.head << table.row;
   const Table read = read_table(path);
@@ -42,7 +42,7 @@ Real value(const Table& table, const std::string& column) { return table.values(
 
 TEST(ActionTables, tell_the_arms_of_each_coordinate_and_how_many_fibers_are_left_out) {
   const Scene scene = tube_scene();
-  const std::vector<ActionTable> tables = action_tables(scene, record_of(scene, radians(30)), 1);
+  const std::vector<RunTable> tables = action_tables(scene, record_of(scene, radians(30)), 1);
   ASSERT_EQ(tables.size(), 2u);
   EXPECT_EQ(tables[0].name, "moment_arms_flexion.sto");
   const Table arms = read_back(tables[0]);

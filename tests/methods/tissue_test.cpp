@@ -1,14 +1,12 @@
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/registry.hpp>
-#include <gracilis/methods/tissue/carry.hpp>
-#include <gracilis/methods/tissue/factored_matrix.hpp>
-#include <gracilis/methods/tissue/forces.hpp>
-#include <gracilis/methods/tissue/minimize.hpp>
 #include <gracilis/methods/tissue/tissue_method.hpp>
 
 #include <member_count.hpp>
 #include <scenes_for_tests.hpp>
+
+#include "tissue_bar.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,47 +14,6 @@ namespace gracilis {
 namespace {
 
 using namespace tissue;
-
-constexpr Real width = 0.02, length = 0.12, section = width * width;
-
-/// A bar of muscle between two bodies that hold all of its ends; there are no bones.
-Scene bar_scene(const SettingValues& settings) {
-  Scene scene;
-  scene.bodies = {"lower", "upper"};
-  Muscle bar;
-  bar.name = "bar";
-  bar.surface = shapes::box({0, 0, 0}, {width, width, length});
-  bar.attachments = {{"below", AttachmentEnd::origin, 0, {0, 1, 2, 3}},
-                     {"above", AttachmentEnd::insertion, 1, {4, 5, 6, 7}}};
-  scene.muscles = {bar};
-  scene.method.name = "tissue";
-  scene.method.settings = {{"cell_size", 0.005},      {"cells_at_least", 0},    {"attachment_stiffness", 1e11},
-                           {"fiber_tension", 0.0},    {"fiber_stiffness", 0.0}, {"shear_per_tension", 0.0},
-                           {"bulk_per_tension", 0.0}, {"tension_frames", 1},    {"bulk_modulus", 1e7}};
-  for (const auto& [key, value] : settings) scene.method.settings[key] = value;
-  return scene;
-}
-
-/// A bar at rest under its law, its upper end moved.
-struct SettledBar {
-  PreparedTissue muscle;
-  Surroundings around;
-  Points nodes;
-  Minimized done;
-};
-SettledBar settled(const SettingValues& settings, Real activation, const Vec3& shift) {
-  const Scene scene = bar_scene(settings);
-  SettledBar bar{prepare_tissue(scene, scene.muscles[0], {}, {}), {}, {}, {}};
-  std::vector<RigidTransform> bodies(2, RigidTransform::Identity());
-  bodies[1].translation() = shift;
-  bar.nodes = bar.muscle.lattice.nodes;
-  carry(bar.muscle, std::vector<RigidTransform>(2, RigidTransform::Identity()), bodies, bar.nodes);
-  bar.around = surroundings(bar.muscle, bodies, cell_laws(bar.muscle, activation, 1));
-  const FactoredMatrix metric(scalar_stiffness(bar.muscle, bar.around.laws));
-  bar.done = minimize([&](const Points& x, Points& g) { return total_energy(bar.muscle, bar.around, x, g); },
-                      [&](const Points& g) { return metric.solve(g); }, {2000, 1e-4, 0.005}, bar.nodes);
-  return bar;
-}
 
 TEST(Tissue, an_active_bar_with_fixed_ends_pulls_by_activation_times_stress_times_section) {
   const SettledBar bar = settled(
@@ -102,7 +59,7 @@ TEST(Tissue, an_even_deformation_of_a_bar_costs_the_energy_of_its_law_and_leaves
   shear(0, 2) = 0.4;
   for (const Matrix3& f : {shear, Matrix3(Vec3(0.95, 0.95, 1.2).asDiagonal())}) {
     Points gradient;
-    const Real energy = total_energy(muscle, around, f * muscle.lattice.nodes, gradient);
+    const Real energy = energy_of(muscle, around, f * muscle.lattice.nodes, gradient);
     Matrix3 stress;
     const Real j = f.determinant();
     const Real expected = tissue_energy(laws[0].matrix, laws[0].fibers, laws[0].direction, f, stress) +
@@ -133,7 +90,7 @@ TEST(Tissue, without_tension_rest_has_no_forces_and_neither_has_rest_moved_rigid
     find_near_bones(muscle, nodes, around);
     EXPECT_FALSE(around.near.empty());
     Points gradient;
-    EXPECT_NEAR(total_energy(muscle, around, nodes, gradient), 0, 1e-12);
+    EXPECT_NEAR(energy_of(muscle, around, nodes, gradient), 0, 1e-12);
     // The stiffest spring times the rounding of a place: 1e4 N/m · 1e-16 m.
     EXPECT_LT(gradient.colwise().norm().maxCoeff(), 1e-9);
   }
@@ -152,14 +109,14 @@ TEST(Tissue, the_gradient_of_all_energy_together_is_that_of_its_differences) {
   Points nodes = muscle.lattice.nodes, gradient, ignored;
   carry(muscle, std::vector<RigidTransform>(2, RigidTransform::Identity()), pose.bodies, nodes);
   find_near_bones(muscle, nodes, around);
-  total_energy(muscle, around, nodes, gradient);
+  energy_of(muscle, around, nodes, gradient);
   for (Index n = 0; n < muscle.lattice.node_count(); n += 17)
     for (Index axis = 0; axis < 3; ++axis) {
       const Real h = 1e-8;
       Points up = nodes, down = nodes;
       up(axis, n) += h, down(axis, n) -= h;
       const Real difference =
-          (total_energy(muscle, around, up, ignored) - total_energy(muscle, around, down, ignored)) / (2 * h);
+          (energy_of(muscle, around, up, ignored) - energy_of(muscle, around, down, ignored)) / (2 * h);
       EXPECT_NEAR(gradient(axis, n), difference, 1e-5 * gradient.colwise().norm().maxCoeff());
     }
 }

@@ -3,6 +3,7 @@
 #include <gracilis/core/types.hpp>
 #include <gracilis/scene/fiber_actions.hpp>
 #include <gracilis/scene/frame.hpp>
+#include <gracilis/scene/muscle_forces.hpp>
 #include <gracilis/scene/pose.hpp>
 #include <gracilis/scene/twist.hpp>
 
@@ -66,6 +67,9 @@ class DeformationMethod {
   /// What the fibers do to the bodies in the present pose, per muscle in the scene's order. `coordinates`: per
   /// coordinate, how it moves every body. Of methods that hold fibers in an equilibrium; empty: it does not.
   virtual std::vector<FiberActions> fiber_actions(const std::vector<std::vector<Twist>>&) const { return {}; }
+  /// What the muscles do to the bodies in the present pose, in the scene's order. Of methods whose muscles are under
+  /// tension; empty: it knows no forces.
+  virtual std::vector<MuscleForces> muscle_forces(const std::vector<std::vector<Twist>>&) const { return {}; }
   /// Of methods that have passes; null: it has none.
   virtual PassTracing* pass_tracing() { return nullptr; }
 };

@@ -39,14 +39,18 @@ class PlacedMethod final : public DeformationMethod {
   std::string remark() const override { return method_->remark(); }
 
   std::vector<FiberActions> fiber_actions(const std::vector<std::vector<Twist>>& coordinates) const override {
-    std::vector<std::vector<Twist>> near = coordinates;
-    for (std::vector<Twist>& bodies : near)
-      for (Twist& twist : bodies) twist.velocity = twist.velocity_at(place_);
-    std::vector<FiberActions> actions = method_->fiber_actions(near);
+    std::vector<FiberActions> actions = method_->fiber_actions(near(coordinates));
     for (FiberActions& muscle : actions)
       for (Index body = 0; body < muscle.wrenches.cols(); ++body)
         muscle.wrenches.col(body).tail<3>() += place_.cross(Vec3(muscle.wrenches.col(body).head<3>()));
     return actions;
+  }
+  std::vector<MuscleForces> muscle_forces(const std::vector<std::vector<Twist>>& coordinates) const override {
+    std::vector<MuscleForces> forces = method_->muscle_forces(near(coordinates));
+    for (MuscleForces& muscle : forces)
+      for (std::vector<ForceOn>* list : {&muscle.origin, &muscle.insertion, &muscle.fascia, &muscle.contact})
+        for (ForceOn& each : *list) each.wrench.moment += place_.cross(each.wrench.force);
+    return forces;
   }
 
   PassTracing* pass_tracing() override { return method_->pass_tracing(); }  // passes tell of motion, not of places
@@ -63,6 +67,13 @@ class PlacedMethod final : public DeformationMethod {
   }
 
  private:
+  /// As the method near the origin sees how bodies move.
+  std::vector<std::vector<Twist>> near(std::vector<std::vector<Twist>> coordinates) const {
+    for (std::vector<Twist>& bodies : coordinates)
+      for (Twist& twist : bodies) twist.velocity = twist.velocity_at(place_);
+    return coordinates;
+  }
+
   Vec3 place_;
   std::unique_ptr<DeformationMethod> method_;
 };

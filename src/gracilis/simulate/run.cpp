@@ -38,7 +38,9 @@ FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int n
     method.write(now.frame);
   }
   now.frame.number = number;
-  if (fiber_actions) now.actions = method.fiber_actions(joint_twists(scene, pose.coordinates));
+  const std::vector<std::vector<Twist>> twists = joint_twists(scene, pose.coordinates);
+  if (fiber_actions) now.actions = method.fiber_actions(twists);
+  now.forces = method.muscle_forces(twists);
   return now;
 }
 

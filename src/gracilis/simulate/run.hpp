@@ -20,6 +20,7 @@ struct FrameRecord {
   std::vector<MuscleFibers> fibers = {};  ///< in the scene's order; empty where fibers are not followed
   /// In the scene's order, about its coordinates in theirs; empty where the method knows none or nobody asked.
   std::vector<FiberActions> actions = {};
+  std::vector<MuscleForces> forces = {};  ///< in the scene's order; empty where the method knows none
 };
 
 /// Where an interrupted run goes on: a frame whose number is a multiple of resume_period(scene), and the one before it.

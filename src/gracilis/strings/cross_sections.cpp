@@ -4,25 +4,28 @@
 
 namespace gracilis::strings {
 
+StringSection string_section(const MuscleStrings& muscle, const Points& places, Index i) {
+  StringSection section;
+  for (Index s = 0; s < muscle.strings; ++s) {
+    section.center += places.col(muscle.node(s, i)) / muscle.strings;
+    section.direction += string_direction(muscle, places, s, i);
+  }
+  for (Index s = 0; s < muscle.strings; ++s)
+    section.spread += (places.col(muscle.node(s, i)) - section.center).squaredNorm();
+  return section;
+}
+
 std::vector<Eigen::Matrix3d> section_turns(const MuscleStrings& muscle, const Points& places) {
   std::vector<Eigen::Matrix3d> turns;
   for (Index i = 0; i < muscle.nodes; ++i) {
-    Vec3 center = Vec3::Zero(), rest_center = Vec3::Zero(), direction = Vec3::Zero(), rest_direction = Vec3::Zero();
-    for (Index s = 0; s < muscle.strings; ++s) {
-      center += places.col(muscle.node(s, i)) / muscle.strings;
-      rest_center += muscle.taut.col(muscle.node(s, i)) / muscle.strings;
-      direction += string_direction(muscle, places, s, i);
-      rest_direction += string_direction(muscle, muscle.taut, s, i);
-    }
+    const StringSection rest = string_section(muscle, muscle.taut, i), now = string_section(muscle, places, i);
     Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
-    Real spread = 0;
     for (Index s = 0; s < muscle.strings; ++s) {
-      const Vec3 rest = muscle.taut.col(muscle.node(s, i)) - rest_center;
-      correlation += (places.col(muscle.node(s, i)) - center) * rest.transpose();
-      spread += rest.squaredNorm();
+      const Index p = muscle.node(s, i);
+      correlation += (places.col(p) - now.center) * (muscle.taut.col(p) - rest.center).transpose();
     }
     // The direction counts as much as all nodes, so that sections stay across the strings.
-    correlation += spread * direction.normalized() * rest_direction.normalized().transpose();
+    correlation += rest.spread * now.direction.normalized() * rest.direction.normalized().transpose();
     turns.push_back(nearest_rotation(correlation));
   }
   return turns;

@@ -13,13 +13,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace gracilis::HWY_NAMESPACE {
 
-/// Up to which distance a bone acts on a node.
-HWY_INLINE V farthest_asked(const strings::StringLanes::Bone& kept, std::size_t at) {
-  const V slides = load(kept.slide_share, at);
-  const V slide = hn::IfThenElse(hn::Gt(slides, hn::Zero(D())), load(kept.slide_distance, at), lanes_of(-1));
-  return hn::Max(load(kept.kept, at), slide);
-}
-
 /// Fills the workspace of one muscle for one pose.
 class LanePose {
  public:
@@ -40,7 +33,7 @@ class LanePose {
     place_nodes(places);
     place_ties();
     place_bones();
-    begin_sections();
+    if (!lanes_.neighbor_weight.empty()) begin_sections();
     w_.last_move.assign(width_, std::numeric_limits<float>::infinity());
     w_.travelled.assign(width_, 0);
   }
@@ -129,7 +122,7 @@ class LanePose {
           clear = hn::Min(clear, travel);
           return travel;
         };
-        store(until(here, farthest_asked(kept, at)), bone.asked_from, at);
+        store(until(here, load(kept.acts_within, at)), bone.asked_from, at);
         if (i + 1 == inner_) continue;
         const Point middle = scaled(lanes_of(0.5f), here + load(w_.begun, at + width_));
         store(until(middle, load(kept.kept_middle, at)), bone.asked_from_middle, at);

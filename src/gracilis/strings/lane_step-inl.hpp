@@ -127,7 +127,7 @@ class LaneSteps {
   HWY_INLINE void defer_middle(LaneWorkspace::Bone& bone, const strings::StringLanes::Bone& kept, std::size_t at, V travelled,
                                Point segment) const {
     const V half = lanes_of(0.5f);
-    const V least = load(bone.asked_from, at) + farthest_asked(kept, at) - travelled -
+    const V least = load(bone.asked_from, at) + load(kept.acts_within, at) - travelled -
                     half * hn::Sqrt(dot<Math>(segment, segment)) - load(kept.kept_middle, at);
     store(hn::Max(load(bone.asked_from_middle, at), travelled + half * least), bone.asked_from_middle, at);
   }
@@ -159,7 +159,7 @@ class LaneSteps {
     for (std::size_t i = 1; i < inner_; ++i) {
       const std::size_t at = i * width_ + s;
       const Point here = load(w_.place, at);
-      if (ask(here, farthest_asked(kept, at), bone.asked_from, at, seen)) {
+      if (ask(here, load(kept.acts_within, at), bone.asked_from, at, seen)) {
         const V depth = seen.distance - load(kept.kept, at);
         const auto pressed = hn::And(seen.has_direction, hn::Lt(depth, hn::Zero(D())));
         add_spring(at, hn::IfThenElseZero(pressed, stiffness), seen.outward, depth);

@@ -20,26 +20,17 @@ SectionRates::SectionRates(const MuscleStrings& muscle, const Points& places)
   unit_rate_.assign(static_cast<std::size_t>(places.cols()), Eigen::Matrix3d::Zero());
   for (Index i = 1; i + 1 < muscle.nodes; ++i) {
     const auto section = static_cast<std::size_t>(i);
-    Vec3 center = Vec3::Zero(), rest_center = Vec3::Zero(), direction = Vec3::Zero(), rest_direction = Vec3::Zero();
-    for (Index s = 0; s < muscle.strings; ++s) {
-      const Index p = muscle.node(s, i);
-      center += places.col(p) / muscle.strings, rest_center += muscle.taut.col(p) / muscle.strings;
-      direction += string_direction(muscle, places, s, i);
-      rest_direction += string_direction(muscle, muscle.taut, s, i);
-      unit_rate_[static_cast<std::size_t>(p)] = rate_of_unit(places.col(p + 1) - places.col(p - 1));
-    }
+    const StringSection rest = string_section(muscle, muscle.taut, i), now = string_section(muscle, places, i);
     Eigen::Matrix3d stretch = Eigen::Matrix3d::Zero();
-    Real spread = 0;
     for (Index s = 0; s < muscle.strings; ++s) {
       const Index p = muscle.node(s, i);
-      const Vec3 rest = muscle.taut.col(p) - rest_center;
-      arms_.col(p) = turns_[section] * rest;
-      stretch += (places.col(p) - center) * arms_.col(p).transpose();
-      spread += rest.squaredNorm();
+      unit_rate_[static_cast<std::size_t>(p)] = rate_of_unit(places.col(p + 1) - places.col(p - 1));
+      arms_.col(p) = turns_[section] * (muscle.taut.col(p) - rest.center);
+      stretch += (places.col(p) - now.center) * arms_.col(p).transpose();
     }
-    directions_.col(i) = spread * (turns_[section] * rest_direction.normalized());
-    stretch += direction.normalized() * directions_.col(i).transpose();
-    mean_rate_[section] = rate_of_unit(direction);
+    directions_.col(i) = rest.spread * (turns_[section] * rest.direction.normalized());
+    stretch += now.direction.normalized() * directions_.col(i).transpose();
+    mean_rate_[section] = rate_of_unit(now.direction);
     // With M = S R, S symmetric, and a turn w: (tr S - S) w is the axial vector of dM Rᵀ - R dMᵀ.
     const Eigen::Matrix3d symmetric = (stretch + stretch.transpose()) / 2;
     const Eigen::Matrix3d stiffness = symmetric.trace() * Eigen::Matrix3d::Identity() - symmetric;

@@ -1,6 +1,7 @@
 #include <gracilis/strings/string_lanes.hpp>
 
 #include <gracilis/dynamics/simd/group_width.hpp>
+#include <gracilis/strings/cross_sections.hpp>
 #include <gracilis/strings/muscle_strings.hpp>
 #include <gracilis/strings/node_forces.hpp>
 
@@ -76,6 +77,9 @@ void keep_to_bones(const MuscleStrings& muscle, StringLanes& lanes) {
     });
     numbers.slide_share = per_node(lanes, [&](Index s, Index i) { return slide(s, i).share; });
     numbers.slide_distance = per_node(lanes, [&](Index s, Index i) { return slide(s, i).distance; });
+    for (std::size_t at = 0; at < numbers.kept.size(); ++at)
+      numbers.acts_within.push_back(numbers.slide_share[at] > 0 ? std::max(numbers.kept[at], numbers.slide_distance[at])
+                                                                : std::max(numbers.kept[at], -1.0F));
   }
 }
 
@@ -98,15 +102,9 @@ void hold_among_neighbors(const MuscleStrings& muscle, StringLanes& lanes) {
 void measure_sections(const MuscleStrings& muscle, StringLanes& lanes) {
   Points centers(3, muscle.nodes);
   for (Index i = 0; i < muscle.nodes; ++i) {
-    Vec3 direction = Vec3::Zero(), center = Vec3::Zero();
-    for (Index s = 0; s < muscle.strings; ++s) {
-      center += muscle.taut.col(muscle.node(s, i)) / muscle.strings;
-      direction += string_direction(muscle, muscle.taut, s, i);
-    }
-    Real spread = 0;
-    for (Index s = 0; s < muscle.strings; ++s) spread += (muscle.taut.col(muscle.node(s, i)) - center).squaredNorm();
-    centers.col(i) = center;
-    lanes.section_direction.emplace_back((spread * direction.normalized()).cast<float>());
+    const StringSection section = string_section(muscle, muscle.taut, i);
+    centers.col(i) = section.center;
+    lanes.section_direction.emplace_back((section.spread * section.direction.normalized()).cast<float>());
   }
   lanes.from_section = points_per_node(
       lanes, [&](Index s, Index i) -> Vec3 { return muscle.taut.col(muscle.node(s, i)) - centers.col(i); });

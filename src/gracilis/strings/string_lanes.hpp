@@ -31,6 +31,7 @@ struct StringLanes {
   struct Bone {
     std::vector<float> kept, kept_middle;  ///< m, to be kept at a node and at the middle after it
     std::vector<float> slide_share, slide_distance;
+    std::vector<float> acts_within;  ///< m: farther away the bone does nothing to a node
   };
   std::vector<Bone> bones;
 
@@ -39,7 +40,6 @@ struct StringLanes {
   LanePoints from_section;             ///< from the mean place of all strings' nodes of this number; zero beyond the last
   std::vector<std::vector<Real>> section_shares;   ///< mean shares of `bodies`, per node
   std::vector<Eigen::Vector3f> section_direction;  ///< mean of the strings' directions, times the section's spread, m²
-
 };
 
 /// Precondition: everything else of the muscle is known.

@@ -22,7 +22,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D>
 struct Lanes {
   using V = hn::Vec<D>;
-  static HWY_INLINE V number(double x) { return hn::Set(D(), static_cast<float>(x)); }
+  static HWY_INLINE V number(double x) { return hn::Set(D(), static_cast<hn::TFromD<D>>(x)); }
   static HWY_INLINE V sqrt(V x) { return hn::Sqrt(x); }
   static HWY_INLINE V abs(V x) { return hn::Abs(x); }
   static HWY_INLINE V min(V x, V y) { return hn::Min(x, y); }

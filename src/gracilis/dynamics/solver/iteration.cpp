@@ -67,13 +67,6 @@ void end_iteration(JointSolve& solve, std::size_t i, Progress& progress) {
   progress.done = progress.last || (least > 0 && largest_motion(progress.before, surface.state->particles) < least);
 }
 
-template <class Holds>
-bool any_of_surfaces(const JointSolve& solve, const Holds& holds) {
-  for (std::size_t i = 0; i < solve.surfaces.size(); ++i)
-    if (holds(i)) return true;
-  return false;
-}
-
 }  // namespace
 
 void iterate(JointSolve& solve) {
@@ -90,10 +83,10 @@ void iterate(JointSolve& solve) {
     });
     if (std::all_of(progress.begin(), progress.end(), is_done)) return;
     if (solve.coupling.project && iteration % coupling_refresh == 0) solve.coupling.refresh(solve.movers);
-    const auto touches = [&](std::size_t i) {
-      return !progress[i].done && projects_contact(solve.surfaces[i], iteration);
-    };
-    if (any_of_surfaces(solve, touches)) solve.project_contact();
+    bool any_touches = false;
+    for (std::size_t i = 0; i < progress.size(); ++i)
+      any_touches |= !progress[i].done && projects_contact(solve.surfaces[i], iteration);
+    if (any_touches) solve.project_contact();
   }
 }
 

@@ -11,6 +11,7 @@
 #include <gracilis/io/run/measures_table.hpp>
 #include <gracilis/io/run/output_hashes.hpp>
 #include <gracilis/io/tables/action_tables.hpp>
+#include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/io/tables/fiber_table.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/methods/registry.hpp>
@@ -130,7 +131,7 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
   truncate_tables(static_cast<int>(poses_.size()));
   if (frame_count_ == 0) {
     fs::remove(folder_ / "measures.csv");
-    for (const std::string& name : fiber_tables(scene_)) fs::remove(folder_ / name);
+    for (const std::string& name : table_names(scene_)) fs::remove(folder_ / name);
   }
   write_index();
 }
@@ -146,6 +147,9 @@ RunFolder::~RunFolder() {
 /// Surfaces come last: a frame whose surfaces are all there is whole, however a run was ended.
 void RunFolder::write_frame(const FrameRecord& record) {
   write_fibers(record);
+  const int rows = static_cast<int>(poses_.size());
+  if (const std::optional<RunTable> table = force_table(scene_, record, rows))
+    append_measures(folder_ / table->name, table->head, table->row);
   append_measures(folder_ / "measures.csv", measures_header(scene_), measures_rows(scene_, record));
   write_surfaces(record.frame);
   frame_count_ = record.frame.number + 1;
@@ -187,7 +191,7 @@ void RunFolder::write_fibers(const FrameRecord& record) {
                       fibers.lines, {{"length_m", fibers.lengths}});
     }
   });
-  for (const ActionTable& table : action_tables(scene_, record, static_cast<int>(poses_.size())))
+  for (const RunTable& table : action_tables(scene_, record, static_cast<int>(poses_.size())))
     append_measures(folder_ / table.name, table.head, table.row);
   append_measures(folder_ / "fiber_lengths.sto",
                   fiber_lengths_head(scene_, record.fibers, static_cast<int>(poses_.size())),
@@ -195,7 +199,7 @@ void RunFolder::write_fibers(const FrameRecord& record) {
 }
 
 void RunFolder::truncate_tables(int announced) const {
-  for (const std::string& name : fiber_tables(scene_)) truncate_fiber_lengths(folder_ / name, frame_count_, announced);
+  for (const std::string& name : table_names(scene_)) truncate_fiber_lengths(folder_ / name, frame_count_, announced);
 }
 
 void RunFolder::write_manifest(RunManifest manifest) const {

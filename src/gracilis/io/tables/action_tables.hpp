@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/io/tables/run_table.hpp>
 #include <gracilis/simulate/run.hpp>
 
 #include <string>
@@ -7,14 +8,8 @@
 
 namespace gracilis {
 
-/// A .sto table of a run to which each frame adds a row.
-struct ActionTable {
-  std::string name;       ///< of the file
-  std::string head, row;  ///< text, with line breaks
-};
-
-/// What a frame's fiber actions add to the run's tables; nothing where it has none. All begin as fiber_lengths.sto
-/// does: the time, then the scene's coordinates (degrees or m).
+/// What a frame's fiber actions add to the run's tables; nothing where it has none. All begin as run_table.hpp
+/// says.
 ///
 /// moment_arms_<coordinate>.sto, one per coordinate: per muscle `<muscle>`, the mean, `<muscle>_f000` ... (m), and
 /// `<muscle>_left_out`, how many fibers the mean leaves out because they are about to snap to another way or not at
@@ -24,10 +19,10 @@ struct ActionTable {
 /// its origin, and `_insertion_x` ...; `<muscle>_f000_left_out`, 1 or 0; and per body that the muscle pulls at
 /// `<muscle>_on_<body>_force_x` ... (1) and `_moment_x` ... (m) about the body's origin, the place of the ground's
 /// origin in the capture pose, which went with the body. All in the directions of the ground.
-std::vector<ActionTable> action_tables(const Scene& scene, const FrameRecord& record, int rows);
+std::vector<RunTable> action_tables(const Scene& scene, const FrameRecord& record, int rows);
 
-/// The names of all tables of fibers that a run of the scene may have.
-std::vector<std::string> fiber_tables(const Scene& scene);
+/// The names of all .sto tables that a run of the scene may have.
+std::vector<std::string> table_names(const Scene& scene);
 
 /// moment_arms_<coordinate>.sto
 std::string moment_arm_file(const std::string& coordinate);

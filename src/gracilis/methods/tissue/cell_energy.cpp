@@ -19,14 +19,9 @@ void add(const Tetrahedron& gradient, const std::array<Index, 4>& tetrahedron, C
   for (std::size_t k = 0; k < 4; ++k) sum.col(tetrahedron[k]) += gradient.col(static_cast<Index>(k));
 }
 
-/// What of a cell counts in which way.
-struct CellWeights {
-  std::array<Real, 5> volumes{};  ///< m³, of tetrahedra
-  std::array<Real, 5> shares{};   ///< in the mean J: of what is really filled, or the surface's volume would drift
-  Real volume = 0;                ///< m³
-};
+}  // namespace
 
-CellWeights weights_of(const CubeCut& cut, Real cell_size, const std::array<Real, 5>& fills) {
+CellWeights cell_weights(const CubeCut& cut, Real cell_size, const std::array<Real, 5>& fills) {
   // So little that a cell which samples found empty has a mean, too.
   constexpr Real trace = 1e-3;
   CellWeights weights;
@@ -40,14 +35,12 @@ CellWeights weights_of(const CubeCut& cut, Real cell_size, const std::array<Real
   return weights;
 }
 
-}  // namespace
-
 CellState cell_energy(const CubeCut& cut, Real cell_size, const std::array<Real, 5>& fills, const CellLaw& law,
                       const Corners& corners) {
   CellState state;
   Real mean_j = 0;
   Corners mean_gradient = Corners::Zero();
-  const CellWeights weights = weights_of(cut, cell_size, fills);
+  const CellWeights weights = cell_weights(cut, cell_size, fills);
   const Real volume = weights.volume;
   for (std::size_t t = 0; t < 5; ++t) {
     const Tetrahedron gradients = cut.shape_gradients[t] / cell_size;
@@ -72,7 +65,7 @@ CellState cell_energy(const CubeCut& cut, Real cell_size, const std::array<Real,
 
 Matrix24 cell_hessian(const CubeCut& cut, Real cell_size, const std::array<Real, 5>& fills, const CellLaw& law,
                       const Corners& corners) {
-  const CellWeights weights = weights_of(cut, cell_size, fills);
+  const CellWeights weights = cell_weights(cut, cell_size, fills);
   const Real volume = weights.volume;
   Real mean_j = 0;
   Corners mean_gradient = Corners::Zero();

@@ -13,6 +13,14 @@ struct CellLaw {
   Vec3 direction = Vec3::Zero();  ///< of the fibers at rest, unit; 0: none
 };
 
+/// What of a cell counts in which way.
+struct CellWeights {
+  std::array<Real, 5> volumes{};  ///< m³, of tetrahedra
+  std::array<Real, 5> shares{};   ///< in the mean J: of what is really filled, or the surface's volume would drift
+  Real volume = 0;                ///< m³
+};
+CellWeights cell_weights(const CubeCut& cut, Real cell_size, const std::array<Real, 5>& fills);
+
 /// Energy of a cell (J), its derivative by the corners (N), and the least J of its tetrahedra.
 struct CellState {
   Real energy = 0;

@@ -195,6 +195,12 @@ Lattice build_lattice(const TriangleMesh& surface, Real cell_size) {
   return lattice;
 }
 
+Real filled_volume(const Lattice& lattice, const Cell& cell) {
+  Real share = 0;
+  for (std::size_t t = 0; t < 5; ++t) share += cell.fills[t] * cube_cut(cell.parity).shares[t];
+  return share * lattice.cell_volume();
+}
+
 EmbeddedPoint embed(const Lattice& lattice, const Vec3& p) {
   const std::array<Index, 3> place = place_at(lattice, p);
   for (std::size_t axis = 0; axis < 3; ++axis)

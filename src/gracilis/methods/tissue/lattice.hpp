@@ -70,6 +70,9 @@ Lattice build_lattice(const TriangleMesh& surface, Real cell_size);
 /// Where a point lies in the lattice; cell -1 outside of all cells.
 EmbeddedPoint embed(const Lattice& lattice, const Vec3& p);
 
+/// How much of a cell lies inside the surface, m³.
+Real filled_volume(const Lattice& lattice, const Cell& cell);
+
 /// A cell's corners where the nodes are at `nodes`.
 inline Corners corners_of(const Cell& cell, const Points& nodes) {
   Corners corners;

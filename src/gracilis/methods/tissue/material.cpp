@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gracilis::tissue {
 
@@ -26,18 +27,18 @@ Curve force_length(Real x) {
 }
 
 Curve passive(const FiberLaw& law, Real stretch) {
-  const Real strain = stretch - 1;
-  const Real slack = law.stiffness > 0 ? (slack_share - 1) * law.rest_tension / law.stiffness : 0;
-  if (law.stiffness > 0 && strain < slack) {
-    const Real tension = slack_share * law.rest_tension;
-    const Real energy = law.rest_tension * slack + law.stiffness / 2 * slack * slack;
-    return {energy + tension * (strain - slack), tension, 0};
-  }
-  return {law.rest_tension * strain + law.stiffness / 2 * strain * strain, law.rest_tension + law.stiffness * strain,
-          law.stiffness};
+  const Real strain = stretch - 1, taut = std::max(strain, slack_strain(law));
+  const Real tension = law.rest_tension + law.stiffness * taut;
+  return {taut * (law.rest_tension + law.stiffness / 2 * taut) + tension * (strain - taut), tension,
+          strain < taut ? 0 : law.stiffness};
 }
 
 }  // namespace
+
+Real slack_strain(const FiberLaw& law) {
+  return law.stiffness > 0 ? (slack_share - 1) * law.rest_tension / law.stiffness
+                           : -std::numeric_limits<Real>::infinity();
+}
 
 Curve fiber_curve(const FiberLaw& law, Real stretch) {
   Curve sum = passive(law, stretch);

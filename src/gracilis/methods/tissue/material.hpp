@@ -24,6 +24,9 @@ struct FiberLaw {
   FiberLaw scaled(Real by) const { return {by * rest_tension, by * stiffness, by * active_tension, optimal_stretch}; }
 };
 
+/// The strain below which passive fibers keep the least tension they have; -infinity where they do not change it.
+Real slack_strain(const FiberLaw& law);
+
 /// The tension's integral, the tension and its slope. Passive: linear, never below a fifth of the tension at rest.
 /// Active: the force-length curve of Blemker, Pinsky and Delp (2005), from 0.4 to 1.6 of the optimal stretch.
 Curve fiber_curve(const FiberLaw& law, Real stretch);

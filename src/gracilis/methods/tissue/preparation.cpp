@@ -1,5 +1,6 @@
 #include <gracilis/methods/tissue/preparation.hpp>
 
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/tissue/bone_contact.hpp>
@@ -91,12 +92,27 @@ Real mean_of_belly(const PreparedTissue& prepared, const Points& gradients) {
   return filled[0] > 0 ? sum[0] / filled[0] : sum[1] / filled[1];
 }
 
+/// What flows out of the field through the insertion's grips, m: the same goes through every section.
+Real flux_of(const Lattice& lattice, const std::vector<FieldGrip>& grips, const Eigen::VectorXd& field) {
+  Real flux = 0;
+  for (const FieldGrip& grip : grips) {
+    if (grip.column < 0) continue;
+    const Cell& cell = lattice.cells[static_cast<std::size_t>(grip.at.cell)];
+    Real value = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      value += grip.at.weights[static_cast<Index>(k)] * field[cell.nodes[static_cast<std::size_t>(grip.at.corners[k])]];
+    flux += grip.grip * (1 - value);
+  }
+  return flux;
+}
+
 /// Fibers run along the gradient of the harmonic field from origin to insertion, whose size is the density of their
 /// flux: the inverse of the section that it goes through.
 void lay_fibers(PreparedTissue& prepared) {
   const Lattice& lattice = prepared.lattice;
   prepared.directions = Points::Zero(3, lattice.cell_count());
   prepared.relative_tension.assign(lattice.cells.size(), 1);
+  prepared.fiber_density.assign(lattice.cells.size(), 0);
   std::vector<FieldGrip> grips;
   bool has_origin = false, has_insertion = false;
   for (const SurfacePoint& point : prepared.points) {
@@ -106,15 +122,22 @@ void lay_fibers(PreparedTissue& prepared) {
     grips.push_back({point.at, attachment_grip * point.area / lattice.cell_size, is_insertion ? 0 : -1});
   }
   if (!has_origin || !has_insertion) return;
-  const Points gradients = cell_gradients(lattice, harmonic_lattice_fields(lattice, grips, 1).col(0));
-  const Real mean = mean_of_belly(prepared, gradients);
+  const Eigen::VectorXd field = harmonic_lattice_fields(lattice, grips, 1).col(0);
+  const Points gradients = cell_gradients(lattice, field);
+  const Real mean = mean_of_belly(prepared, gradients), flux = flux_of(lattice, grips, field);
+  prepared.mean_section = flux / mean;
+  Real squares = 0;
   for (Index c = 0; c < lattice.cell_count(); ++c) {
     const Real size = gradients.col(c).norm();
     if (!(size > least_gradient * mean)) continue;
     prepared.directions.col(c) = gradients.col(c) / size;
     prepared.relative_tension[static_cast<std::size_t>(c)] =
         std::clamp(size / mean, 1 / largest_relative_tension, largest_relative_tension);
+    prepared.fiber_density[static_cast<std::size_t>(c)] = size;
+    squares += filled_volume(lattice, lattice.cells[static_cast<std::size_t>(c)]) * size * size;
   }
+  // So that its product with a tension, over all sections, is the mean of the tension's integrals over them.
+  for (Real& density : prepared.fiber_density) density *= flux / squares;
 }
 
 /// Every free vertex within reach of a bone is tied to it, the more weakly the further it is away. Where fibers gather
@@ -143,6 +166,16 @@ void tie_to_bones(const Scene& scene, const std::vector<SignedDistance>& distanc
   }
 }
 
+void find_fibers(const Muscle& muscle, PreparedTissue& prepared) {
+  const Polylines fibers = fibers_of(muscle);
+  for (Index f = 0; f < fibers.count(); ++f) {
+    const Points line = fibers.line(f);
+    std::vector<Index>& cells = prepared.fiber_cells.emplace_back();
+    for (Index i = 0; i + 1 < static_cast<Index>(line.cols()); ++i)
+      if (const Index c = embed(prepared.lattice, (line.col(i) + line.col(i + 1)) / 2).cell; c >= 0) cells.push_back(c);
+  }
+}
+
 void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, PreparedTissue& prepared) {
   for (std::size_t b = 0; b < fields.size(); ++b) {
     BoneGap bone{scene.bones[b].body, &fields[b], {}};
@@ -153,10 +186,10 @@ void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, Pre
 }
 
 void sort_out(PreparedTissue& prepared) {
+  prepared.cells = cell_lanes(prepared.lattice);
   std::vector<Index> cell_of_point, node_of_corner;
   for (const SurfacePoint& point : prepared.points) cell_of_point.push_back(point.at.cell);
-  for (const Cell& cell : prepared.lattice.cells)
-    node_of_corner.insert(node_of_corner.end(), cell.nodes.begin(), cell.nodes.end());
+  for (const std::int64_t corner : prepared.cells.corners) node_of_corner.push_back(static_cast<Index>(corner / 3));
   prepared.points_of_cells = group_by_key(cell_of_point, prepared.lattice.cell_count());
   prepared.corners_of_nodes = group_by_key(node_of_corner, prepared.lattice.node_count());
 }
@@ -202,6 +235,7 @@ PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const st
   place_points(muscle, prepared);
   hold_triangles(muscle.surface, prepared);
   lay_fibers(prepared);
+  find_fibers(muscle, prepared);
   tie_to_bones(scene, distances, prepared);
   keep_gaps(scene, fields, prepared);
   sort_out(prepared);

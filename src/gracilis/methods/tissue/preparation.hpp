@@ -3,7 +3,7 @@
 #include <gracilis/core/group_by_key.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
-#include <gracilis/methods/tissue/cell_energy.hpp>
+#include <gracilis/methods/tissue/cell_lanes.hpp>
 #include <gracilis/methods/tissue/settings.hpp>
 
 #include <string>
@@ -42,12 +42,16 @@ struct PreparedTissue {
   Lattice lattice;
   std::vector<Real> relative_tension;  ///< per cell: the mean section over the section there, by the fibers' flux
   Points directions;                   ///< per cell: of the fibers at rest, unit, or 0
+  std::vector<Real> fiber_density;     ///< per cell, 1/m: what a tension (Pa) counts with, by volume, in the muscle's (N)
+  Real mean_section = 0;               ///< m², across the fibers, of the belly
+  std::vector<std::vector<Index>> fiber_cells;  ///< of each of the muscle's fibers: the cells it runs through
   std::vector<SurfacePoint> points;    ///< the surface's vertices in their order, then the others
   Index vertex_count = 0;
   std::vector<Tie> ties;  ///< of points, one after the other
   std::vector<BoneGap> bones;
   GroupedByKey points_of_cells;    ///< points by their cells
-  GroupedByKey corners_of_nodes;   ///< cell * 8 + corner, by their nodes
+  CellLanes cells;                 ///< of the lattice, for the vector kernel
+  GroupedByKey corners_of_nodes;   ///< where corners stand in `cells`, by their nodes
   std::vector<Index> carriers;     ///< bodies that carry the muscle
   Eigen::MatrixXd carrier_shares;  ///< nodes × carriers; rows sum to 1, or are 0
 };

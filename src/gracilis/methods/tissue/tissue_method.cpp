@@ -29,7 +29,10 @@ constexpr int most_rounds = 4;
 Minimized settle(const PreparedTissue& muscle, Surroundings& around, const FactoredMatrix& metric, Points& nodes) {
   MinimizeSettings settings = {muscle.settings.minimizer_iterations, muscle.settings.minimizer_residual,
                                muscle.lattice.cell_size};
-  const auto energy = [&](const Points& at, Points& gradient) { return total_energy(muscle, around, at, gradient); };
+  CornerForces forces;
+  const auto energy = [&](const Points& at, Points& gradient) {
+    return total_energy(muscle, around, at, forces, gradient);
+  };
   const auto by_metric = [&](const Points& gradient) { return metric.solve(gradient); };
   Minimized sum;
   for (int round = 0; round < most_rounds; ++round) {
@@ -60,6 +63,8 @@ class TissueMethod final : public DeformationMethod {
     nodes_.clear();
     for (const PreparedTissue& muscle : muscles_) nodes_.push_back(muscle.lattice.nodes);
     bodies_.assign(body_count_, RigidTransform::Identity());
+    equilibria_.clear();
+    for (const PreparedTissue& muscle : muscles_) equilibria_.push_back(at_rest(muscle));
     frame_ = 0;
   }
 
@@ -67,13 +72,15 @@ class TissueMethod final : public DeformationMethod {
     StepReport report;
     report.muscles.resize(muscles_.size());
     std::vector<Points> next = nodes_;
+    std::vector<Equilibrium> found(muscles_.size());
     parallel_for_each(muscles_.size(), [&](std::size_t m) {
       const auto started = std::chrono::steady_clock::now();
-      report.muscles[m] = step(m, pose, next[m]);
+      report.muscles[m] = step(m, pose, next[m], found[m]);
       const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
       report.muscles[m].milliseconds = taken.count();
     });
     nodes_ = std::move(next);
+    equilibria_ = std::move(found);
     bodies_ = pose.bodies;
     ++frame_;
     return report;
@@ -82,6 +89,15 @@ class TissueMethod final : public DeformationMethod {
   void write(Frame& frame) const override {
     frame.muscles.clear();
     for (std::size_t m = 0; m < muscles_.size(); ++m) frame.muscles.push_back({surface_at(muscles_[m], nodes_[m])});
+  }
+
+  std::vector<MuscleForces> muscle_forces(const std::vector<std::vector<Twist>>& coordinates) const override {
+    std::vector<MuscleForces> forces(muscles_.size());
+    parallel_for_each(muscles_.size(), [&](std::size_t m) {
+      const Equilibrium& found = equilibria_[m];
+      forces[m] = tissue::muscle_forces(muscles_[m], found.around, found.laws, nodes_[m], coordinates);
+    });
+    return forces;
   }
 
   /// Surfaces do not tell where the nodes inside are, so all frames are gone through again.
@@ -99,7 +115,20 @@ class TissueMethod final : public DeformationMethod {
     return found;
   }
 
-  MuscleReport step(std::size_t m, const Pose& pose, Points& nodes) {
+  /// What the nodes of a muscle are in equilibrium with.
+  struct Equilibrium {
+    std::vector<CellLaw> laws;
+    Surroundings around;
+  };
+
+  /// At the capture pose nothing pulls.
+  Equilibrium at_rest(const PreparedTissue& muscle) const {
+    Equilibrium found{cell_laws(muscle, 0, 0), {}};
+    found.around = surroundings(muscle, bodies_, found.laws);
+    return found;
+  }
+
+  MuscleReport step(std::size_t m, const Pose& pose, Points& nodes, Equilibrium& found) {
     const PreparedTissue& muscle = muscles_[m];
     const auto check = [&](bool is_finite) {
       if (!is_finite) throw QualityError("muscle " + muscle.name + ": a vertex position is not finite; check the pose");
@@ -108,18 +137,17 @@ class TissueMethod final : public DeformationMethod {
     const Real activation = m < pose.activations.size() ? pose.activations[m] : 0;
     const Real tension = std::min(1.0, Real(frame_ + 1) / muscle.settings.tension_frames);
     const FactoredMatrix& by_metric = metric(m, activation);
-    std::vector<CellLaw> laws = cell_laws(muscle, activation, tension);
+    found.laws = cell_laws(muscle, activation, tension);
     int iterations = 0;
     Minimized done;
     Real pull = 0;
     std::vector<RigidTransform> before = bodies_;
     for (const std::vector<RigidTransform>& now : steps_between(muscle, bodies_, pose.bodies)) {
       carry(muscle, before, now, nodes);
-      Surroundings around = surroundings(muscle, now, std::move(laws));
-      done = settle(muscle, around, by_metric, nodes);
+      found.around = surroundings(muscle, now, found.laws);
+      done = settle(muscle, found.around, by_metric, nodes);
       iterations += done.iterations;
-      pull = attachment_wrench(muscle, around, nodes, AttachmentEnd::insertion).force.norm();
-      laws = std::move(around.laws);
+      pull = attachment_wrench(muscle, found.around, nodes, AttachmentEnd::insertion).force.norm();
       before = now;
     }
     check(nodes.allFinite());
@@ -135,6 +163,7 @@ class TissueMethod final : public DeformationMethod {
   std::vector<PreparedTissue> muscles_;
   std::vector<std::map<int, FactoredMatrix>> metrics_;  ///< by muscle and activation, made when first asked for
   std::vector<Points> nodes_;
+  std::vector<Equilibrium> equilibria_;
   std::vector<RigidTransform> bodies_;
   int frame_ = 0;
 };

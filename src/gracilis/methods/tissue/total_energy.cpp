@@ -1,42 +1,28 @@
 #include <gracilis/methods/tissue/total_energy.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/methods/tissue/bone_contact.hpp>
-#include <gracilis/methods/tissue/point_energy.hpp>
+#include <gracilis/methods/tissue/point_actions.hpp>
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace gracilis::tissue {
 
 namespace {
 
-constexpr Index cells_per_task = 32;
+constexpr Index groups_per_task = 8;
 /// Keeps parts that nothing holds solvable, as a share of a cell's stiffness.
 constexpr Real least_stiffness = 1e-6;
+constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 /// All that acts on one point of the surface at `p`.
 PointState point_energy(const PreparedTissue& muscle, const Surroundings& around, std::size_t v, const Vec3& p) {
-  const SurfacePoint& point = muscle.points[v];
-  const TissueSettings& settings = muscle.settings;
-  if (point.held_by >= 0)
-    return spring(p - around.held.col(static_cast<Index>(v)), settings.attachment_stiffness * point.area);
   PointState sum;
-  const auto add = [&](const PointState& state) {
-    sum.energy += state.energy;
-    sum.gradient += state.gradient;
-  };
-  for (Index t = point.ties_begin; t < point.ties_end; ++t)
-    add(tie(p - around.tied.col(t), around.gliding.col(t), muscle.ties[static_cast<std::size_t>(t)].stiffness,
-            settings.fascia_yield));
-  for (Index i = around.near_begin[v]; i < around.near_begin[v + 1]; ++i) {
-    const BoneGap& bone = muscle.bones[static_cast<std::size_t>(around.near[static_cast<std::size_t>(i)])];
-    const auto body = static_cast<std::size_t>(bone.body);
-    const BoneDistance found = bone_distance(*bone.field, around.inverses[body] * p);
-    if (found.distance < bone.gaps[v])
-      add(contact(found.distance, around.bodies[body].linear() * found.gradient, bone.gaps[v],
-                  settings.contact_stiffness * point.area));
-  }
+  for_each_action(muscle, around, v, p, [&](PointActor, Index, const PointState& acting) {
+    sum.energy += acting.energy;
+    sum.gradient += acting.gradient;
+  });
   return sum;
 }
 
@@ -52,36 +38,36 @@ Real point_stiffness(const PreparedTissue& muscle, const SurfacePoint& point) {
   return sum;
 }
 
-/// The point's place; exact at rest.
-Vec3 moved(const SurfacePoint& point, const Corners& corners, const Corners& at_rest) {
-  return point.rest + place_of(point.at, corners - at_rest);
-}
-
-CellState state_of(const PreparedTissue& muscle, const Surroundings& around, Index c, const Points& nodes) {
-  const Lattice& lattice = muscle.lattice;
-  const auto index = static_cast<std::size_t>(c);
-  const Cell& cell = lattice.cells[index];
-  const Corners corners = corners_of(cell, nodes), at_rest = corners_of(cell, lattice.nodes);
-  CellState state = cell_energy(cube_cut(cell.parity), lattice.cell_size, cell.fills, around.laws[index], corners);
-  if (!(state.least_volume_ratio > 0)) return state;
-  for (const Index p : muscle.points_of_cells.with(c)) {
-    const auto v = static_cast<std::size_t>(p);
-    const SurfacePoint& point = muscle.points[v];
-    const PointState acting = point_energy(muscle, around, v, moved(point, corners, at_rest));
-    state.energy += acting.energy;
-    for (std::size_t k = 0; k < 4; ++k)
-      state.gradient.col(point.at.corners[k]) += point.at.weights[static_cast<Index>(k)] * acting.gradient;
+/// What acts on the points of some groups of cells (J); its derivatives are added to those of the corners.
+Real point_energies(const PreparedTissue& muscle, const Surroundings& around, Index begin_group, Index end_group,
+                    const Points& nodes, CornerForces& forces) {
+  Real energy = 0;
+  const auto width = static_cast<std::size_t>(cells_in_group);
+  for (std::size_t at = static_cast<std::size_t>(begin_group) * width; at < static_cast<std::size_t>(end_group) * width; ++at) {
+    const Index cell = muscle.cells.cells[at];
+    if (cell < 0) continue;
+    const std::size_t slot = muscle.cells.slot[static_cast<std::size_t>(cell)];
+    for (const Index p : muscle.points_of_cells.with(cell)) {
+      const auto v = static_cast<std::size_t>(p);
+      const SurfacePoint& point = muscle.points[v];
+      const PointState acting = point_energy(muscle, around, v, point_at(muscle, v, nodes));
+      energy += acting.energy;
+      for (std::size_t k = 0; k < 4; ++k)
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          forces[axis][slot + static_cast<std::size_t>(point.at.corners[k]) * width] +=
+              point.at.weights[static_cast<Index>(k)] * acting.gradient[static_cast<Index>(axis)];
+    }
   }
-  return state;
+  return energy;
 }
 
 }  // namespace
 
 Surroundings surroundings(const PreparedTissue& muscle, const std::vector<RigidTransform>& bodies,
-                          std::vector<CellLaw> laws) {
+                          const std::vector<CellLaw>& laws) {
   Surroundings around;
   around.bodies = bodies;
-  around.laws = std::move(laws);
+  around.laws = law_lanes(muscle.cells, laws);
   for (const RigidTransform& body : bodies) around.inverses.push_back(body.inverse());
   around.held = Points::Zero(3, static_cast<Index>(muscle.points.size()));
   around.tied.resize(3, static_cast<Index>(muscle.ties.size()));
@@ -118,27 +104,26 @@ void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surround
   around.near_begin.back() = static_cast<Index>(around.near.size());
 }
 
-Real total_energy(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes, Points& gradient) {
-  const Lattice& lattice = muscle.lattice;
-  const Index tasks = (lattice.cell_count() + cells_per_task - 1) / cells_per_task;
-  std::vector<Real> energies(static_cast<std::size_t>(tasks), 0);
-  Eigen::Matrix3Xd by_corner(3, 8 * lattice.cell_count());
-  parallel_for(lattice.cell_count(), cells_per_task, [&](Index begin, Index end) {
-    Real sum = 0;
-    for (Index c = begin; c < end; ++c) {
-      const CellState state = state_of(muscle, around, c, nodes);
-      sum += state.energy;
-      by_corner.middleCols<8>(8 * c) = state.gradient;
-    }
-    energies[static_cast<std::size_t>(begin / cells_per_task)] = sum;
+Real total_energy(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes,
+                  CornerForces& forces, Points& gradient) {
+  const Index groups = muscle.cells.group_count();
+  std::vector<Real> energies(static_cast<std::size_t>((groups + groups_per_task - 1) / groups_per_task), 0);
+  for (std::vector<Real>& axis : forces) axis.resize(muscle.cells.corner_count());
+  parallel_for(groups, groups_per_task, [&](Index begin, Index end) {
+    Real& sum = energies[static_cast<std::size_t>(begin / groups_per_task)];
+    sum = cell_lane_energy(muscle.cells, around.laws, begin, end, nodes, forces);
+    if (sum < infinity) sum += point_energies(muscle, around, begin, end, nodes, forces);
   });
-  Real energy = 0;
-  for (const Real each : energies) energy += each;
-  gradient.resize(3, lattice.node_count());
-  parallel_for(lattice.node_count(), 256, [&](Index begin, Index end) {
+  const Real energy = std::accumulate(energies.begin(), energies.end(), Real{0});
+  gradient.resize(3, muscle.lattice.node_count());
+  if (!(energy < infinity)) return energy;
+  parallel_for(muscle.lattice.node_count(), 256, [&](Index begin, Index end) {
     for (Index n = begin; n < end; ++n) {
       Vec3 sum = Vec3::Zero();
-      for (const Index corner : muscle.corners_of_nodes.with(n)) sum += by_corner.col(corner);
+      for (const Index corner : muscle.corners_of_nodes.with(n)) {
+        const auto c = static_cast<std::size_t>(corner);
+        sum += Vec3(forces[0][c], forces[1][c], forces[2][c]);
+      }
       gradient.col(n) = sum;
     }
   });
@@ -178,7 +163,13 @@ Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const s
 Vec3 point_at(const PreparedTissue& muscle, std::size_t point, const Points& nodes) {
   const SurfacePoint& each = muscle.points[point];
   const Cell& cell = muscle.lattice.cells[static_cast<std::size_t>(each.at.cell)];
-  return moved(each, corners_of(cell, nodes), corners_of(cell, muscle.lattice.nodes));
+  // By what the corners have moved: exact at rest.
+  Vec3 place = each.rest;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Index node = cell.nodes[static_cast<std::size_t>(each.at.corners[k])];
+    place += each.at.weights[static_cast<Index>(k)] * (nodes.col(node) - muscle.lattice.nodes.col(node));
+  }
+  return place;
 }
 
 Points surface_at(const PreparedTissue& muscle, const Points& nodes) {

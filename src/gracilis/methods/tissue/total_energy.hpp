@@ -12,7 +12,7 @@ namespace gracilis::tissue {
 struct Surroundings {
   std::vector<RigidTransform> bodies;    ///< from the capture pose
   std::vector<RigidTransform> inverses;  ///< back to it
-  std::vector<CellLaw> laws;
+  LawLanes laws;
   Points held;                    ///< where points are held, 3 × points; of the free ones it means nothing
   Points tied, gliding;           ///< where ties hold, and the directions that they leave free, 3 × ties
   std::vector<Index> near_begin;  ///< per point and one more: where its bones begin in `near`
@@ -21,7 +21,7 @@ struct Surroundings {
 
 /// Everything about the bodies there; nothing is near yet.
 Surroundings surroundings(const PreparedTissue& muscle, const std::vector<RigidTransform>& bodies,
-                          std::vector<CellLaw> laws);
+                          const std::vector<CellLaw>& laws);
 
 /// Points within this distance of touching a bone are near it, m: less than the margin of usual distance fields.
 inline constexpr Real near_bones = 0.006;
@@ -29,8 +29,9 @@ inline constexpr Real near_bones = 0.006;
 void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surroundings& around);
 
 /// All energy of a muscle (J) and its derivative by the nodes (3 × n, N). Infinite where a tetrahedron is inverted; the
-/// gradient means nothing then. The same bits for any number of threads.
-Real total_energy(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes, Points& gradient);
+/// gradient means nothing then. The same bits for any number of threads. `forces` is memory that is kept between calls.
+Real total_energy(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes,
+                  CornerForces& forces, Points& gradient);
 
 /// A third of the trace of every 3 × 3 block of the second derivatives at rest, in the capture pose: nodes × nodes,
 /// N/m. Positive definite.
