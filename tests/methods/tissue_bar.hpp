@@ -12,8 +12,8 @@ namespace gracilis::tissue {
 inline constexpr Real width = 0.02, length = 0.12, section = width * width;
 
 inline Real energy_of(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes, Points& gradient) {
-  CornerForces forces;
-  return total_energy(muscle, around, nodes, forces, gradient);
+  EnergyWorkspace workspace;
+  return total_energy(muscle, around, nodes, workspace, gradient);
 }
 
 /// A bar of muscle between two bodies that hold all of its ends; there are no bones.
@@ -51,7 +51,7 @@ inline SettledBar settled(const SettingValues& settings, Real activation, const 
   bar.around = surroundings(bar.muscle, bodies, cell_laws(bar.muscle, activation, 1));
   const FactoredMatrix metric(scalar_stiffness(bar.muscle, cell_laws(bar.muscle, activation, 1)));
   bar.done = minimize([&](const Points& x, Points& g) { return energy_of(bar.muscle, bar.around, x, g); },
-                      [&](const Points& g) { return metric.solve(g); }, {2000, 1e-4, 0.005}, bar.nodes);
+                      [&](std::span<Points> g) { metric.solve(g); }, {2000, 1e-4, 0.005}, bar.nodes);
   return bar;
 }
 

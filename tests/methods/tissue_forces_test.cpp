@@ -53,7 +53,7 @@ class BentTube : public ::testing::Test {
       find_near_bones(muscle, found.nodes, found.around);
       const Minimized done =
           minimize([&](const Points& x, Points& g) { return energy_of(muscle, found.around, x, g); },
-                   [&](const Points& g) { return metric.solve(g); }, {3000, 1e-6, 0.005}, found.nodes);
+                   [&](std::span<Points> g) { metric.solve(g); }, {3000, 1e-6, 0.005}, found.nodes);
       found.energy = done.energy;
     }
     return found;

@@ -17,28 +17,39 @@ FactoredMatrix::FactoredMatrix(const Eigen::SparseMatrix<Real>& matrix) {
     order_[static_cast<std::size_t>(row)] = to_matrix.size() > 0 ? to_matrix[row] : row;
 }
 
-Points FactoredMatrix::solve(const Points& b) const {
-  // Four numbers a point, so that each fills a vector register.
-  Eigen::Matrix4Xf x = Eigen::Matrix4Xf::Zero(4, b.cols());
-  for (Index i = 0; i < static_cast<Index>(b.cols()); ++i)
-    x.col(i).head<3>() = b.col(order_[static_cast<std::size_t>(i)]).cast<float>();
+/// Reading the factor takes most of the time, so several right sides take hardly longer than one.
+template <Index Count>
+void FactoredMatrix::solve_together(std::span<Points> bs) const {
+  // Four numbers a point, so that they fill whole vector registers.
+  using Column = Eigen::Matrix<float, 4 * Count, 1>;
+  const auto n = static_cast<Index>(order_.size());
+  Eigen::Matrix<float, 4 * Count, Eigen::Dynamic> x = Eigen::Matrix<float, 4 * Count, Eigen::Dynamic>::Zero(4 * Count, n);
+  for (Index i = 0; i < n; ++i)
+    for (Index k = 0; k < Count; ++k)
+      x.col(i).template segment<3>(4 * k) =
+          bs[static_cast<std::size_t>(k)].col(order_[static_cast<std::size_t>(i)]).template cast<float>();
   const auto* begin = lower_.outerIndexPtr();
   const auto* rows = lower_.innerIndexPtr();
   const float* values = lower_.valuePtr();
-  for (Index j = 0; j < static_cast<Index>(b.cols()); ++j) {
-    const Eigen::Vector4f at = x.col(j) / values[begin[j]];
+  for (Index j = 0; j < n; ++j) {
+    const Column at = x.col(j) / values[begin[j]];
     x.col(j) = at;
     for (Index k = begin[j] + 1; k < begin[j + 1]; ++k) x.col(rows[k]) -= values[k] * at;
   }
-  for (Index j = static_cast<Index>(b.cols()) - 1; j >= 0; --j) {
-    Eigen::Vector4f at = x.col(j);
+  for (Index j = n - 1; j >= 0; --j) {
+    Column at = x.col(j);
     for (Index k = begin[j] + 1; k < begin[j + 1]; ++k) at -= values[k] * x.col(rows[k]);
     x.col(j) = at / values[begin[j]];
   }
-  Points result(3, b.cols());
-  for (Index i = 0; i < static_cast<Index>(b.cols()); ++i)
-    result.col(order_[static_cast<std::size_t>(i)]) = x.col(i).head<3>().cast<Real>();
-  return result;
+  for (Index i = 0; i < n; ++i)
+    for (Index k = 0; k < Count; ++k)
+      bs[static_cast<std::size_t>(k)].col(order_[static_cast<std::size_t>(i)]) =
+          x.col(i).template segment<3>(4 * k).template cast<Real>();
+}
+
+void FactoredMatrix::solve(std::span<Points> bs) const {
+  for (; bs.size() > 1; bs = bs.subspan(2)) solve_together<2>(bs.first(2));
+  if (!bs.empty()) solve_together<1>(bs);
 }
 
 }  // namespace gracilis::tissue

@@ -82,9 +82,10 @@ Real carried_work(const PreparedTissue& muscle, const Points& gradient, const Po
 Wrench attachment_wrench(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes,
                          AttachmentEnd end) {
   Wrench sum;
+  const Points places = points_at(muscle, nodes);
   for (std::size_t v = 0; v < muscle.points.size(); ++v) {
     if (muscle.points[v].held_by < 0 || muscle.points[v].end != end) continue;
-    const Vec3 p = point_at(muscle, v, nodes);
+    const Vec3 p = places.col(static_cast<Index>(v));
     for_each_action(muscle, around, v, p, [&](PointActor, Index, const PointState& acting) { sum.add(p, acting.gradient); });
   }
   return sum;
@@ -117,8 +118,9 @@ MuscleForces muscle_forces(const PreparedTissue& muscle, const Surroundings& aro
   MuscleForces forces = listed(muscle);
   forces.tension = mean_tension(muscle, laws, nodes);
   forces.fiber_tensions = fiber_tensions(muscle, laws, nodes);
+  const Points places = points_at(muscle, nodes);
   for (std::size_t v = 0; v < muscle.points.size(); ++v) {
-    const Vec3 p = point_at(muscle, v, nodes);
+    const Vec3 p = places.col(static_cast<Index>(v));
     const bool at_origin = muscle.points[v].end == AttachmentEnd::origin;
     // Where point and body move together nothing changes, so the body feels at the point what the point resists.
     for_each_action(muscle, around, v, p, [&](PointActor actor, Index on, const PointState& acting) {
@@ -130,8 +132,8 @@ MuscleForces muscle_forces(const PreparedTissue& muscle, const Surroundings& aro
     });
   }
   Points gradient;
-  CornerForces corners;
-  total_energy(muscle, around, nodes, corners, gradient);
+  EnergyWorkspace workspace;
+  total_energy(muscle, around, nodes, workspace, gradient);
   for (const std::vector<Twist>& bodies : coordinates) {
     forces.moments.push_back(moment_of(muscle, forces, bodies));
     forces.moments_by_work.push_back(forces.moments.back() - carried_work(muscle, gradient, nodes, bodies));

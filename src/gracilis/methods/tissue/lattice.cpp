@@ -211,7 +211,9 @@ EmbeddedPoint embed(const Lattice& lattice, const Vec3& p) {
   const CubeCut& cut = cube_cut(cell.parity);
   const Vec3 in_cell = (p - lattice.origin) / lattice.cell_size - Vec3(place[0], place[1], place[2]);
   const auto [t, weights] = locate(cut, in_cell);
-  return {found->second, cut.tetrahedra[t], weights};
+  EmbeddedPoint point{found->second, {}, weights};
+  for (std::size_t k = 0; k < 4; ++k) point.nodes[k] = cell.nodes[static_cast<std::size_t>(cut.tetrahedra[t][k])];
+  return point;
 }
 
 }  // namespace gracilis::tissue

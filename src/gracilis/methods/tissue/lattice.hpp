@@ -41,7 +41,7 @@ struct Cell {
 /// A point as a mean of a tetrahedron's corners.
 struct EmbeddedPoint {
   Index cell = -1;
-  std::array<Index, 4> corners{0, 0, 0, 0};  ///< of the cell
+  std::array<Index, 4> nodes{0, 0, 0, 0};  ///< of the lattice
   Eigen::Vector4d weights = Eigen::Vector4d::Zero();
 };
 
@@ -80,11 +80,11 @@ inline Corners corners_of(const Cell& cell, const Points& nodes) {
   return corners;
 }
 
-/// The point where the cell's corners are at `corners`.
-inline Vec3 place_of(const EmbeddedPoint& point, const Corners& corners) {
-  Vec3 p = Vec3::Zero();
-  for (std::size_t k = 0; k < 4; ++k) p += point.weights[static_cast<Index>(k)] * corners.col(point.corners[k]);
-  return p;
+/// The mean of what the lattice's nodes have, 3 × nodes.
+inline Vec3 mean_at(const EmbeddedPoint& point, const Points& of_nodes) {
+  Vec3 mean = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) mean += point.weights[static_cast<Index>(k)] * of_nodes.col(point.nodes[k]);
+  return mean;
 }
 
 }  // namespace gracilis::tissue

@@ -37,20 +37,18 @@ Eigen::MatrixXd harmonic_lattice_fields(const Lattice& lattice, const std::vecto
   add_laplacian(lattice, entries);
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(lattice.node_count(), columns);
   for (const FieldGrip& grip : grips) {
-    const Cell& cell = lattice.cells[static_cast<std::size_t>(grip.at.cell)];
     for (std::size_t i = 0; i < 4; ++i) {
-      const Index node = cell.nodes[static_cast<std::size_t>(grip.at.corners[i])];
+      const Index node = grip.at.nodes[i];
       const Real weight = grip.grip * grip.at.weights[static_cast<Index>(i)];
       if (grip.column >= 0 && grip.column < columns) right(node, grip.column) += weight;
       for (std::size_t j = 0; j < 4; ++j)
-        entries.emplace_back(node, cell.nodes[static_cast<std::size_t>(grip.at.corners[j])],
-                             weight * grip.at.weights[static_cast<Index>(j)]);
+        entries.emplace_back(node, grip.at.nodes[j], weight * grip.at.weights[static_cast<Index>(j)]);
     }
   }
   Eigen::SparseMatrix<Real> matrix(lattice.node_count(), lattice.node_count());
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization(matrix);
-  return Eigen::MatrixXd(factorization.solve(right)).cwiseMax(0).cwiseMin(1);
+  return factorization.solve(right);
 }
 
 Points cell_gradients(const Lattice& lattice, const Eigen::VectorXd& field) {

@@ -1,6 +1,7 @@
 #include <gracilis/methods/tissue/minimize.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <vector>
@@ -18,7 +19,6 @@ constexpr Real rounding = 1e-14;
 struct Pair {
   Points move, change;
   Real curvature = 0;
-  Real scale = 1;  ///< of the metric, to be right along the last change
 };
 
 Real dot(const Points& a, const Points& b) { return a.cwiseProduct(b).sum(); }
@@ -29,14 +29,17 @@ Real residual_of(const Points& gradient) {
 
 /// The two-loop recursion.
 Points descent(const std::deque<Pair>& pairs, const MetricFunction& metric, const Points& gradient) {
-  Points q = gradient;
+  std::array<Points, 2> asked = {gradient, pairs.empty() ? Points() : pairs.back().change};
+  Points& q = asked[0];
   std::vector<Real> shares(pairs.size());
   for (std::size_t i = pairs.size(); i-- > 0;) {
     shares[i] = dot(pairs[i].move, q) / pairs[i].curvature;
     q -= shares[i] * pairs[i].change;
   }
-  Points direction = -metric(q);
-  if (!pairs.empty()) direction *= pairs.back().scale;
+  metric(std::span(asked).first(pairs.empty() ? 1 : 2));
+  // So that the metric is right along the last change.
+  Points direction = -q;
+  if (!pairs.empty()) direction *= pairs.back().curvature / dot(pairs.back().change, asked[1]);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Real along = dot(pairs[i].change, direction) / pairs[i].curvature;
     direction -= (shares[i] + along) * pairs[i].move;
@@ -57,7 +60,7 @@ Minimized minimize(const EnergyFunction& energy, const MetricFunction& metric, c
     Points direction = descent(pairs, metric, gradient);
     if (!(dot(direction, gradient) < 0)) {
       pairs.clear();
-      direction = -metric(gradient);
+      direction = descent(pairs, metric, gradient);
     }
     const Real fastest = direction.colwise().norm().maxCoeff();
     if (!(fastest > 0) || !std::isfinite(fastest)) break;
@@ -71,10 +74,7 @@ Minimized minimize(const EnergyFunction& energy, const MetricFunction& metric, c
       accepted = true;
       Pair pair{next - points, next_gradient - gradient, 0};
       pair.curvature = dot(pair.move, pair.change);
-      if (pair.curvature > 1e-12 * pair.move.norm() * pair.change.norm()) {
-        pair.scale = pair.curvature / dot(pair.change, metric(pair.change));
-        pairs.push_back(std::move(pair));
-      }
+      if (pair.curvature > 1e-12 * pair.move.norm() * pair.change.norm()) pairs.push_back(std::move(pair));
       if (pairs.size() > remembered) pairs.pop_front();
       points = next;
       std::swap(gradient, next_gradient);

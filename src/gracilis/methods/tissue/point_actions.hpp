@@ -26,12 +26,13 @@ void for_each_action(const PreparedTissue& muscle, const Surroundings& around, s
         tie(p - around.tied.col(t), around.gliding.col(t), each.stiffness, settings.fascia_yield));
   }
   for (Index i = around.near_begin[v]; i < around.near_begin[v + 1]; ++i) {
-    const Index b = around.near[static_cast<std::size_t>(i)];
-    const BoneGap& bone = muscle.bones[static_cast<std::size_t>(b)];
+    const NearBone& near = around.near[static_cast<std::size_t>(i)];
+    if ((p - around.seen.col(static_cast<Index>(v))).squaredNorm() < near.clear * near.clear) continue;
+    const BoneGap& bone = muscle.bones[static_cast<std::size_t>(near.bone)];
     const auto body = static_cast<std::size_t>(bone.body);
     const BoneDistance found = bone_distance(*bone.field, around.inverses[body] * p);
     if (found.distance < bone.gaps[v])
-      act(PointActor::contact, b,
+      act(PointActor::contact, near.bone,
           contact(found.distance, around.bodies[body].linear() * found.gradient, bone.gaps[v],
                   settings.contact_stiffness * point.area));
   }

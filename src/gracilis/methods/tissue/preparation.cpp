@@ -93,14 +93,12 @@ Real mean_of_belly(const PreparedTissue& prepared, const Points& gradients) {
 }
 
 /// What flows out of the field through the insertion's grips, m: the same goes through every section.
-Real flux_of(const Lattice& lattice, const std::vector<FieldGrip>& grips, const Eigen::VectorXd& field) {
+Real flux_of(const std::vector<FieldGrip>& grips, const Eigen::VectorXd& field) {
   Real flux = 0;
   for (const FieldGrip& grip : grips) {
     if (grip.column < 0) continue;
-    const Cell& cell = lattice.cells[static_cast<std::size_t>(grip.at.cell)];
     Real value = 0;
-    for (std::size_t k = 0; k < 4; ++k)
-      value += grip.at.weights[static_cast<Index>(k)] * field[cell.nodes[static_cast<std::size_t>(grip.at.corners[k])]];
+    for (std::size_t k = 0; k < 4; ++k) value += grip.at.weights[static_cast<Index>(k)] * field[grip.at.nodes[k]];
     flux += grip.grip * (1 - value);
   }
   return flux;
@@ -123,8 +121,8 @@ void lay_fibers(PreparedTissue& prepared) {
   }
   if (!has_origin || !has_insertion) return;
   const Eigen::VectorXd field = harmonic_lattice_fields(lattice, grips, 1).col(0);
-  const Points gradients = cell_gradients(lattice, field);
-  const Real mean = mean_of_belly(prepared, gradients), flux = flux_of(lattice, grips, field);
+  const Points gradients = cell_gradients(lattice, field.cwiseMax(0).cwiseMin(1));
+  const Real mean = mean_of_belly(prepared, gradients), flux = flux_of(grips, field);
   prepared.mean_section = flux / mean;
   Real squares = 0;
   for (Index c = 0; c < lattice.cell_count(); ++c) {
@@ -187,10 +185,11 @@ void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, Pre
 
 void sort_out(PreparedTissue& prepared) {
   prepared.cells = cell_lanes(prepared.lattice);
-  std::vector<Index> cell_of_point, node_of_corner;
-  for (const SurfacePoint& point : prepared.points) cell_of_point.push_back(point.at.cell);
+  std::vector<Index> node_of_point, node_of_corner;
+  for (const SurfacePoint& point : prepared.points)
+    node_of_point.insert(node_of_point.end(), point.at.nodes.begin(), point.at.nodes.end());
   for (const std::int64_t corner : prepared.cells.corners) node_of_corner.push_back(static_cast<Index>(corner / 3));
-  prepared.points_of_cells = group_by_key(cell_of_point, prepared.lattice.cell_count());
+  prepared.points_of_nodes = group_by_key(node_of_point, prepared.lattice.node_count());
   prepared.corners_of_nodes = group_by_key(node_of_corner, prepared.lattice.node_count());
 }
 
@@ -213,7 +212,9 @@ void share_carriers(PreparedTissue& prepared) {
     }
   }
   prepared.carrier_shares =
-      harmonic_lattice_fields(prepared.lattice, grips, static_cast<Index>(prepared.carriers.size()));
+      harmonic_lattice_fields(prepared.lattice, grips, static_cast<Index>(prepared.carriers.size()))
+          .cwiseMax(0)
+          .cwiseMin(1);
   for (Index n = 0; n < prepared.carrier_shares.rows(); ++n)
     if (const Real sum = prepared.carrier_shares.row(n).sum(); sum > 0) prepared.carrier_shares.row(n) /= sum;
 }

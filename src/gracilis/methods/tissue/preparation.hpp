@@ -49,7 +49,7 @@ struct PreparedTissue {
   Index vertex_count = 0;
   std::vector<Tie> ties;  ///< of points, one after the other
   std::vector<BoneGap> bones;
-  GroupedByKey points_of_cells;    ///< points by their cells
+  GroupedByKey points_of_nodes;    ///< point * 4 + corner, by their nodes
   CellLanes cells;                 ///< of the lattice, for the vector kernel
   GroupedByKey corners_of_nodes;   ///< where corners stand in `cells`, by their nodes
   std::vector<Index> carriers;     ///< bodies that carry the muscle

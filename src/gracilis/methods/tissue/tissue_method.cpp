@@ -29,11 +29,11 @@ constexpr int most_rounds = 4;
 Minimized settle(const PreparedTissue& muscle, Surroundings& around, const FactoredMatrix& metric, Points& nodes) {
   MinimizeSettings settings = {muscle.settings.minimizer_iterations, muscle.settings.minimizer_residual,
                                muscle.lattice.cell_size};
-  CornerForces forces;
+  EnergyWorkspace workspace;
   const auto energy = [&](const Points& at, Points& gradient) {
-    return total_energy(muscle, around, at, forces, gradient);
+    return total_energy(muscle, around, at, workspace, gradient);
   };
-  const auto by_metric = [&](const Points& gradient) { return metric.solve(gradient); };
+  const auto by_metric = [&](std::span<Points> gradients) { metric.solve(gradients); };
   Minimized sum;
   for (int round = 0; round < most_rounds; ++round) {
     find_near_bones(muscle, nodes, around);

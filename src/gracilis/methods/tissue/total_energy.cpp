@@ -4,6 +4,7 @@
 #include <gracilis/methods/tissue/point_actions.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -11,10 +12,9 @@ namespace gracilis::tissue {
 
 namespace {
 
-constexpr Index groups_per_task = 8;
+constexpr Index groups_per_task = 16, points_per_task = 512, nodes_per_task = 512;
 /// Keeps parts that nothing holds solvable, as a share of a cell's stiffness.
 constexpr Real least_stiffness = 1e-6;
-constexpr Real infinity = std::numeric_limits<Real>::infinity();
 
 /// All that acts on one point of the surface at `p`.
 PointState point_energy(const PreparedTissue& muscle, const Surroundings& around, std::size_t v, const Vec3& p) {
@@ -38,27 +38,39 @@ Real point_stiffness(const PreparedTissue& muscle, const SurfacePoint& point) {
   return sum;
 }
 
-/// What acts on the points of some groups of cells (J); its derivatives are added to those of the corners.
-Real point_energies(const PreparedTissue& muscle, const Surroundings& around, Index begin_group, Index end_group,
-                    const Points& nodes, CornerForces& forces) {
+/// The energy (J) of what acts on points [begin, end), and its derivatives.
+Real act_on_points(const PreparedTissue& muscle, const Surroundings& around, Index begin, Index end,
+                   EnergyWorkspace& workspace) {
   Real energy = 0;
-  const auto width = static_cast<std::size_t>(cells_in_group);
-  for (std::size_t at = static_cast<std::size_t>(begin_group) * width; at < static_cast<std::size_t>(end_group) * width; ++at) {
-    const Index cell = muscle.cells.cells[at];
-    if (cell < 0) continue;
-    const std::size_t slot = muscle.cells.slot[static_cast<std::size_t>(cell)];
-    for (const Index p : muscle.points_of_cells.with(cell)) {
-      const auto v = static_cast<std::size_t>(p);
-      const SurfacePoint& point = muscle.points[v];
-      const PointState acting = point_energy(muscle, around, v, point_at(muscle, v, nodes));
-      energy += acting.energy;
-      for (std::size_t k = 0; k < 4; ++k)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          forces[axis][slot + static_cast<std::size_t>(point.at.corners[k]) * width] +=
-              point.at.weights[static_cast<Index>(k)] * acting.gradient[static_cast<Index>(axis)];
-    }
+  for (Index p = begin; p < end; ++p) {
+    const auto v = static_cast<std::size_t>(p);
+    const SurfacePoint& point = muscle.points[v];
+    const PointState acting = point_energy(muscle, around, v, point.rest + mean_at(point.at, workspace.moved));
+    energy += acting.energy;
+    workspace.point_forces.col(p) = acting.gradient;
   }
   return energy;
+}
+
+Vec3 force_on_node(const PreparedTissue& muscle, const EnergyWorkspace& workspace, Index node) {
+  Vec3 sum = Vec3::Zero();
+  for (const Index corner : muscle.corners_of_nodes.with(node)) {
+    const auto c = static_cast<std::size_t>(corner);
+    sum += Vec3(workspace.corners[0][c], workspace.corners[1][c], workspace.corners[2][c]);
+  }
+  for (const Index at : muscle.points_of_nodes.with(node))
+    sum += muscle.points[static_cast<std::size_t>(at / 4)].at.weights[at % 4] * workspace.point_forces.col(at / 4);
+  return sum;
+}
+
+/// Adds what each chunk of the work gives, in their order.
+template <class Part>
+Real sum_of_parts(Index count, Index grain, const Part& part) {
+  std::vector<Real> sums(static_cast<std::size_t>((count + grain - 1) / grain), 0);
+  parallel_for(count, grain, [&](Index begin, Index end) {
+    sums[static_cast<std::size_t>(begin / grain)] = part(begin, end);
+  });
+  return std::accumulate(sums.begin(), sums.end(), Real{0});
 }
 
 }  // namespace
@@ -88,46 +100,41 @@ Surroundings surroundings(const PreparedTissue& muscle, const std::vector<RigidT
 }
 
 void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surroundings& around) {
+  // The interpolant of a distance grows by no more than the root of three times the way.
+  const Real steepest = std::sqrt(3.0);
   around.near.clear();
+  around.seen = points_at(muscle, nodes);
   for (std::size_t v = 0; v < muscle.points.size(); ++v) {
-    const SurfacePoint& point = muscle.points[v];
     around.near_begin[v] = static_cast<Index>(around.near.size());
-    if (point.held_by >= 0) continue;
-    const Vec3 p = point_at(muscle, v, nodes);
+    if (muscle.points[v].held_by >= 0) continue;
+    const Vec3 p = around.seen.col(static_cast<Index>(v));
     for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
       const BoneGap& bone = muscle.bones[b];
       const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * p;
-      if (bone_distance(*bone.field, there).distance < bone.gaps[v] + near_bones)
-        around.near.push_back(static_cast<Index>(b));
+      const Real beyond = bone_distance(*bone.field, there).distance - bone.gaps[v];
+      if (beyond < near_bones) around.near.push_back({static_cast<Index>(b), std::max(0.0, beyond / steepest)});
     }
   }
   around.near_begin.back() = static_cast<Index>(around.near.size());
 }
 
 Real total_energy(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes,
-                  CornerForces& forces, Points& gradient) {
-  const Index groups = muscle.cells.group_count();
-  std::vector<Real> energies(static_cast<std::size_t>((groups + groups_per_task - 1) / groups_per_task), 0);
-  for (std::vector<Real>& axis : forces) axis.resize(muscle.cells.corner_count());
-  parallel_for(groups, groups_per_task, [&](Index begin, Index end) {
-    Real& sum = energies[static_cast<std::size_t>(begin / groups_per_task)];
-    sum = cell_lane_energy(muscle.cells, around.laws, begin, end, nodes, forces);
-    if (sum < infinity) sum += point_energies(muscle, around, begin, end, nodes, forces);
-  });
-  const Real energy = std::accumulate(energies.begin(), energies.end(), Real{0});
+                  EnergyWorkspace& workspace, Points& gradient) {
+  workspace.moved = nodes - muscle.lattice.nodes;
+  workspace.point_forces.resize(3, static_cast<Index>(muscle.points.size()));
+  for (std::vector<Real>& axis : workspace.corners) axis.resize(muscle.cells.corner_count());
   gradient.resize(3, muscle.lattice.node_count());
-  if (!(energy < infinity)) return energy;
-  parallel_for(muscle.lattice.node_count(), 256, [&](Index begin, Index end) {
-    for (Index n = begin; n < end; ++n) {
-      Vec3 sum = Vec3::Zero();
-      for (const Index corner : muscle.corners_of_nodes.with(n)) {
-        const auto c = static_cast<std::size_t>(corner);
-        sum += Vec3(forces[0][c], forces[1][c], forces[2][c]);
-      }
-      gradient.col(n) = sum;
-    }
+  const Real of_cells = sum_of_parts(muscle.cells.group_count(), groups_per_task, [&](Index begin, Index end) {
+    return cell_lane_energy(muscle.cells, around.laws, begin, end, nodes, workspace.corners);
   });
-  return energy;
+  if (!(of_cells < std::numeric_limits<Real>::infinity())) return of_cells;
+  const Real of_points =
+      sum_of_parts(static_cast<Index>(muscle.points.size()), points_per_task,
+                   [&](Index begin, Index end) { return act_on_points(muscle, around, begin, end, workspace); });
+  parallel_for(muscle.lattice.node_count(), nodes_per_task, [&](Index begin, Index end) {
+    for (Index n = begin; n < end; ++n) gradient.col(n) = force_on_node(muscle, workspace, n);
+  });
+  return of_cells + of_points;
 }
 
 Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const std::vector<CellLaw>& laws) {
@@ -140,18 +147,17 @@ Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const s
     Eigen::Matrix<Real, 8, 8> scalar;
     for (Index i = 0; i < 8; ++i)
       for (Index k = 0; k < 8; ++k) scalar(i, k) = h.block<3, 3>(3 * i, 3 * k).trace() / 3;
-    for (const Index p : muscle.points_of_cells.with(static_cast<Index>(c))) {
-      const auto v = static_cast<std::size_t>(p);
-      const EmbeddedPoint& at = muscle.points[v].at;
-      const Real stiffness = point_stiffness(muscle, muscle.points[v]);
-      for (std::size_t a = 0; a < 4; ++a)
-        for (std::size_t b = 0; b < 4; ++b)
-          scalar(at.corners[a], at.corners[b]) +=
-              stiffness * at.weights[static_cast<Index>(a)] * at.weights[static_cast<Index>(b)];
-    }
     for (std::size_t i = 0; i < 8; ++i)
       for (std::size_t k = 0; k < 8; ++k)
         entries.emplace_back(cell.nodes[i], cell.nodes[k], scalar(static_cast<Index>(i), static_cast<Index>(k)));
+  }
+  for (const SurfacePoint& point : muscle.points) {
+    const Real stiffness = point_stiffness(muscle, point);
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < 4; ++b)
+        entries.emplace_back(
+            point.at.nodes[a], point.at.nodes[b],
+            stiffness * point.at.weights[static_cast<Index>(a)] * point.at.weights[static_cast<Index>(b)]);
   }
   for (Index n = 0; n < lattice.node_count(); ++n)
     entries.emplace_back(n, n, least_stiffness * muscle.settings.matrix_shear_modulus * lattice.cell_size);
@@ -160,22 +166,17 @@ Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const s
   return matrix;
 }
 
-Vec3 point_at(const PreparedTissue& muscle, std::size_t point, const Points& nodes) {
-  const SurfacePoint& each = muscle.points[point];
-  const Cell& cell = muscle.lattice.cells[static_cast<std::size_t>(each.at.cell)];
-  // By what the corners have moved: exact at rest.
-  Vec3 place = each.rest;
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Index node = cell.nodes[static_cast<std::size_t>(each.at.corners[k])];
-    place += each.at.weights[static_cast<Index>(k)] * (nodes.col(node) - muscle.lattice.nodes.col(node));
-  }
-  return place;
+Points points_at(const PreparedTissue& muscle, const Points& nodes) {
+  // By what the nodes have moved: exact at rest.
+  const Points moved = nodes - muscle.lattice.nodes;
+  Points places(3, static_cast<Index>(muscle.points.size()));
+  for (std::size_t v = 0; v < muscle.points.size(); ++v)
+    places.col(static_cast<Index>(v)) = muscle.points[v].rest + mean_at(muscle.points[v].at, moved);
+  return places;
 }
 
 Points surface_at(const PreparedTissue& muscle, const Points& nodes) {
-  Points surface(3, muscle.vertex_count);
-  for (Index v = 0; v < muscle.vertex_count; ++v) surface.col(v) = point_at(muscle, static_cast<std::size_t>(v), nodes);
-  return surface;
+  return points_at(muscle, nodes).leftCols(muscle.vertex_count);
 }
 
 Real least_volume_ratio(const Lattice& lattice, const Points& nodes) {

@@ -8,6 +8,12 @@
 
 namespace gracilis::tissue {
 
+/// A bone that a point may touch.
+struct NearBone {
+  Index bone = -1;  ///< of PreparedTissue::bones
+  Real clear = 0;   ///< m: until the point has moved so far from where it was seen it does not
+};
+
 /// What surrounds a muscle at one instant.
 struct Surroundings {
   std::vector<RigidTransform> bodies;    ///< from the capture pose
@@ -15,8 +21,9 @@ struct Surroundings {
   LawLanes laws;
   Points held;                    ///< where points are held, 3 × points; of the free ones it means nothing
   Points tied, gliding;           ///< where ties hold, and the directions that they leave free, 3 × ties
+  Points seen;                    ///< where it was looked for bones, 3 × points
   std::vector<Index> near_begin;  ///< per point and one more: where its bones begin in `near`
-  std::vector<Index> near;        ///< bones that the point may touch, of PreparedTissue::bones
+  std::vector<NearBone> near;
 };
 
 /// Everything about the bodies there; nothing is near yet.
@@ -28,19 +35,24 @@ inline constexpr Real near_bones = 0.006;
 /// Finds what is near: holds until a point has moved by `near_bones`.
 void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surroundings& around);
 
+/// Memory of `total_energy`, kept from one call to the next.
+struct EnergyWorkspace {
+  Points moved;          ///< nodes, from their places at rest, m
+  Points point_forces;   ///< N
+  CornerForces corners;  ///< N
+};
+
 /// All energy of a muscle (J) and its derivative by the nodes (3 × n, N). Infinite where a tetrahedron is inverted; the
-/// gradient means nothing then. The same bits for any number of threads. `forces` is memory that is kept between calls.
+/// gradient means nothing then. The same bits for any number of threads.
 Real total_energy(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes,
-                  CornerForces& forces, Points& gradient);
+                  EnergyWorkspace& workspace, Points& gradient);
 
 /// A third of the trace of every 3 × 3 block of the second derivatives at rest, in the capture pose: nodes × nodes,
 /// N/m. Positive definite.
 Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const std::vector<CellLaw>& laws);
 
-/// Where a point of the surface is: at rest plus what its cell has moved it by.
-Vec3 point_at(const PreparedTissue& muscle, std::size_t point, const Points& nodes);
-
-/// Where the surface is: rest plus what its cells have moved, 3 × vertices.
+/// Where points are: rest plus what their cells have moved, 3 × points; and the surface's vertices alone.
+Points points_at(const PreparedTissue& muscle, const Points& nodes);
 Points surface_at(const PreparedTissue& muscle, const Points& nodes);
 
 /// The least volume of a tetrahedron over that at rest.
