@@ -4,6 +4,7 @@
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/tables/action_tables.hpp>
+#include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/simulate/moment_arms.hpp>
 #include <gracilis/view/charts/run_charts.hpp>
@@ -44,6 +45,35 @@ Table arms_of(const std::filesystem::path& folder, const Scene& scene, const Mov
   const Eigen::Index lengths = table.values.cols() - coordinates;
   table.values.rightCols(lengths) = moment_arms(values_of(table, moved), table.values.rightCols(lengths));
   return table;
+}
+
+std::string by_force(const std::string& muscle) { return muscle + "_by_force"; }
+
+/// Where the method knows forces: what a muscle does in the coordinate's motion, over its tension. A column for each
+/// muscle behind all others.
+void add_arms_by_force(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
+                       Table& table) {
+  if (!is_there(folder / force_file)) return;
+  const Table forces = rows_of_range(read_table(folder / force_file), scene);
+  for (const Muscle& muscle : scene.muscles) {
+    const std::optional<Eigen::Index> tension = column_of(forces, muscle.name + "_tension");
+    const std::optional<Eigen::Index> moment = column_of(forces, muscle.name + "_moment_" + moved.name);
+    if (!tension || !moment) continue;
+    table.columns.push_back(by_force(muscle.name));
+    table.values.conservativeResize(Eigen::NoChange, table.values.cols() + 1);
+    const Eigen::VectorXd tensions = forces.values.col(*tension);
+    table.values.rightCols<1>() =
+        (tensions.array() > 0).select(forces.values.col(*moment).array() / tensions.array(), 0).matrix();
+  }
+}
+
+/// Says how arms by lengths and by forces differ.
+void tell_by_force(const Table& table, const std::string& muscle, const Eigen::VectorXd& arms) {
+  const std::optional<Eigen::Index> column = column_of(table, by_force(muscle));
+  if (!column) return;
+  const Eigen::VectorXd others = table.values.col(*column);
+  fmt::print("  by its forces {:.1f} to {:.1f} mm, {:.1f} mm RMS from that\n", 1e3 * others.minCoeff(),
+             1e3 * others.maxCoeff(), 1e3 * (others - arms).norm() / std::sqrt(static_cast<Real>(arms.size())));
 }
 
 /// Says where fibers were left out of a muscle's mean, because they are about to snap to another way or not at rest.
@@ -105,7 +135,8 @@ void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, 
     spdlog::warn("no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
     return;
   }
-  const Table table = arms_of(folder, scene, moved);
+  Table table = arms_of(folder, scene, moved);
+  add_arms_by_force(folder, scene, moved, table);
   write_sto(folder / "moment_arms.sto", table);
 
   const ChartCoordinate coordinate = chart_coordinate(scene, moved.name);
@@ -131,6 +162,7 @@ void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, 
       for (std::size_t i = 0; i < curves.size(); ++i)
         chart.series.push_back(gray_series(curves[i], static_cast<int>(i)));
     }
+    tell_by_force(table, muscle.name, arms);
     tell_left_out(table, muscle.name);
     write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"), chart);
   }

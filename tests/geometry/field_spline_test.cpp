@@ -38,6 +38,9 @@ TEST(FieldSpline, single_and_double_precision_agree) {
     const FieldSample fast = sample_spline(grid_of(field()), place.cast<float>());
     EXPECT_NEAR(static_cast<Real>(fast.distance), fine.distance, 1e-7);
     EXPECT_LT((fast.gradient.cast<Real>() - fine.gradient).norm(), 1e-4);
+    const PreciseSample precise = sample_spline_precise(grid_of(field()), place);
+    EXPECT_NEAR(precise.distance, fine.distance, 1e-12);
+    EXPECT_LT((precise.gradient - fine.gradient).norm(), 1e-9);
   }
 }
 

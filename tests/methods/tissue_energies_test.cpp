@@ -1,5 +1,4 @@
-#include <gracilis/geometry/distance_field.hpp>
-#include <gracilis/methods/tissue/bone_contact.hpp>
+#include <gracilis/geometry/field_spline.hpp>
 #include <gracilis/methods/tissue/cell_energy.hpp>
 #include <gracilis/methods/tissue/point_energy.hpp>
 
@@ -174,7 +173,7 @@ TEST(TissueEnergies, the_force_of_contact_is_that_of_its_energy_in_the_field_of_
   const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.02, 4);
   const DistanceField field = build_distance_field(ball, domain_by_cell_size(ball, 0.001, 0.012));
   const auto energy = [&](const Vec3& p) {
-    const BoneDistance found = bone_distance(field, p);
+    const PreciseSample found = sample_spline_precise(grid_of(field), p);
     return contact(found.distance, found.gradient, 0.004, 3000);
   };
   const Vec3 p(0.0122, 0.0131, 0.0117);  // 1.4 mm off the ball and inside of a cell of the field
@@ -187,15 +186,6 @@ TEST(TissueEnergies, the_force_of_contact_is_that_of_its_energy_in_the_field_of_
   EXPECT_LT((state.gradient - differences).norm(), 1e-6 * state.gradient.norm());
   EXPECT_EQ(energy(Vec3(0.03, 0, 0)).energy, 0) << "further off than the gap";
   EXPECT_EQ(energy(Vec3(1, 0, 0)).energy, 0) << "outside of the field";
-}
-
-TEST(TissueEnergies, a_field_asked_in_double_precision_says_what_it_says_in_single) {
-  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.02, 3);
-  const DistanceField field = build_distance_field(ball, domain_by_cell_size(ball, 0.001, 0.012));
-  const Vec3 p(0.0123, -0.0111, 0.0077);
-  const FieldSample single = sample(field, Eigen::Vector3f(p.cast<float>()));
-  EXPECT_NEAR(bone_distance(field, p).distance, single.distance, 1e-7);
-  EXPECT_LT((bone_distance(field, p).gradient - single.gradient.cast<Real>()).norm(), 1e-4);
 }
 
 }  // namespace

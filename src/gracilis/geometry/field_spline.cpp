@@ -1,6 +1,7 @@
 #include <gracilis/geometry/field_spline.hpp>
 
 #include <cmath>
+#include <utility>
 
 namespace gracilis {
 
@@ -42,24 +43,42 @@ const float* first_value(const FieldGrid& grid, Index x, Index y, Index z) {
          slice * static_cast<std::size_t>(z);
 }
 
+/// Value and, by the axes in cells, gradient. Precondition: inside.
+template <class Number>
+std::pair<Number, Eigen::Matrix<Number, 3, 1>> sum_splines(const FieldGrid& grid, const SplinePlace<Number>& at) {
+  Number value = 0, by_x = 0, by_y = 0, by_z = 0;
+  for (Index k = 0; k < 3; ++k) {
+    Number plane = 0, plane_by_x = 0, plane_by_y = 0;
+    for (Index j = 0; j < 3; ++j) {
+      const float* v = first_value(grid, at.x.first, at.y.first + j, at.z.first + k);
+      const Number a = v[0], b = v[1], c = v[2];
+      const Number row = at.x.weight[0] * a + at.x.weight[1] * b + at.x.weight[2] * c;
+      plane += at.y.weight[j] * row, plane_by_y += at.y.slope[j] * row;
+      plane_by_x += at.y.weight[j] * (at.x.slope[0] * a + at.x.slope[1] * b + at.x.slope[2] * c);
+    }
+    value += at.z.weight[k] * plane, by_z += at.z.slope[k] * plane;
+    by_x += at.z.weight[k] * plane_by_x, by_y += at.z.weight[k] * plane_by_y;
+  }
+  return {value, {by_x, by_y, by_z}};
+}
+
 }  // namespace
 
 FieldSample sample_spline(const FieldGrid& grid, const Eigen::Vector3f& p) {
   const SplinePlace<float> at(grid, p);
   if (!at.inside()) return sample(grid, p);
-  float value = 0, by_x = 0, by_y = 0, by_z = 0;
-  for (Index k = 0; k < 3; ++k) {
-    float plane = 0, plane_by_x = 0, plane_by_y = 0;
-    for (Index j = 0; j < 3; ++j) {
-      const float* v = first_value(grid, at.x.first, at.y.first + j, at.z.first + k);
-      const float row = at.x.weight[0] * v[0] + at.x.weight[1] * v[1] + at.x.weight[2] * v[2];
-      plane += at.y.weight[j] * row, plane_by_y += at.y.slope[j] * row;
-      plane_by_x += at.y.weight[j] * (at.x.slope[0] * v[0] + at.x.slope[1] * v[1] + at.x.slope[2] * v[2]);
-    }
-    value += at.z.weight[k] * plane, by_z += at.z.slope[k] * plane;
-    by_x += at.z.weight[k] * plane_by_x, by_y += at.z.weight[k] * plane_by_y;
+  const auto [value, gradient] = sum_splines(grid, at);
+  return {value, gradient.cwiseProduct(grid.cells_per_metre)};
+}
+
+PreciseSample sample_spline_precise(const FieldGrid& grid, const Vec3& p) {
+  const SplinePlace<Real> at(grid, p);
+  if (!at.inside()) {
+    const FieldSample flat = sample(grid, p.cast<float>());
+    return {static_cast<Real>(flat.distance), flat.gradient.cast<Real>()};
   }
-  return {value, Eigen::Vector3f(by_x, by_y, by_z).cwiseProduct(grid.cells_per_metre)};
+  const auto [value, gradient] = sum_splines(grid, at);
+  return {value, gradient.cwiseProduct(grid.cells_per_metre.cast<Real>())};
 }
 
 CurvedSample sample_spline_curved(const FieldGrid& grid, const Vec3& p) {

@@ -4,6 +4,12 @@
 
 namespace gracilis {
 
+/// A field's answer at one point in double precision.
+struct PreciseSample {
+  Real distance = std::numeric_limits<Real>::infinity();  ///< m; infinity outside of the grid
+  Vec3 gradient = Vec3::Zero();
+};
+
 /// A smooth field's answer at one point.
 struct CurvedSample {
   Real distance = std::numeric_limits<Real>::infinity();  ///< m; infinity outside of the grid
@@ -17,7 +23,10 @@ struct CurvedSample {
 /// interpolant.
 FieldSample sample_spline(const FieldGrid& grid, const Eigen::Vector3f& p);
 
-/// The same in double precision, with second derivatives, piecewise constant along each axis; none in the outermost
+/// The same in double precision.
+PreciseSample sample_spline_precise(const FieldGrid& grid, const Vec3& p);
+
+/// The same, with second derivatives, piecewise constant along each axis; none in the outermost
 /// cells.
 CurvedSample sample_spline_curved(const FieldGrid& grid, const Vec3& p);
 

@@ -28,6 +28,9 @@ void add_muscle(const Scene& scene, const Pose& pose, const std::string& name, c
     const Bone& bone = scene.bones[static_cast<std::size_t>(each.on)];
     columns.add(name + "_contact_on_" + bone.name, each.wrench, pose.bodies[static_cast<std::size_t>(bone.body)]);
   }
+  for (const ForceOn& each : forces.muscles)
+    columns.add(name + "_contact_on_" + scene.muscles[static_cast<std::size_t>(each.on)].name + "_force",
+                each.wrench.force);
   const std::vector<std::string> coordinates = coordinate_names(scene);
   for (std::size_t c = 0; c < coordinates.size(); ++c) {
     columns.add(name + "_moment_" + coordinates[c], forces.moments[c]);

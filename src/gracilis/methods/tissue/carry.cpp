@@ -49,10 +49,9 @@ Points carried(const PreparedTissue& muscle, const std::vector<RigidTransform>& 
 
 }  // namespace
 
-std::vector<std::vector<RigidTransform>> steps_between(const PreparedTissue& muscle,
-                                                       const std::vector<RigidTransform>& before,
-                                                       const std::vector<RigidTransform>& now) {
-  if (muscle.carriers.empty()) return {now};
+int steps_needed(const PreparedTissue& muscle, const std::vector<RigidTransform>& before,
+                 const std::vector<RigidTransform>& now) {
+  if (muscle.carriers.empty()) return 1;
   const Vec3 center = muscle.lattice.nodes.rowwise().mean();
   Real parts = 1;
   for (const Index body : muscle.carriers) {
@@ -62,8 +61,14 @@ std::vector<std::vector<RigidTransform>> steps_between(const PreparedTissue& mus
     parts = std::max({parts, turn / muscle.settings.largest_turn, shift / muscle.lattice.cell_size});
   }
   // Rounding of a pose shall not make a step of its own.
-  const int count = static_cast<int>(std::min<Real>(most_steps, std::ceil(parts - 1e-6)));
-  std::vector<std::vector<RigidTransform>> steps(static_cast<std::size_t>(std::max(count, 1)), now);
+  return std::max(1, static_cast<int>(std::min<Real>(most_steps, std::ceil(parts - 1e-6))));
+}
+
+std::vector<std::vector<RigidTransform>> steps_between(const PreparedTissue& muscle,
+                                                       const std::vector<RigidTransform>& before,
+                                                       const std::vector<RigidTransform>& now, int count) {
+  const Vec3 center = muscle.lattice.nodes.rowwise().mean();
+  std::vector<std::vector<RigidTransform>> steps(static_cast<std::size_t>(count), now);
   for (std::size_t i = 0; i + 1 < steps.size(); ++i)
     for (const Index body : muscle.carriers) {
       const Real share = static_cast<Real>(i + 1) / static_cast<Real>(steps.size());

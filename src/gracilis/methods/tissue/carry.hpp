@@ -6,11 +6,15 @@
 
 namespace gracilis::tissue {
 
-/// The poses that a muscle goes through from one pose to another, the last included: so many that its carriers turn by
-/// no more than `largest_turn` (rad) about each other and move by no more than a cell in each, but 8 at most.
+/// In how many steps a muscle wants to go from one pose to another: so many that its carriers turn by no more than
+/// `largest_turn` (rad) about each other and move by no more than a cell in each, but 8 at most.
+int steps_needed(const PreparedTissue& muscle, const std::vector<RigidTransform>& before,
+                 const std::vector<RigidTransform>& now);
+
+/// The poses that it goes through in `count` steps, the last included.
 std::vector<std::vector<RigidTransform>> steps_between(const PreparedTissue& muscle,
                                                        const std::vector<RigidTransform>& before,
-                                                       const std::vector<RigidTransform>& now);
+                                                       const std::vector<RigidTransform>& now, int count);
 
 /// Moves the nodes with their shares of what the carriers move by, and less where a tetrahedron would invert. All move
 /// rigidly where the carriers do so together.

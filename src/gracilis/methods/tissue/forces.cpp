@@ -36,10 +36,20 @@ Wrench& wrench_on(Index on, std::vector<ForceOn>& list) {
   return found != list.end() ? found->wrench : list.emplace_back(ForceOn{on, {}}).wrench;
 }
 
+std::vector<ForceOn>& list_of(PointActor actor, bool at_origin, MuscleForces& forces) {
+  switch (actor) {
+    case PointActor::attachment: return at_origin ? forces.origin : forces.insertion;
+    case PointActor::fascia: return forces.fascia;
+    case PointActor::bone: return forces.contact;
+    default: return forces.muscles;
+  }
+}
+
 /// All that may ever act, in the order of bodies and bones, without force.
-MuscleForces listed(const PreparedTissue& muscle) {
+MuscleForces listed(const PreparedTissue& muscle, const Surroundings& around) {
   MuscleForces forces;
   forces.is_known = true;
+  for (const Index other : around.others) wrench_on(other, forces.muscles);
   for (const SurfacePoint& point : muscle.points)
     if (point.held_by >= 0)
       wrench_on(point.held_by, point.end == AttachmentEnd::origin ? forces.origin : forces.insertion);
@@ -115,7 +125,7 @@ std::vector<Real> fiber_tensions(const PreparedTissue& muscle, const std::vector
 
 MuscleForces muscle_forces(const PreparedTissue& muscle, const Surroundings& around, const std::vector<CellLaw>& laws,
                            const Points& nodes, const std::vector<std::vector<Twist>>& coordinates) {
-  MuscleForces forces = listed(muscle);
+  MuscleForces forces = listed(muscle, around);
   forces.tension = mean_tension(muscle, laws, nodes);
   forces.fiber_tensions = fiber_tensions(muscle, laws, nodes);
   const Points places = points_at(muscle, nodes);
@@ -124,11 +134,7 @@ MuscleForces muscle_forces(const PreparedTissue& muscle, const Surroundings& aro
     const bool at_origin = muscle.points[v].end == AttachmentEnd::origin;
     // Where point and body move together nothing changes, so the body feels at the point what the point resists.
     for_each_action(muscle, around, v, p, [&](PointActor actor, Index on, const PointState& acting) {
-      std::vector<ForceOn>& list = actor == PointActor::contact  ? forces.contact
-                                   : actor == PointActor::fascia ? forces.fascia
-                                   : at_origin                   ? forces.origin
-                                                                 : forces.insertion;
-      wrench_on(on, list).add(p, acting.gradient);
+      wrench_on(on, list_of(actor, at_origin, forces)).add(p, acting.gradient);
     });
   }
   Points gradient;

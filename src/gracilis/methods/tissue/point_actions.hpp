@@ -1,15 +1,15 @@
 #pragma once
 
-#include <gracilis/methods/tissue/bone_contact.hpp>
+#include <gracilis/geometry/field_spline.hpp>
 #include <gracilis/methods/tissue/point_energy.hpp>
 #include <gracilis/methods/tissue/total_energy.hpp>
 
 namespace gracilis::tissue {
 
 /// What acts on a point of the surface.
-enum class PointActor { attachment, fascia, contact };
+enum class PointActor { attachment, fascia, bone, muscle };
 
-/// Calls act(PointActor, body or (contact) number of the bone, PointState) for all that acts on point v at the place p.
+/// Calls act(PointActor, number of the body, bone or muscle, PointState) for all that acts on point v at the place p.
 template <class Act>
 void for_each_action(const PreparedTissue& muscle, const Surroundings& around, std::size_t v, const Vec3& p,
                      const Act& act) {
@@ -30,11 +30,18 @@ void for_each_action(const PreparedTissue& muscle, const Surroundings& around, s
     if ((p - around.seen.col(static_cast<Index>(v))).squaredNorm() < near.clear * near.clear) continue;
     const BoneGap& bone = muscle.bones[static_cast<std::size_t>(near.bone)];
     const auto body = static_cast<std::size_t>(bone.body);
-    const BoneDistance found = bone_distance(*bone.field, around.inverses[body] * p);
+    const PreciseSample found = sample_spline_precise(bone.grid, around.inverses[body] * p);
     if (found.distance < bone.gaps[v])
-      act(PointActor::contact, near.bone,
+      act(PointActor::bone, near.bone,
           contact(found.distance, around.bodies[body].linear() * found.gradient, bone.gaps[v],
                   settings.contact_stiffness * point.area));
+  }
+  for (Index i = around.planes_begin[v]; i < around.planes_begin[v + 1]; ++i) {
+    const ContactPlane& plane = around.planes[static_cast<std::size_t>(i)];
+    const Real distance = plane.normal.dot(p) - plane.least;
+    if (distance < 0)
+      act(PointActor::muscle, plane.muscle,
+          contact(distance, plane.normal, 0, settings.contact_stiffness * point.area));
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/field_spline.hpp>
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/methods/tissue/bone_contact.hpp>
 #include <gracilis/methods/tissue/lattice_field.hpp>
 
 #include <algorithm>
@@ -176,9 +176,9 @@ void find_fibers(const Muscle& muscle, PreparedTissue& prepared) {
 
 void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, PreparedTissue& prepared) {
   for (std::size_t b = 0; b < fields.size(); ++b) {
-    BoneGap bone{scene.bones[b].body, &fields[b], {}};
+    BoneGap bone{scene.bones[b].body, grid_of(fields[b]), {}};
     for (const SurfacePoint& point : prepared.points)
-      bone.gaps.push_back(std::min(prepared.settings.contact_gap, bone_distance(fields[b], point.rest).distance));
+      bone.gaps.push_back(std::min(prepared.settings.contact_gap, sample_spline_precise(bone.grid, point.rest).distance));
     prepared.bones.push_back(std::move(bone));
   }
 }

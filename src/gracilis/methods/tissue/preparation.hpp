@@ -31,7 +31,7 @@ struct SurfacePoint {
 /// What a bone asks of the surface.
 struct BoneGap {
   Index body = -1;
-  const DistanceField* field = nullptr;
+  FieldGrid grid;
   std::vector<Real> gaps;  ///< m, per point
 };
 

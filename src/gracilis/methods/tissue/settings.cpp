@@ -41,6 +41,10 @@ std::span<const Setting<TissueSettings>> setting_table() {
        "Stiffness per area of what keeps the surface off bones."},
       {"contact_gap", &S::contact_gap, "m", 0, 0.05,
        "Gap kept to bones, or that of the capture pose where it is smaller."},
+      {"neighbor_gap", &S::neighbor_gap, "m", 0, 0.05,
+       "Gap kept to other muscles, or that of the capture pose where it is smaller or the two overlap."},
+      {"contact_rounds", &S::contact_rounds, "", 0, 100,
+       "How often in a step muscles look where their neighbors are; 0: muscles do not feel each other."},
       {"fascia_stiffness", &S::fascia_stiffness, "N/m³", 0, 1e13,
        "Stiffness per area of the ties of fascia to bones, across the fibers alone, where the surface touches a bone; "
        "less with distance."},

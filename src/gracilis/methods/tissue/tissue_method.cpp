@@ -6,6 +6,7 @@
 #include <gracilis/methods/tissue/factored_matrix.hpp>
 #include <gracilis/methods/tissue/forces.hpp>
 #include <gracilis/methods/tissue/minimize.hpp>
+#include <gracilis/methods/tissue/neighbors.hpp>
 #include <gracilis/methods/tissue/total_energy.hpp>
 #include <gracilis/scene/setting_values.hpp>
 
@@ -26,9 +27,9 @@ constexpr int activation_steps = 4;
 constexpr int most_rounds = 4;
 
 /// To the least energy near the nodes.
-Minimized settle(const PreparedTissue& muscle, Surroundings& around, const FactoredMatrix& metric, Points& nodes) {
-  MinimizeSettings settings = {muscle.settings.minimizer_iterations, muscle.settings.minimizer_residual,
-                               muscle.lattice.cell_size};
+Minimized settle(const PreparedTissue& muscle, Surroundings& around, const FactoredMatrix& metric, int iterations,
+                 Points& nodes) {
+  MinimizeSettings settings = {iterations, muscle.settings.minimizer_residual, muscle.lattice.cell_size};
   EnergyWorkspace workspace;
   const auto energy = [&](const Points& at, Points& gradient) {
     return total_energy(muscle, around, at, workspace, gradient);
@@ -56,6 +57,9 @@ class TissueMethod final : public DeformationMethod {
       muscles_[m] = prepare_tissue(scene, scene.muscles[m], fields_, distances);
     });
     metrics_.resize(muscles_.size());
+    for (const PreparedTissue& muscle : muscles_) rounds_ = std::max(rounds_, muscle.settings.contact_rounds);
+    if (rounds_ > 0 && muscles_.size() > 1) neighbors_ = prepare_neighbors(scene, muscles_[0].settings.neighbor_gap);
+    if (neighbors_.pairs.empty()) rounds_ = 1;
     reset();
   }
 
@@ -64,23 +68,28 @@ class TissueMethod final : public DeformationMethod {
     for (const PreparedTissue& muscle : muscles_) nodes_.push_back(muscle.lattice.nodes);
     bodies_.assign(body_count_, RigidTransform::Identity());
     equilibria_.clear();
-    for (const PreparedTissue& muscle : muscles_) equilibria_.push_back(at_rest(muscle));
+    for (std::size_t m = 0; m < muscles_.size(); ++m) equilibria_.push_back(at_rest(m));
     frame_ = 0;
   }
 
   StepReport advance(const Pose& pose, Real) override {
+    std::vector<MovingMuscle> moving(muscles_.size());
+    for_each_timed(moving, [&](std::size_t m) { moving[m] = begun(m, pose); });
+    int count = 1;
+    for (const PreparedTissue& muscle : muscles_) count = std::max(count, steps_needed(muscle, bodies_, pose.bodies));
+    for (int step = 0; step < count; ++step) {
+      for_each_timed(moving, [&](std::size_t m) { carry_on(m, pose, step, count, moving[m]); });
+      for (int round = 0; round < rounds_; ++round) {
+        look_at_neighbors(moving);
+        for_each_timed(moving, [&](std::size_t m) { settle_once(m, moving[m]); });
+      }
+    }
     StepReport report;
-    report.muscles.resize(muscles_.size());
-    std::vector<Points> next = nodes_;
-    std::vector<Equilibrium> found(muscles_.size());
-    parallel_for_each(muscles_.size(), [&](std::size_t m) {
-      const auto started = std::chrono::steady_clock::now();
-      report.muscles[m] = step(m, pose, next[m], found[m]);
-      const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
-      report.muscles[m].milliseconds = taken.count();
-    });
-    nodes_ = std::move(next);
-    equilibria_ = std::move(found);
+    for (std::size_t m = 0; m < muscles_.size(); ++m) report.muscles.push_back(reported(m, moving[m]));
+    for (std::size_t m = 0; m < muscles_.size(); ++m) {
+      nodes_[m] = std::move(moving[m].nodes);
+      equilibria_[m] = std::move(moving[m].equilibrium);
+    }
     bodies_ = pose.bodies;
     ++frame_;
     return report;
@@ -122,45 +131,103 @@ class TissueMethod final : public DeformationMethod {
   };
 
   /// At the capture pose nothing pulls.
-  Equilibrium at_rest(const PreparedTissue& muscle) const {
-    Equilibrium found{cell_laws(muscle, 0, 0), {}};
-    found.around = surroundings(muscle, bodies_, found.laws);
+  Equilibrium at_rest(std::size_t m) const {
+    Equilibrium found{cell_laws(muscles_[m], 0, 0), {}};
+    found.around = surroundings(muscles_[m], bodies_, found.laws);
+    found.around.others = others_of(m);
     return found;
   }
 
-  MuscleReport step(std::size_t m, const Pose& pose, Points& nodes, Equilibrium& found) {
-    const PreparedTissue& muscle = muscles_[m];
-    const auto check = [&](bool is_finite) {
-      if (!is_finite) throw QualityError("muscle " + muscle.name + ": a vertex position is not finite; check the pose");
-    };
-    for (const RigidTransform& body : pose.bodies) check(body.matrix().allFinite());
-    const Real activation = m < pose.activations.size() ? pose.activations[m] : 0;
-    const Real tension = std::min(1.0, Real(frame_ + 1) / muscle.settings.tension_frames);
-    const FactoredMatrix& by_metric = metric(m, activation);
-    found.laws = cell_laws(muscle, activation, tension);
-    int iterations = 0;
+  /// A muscle on its way to a pose.
+  struct MovingMuscle {
+    Points nodes;
+    Equilibrium equilibrium;
+    std::vector<RigidTransform> bodies;  ///< where they were in the last step
+    const FactoredMatrix* metric = nullptr;
     Minimized done;
-    Real pull = 0;
-    std::vector<RigidTransform> before = bodies_;
-    for (const std::vector<RigidTransform>& now : steps_between(muscle, bodies_, pose.bodies)) {
-      carry(muscle, before, now, nodes);
-      found.around = surroundings(muscle, now, found.laws);
-      done = settle(muscle, found.around, by_metric, nodes);
-      iterations += done.iterations;
-      pull = attachment_wrench(muscle, found.around, nodes, AttachmentEnd::insertion).force.norm();
-      before = now;
-    }
-    check(nodes.allFinite());
-    return {0,
-            {{"minimizer_iterations", static_cast<Real>(iterations)},
-             {"residual_n", done.residual},
-             {"pull_n", pull},
-             {"least_volume_ratio", least_volume_ratio(muscle.lattice, nodes)}}};
+    int iterations = 0;
+    Real milliseconds = 0;
+  };
+
+  template <class Act>
+  static void for_each_timed(std::vector<MovingMuscle>& moving, const Act& act) {
+    parallel_for_each(moving.size(), [&](std::size_t m) {
+      const Real before = moving[m].milliseconds;
+      const auto started = std::chrono::steady_clock::now();
+      act(m);
+      const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
+      moving[m].milliseconds = before + taken.count();
+    });
+  }
+
+  void check(std::size_t m, bool is_finite) const {
+    if (!is_finite)
+      throw QualityError("muscle " + muscles_[m].name + ": a vertex position is not finite; check the pose");
+  }
+
+  MovingMuscle begun(std::size_t m, const Pose& pose) {
+    for (const RigidTransform& body : pose.bodies) check(m, body.matrix().allFinite());
+    const Real activation = m < pose.activations.size() ? pose.activations[m] : 0;
+    const Real tension = std::min(1.0, Real(frame_ + 1) / muscles_[m].settings.tension_frames);
+    MovingMuscle moving;
+    moving.nodes = nodes_[m];
+    moving.bodies = bodies_;
+    moving.metric = &metric(m, activation);
+    moving.equilibrium.laws = cell_laws(muscles_[m], activation, tension);
+    return moving;
+  }
+
+  void carry_on(std::size_t m, const Pose& pose, int step, int count, MovingMuscle& moving) const {
+    const std::vector<RigidTransform> now =
+        steps_between(muscles_[m], bodies_, pose.bodies, count)[static_cast<std::size_t>(step)];
+    carry(muscles_[m], moving.bodies, now, moving.nodes);
+    moving.equilibrium.around = surroundings(muscles_[m], now, moving.equilibrium.laws);
+    moving.equilibrium.around.others = others_of(m);
+    moving.bodies = now;
+  }
+
+  void look_at_neighbors(std::vector<MovingMuscle>& moving) {
+    if (neighbors_.pairs.empty()) return;
+    std::vector<Points> shapes;
+    for (std::size_t m = 0; m < moving.size(); ++m) shapes.push_back(surface_at(muscles_[m], moving[m].nodes));
+    std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, shapes);
+    for (std::size_t m = 0; m < moving.size(); ++m)
+      set_planes(muscles_[m], std::move(planes[m]), moving[m].equilibrium.around);
+  }
+
+  void settle_once(std::size_t m, MovingMuscle& moving) const {
+    const int iterations = (muscles_[m].settings.minimizer_iterations + rounds_ - 1) / rounds_;
+    moving.done = settle(muscles_[m], moving.equilibrium.around, *moving.metric, iterations, moving.nodes);
+    moving.iterations += moving.done.iterations;
+    check(m, moving.nodes.allFinite());
+  }
+
+  MuscleReport reported(std::size_t m, const MovingMuscle& moving) const {
+    const Wrench pull =
+        attachment_wrench(muscles_[m], moving.equilibrium.around, moving.nodes, AttachmentEnd::insertion);
+    return {moving.milliseconds,
+            {{"minimizer_iterations", static_cast<Real>(moving.iterations)},
+             {"residual_n", moving.done.residual},
+             {"pull_n", pull.force.norm()},
+             {"least_volume_ratio", least_volume_ratio(muscles_[m].lattice, moving.nodes)}}};
+  }
+
+  std::vector<Index> others_of(std::size_t m) const {
+    std::vector<Index> others;
+    for (const NeighborPair& pair : neighbors_.pairs)
+      if (pair.first == static_cast<Index>(m))
+        others.push_back(pair.second);
+      else if (pair.second == static_cast<Index>(m))
+        others.push_back(pair.first);
+    std::sort(others.begin(), others.end());
+    return others;
   }
 
   std::vector<DistanceField> fields_;  ///< of all bones, which the muscles look at
   std::size_t body_count_;
   std::vector<PreparedTissue> muscles_;
+  Neighbors neighbors_;  ///< without pairs where muscles do not meet
+  int rounds_ = 0;       ///< of looking at neighbors, in each step
   std::vector<std::map<int, FactoredMatrix>> metrics_;  ///< by muscle and activation, made when first asked for
   std::vector<Points> nodes_;
   std::vector<Equilibrium> equilibria_;

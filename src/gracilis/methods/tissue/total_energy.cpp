@@ -96,11 +96,22 @@ Surroundings surroundings(const PreparedTissue& muscle, const std::vector<RigidT
     }
   }
   around.near_begin.assign(muscle.points.size() + 1, 0);
+  around.planes_begin = around.near_begin;
   return around;
 }
 
+void set_planes(const PreparedTissue& muscle, std::vector<ContactPlane> planes, Surroundings& around) {
+  around.planes = std::move(planes);
+  auto next = around.planes.begin();
+  for (std::size_t v = 0; v <= muscle.points.size(); ++v) {
+    next = std::find_if(next, around.planes.end(),
+                        [&](const ContactPlane& plane) { return plane.point >= static_cast<Index>(v); });
+    around.planes_begin[v] = static_cast<Index>(next - around.planes.begin());
+  }
+}
+
 void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surroundings& around) {
-  // The interpolant of a distance grows by no more than the root of three times the way.
+  // Of what follows a distance's values on a grid: along each axis by no more than the way.
   const Real steepest = std::sqrt(3.0);
   around.near.clear();
   around.seen = points_at(muscle, nodes);
@@ -111,7 +122,7 @@ void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surround
     for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
       const BoneGap& bone = muscle.bones[b];
       const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * p;
-      const Real beyond = bone_distance(*bone.field, there).distance - bone.gaps[v];
+      const Real beyond = sample_spline_precise(bone.grid, there).distance - bone.gaps[v];
       if (beyond < near_bones) around.near.push_back({static_cast<Index>(b), std::max(0.0, beyond / steepest)});
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/methods/tissue/preparation.hpp>
+#include <gracilis/methods/tissue/neighbors.hpp>
 
 #include <Eigen/SparseCore>
 
@@ -24,6 +24,9 @@ struct Surroundings {
   Points seen;                    ///< where it was looked for bones, 3 × points
   std::vector<Index> near_begin;  ///< per point and one more: where its bones begin in `near`
   std::vector<NearBone> near;
+  std::vector<Index> planes_begin;  ///< per point and one more: where its planes begin in `planes`
+  std::vector<ContactPlane> planes;
+  std::vector<Index> others;  ///< muscles that it may ever touch, in their order
 };
 
 /// Everything about the bodies there; nothing is near yet.
@@ -32,6 +35,8 @@ Surroundings surroundings(const PreparedTissue& muscle, const std::vector<RigidT
 
 /// Points within this distance of touching a bone are near it, m: less than the margin of usual distance fields.
 inline constexpr Real near_bones = 0.006;
+/// Makes these planes those of other muscles. Precondition: in the order of points.
+void set_planes(const PreparedTissue& muscle, std::vector<ContactPlane> planes, Surroundings& around);
 /// Finds what is near: holds until a point has moved by `near_bones`.
 void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surroundings& around);
 

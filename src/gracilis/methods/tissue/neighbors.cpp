@@ -1,0 +1,112 @@
+#include <gracilis/methods/tissue/neighbors.hpp>
+
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
+#include <gracilis/dynamics/contact/surface/touch_search.hpp>
+
+#include <algorithm>
+
+namespace gracilis::tissue {
+
+namespace {
+
+/// All surfaces near a common origin, where single precision is fine enough.
+struct PlacedSurfaces {
+  Vec3 origin = Vec3::Zero();
+  std::vector<Particles> particles;
+  std::vector<Eigen::Matrix3Xf> normals;
+};
+
+PlacedSurfaces place(Neighbors& neighbors, const std::vector<Points>& shapes) {
+  PlacedSurfaces placed;
+  placed.origin = shapes.front().rowwise().mean();
+  placed.particles.resize(shapes.size());
+  placed.normals.resize(shapes.size());
+  parallel_for_each(shapes.size(), [&](std::size_t m) {
+    const Points seen = shapes[m].colwise() - placed.origin;
+    placed.particles[m] = make_particles(seen, Eigen::VectorXd::Ones(seen.cols()));
+    placed.normals[m].resize(3, seen.cols());
+    particle_normals(neighbors.surfaces[m], placed.particles[m], placed.normals[m]);
+    refit(neighbors.surfaces[m], placed.particles[m], neighbors.trees[m]);
+  });
+  return placed;
+}
+
+/// A vertex and how it stands to another surface.
+struct SeenVertex {
+  Index vertex = 0;
+  PointGap gap;
+};
+
+std::vector<SeenVertex> see(const Neighbors& neighbors, const PlacedSurfaces& placed, Index from, Index to) {
+  const auto probe = static_cast<std::size_t>(from), target = static_cast<std::size_t>(to);
+  std::vector<PointTouch> touches;
+  find_near({neighbors.surfaces[probe], placed.particles[probe], neighbors.trees[probe]}, Eigen::Vector3f::Zero(),
+            {neighbors.surfaces[target], placed.particles[target], neighbors.trees[target]},
+            static_cast<float>(neighbor_reach), touches);
+  std::vector<SeenVertex> seen;
+  for (const PointTouch& touch : touches)
+    seen.push_back({touch.particle,
+                    point_gap(placed.particles[probe].position(touch.particle), neighbors.surfaces[target],
+                              NearestFace{touch.face, touch.barycentric}, placed.particles[target],
+                              placed.normals[target])});
+  return seen;
+}
+
+std::vector<Real> gaps_at_rest(const std::vector<SeenVertex>& seen, Index count, Real gap) {
+  std::vector<Real> gaps(static_cast<std::size_t>(count), gap);
+  for (const SeenVertex& each : seen)
+    gaps[static_cast<std::size_t>(each.vertex)] = std::min(gap, static_cast<Real>(each.gap.distance));
+  return gaps;
+}
+
+/// Each of the two surfaces goes half of the way, or may come as near.
+void add_planes(const PlacedSurfaces& placed, const std::vector<SeenVertex>& seen, const std::vector<Real>& gaps,
+                Index from, Index to, std::vector<ContactPlane>& planes) {
+  for (const SeenVertex& each : seen) {
+    const Vec3 normal = each.gap.normal.cast<Real>();
+    if (normal.isZero(0)) continue;
+    const Vec3 p =
+        placed.origin + placed.particles[static_cast<std::size_t>(from)].position(each.vertex).cast<Real>();
+    const Real lacking = gaps[static_cast<std::size_t>(each.vertex)] - static_cast<Real>(each.gap.distance);
+    planes.push_back({each.vertex, to, normal, normal.dot(p) + lacking / 2});
+  }
+}
+
+}  // namespace
+
+Neighbors prepare_neighbors(const Scene& scene, Real gap) {
+  Neighbors neighbors;
+  std::vector<Points> shapes;
+  for (const Muscle& muscle : scene.muscles) {
+    shapes.push_back(muscle.surface.vertices);
+    neighbors.surfaces.push_back(build_contact_surface(muscle.surface.faces, muscle.surface.vertex_count()));
+    neighbors.trees.push_back(build_patch_tree(neighbors.surfaces.back(), shapes.back().cast<float>()));
+  }
+  const PlacedSurfaces placed = place(neighbors, shapes);
+  const auto count = static_cast<Index>(shapes.size());
+  for (Index a = 0; a < count; ++a)
+    for (Index b = a + 1; b < count; ++b)
+      neighbors.pairs.push_back(
+          {a, b, gaps_at_rest(see(neighbors, placed, a, b), scene.muscles[static_cast<std::size_t>(a)].surface.vertex_count(), gap),
+           gaps_at_rest(see(neighbors, placed, b, a), scene.muscles[static_cast<std::size_t>(b)].surface.vertex_count(), gap)});
+  return neighbors;
+}
+
+std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes) {
+  std::vector<std::vector<ContactPlane>> planes(shapes.size());
+  if (neighbors.pairs.empty()) return planes;
+  const PlacedSurfaces placed = place(neighbors, shapes);
+  for (const NeighborPair& pair : neighbors.pairs) {
+    add_planes(placed, see(neighbors, placed, pair.first, pair.second), pair.first_gaps, pair.first, pair.second,
+               planes[static_cast<std::size_t>(pair.first)]);
+    add_planes(placed, see(neighbors, placed, pair.second, pair.first), pair.second_gaps, pair.second, pair.first,
+               planes[static_cast<std::size_t>(pair.second)]);
+  }
+  for (std::vector<ContactPlane>& each : planes)
+    std::stable_sort(each.begin(), each.end(),
+                     [](const ContactPlane& a, const ContactPlane& b) { return a.point < b.point; });
+  return planes;
+}
+
+}  // namespace gracilis::tissue

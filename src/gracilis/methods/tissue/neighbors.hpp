@@ -1,0 +1,40 @@
+#pragma once
+
+#include <gracilis/dynamics/contact/mesh/patch_tree.hpp>
+#include <gracilis/methods/tissue/preparation.hpp>
+
+#include <vector>
+
+namespace gracilis::tissue {
+
+/// Keeps a point of a muscle on its side of a plane that lies midway between it and another muscle's surface.
+struct ContactPlane {
+  Index point = 0;             ///< of the muscle
+  Index muscle = 0;            ///< the other one
+  Vec3 normal = Vec3::Zero();  ///< unit, away from the other
+  Real least = 0;              ///< m: normal · place is no less
+};
+
+/// Two muscles that keep out of each other, each vertex by its gap: `contact_gap`, or that in the capture pose where it
+/// is smaller, and below zero where they overlap there.
+struct NeighborPair {
+  Index first = 0, second = 0;
+  std::vector<Real> first_gaps, second_gaps;  ///< m, per vertex
+};
+
+/// The surfaces of all muscles for each other; constant but for the trees, which are fitted anew in each search.
+struct Neighbors {
+  std::vector<ContactSurface> surfaces;
+  std::vector<PatchTree> trees;
+  std::vector<NeighborPair> pairs;
+};
+
+/// How far apart muscles see each other, m: what they move in a step is less.
+inline constexpr Real neighbor_reach = 0.012;
+
+Neighbors prepare_neighbors(const Scene& scene, Real gap);
+
+/// The planes of every muscle, in the order of its points, where the surfaces are at `shapes` (3 × vertices, m).
+std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes);
+
+}  // namespace gracilis::tissue
