@@ -12,10 +12,10 @@ namespace {
 using namespace tissue;
 
 /// A tube of 160 mm, held by a body of its own at either end.
-Muscle tube_between(const std::string& name, const RigidTransform& place, Index first_body) {
+Muscle tube_between(const std::string& name, const RigidTransform& place, Index first_body, Index around) {
   Muscle muscle;
   muscle.name = name;
-  muscle.surface = shapes::cylinder(0.01, 0.16, 24, 48);
+  muscle.surface = shapes::cylinder(0.01, 0.16, around, 2 * around);
   muscle.surface.vertices.row(2).array() -= 0.08;
   Attachment origin{"one end", AttachmentEnd::origin, first_body, {}, false};
   Attachment insertion{"other end", AttachmentEnd::insertion, first_body + 1, {}, false};
@@ -29,12 +29,13 @@ Muscle tube_between(const std::string& name, const RigidTransform& place, Index 
 }
 
 /// Two tubes that cross each other in their middles, `gap` apart.
-Scene crossing_tubes(Real gap) {
+Scene crossing_tubes(Real gap, Index around = 24) {
   Scene scene;
   scene.name = "crossing";
   scene.bodies = {"a", "b", "c", "d"};
   const RigidTransform across = Eigen::Translation3d(0.02 + gap, 0, 0) * Eigen::AngleAxisd(pi / 2, Vec3::UnitX());
-  scene.muscles = {tube_between("still", RigidTransform::Identity(), 0), tube_between("moved", across, 2)};
+  scene.muscles = {tube_between("still", RigidTransform::Identity(), 0, around),
+                   tube_between("moved", across, 2, around)};
   scene.method.name = "tissue";
   scene.method.settings = {{"minimizer_iterations", 60}, {"tension_frames", 1}};
   return scene;
@@ -99,7 +100,8 @@ TEST(TissueNeighbors, planes_lie_midway_and_face_away_from_the_other) {
 }
 
 TEST(TissueNeighbors, muscles_press_on_each_other_with_the_same_force) {
-  Scene scene = crossing_tubes(0.001);
+  // What each presses by is summed over its own vertices, so these have to be close.
+  Scene scene = crossing_tubes(0.001, 60);
   scene.method.settings["contact_rounds"] = 8;
   scene.method.settings["minimizer_iterations"] = 800;
   scene.method.settings["minimizer_residual"] = 1e-6;
@@ -108,7 +110,7 @@ TEST(TissueNeighbors, muscles_press_on_each_other_with_the_same_force) {
   const std::vector<MuscleForces> forces = method->muscle_forces({});
   ASSERT_EQ(forces[0].muscles.size(), 1U);
   const Vec3 on_moved = forces[0].muscles[0].wrench.force, on_still = forces[1].muscles[0].wrench.force;
-  EXPECT_GT(on_moved.x(), 0.5) << "the still one pushes the moved one back";
+  EXPECT_GT(on_moved.x(), 0.3) << "the still one pushes the moved one back";
   EXPECT_LT((on_moved + on_still).norm(), 0.05 * on_moved.norm());
 }
 
