@@ -100,6 +100,20 @@ TEST(TissueLanes, one_inverted_tetrahedron_makes_the_energy_infinite) {
   EXPECT_TRUE(std::isinf(by_lanes(lattice, mixed_laws(lattice), nodes).energy));
 }
 
+TEST(TissueLanes, what_is_squeezed_below_the_least_volume_counts_as_inverted) {
+  const Lattice lattice = box_lattice();
+  const CellLanes cells = cell_lanes(lattice);
+  LawLanes laws = law_lanes(cells, mixed_laws(lattice));
+  CornerForces forces;
+  for (std::vector<Real>& axis : forces) axis.resize(cells.corner_count());
+  const Points nodes = 0.4 * lattice.nodes;  // 0.064 of the volume
+  for (const Real least : {0.06, 0.07}) {
+    laws.least_volume_ratio = least;
+    const Real energy = cell_lane_energy(cells, laws, 0, cells.group_count(), nodes, forces);
+    EXPECT_EQ(std::isfinite(energy), least < 0.064);
+  }
+}
+
 TEST(TissueLanes, each_cell_stands_in_one_lane_whatever_their_number) {
   for (const Real width : {0.005, 0.012, 0.05}) {
     const Lattice lattice = build_lattice(shapes::box({0, 0, 0}, {width, width, 0.02}), 0.008);

@@ -16,6 +16,10 @@ std::vector<std::vector<RigidTransform>> steps_between(const PreparedTissue& mus
                                                        const std::vector<RigidTransform>& before,
                                                        const std::vector<RigidTransform>& now, int count);
 
+/// What the minimizer leaves a tetrahedron of its volume at least, unless it had less before: with next to nothing left
+/// its forces are so large that no step leads on.
+inline constexpr Real least_settled_ratio = 0.02;
+
 /// Moves the nodes with their shares of what the carriers move by, and less where a tetrahedron would invert. All move
 /// rigidly where the carriers do so together.
 void carry(const PreparedTissue& muscle, const std::vector<RigidTransform>& before,

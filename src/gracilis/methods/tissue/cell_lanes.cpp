@@ -28,17 +28,18 @@ class CellGroup {
         lane_(lane),
         law_(load_law(laws, group_ * width + lane)) {}
 
-  /// Whether no tetrahedron is inverted. Adds to `energy`.
-  HWY_INLINE bool add(const Real* nodes, bool any_active, CornerForces& forces, N& energy) const {
+  /// Whether no tetrahedron counts as inverted. Adds to `energy`.
+  HWY_INLINE bool add(const Real* nodes, const LawLanes& laws, CornerForces& forces, N& energy) const {
     std::array<Vectors, 8> corners;
     for (std::size_t c = 0; c < 8; ++c) corners[c] = load_corner(nodes, c);
     std::array<Deformation, 5> deformations;
     N mean = number(0);
+    const N least = number(laws.least_volume_ratio);
     auto is_positive = hn::Eq(mean, mean);
     for (std::size_t t = 0; t < 5; ++t) {
       deformations[t] = deformation_of(gradient_of(t, corners));
       mean = hn::MulAdd(share(t), deformations[t].volume_ratio, mean);
-      is_positive = hn::And(is_positive, hn::Gt(deformations[t].volume_ratio, number(0)));
+      is_positive = hn::And(is_positive, hn::Gt(deformations[t].volume_ratio, least));
     }
     if (!hn::AllTrue(Doubles(), is_positive)) return false;
     N volume = number(0);
@@ -50,7 +51,7 @@ class CellGroup {
     for (std::size_t t = 0; t < 5; ++t) {
       MatrixLanes stress;
       const N weight = tetrahedron_volume(t);
-      energy = hn::MulAdd(weight, tissue_energy_lanes(law_, deformations[t], any_active, stress), energy);
+      energy = hn::MulAdd(weight, tissue_energy_lanes(law_, deformations[t], laws.any_active, stress), energy);
       const MatrixLanes force = plus_scaled(scaled(weight, stress), pressure * share(t), deformations[t].cofactors);
       push(t, force, sums);
     }
@@ -120,7 +121,7 @@ Real cell_lane_energy(const CellLanes& cells, const LawLanes& laws, Index begin_
   N energy = hn::Zero(d);
   for (Index group = begin_group; group < end_group; ++group)
     for (std::size_t lane = 0; lane < static_cast<std::size_t>(cells_in_group); lane += hn::Lanes(d))
-      if (!CellGroup(cells, laws, group, lane).add(nodes, laws.any_active, forces, energy))
+      if (!CellGroup(cells, laws, group, lane).add(nodes, laws, forces, energy))
         return std::numeric_limits<Real>::infinity();
   return hn::GetLane(hn::SumOfLanes(d, energy));
 }

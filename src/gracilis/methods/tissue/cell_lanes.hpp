@@ -37,6 +37,7 @@ struct LawLanes {
   std::vector<Real> least_strain;                                ///< where fibers go slack
   std::array<std::vector<Real>, 3> direction;
   bool any_active = false;
+  Real least_volume_ratio = 0;  ///< below it a tetrahedron counts as inverted
 };
 
 LawLanes law_lanes(const CellLanes& cells, const std::vector<CellLaw>& laws);

@@ -30,7 +30,7 @@ void for_each_action(const PreparedTissue& muscle, const Surroundings& around, s
     if ((p - around.seen.col(static_cast<Index>(v))).squaredNorm() < near.clear * near.clear) continue;
     const BoneGap& bone = muscle.bones[static_cast<std::size_t>(near.bone)];
     const auto body = static_cast<std::size_t>(bone.body);
-    const PreciseSample found = sample_spline_precise(bone.grid, around.inverses[body] * p);
+    const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * p);
     if (found.distance < bone.gaps[v])
       act(PointActor::bone, near.bone,
           contact(found.distance, around.bodies[body].linear() * found.gradient, bone.gaps[v],
@@ -41,7 +41,7 @@ void for_each_action(const PreparedTissue& muscle, const Surroundings& around, s
     const Real distance = plane.normal.dot(p) - plane.least;
     if (distance < 0)
       act(PointActor::muscle, plane.muscle,
-          contact(distance, plane.normal, 0, settings.contact_stiffness * point.area));
+          contact(distance, plane.normal, 0, settings.neighbor_stiffness * point.vertex_area));
   }
 }
 

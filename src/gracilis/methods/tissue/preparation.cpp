@@ -27,7 +27,7 @@ void place_points(const Muscle& muscle, PreparedTissue& prepared) {
   for (std::size_t v = 0; v < prepared.points.size(); ++v) {
     SurfacePoint& point = prepared.points[v];
     point.rest = muscle.surface.vertices.col(static_cast<Index>(v));
-    point.area = areas[static_cast<Index>(v)];
+    point.area = point.vertex_area = areas[static_cast<Index>(v)];
     point.at = embed(prepared.lattice, point.rest);
   }
   prepared.vertex_count = muscle.surface.vertex_count();
@@ -38,23 +38,24 @@ void place_points(const Muscle& muscle, PreparedTissue& prepared) {
     }
 }
 
-/// Attached triangles are held by points as close as half a cell, or tissue would sag between their corners.
-void hold_triangles(const TriangleMesh& surface, PreparedTissue& prepared) {
-  const Real spacing = prepared.lattice.cell_size / 2;
+/// What acts on triangles acts on points of them, or tissue would sag between their corners and the surface would lose
+/// volume: as close as a cell, and half of one where they are held and so much stiffer.
+void spread_over_triangles(const TriangleMesh& surface, PreparedTissue& prepared) {
   for (Index f = 0; f < surface.face_count(); ++f) {
     const auto corner = [&](Index k) -> SurfacePoint& {  // anew each time: points grow
       return prepared.points[static_cast<std::size_t>(surface.faces(k, f))];
     };
     const Index body = corner(0).held_by;
     const AttachmentEnd end = corner(0).end;
-    if (body < 0 || corner(1).held_by != body || corner(2).held_by != body) continue;
+    if (corner(1).held_by != body || corner(2).held_by != body) continue;
+    const Real spacing = prepared.lattice.cell_size / (body < 0 ? 1 : 2);
     const Vec3 a = corner(0).rest, ab = corner(1).rest - a, ac = corner(2).rest - a;
     const Real longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
     const int pieces = static_cast<int>(std::ceil(longest / spacing));
     if (pieces < 2) continue;
     const Real area = ab.cross(ac).norm() / 2;
     for (Index k = 0; k < 3; ++k) corner(k).area -= area / 3;
-    const auto hold = [&](Real u, Real v) {
+    const auto add = [&](Real u, Real v) {
       SurfacePoint point;
       point.rest = a + u / pieces * ab + v / pieces * ac;
       point.at = embed(prepared.lattice, point.rest);
@@ -70,8 +71,8 @@ void hold_triangles(const TriangleMesh& surface, PreparedTissue& prepared) {
     // The middles of the equal triangles that it falls into.
     for (int i = 0; i < pieces; ++i)
       for (int j = 0; i + j < pieces; ++j) {
-        hold(i + 1.0 / 3, j + 1.0 / 3);
-        if (i + j + 1 < pieces) hold(i + 2.0 / 3, j + 2.0 / 3);
+        add(i + 1.0 / 3, j + 1.0 / 3);
+        if (i + j + 1 < pieces) add(i + 2.0 / 3, j + 2.0 / 3);
       }
   }
   for (SurfacePoint& point : prepared.points) point.area = std::max(point.area, 0.0);
@@ -176,9 +177,9 @@ void find_fibers(const Muscle& muscle, PreparedTissue& prepared) {
 
 void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, PreparedTissue& prepared) {
   for (std::size_t b = 0; b < fields.size(); ++b) {
-    BoneGap bone{scene.bones[b].body, grid_of(fields[b]), {}};
+    BoneGap bone{scene.bones[b].body, bounded(fields[b]), {}};
     for (const SurfacePoint& point : prepared.points)
-      bone.gaps.push_back(std::min(prepared.settings.contact_gap, sample_spline_precise(bone.grid, point.rest).distance));
+      bone.gaps.push_back(std::min(prepared.settings.contact_gap, sample_spline_precise(bone.field.grid, point.rest).distance));
     prepared.bones.push_back(std::move(bone));
   }
 }
@@ -234,7 +235,7 @@ PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const st
   prepared.settings = tissue_settings(scene, muscle);
   prepared.lattice = build_lattice(muscle.surface, cell_size_of(prepared.settings, muscle.surface));
   place_points(muscle, prepared);
-  hold_triangles(muscle.surface, prepared);
+  spread_over_triangles(muscle.surface, prepared);
   lay_fibers(prepared);
   find_fibers(muscle, prepared);
   tie_to_bones(scene, distances, prepared);

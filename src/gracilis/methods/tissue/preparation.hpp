@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/core/group_by_key.hpp>
-#include <gracilis/geometry/distance_field.hpp>
+#include <gracilis/geometry/field_path.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/methods/tissue/cell_lanes.hpp>
 #include <gracilis/methods/tissue/settings.hpp>
@@ -18,11 +18,12 @@ struct Tie {
   Real stiffness = 0;         ///< N/m
 };
 
-/// A vertex of the muscle's surface, or a point on one of its attached triangles.
+/// A vertex of the muscle's surface, or a point on one of its triangles.
 struct SurfacePoint {
   EmbeddedPoint at;
   Vec3 rest = Vec3::Zero();
-  Real area = 0;                              ///< m²
+  Real area = 0;                              ///< m², that it stands for
+  Real vertex_area = 0;                       ///< m², of a vertex without points on its triangles; 0 of these
   Index held_by = -1;                         ///< the body that it is attached to, or -1
   AttachmentEnd end = AttachmentEnd::origin;  ///< of the attachment, where it is held
   Index ties_begin = 0, ties_end = 0;
@@ -31,7 +32,7 @@ struct SurfacePoint {
 /// What a bone asks of the surface.
 struct BoneGap {
   Index body = -1;
-  FieldGrid grid;
+  BoundedField field;
   std::vector<Real> gaps;  ///< m, per point
 };
 

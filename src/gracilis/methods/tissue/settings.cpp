@@ -43,6 +43,9 @@ std::span<const Setting<TissueSettings>> setting_table() {
        "Gap kept to bones, or that of the capture pose where it is smaller."},
       {"neighbor_gap", &S::neighbor_gap, "m", 0, 0.05,
        "Gap kept to other muscles, or that of the capture pose where it is smaller or the two overlap."},
+      {"neighbor_stiffness", &S::neighbor_stiffness, "N/m³", 0, 1e13,
+       "Stiffness per area of what keeps muscles out of each other. They are soft: where it is much stiffer than their "
+       "bulk, thin ones lose volume between others."},
       {"contact_rounds", &S::contact_rounds, "", 0, 100,
        "How often in a step muscles look where their neighbors are; 0: muscles do not feel each other."},
       {"fascia_stiffness", &S::fascia_stiffness, "N/m³", 0, 1e13,

@@ -174,6 +174,7 @@ class TissueMethod final : public DeformationMethod {
     moving.bodies = bodies_;
     moving.metric = &metric(m, activation);
     moving.equilibrium.laws = cell_laws(muscles_[m], activation, tension);
+    moving.equilibrium.around.sights = equilibria_[m].around.sights;
     return moving;
   }
 
@@ -181,8 +182,12 @@ class TissueMethod final : public DeformationMethod {
     const std::vector<RigidTransform> now =
         steps_between(muscles_[m], bodies_, pose.bodies, count)[static_cast<std::size_t>(step)];
     carry(muscles_[m], moving.bodies, now, moving.nodes);
+    std::vector<BoneSight> sights = std::move(moving.equilibrium.around.sights);
     moving.equilibrium.around = surroundings(muscles_[m], now, moving.equilibrium.laws);
+    moving.equilibrium.around.sights = std::move(sights);
     moving.equilibrium.around.others = others_of(m);
+    moving.equilibrium.around.laws.least_volume_ratio =
+        std::min(least_settled_ratio, least_volume_ratio(muscles_[m].lattice, moving.nodes) / 2);
     moving.bodies = now;
   }
 

@@ -13,6 +13,8 @@ namespace gracilis::tissue {
 namespace {
 
 constexpr Index groups_per_task = 16, points_per_task = 512, nodes_per_task = 512;
+/// Of what follows a distance's values on a grid: along each axis by no more than the way.
+const Real steepest = std::sqrt(3.0);
 /// Keeps parts that nothing holds solvable, as a share of a cell's stiffness.
 constexpr Real least_stiffness = 1e-6;
 
@@ -36,6 +38,12 @@ Real point_stiffness(const PreparedTissue& muscle, const SurfacePoint& point) {
     sum += tie_hessian(Vec3::Zero(), each.along, each.stiffness, settings.fascia_yield).trace() / 3;
   }
   return sum;
+}
+
+/// The distance within the grid, a lower bound beyond it.
+Real distance_at_least(const BoundedField& field, const Vec3& p) {
+  const Real distance = sample_spline_precise(field.grid, p).distance;
+  return std::isfinite(distance) ? distance : static_cast<Real>(sample_bounded(field, p.cast<float>()).distance);
 }
 
 /// The energy (J) of what acts on points [begin, end), and its derivatives.
@@ -111,18 +119,26 @@ void set_planes(const PreparedTissue& muscle, std::vector<ContactPlane> planes, 
 }
 
 void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surroundings& around) {
-  // Of what follows a distance's values on a grid: along each axis by no more than the way.
-  const Real steepest = std::sqrt(3.0);
-  around.near.clear();
   around.seen = points_at(muscle, nodes);
-  for (std::size_t v = 0; v < muscle.points.size(); ++v) {
-    around.near_begin[v] = static_cast<Index>(around.near.size());
-    if (muscle.points[v].held_by >= 0) continue;
-    const Vec3 p = around.seen.col(static_cast<Index>(v));
+  const auto count = static_cast<Index>(muscle.points.size());
+  if (around.sights.empty()) {
+    const Real never = -std::numeric_limits<Real>::infinity();
+    around.sights.assign(muscle.bones.size(), {Points::Zero(3, count), Eigen::VectorXd::Constant(count, never)});
+  }
+  around.near.clear();
+  for (Index v = 0; v < count; ++v) {
+    const auto point = static_cast<std::size_t>(v);
+    around.near_begin[point] = static_cast<Index>(around.near.size());
+    if (muscle.points[point].held_by >= 0) continue;
     for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
       const BoneGap& bone = muscle.bones[b];
-      const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * p;
-      const Real beyond = sample_spline_precise(bone.grid, there).distance - bone.gaps[v];
+      BoneSight& sight = around.sights[b];
+      const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * around.seen.col(v);
+      const Real reach = bone.gaps[point] + near_bones;
+      if (sight.distances[v] - steepest * (there - sight.places.col(v)).norm() >= reach) continue;
+      sight.places.col(v) = there;
+      sight.distances[v] = distance_at_least(bone.field, there);
+      const Real beyond = sight.distances[v] - bone.gaps[point];
       if (beyond < near_bones) around.near.push_back({static_cast<Index>(b), std::max(0.0, beyond / steepest)});
     }
   }

@@ -14,6 +14,12 @@ struct NearBone {
   Real clear = 0;   ///< m: until the point has moved so far from where it was seen it does not
 };
 
+/// How far points were from a bone when its field was last asked: most are far from most bones, and stay so.
+struct BoneSight {
+  Points places;              ///< as the bone in its capture pose saw them, 3 × points
+  Eigen::VectorXd distances;  ///< m, then
+};
+
 /// What surrounds a muscle at one instant.
 struct Surroundings {
   std::vector<RigidTransform> bodies;    ///< from the capture pose
@@ -24,6 +30,7 @@ struct Surroundings {
   Points seen;                    ///< where it was looked for bones, 3 × points
   std::vector<Index> near_begin;  ///< per point and one more: where its bones begin in `near`
   std::vector<NearBone> near;
+  std::vector<BoneSight> sights;  ///< of the bones; may come from another instant
   std::vector<Index> planes_begin;  ///< per point and one more: where its planes begin in `planes`
   std::vector<ContactPlane> planes;
   std::vector<Index> others;  ///< muscles that it may ever touch, in their order
