@@ -17,8 +17,8 @@ struct MovedCoordinate {
 
 /// Writes the moment arms of a run folder along a coordinate (those that its method knows, or else what its fiber
 /// lengths say), and says them on the standard output: moment_arms.sto, where the method knows forces with
-/// `<muscle>_by_force`, moment over tension, too; plots/moment_arms*.svg; and beside `references`, as far as they are of
-/// this coordinate, reference.csv. Of translations: how much muscles shorten. The scene's motion is the range; rows
+/// `<muscle>_by_force`, moment over tension, too; plots/moment_arms*.svg; and beside `references`, as far as they are
+/// of this coordinate, reference.csv. Of translations: how much muscles shorten. The scene's motion is the range; rows
 /// before it only led there. Throws InputError.
 void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
                        const std::vector<ArmCurve>& references);

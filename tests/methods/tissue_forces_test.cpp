@@ -51,9 +51,8 @@ class BentTube : public ::testing::Test {
     Settled found{std::move(nodes), surroundings(muscle, bodies, laws), 0};
     for (int round = 0; round < 3; ++round) {
       find_near_bones(muscle, found.nodes, found.around);
-      const Minimized done =
-          minimize([&](const Points& x, Points& g) { return energy_of(muscle, found.around, x, g); },
-                   [&](std::span<Points> g) { metric.solve(g); }, {3000, 1e-6, 0.005}, found.nodes);
+      const Minimized done = minimize([&](const Points& x, Points& g) { return energy_of(muscle, found.around, x, g); },
+                                      [&](std::span<Points> g) { metric.solve(g); }, {3000, 1e-6, 0.005}, found.nodes);
       found.energy = done.energy;
     }
     return found;
@@ -122,14 +121,17 @@ TEST_F(BentTube, fibers_together_have_the_tension_of_the_muscle) {
 TEST(TissueForces, a_methods_forces_list_the_same_in_all_poses_and_pull_at_no_body_in_the_capture_pose) {
   const Scene scene = tube_scene();
   const auto method = make_tissue_method(scene, tube_fields());
-  const auto forces_at = [&](Real angle) { return method->muscle_forces(joint_twists(scene, std::vector<Real>{angle}))[0]; };
+  const auto forces_at = [&](Real angle) {
+    return method->muscle_forces(joint_twists(scene, std::vector<Real>{angle}))[0];
+  };
   const MuscleForces before = forces_at(0);
   method->advance(flexed(scene, radians(5)), usual_time_step);
   const MuscleForces after = forces_at(radians(5));
   EXPECT_EQ(before.tension, 0);
   EXPECT_GT(after.tension, 0);
   EXPECT_EQ(before.contact.size(), 2U);
-  for (const auto list : {&MuscleForces::origin, &MuscleForces::insertion, &MuscleForces::fascia, &MuscleForces::contact}) {
+  for (const auto list :
+       {&MuscleForces::origin, &MuscleForces::insertion, &MuscleForces::fascia, &MuscleForces::contact}) {
     ASSERT_EQ((before.*list).size(), (after.*list).size());
     for (std::size_t i = 0; i < (before.*list).size(); ++i) {
       EXPECT_EQ((before.*list)[i].on, (after.*list)[i].on);
@@ -147,8 +149,7 @@ TEST(TissueForces, far_from_the_origin_a_muscle_does_the_same) {
   near->advance(pose, usual_time_step);
   std::vector<std::vector<Twist>> twists = joint_twists(scene, pose.coordinates);
   Pose moved = pose;
-  for (RigidTransform& body : moved.bodies)
-    body.translation() += place - body.linear() * place;
+  for (RigidTransform& body : moved.bodies) body.translation() += place - body.linear() * place;
   far->advance(moved, usual_time_step);
   const MuscleForces here = near->muscle_forces(twists)[0];
   for (std::vector<Twist>& bodies : twists)

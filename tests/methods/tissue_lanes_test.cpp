@@ -38,8 +38,7 @@ Expected by_cells(const Lattice& lattice, const std::vector<CellLaw>& laws, cons
     const CellState state =
         cell_energy(cube_cut(cell.parity), lattice.cell_size, cell.fills, laws[c], corners_of(cell, nodes));
     sum.energy += state.energy;
-    for (Index k = 0; k < 8; ++k)
-      sum.gradient.col(cell.nodes[static_cast<std::size_t>(k)]) += state.gradient.col(k);
+    for (Index k = 0; k < 8; ++k) sum.gradient.col(cell.nodes[static_cast<std::size_t>(k)]) += state.gradient.col(k);
   }
   return sum;
 }

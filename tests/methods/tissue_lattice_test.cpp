@@ -13,9 +13,7 @@
 namespace gracilis::tissue {
 namespace {
 
-Vec3 place_at_rest(const Lattice& lattice, const EmbeddedPoint& point) {
-  return mean_at(point, lattice.nodes);
-}
+Vec3 place_at_rest(const Lattice& lattice, const EmbeddedPoint& point) { return mean_at(point, lattice.nodes); }
 
 TEST(TissueLattice, a_cube_is_cut_into_five_tetrahedra_that_fill_it) {
   for (const int parity : {0, 1}) {

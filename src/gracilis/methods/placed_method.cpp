@@ -48,7 +48,7 @@ class PlacedMethod final : public DeformationMethod {
   std::vector<MuscleForces> muscle_forces(const std::vector<std::vector<Twist>>& coordinates) const override {
     std::vector<MuscleForces> forces = method_->muscle_forces(near(coordinates));
     for (MuscleForces& muscle : forces)
-      for (std::vector<ForceOn>* list : 
+      for (std::vector<ForceOn>* list :
            {&muscle.origin, &muscle.insertion, &muscle.fascia, &muscle.contact, &muscle.muscles})
         for (ForceOn& each : *list) each.wrench.moment += place_.cross(each.wrench.force);
     return forces;

@@ -27,13 +27,13 @@ struct ForceOn {
 /// is listed is the same in all poses.
 struct MuscleForces {
   bool is_known = false;
-  Real tension = 0;                  ///< N, of all fibers together, the mean over their length
-  std::vector<Real> fiber_tensions;  ///< N, of each fiber, which stands for an equal share of the muscle
+  Real tension = 0;                                ///< N, of all fibers together, the mean over their length
+  std::vector<Real> fiber_tensions;                ///< N, of each fiber, which stands for an equal share of the muscle
   std::vector<ForceOn> origin, insertion, fascia;  ///< on bodies, by attachments of either end and by fascia
   std::vector<ForceOn> contact;                    ///< on bones
   std::vector<ForceOn> muscles;                    ///< on other muscles
-  /// Per coordinate, N·m per rad (of a translation N): what all that acts on bodies does in its motion, and the energy that the muscle
-  /// loses in it while its inside moves along with the bodies. The two are equal at rest.
+  /// Per coordinate, N·m per rad (of a translation N): what all that acts on bodies does in its motion, and the energy
+  /// that the muscle loses in it while its inside moves along with the bodies. The two are equal at rest.
   std::vector<Real> moments, moments_by_work;
 };
 

@@ -1,4 +1,5 @@
-// What acts on a muscle's strings in one pose, before they move: lanes of LaneWorkspace. Included once per instruction set.
+// What acts on a muscle's strings in one pose, before they move: lanes of LaneWorkspace. Included once per instruction
+// set.
 
 #if defined(GRACILIS_LANE_POSE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef GRACILIS_LANE_POSE_INL
@@ -93,8 +94,7 @@ class LanePose {
       LaneWorkspace::Bone& bone = w_.bones[b];
       const RigidTransform to_bone = body.inverse();
       bone.to_cells.leftCols<3>() = (scale.asDiagonal() * to_bone.linear()).cast<float>();
-      bone.to_cells.col(3) =
-          scale.cwiseProduct(to_bone * w_.center - grid.origin.cast<Real>()).cast<float>();
+      bone.to_cells.col(3) = scale.cwiseProduct(to_bone * w_.center - grid.origin.cast<Real>()).cast<float>();
       bone.from_cells.setZero();
       bone.from_cells.leftCols<3>() = (body.linear() * scale.asDiagonal()).cast<float>();
       find_far_nodes(b);
@@ -107,9 +107,8 @@ class LanePose {
     const strings::StringLanes::Bone& kept = lanes_.bones[b];
     bone.asked_from.resize(w_.begun[0].size()), bone.asked_from_middle.resize(w_.begun[0].size());
     bone.clear_until.resize(width_);
-    const auto bound = [&](Point place) HWY_ATTR {
-      return distance_beyond(bones_.fields[b], apply(bone.to_cells, place));
-    };
+    const auto bound = [&](Point place)
+                           HWY_ATTR { return distance_beyond(bones_.fields[b], apply(bone.to_cells, place)); };
     const V border = lanes_of(bones_.fields[b].border), zero = hn::Zero(D());
     for (std::size_t s = 0; s < width_; s += hn::Lanes(D())) {
       V clear = hn::Inf(D());

@@ -75,7 +75,9 @@ class LaneSteps {
   /// All but bones.
   void assemble(std::size_t s) {
     const V tension = load(lanes_.tension, s), length = load(lanes_.node_length, s);
-    const auto per_length = [](Real of_settings) { return lanes_of(static_cast<float>(1 / (of_settings * of_settings))); };
+    const auto per_length = [](Real of_settings) {
+      return lanes_of(static_cast<float>(1 / (of_settings * of_settings)));
+    };
     const V tie = length * per_length(settings_.tie_length), support = length * per_length(settings_.support_length),
             neighbor = length * per_length(settings_.neighbor_length);
     const V zero = hn::Zero(D()), two = lanes_of(2);
@@ -107,8 +109,7 @@ class LaneSteps {
   HWY_INLINE Seen look(std::size_t b, Point place) const {
     const BoundedField& field = bones_.fields[b];
     const GridPlace at = grid_place(field.grid, apply(w_.bones[b].to_cells, place));
-    if (hn::AllFalse(D(), at.inside))
-      return {distance_beyond(field, at.cells), place, at.inside};
+    if (hn::AllFalse(D(), at.inside)) return {distance_beyond(field, at.cells), place, at.inside};
     const SplineSample sampled = sample_spline_lanes(field.grid, at);
     const Point gradient = turn(w_.bones[b].from_cells, sampled.gradient);
     const V slope = hn::Sqrt(dot<Math>(gradient, gradient)), least = lanes_of(static_cast<float>(strings::least_slope));
@@ -124,8 +125,8 @@ class LaneSteps {
   }
 
   /// A middle cannot be near before its node is: both travel, and the segment may grow as fast.
-  HWY_INLINE void defer_middle(LaneWorkspace::Bone& bone, const strings::StringLanes::Bone& kept, std::size_t at, V travelled,
-                               Point segment) const {
+  HWY_INLINE void defer_middle(LaneWorkspace::Bone& bone, const strings::StringLanes::Bone& kept, std::size_t at,
+                               V travelled, Point segment) const {
     const V half = lanes_of(0.5f);
     const V least = load(bone.asked_from, at) + load(kept.acts_within, at) - travelled -
                     half * hn::Sqrt(dot<Math>(segment, segment)) - load(kept.kept_middle, at);

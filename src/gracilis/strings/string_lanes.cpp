@@ -26,8 +26,7 @@ template <class Place>
 LanePoints points_per_node(const StringLanes& lanes, const Place& place) {
   LanePoints points;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    points[axis] =
-        per_node(lanes, [&](Index s, Index i) -> Real { return place(s, i)[static_cast<Index>(axis)]; });
+    points[axis] = per_node(lanes, [&](Index s, Index i) -> Real { return place(s, i)[static_cast<Index>(axis)]; });
   return points;
 }
 
@@ -42,7 +41,8 @@ void share_among_bodies(const MuscleStrings& muscle, StringLanes& lanes) {
     std::vector<Real>& means = lanes.section_shares.emplace_back(static_cast<std::size_t>(lanes.nodes), 0);
     for (Index i = 0; i < lanes.nodes; ++i)
       for (Index s = 0; s < lanes.strings; ++s)
-        means[static_cast<std::size_t>(i)] += static_cast<Real>(shares[static_cast<std::size_t>(i * lanes.width + s)]) / lanes.strings;
+        means[static_cast<std::size_t>(i)] +=
+            static_cast<Real>(shares[static_cast<std::size_t>(i * lanes.width + s)]) / lanes.strings;
     lanes.shares.push_back(std::move(shares));
   }
   lanes.free = per_node(lanes, [&](Index s, Index i) { return body_holding(muscle, s, i) < 0; });

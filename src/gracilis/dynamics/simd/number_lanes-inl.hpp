@@ -31,7 +31,8 @@ struct Lanes {
   static HWY_INLINE V copy_sign(V x, V sign) { return hn::CopySign(x, sign); }
   /// x < y ? a : b
   static HWY_INLINE V if_less(V x, V y, V a, V b) { return hn::IfThenElse(hn::Lt(x, y), a, b); }
-  /// 1 / x and 1 / √x for x > 0, from the machine's estimate by a step of Newton's: a division costs several times that.
+  /// 1 / x and 1 / √x for x > 0, from the machine's estimate by a step of Newton's: a division costs several times
+  /// that.
   static HWY_INLINE V reciprocal(V x) {
     const V estimate = hn::ApproximateReciprocal(x);
     return estimate * hn::NegMulAdd(x, estimate, number(2));

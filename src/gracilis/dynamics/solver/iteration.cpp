@@ -23,7 +23,8 @@ bool projects_contact(const SurfaceSolve& surface, int iteration) {
   const SolveSettings& settings = surface.settings;
   const bool settles = settings.settling_rounds > 0;
   const bool contracts = settings.tension > 0 && !surface.system->tensions.a.empty();
-  return !settles || contracts || iteration % contact_period == 1 || iteration + last_with_contact >= settings.iterations;
+  return !settles || contracts || iteration % contact_period == 1 ||
+         iteration + last_with_contact >= settings.iterations;
 }
 
 /// Where one surface stands in its iterations.

@@ -11,8 +11,8 @@
 #include <gracilis/io/run/measures_table.hpp>
 #include <gracilis/io/run/output_hashes.hpp>
 #include <gracilis/io/tables/action_tables.hpp>
-#include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/io/tables/fiber_table.hpp>
+#include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/methods/registry.hpp>
 

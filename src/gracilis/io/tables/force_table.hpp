@@ -9,8 +9,8 @@ namespace gracilis {
 
 inline constexpr const char* force_file = "forces.sto";
 
-/// What the muscles' forces in a frame add to forces.sto; nothing where the method knows none. It begins as run_table.hpp
-/// says; then per muscle, in N, N·m and the directions of the ground:
+/// What the muscles' forces in a frame add to forces.sto; nothing where the method knows none. It begins as
+/// run_table.hpp says; then per muscle, in N, N·m and the directions of the ground:
 ///
 /// `<muscle>_tension` of all fibers together, and `<muscle>_f000_tension` ... of each; `<muscle>_origin_on_<body>`,
 /// `_insertion_on_<body>`, `_fascia_on_<body>` and `_contact_on_<bone>`, each with `_force_x` ... and `_moment_x` ...

@@ -22,7 +22,8 @@ struct RowColumns {
   void add(const std::string& label, Real value);
   /// _x, _y and _z
   void add(const std::string& label, const Vec3& vector);
-  /// _force_x ... and _moment_x ... about the place of the world's origin in the capture pose, which went with the body.
+  /// _force_x ... and _moment_x ... about the place of the world's origin in the capture pose, which went with the
+  /// body.
   void add(const std::string& label, const Wrench& wrench, const RigidTransform& body);
 };
 

@@ -69,7 +69,8 @@ class CellGroup {
   HWY_INLINE Vectors load_corner(const Real* nodes, std::size_t c) const {
     const Doubles d;
     const auto where = hn::LoadU(hn::RebindToSigned<Doubles>(), &cells_.corners[at(8, c)]);
-    return {hn::GatherIndex(d, nodes, where), hn::GatherIndex(d, nodes + 1, where), hn::GatherIndex(d, nodes + 2, where)};
+    return {hn::GatherIndex(d, nodes, where), hn::GatherIndex(d, nodes + 1, where),
+            hn::GatherIndex(d, nodes + 2, where)};
   }
   HWY_INLINE void store_corner(Vectors sum, std::size_t c, CornerForces& forces) const {
     const Doubles d;

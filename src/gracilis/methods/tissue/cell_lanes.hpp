@@ -17,12 +17,12 @@ inline constexpr Index cells_in_group = group_width / 2;
 /// weighs nothing.
 struct CellLanes {
   Real cell_size = 0;
-  std::vector<int> parities;           ///< of groups
-  std::vector<Index> cells;            ///< of groups' lanes; -1 beyond the last cell
-  std::vector<std::int64_t> corners;   ///< where a corner's node begins in a 3 × n matrix
-  std::vector<Real> volumes;           ///< m³, of tetrahedra, by what they count with
-  std::vector<Real> shares;            ///< of tetrahedra in the mean J
-  std::vector<std::size_t> slot;       ///< of cells: where their corner 0 stands; the others follow by whole groups
+  std::vector<int> parities;          ///< of groups
+  std::vector<Index> cells;           ///< of groups' lanes; -1 beyond the last cell
+  std::vector<std::int64_t> corners;  ///< where a corner's node begins in a 3 × n matrix
+  std::vector<Real> volumes;          ///< m³, of tetrahedra, by what they count with
+  std::vector<Real> shares;           ///< of tetrahedra in the mean J
+  std::vector<std::size_t> slot;      ///< of cells: where their corner 0 stands; the others follow by whole groups
 
   Index group_count() const { return static_cast<Index>(parities.size()); }
   std::size_t corner_count() const { return corners.size(); }
@@ -32,9 +32,9 @@ CellLanes cell_lanes(const Lattice& lattice);
 
 /// The laws of the cells, a number per lane of each group.
 struct LawLanes {
-  std::vector<Real> shear, lambda, bulk;                         ///< Pa
-  std::vector<Real> rest_tension, stiffness, active, optimal;    ///< of FiberLaw; no tension where there is no direction
-  std::vector<Real> least_strain;                                ///< where fibers go slack
+  std::vector<Real> shear, lambda, bulk;                       ///< Pa
+  std::vector<Real> rest_tension, stiffness, active, optimal;  ///< of FiberLaw; no tension where there is no direction
+  std::vector<Real> least_strain;                              ///< where fibers go slack
   std::array<std::vector<Real>, 3> direction;
   bool any_active = false;
   Real least_volume_ratio = 0;  ///< below it a tetrahedron counts as inverted

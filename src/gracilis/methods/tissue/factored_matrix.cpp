@@ -23,7 +23,8 @@ void FactoredMatrix::solve_together(std::span<Points> bs) const {
   // Four numbers a point, so that they fill whole vector registers.
   using Column = Eigen::Matrix<float, 4 * Count, 1>;
   const auto n = static_cast<Index>(order_.size());
-  Eigen::Matrix<float, 4 * Count, Eigen::Dynamic> x = Eigen::Matrix<float, 4 * Count, Eigen::Dynamic>::Zero(4 * Count, n);
+  Eigen::Matrix<float, 4 * Count, Eigen::Dynamic> x =
+      Eigen::Matrix<float, 4 * Count, Eigen::Dynamic>::Zero(4 * Count, n);
   for (Index i = 0; i < n; ++i)
     for (Index k = 0; k < Count; ++k)
       x.col(i).template segment<3>(4 * k) =

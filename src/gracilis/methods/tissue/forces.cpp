@@ -38,10 +38,14 @@ Wrench& wrench_on(Index on, std::vector<ForceOn>& list) {
 
 std::vector<ForceOn>& list_of(PointActor actor, bool at_origin, MuscleForces& forces) {
   switch (actor) {
-    case PointActor::attachment: return at_origin ? forces.origin : forces.insertion;
-    case PointActor::fascia: return forces.fascia;
-    case PointActor::bone: return forces.contact;
-    default: return forces.muscles;
+    case PointActor::attachment:
+      return at_origin ? forces.origin : forces.insertion;
+    case PointActor::fascia:
+      return forces.fascia;
+    case PointActor::bone:
+      return forces.contact;
+    default:
+      return forces.muscles;
   }
 }
 
@@ -96,7 +100,8 @@ Wrench attachment_wrench(const PreparedTissue& muscle, const Surroundings& aroun
   for (std::size_t v = 0; v < muscle.points.size(); ++v) {
     if (muscle.points[v].held_by < 0 || muscle.points[v].end != end) continue;
     const Vec3 p = places.col(static_cast<Index>(v));
-    for_each_action(muscle, around, v, p, [&](PointActor, Index, const PointState& acting) { sum.add(p, acting.gradient); });
+    for_each_action(muscle, around, v, p,
+                    [&](PointActor, Index, const PointState& acting) { sum.add(p, acting.gradient); });
   }
   return sum;
 }

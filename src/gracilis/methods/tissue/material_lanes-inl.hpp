@@ -61,7 +61,8 @@ struct Deformation {
 };
 
 HWY_INLINE Deformation deformation_of(const MatrixLanes& f) {
-  const MatrixLanes c = {{cross(f.column[1], f.column[2]), cross(f.column[2], f.column[0]), cross(f.column[0], f.column[1])}};
+  const MatrixLanes c = {
+      {cross(f.column[1], f.column[2]), cross(f.column[2], f.column[0]), cross(f.column[0], f.column[1])}};
   return {f, c, dot<DoubleMath>(f.column[0], c.column[0])};
 }
 
@@ -95,7 +96,8 @@ HWY_INLINE CurveLanes force_length_lanes(N x) {
                    (number(3) * falling * falling * falling + two_thirds_of_a_fifth);
   const N at_rise = number(9) * rising * rising, at_fall = number(9) * falling * falling;
   const N at_middle = number(1) - number(4) * middle * middle;
-  const N slope = hn::IfThenElse(hn::Lt(x, number(0.6)), at_rise, hn::IfThenElse(hn::Gt(x, number(1.4)), at_fall, at_middle));
+  const N slope =
+      hn::IfThenElse(hn::Lt(x, number(0.6)), at_rise, hn::IfThenElse(hn::Gt(x, number(1.4)), at_fall, at_middle));
   return {energy, slope};
 }
 

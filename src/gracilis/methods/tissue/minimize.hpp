@@ -9,8 +9,8 @@ namespace gracilis::tissue {
 
 /// The energy at some points and its derivative; infinite where they are not to go.
 using EnergyFunction = std::function<Real(const Points&, Points& gradient)>;
-/// Replaces each gradient by what a quadratic energy of about the same curvature would move by for it. Several are asked
-/// for at once, since that takes hardly longer.
+/// Replaces each gradient by what a quadratic energy of about the same curvature would move by for it. Several are
+/// asked for at once, since that takes hardly longer.
 using MetricFunction = std::function<void(std::span<Points> gradients)>;
 
 struct MinimizeSettings {

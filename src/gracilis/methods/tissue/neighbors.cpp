@@ -46,10 +46,9 @@ std::vector<SeenVertex> see(const Neighbors& neighbors, const PlacedSurfaces& pl
             static_cast<float>(neighbor_reach), touches);
   std::vector<SeenVertex> seen;
   for (const PointTouch& touch : touches)
-    seen.push_back({touch.particle,
-                    point_gap(placed.particles[probe].position(touch.particle), neighbors.surfaces[target],
-                              NearestFace{touch.face, touch.barycentric}, placed.particles[target],
-                              placed.normals[target])});
+    seen.push_back({touch.particle, point_gap(placed.particles[probe].position(touch.particle),
+                                              neighbors.surfaces[target], NearestFace{touch.face, touch.barycentric},
+                                              placed.particles[target], placed.normals[target])});
   return seen;
 }
 
@@ -66,8 +65,7 @@ void add_planes(const PlacedSurfaces& placed, const std::vector<SeenVertex>& see
   for (const SeenVertex& each : seen) {
     const Vec3 normal = each.gap.normal.cast<Real>();
     if (normal.isZero(0)) continue;
-    const Vec3 p =
-        placed.origin + placed.particles[static_cast<std::size_t>(from)].position(each.vertex).cast<Real>();
+    const Vec3 p = placed.origin + placed.particles[static_cast<std::size_t>(from)].position(each.vertex).cast<Real>();
     const Real lacking = gaps[static_cast<std::size_t>(each.vertex)] - static_cast<Real>(each.gap.distance);
     planes.push_back({each.vertex, to, normal, normal.dot(p) + lacking / 2});
   }
@@ -87,9 +85,11 @@ Neighbors prepare_neighbors(const Scene& scene, Real gap) {
   const auto count = static_cast<Index>(shapes.size());
   for (Index a = 0; a < count; ++a)
     for (Index b = a + 1; b < count; ++b)
-      neighbors.pairs.push_back(
-          {a, b, gaps_at_rest(see(neighbors, placed, a, b), scene.muscles[static_cast<std::size_t>(a)].surface.vertex_count(), gap),
-           gaps_at_rest(see(neighbors, placed, b, a), scene.muscles[static_cast<std::size_t>(b)].surface.vertex_count(), gap)});
+      neighbors.pairs.push_back({a, b,
+                                 gaps_at_rest(see(neighbors, placed, a, b),
+                                              scene.muscles[static_cast<std::size_t>(a)].surface.vertex_count(), gap),
+                                 gaps_at_rest(see(neighbors, placed, b, a),
+                                              scene.muscles[static_cast<std::size_t>(b)].surface.vertex_count(), gap)});
   return neighbors;
 }
 

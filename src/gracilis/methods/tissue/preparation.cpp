@@ -179,7 +179,8 @@ void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, Pre
   for (std::size_t b = 0; b < fields.size(); ++b) {
     BoneGap bone{scene.bones[b].body, bounded(fields[b]), {}};
     for (const SurfacePoint& point : prepared.points)
-      bone.gaps.push_back(std::min(prepared.settings.contact_gap, sample_spline_precise(bone.field.grid, point.rest).distance));
+      bone.gaps.push_back(
+          std::min(prepared.settings.contact_gap, sample_spline_precise(bone.field.grid, point.rest).distance));
     prepared.bones.push_back(std::move(bone));
   }
 }

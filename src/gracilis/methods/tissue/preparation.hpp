@@ -43,10 +43,10 @@ struct PreparedTissue {
   Lattice lattice;
   std::vector<Real> relative_tension;  ///< per cell: the mean section over the section there, by the fibers' flux
   Points directions;                   ///< per cell: of the fibers at rest, unit, or 0
-  std::vector<Real> fiber_density;     ///< per cell, 1/m: what a tension (Pa) counts with, by volume, in the muscle's (N)
-  Real mean_section = 0;               ///< m², across the fibers, of the belly
+  std::vector<Real> fiber_density;  ///< per cell, 1/m: what a tension (Pa) counts with, by volume, in the muscle's (N)
+  Real mean_section = 0;            ///< m², across the fibers, of the belly
   std::vector<std::vector<Index>> fiber_cells;  ///< of each of the muscle's fibers: the cells it runs through
-  std::vector<SurfacePoint> points;    ///< the surface's vertices in their order, then the others
+  std::vector<SurfacePoint> points;             ///< the surface's vertices in their order, then the others
   Index vertex_count = 0;
   std::vector<Tie> ties;  ///< of points, one after the other
   std::vector<BoneGap> bones;

@@ -231,8 +231,8 @@ class TissueMethod final : public DeformationMethod {
   std::vector<DistanceField> fields_;  ///< of all bones, which the muscles look at
   std::size_t body_count_;
   std::vector<PreparedTissue> muscles_;
-  Neighbors neighbors_;  ///< without pairs where muscles do not meet
-  int rounds_ = 0;       ///< of looking at neighbors, in each step
+  Neighbors neighbors_;                                 ///< without pairs where muscles do not meet
+  int rounds_ = 0;                                      ///< of looking at neighbors, in each step
   std::vector<std::map<int, FactoredMatrix>> metrics_;  ///< by muscle and activation, made when first asked for
   std::vector<Points> nodes_;
   std::vector<Equilibrium> equilibria_;

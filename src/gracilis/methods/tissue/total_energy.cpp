@@ -75,9 +75,8 @@ Vec3 force_on_node(const PreparedTissue& muscle, const EnergyWorkspace& workspac
 template <class Part>
 Real sum_of_parts(Index count, Index grain, const Part& part) {
   std::vector<Real> sums(static_cast<std::size_t>((count + grain - 1) / grain), 0);
-  parallel_for(count, grain, [&](Index begin, Index end) {
-    sums[static_cast<std::size_t>(begin / grain)] = part(begin, end);
-  });
+  parallel_for(count, grain,
+               [&](Index begin, Index end) { sums[static_cast<std::size_t>(begin / grain)] = part(begin, end); });
   return std::accumulate(sums.begin(), sums.end(), Real{0});
 }
 

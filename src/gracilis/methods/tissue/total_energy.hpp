@@ -30,7 +30,7 @@ struct Surroundings {
   Points seen;                    ///< where it was looked for bones, 3 × points
   std::vector<Index> near_begin;  ///< per point and one more: where its bones begin in `near`
   std::vector<NearBone> near;
-  std::vector<BoneSight> sights;  ///< of the bones; may come from another instant
+  std::vector<BoneSight> sights;    ///< of the bones; may come from another instant
   std::vector<Index> planes_begin;  ///< per point and one more: where its planes begin in `planes`
   std::vector<ContactPlane> planes;
   std::vector<Index> others;  ///< muscles that it may ever touch, in their order
