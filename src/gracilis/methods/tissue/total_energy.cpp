@@ -14,7 +14,7 @@ namespace {
 
 constexpr Index groups_per_task = 16, points_per_task = 512, nodes_per_task = 512;
 /// Of what follows a distance's values on a grid: along each axis by no more than the way.
-const Real steepest = std::sqrt(3.0);
+const Real largest_slope = std::sqrt(3.0);
 /// Keeps parts that nothing holds solvable, as a share of a cell's stiffness.
 constexpr Real least_stiffness = 1e-6;
 
@@ -134,11 +134,11 @@ void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surround
       BoneSight& sight = around.sights[b];
       const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * around.seen.col(v);
       const Real reach = bone.gaps[point] + near_bones;
-      if (sight.distances[v] - steepest * (there - sight.places.col(v)).norm() >= reach) continue;
+      if (sight.distances[v] - largest_slope * (there - sight.places.col(v)).norm() >= reach) continue;
       sight.places.col(v) = there;
       sight.distances[v] = distance_at_least(bone.field, there);
       const Real beyond = sight.distances[v] - bone.gaps[point];
-      if (beyond < near_bones) around.near.push_back({static_cast<Index>(b), std::max(0.0, beyond / steepest)});
+      if (beyond < near_bones) around.near.push_back({static_cast<Index>(b), std::max(0.0, beyond / largest_slope)});
     }
   }
   around.near_begin.back() = static_cast<Index>(around.near.size());
