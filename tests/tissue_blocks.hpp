@@ -268,18 +268,4 @@ inline Real stretch_between(const Block& block, const SettledBlock& settled, std
   return (mean(high) - mean(low)) / block.size[axis];
 }
 
-/// The mean slope of a displacement along z by y over the section at `height`, where sections stay plane: how far it
-/// has turned, rad.
-inline Real turn_of_section(const Block& block, const SettledBlock& settled, Real height) {
-  constexpr int pieces = 16;
-  Real sum = 0, squares = 0;
-  for (int i = 0; i < pieces; ++i)
-    for (int k = 0; k < pieces; ++k) {
-      const Vec3 p(block.size.x() * (i + 0.5) / pieces, block.size.y() * (k + 0.5) / pieces, height);
-      const Real y = p.y() - block.size.y() / 2;
-      sum += y * (mean_at(embed(block.muscle.lattice, p), settled.nodes).z() - height), squares += y * y;
-    }
-  return sum / squares;
-}
-
 }  // namespace gracilis::tissue
