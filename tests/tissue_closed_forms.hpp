@@ -39,15 +39,14 @@ inline Elastic elastic(const CellLaw& law) {
 }
 
 /// The moment that bends a bar of a square section by so much per length, N·m.
-inline Real bending_moment(const Elastic& elastic, Real width, Real curvature) {
-  return elastic.young * std::pow(width, 4) / 12 * curvature;
+inline Real bending_moment(const Elastic& bar, Real width, Real curvature) {
+  return bar.young * std::pow(width, 4) / 12 * curvature;
 }
 
 /// The force that moves the tip of a clamped bar of a square section aside by `way` (Timoshenko; Cowper 1966), N.
-inline Real tip_force(const Elastic& elastic, Real width, Real length, Real way) {
-  const Real shear_share = 10 * (1 + elastic.poisson) / (12 + 11 * elastic.poisson), area = width * width;
-  return way /
-         (std::pow(length, 3) / (3 * elastic.young * area * area / 12) + length / (shear_share * elastic.shear * area));
+inline Real tip_force(const Elastic& bar, Real width, Real length, Real way) {
+  const Real shear_share = 10 * (1 + bar.poisson) / (12 + 11 * bar.poisson), area = width * width;
+  return way / (std::pow(length, 3) / (3 * bar.young * area * area / 12) + length / (shear_share * bar.shear * area));
 }
 
 }  // namespace gracilis::tissue
