@@ -23,7 +23,7 @@ struct TissueSettings {
   Real largest_active_stress = 3e5;  ///< Pa
   Real optimal_stretch = 1;          ///< at which active fibers pull hardest
   Real attachment_stiffness = 3e8;   ///< N/m per m²
-  Real contact_stiffness = 4.5e8;    ///< N/m per m²
+  Real contact_stiffness = 2e9;      ///< N/m per m²
   Real contact_gap = 0.004;          ///< m
   Real neighbor_gap = 0.0005;        ///< m, between muscles
   Real neighbor_stiffness = 1e8;     ///< N/m per m²
