@@ -52,7 +52,7 @@ inline Block make_block(const Vec3& size, Real cell, BlockFit fit, const CellLaw
   }
   block.laws.assign(lattice.cells.size(), law);
   // Stiff against the tissue's volume, too: 2 MPa over some millimetres is 1e9 N/m³.
-  block.muscle.settings.attachment_stiffness = block.muscle.settings.contact_stiffness = 1e12;
+  block.muscle.settings.attachment_stiffness = block.muscle.settings.neighbor_stiffness = 1e12;
   return block;
 }
 
@@ -71,7 +71,7 @@ inline std::vector<SurfacePoint> side_points(const Block& block, Index axis, boo
       point.rest = lattice.nodes.col(n);
       if (std::abs(point.rest[axis] - level) > cell / 2) continue;
       point.at = {0, {n, n, n, n}, {1, 0, 0, 0}};
-      point.area = share(a, point.rest) * share(b, point.rest);
+      point.area = point.vertex_area = share(a, point.rest) * share(b, point.rest);
       points.push_back(point);
     }
     return points;
@@ -84,7 +84,7 @@ inline std::vector<SurfacePoint> side_points(const Block& block, Index axis, boo
       point.rest[a] = block.size[a] * (i + 0.5) / as;
       point.rest[b] = block.size[b] * (k + 0.5) / bs;
       point.at = embed(lattice, point.rest);
-      point.area = block.size[a] * block.size[b] / (as * bs);
+      point.area = point.vertex_area = block.size[a] * block.size[b] / (as * bs);
       points.push_back(point);
     }
   return points;
@@ -125,7 +125,7 @@ inline void pin(Block& block, const Vec3& rest, Index axis) {
   SurfacePoint point;
   point.rest = rest;
   point.at = embed(block.muscle.lattice, rest);
-  point.area = std::pow(block.muscle.lattice.cell_size, 2);
+  point.area = point.vertex_area = std::pow(block.muscle.lattice.cell_size, 2);
   const auto number = static_cast<Index>(block.muscle.points.size());
   block.muscle.points.push_back(point);
   block.held.push_back(rest);
@@ -139,7 +139,6 @@ inline std::size_t lay_on_bone(Block& block) {
   const Vec3 wide = block.size + Vec3::Constant(0.03);
   const TriangleMesh slab = shapes::box(Vec3(-0.03, -0.03, -0.02), Vec3(wide.x(), wide.y(), 0));
   block.bone = std::make_unique<DistanceField>(build_distance_field(slab, domain_by_cell_size(slab, 0.002, 0.01)));
-  block.muscle.settings.contact_stiffness = TissueSettings().contact_stiffness;
   return add_side(block, 2, false, -1);
 }
 
@@ -149,18 +148,20 @@ inline FactoredMatrix metric_along(const Block& block, Index axis) {
   const PreparedTissue& muscle = block.muscle;
   Eigen::SparseMatrix<Real> matrix = scalar_stiffness(muscle, block.laws);
   std::vector<Eigen::Triplet<Real>> entries;
-  const auto add = [&](Index p, Real share) {
+  const auto add = [&](Index p, Real stiffness) {
     const SurfacePoint& point = muscle.points[static_cast<std::size_t>(p)];
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t k = 0; k < 4; ++k)
-        entries.emplace_back(point.at.nodes[i], point.at.nodes[k],
-                             share * muscle.settings.contact_stiffness * point.area *
-                                 point.at.weights[static_cast<Index>(i)] * point.at.weights[static_cast<Index>(k)]);
+        entries.emplace_back(
+            point.at.nodes[i], point.at.nodes[k],
+            stiffness * point.area * point.at.weights[static_cast<Index>(i)] * point.at.weights[static_cast<Index>(k)]);
   };
   // Of the two planes of a pair one acts at a time.
-  for (const ContactPlane& plane : block.planes) add(plane.point, plane.normal[axis] * plane.normal[axis] / 2);
+  for (const ContactPlane& plane : block.planes)
+    add(plane.point, muscle.settings.neighbor_stiffness * plane.normal[axis] * plane.normal[axis] / 2);
   if (block.bone && axis == 2)
-    for (std::size_t p = block.sides[0].begin; p < block.sides[0].end; ++p) add(static_cast<Index>(p), 1);
+    for (std::size_t p = block.sides[0].begin; p < block.sides[0].end; ++p)
+      add(static_cast<Index>(p), muscle.settings.contact_stiffness);
   Eigen::SparseMatrix<Real> more(matrix.rows(), matrix.cols());
   more.setFromTriplets(entries.begin(), entries.end());
   return FactoredMatrix(matrix + more);
@@ -198,10 +199,10 @@ inline SettledBlock settle(Block& block, Real residual, const std::function<Vec3
   PreparedTissue& muscle = block.muscle;
   if (block.bone) {
     // Points of other sides slide on planes, and touch nothing else.
-    BoneGap bone{0, grid_of(*block.bone), std::vector<Real>(muscle.points.size(), -1)};
+    BoneGap bone{0, bounded(*block.bone), std::vector<Real>(muscle.points.size(), -1)};
     for (std::size_t p = block.sides[0].begin; p < block.sides[0].end; ++p)
       bone.gaps[p] =
-          std::min(muscle.settings.contact_gap, sample_spline_precise(bone.grid, muscle.points[p].rest).distance);
+          std::min(muscle.settings.contact_gap, sample_spline_precise(bone.field.grid, muscle.points[p].rest).distance);
     muscle.bones = {bone};
   }
   muscle.cells = cell_lanes(muscle.lattice);

@@ -96,7 +96,7 @@ inline Measured bent_bar(BlockFit fit, Real cell, const CellLaw& law) {
   Block block = make_block({wide / 2, wide, length}, cell, fit, law);
   // Points much stiffer than the method's own lock the cells that they lie in: by 1e12 N/m³ the moment of a bar of
   // eight cells across is 28 % too large.
-  if (fit == BlockFit::anywhere) block.muscle.settings.contact_stiffness = TissueSettings().attachment_stiffness;
+  if (fit == BlockFit::anywhere) block.muscle.settings.neighbor_stiffness = TissueSettings().attachment_stiffness;
   const std::size_t low = slide_side(block, 2, false, Vec3::UnitZ(), 0);
   const Vec3 normal(0, std::sin(turn), std::cos(turn));
   slide_side(block, 2, true, normal, normal.dot(Vec3(0, wide / 2, length)));
