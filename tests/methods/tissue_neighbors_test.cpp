@@ -85,7 +85,7 @@ TEST(TissueNeighbors, what_overlaps_in_the_capture_pose_may_stay) {
 
 TEST(TissueNeighbors, planes_lie_midway_and_face_away_from_the_other) {
   const Scene scene = crossing_tubes(0.001);
-  Neighbors neighbors = prepare_neighbors(scene, 0.0005);
+  Neighbors neighbors = prepare_neighbors(scene, {0.0005, 0.0005});
   std::vector<Points> shapes = {scene.muscles[0].surface.vertices, scene.muscles[1].surface.vertices};
   shapes[1].row(0).array() -= 0.003;  // 2 mm into each other
   const std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors, shapes);
@@ -116,7 +116,7 @@ TEST(TissueNeighbors, muscles_press_on_each_other_with_the_same_force) {
 
 TEST(TissueNeighbors, planes_far_from_the_origin_are_the_same) {
   const Scene scene = crossing_tubes(0.001);
-  Neighbors neighbors = prepare_neighbors(scene, 0.0005);
+  Neighbors neighbors = prepare_neighbors(scene, {0.0005, 0.0005});
   std::vector<Points> shapes = {scene.muscles[0].surface.vertices, scene.muscles[1].surface.vertices};
   const std::vector<std::vector<ContactPlane>> near = contact_planes(neighbors, shapes);
   const Vec3 by(3000, -2000, 1000);

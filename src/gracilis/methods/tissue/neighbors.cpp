@@ -73,7 +73,7 @@ void add_planes(const PlacedSurfaces& placed, const std::vector<SeenVertex>& see
 
 }  // namespace
 
-Neighbors prepare_neighbors(const Scene& scene, Real gap) {
+Neighbors prepare_neighbors(const Scene& scene, const std::vector<Real>& gaps) {
   Neighbors neighbors;
   std::vector<Points> shapes;
   for (const Muscle& muscle : scene.muscles) {
@@ -82,14 +82,13 @@ Neighbors prepare_neighbors(const Scene& scene, Real gap) {
     neighbors.trees.push_back(build_patch_tree(neighbors.surfaces.back(), shapes.back().cast<float>()));
   }
   const PlacedSurfaces placed = place(neighbors, shapes);
+  const auto gaps_of = [&](Index muscle, Index other) {
+    const auto m = static_cast<std::size_t>(muscle);
+    return gaps_at_rest(see(neighbors, placed, muscle, other), static_cast<Index>(shapes[m].cols()), gaps[m]);
+  };
   const auto count = static_cast<Index>(shapes.size());
   for (Index a = 0; a < count; ++a)
-    for (Index b = a + 1; b < count; ++b)
-      neighbors.pairs.push_back({a, b,
-                                 gaps_at_rest(see(neighbors, placed, a, b),
-                                              scene.muscles[static_cast<std::size_t>(a)].surface.vertex_count(), gap),
-                                 gaps_at_rest(see(neighbors, placed, b, a),
-                                              scene.muscles[static_cast<std::size_t>(b)].surface.vertex_count(), gap)});
+    for (Index b = a + 1; b < count; ++b) neighbors.pairs.push_back({a, b, gaps_of(a, b), gaps_of(b, a)});
   return neighbors;
 }
 

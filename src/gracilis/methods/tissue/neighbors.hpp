@@ -15,8 +15,8 @@ struct ContactPlane {
   Real least = 0;              ///< m: normal · place is no less
 };
 
-/// Two muscles that keep out of each other, each vertex by its gap: `contact_gap`, or that in the capture pose where it
-/// is smaller, and below zero where they overlap there.
+/// Two muscles that keep out of each other, each vertex by its gap: `neighbor_gap`, or that in the capture pose where
+/// it is smaller, and below zero where they overlap there.
 struct NeighborPair {
   Index first = 0, second = 0;
   std::vector<Real> first_gaps, second_gaps;  ///< m, per vertex
@@ -32,7 +32,8 @@ struct Neighbors {
 /// How far apart muscles see each other, m: what they move in a step is less.
 inline constexpr Real neighbor_reach = 0.012;
 
-Neighbors prepare_neighbors(const Scene& scene, Real gap);
+/// `gaps`: what the vertices of each muscle keep to others, m.
+Neighbors prepare_neighbors(const Scene& scene, const std::vector<Real>& gaps);
 
 /// The planes of every muscle, in the order of its points, where the surfaces are at `shapes` (3 × vertices, m).
 std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes);

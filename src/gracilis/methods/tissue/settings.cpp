@@ -47,7 +47,9 @@ std::span<const Setting<TissueSettings>> setting_table() {
        "Stiffness per area of what keeps muscles out of each other. They are soft: where it is much stiffer than their "
        "bulk, thin ones lose volume between others."},
       {"contact_rounds", &S::contact_rounds, "", 0, 100,
-       "How often in a step muscles look where their neighbors are; 0: muscles do not feel each other."},
+       "How often in a step muscles look where their neighbors are, the largest of all muscles; 0: they do not feel "
+       "each "
+       "other."},
       {"fascia_stiffness", &S::fascia_stiffness, "N/m³", 0, 1e13,
        "Stiffness per area of the ties of fascia to bones, across the fibers alone, where the surface touches a bone; "
        "less with distance."},

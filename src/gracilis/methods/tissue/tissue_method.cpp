@@ -57,8 +57,12 @@ class TissueMethod final : public DeformationMethod {
       muscles_[m] = prepare_tissue(scene, scene.muscles[m], fields_, distances);
     });
     metrics_.resize(muscles_.size());
-    for (const PreparedTissue& muscle : muscles_) rounds_ = std::max(rounds_, muscle.settings.contact_rounds);
-    if (rounds_ > 0 && muscles_.size() > 1) neighbors_ = prepare_neighbors(scene, muscles_[0].settings.neighbor_gap);
+    std::vector<Real> gaps;
+    for (const PreparedTissue& muscle : muscles_) {
+      rounds_ = std::max(rounds_, muscle.settings.contact_rounds);
+      gaps.push_back(muscle.settings.neighbor_gap);
+    }
+    if (rounds_ > 0 && muscles_.size() > 1) neighbors_ = prepare_neighbors(scene, gaps);
     if (neighbors_.pairs.empty()) rounds_ = 1;
     reset();
   }
