@@ -1,13 +1,10 @@
 #include <gracilis/io/tables/action_tables.hpp>
-#include <gracilis/io/tables/table.hpp>
 
 #include <scenes_for_tests.hpp>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
+#include "run_table_read_back.hpp"
 
 namespace gracilis {
 namespace {
@@ -28,17 +25,6 @@ FrameRecord record_of(const Scene& scene, Real angle) {
   actions.insertion_directions = -actions.origin_directions;
   return record;
 }
-
-Table read_back(const RunTable& table) {
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("gracilis_" + table.name);
-  std::ofstream(path) << table.head << table.row;
-  const Table read = read_table(path);
-  std::filesystem::remove(path);
-  EXPECT_THAT(read.warnings, testing::IsEmpty());
-  return read;
-}
-
-Real value(const Table& table, const std::string& column) { return table.values(0, column_of(table, column).value()); }
 
 TEST(ActionTables, tell_the_arms_of_each_coordinate_and_how_many_fibers_are_left_out) {
   const Scene scene = tube_scene();

@@ -1,13 +1,10 @@
 #include <gracilis/io/tables/force_table.hpp>
-#include <gracilis/io/tables/table.hpp>
 
 #include <scenes_for_tests.hpp>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
+#include "run_table_read_back.hpp"
 
 namespace gracilis {
 namespace {
@@ -33,23 +30,18 @@ TEST(ForceTable, names_bodies_bones_fibers_and_coordinates) {
   const std::optional<RunTable> table = force_table(scene, record, 1);
   ASSERT_TRUE(table);
   EXPECT_EQ(table->name, "forces.sto");
-  const std::filesystem::path path = std::filesystem::temp_directory_path() / "gracilis_force_table.sto";
-  std::ofstream(path) << table->head << table->row;
-  const Table read = read_table(path);
-  std::filesystem::remove(path);
-  EXPECT_THAT(read.warnings, testing::IsEmpty());
-  const auto value = [&](const std::string& column) { return read.values(0, column_of(read, column).value()); };
-  EXPECT_NEAR(value("flexion"), 30, 1e-9);
-  EXPECT_EQ(value("tube_tension"), 120);
-  EXPECT_EQ(value("tube_f001_tension"), 50);
-  EXPECT_EQ(value("tube_origin_on_upper_force_z"), -120);
-  EXPECT_EQ(value("tube_origin_on_upper_moment_y"), 2);  // this body has not moved
+  const Table read = read_back(*table);
+  EXPECT_NEAR(value(read, "flexion"), 30, 1e-9);
+  EXPECT_EQ(value(read, "tube_tension"), 120);
+  EXPECT_EQ(value(read, "tube_f001_tension"), 50);
+  EXPECT_EQ(value(read, "tube_origin_on_upper_force_z"), -120);
+  EXPECT_EQ(value(read, "tube_origin_on_upper_moment_y"), 2);  // this body has not moved
   const Vec3 origin = record.frame.pose.bodies[1].translation(), force(5, 6, 7);
   const Vec3 moment = Vec3(0.1, 0.2, 0.3) - origin.cross(force);
-  EXPECT_NEAR(value("tube_insertion_on_lower_moment_x"), moment.x(), 1e-8);
-  EXPECT_EQ(value("tube_contact_on_lower_force_x"), 2);
-  EXPECT_EQ(value("tube_moment_flexion"), 1.5);
-  EXPECT_EQ(value("tube_moment_by_work_flexion"), 1.4);
+  EXPECT_NEAR(value(read, "tube_insertion_on_lower_moment_x"), moment.x(), 1e-8);
+  EXPECT_EQ(value(read, "tube_contact_on_lower_force_x"), 2);
+  EXPECT_EQ(value(read, "tube_moment_flexion"), 1.5);
+  EXPECT_EQ(value(read, "tube_moment_by_work_flexion"), 1.4);
 }
 
 TEST(ForceTable, there_is_none_where_no_method_knows_forces) {

@@ -27,7 +27,7 @@ enum class ExistingRun { refuse, replace, resume };
 ///   measures.csv                   one row per frame and muscle; the units stand in the names of the columns
 ///   fiber_lengths.sto              one row per frame, see fiber_table.hpp
 ///   moment_arms_<coordinate>.sto, lines_of_action.sto   where they were asked for, see action_tables.hpp
-///   forces.sto                where the method knows forces, see force_table.hpp
+///   forces.sto                     where the method knows forces, see force_table.hpp
 ///   fibers/<muscle>_0000.vtp       one per frame and muscle with fibers, m
 ///   outputs.sha256                 hashes of all files but run.json, which has that of this one, once the run has
 ///   ended run.lock                       while a process writes here

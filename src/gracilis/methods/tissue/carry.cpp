@@ -64,18 +64,17 @@ int steps_needed(const PreparedTissue& muscle, const std::vector<RigidTransform>
   return std::max(1, static_cast<int>(std::min<Real>(most_steps, std::ceil(parts - 1e-6))));
 }
 
-std::vector<std::vector<RigidTransform>> steps_between(const PreparedTissue& muscle,
-                                                       const std::vector<RigidTransform>& before,
-                                                       const std::vector<RigidTransform>& now, int count) {
+std::vector<RigidTransform> bodies_after(int steps, int count, const PreparedTissue& muscle,
+                                         const std::vector<RigidTransform>& before,
+                                         const std::vector<RigidTransform>& now) {
+  std::vector<RigidTransform> bodies = now;
+  if (steps == count) return bodies;
   const Vec3 center = muscle.lattice.nodes.rowwise().mean();
-  std::vector<std::vector<RigidTransform>> steps(static_cast<std::size_t>(count), now);
-  for (std::size_t i = 0; i + 1 < steps.size(); ++i)
-    for (const Index body : muscle.carriers) {
-      const Real share = static_cast<Real>(i + 1) / static_cast<Real>(steps.size());
-      steps[i][at(body)] =
-          now[at(muscle.carriers[0])] * between(seen(muscle, before, body), seen(muscle, now, body), center, share);
-    }
-  return steps;
+  const Real share = static_cast<Real>(steps) / static_cast<Real>(count);
+  for (const Index body : muscle.carriers)
+    bodies[at(body)] =
+        now[at(muscle.carriers[0])] * between(seen(muscle, before, body), seen(muscle, now, body), center, share);
+  return bodies;
 }
 
 void carry(const PreparedTissue& muscle, const std::vector<RigidTransform>& before,

@@ -11,10 +11,10 @@ namespace gracilis::tissue {
 int steps_needed(const PreparedTissue& muscle, const std::vector<RigidTransform>& before,
                  const std::vector<RigidTransform>& now);
 
-/// The poses that it goes through in `count` steps, the last included.
-std::vector<std::vector<RigidTransform>> steps_between(const PreparedTissue& muscle,
-                                                       const std::vector<RigidTransform>& before,
-                                                       const std::vector<RigidTransform>& now, int count);
+/// Where the bodies are after so many steps of `count`: after the last one at `now`.
+std::vector<RigidTransform> bodies_after(int steps, int count, const PreparedTissue& muscle,
+                                         const std::vector<RigidTransform>& before,
+                                         const std::vector<RigidTransform>& now);
 
 /// What the minimizer leaves a tetrahedron of its volume at least, unless it had less before: with next to nothing left
 /// its forces are so large that no step leads on.

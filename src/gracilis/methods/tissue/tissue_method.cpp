@@ -81,7 +81,7 @@ class TissueMethod final : public DeformationMethod {
     for_each_timed(moving, [&](std::size_t m) { moving[m] = begun(m, pose); });
     int count = 1;
     for (const PreparedTissue& muscle : muscles_) count = std::max(count, steps_needed(muscle, bodies_, pose.bodies));
-    for (int step = 0; step < count; ++step) {
+    for (int step = 1; step <= count; ++step) {
       for_each_timed(moving, [&](std::size_t m) { carry_on(m, pose, step, count, moving[m]); });
       for (int round = 0; round < rounds_; ++round) {
         look_at_neighbors(moving);
@@ -178,13 +178,13 @@ class TissueMethod final : public DeformationMethod {
     moving.bodies = bodies_;
     moving.metric = &metric(m, activation);
     moving.equilibrium.laws = cell_laws(muscles_[m], activation, tension);
-    moving.equilibrium.around.sights = equilibria_[m].around.sights;
+    // They hold at any instant, so nothing is lost where this pose fails.
+    moving.equilibrium.around.sights = std::move(equilibria_[m].around.sights);
     return moving;
   }
 
   void carry_on(std::size_t m, const Pose& pose, int step, int count, MovingMuscle& moving) const {
-    const std::vector<RigidTransform> now =
-        steps_between(muscles_[m], bodies_, pose.bodies, count)[static_cast<std::size_t>(step)];
+    const std::vector<RigidTransform> now = bodies_after(step, count, muscles_[m], bodies_, pose.bodies);
     carry(muscles_[m], moving.bodies, now, moving.nodes);
     std::vector<BoneSight> sights = std::move(moving.equilibrium.around.sights);
     moving.equilibrium.around = surroundings(muscles_[m], now, moving.equilibrium.laws);
@@ -197,8 +197,8 @@ class TissueMethod final : public DeformationMethod {
 
   void look_at_neighbors(std::vector<MovingMuscle>& moving) {
     if (neighbors_.pairs.empty()) return;
-    std::vector<Points> shapes;
-    for (std::size_t m = 0; m < moving.size(); ++m) shapes.push_back(surface_at(muscles_[m], moving[m].nodes));
+    std::vector<Points> shapes(moving.size());
+    parallel_for_each(moving.size(), [&](std::size_t m) { shapes[m] = surface_at(muscles_[m], moving[m].nodes); });
     std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, shapes);
     for (std::size_t m = 0; m < moving.size(); ++m)
       set_planes(muscles_[m], std::move(planes[m]), moving[m].equilibrium.around);
@@ -221,14 +221,11 @@ class TissueMethod final : public DeformationMethod {
              {"least_volume_ratio", least_volume_ratio(muscles_[m].lattice, moving.nodes)}}};
   }
 
+  /// The muscles that one may touch.
   std::vector<Index> others_of(std::size_t m) const {
     std::vector<Index> others;
-    for (const NeighborPair& pair : neighbors_.pairs)
-      if (pair.first == static_cast<Index>(m))
-        others.push_back(pair.second);
-      else if (pair.second == static_cast<Index>(m))
-        others.push_back(pair.first);
-    std::sort(others.begin(), others.end());
+    for (std::size_t other = 0; other < muscles_.size() && !neighbors_.pairs.empty(); ++other)
+      if (other != m) others.push_back(static_cast<Index>(other));
     return others;
   }
 

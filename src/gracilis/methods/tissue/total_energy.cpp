@@ -192,17 +192,24 @@ Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const s
   return matrix;
 }
 
-Points points_at(const PreparedTissue& muscle, const Points& nodes) {
+/// Where the first points are.
+static Points first_points_at(Index count, const PreparedTissue& muscle, const Points& nodes) {
   // By what the nodes have moved: exact at rest.
   const Points moved = nodes - muscle.lattice.nodes;
-  Points places(3, static_cast<Index>(muscle.points.size()));
-  for (std::size_t v = 0; v < muscle.points.size(); ++v)
-    places.col(static_cast<Index>(v)) = muscle.points[v].rest + mean_at(muscle.points[v].at, moved);
+  Points places(3, count);
+  for (Index p = 0; p < count; ++p) {
+    const SurfacePoint& point = muscle.points[static_cast<std::size_t>(p)];
+    places.col(p) = point.rest + mean_at(point.at, moved);
+  }
   return places;
 }
 
+Points points_at(const PreparedTissue& muscle, const Points& nodes) {
+  return first_points_at(static_cast<Index>(muscle.points.size()), muscle, nodes);
+}
+
 Points surface_at(const PreparedTissue& muscle, const Points& nodes) {
-  return points_at(muscle, nodes).leftCols(muscle.vertex_count);
+  return first_points_at(muscle.vertex_count, muscle, nodes);
 }
 
 Real least_volume_ratio(const Lattice& lattice, const Points& nodes) {
