@@ -23,7 +23,8 @@ using Say = std::function<void(const std::string&)>;
 constexpr int passes = 3;
 constexpr Real farthest_rounding = 0.0012;  ///< m
 constexpr Real told_displacement = 0.0001;  ///< m; less is how triangles approximate a curved surface
-constexpr Real most_growth = 0.3;           ///< of a volume by pulling apart; more is no overlap that was taken away
+constexpr Real most_left = 0.001;           ///< m of a gap that may be missed
+constexpr Real most_growth = 0.05;          ///< of a volume by pulling apart; more is no overlap that was taken away
 
 /// Largest and mean distance from the vertices and face centers of one surface to another.
 struct SurfaceDistance {
@@ -187,7 +188,15 @@ Real separate_pieces(std::vector<TriangleMesh>& muscles, const std::vector<Trian
   return result.shortfall;
 }
 
-/// Pulls overlaps apart; where that makes things worse, all stays as it was. Tells whether it succeeded.
+/// By how much the worst gap is missed as things are, m.
+Real what_is_left(std::vector<TriangleMesh> muscles, const std::vector<TriangleMesh>& bones, SeparationSettings apart) {
+  apart.rounds = 0;
+  std::vector<Real> budget;
+  return separate_pieces(muscles, bones, apart, budget, TimeLimit());
+}
+
+/// Pulls overlaps apart. A muscle that this made swell stays as it was, and so do all where more triangles cut each
+/// other than before. Tells whether it succeeded.
 bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurface>& names,
                 const std::vector<TriangleMesh>& bones, const PrepareSettings& settings, Real& shortfall) {
   const TimeLimit limit(settings.time_limit * static_cast<Real>(muscles.size()));
@@ -210,14 +219,21 @@ bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurfa
       }
       if (!mended) break;
     }
-    bool worse = crossings_between(muscles, bones) > crossings_between(before, bones);
-    for (std::size_t m = 0; m < muscles.size(); ++m)
-      worse = worse || !is_solid(muscles[m]) || volume_of(muscles[m]) > (1 + most_growth) * volume_of(before[m]);
-    if (!worse) return true;
+    bool done = shortfall <= most_left;
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+      if (is_solid(muscles[m]) && volume_of(muscles[m]) <= (1 + most_growth) * volume_of(before[m])) continue;
+      muscles[m] = before[m];
+      done = false;
+    }
+    if (crossings_between(muscles, bones) <= crossings_between(before, bones)) {
+      if (!done) shortfall = what_is_left(muscles, bones, apart);
+      return done;
+    }
   } catch (const OutOfTime&) {
   } catch (const InputError&) {  // untangling left nothing
   }
   muscles = before;
+  shortfall = what_is_left(muscles, bones, apart);
   return false;
 }
 
@@ -243,8 +259,7 @@ PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, cons
   const std::vector<TriangleMesh> apart_from = result.muscles;
   if (muscles.size() + bones.size() > 1) say("pulling overlaps apart");
   report.pulled_apart = pull_apart(result.muscles, muscles, obstacles, settings, report.largest_shortfall);
-  if (!report.pulled_apart)
-    say("overlaps could not be pulled apart: muscles stay as they were, and overlap; check the places of the surfaces");
+  if (!report.pulled_apart) say("overlaps could not be pulled apart everywhere; check the places of the surfaces");
   report_displacements(apart_from, result.muscles, report);
 
   say("measuring");

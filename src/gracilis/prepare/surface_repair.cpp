@@ -174,6 +174,9 @@ FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, Real
   tally.nested = drop_nested(pieces);
   const std::size_t count = pieces.size();
   United all = united(std::move(pieces), limit);
+  // A union may enclose bubbles.
+  all.pieces = pieces_of(merged(all.pieces));
+  drop_tiny(all.pieces);
   tell(tally, fixed);
   if (all.united > 0)
     fixed.repairs.push_back("united " + counted(static_cast<Index>(count), "piece", "pieces") + " that cut each other" +

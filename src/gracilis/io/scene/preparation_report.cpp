@@ -26,7 +26,7 @@ std::string to_text(const PreparationReport& report) {
   for (const PreparedPairReport& p : report.pairs)
     text += fmt::format("{} and {}: {} pairs of triangles cut each other, before {}\n", p.a, p.b, p.intersections_after,
                         p.intersections_before);
-  if (!report.pulled_apart) text += "overlaps could not be pulled apart: muscles are as they were before that\n";
+  if (!report.pulled_apart) text += "overlaps could not be pulled apart everywhere; muscles that this made swell are as they were before\n";
   text += fmt::format("worst gap missed by {:.3f} mm\n", report.largest_shortfall * mm);
   return text;
 }
