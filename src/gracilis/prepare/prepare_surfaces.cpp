@@ -199,6 +199,9 @@ Real what_is_left(std::vector<TriangleMesh> muscles, const std::vector<TriangleM
 /// other than before. Tells whether it succeeded.
 bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurface>& names,
                 const std::vector<TriangleMesh>& bones, const PrepareSettings& settings, Real& shortfall) {
+  std::size_t bodies = bones.size();
+  for (const TriangleMesh& muscle : muscles) bodies += pieces_of(muscle).size();
+  if (bodies < 2) return true;
   const TimeLimit limit(settings.time_limit * static_cast<Real>(muscles.size()));
   const SeparationSettings apart{.muscle_gap = settings.muscle_gap, .bone_gap = settings.bone_gap};
   const std::vector<TriangleMesh> before = muscles;
