@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/whole_number.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/scene/preparation_report.hpp>
@@ -11,6 +12,7 @@
 #include <gracilis/scene/setting_table.hpp>
 
 #ifdef GRACILIS_WITH_PREPARE
+#include <gracilis/prepare/estimates.hpp>
 #include <gracilis/prepare/prepare_surfaces.hpp>
 #include <gracilis/prepare/surface_repair.hpp>
 #endif
@@ -41,7 +43,7 @@ struct PrepareOptions {
   std::vector<fs::path> files, bones;
   fs::path out;
   std::string unit = "m";
-  bool merge = false, split = false;
+  bool merge = false, split = false, largest = false;
   std::map<std::string, Real> settings;  ///< those given on the command line
   SceneOptions scene;
 };
@@ -69,41 +71,93 @@ std::vector<NamedSurface> read_surfaces(const std::vector<fs::path>& files, Real
   return surfaces;
 }
 
-/// One surface of all, or one of each piece, as asked for.
-std::vector<NamedSurface> rearranged(std::vector<NamedSurface> surfaces, const PrepareOptions& options) {
-  if (options.merge) {
-    std::vector<TriangleMesh> meshes;
-    for (NamedSurface& surface : surfaces) meshes.push_back(std::move(surface.mesh));
-    surfaces = {{"merged", merged(meshes)}};
+/// Bad units and empty files are told of before any work.
+void require_sizes(const std::vector<NamedSurface>& surfaces, const std::vector<fs::path>& files, Real unit) {
+  std::vector<Problem> problems;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const std::vector<Problem> some = fatal_problems(inspect_mesh(surfaces[i].mesh), unit, files[i].string());
+    problems.insert(problems.end(), some.begin(), some.end());
   }
-  if (!options.split) return surfaces;
-  std::vector<NamedSurface> pieces;
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
+/// Closed pieces of the surface, mended.
+std::vector<TriangleMesh> mended_pieces(const NamedSurface& surface, const PrepareSettings& settings) {
+  try {
+    return pieces_of(fix_surface(surface.mesh, surface.name, 0.01, TimeLimit(settings.time_limit)).mesh);
+  } catch (const OutOfTime&) {
+    throw InputError(out_of_time(surface.name, settings));
+  }
+}
+
+/// One surface of all, or one of each closed piece, as asked for; pieces are known only of surfaces that are mended.
+std::vector<NamedSurface> rearranged(std::vector<NamedSurface> surfaces, const PrepareOptions& options,
+                                     const PrepareSettings& settings) {
+  for (NamedSurface& surface : surfaces) surface.largest_piece = options.largest;
+  if (!options.merge && !options.split) return surfaces;
+  std::vector<TriangleMesh> all;
+  std::vector<NamedSurface> parts;
   for (const NamedSurface& surface : surfaces) {
     int number = 0;
-    for (TriangleMesh& piece : pieces_of(surface.mesh))
-      pieces.push_back({fmt::format("{}_{}", surface.name, ++number), std::move(piece)});
+    for (TriangleMesh& piece : mended_pieces(surface, settings)) {
+      if (options.merge)
+        all.push_back(std::move(piece));
+      else
+        parts.push_back({fmt::format("{}_{}", surface.name, ++number), std::move(piece), false});
+    }
   }
-  return pieces;
+  if (!options.merge) return parts;
+  const TimeLimit limit(settings.time_limit * static_cast<Real>(surfaces.size()));
+  const std::vector<TriangleMesh> whole = united(std::move(all), limit).pieces;
+  if (!options.split) return {{"merged", merged(whole), options.largest}};
+  for (const TriangleMesh& piece : whole) parts.push_back({fmt::format("merged_{}", parts.size() + 1), piece, false});
+  return parts;
+}
+
+void set_given(PrepareSettings& settings, const PrepareOptions& options) {
+  for (const auto& [key, value] : options.settings) {
+    const Setting<PrepareSettings>& setting = *find_setting<PrepareSettings>(key);
+    const std::optional<int> count = setting.kind == SettingKind::integer ? whole_number<int>(value) : std::nullopt;
+    // What is no count is refused as the number that it is.
+    const std::string wrong = assign(settings, setting, count ? SettingValue(*count) : SettingValue(value));
+    if (!wrong.empty()) throw ConfigurationError({"", option_name(setting), wrong, ""});
+  }
 }
 
 SceneSurfaces read_input(const PrepareOptions& options) {
-  if (options.files.size() == 1 && options.files.front().extension() == ".toml")
-    return read_scene_surfaces(options.files.front(), options.scene);
+  if (options.files.size() == 1 && options.files.front().extension() == ".toml") {
+    SceneSurfaces scene = read_scene_surfaces(options.files.front(), options.scene);
+    set_given(scene.settings, options);
+    return scene;
+  }
+  SceneSurfaces input;
+  set_given(input.settings, options);
   const Real unit = unit_length(options.unit);
-  return {"", rearranged(read_surfaces(options.files, unit), options), read_surfaces(options.bones, unit), {}};
+  std::vector<NamedSurface> muscles = read_surfaces(options.files, unit);
+  input.bones = read_surfaces(options.bones, unit);
+  require_sizes(muscles, options.files, unit);
+  require_sizes(input.bones, options.bones, unit);
+  input.muscles = rearranged(std::move(muscles), options, input.settings);
+  return input;
+}
+
+/// What a run would refuse is not written.
+void require_runnable(const std::vector<NamedSurface>& names, const std::vector<TriangleMesh>& muscles) {
+  std::vector<Problem> problems;
+  for (std::size_t m = 0; m < muscles.size(); ++m) try {
+      check_surface(muscles[m], 1, SurfaceRole::muscle, names[m].name);
+    } catch (const InputError& error) {
+      for (const Problem& problem : error.problems())
+        problems.push_back({problem.file, problem.where, problem.what + ", after preparation, too",
+                            "try another --edge-length, or mend it in a mesh editor"});
+    }
+  if (!problems.empty()) throw InputError(std::move(problems));
 }
 
 int prepare(const PrepareOptions& options) {
-  SceneSurfaces input = read_input(options);
-  for (const auto& [key, value] : options.settings) {
-    const Setting<PrepareSettings>& setting = *find_setting<PrepareSettings>(key);
-    const std::optional<int> count =
-        setting.kind == SettingKind::integer ? whole_number<int>(value) : std::nullopt;
-    // What is no count is refused as the number that it is.
-    const std::string wrong = assign(input.settings, setting, count ? SettingValue(*count) : SettingValue(value));
-    if (!wrong.empty()) throw ConfigurationError({"", option_name(setting), wrong, ""});
-  }
+  const SceneSurfaces input = read_input(options);
   const PreparedSurfaces prepared = prepare_surfaces(input.muscles, input.bones, input.settings, log_lines);
+  require_runnable(input.muscles, prepared.muscles);
   std::error_code failed;
   fs::create_directories(options.out, failed);
   if (failed) throw InputError({options.out.string(), "", "cannot be made a folder: " + failed.message(), ""});
@@ -144,12 +198,12 @@ void add_prepare_command(CLI::App& program, Command& chosen) {
   command->add_option("FILE", options->files, "Surfaces of muscles, or one scene file")->required();
   command->add_option("--out", options->out, "Folder to write")->required();
   command->add_option("--bone", options->bones, "Surfaces that stay as they are and that muscles keep out of")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+      ->delimiter(',');
   command->add_option("--unit", options->unit, "Unit of the files (not of a scene): m, cm or mm")
       ->check(CLI::IsMember({"m", "cm", "mm"}));
-  command->add_flag("--merge", options->merge, "Make one surface of all files");
-  command->add_flag("--split", options->split, "Make a surface of each connected piece");
+  command->add_flag("--merge", options->merge, "Make one surface of all files: what any of them encloses");
+  command->add_flag("--split", options->split, "Make a surface of each closed piece");
+  command->add_flag("--largest", options->largest, "Keep of each surface the closed piece that encloses most");
   command->add_option("--data", options->scene.data, "Folder with a scene's files");
   command->add_option("--only", options->scene.only, "Only these muscles of a scene; names separated by commas")
       ->delimiter(',')

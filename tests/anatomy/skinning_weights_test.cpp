@@ -1,9 +1,12 @@
 #include <gracilis/anatomy/attachments/skinning_weights.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
+#include <gracilis/geometry/mesh_pieces.hpp>
 
 #include <shapes.hpp>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace gracilis {
 namespace {
@@ -70,6 +73,47 @@ TEST(SkinningWeights, a_tube_held_by_whole_rings_needs_no_tendons) {
     tube.fixed_body[static_cast<std::size_t>(v)] = z > 0.07 ? 0 : z < -0.07 ? 1 : -1;
   }
   EXPECT_LT((tube.shares(0.03) - tube.shares(0)).cwiseAbs().maxCoeff(), 0.02f);
+}
+
+/// A long head held by both bodies, and a short head beside its lower half that body 0 alone holds, at its upper end.
+struct TwoHeads {
+  TriangleMesh surface = shapes::cylinder(0.01, 0.16, 20, 40);
+  std::vector<Index> fixed_body, short_head;
+
+  TwoHeads() {
+    surface.vertices.row(2).array() -= surface.vertices.row(2).mean();
+    TriangleMesh other = shapes::cylinder(0.005, 0.08, 12, 20);
+    other.vertices.row(2).array() -= other.vertices.row(2).mean() + 0.03;
+    other.vertices.row(0).array() += 0.016;
+    const Index first = surface.vertex_count();
+    surface = merged({surface, other});
+    for (Index v = 0; v < surface.vertex_count(); ++v) {
+      const Real z = surface.vertices(2, v);
+      if (v >= first) short_head.push_back(v);
+      fixed_body.push_back(z > 0.07 || (v >= first && z > 0.005) ? 0 : v < first && z < -0.07 ? 1 : -1);
+    }
+  }
+  Eigen::MatrixXf weights() const {
+    return skinning_weights(surface, build_topology(surface.faces, surface.vertex_count()), fixed_body, {0, 1}, 0);
+  }
+};
+
+TEST(SkinningWeights, a_piece_that_is_held_at_one_end_follows_what_it_lies_on_at_the_other) {
+  const TwoHeads heads;
+  const Eigen::MatrixXf weights = heads.weights();
+  Real lowest = 0;
+  for (const Index v : heads.short_head) {
+    EXPECT_NEAR(weights.col(v).sum(), 1, 1e-5);
+    lowest = std::max(lowest, Real(weights(1, v)));
+  }
+  EXPECT_GT(lowest, 0.3);  // the other body's share comes over from the long head
+}
+
+TEST(SkinningWeights, a_piece_that_nothing_holds_follows_the_others) {
+  TwoHeads heads;
+  for (const Index v : heads.short_head) heads.fixed_body[static_cast<std::size_t>(v)] = -1;
+  const Eigen::MatrixXf weights = heads.weights();
+  for (const Index v : heads.short_head) EXPECT_NEAR(weights.col(v).sum(), 1, 1e-5);
 }
 
 }  // namespace gracilis

@@ -16,6 +16,7 @@
 #include <sstream>
 
 using namespace gracilis;
+using testing::AllOf;
 using testing::HasSubstr;
 
 namespace {
@@ -249,7 +250,8 @@ TEST(LoadSurface, a_muscle_with_a_hole_is_refused_and_a_bone_warned_about) {
   open.replace(open.find("face 4"), 6, "face 3");
   const auto path = folder.write("open.ply", open);
   const std::string text = message_of_input_error([&] { load_surface(path, 1, SurfaceRole::muscle); });
-  EXPECT_THAT(text, HasSubstr("open.ply:face 0: lies at a hole: 3 open edges (close the holes in a mesh editor)"));
+  EXPECT_THAT(text, AllOf(HasSubstr("open.ply:face 0: lies at a hole: 3 open edges"),
+                          HasSubstr("gracilis prepare " + path.string())));
   const LoadedMesh bone = load_surface(path, 1, SurfaceRole::bone);
   ASSERT_EQ(bone.warnings.size(), 1u);
   EXPECT_THAT(bone.warnings[0], HasSubstr("3 open edges (tolerated in a bone)"));

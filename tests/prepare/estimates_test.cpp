@@ -12,6 +12,7 @@
 namespace gracilis {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 std::string refused(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones = {},
@@ -40,6 +41,22 @@ TEST(PreparationEstimates, an_edge_length_that_is_too_small_is_named) {
   PrepareSettings fine;
   fine.edge_length = 1e-6;
   EXPECT_THAT(refused({{"psoas", ball()}}, {}, fine), HasSubstr("raise 'edge_length'"));
+}
+
+TEST(PreparationEstimates, a_surface_that_would_take_too_long_is_told_of_before_and_may_have_more_time) {
+  PrepareSettings hasty;
+  hasty.edge_length = 0.0005;
+  hasty.time_limit = 1;
+  EXPECT_THAT(refused({{"psoas", ball()}}, {}, hasty), HasSubstr("psoas: would take about"));
+  hasty.edge_length = 0.003;
+  EXPECT_EQ(refused({{"psoas", ball()}}, {}, hasty), "no problem");
+}
+
+TEST(PreparationEstimates, everything_that_is_wrong_is_told_at_once) {
+  TriangleMesh flat = ball();
+  flat.vertices.row(2).setZero();
+  EXPECT_THAT(refused({{"psoas", flat}, {"iliacus", ball()}, {"sartorius", flat}}),
+              AllOf(HasSubstr("psoas: encloses no volume"), HasSubstr("sartorius: encloses no volume")));
 }
 
 TEST(PreparationEstimates, surfaces_that_lie_in_each_other_are_named) {

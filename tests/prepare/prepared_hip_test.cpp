@@ -1,9 +1,12 @@
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/scene/data_root.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/prepare_surfaces.hpp>
+#include <gracilis/prepare/surface_repair.hpp>
 
 #include <build_paths.hpp>
 
@@ -12,6 +15,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 /// The whole preparation: on small shapes, and on the cadaver's hip where its data are at hand.
@@ -75,6 +79,65 @@ TEST(Preparation, gives_edges_the_length_asked_for) {
       sum += (ball.vertices.col(ball.faces(k, f)) - ball.vertices.col(ball.faces((k + 1) % 3, f))).norm();
   EXPECT_NEAR(sum / (3 * ball.face_count()), 4 * mm, 0.5 * mm);
   EXPECT_LT(prepared.report.muscles[0].hausdorff, 0.3 * mm);
+}
+
+Real volume_change(const PreparedMuscleReport& muscle) { return muscle.volume_after / muscle.volume_before - 1; }
+
+/// As thin as triangles of 3 mm are long.
+TriangleMesh sheet() {
+  TriangleMesh mesh = sphere(Vec3::Zero(), 30 * mm, 4);
+  mesh.vertices.row(2) *= 0.05;
+  return mesh;
+}
+
+TEST(Preparation, of_a_clean_muscle_keeps_its_volume_unless_told_otherwise) {
+  const PreparedSurfaces kept = prepare_surfaces({{"sheet", sheet()}}, {}, {}, silent);
+  EXPECT_LT(std::abs(volume_change(kept.report.muscles[0])), 0.01);
+  PrepareSettings loose;
+  loose.volume_tolerance = 1;
+  const PreparedSurfaces grown = prepare_surfaces({{"sheet", sheet()}}, {}, loose, silent);
+  EXPECT_GT(volume_change(grown.report.muscles[0]), 0.02);  // the test would see it
+}
+
+TEST(Preparation, keeps_pieces_that_lie_apart_or_the_largest_alone) {
+  const TriangleMesh large = sphere(Vec3::Zero(), 15 * mm, 3), small = sphere(Vec3(40 * mm, 0, 0), 10 * mm, 3);
+  const PreparedSurfaces both = prepare_surfaces({{"heads", merged({small, large})}}, {}, {}, silent);
+  EXPECT_EQ(both.report.muscles[0].pieces, 2);
+  EXPECT_EQ(inspect_mesh(both.muscles[0]).components, 2);
+  const PreparedSurfaces one = prepare_surfaces({{"heads", merged({small, large}), true}}, {}, {}, silent);
+  EXPECT_EQ(inspect_mesh(one.muscles[0]).components, 1);
+  EXPECT_NEAR(one.report.muscles[0].volume_after / enclosed_volume(large.vertices, large.faces), 1, 0.01);
+}
+
+TEST(Preparation, gives_what_a_scene_takes_of_surfaces_as_they_come) {
+  TriangleMesh open = sphere(Vec3::Zero(), 15 * mm, 4);
+  open.faces.conservativeResize(3, open.face_count() - 40);
+  TriangleMesh pierced = sphere(Vec3::Zero(), 15 * mm, 3);
+  Index top = 0;
+  pierced.vertices.row(2).maxCoeff(&top);
+  pierced.vertices(2, top) = -20 * mm;
+  const TriangleMesh twice = merged({sphere(Vec3::Zero(), 15 * mm, 3), sphere(Vec3::Zero(), 15 * mm, 3)});
+  const TriangleMesh crossing =
+      merged({sphere(Vec3::Zero(), 15 * mm, 3), sphere(Vec3(10 * mm, 3 * mm, 0), 12 * mm, 3)});
+  for (const TriangleMesh& mesh : {open, pierced, twice, crossing}) {
+    const PreparedSurfaces prepared = prepare_surfaces({{"muscle", mesh}}, {}, {}, silent);
+    EXPECT_NO_THROW(check_surface(prepared.muscles[0], 1, SurfaceRole::muscle, "muscle"));
+    EXPECT_EQ(prepared.report.muscles[0].self_intersections_after, 0);
+  }
+}
+
+TEST(Preparation, leaves_muscles_as_they_were_where_they_cannot_be_pulled_apart) {
+  // A thin slab halfway into a bone with room on neither side.
+  const TriangleMesh slab = shapes::box(Vec3(-20, -20, -3) * mm, Vec3(20, 20, 3) * mm);
+  const TriangleMesh below = shapes::box(Vec3(-40, -40, -30) * mm, Vec3(40, 40, -0.2) * mm);
+  const TriangleMesh above = shapes::box(Vec3(-40, -40, 2) * mm, Vec3(40, 40, 30) * mm);
+  PrepareSettings settings;
+  const PreparedSurfaces prepared =
+      prepare_surfaces({{"slab", slab}}, {{"below", below}, {"above", above}}, settings, silent);
+  const PreparedMuscleReport& muscle = prepared.report.muscles[0];
+  EXPECT_TRUE(is_solid(prepared.muscles[0]));
+  EXPECT_LT(muscle.volume_after, 1.06 * muscle.volume_before);
+  EXPECT_LE(muscle.max_displacement, 2 * 3.2 * mm);
 }
 
 TEST(PreparedHip, has_no_intersections_at_rest_and_keeps_its_shapes) {

@@ -3,12 +3,14 @@
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/separation.hpp>
 #include <gracilis/prepare/smoothing.hpp>
+#include <gracilis/prepare/thickness.hpp>
 
 #include "shapes.hpp"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 namespace gracilis {
 namespace {
@@ -83,6 +85,49 @@ TEST(Separation, of_what_is_apart_already_is_the_identity) {
   const std::vector<TriangleMesh> once = muscles;
   separate(muscles, {}, {});
   for (std::size_t m = 0; m < 2; ++m) EXPECT_LT(farthest_moved(once[m], muscles[m]), 0.01 * mm);
+}
+
+TEST(Separation, moves_no_vertex_by_more_than_twice_the_worst_overlap_even_where_it_cannot_succeed) {
+  // The ball is held between two bones that leave less room than it needs.
+  const TriangleMesh below = box(Vec3(-50, -50, -50) * mm, Vec3(50, 50, -17) * mm);
+  const TriangleMesh above = box(Vec3(-50, -50, 17) * mm, Vec3(50, 50, 50) * mm);
+  const TriangleMesh aside = box(Vec3(-50, -50, -17) * mm, Vec3(-17, 50, 17) * mm);
+  const TriangleMesh ball = sphere(Vec3::Zero(), 20 * mm, 4);
+  std::vector<TriangleMesh> muscles = {ball};
+  const SeparationResult result = separate(muscles, {below, above, aside}, {});
+  ASSERT_EQ(result.lacked.size(), 1u);
+  EXPECT_NEAR(result.lacked[0], 3.3 * mm, 0.1 * mm);
+  EXPECT_LE(farthest_moved(ball, muscles[0]), 2 * result.lacked[0] * (1 + 1e-9));
+  EXPECT_NEAR(result.moved[0], farthest_moved(ball, muscles[0]), 1e-12);
+}
+
+TEST(Separation, keeps_within_what_is_allowed) {
+  const TriangleMesh bone = box(Vec3(-50, -50, -50) * mm, Vec3(50, 50, 0) * mm);
+  const TriangleMesh ball = sphere(Vec3(0, 0, 18 * mm), 20 * mm, 4);
+  std::vector<TriangleMesh> muscles = {ball};
+  EXPECT_GT(separate(muscles, {bone}, {.at_most = {0.5 * mm}}).missed, 0);
+  EXPECT_LE(farthest_moved(ball, muscles[0]), 0.5 * mm * (1 + 1e-9));
+}
+
+TEST(Thickness, a_volume_is_set_and_a_thin_part_gives_less_than_a_thick_one) {
+  TriangleMesh ball = sphere(Vec3::Zero(), 20 * mm, 4);
+  const Real volume = enclosed_volume(ball.vertices, ball.faces);
+  set_volume(ball, 0.9 * volume);
+  EXPECT_NEAR(enclosed_volume(ball.vertices, ball.faces) / volume, 0.9, 1e-3);
+  TriangleMesh spindle = sphere(Vec3::Zero(), 20 * mm, 5);
+  for (auto p : spindle.vertices.colwise()) {
+    const Real thin = 1 - 0.8 * std::abs(p.z()) / (20 * mm);
+    p.x() *= thin, p.y() *= thin, p.z() *= 3;
+  }
+  const TriangleMesh before = spindle;
+  set_volume(spindle, 0.9 * enclosed_volume(before.vertices, before.faces));
+  Real middle = 0, end = 0;
+  for (Index v = 0; v < before.vertex_count(); ++v) {
+    const Real moved = (spindle.vertices.col(v) - before.vertices.col(v)).norm(), z = std::abs(before.vertices(2, v));
+    if (z < 5 * mm) middle = std::max(middle, moved);
+    if (z > 50 * mm) end = std::max(end, moved);
+  }
+  EXPECT_LT(end, 0.5 * middle);
 }
 
 TEST(Smoothing, a_spike_is_rounded_off_and_the_rest_stays) {

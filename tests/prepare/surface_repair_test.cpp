@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 
 namespace gracilis {
 namespace {
@@ -148,6 +150,129 @@ TEST(SurfaceRepair, an_empty_surface_and_an_unbounded_one_are_refused_by_name) {
   TriangleMesh ball = sphere(Vec3::Zero(), 2 * cm, 1);
   ball.vertices(0, 0) = std::numeric_limits<Real>::quiet_NaN();
   EXPECT_THAT(message_of(ball), testing::AllOf(testing::HasSubstr("liver.ply"), testing::HasSubstr("finite")));
+}
+
+// ---- Surfaces as they come
+
+TEST(SurfaceRepair, two_spheres_joined_in_a_point_become_two_closed_pieces) {
+  const TriangleMesh left = sphere(Vec3(-2, 0, 0) * cm, 2 * cm, 2), right = sphere(Vec3(2, 0, 0) * cm, 2 * cm, 2);
+  TriangleMesh both = merged({left, right});
+  Index at_left = 0, at_right = 0;
+  left.vertices.row(0).maxCoeff(&at_left);
+  right.vertices.row(0).minCoeff(&at_right);
+  for (Index& v : both.faces.reshaped())
+    if (v == left.vertex_count() + at_right) v = at_left;
+  ASSERT_TRUE(inspect_mesh(both).pinched_vertices);
+  const FixedSurface fixed = fix_surface(both, "spheres");
+  expect_solid(fixed.mesh);
+  EXPECT_EQ(pieces_of(fixed.mesh).size(), 2u);
+  EXPECT_NEAR(volume(fixed.mesh) / (2 * volume(left)), 1, 1e-9);
+}
+
+TEST(SurfaceRepair, a_shell_in_a_shell_is_dropped_whatever_its_side) {
+  const TriangleMesh outer = sphere(Vec3::Zero(), 2 * cm, 3);
+  for (const bool turned : {false, true}) {
+    TriangleMesh inner = sphere(Vec3::Zero(), 1.5 * cm, 3);
+    if (turned) inner.faces.row(0).swap(inner.faces.row(1));
+    const FixedSurface fixed = fix_surface(merged({outer, inner}), "shells");
+    EXPECT_EQ(fixed.mesh.face_count(), outer.face_count());
+    EXPECT_NEAR(volume(fixed.mesh), volume(outer), 1e-12);
+  }
+}
+
+TEST(SurfaceRepair, a_surface_that_is_there_twice_is_there_once) {
+  const TriangleMesh ball = sphere(Vec3::Zero(), 2 * cm, 3);
+  expect_solid(fix_surface(merged({ball, ball}), "ball").mesh);
+  EXPECT_NEAR(volume(fix_surface(merged({ball, ball}), "ball").mesh), volume(ball), 1e-12);
+}
+
+TEST(SurfaceRepair, pieces_that_overlap_are_united) {
+  const TriangleMesh left = box(Vec3(0, 0, 0) * cm, Vec3(2, 1, 1) * cm);
+  const TriangleMesh right = box(Vec3(1, -0.5, 0.25) * cm, Vec3(3, 0.5, 0.75) * cm);
+  const FixedSurface fixed = fix_surface(merged({left, right}), "boxes");
+  expect_solid(fixed.mesh);
+  EXPECT_EQ(pieces_of(fixed.mesh).size(), 1u);
+  EXPECT_EQ(crossings(fixed.mesh), 0);
+  EXPECT_NEAR(volume(fixed.mesh), 2.75e-6, 1e-9);  // 2 + 1 - 0.25 cm³
+}
+
+/// A tube along z, open at both ends, with a hole in its side.
+TriangleMesh tube_with_a_hole() {
+  constexpr int around = 24, along = 20;
+  std::vector<Vec3> v;
+  std::vector<Eigen::Vector3i> f;
+  for (int j = 0; j <= along; ++j)
+    for (int i = 0; i < around; ++i) {
+      const Real angle = 2 * M_PI * i / around;
+      v.emplace_back(cm * std::cos(angle), cm * std::sin(angle), 0.3 * cm * j);
+    }
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < around; ++i) {
+      if (i < 3 && j > 8 && j < 11) continue;
+      const int a = j * around + i, b = j * around + (i + 1) % around;
+      f.emplace_back(a, b, b + around);
+      f.emplace_back(a, b + around, a + around);
+    }
+  return mesh_of(v, f);
+}
+
+TEST(SurfaceRepair, a_tube_with_a_hole_is_closed) {
+  ASSERT_TRUE(inspect_mesh(tube_with_a_hole()).open_edges);
+  const FixedSurface fixed = fix_surface(tube_with_a_hole(), "tube");
+  expect_solid(fixed.mesh);
+  const Real cylinder = M_PI * cm * cm * 6 * cm;
+  EXPECT_NEAR(volume(fixed.mesh) / cylinder, 1,
+              0.1);  // ends bulge a little, where a fair patch goes on as the tube came
+}
+
+TEST(SurfaceRepair, a_sheet_folded_onto_itself_encloses_what_a_thick_one_would_or_is_refused) {
+  // A flat bag: both its sides are the same triangles.
+  TriangleMesh flat = sphere(Vec3::Zero(), 2 * cm, 2);
+  flat.vertices.row(2).setZero();
+  EXPECT_THROW(fix_surface(flat, "bag"), InputError);
+  // A sheet 2 mm thick whose one end is folded back through the other.
+  TriangleMesh sheet = sphere(Vec3::Zero(), 2 * cm, 4);
+  sheet.vertices.row(2) *= 0.05;
+  for (auto p : sheet.vertices.colwise())
+    if (p.x() > 0) p.x() *= -0.7, p.z() = -p.z() * 0.5;
+  ASSERT_GT(crossings(sheet), 0);
+  const FixedSurface fixed = fix_surface(sheet, "sheet");
+  expect_solid(fixed.mesh);
+  EXPECT_EQ(crossings(fixed.mesh), 0);
+}
+
+TEST(SurfaceRepair, what_encloses_nothing_is_refused_and_never_a_crash) {
+  const TriangleMesh one = mesh_of({{0, 0, 0}, {cm, 0, 0}, {0, cm, 0}}, {{0, 1, 2}});
+  const TriangleMesh twice = mesh_of({{0, 0, 0}, {cm, 0, 0}, {0, cm, 0}}, {{0, 1, 2}, {0, 2, 1}});
+  const TriangleMesh line = mesh_of({{0, 0, 0}, {cm, 0, 0}, {2 * cm, 0, 0}}, {{0, 1, 2}});
+  const TriangleMesh strip = mesh_of({{0, 0, 0}, {cm, 0, 0}, {0, cm, 0}, {cm, cm, 0}}, {{0, 1, 2}, {1, 3, 2}});
+  for (const TriangleMesh& mesh : {one, twice, line, strip}) EXPECT_THROW(fix_surface(mesh, "nothing"), InputError);
+}
+
+TEST(SurfaceRepair, flat_pieces_beside_a_solid_are_dropped_with_a_word) {
+  const TriangleMesh ball = sphere(Vec3::Zero(), 2 * cm, 2);
+  const TriangleMesh sheet =
+      mesh_of({{5 * cm, 0, 0}, {8 * cm, 0, 0}, {5 * cm, 3 * cm, 0}, {8 * cm, 3 * cm, 0}}, {{0, 1, 2}, {1, 3, 2}});
+  const FixedSurface fixed = fix_surface(merged({ball, sheet}), "ball");
+  EXPECT_NEAR(volume(fixed.mesh), volume(ball), 1e-12);
+  EXPECT_THAT(fixed.repairs, testing::Contains(testing::HasSubstr("dropped 1 piece")));
+}
+
+TEST(SurfaceRepair, random_triangles_give_a_solid_or_a_refusal) {
+  std::uint32_t state = 1;
+  const auto next = [&](Index below) {
+    return static_cast<Index>((state = state * 1664525 + 1013904223) >> 8) % below;
+  };
+  const TriangleMesh ball = sphere(Vec3::Zero(), 2 * cm, 2);
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    TriangleMesh soup{ball.vertices, Eigen::Matrix3Xi(3, 1 + attempt * 6)};
+    for (Index& v : soup.faces.reshaped()) v = next(ball.vertex_count());
+    try {
+      expect_solid(fix_surface(soup, "soup").mesh);
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr("soup"));
+    }
+  }
 }
 
 TEST(SurfaceRepair, pieces_come_apart_and_together_again) {

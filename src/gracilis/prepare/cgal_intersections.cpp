@@ -60,7 +60,8 @@ class Soup {
 
 }  // namespace
 
-std::vector<FacePair> intersecting_faces(std::span<const TriangleMesh* const> meshes, bool between_only) {
+std::vector<FacePair> intersecting_faces(std::span<const TriangleMesh* const> meshes, bool between_only,
+                                         const TimeLimit& limit) {
   std::vector<Corner> faces;
   for (std::size_t m = 0; m < meshes.size(); ++m)
     for (Index f = 0; f < meshes[m]->face_count(); ++f) faces.push_back({static_cast<Index>(m), f});
@@ -69,10 +70,12 @@ std::vector<FacePair> intersecting_faces(std::span<const TriangleMesh* const> me
   boxes.reserve(faces.size());
   for (const Corner& face : faces) boxes.emplace_back(soup.triangle(face).bbox(), &face);
   std::vector<FacePair> pairs;
+  std::size_t looks = 0;
   const auto consider = [&](const Box& one, const Box& other) {
     const Corner *a = one.handle(), *b = other.handle();
     if (between_only && a->mesh == b->mesh) return;
     if (std::tie(b->mesh, b->face) < std::tie(a->mesh, a->face)) std::swap(a, b);
+    if (++looks % 4096 == 0) limit.check();
     if (soup.intersect(*a, *b)) pairs.push_back({a->mesh, a->face, b->mesh, b->face});
   };
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), consider);

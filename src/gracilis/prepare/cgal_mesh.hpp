@@ -6,6 +6,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <optional>
 #include <vector>
 
 /// Between our meshes and CGAL's; for this folder's cgal_*.cpp only.
@@ -17,13 +18,14 @@ using CgalMesh = CGAL::Surface_mesh<CgalPoint>;
 
 inline CgalPoint to_cgal(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
 
-/// Faces that CGAL's half-edge structure cannot take (a third one at an edge) are left out.
-inline CgalMesh to_cgal(const TriangleMesh& mesh) {
+/// None where CGAL's half-edge structure cannot take a face (a third one at an edge, or a vertex twice).
+inline std::optional<CgalMesh> to_cgal(const TriangleMesh& mesh) {
   CgalMesh result;
   std::vector<CgalMesh::Vertex_index> vertices;
   for (Index v = 0; v < mesh.vertex_count(); ++v) vertices.push_back(result.add_vertex(to_cgal(mesh.vertices.col(v))));
   const auto at = [&](Index f, int k) { return vertices[static_cast<std::size_t>(mesh.faces(k, f))]; };
-  for (Index f = 0; f < mesh.face_count(); ++f) result.add_face(at(f, 0), at(f, 1), at(f, 2));
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    if (result.add_face(at(f, 0), at(f, 1), at(f, 2)) == CgalMesh::null_face()) return std::nullopt;
   return result;
 }
 

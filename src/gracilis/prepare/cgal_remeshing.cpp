@@ -1,18 +1,50 @@
+#include <gracilis/geometry/mesh_inspection.hpp>
+#include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/cgal_mesh.hpp>
 
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 
-namespace gracilis {
+#include <exception>
 
-TriangleMesh remesh_isotropic(const TriangleMesh& mesh, Real edge_length, int iterations) {
+namespace gracilis {
+namespace {
+
+/// To the nearest point of the surface as it was given; looks at the clock on the way.
+struct WatchedProjection {
+  CgalPoint operator()(CgalMesh::Vertex_index v) const {
+    limit->check();
+    const CgalPoint& p = surface->point(v);
+    return to_cgal(given->query(Vec3(p.x(), p.y(), p.z())).point);
+  }
+  const CgalMesh* surface;
+  const NearestTriangle* given;
+  const TimeLimit* limit;
+};
+
+}  // namespace
+
+std::optional<TriangleMesh> remesh_isotropic(const TriangleMesh& mesh, Real edge_length, int iterations,
+                                             const TimeLimit& limit) {
   namespace pmp = CGAL::Polygon_mesh_processing;
-  CgalMesh surface = to_cgal(mesh);
-  pmp::isotropic_remeshing(
-      surface.faces(), edge_length, surface,
-      CGAL::parameters::number_of_iterations(static_cast<unsigned>(iterations)).number_of_relaxation_steps(3));
-  surface.collect_garbage();
-  return from_cgal(surface);
+  const MeshReport report = inspect_mesh(mesh);
+  if (!report.is_closed() || !report.is_manifold() || !report.is_oriented() || mesh.face_count() < 4)
+    return std::nullopt;
+  std::optional<CgalMesh> given = to_cgal(mesh);
+  if (!given) return std::nullopt;
+  const NearestTriangle surface_given(mesh);
+  try {
+    pmp::isotropic_remeshing(given->faces(), edge_length, *given,
+                             CGAL::parameters::number_of_iterations(static_cast<unsigned>(iterations))
+                                 .number_of_relaxation_steps(3)
+                                 .projection_functor(WatchedProjection{&*given, &surface_given, &limit}));
+    given->collect_garbage();
+    return from_cgal(*given);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception&) {
+    return std::nullopt;  // CGAL says that it cannot
+  }
 }
 
 }  // namespace gracilis

@@ -5,6 +5,7 @@
 #include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
 
 #include <array>
+#include <exception>
 
 namespace gracilis {
 
@@ -17,8 +18,12 @@ TriangleMesh manifold_of_soup(const TriangleMesh& soup) {
     std::vector<std::size_t>& polygon = polygons.emplace_back();
     for (int k = 0; k < 3; ++k) polygon.push_back(static_cast<std::size_t>(soup.faces(k, f)));
   }
-  pmp::repair_polygon_soup(points, polygons, CGAL::parameters::geom_traits(CgalKernel()));
-  pmp::orient_polygon_soup(points, polygons);
+  try {
+    pmp::repair_polygon_soup(points, polygons, CGAL::parameters::geom_traits(CgalKernel()));
+    pmp::orient_polygon_soup(points, polygons);
+  } catch (const std::exception&) {
+    return {};  // CGAL says that it cannot
+  }
 
   TriangleMesh mesh;
   mesh.vertices.resize(3, static_cast<Index>(points.size()));

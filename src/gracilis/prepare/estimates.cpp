@@ -13,6 +13,7 @@
 namespace gracilis {
 
 static constexpr Real most_triangles = 2e6;
+static constexpr Real time_per_triangle = 1e-4;  ///< s, on a machine of two cores
 
 /// "1.1e+12"
 static std::string rounded(Real value) {
@@ -34,6 +35,11 @@ static Real expected_triangles(const TriangleMesh& mesh, Real edge_length) {
   return std::max(area / (std::sqrt(3.0) / 4 * edge * edge), length / edge);
 }
 
+Problem out_of_time(const std::string& name, const PrepareSettings& settings) {
+  return {"", name, "could not be prepared in " + rounded(settings.time_limit) + " s",
+          "raise 'time_limit' or 'edge_length', or give fewer triangles"};
+}
+
 void require_affordable(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
                         const PrepareSettings& settings) {
   std::vector<Problem> problems;
@@ -41,15 +47,28 @@ void require_affordable(const std::vector<NamedSurface>& muscles, const std::vec
     for (const NamedSurface& surface : *surfaces)
       if (!surface.mesh.vertices.allFinite())
         problems.push_back({"", surface.name, "has a coordinate that is not finite", "export the surface again"});
+  for (const std::vector<NamedSurface>* surfaces : {&muscles, &bones})
+    for (const NamedSurface& surface : *surfaces)
+      if (Real(surface.mesh.face_count()) > most_triangles)
+        problems.push_back({"", surface.name,
+                            "has " + rounded(surface.mesh.face_count()) + " triangles; " + rounded(most_triangles) +
+                                " are the most that are prepared",
+                            "decimate it before"});
   if (settings.edge_length > 0 && problems.empty())
     for (const NamedSurface& muscle : muscles) {
       const Real triangles = expected_triangles(muscle.mesh, settings.edge_length);
+      const Real seconds = triangles * time_per_triangle;
       if (triangles > most_triangles)
         problems.push_back({"", muscle.name,
                             "would have about " + rounded(triangles) + " triangles at an edge length of " +
                                 rounded(1000 * settings.edge_length) + " mm; " + rounded(most_triangles) +
                                 " are the most that are made",
                             "check its unit and its farthest vertices, or raise 'edge_length'"});
+      else if (settings.time_limit > 0 && seconds > settings.time_limit)
+        problems.push_back({"", muscle.name,
+                            "would take about " + rounded(seconds) + " s, more than 'time_limit', for about " +
+                                rounded(triangles) + " triangles",
+                            "check its unit and its farthest vertices, or raise 'edge_length' or 'time_limit'"});
     }
   if (!problems.empty()) throw InputError(std::move(problems));
 }

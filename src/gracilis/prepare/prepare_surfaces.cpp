@@ -2,15 +2,17 @@
 
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
-#include <gracilis/geometry/topology.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/estimates.hpp>
+#include <gracilis/prepare/reshaping.hpp>
 #include <gracilis/prepare/separation.hpp>
 #include <gracilis/prepare/smoothing.hpp>
 #include <gracilis/prepare/surface_repair.hpp>
+#include <gracilis/prepare/thickness.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 namespace gracilis {
@@ -18,23 +20,11 @@ namespace {
 
 using Say = std::function<void(const std::string&)>;
 
-constexpr Real sharpest_turn = radians(80);
-constexpr Real farthest_rounding = 0.0012;  ///< m
-constexpr Real thinnest_radius = 0.45;      ///< of an edge: about three go around
 constexpr int passes = 3;
+constexpr Real farthest_rounding = 0.0012;  ///< m
 constexpr Real told_displacement = 0.0001;  ///< m; less is how triangles approximate a curved surface
-
-/// Mean edge near the length asked for, none far from it, no needles: remeshing again would only blur the surface.
-bool has_edges_about(const TriangleMesh& mesh, Real length) {
-  Real sum = 0, shortest = length, longest = length;
-  const MeshTopology topology = build_topology(mesh.faces, mesh.vertex_count());
-  for (const MeshEdge& edge : topology.edges) {
-    const Real l = (mesh.vertices.col(edge.a) - mesh.vertices.col(edge.b)).norm();
-    sum += l, shortest = std::min(shortest, l), longest = std::max(longest, l);
-  }
-  const Real mean = sum / static_cast<Real>(topology.edges.size());
-  return std::abs(mean / length - 1) < 0.15 && shortest > 0.2 * length && longest < 2.2 * length;
-}
+constexpr Real most_left = 0.001;           ///< m of a gap that may be missed
+constexpr Real most_growth = 0.05;          ///< of a volume by pulling apart; more is no overlap that was taken away
 
 /// Largest and mean distance from the vertices and face centers of one surface to another.
 struct SurfaceDistance {
@@ -79,38 +69,64 @@ std::vector<TriangleMesh> meshes_of(const std::vector<NamedSurface>& surfaces) {
   return meshes;
 }
 
-/// True when any was remeshed.
-bool remesh_where_needed(std::vector<TriangleMesh>& muscles, const PrepareSettings& settings) {
-  bool any = false;
-  for (TriangleMesh& mesh : muscles) {
-    if (settings.edge_length == 0 || has_edges_about(mesh, settings.edge_length)) continue;
-    mesh = remesh_isotropic(mesh, settings.edge_length, settings.remeshing_rounds);
-    any = true;
-  }
-  return any;
+Real volume_of(const TriangleMesh& mesh) { return enclosed_volume(mesh.vertices, mesh.faces); }
+
+bool cuts_itself(const TriangleMesh& mesh, const TimeLimit& limit) {
+  const std::array<const TriangleMesh*, 1> one = {&mesh};
+  return !intersecting_faces(one, false, limit).empty();
 }
 
-/// The surface in triangles of the size asked for. What they could not follow, threads and blades, is rounded while the
-/// triangles are still half as large.
-TriangleMesh reshaped(const TriangleMesh& mesh, const PrepareSettings& settings) {
-  TriangleMesh fine = remesh_isotropic(mesh, settings.edge_length / 2, 3);
-  if (settings.rounding_rounds > 0) {
-    thicken(fine, thinnest_radius * settings.edge_length);
-    round_off(fine, sharpest_turn, settings.rounding_rounds, farthest_rounding);
-  }
-  return remesh_isotropic(fine, settings.edge_length, settings.remeshing_rounds);
+/// Self-intersections that rounding and pulling apart may have made. True when there were any.
+bool untangle(TriangleMesh& mesh, const std::string& name, const PrepareSettings& settings, const TimeLimit& limit) {
+  if (!cuts_itself(mesh, limit)) return false;
+  const Real volume = volume_of(mesh);
+  mesh = fix_surface(mesh, name, 0.01, limit).mesh;
+  if (std::abs(volume_of(mesh) / volume - 1) <= settings.volume_tolerance) return true;
+  TriangleMesh again = mesh;
+  set_volume(again, volume, limit);
+  if (is_solid(again) && !cuts_itself(again, limit)) mesh = std::move(again);
+  return true;
 }
 
-/// Self-intersections that rounding and pulling apart may have made.
-bool untangle(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurface>& names) {
-  bool any = false;
-  for (std::size_t m = 0; m < muscles.size(); ++m) {
-    const std::array<const TriangleMesh*, 1> one = {&muscles[m]};
-    if (intersecting_faces(one).empty()) continue;
-    muscles[m] = fix_surface(muscles[m], names[m].name).mesh;
-    any = true;
+/// A muscle by itself, before the others are looked at.
+struct Shaped {
+  TriangleMesh repaired, mesh;
+  std::vector<std::string> repairs;
+};
+
+Shaped shaped(const NamedSurface& muscle, const PrepareSettings& settings, const Say& say) {
+  const TimeLimit limit(settings.time_limit);
+  say("repairing " + muscle.name);
+  FixedSurface fixed = fix_surface(muscle.mesh, muscle.name, 0.01, limit);
+  Shaped result{std::move(fixed.mesh), {}, std::move(fixed.repairs)};
+  if (muscle.largest_piece) result.repaired = largest_piece(result.repaired);
+  result.mesh = result.repaired;
+  smooth_surface(result.mesh, settings.smoothing_rounds);
+  if (settings.edge_length > 0 && !has_edges_about(result.mesh, settings.edge_length)) {
+    say("remeshing " + muscle.name);
+    result.mesh =
+        reshaped(result.mesh, settings, limit, [&](const std::string& text) { say(muscle.name + ": " + text); });
+  } else {
+    round_off(result.mesh, sharpest_turn, settings.rounding_rounds, farthest_rounding);
   }
-  return any;
+  untangle(result.mesh, muscle.name, settings, limit);
+  if (!is_solid(result.mesh)) result.mesh = fix_surface(result.mesh, muscle.name, 0.01, limit).mesh;
+  return result;
+}
+
+/// All muscles by themselves; what is wrong with any of them is told at once.
+std::vector<Shaped> shaped(const std::vector<NamedSurface>& muscles, const PrepareSettings& settings, const Say& say) {
+  std::vector<Shaped> result;
+  std::vector<Problem> problems;
+  for (const NamedSurface& muscle : muscles) try {
+      result.push_back(shaped(muscle, settings, say));
+    } catch (const OutOfTime&) {
+      problems.push_back(out_of_time(muscle.name, settings));
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return result;
 }
 
 /// How far separation took the surfaces: the distance of every vertex to the surface as it was before.
@@ -135,6 +151,95 @@ std::string name_of(Index surface, const std::vector<NamedSurface>& muscles, con
   return s < muscles.size() ? muscles[s].name : bones[s - muscles.size()].name;
 }
 
+/// Intersecting triangles of muscles with other muscles and bones.
+Index crossings_between(const std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones) {
+  Index sum = 0;
+  for (const auto& [pair, count] : count_crossings(muscles, bones))
+    if (pair.first != pair.second) sum += count;
+  return sum;
+}
+
+/// One pass of separation of the muscles' pieces, each of which is a body. Takes what it moved off each muscle's
+/// `budget` (m), which the first pass makes.
+Real separate_pieces(std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones,
+                     SeparationSettings apart, std::vector<Real>& budget, const TimeLimit& limit) {
+  std::vector<TriangleMesh> bodies;
+  std::vector<std::size_t> muscle_of;
+  for (std::size_t m = 0; m < muscles.size(); ++m)
+    for (TriangleMesh& piece : pieces_of(muscles[m])) {
+      bodies.push_back(std::move(piece));
+      muscle_of.push_back(m);
+      if (!budget.empty()) apart.at_most.push_back(budget[m]);
+    }
+  const SeparationResult result = separate(bodies, bones, apart, limit);
+  std::vector<Real> lacked(muscles.size(), 0), moved(muscles.size(), 0);
+  std::vector<std::vector<TriangleMesh>> pieces(muscles.size());
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const std::size_t m = muscle_of[b];
+    lacked[m] = std::max(lacked[m], result.lacked[b]);
+    moved[m] = std::max(moved[m], result.moved[b]);
+    pieces[m].push_back(std::move(bodies[b]));
+  }
+  for (std::size_t m = 0; m < muscles.size(); ++m) {
+    muscles[m] = merged(pieces[m]);
+    if (budget.size() <= m) budget.push_back(apart.farthest * lacked[m]);
+    budget[m] = std::max(Real{0}, budget[m] - moved[m]);
+  }
+  return result.shortfall;
+}
+
+/// By how much the worst gap is missed as things are, m.
+Real what_is_left(std::vector<TriangleMesh> muscles, const std::vector<TriangleMesh>& bones, SeparationSettings apart) {
+  apart.rounds = 0;
+  std::vector<Real> budget;
+  return separate_pieces(muscles, bones, apart, budget, TimeLimit());
+}
+
+/// Pulls overlaps apart. A muscle that this made swell stays as it was, and so do all where more triangles cut each
+/// other than before. Tells whether it succeeded.
+bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurface>& names,
+                const std::vector<TriangleMesh>& bones, const PrepareSettings& settings, Real& shortfall) {
+  std::size_t bodies = bones.size();
+  for (const TriangleMesh& muscle : muscles) bodies += pieces_of(muscle).size();
+  if (bodies < 2) return true;
+  const TimeLimit limit(settings.time_limit * static_cast<Real>(muscles.size()));
+  const SeparationSettings apart{.muscle_gap = settings.muscle_gap, .bone_gap = settings.bone_gap};
+  const std::vector<TriangleMesh> before = muscles;
+  std::vector<Real> budget;
+  try {
+    for (int pass = 1;; ++pass) {
+      shortfall = separate_pieces(muscles, bones, apart, budget, limit);
+      if (pass == passes) break;
+      // Triangles may have suffered; mending them may bring surfaces close again.
+      bool mended = false;
+      for (std::size_t m = 0; m < muscles.size(); ++m) {
+        if (settings.edge_length > 0 && budget[m] > 0 && muscles[m].vertices != before[m].vertices &&
+            !has_edges_about(muscles[m], settings.edge_length)) {
+          muscles[m] = remeshed(muscles[m], settings, limit);
+          mended = true;
+        }
+        mended = untangle(muscles[m], names[m].name, settings, limit) || mended;
+      }
+      if (!mended) break;
+    }
+    bool done = shortfall <= most_left;
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+      if (is_solid(muscles[m]) && volume_of(muscles[m]) <= (1 + most_growth) * volume_of(before[m])) continue;
+      muscles[m] = before[m];
+      done = false;
+    }
+    if (crossings_between(muscles, bones) <= crossings_between(before, bones)) {
+      if (!done) shortfall = what_is_left(muscles, bones, apart);
+      return done;
+    }
+  } catch (const OutOfTime&) {
+  } catch (const InputError&) {  // untangling left nothing
+  }
+  muscles = before;
+  shortfall = what_is_left(muscles, bones, apart);
+  return false;
+}
+
 }  // namespace
 
 PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
@@ -144,34 +249,20 @@ PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, cons
   PreparationReport& report = result.report;
   const std::vector<TriangleMesh> obstacles = meshes_of(bones);
   const Crossings before = count_crossings(meshes_of(muscles), obstacles);
-  for (const NamedSurface& muscle : muscles) {
-    say("repairing " + muscle.name);
-    FixedSurface fixed = fix_surface(muscle.mesh, muscle.name);
-    report.muscles.push_back({.name = muscle.name, .repairs = fixed.repairs});
-    result.muscles.push_back(std::move(fixed.mesh));
-  }
-  const std::vector<TriangleMesh> repaired = result.muscles;
+  std::vector<TriangleMesh> repaired;
   std::vector<NamedSurface> closed;
-  for (std::size_t m = 0; m < muscles.size(); ++m) closed.push_back({muscles[m].name, repaired[m]});
+  for (Shaped& muscle : shaped(muscles, settings, say)) {
+    const std::string& name = muscles[repaired.size()].name;
+    report.muscles.push_back({.name = name, .repairs = std::move(muscle.repairs)});
+    repaired.push_back(muscle.repaired);
+    closed.push_back({name, std::move(muscle.repaired)});
+    result.muscles.push_back(std::move(muscle.mesh));
+  }
   require_apart(closed, bones);
-  const SeparationSettings apart{.muscle_gap = settings.muscle_gap, .bone_gap = settings.bone_gap};
-  say("remeshing " + std::to_string(muscles.size()) + (muscles.size() == 1 ? " muscle" : " muscles"));
-  for (TriangleMesh& mesh : result.muscles) {
-    smooth_surface(mesh, settings.smoothing_rounds);
-    if (settings.edge_length > 0 && !has_edges_about(mesh, settings.edge_length)) mesh = reshaped(mesh, settings);
-    round_off(mesh, sharpest_turn, settings.rounding_rounds, farthest_rounding);
-  }
-  remesh_where_needed(result.muscles, settings);
-  untangle(result.muscles, muscles);
   const std::vector<TriangleMesh> apart_from = result.muscles;
-  say("pulling overlaps apart");
-  for (int pass = 1;; ++pass) {
-    report.largest_shortfall = separate(result.muscles, obstacles, apart).shortfall;
-    if (pass == passes) break;
-    // Triangles may have suffered; mending them may bring surfaces close again.
-    const bool remeshed = remesh_where_needed(result.muscles, settings);
-    if (!untangle(result.muscles, muscles) && !remeshed) break;
-  }
+  if (muscles.size() + bones.size() > 1) say("pulling overlaps apart");
+  report.pulled_apart = pull_apart(result.muscles, muscles, obstacles, settings, report.largest_shortfall);
+  if (!report.pulled_apart) say("overlaps could not be pulled apart everywhere; check the places of the surfaces");
   report_displacements(apart_from, result.muscles, report);
 
   say("measuring");
@@ -181,6 +272,7 @@ PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, cons
     const TriangleMesh& mesh = result.muscles[m];
     muscle.faces_before = muscles[m].mesh.face_count();
     muscle.faces_after = mesh.face_count();
+    muscle.pieces = static_cast<Index>(pieces_of(mesh).size());
     muscle.volume_before = enclosed_volume(repaired[m].vertices, repaired[m].faces);
     muscle.volume_after = enclosed_volume(mesh.vertices, mesh.faces);
     const SurfaceDistance there = distance_from_to(mesh, repaired[m]), back = distance_from_to(repaired[m], mesh);

@@ -34,6 +34,8 @@ struct Body {
   VertexStars stars;
   std::vector<Sample> samples;
   std::vector<Watch> watches;
+  Real lacked = 0;    ///< m by which its worst gap was missed before
+  Real at_most = -1;  ///< m that a vertex may move; below 0: a multiple of that
 };
 
 Vec3 place_of(const Body& body, const Sample& sample) {
@@ -53,6 +55,18 @@ Body make_body(TriangleMesh& mesh) {
   return body;
 }
 
+/// Every vector half of the way to the mean of its neighbors.
+void smooth_field(Points& field, const VertexStars& stars) {
+  const Points before = field;
+  for (Index v = 0; v < field.cols(); ++v) {
+    const Index begin = stars.offsets[static_cast<std::size_t>(v)],
+                end = stars.offsets[static_cast<std::size_t>(v) + 1];
+    Vec3 mean = Vec3::Zero();
+    for (Index i = begin; i < end; ++i) mean += before.col(stars.neighbors[static_cast<std::size_t>(i)]);
+    if (end > begin) field.col(v) += smoothing * (mean / (end - begin) - before.col(v));
+  }
+}
+
 class Separation {
  public:
   Separation(std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones,
@@ -62,20 +76,28 @@ class Separation {
     moved_.assign(bodies_.size(), true);
     for (const TriangleMesh& bone : bones) bones_.push_back(std::make_unique<SignedDistance>(bone));
     muscles_.resize(bodies_.size());
+    for (std::size_t m = 0; m < settings.at_most.size(); ++m) bodies_[m].at_most = settings.at_most[m];
   }
 
-  SeparationResult run() {
+  SeparationResult run(const TimeLimit& limit) {
     SeparationResult result;
     for (int round = 0;; ++round) {
+      limit.check();
       for (std::size_t m = 0; m < bodies_.size(); ++m)
         if (round == 0 || moved_[m]) muscles_[m] = std::make_unique<SignedDistance>(*bodies_[m].mesh);
       if (round % look_every == 0) look();
-      const std::vector<Points> pushes = push(result);
+      const std::vector<Points> pushes = push(result, round == 0);
       result.rounds = round;
-      if ((result.missed == 0 && round % look_every == 0) || round >= settings_.rounds) return result;
+      if ((result.missed == 0 && round % look_every == 0) || round >= settings_.rounds) break;
       const bool smooth = round < settings_.smooth_rounds;
       for (std::size_t m = 0; m < bodies_.size(); ++m) move(bodies_[m], pushes[m], smooth);
     }
+    for (const Body& body : bodies_) {
+      result.lacked.push_back(body.lacked);
+      const Points moved = body.mesh->vertices - body.start;
+      result.moved.push_back(moved.size() == 0 ? 0 : moved.colwise().norm().maxCoeff());
+    }
+    return result;
   }
 
  private:
@@ -109,10 +131,10 @@ class Separation {
   }
 
   /// The displacement that each vertex is asked for, and how far the worst sample is from its gap.
-  std::vector<Points> push(SeparationResult& result) const {
+  std::vector<Points> push(SeparationResult& result, bool at_first) {
     result.missed = 0, result.shortfall = 0;
     std::vector<Points> pushes;
-    for (const Body& body : bodies_) {
+    for (Body& body : bodies_) {
       std::vector<Vec3> asked(body.watches.size(), Vec3::Zero());
       parallel_for(static_cast<Index>(body.watches.size()), 512, [&](Index begin, Index end) {
         for (Index w = begin; w < end; ++w)
@@ -124,6 +146,7 @@ class Separation {
         const Real size = asked[w].norm();
         if (size == 0) continue;
         result.shortfall = std::max(result.shortfall, size);
+        if (at_first) body.lacked = std::max(body.lacked, size);
         if (size > settings_.tolerance) ++result.missed;
         const Sample& sample = body.samples[static_cast<std::size_t>(body.watches[w].sample)];
         // A muscle moves halfway, for the other does as much. Stronger demands count more, so that they are met soon.
@@ -158,21 +181,18 @@ class Separation {
   void move(Body& body, const Points& push, bool smooth) {
     const auto m = static_cast<std::size_t>(&body - bodies_.data());
     moved_[m] = !push.isZero(0);
-    Points& now = body.mesh->vertices;
-    now += push;
-    if (!smooth) return;
-    Points displacement = now - body.start;
-    if (displacement.isZero(0)) return;
-    const Points before = displacement;
-    for (Index v = 0; v < now.cols(); ++v) {
-      const Index begin = body.stars.offsets[static_cast<std::size_t>(v)],
-                  end = body.stars.offsets[static_cast<std::size_t>(v) + 1];
-      Vec3 mean = Vec3::Zero();
-      for (Index i = begin; i < end; ++i) mean += before.col(body.stars.neighbors[static_cast<std::size_t>(i)]);
-      if (end > begin) displacement.col(v) += smoothing * (mean / (end - begin) - before.col(v));
+    Points displacement = body.mesh->vertices + push - body.start;
+    if (smooth && !displacement.isZero(0)) {
+      smooth_field(displacement, body.stars);
+      moved_[m] = true;
     }
-    now = body.start + displacement;
-    moved_[m] = true;
+    if (!moved_[m]) return;
+    const Real farthest = body.at_most >= 0 ? body.at_most : settings_.farthest * body.lacked;
+    for (Index v = 0; v < displacement.cols(); ++v) {
+      const Real length = displacement.col(v).norm();
+      if (length > farthest) displacement.col(v) *= farthest / length;
+    }
+    body.mesh->vertices = body.start + displacement;
   }
 
   const SeparationSettings& settings_;
@@ -184,8 +204,8 @@ class Separation {
 }  // namespace
 
 SeparationResult separate(std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones,
-                          const SeparationSettings& settings) {
-  return Separation(muscles, bones, settings).run();
+                          const SeparationSettings& settings, const TimeLimit& limit) {
+  return Separation(muscles, bones, settings).run(limit);
 }
 
 }  // namespace gracilis

@@ -1,8 +1,6 @@
 #include <gracilis/prepare/smoothing.hpp>
 
-#include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 #include <algorithm>
@@ -19,8 +17,7 @@ static Real turn_at(const TriangleMesh& mesh, const MeshEdge& edge) {
   return std::atan2(left.cross(right).norm(), left.dot(right));
 }
 
-/// Every vertex moves by factor · weight of the way to the mean of its neighbors.
-static void move_to_means(Points& vertices, const VertexStars& stars, const Eigen::VectorXd& weights, Real factor) {
+void move_to_means(Points& vertices, const VertexStars& stars, const Eigen::VectorXd& weights, Real factor) {
   const Points before = vertices;
   for (Index v = 0; v < vertices.cols(); ++v) {
     const Index begin = stars.offsets[static_cast<std::size_t>(v)],
@@ -67,64 +64,6 @@ Index round_off(TriangleMesh& mesh, Real sharp, int rounds, Real farthest) {
       const Vec3 moved = mesh.vertices.col(v) - start.col(v);
       if (moved.norm() > farthest) mesh.vertices.col(v) = start.col(v) + moved.normalized() * farthest;
     }
-  }
-}
-
-static Points vertex_normals(const TriangleMesh& mesh) {
-  Points normals = Points::Zero(3, mesh.vertex_count());
-  for (Index f = 0; f < mesh.face_count(); ++f) {
-    const Vec3 normal = area_vector(mesh.vertices, mesh.faces.col(f));
-    for (int k = 0; k < 3; ++k) normals.col(mesh.faces(k, f)) += normal;
-  }
-  normals.colwise().normalize();
-  return normals;
-}
-
-/// Radius of the largest ball that touches the surface at p from inside, at most `largest`: a ball is shrunk until no
-/// part of the surface is in it (Ma, Bae and Choi 2012).
-static Real inner_radius(const NearestTriangle& surface, const Vec3& p, const Vec3& normal, Real largest) {
-  Real radius = largest;
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 center = p - radius * normal;
-    const NearestPoint nearest = surface.query(center, 0.97 * radius);
-    if (nearest.face < 0) break;
-    const Vec3 across = p - nearest.point;
-    const Real along = across.dot(normal);
-    // What is beside the vertex says nothing about what is opposite to it.
-    if (along < 0.3 * across.norm()) break;
-    radius = std::min(radius, across.squaredNorm() / (2 * along));
-  }
-  return radius;
-}
-
-void thicken(TriangleMesh& mesh, Real radius) {
-  constexpr int rounds = 15;
-  const MeshTopology topology = build_topology(mesh.faces, mesh.vertex_count());
-  const Points start = mesh.vertices;
-  for (int round = 0; round < rounds; ++round) {
-    const NearestTriangle surface(mesh);
-    const Points normals = vertex_normals(mesh);
-    Eigen::VectorXd lack(mesh.vertex_count());
-    parallel_for(mesh.vertex_count(), 256, [&](Index begin, Index end) {
-      for (Index v = begin; v < end; ++v)
-        lack[v] = radius - inner_radius(surface, mesh.vertices.col(v), normals.col(v), radius);
-    });
-    if (lack.maxCoeff() < 0.05 * radius) return;
-    // Smoothed as one row of a field along the surface.
-    for (int i = 0; i < 2; ++i) {
-      const Eigen::VectorXd before = lack;
-      for (Index v = 0; v < mesh.vertex_count(); ++v) {
-        const Index begin = topology.stars.offsets[static_cast<std::size_t>(v)],
-                    end = topology.stars.offsets[static_cast<std::size_t>(v) + 1];
-        for (Index j = begin; j < end; ++j)
-          lack[v] += (before[topology.stars.neighbors[static_cast<std::size_t>(j)]] - before[v]) / (2 * (end - begin));
-      }
-    }
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      const Vec3 moved = mesh.vertices.col(v) + 0.3 * lack[v] * normals.col(v) - start.col(v);
-      mesh.vertices.col(v) = start.col(v) + moved * std::min(1.0, radius / std::max(moved.norm(), 1e-12));
-    }
-    move_to_means(mesh.vertices, topology.stars, (lack.array() / radius).min(1).max(0), 0.3);
   }
 }
 

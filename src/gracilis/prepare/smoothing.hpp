@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/geometry/topology.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
 namespace gracilis {
@@ -14,11 +15,8 @@ void smooth_surface(TriangleMesh& mesh, int rounds);
 /// (m) in all. Returns the number of edges that are still as sharp.
 Index round_off(TriangleMesh& mesh, Real sharp, int rounds, Real farthest);
 
-/// Makes what is thinner than twice `radius` (m) that thick: where the largest ball that touches the surface from
-/// inside is smaller, the surface moves outwards, its surroundings fading along. Threads become cords and blades blunt,
-/// so that triangles of a given size can follow their round. No vertex moves further than `radius` in all. The surface
-/// must be closed and oriented outwards.
-void thicken(TriangleMesh& mesh, Real radius);
+/// Every vertex moves by `factor` · weight of the way to the mean of its neighbors.
+void move_to_means(Points& vertices, const VertexStars& stars, const Eigen::VectorXd& weights, Real factor);
 
 /// Edges at which the surface turns by more than `sharp` (rad). Open edges do not count.
 Index sharp_edge_count(const TriangleMesh& mesh, Real sharp);

@@ -5,32 +5,45 @@
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/prepare/cgal.hpp>
+#include <gracilis/prepare/cut_and_fill.hpp>
+#include <gracilis/prepare/rebuilding.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 namespace gracilis {
+namespace {
 
-static std::string counted(Index count, const std::string& thing, const std::string& things) {
+/// Volume over area to the power 3/2: 0.09 for a ball, 0.002 for a sheet of 2 mm of a hand's size. Less is no solid.
+constexpr Real flattest = 5e-5;
+constexpr Real least_area = 0.6;      ///< share that should be left of a surface
+constexpr Real least_volume = 0.002;  ///< share of all pieces'; less is a crumb, whatever its area
+
+std::string counted(Index count, const std::string& thing, const std::string& things) {
   return std::to_string(count) + " " + (count == 1 ? thing : things);
 }
 
-static bool is_solid(const MeshReport& report) {
+bool is_solid(const MeshReport& report) {
   return report.is_closed() && report.is_manifold() && report.is_oriented() && !report.degenerate_faces;
 }
 
-static Index self_intersection_count(const TriangleMesh& mesh) {
+bool is_flat(const MeshReport& report) { return !(report.volume > flattest * std::pow(report.area, 1.5)); }
+
+Index self_intersection_count(const TriangleMesh& mesh, const TimeLimit& limit) {
   const std::array<const TriangleMesh*, 1> one = {&mesh};
-  return static_cast<Index>(intersecting_faces(one).size());
+  return static_cast<Index>(intersecting_faces(one, false, limit).size());
 }
 
-static void take(RepairedMesh repaired, FixedSurface& fixed) {
+void take(RepairedMesh repaired, FixedSurface& fixed) {
   fixed.mesh = std::move(repaired.mesh);
   for (const std::string& repair : repaired.repairs) fixed.repairs.push_back(repair);
 }
 
 /// Only faces count: vertices that no face names are left behind.
-static void make_manifold(FixedSurface& fixed) {
+void make_manifold(FixedSurface& fixed) {
   const MeshReport before = inspect_mesh(fixed.mesh);
   fixed.mesh = manifold_of_soup(fixed.mesh);
   if (before.non_manifold_edges)
@@ -43,80 +56,138 @@ static void make_manifold(FixedSurface& fixed) {
     fixed.repairs.push_back("rebuilt how the faces hang together");
 }
 
-static void fill(FixedSurface& fixed) {
-  if (!inspect_mesh(fixed.mesh).open_edges) return;
-  const Index filled = fill_holes(fixed.mesh, std::numeric_limits<Real>::max());
-  if (filled > 0) fixed.repairs.push_back("filled " + counted(filled, "hole", "holes"));
+/// What was done to all pieces together.
+struct Tally {
+  Index filled = 0, flat = 0, tiny = 0, mended = 0, rebuilt = 0, nested = 0;
+};
+
+/// Closes one piece; empty where that cannot be, or where nothing is enclosed.
+TriangleMesh closed_piece(TriangleMesh piece, Tally& tally, const TimeLimit& limit) {
+  MeshReport report = inspect_mesh(piece);
+  if (report.open_edges) {
+    const Index filled = fill_holes(piece, std::numeric_limits<Real>::max(), true, limit);
+    tally.filled += filled;
+    report = inspect_mesh(piece = repair_mesh(piece).mesh);
+  }
+  if (!is_solid(report) || report.volume < 0) report = inspect_mesh(piece = repair_mesh(piece).mesh);
+  if (!is_solid(report) || is_flat(report)) {
+    piece = {};
+    ++tally.flat;
+  }
+  return piece;
 }
 
-static void untangle(FixedSurface& fixed, Real crumb_share) {
-  const Index before = self_intersection_count(fixed.mesh);
-  if (before == 0) return;
-  const bool clean = remove_self_intersections(fixed.mesh);
-  take(repair_mesh(fixed.mesh, crumb_share), fixed);
-  fixed.repairs.push_back(
-      (clean ? "removed " : "tried to remove ") +
-      counted(before, "pair of triangles that cut each other", "pairs of triangles that cut each other"));
+/// Returns how many.
+Index drop_tiny(std::vector<TriangleMesh>& pieces) {
+  Real sum = 0;
+  for (const TriangleMesh& piece : pieces) sum += enclosed_volume(piece.vertices, piece.faces);
+  return static_cast<Index>(std::erase_if(pieces, [&](const TriangleMesh& piece) {
+    return enclosed_volume(piece.vertices, piece.faces) < least_volume * sum;
+  }));
 }
 
-FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, Real crumb_share) {
+/// Self-intersections are cut out and filled, or else the piece is rebuilt.
+TriangleMesh without_self_intersections(TriangleMesh piece, Real crumb_share, Tally& tally, const TimeLimit& limit) {
+  if (self_intersection_count(piece, limit) == 0) return piece;
+  TriangleMesh mended = piece;
+  if (cut_and_fill(mended, crumb_share, limit) && !is_flat(inspect_mesh(mended))) {
+    ++tally.mended;
+    return mended;
+  }
+  ++tally.rebuilt;
+  return repair_mesh(rebuilt_as_solid(piece, limit), crumb_share).mesh;
+}
+
+void tell(const Tally& tally, FixedSurface& fixed) {
+  const auto add = [&](Index count, const std::string& before, const char* thing, const char* things,
+                       const std::string& after = "") {
+    if (count > 0) fixed.repairs.push_back(before + counted(count, thing, things) + after);
+  };
+  add(tally.filled, "filled ", "hole", "holes");
+  add(tally.flat, "dropped ", "piece", "pieces", " that could not be closed or enclose nothing");
+  add(tally.tiny, "dropped ", "tiny piece", "tiny pieces");
+  add(tally.mended, "cut out where ", "piece cuts itself and filled", "pieces cut themselves and filled", " the holes");
+  add(tally.rebuilt, "rebuilt ", "piece", "pieces", " from what it encloses, on a grid");
+  add(tally.nested, "dropped ", "shell that lies in another", "shells that lie in another");
+}
+
+[[noreturn]] void refuse(const std::string& name) {
+  throw InputError({name, "", "encloses no volume: it is flat, or its holes cannot be closed",
+                    "export a closed surface, or rebuild it in a mesh editor"});
+}
+
+void check_input(const TriangleMesh& mesh, const std::string& name) {
   if (mesh.face_count() == 0) throw InputError({name, "", "holds no faces", "export a triangle surface"});
-  const MeshReport as_given = inspect_mesh(mesh);
-  if (!as_given.is_finite())
+  if (!inspect_mesh(mesh).is_finite())
     throw InputError({name, "", "has coordinates that are not finite or faces that name vertices it does not have",
                       "export the surface again"});
+}
+
+/// Everything at once, where its pieces cannot be mended.
+void rebuild(FixedSurface& fixed, const std::string& name, Real crumb_share, const TimeLimit& limit) {
+  if (fixed.mesh.face_count() == 0) refuse(name);
+  fixed.mesh = repair_mesh(rebuilt_as_solid(fixed.mesh, limit), crumb_share).mesh;
+  if (!is_solid(inspect_mesh(fixed.mesh)) || is_flat(inspect_mesh(fixed.mesh))) refuse(name);
+  fixed.repairs.push_back("rebuilt the surface from what it encloses, on a grid");
+}
+
+/// Where much was dropped that could not be closed: all of it together may enclose more than what is left.
+void rebuild_if_more(const TriangleMesh& whole, FixedSurface& fixed, Real crumb_share, const TimeLimit& limit) {
+  const TriangleMesh rebuilt = repair_mesh(rebuilt_as_solid(whole, limit), crumb_share).mesh;
+  if (rebuilt.face_count() == 0 || inspect_mesh(rebuilt).volume < inspect_mesh(fixed.mesh).volume) return;
+  fixed.mesh = rebuilt;
+  fixed.repairs.push_back("rebuilt the surface from what it encloses, on a grid");
+}
+
+}  // namespace
+
+bool is_solid(const TriangleMesh& mesh) {
+  const MeshReport report = inspect_mesh(mesh);
+  return is_solid(report) && report.volume > 0;
+}
+
+FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, Real crumb_share, const TimeLimit& limit) {
+  check_input(mesh, name);
   FixedSurface fixed;
   take(repair_mesh(mesh, crumb_share), fixed);
   if (!is_solid(inspect_mesh(fixed.mesh))) {
     make_manifold(fixed);
     take(repair_mesh(fixed.mesh, crumb_share), fixed);
-    fill(fixed);
-    take(repair_mesh(fixed.mesh, crumb_share), fixed);
   }
-  if (fixed.mesh.face_count() == 0 || !is_solid(inspect_mesh(fixed.mesh)))
-    throw InputError({name, "", "cannot be made a closed surface", "rebuild it in a mesh editor"});
-  untangle(fixed, crumb_share);
-  return fixed;
-}
-
-std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh) {
-  const std::vector<Index> component = component_of_vertices(mesh);
-  const Index count = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+  Tally tally;
+  const TriangleMesh whole = fixed.mesh;
+  const Real area = surface_area(whole.vertices, whole.faces);
   std::vector<TriangleMesh> pieces;
-  for (Index c = 0; c < count; ++c) {
-    TriangleMesh piece{mesh.vertices, mesh.faces};
-    std::vector<Index> renumbered(component.size(), -1);
-    Index vertices = 0, faces = 0;
-    for (Index v = 0; v < mesh.vertex_count(); ++v)
-      if (component[static_cast<std::size_t>(v)] == c) {
-        piece.vertices.col(vertices) = mesh.vertices.col(v);
-        renumbered[static_cast<std::size_t>(v)] = vertices++;
-      }
-    for (Index f = 0; f < mesh.face_count(); ++f)
-      if (component[static_cast<std::size_t>(mesh.faces(0, f))] == c) {
-        for (int k = 0; k < 3; ++k) piece.faces(k, faces) = renumbered[static_cast<std::size_t>(mesh.faces(k, f))];
-        ++faces;
-      }
-    piece.vertices.conservativeResize(3, vertices);
-    piece.faces.conservativeResize(3, faces);
-    pieces.push_back(std::move(piece));
+  for (TriangleMesh& piece : pieces_of(whole)) {
+    limit.check();
+    piece = closed_piece(std::move(piece), tally, limit);
+    if (piece.face_count() > 0) pieces.push_back(std::move(piece));
   }
-  std::stable_sort(pieces.begin(), pieces.end(), [](const TriangleMesh& l, const TriangleMesh& r) {
-    return surface_area(l.vertices, l.faces) > surface_area(r.vertices, r.faces);
-  });
-  return pieces;
-}
-
-TriangleMesh merged(const std::vector<TriangleMesh>& meshes) {
-  TriangleMesh all;
-  for (const TriangleMesh& mesh : meshes) {
-    const Index vertices = all.vertex_count(), faces = all.face_count();
-    all.vertices.conservativeResize(3, vertices + mesh.vertex_count());
-    all.vertices.rightCols(mesh.vertex_count()) = mesh.vertices;
-    all.faces.conservativeResize(3, faces + mesh.face_count());
-    all.faces.rightCols(mesh.face_count()) = (mesh.faces.array() + vertices).matrix();
+  tally.tiny = drop_tiny(pieces);
+  if (pieces.empty()) {
+    rebuild(fixed, name, crumb_share, limit);
+    return fixed;
   }
-  return all;
+  for (TriangleMesh& piece : pieces) piece = without_self_intersections(std::move(piece), crumb_share, tally, limit);
+  std::erase_if(pieces, [](const TriangleMesh& piece) { return piece.face_count() == 0; });
+  if (pieces.empty()) refuse(name);
+  tally.nested = drop_nested(pieces);
+  const std::size_t count = pieces.size();
+  United all = united(std::move(pieces), limit);
+  // A union may enclose bubbles.
+  all.pieces = pieces_of(merged(all.pieces));
+  drop_tiny(all.pieces);
+  tell(tally, fixed);
+  if (all.united > 0)
+    fixed.repairs.push_back("united " + counted(static_cast<Index>(count), "piece", "pieces") + " that cut each other" +
+                            (all.exact ? "" : ", on a grid"));
+  fixed.mesh = merged(all.pieces);
+  if (all.pieces.size() > 1) take(repair_mesh(fixed.mesh, crumb_share), fixed);
+  if (tally.flat > 0 && surface_area(fixed.mesh.vertices, fixed.mesh.faces) < least_area * area)
+    rebuild_if_more(whole, fixed, crumb_share, limit);
+  const MeshReport report = inspect_mesh(fixed.mesh);
+  if (!is_solid(report) || !(report.volume > flattest * std::pow(area, 1.5))) refuse(name);
+  return fixed;
 }
 
 }  // namespace gracilis

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/prepare/pieces.hpp>
+#include <gracilis/prepare/time_limit.hpp>
 
 #include <string>
 #include <vector>
@@ -14,16 +16,15 @@ struct FixedSurface {
 };
 
 /// Repairs any triangle surface, in this order: what geometry/mesh_repair.hpp does; where that is not enough, equal
-/// vertices are merged, doubled faces dropped and sheets that meet in a vertex or an edge separated; pieces with less
-/// than `crumb_share` of the area are dropped; holes are filled; faces turned outwards; self-intersections removed. A
-/// sound surface comes back as it is. Throws InputError naming `name` when nothing is left or the surface cannot be
-/// made closed and manifold.
-FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, Real crumb_share = 0.01);
+/// vertices are merged, doubled faces dropped and sheets that meet in a vertex or an edge separated. Then each
+/// connected piece: with less than `crumb_share` of the area it is dropped, and where it encloses nothing; holes are
+/// filled; faces turned outwards; where it cuts itself that is cut out and filled, and where this fails it is rebuilt
+/// from what it encloses. Pieces that lie in another one are dropped, those that cut each other united. A sound surface
+/// comes back as it is. Throws InputError naming `name` when nothing of it encloses a volume, and OutOfTime.
+FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, Real crumb_share = 0.01,
+                         const TimeLimit& limit = TimeLimit());
 
-/// The connected pieces of a surface, largest area first.
-std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh);
-
-/// All surfaces in one mesh, one after the other.
-TriangleMesh merged(const std::vector<TriangleMesh>& meshes);
+/// Closed, manifold, oriented outwards, every triangle with an area: of one piece or more.
+bool is_solid(const TriangleMesh& mesh);
 
 }  // namespace gracilis

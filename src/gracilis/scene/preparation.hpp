@@ -14,6 +14,7 @@ namespace gracilis {
 struct NamedSurface {
   std::string name;
   TriangleMesh mesh;
+  bool largest_piece = false;  ///< of a muscle: only that of its closed pieces which encloses most is wanted
 };
 
 /// What happened to one muscle.
@@ -21,6 +22,7 @@ struct PreparedMuscleReport {
   std::string name;
   std::vector<std::string> repairs = {};  ///< one clause each
   Index faces_before = 0, faces_after = 0;
+  Index pieces = 1;                          ///< closed ones in the end
   Index vertices_moved = 0;                  ///< by separation, more than 0.1 mm
   Real mean_displacement = 0;                ///< m, of the moved vertices, by separation
   Real max_displacement = 0;                 ///< m, by separation
@@ -41,6 +43,7 @@ struct PreparationReport {
   std::vector<PreparedMuscleReport> muscles;
   std::vector<PreparedPairReport> pairs;  ///< those with intersections before or after
   Real largest_shortfall = 0;             ///< m by which the worst gap is missed in the end
+  bool pulled_apart = true;               ///< false: gaps are missed by more than 1 mm, or muscles stay as they were
 };
 
 struct PreparedSurfaces {
@@ -49,7 +52,7 @@ struct PreparedSurfaces {
 };
 
 /// Changes whenever the same input gives another result, so that what older versions made is not taken for it.
-inline constexpr int preparation_version = 3;
+inline constexpr int preparation_version = 4;
 
 /// Prepares muscles that lie among bones, which stay as they are; says on `say` what it does.
 using PrepareFunction = std::function<PreparedSurfaces(

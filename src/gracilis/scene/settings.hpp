@@ -14,12 +14,14 @@ struct DistanceFieldSettings {
 
 /// Settings of the optional preparation of a scene's muscles before anything else is done with them.
 struct PrepareSettings {
-  Real edge_length = 0.003;   ///< m, of the new triangles; 0 keeps the triangles
-  int remeshing_rounds = 10;  ///< of splitting, collapsing, flipping and smoothing
-  int smoothing_rounds = 0;   ///< of the whole surface, before it is remeshed
-  int rounding_rounds = 20;   ///< of sharp rims and spikes
-  Real muscle_gap = 0.0003;   ///< m, kept between two muscles
-  Real bone_gap = 0.0003;     ///< m, kept between a muscle and a bone
+  Real edge_length = 0.003;       ///< m, of the new triangles; 0 keeps the triangles
+  int remeshing_rounds = 10;      ///< of splitting, collapsing, flipping and smoothing
+  int smoothing_rounds = 0;       ///< of the whole surface, before it is remeshed
+  int rounding_rounds = 20;       ///< of sharp rims and spikes
+  Real muscle_gap = 0.0003;       ///< m, kept between two muscles
+  Real bone_gap = 0.0003;         ///< m, kept between a muscle and a bone
+  Real volume_tolerance = 0.005;  ///< share by which remeshing and rounding may change a volume; 1: as it comes
+  Real time_limit = 40;           ///< s for each surface; 0: none
 };
 
 template <>

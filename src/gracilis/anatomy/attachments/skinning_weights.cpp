@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/attachments/skinning_weights.hpp>
 
+#include <gracilis/anatomy/attachments/joined_pieces.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
 
@@ -38,9 +39,10 @@ static void grade(const std::vector<Real>& squares, const std::vector<Real>& ten
     conductance[e] = std::sqrt(conductance[e] * std::pow(std::max(squares[e] / mean, Real{1}), tendon[e]));
 }
 
-Eigen::MatrixXf skinning_weights(const TriangleMesh& surface, const MeshTopology& topology,
+Eigen::MatrixXf skinning_weights(const TriangleMesh& surface, const MeshTopology& of_surface,
                                  const std::vector<Index>& fixed_body, const std::vector<Index>& bodies,
                                  Real tendon_length) {
+  const MeshTopology topology = joined_pieces(surface, of_surface, fixed_body);
   std::vector<Index> fixed;
   for (Index v = 0; v < surface.vertex_count(); ++v)
     if (fixed_body[static_cast<std::size_t>(v)] >= 0) fixed.push_back(v);

@@ -1,6 +1,7 @@
 #include <gracilis/io/mesh/load_surface.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/mesh_pieces.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 
@@ -17,8 +18,7 @@ static std::string counted(const MeshDefect& defect, const char* thing, const ch
   return fmt::format("{} {}", defect.count, defect.count == 1 ? thing : things);
 }
 
-/// What makes a surface useless in any role.
-static std::vector<Problem> fatal_problems(const MeshReport& report, Real unit, const std::string& file) {
+std::vector<Problem> fatal_problems(const MeshReport& report, Real unit, const std::string& file) {
   if (report.out_of_range_faces) {
     return {{file, fmt::format("face {}", report.out_of_range_faces.first),
              fmt::format("{} vertices that do not exist",
@@ -47,31 +47,28 @@ static std::vector<Problem> fatal_problems(const MeshReport& report, Real unit, 
   return {};
 }
 
+/// The command that mends a file; for surfaces from elsewhere its name stands as it is.
+static std::string mending(Real unit, const std::string& file) {
+  const char* in_unit = unit == 0.001 ? " --unit mm" : unit == 0.01 ? " --unit cm" : "";
+  return fmt::format("'gracilis prepare {}{} --out prepared' mends it", file, in_unit);
+}
+
 /// What is wrong with the surface's shape after repair: an error for a muscle, a warning for a bone.
-static std::vector<Problem> shape_problems(const MeshReport& report, const std::string& file) {
+static std::vector<Problem> shape_problems(const MeshReport& report, Real unit, const std::string& file) {
   std::vector<Problem> problems;
-  const auto add = [&](const MeshDefect& defect, const char* element, const std::string& what, const char* remedy) {
-    if (defect) problems.push_back({file, fmt::format("{} {}", element, defect.first), what, remedy});
+  const auto add = [&](const MeshDefect& defect, const char* element, const std::string& what) {
+    if (defect) problems.push_back({file, fmt::format("{} {}", element, defect.first), what, mending(unit, file)});
   };
-  add(report.open_edges, "face", "lies at a hole: " + counted(report.open_edges, "open edge", "open edges"),
-      "close the holes in a mesh editor");
+  add(report.open_edges, "face", "lies at a hole: " + counted(report.open_edges, "open edge", "open edges"));
   add(report.non_manifold_edges, "face",
-      counted(report.non_manifold_edges, "edge has more than two faces", "edges have more than two faces"),
-      "remove the inner or doubled faces in a mesh editor");
+      counted(report.non_manifold_edges, "edge has more than two faces", "edges have more than two faces"));
   add(report.pinched_vertices, "vertex",
       "joins parts of the surface in a point: " +
-          counted(report.pinched_vertices, "pinched vertex", "pinched vertices"),
-      "separate the parts in a mesh editor");
+          counted(report.pinched_vertices, "pinched vertex", "pinched vertices"));
   add(report.inconsistent_edges, "face",
       "disagrees with a neighbor about inside and outside: " +
-          counted(report.inconsistent_edges, "such edge", "such edges"),
-      "a surface with one side only cannot be used; rebuild it");
-  add(report.degenerate_faces, "face", "has no area: " + counted(report.degenerate_faces, "such face", "such faces"),
-      "remesh the surface");
-  if (report.components > 1) {
-    problems.push_back({file, "", fmt::format("consists of {} separate pieces", report.components),
-                        "keep one piece, or make each a surface of its own"});
-  }
+          counted(report.inconsistent_edges, "such edge", "such edges"));
+  add(report.degenerate_faces, "face", "has no area: " + counted(report.degenerate_faces, "such face", "such faces"));
   return problems;
 }
 
@@ -84,7 +81,7 @@ LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, 
   loaded.mesh = std::move(repaired.mesh);
   loaded.report = inspect_mesh(loaded.mesh);
   for (const std::string& repair : repaired.repairs) loaded.repairs.push_back(name + ": " + repair);
-  const std::vector<Problem> problems = shape_problems(loaded.report, name);
+  const std::vector<Problem> problems = shape_problems(loaded.report, unit, name);
   if (role == SurfaceRole::muscle && !problems.empty()) throw InputError(problems);
   for (const Problem& problem : problems) {
     loaded.warnings.push_back(to_string({problem.file, problem.where, problem.what, "tolerated in a bone"}));
@@ -100,7 +97,10 @@ std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& files) {
   std::vector<LoadOutcome> outcomes(files.size());
   parallel_for_each(files.size(), [&](std::size_t i) {
     try {
-      outcomes[i].loaded = load_surface(files[i].path, files[i].unit, files[i].role);
+      const SurfaceFile& file = files[i];
+      outcomes[i].loaded = file.largest_piece ? check_surface(largest_piece(read_mesh(file.path, file.unit)), file.unit,
+                                                              file.role, file.path.string())
+                                              : load_surface(file.path, file.unit, file.role);
     } catch (const InputError& error) {
       outcomes[i].error = error;
     }

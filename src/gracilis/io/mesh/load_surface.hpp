@@ -36,6 +36,7 @@ struct SurfaceFile {
   std::filesystem::path path;
   Real unit = 1;  ///< length of the file's unit, m
   SurfaceRole role = SurfaceRole::muscle;
+  bool largest_piece = false;  ///< only the piece that encloses most
 };
 /// What load_surface answers with or throws.
 struct LoadOutcome {
@@ -45,6 +46,10 @@ struct LoadOutcome {
 
 /// Loads several surfaces at the same time; answers in their order.
 std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& files);
+
+/// What makes a surface useless in any role, mended or not: no faces, no area, coordinates that are not finite, or a
+/// size that shows that `unit` is wrong. `file` stands in messages.
+std::vector<Problem> fatal_problems(const MeshReport& report, Real unit, const std::string& file);
 
 /// The same checks for a surface already in memory, whatever its origin; `name` stands for the file in messages.
 LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, const std::string& name);

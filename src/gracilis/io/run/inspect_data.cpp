@@ -32,9 +32,9 @@ static Json defects_of(const MeshReport& report) {
 }
 
 /// Whether the surface can be used in this role, after which repairs, or why not.
-static Json verdict(const TriangleMesh& mesh, Real unit, SurfaceRole role) {
+static Json verdict(const TriangleMesh& mesh, Real unit, SurfaceRole role, const std::string& file) {
   try {
-    const LoadedMesh loaded = check_surface(mesh, unit, role, "surface");
+    const LoadedMesh loaded = check_surface(mesh, unit, role, file);
     Json verdict = {{"usable", true}};
     if (!loaded.repairs.empty()) verdict["repairs"] = loaded.repairs;
     if (!loaded.warnings.empty()) verdict["warnings"] = loaded.warnings;
@@ -69,8 +69,8 @@ Json inspect_surface(const std::filesystem::path& path) {
           {"components", report.components},
           {"genus", report.genus < 0 ? Json() : Json(report.genus)},
           {"defects", defects_of(report)},
-          {"as_muscle", verdict(mesh, millimetres ? 0.001 : 1, SurfaceRole::muscle)},
-          {"as_bone", verdict(mesh, millimetres ? 0.001 : 1, SurfaceRole::bone)}};
+          {"as_muscle", verdict(mesh, millimetres ? 0.001 : 1, SurfaceRole::muscle, path.string())},
+          {"as_bone", verdict(mesh, millimetres ? 0.001 : 1, SurfaceRole::bone, path.string())}};
 }
 
 Json inspect_table(const std::filesystem::path& path) {

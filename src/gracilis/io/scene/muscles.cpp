@@ -53,6 +53,9 @@ MuscleDescription read_muscle(TomlReader table, const MuscleDefaults& defaults, 
   description.place = table.place();
   muscle.name = table.required_text("name");
   description.surface = read_surface(table);
+  const std::string piece = table.text("piece").value_or("all");
+  description.surface.largest_piece = piece == "largest";
+  if (piece != "all" && piece != "largest") table.add_problem("piece", "'piece' must be \"all\" or \"largest\"");
   muscle.fibers = defaults.fibers;
   muscle.contraction = defaults.contraction;
   if (std::optional<TomlReader> own = table.table("fibers")) read_fibers(std::move(*own), description);

@@ -6,16 +6,20 @@
 
 namespace gracilis::sections {
 
-template <class Elements>
-static std::vector<NamedSurface> surfaces_of(const Elements& elements) {
+std::vector<NamedSurface> muscle_surfaces(const SceneInProgress& progress) {
+  const Scene& scene = progress.loaded.scene;
   std::vector<NamedSurface> surfaces;
-  for (const auto& each : elements) surfaces.push_back({each.name, each.surface});
+  for (std::size_t m = 0; m < scene.muscles.size(); ++m)
+    surfaces.push_back(
+        {scene.muscles[m].name, scene.muscles[m].surface, progress.description.muscles[m].surface.largest_piece});
   return surfaces;
 }
 
-std::vector<NamedSurface> muscle_surfaces(const Scene& scene) { return surfaces_of(scene.muscles); }
-
-std::vector<NamedSurface> bone_surfaces(const Scene& scene) { return surfaces_of(scene.bones); }
+std::vector<NamedSurface> bone_surfaces(const SceneInProgress& progress) {
+  std::vector<NamedSurface> surfaces;
+  for (const Bone& bone : progress.loaded.scene.bones) surfaces.push_back({bone.name, bone.surface});
+  return surfaces;
+}
 
 static void reject_listed_vertices(SceneInProgress& progress) {
   for (const MuscleDescription& muscle : progress.description.muscles)
@@ -34,8 +38,8 @@ void prepare_muscles(SceneInProgress& progress) {
   const auto say = options.say ? options.say : [](const std::string&) {};
   const auto warn = [&](const std::string& warning) { progress.loaded.warnings.push_back(warning); };
   const std::vector<TriangleMesh> prepared =
-      cached_preparation(muscle_surfaces(scene), bone_surfaces(scene), *progress.description.prepare, options.prepare,
-                         say, default_cache_folder(), warn);
+      cached_preparation(muscle_surfaces(progress), bone_surfaces(progress), *progress.description.prepare,
+                         options.prepare, say, default_cache_folder(), warn);
   for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
     Muscle& muscle = scene.muscles[m];
     muscle.surface = check_surface(prepared[m], 1, SurfaceRole::muscle, "prepared " + muscle.name).mesh;

@@ -13,6 +13,7 @@ std::string to_text(const PreparationReport& report) {
     text += fmt::format("{}: {} triangles, before {}; volume {:.2f} cm³, before {:.2f} ({:+.2f} %)\n", m.name,
                         m.faces_after, m.faces_before, m.volume_after * cm3, m.volume_before * cm3,
                         100 * (m.volume_after / m.volume_before - 1));
+    if (m.pieces > 1) text += fmt::format("  {} closed pieces\n", m.pieces);
     if (!m.repairs.empty()) text += fmt::format("  repaired: {}\n", fmt::join(m.repairs, "; "));
     text += fmt::format("  pulled apart: {} vertices by {:.2f} mm in the mean, {:.2f} mm at most\n", m.vertices_moved,
                         m.mean_displacement * mm, m.max_displacement * mm);
@@ -25,6 +26,7 @@ std::string to_text(const PreparationReport& report) {
   for (const PreparedPairReport& p : report.pairs)
     text += fmt::format("{} and {}: {} pairs of triangles cut each other, before {}\n", p.a, p.b, p.intersections_after,
                         p.intersections_before);
+  if (!report.pulled_apart) text += "overlaps could not be pulled apart everywhere; muscles that this made swell are as they were before\n";
   text += fmt::format("worst gap missed by {:.3f} mm\n", report.largest_shortfall * mm);
   return text;
 }
@@ -37,6 +39,7 @@ nlohmann::ordered_json to_json(const PreparationReport& report) {
                                {"repairs", m.repairs},
                                {"triangles_before", m.faces_before},
                                {"triangles", m.faces_after},
+                               {"pieces", m.pieces},
                                {"volume_before_cm3", m.volume_before * cm3},
                                {"volume_cm3", m.volume_after * cm3},
                                {"vertices_moved", m.vertices_moved},
@@ -55,6 +58,7 @@ nlohmann::ordered_json to_json(const PreparationReport& report) {
                              {"b", p.b},
                              {"intersections_before", p.intersections_before},
                              {"intersections", p.intersections_after}});
+  json["pulled_apart"] = report.pulled_apart;
   json["largest_shortfall_mm"] = report.largest_shortfall * mm;
   return json;
 }

@@ -29,7 +29,8 @@ static fs::path file_of(const std::vector<NamedSurface>& muscles, const std::vec
                         const PrepareSettings& settings, const fs::path& folder) {
   std::string bytes = std::string(muscles_format) + std::to_string(preparation_version) + "\n";
   for (const auto& [key, value] : list_settings(settings)) bytes += key + "=" + to_text(value) + "\n";
-  for (const NamedSurface& muscle : muscles) bytes += "muscle " + bytes_of(muscle.mesh);
+  for (const NamedSurface& muscle : muscles)
+    bytes += (muscle.largest_piece ? "largest of muscle " : "muscle ") + bytes_of(muscle.mesh);
   for (const NamedSurface& bone : bones) bytes += "bone " + bytes_of(bone.mesh);
   return folder / (content_hash_of(bytes) + ".muscles");
 }
@@ -84,7 +85,8 @@ std::vector<TriangleMesh> cached_preparation(const std::vector<NamedSurface>& mu
   say("preparing " + std::to_string(muscles.size()) + " muscles; this is done once");
   PreparedSurfaces prepared = prepare(muscles, bones, settings, say);
   say(to_text(prepared.report));
-  if (folder.empty()) return prepared.muscles;
+  // What failed is tried again, and never taken for what was asked for.
+  if (folder.empty() || !prepared.report.pulled_apart) return prepared.muscles;
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) return prepared.muscles;

@@ -35,6 +35,7 @@ struct BoxDescription {
 struct SurfaceDescription {
   NamedFile file;
   std::optional<BoxDescription> box;
+  bool largest_piece = false;  ///< of a muscle's closed pieces only that which encloses most
 };
 
 struct BoneDescription {

@@ -85,7 +85,7 @@ SceneSurfaces read_scene_surfaces(const fs::path& path, const SceneOptions& opti
   progress.stop_at<ConfigurationError>();
   read_files(progress, true);
   const Scene& scene = progress.loaded.scene;
-  return {scene.name, sections::muscle_surfaces(scene), sections::bone_surfaces(scene),
+  return {scene.name, sections::muscle_surfaces(progress), sections::bone_surfaces(progress),
           description.prepare.value_or(PrepareSettings{})};
 }
 

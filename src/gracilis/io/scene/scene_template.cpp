@@ -99,6 +99,7 @@ range_deg = [-30, 120] # optional: leaving it is warned about, never clamped; de
 name = "gluteus_maximus_r"
 file = "gluteus_maximus_r.ply"
 unit = "mm"
+piece = "all"          # optional: the surface may consist of several closed pieces; "largest" keeps only one
 
 # Optional: any key of [settings] below, for this muscle alone. Also wins over --set KEY=VALUE; --set MUSCLE.KEY=VALUE wins
 # over it.

@@ -48,7 +48,7 @@ SurfaceLoader::SurfaceLoader(SceneInProgress& progress, bool muscles_stay_raw)
     const fs::path path = located(progress, surface.file);
     if (path.empty()) return;
     surfaces.push_back(&surface);
-    files.push_back({path, surface.file.unit, role});
+    files.push_back({path, surface.file.unit, role, surface.largest_piece});
   };
   for (const BoneDescription& bone : progress.description.bones) add(bone.surface, SurfaceRole::bone);
   for (const MuscleDescription& muscle : progress.description.muscles) add(muscle.surface, SurfaceRole::muscle);

@@ -1,0 +1,134 @@
+#include <gracilis/prepare/pieces.hpp>
+
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/mesh_inspection.hpp>
+#include <gracilis/geometry/mesh_repair.hpp>
+#include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/prepare/cgal.hpp>
+#include <gracilis/prepare/rebuilding.hpp>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace gracilis {
+
+/// What cuts each other more often costs exact arithmetic minutes, and is no clean overlap.
+static constexpr std::ptrdiff_t most_exact_pairs = 5000;
+static constexpr std::size_t most_exact_pieces = 8;
+
+static Real volume_of(const TriangleMesh& mesh) { return enclosed_volume(mesh.vertices, mesh.faces); }
+
+/// Some vertices, spread over the surface, and whether nearly all of them lie in another one, or on it.
+static bool lies_in(const TriangleMesh& mesh, const SignedDistance& other, Real tolerance) {
+  const Index step = std::max<Index>(1, mesh.vertex_count() / 300);
+  Index inside = 0, count = 0;
+  for (Index v = 0; v < mesh.vertex_count(); v += step, ++count)
+    if (other.query(mesh.vertices.col(v)).distance < tolerance) ++inside;
+  return Real(inside) >= 0.98 * Real(count);
+}
+
+Index drop_nested(std::vector<TriangleMesh>& pieces) {
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const TriangleMesh& l, const TriangleMesh& r) { return volume_of(l) > volume_of(r); });
+  std::vector<TriangleMesh> kept;
+  std::vector<SignedDistance> around;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (TriangleMesh& piece : pieces) {
+    const Eigen::AlignedBox3d box = bounding_box(piece.vertices);
+    const Real tolerance = 1e-4 * box.diagonal().norm();
+    bool nested = false;
+    for (std::size_t k = 0; k < kept.size() && !nested; ++k)
+      nested = boxes[k].intersects(box) && lies_in(piece, around[k], tolerance);
+    if (nested) continue;
+    boxes.push_back(box);
+    around.emplace_back(piece);
+    kept.push_back(std::move(piece));
+  }
+  const auto dropped = static_cast<Index>(pieces.size() - kept.size());
+  pieces = std::move(kept);
+  return dropped;
+}
+
+/// Pairs of triangles of the two that meet and have no corner in common: pieces that were joined in a vertex or an edge
+/// touch there.
+static std::ptrdiff_t crossing_pairs(const TriangleMesh& a, const TriangleMesh& b, const TimeLimit& limit) {
+  if (!bounding_box(a.vertices).intersects(bounding_box(b.vertices))) return 0;
+  const std::array<const TriangleMesh*, 2> both = {&a, &b};
+  const auto touch = [&](const FacePair& pair) {
+    for (const Index i : a.faces.col(pair.face_a))
+      for (const Index j : b.faces.col(pair.face_b))
+        if (a.vertices.col(i) == b.vertices.col(j)) return true;
+    return false;
+  };
+  const std::vector<FacePair> pairs = intersecting_faces(both, true, limit);
+  return std::count_if(pairs.begin(), pairs.end(), [&](const FacePair& pair) { return !touch(pair); });
+}
+
+static bool cuts_itself(const TriangleMesh& mesh, const TimeLimit& limit) {
+  const std::array<const TriangleMesh*, 1> one = {&mesh};
+  return !intersecting_faces(one, false, limit).empty();
+}
+
+/// None where exact arithmetic cannot, or would take minutes.
+static std::optional<TriangleMesh> sound_union(const TriangleMesh& a, const TriangleMesh& b, const TimeLimit& limit) {
+  const std::ptrdiff_t pairs = crossing_pairs(a, b, limit);
+  if (pairs == 0) return merged({a, b});
+  if (pairs > most_exact_pairs) return std::nullopt;
+  const std::optional<TriangleMesh> both = exact_union(a, b);
+  if (!both) return std::nullopt;
+  TriangleMesh mended = repair_mesh(*both).mesh;
+  const MeshReport report = inspect_mesh(mended);
+  const bool sound = report.is_closed() && report.is_manifold() && report.is_oriented() && !report.degenerate_faces &&
+                     report.volume > 0.99 * std::max(volume_of(a), volume_of(b));
+  if (!sound || cuts_itself(mended, limit)) return std::nullopt;
+  return mended;
+}
+
+/// Of pieces that hang together by their overlaps.
+static TriangleMesh union_of(const std::vector<TriangleMesh>& pieces, const TimeLimit& limit, bool& exact) {
+  TriangleMesh whole = pieces.front();
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    limit.check();
+    std::optional<TriangleMesh> both =
+        pieces.size() <= most_exact_pieces ? sound_union(whole, pieces[k], limit) : std::nullopt;
+    if (!both) {
+      exact = false;
+      return rebuilt_as_solid(merged(pieces), limit);
+    }
+    whole = std::move(*both);
+  }
+  return whole;
+}
+
+/// For every piece the number of its group: those that cut each other, directly or by others between them.
+static std::vector<std::size_t> groups_of(const std::vector<TriangleMesh>& pieces, const TimeLimit& limit) {
+  std::vector<std::size_t> group(pieces.size());
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    limit.check();
+    group[k] = k;
+    for (std::size_t i = 0; i < k; ++i) {
+      if (group[i] == group[k] || crossing_pairs(pieces[i], pieces[k], limit) == 0) continue;
+      const std::size_t from = std::max(group[i], group[k]), to = std::min(group[i], group[k]);
+      for (std::size_t& g : group)
+        if (g == from) g = to;
+    }
+  }
+  return group;
+}
+
+United united(std::vector<TriangleMesh> pieces, const TimeLimit& limit) {
+  United result;
+  const std::vector<std::size_t> group = groups_of(pieces, limit);
+  for (std::size_t g = 0; g < pieces.size(); ++g) {
+    std::vector<TriangleMesh> members;
+    for (std::size_t k = g; k < pieces.size(); ++k)
+      if (group[k] == g) members.push_back(std::move(pieces[k]));
+    if (members.empty()) continue;
+    result.united += static_cast<Index>(members.size()) - 1;
+    result.pieces.push_back(members.size() == 1 ? std::move(members.front()) : union_of(members, limit, result.exact));
+  }
+  return result;
+}
+
+}  // namespace gracilis
