@@ -149,7 +149,7 @@ threshold = 0.02
 # first_point = 0
 # last_point = 3
 
-# At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of four ways:
+# At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of five ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.
 [[muscles.attachments]]
 name = "ilium"
@@ -183,6 +183,16 @@ name = "trochanter"
 end = "insertion"
 bone = "femur_r"
 bone_distance_mm = 3
+
+# 5. 'patch': within landmark_distance_mm of an open surface that lies on the bone; of its pieces those count that are nearest
+# to 'bone', and bone_distance_mm may be given, too.
+# [[muscles.attachments]]
+# name = "ischium"
+# end = "origin"
+# bone = "hip_bone_r"
+# patch = "patches/adductor_magnus_r.ply"
+# unit = "mm"
+# landmark_distance_mm = 3
 
 # Optional, for method = "cylinder": a section that gives way. It stays on its side of another muscle's section, to whose
 # corner its own is joined, and out of that muscle and of bones.
