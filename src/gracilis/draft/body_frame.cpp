@@ -147,7 +147,7 @@ BodyFrame body_frame(const FoundFolder& found, const std::vector<std::optional<B
   forward = (forward - forward.dot(frame.superior) * frame.superior).normalized();
   frame.anterior = up_is_straight ? straightened(forward, nearly_straight, forward_is_straight) : forward;
   const bool on_a_line = turn.flatness < 0.02;
-  frame.certainty = (on_a_line ? 0.5 : 0.8) + (up_is_straight && forward_is_straight ? 0.15 : 0);
+  frame.certainty = up_is_straight && forward_is_straight ? (on_a_line ? 0.8 : 0.95) : on_a_line ? 0.5 : 0.8;
   frame.how = fmt::format("the turn that brings {} bones nearest to a standing person's{}", found.bones.size(),
                           up_is_straight && forward_is_straight ? ", taken to the nearest axes of the files' frame"
                           : on_a_line                           ? "; they lie nearly on one line"

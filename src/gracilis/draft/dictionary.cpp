@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 namespace gracilis::embedded {
@@ -84,15 +85,25 @@ void add_bones(const toml::table& table, Dictionary& known) {
   }
 }
 
-Site read_site(const std::string& text) {
+Site read_site(const std::string& text, bool or_before) {
+  Site site{text};
+  site.or_before = or_before;
   const std::size_t at = text.find('@'), dash = text.find('-', at == std::string::npos ? text.size() : at);
-  if (at == std::string::npos || dash == std::string::npos) return {text};
-  return {text.substr(0, at), std::stod(text.substr(at + 1, dash - at - 1)), std::stod(text.substr(dash + 1))};
+  if (at == std::string::npos || dash == std::string::npos) return site;
+  site.bone = text.substr(0, at);
+  site.from = std::stod(text.substr(at + 1, dash - at - 1));
+  site.to = std::stod(text.substr(dash + 1));
+  return site;
 }
 
 std::vector<Site> sites(const toml::node_view<const toml::node> list) {
   std::vector<Site> result;
-  for (const std::string& text : texts(list)) result.push_back(read_site(text));
+  for (const std::string& text : texts(list)) {
+    std::istringstream alternatives(text);
+    bool is_first = true;
+    for (std::string each; std::getline(alternatives, each, '|'); is_first = false)
+      result.push_back(read_site(each, !is_first));
+  }
   return result;
 }
 

@@ -29,6 +29,7 @@ struct KnownBone {
 struct Site {
   std::string bone;
   Real from = 0, to = 1;
+  bool or_before = false;  ///< only where the bone of the site before is not here
 
   bool is_part() const { return from > 0 || to < 1; }
 };

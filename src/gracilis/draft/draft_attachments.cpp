@@ -189,8 +189,10 @@ std::vector<DraftAttachment> draft_attachments(const FoundMuscle& muscle, const 
   if (muscle.known) {
     for (const AttachmentEnd end : both)
       if (!draft.has_end(end)) draft.touch(end);
-    for (const AttachmentEnd end : both)
-      if (!draft.has_end(end)) draft.reach(end);
+    // What is nearest to bones that are here comes first: the other end may be the one that is farthest from it.
+    for (int round = 0; round < 2; ++round)
+      for (const AttachmentEnd end : both)
+        if (!draft.has_end(end)) draft.reach(end);
   } else if (draft.drafted.empty()) {
     draft.touch_any();
   }

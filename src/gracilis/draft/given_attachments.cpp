@@ -13,7 +13,7 @@
 namespace gracilis {
 namespace {
 
-constexpr std::array<Real, 8> patch_reaches = {0.002, 0.003, 0.004, 0.005, 0.006, 0.008, 0.01, 0.015};
+constexpr std::array<Real, 7> patch_reaches = {0.003, 0.004, 0.005, 0.006, 0.008, 0.01, 0.015};
 constexpr Real far_from_muscle = 0.025, near_bone = 0.008;  // m, of landmarks
 
 bool has(const std::vector<Zone>& zones, std::size_t bone) {
@@ -93,7 +93,7 @@ void hold_by_landmarks(DraftAttachment& attachment, const std::optional<std::siz
   const Spacing spacing = spacing_of(attachment.points);
   attachment.line = bone ? spacing.line : LineKind::cloud;
   const std::vector<LandmarkSet> sets = {{attachment.points, attachment.line}};
-  const Real reach = std::clamp(1.2 * spacing.largest, 0.004, 0.012);
+  const Real reach = bone ? std::clamp(1.2 * spacing.largest, 0.008, 0.012) : 0.012;
   for (const Real wider : {1.0, 1.3, 1.7, 2.2, 3.0}) {
     attachment.landmark_distance = std::ceil(reach * wider * 1000) / 1000;
     attachment.bone_distance = bone ? std::ceil(0.004 * wider * 1000) / 1000 : 0;

@@ -10,7 +10,7 @@ const std::set<std::string> hip_parts = {"ilium", "ischium", "pubis"};
 const std::set<std::string> hip_wholes = {"hip_bone", "pelvis"};
 
 /// How far beyond a part of a long bone, as shares of its length, its attachments reach in other people.
-constexpr Real part_margin = 0.04;
+constexpr Real part_margin = 0.05;
 
 /// The segment that a site's bones belong to.
 std::string segment_of(const Site& site) {
@@ -43,10 +43,14 @@ EndSites BoneParts::end_sites(const std::vector<Site>& sites, BodySide side) con
   const auto add_body = [&](const std::string& body) {
     if (bodies.insert(body).second) result.bodies.push_back(body);
   };
+  bool found_before = false;
   for (const Site& site : sites) {
+    if (site.or_before && found_before) continue;
+    found_before = false;
     result.wanted += (result.wanted.empty() ? "" : ", ") + site.bone;
     for (std::size_t b = 0; b < found_.bones.size(); ++b) {
       if (!matches(site, found_.bones[b], side)) continue;
+      found_before = true;
       result.zones.push_back({b, site});
       add_body(body(b));
     }
@@ -60,10 +64,15 @@ EndSites BoneParts::end_sites(const std::vector<Site>& sites, BodySide side) con
 /// About the hip joint's center: the ilium above it, the pubis before and the ischium behind, each with a margin that
 /// the others share.
 bool BoneParts::in_hip_part(const std::string& part, const FoundBone& bone, const Vec3& p) const {
-  const auto joint = std::find_if(skeleton_.joints.begin(), skeleton_.joints.end(), [&](const DraftJoint& each) {
-    return each.name == "hip" + side_ending(bone.side == BodySide::none ? found_.side : bone.side);
-  });
-  if (joint == skeleton_.joints.end()) return true;
+  const DraftJoint* joint = nullptr;
+  for (const BodySide side : {BodySide::right, BodySide::left}) {
+    if (bone.side != BodySide::none && bone.side != side) continue;
+    for (const DraftJoint& each : skeleton_.joints)
+      if (each.name == "hip" + side_ending(side) &&
+          (!joint || (each.center - p).norm() < (joint->center - p).norm()))
+        joint = &each;
+  }
+  if (!joint) return true;
   const Vec3 from_center = (p - joint->center) / found_.size;
   const Real up = from_center.dot(skeleton_.frame.superior), forward = from_center.dot(skeleton_.frame.anterior);
   if (part == "ilium") return up > -0.005;
