@@ -5,12 +5,14 @@
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
+#include <gracilis/view/pictures/scene_picture.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <memory>
+#include <set>
 
 namespace gracilis {
 
@@ -21,7 +23,7 @@ namespace {
 struct SceneCommandOptions {
   fs::path folder, out, picture;
   std::vector<std::string> joints;
-  bool force = false, no_picture = false;
+  bool force = false;
 };
 
 /// "knee_r=R_Med_Epi,R_Lat_Epi" as a joint and its landmarks.
@@ -66,6 +68,24 @@ void tell(const SceneDraft& draft) {
   for (const std::string& line : draft.left_out) fmt::print("left out {}\n", line);
 }
 
+std::set<std::string> doubtful_ends(const SceneDraft& draft) {
+  std::set<std::string> ends;
+  for (const DraftMuscle& muscle : draft.muscles)
+    for (const DraftAttachment& each : muscle.attachments)
+      if (each.guess.certainty < doubtful) ends.insert(muscle.found->name + " " + each.name);
+  return ends;
+}
+
+/// The scene is of use without its picture, too.
+void draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
+  try {
+    render_picture(scene_picture(scene, doubtful_ends(draft)), path);
+    fmt::print("{}\n", path.string());
+  } catch (const Error& error) {
+    spdlog::warn("no picture: {}", error.what());
+  }
+}
+
 int make_scene(const SceneCommandOptions& options) {
   check_out(options);
   DraftOptions draft_options;
@@ -79,6 +99,7 @@ int make_scene(const SceneCommandOptions& options) {
   const LoadedScene loaded = read_scene(options.out);
   tell(draft);
   for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
+  draw(draft, loaded.scene, options.picture.empty() ? fs::path(options.out).replace_extension(".png") : options.picture);
   fmt::print("{}\n", options.out.string());
   return static_cast<int>(ExitCode::done);
 }
@@ -95,6 +116,7 @@ void add_scene_command(CLI::App& program, Command& chosen) {
       ->add_option("--joint", options->joints,
                    "JOINT=CENTER or JOINT=ONE,OTHER: landmarks (of a .csv in the folder) that say where a joint is")
       ->allow_extra_args(false);
+  command->add_option("--picture", options->picture, "Where to draw what was guessed (.png; default: beside the scene file)");
   command->add_flag("--force", options->force, "Replace the scene file");
   command->callback([&chosen, options] { chosen = [options] { return make_scene(*options); }; });
 }

@@ -72,9 +72,25 @@ struct Building {
     return fit_joint(question);
   }
 
+  /// The palm looks forward, at -90 degrees, where the far end of the moving bone lies outwards of the resting one's.
+  void find_pronation(const KnownJoint& known, BodySide side, DraftJoint& joint) const {
+    const BoneAxis *resting = axis_of(known.parent, side), *moving = axis_of(known.child, side);
+    if (!resting || !moving) return;
+    Vec3 outwards = skeleton.frame.right();
+    for (const DraftJoint& each : skeleton.joints)
+      if (each.child == joint.parent) outwards = each.axes.front().direction;
+    if (side == BodySide::left) outwards = -outwards;
+    DraftAxis& axis = joint.axes.front();
+    const Real turned = degrees(angle_about(axis.direction, outwards, moving->far - resting->far));
+    axis.capture = radians(std::round(turned) - 90);
+    joint.capture_guess = {joint.name + " capture pose",
+                           fmt::format("the forearm is turned by {:.0f} degrees from palm forward", turned), 0.6};
+  }
+
   /// In the capture pose, by the long bones on both sides of a hinge.
   void find_capture(const KnownJoint& known, BodySide side, DraftJoint& joint) {
     joint.capture_guess = {joint.name + " capture pose", "taken as 0", 0.5};
+    if (known.kind == JointKind::pivot) find_pronation(known, side, joint);
     if (known.kind != JointKind::condyles && known.name != "elbow") return;
     const BoneAxis *above = axis_of(known.parent, side), *below = axis_of(known.child, side);
     if (!above || !below) return;
