@@ -50,10 +50,12 @@ SurfaceSamples joined(const SurfaceSamples& a, const SurfaceSamples& b) {
   return all;
 }
 
+SurfaceSamples nothing() { return {Points(3, 0), Points(3, 0), Eigen::VectorXd(0)}; }
+
 /// Parts of the bones' surfaces that face others which are near: within `spread` more than the nearest are.
 SurfaceSamples facing(const JointQuestion& q, const std::vector<std::size_t>& bones, const Surroundings& others,
                       Real spread) {
-  SurfaceSamples all{Points(3, 0), Points(3, 0), Eigen::VectorXd(0)};
+  SurfaceSamples all = nothing();
   for (const std::size_t b : bones) all = joined(all, surface_samples(q.found.bones[b].mesh));
   std::vector<Real> distances(static_cast<std::size_t>(all.count()), std::numeric_limits<Real>::infinity());
   std::vector<char> turned(distances.size(), 0);
@@ -148,13 +150,35 @@ Vec3 expected_axis(const JointQuestion& q, const std::vector<std::size_t>& bones
   return right;
 }
 
+/// Of the whole bones what lies on the roller: as far along its axis as the part that faces the others, about as far
+/// from it, and turned outwards.
+SurfaceSamples rolled_on(const JointQuestion& q, const std::vector<std::size_t>& bones, const RevolutionFit& fit,
+                         const SurfaceSamples& face) {
+  const Eigen::RowVectorXd along = fit.direction.transpose() * face.points;
+  const Real low = along.minCoeff(), high = along.maxCoeff();
+  SurfaceSamples all = nothing();
+  for (const std::size_t b : bones) all = joined(all, surface_samples(q.found.bones[b].mesh));
+  return all.kept([&](Index i) {
+    const Real place = fit.direction.dot(all.points.col(i));
+    const Vec3 from_center = all.points.col(i) - fit.center;
+    const Vec3 out = from_center - fit.direction.dot(from_center) * fit.direction;
+    const Real distance = out.norm();
+    const Vec3 slide = fit.direction.cross(out) / std::max(distance, 1e-9);
+    return place >= low && place <= high && distance > 0.6 * fit.radius && distance < 1.5 * fit.radius &&
+           out.dot(all.normals.col(i)) > 0.4 * distance && std::abs(slide.dot(all.normals.col(i))) < 0.35;
+  });
+}
+
 std::optional<JointFit> fit_roller(const JointQuestion& q) {
   const std::vector<std::size_t> convex = bones_named(q.found, q.joint.convex, q.side);
   const std::vector<std::size_t> concave = bones_named(q.found, q.joint.concave, q.side);
   if (convex.empty() || concave.empty()) return std::nullopt;
   const SurfaceSamples face = facing(q, convex, Surroundings(q.found, concave), 0.004 * q.found.size);
   const Vec3 expected = expected_axis(q, q.axes[convex.front()] ? convex : concave);
-  const RevolutionFit fit = fit_revolution(face, expected);
+  RevolutionFit fit = fit_revolution(face, expected);
+  // Only a part of the roller faces the other bones in this pose; the rest of it says more about the axis.
+  for (int round = 0; round < 4 && !fit.direction.isZero(); ++round)
+    fit = fit_revolution(rolled_on(q, convex, fit, face), expected);
   if (fit.direction.isZero()) return std::nullopt;
   const Real size = q.found.size;
   const bool fits = fit.radius > 0.7 * q.joint.radius_min * size && fit.radius < 1.5 * q.joint.radius_max * size;

@@ -1,8 +1,5 @@
 #include <gracilis/view/pictures/scene_picture.hpp>
 
-#include <gracilis/geometry/measures.hpp>
-#include <gracilis/geometry/vertex_normals.hpp>
-
 #include <algorithm>
 #include <array>
 
@@ -12,7 +9,7 @@ namespace {
 const Color origin_color(0.84, 0.15, 0.12), insertion_color(0.1, 0.3, 0.85), doubtful_color(0.98, 0.75, 0.0),
     axis_color(0.0, 0.55, 0.35);
 constexpr Real axis_reach = 0.08, axis_radius = 0.0015;  // m
-constexpr Real lifted = 0.0015;                          // m, attachments out of what they lie on, to be seen
+constexpr Real bone_opacity = 0.45;                      // where attachments are to be seen that lie in bones
 
 /// The triangles about an attachment's vertices.
 TriangleMesh attached_faces(const Muscle& muscle, const Attachment& attachment) {
@@ -34,7 +31,6 @@ void add_attachments(const Scene& scene, const std::set<std::string>& doubtful, 
     for (const Attachment& attachment : muscle.attachments) {
       TriangleMesh faces = attached_faces(muscle, attachment);
       if (faces.face_count() == 0) continue;
-      faces.vertices += lifted * vertex_normals(faces.vertices, faces.faces);
       const bool doubt = doubtful.contains(muscle.name + " " + attachment.name);
       const bool origin = attachment.end == AttachmentEnd::origin;
       std::string name = doubt ? "doubtful end" : origin ? "origin" : "insertion";
@@ -57,8 +53,8 @@ void add_axes(const Scene& scene, Panel& panel) {
   panel.lines.push_back(std::move(axes));
 }
 
-void add_bones(const Scene& scene, Panel& panel) {
-  for (const Bone& bone : scene.bones) panel.surfaces.push_back({"", bone.surface});
+void add_bones(const Scene& scene, Real opacity, Panel& panel) {
+  for (const Bone& bone : scene.bones) panel.surfaces.push_back({"", bone.surface, bone_color(), opacity});
 }
 
 void add_muscles(const Scene& scene, Panel& panel) {
@@ -83,7 +79,7 @@ Picture scene_picture(const Scene& scene, const std::set<std::string>& doubtful)
       panel.caption = caption;
       panel.looking = looking;
       panel.up = scene.axes.superior;
-      add_bones(scene, panel);
+      add_bones(scene, with_muscles ? 1 : bone_opacity, panel);
       if (with_muscles) add_muscles(scene, panel);
       else add_attachments(scene, doubtful, panel), add_axes(scene, panel);
       picture.panels.push_back(std::move(panel));
