@@ -64,6 +64,18 @@ TEST(FolderOfMadeBody, names_of_people_s_files_are_understood) {
   EXPECT_EQ(muscle("Extensor carpi radialis brevis"), "extensor_carpi_radialis_brevis");
   EXPECT_EQ(muscle("gluteusmaximus"), "gluteus_maximus");
   EXPECT_EQ(muscle("semimembranosis"), "semimembranosus");
+  EXPECT_EQ(bone("Proximal phalanx of right big toe"), "proximal_phalanges_foot_1");
+  EXPECT_EQ(bone("Middle phalanx of second finger of foot.r"), "middle_phalanges_hand_2") << "fingers are of the hand";
+  EXPECT_EQ(bone("Distal phalanx of right index finger"), "distal_phalanges_hand_2");
+  EXPECT_EQ(bone("Right fifth metatarsal bone"), "metatarsal_5");
+  EXPECT_EQ(bone("Third rib.l"), "rib_3");
+  EXPECT_EQ(muscle("Lateral head of right gastrocnemius"), "gastrocnemius_lateral");
+  EXPECT_EQ(muscle("Humero-ulnar head of flexor digitorum superficialis"), "flexor_digitorum_superficialis");
+  EXPECT_EQ(muscle("Sternocostal head of pectoralis major muscle.r"), "pectoralis_major_sternal");
+  EXPECT_EQ(muscle("Superior part of right trapezius"), "trapezius");
+  EXPECT_EQ(muscle("Flexor hallucis longus.r"), "flexor_hallucis_longus");
+  EXPECT_EQ(muscle("Oblique head of adductor hallucis"), "adductor_hallucis");
+  EXPECT_EQ(muscle("First dorsal interosseus muscle of foot"), "interossei_foot");
   EXPECT_EQ(muscle("notes"), "");
   EXPECT_EQ(read_name("femur_l", dictionary().words).side, BodySide::left);
   EXPECT_EQ(read_name("Tibialis anterior.R", dictionary().words).side, BodySide::right);

@@ -45,10 +45,8 @@ bool says_other(const NameMatch<Known>& match, const NameWords& words) {
 NamedKind kind_by_name(const NamedSurfaceFile& surface) {
   const bool bone = surface.bone.known != nullptr, muscle = surface.muscle.known != nullptr;
   if (!bone && !muscle) return says_other(surface.bone, surface.words) ? NamedKind::something_else : NamedKind::unknown;
-  const bool is_muscle =
-      muscle && (!bone || surface.muscle.rest.size() < surface.bone.rest.size() ||
-                 (surface.muscle.rest.size() == surface.bone.rest.size() &&
-                  surface.muscle.certainty > surface.bone.certainty));
+  // Muscles are often named after bones, as "lumbar part of the diaphragm", bones hardly after muscles.
+  const bool is_muscle = muscle && (!bone || surface.muscle.rest.size() <= surface.bone.rest.size());
   const bool other = is_muscle ? says_other(surface.muscle, surface.words) : says_other(surface.bone, surface.words);
   return other ? NamedKind::something_else : is_muscle ? NamedKind::muscle : NamedKind::bone;
 }

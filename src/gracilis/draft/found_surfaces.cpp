@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/draft/folder_names.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/scene/names.hpp>
@@ -27,6 +28,9 @@ constexpr std::array<Unit, 3> units = {{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}}};
 
 /// Grown people's bones are 0.75 to 1.3 times as long as the dictionary says, a newborn's 0.25.
 constexpr Real smallest_size = 0.22, largest_size = 1.8;
+
+/// m³, of a grown person: a quadriceps in one piece has two thirds of it.
+constexpr Real largest_muscle = 0.003;
 
 Real largest_extent(const Points& points) {
   if (points.cols() == 0) return 0;
@@ -149,6 +153,26 @@ struct Taking {
                              known ? each.muscle.certainty : 0.3, std::move(*mesh)});
   }
 
+  /// By its shape: a closed surface no larger than a muscle may be one, which its ends on bones must show.
+  void take_unknown(const NamedSurfaceFile& each) {
+    std::optional<TriangleMesh> mesh;
+    try {
+      mesh = load_surface(each.file, found.unit_length, SurfaceRole::muscle).mesh;
+    } catch (const InputError&) {
+      mesh.reset();
+    }
+    const std::string name = scene_name("", each.words.words, each.words.side);
+    const Real largest = largest_muscle * std::pow(found.size, 3);
+    if (mesh && enclosed_volume(mesh->vertices, mesh->faces) < largest && is_new(name, each.file)) {
+      found.muscles.push_back({name, each.file, nullptr, each.words.side, 0.2, std::move(*mesh)});
+      return;
+    }
+    found.left_out.push_back(
+        fmt::format("{}: its name is unknown; rename it to a bone's or a muscle's, as femur_r or gluteus_maximus_r, or "
+                    "put it into a folder 'bones' or 'muscles'",
+                    each.file.string()));
+  }
+
   void take_patch(const NamedSurfaceFile& each) {
     if (!each.muscle.known) {
       found.left_out.push_back(fmt::format("{}: a patch of no muscle whose name is known; name it after its muscle",
@@ -179,11 +203,7 @@ FoundFolder find_surfaces(const fs::path& folder) {
     if (each.kind == NamedKind::patch) taking.take_patch(each);
     if (each.kind == NamedKind::something_else)
       found.left_out.push_back(fmt::format("{}: by its name neither bone nor muscle", each.file.string()));
-    if (each.kind == NamedKind::unknown)
-      found.left_out.push_back(
-          fmt::format("{}: its name is unknown; rename it to a bone's or a muscle's, as femur_r or "
-                      "gluteus_maximus_r, or put it into a folder 'bones' or 'muscles'",
-                      each.file.string()));
+    if (each.kind == NamedKind::unknown) taking.take_unknown(each);
   }
   return found;
 }
