@@ -19,7 +19,7 @@ TriangleMesh attached_faces(const Muscle& muscle, const Attachment& attachment) 
   for (Index f = 0; f < muscle.surface.face_count(); ++f) {
     int corners = 0;
     for (int k = 0; k < 3; ++k) corners += held[static_cast<std::size_t>(muscle.surface.faces(k, f))];
-    if (corners >= 2) faces.push_back(f);
+    if (corners == 3) faces.push_back(f);
   }
   return {muscle.surface.vertices, muscle.surface.faces(Eigen::all, faces)};
 }
