@@ -23,7 +23,7 @@ namespace {
 struct SceneCommandOptions {
   fs::path folder, out, picture;
   std::vector<std::string> joints;
-  bool force = false;
+  bool force = false, mirror = false;
 };
 
 /// "knee_r=R_Med_Epi,R_Lat_Epi" as a joint and its landmarks.
@@ -89,6 +89,7 @@ void draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
 int make_scene(const SceneCommandOptions& options) {
   check_out(options);
   DraftOptions draft_options;
+  draft_options.mirror = options.mirror;
   for (const std::string& joint : options.joints) add_joint_landmarks(joint, draft_options);
   const SceneDraft draft = draft_scene(options.folder, draft_options);
 
@@ -117,6 +118,7 @@ void add_scene_command(CLI::App& program, Command& chosen) {
                    "JOINT=CENTER or JOINT=ONE,OTHER: landmarks (of a .csv in the folder) that say where a joint is")
       ->allow_extra_args(false);
   command->add_option("--picture", options->picture, "Where to draw what was guessed (.png; default: beside the scene file)");
+  command->add_flag("--mirror", options->mirror, "Make the body's other half: a left leg of a right one");
   command->add_flag("--force", options->force, "Replace the scene file");
   command->callback([&chosen, options] { chosen = [options] { return make_scene(*options); }; });
 }

@@ -5,6 +5,7 @@
 #include <gracilis/anatomy/builtin/builtin_elbow.hpp>
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/draft/name_search.hpp>
+#include <gracilis/geometry/measures.hpp>
 
 #include <gmock/gmock.h>
 
@@ -154,6 +155,29 @@ TEST(FolderOfMadeBody, a_left_arm_turned_in_its_frame_becomes_a_scene) {
   const Joint& by_hand = joint_named(elbow(), "shoulder_r");
   EXPECT_LT((shoulder.frame.translation() - placed(by_hand.frame.translation())).norm(), 0.004);
   EXPECT_EQ(drafted.scene.muscles.size(), 3u);
+}
+
+TEST(FolderOfMadeBody, a_right_hip_mirrored_is_a_left_one) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  DraftOptions options;
+  options.mirror = true;
+  const LoadedScene right = drafted_scene(folder.path() / "hip"), left = drafted_scene(folder.path() / "hip", options);
+  const Joint &of_right = joint_named(right.scene, "hip_r"), &of_left = joint_named(left.scene, "hip_l");
+  const Vec3 mirror(1, 1, -1);
+  EXPECT_LT((of_left.frame.translation() - mirror.cwiseProduct(of_right.frame.translation())).norm(), 1e-4);
+  // Turns are no vectors: what flexes forward on the right does so on the left, what adducts turns the other way.
+  EXPECT_GT(direction(of_left, 0).dot(direction(of_right, 0)), 0.9999);
+  EXPECT_LT(direction(of_left, 1).dot(direction(of_right, 1)), -0.9999);
+  ASSERT_EQ(left.scene.muscles.size(), right.scene.muscles.size());
+  for (std::size_t m = 0; m < left.scene.muscles.size(); ++m) {
+    const Muscle &a = right.scene.muscles[m], &b = left.scene.muscles[m];
+    EXPECT_TRUE(b.name.ends_with("_l")) << b.name;
+    EXPECT_LT((mirror.asDiagonal() * a.surface.vertices - b.surface.vertices).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_GT(enclosed_volume(b.surface.vertices, b.surface.faces), 0);
+    for (std::size_t i = 0; i < a.attachments.size(); ++i)
+      EXPECT_EQ(a.attachments[i].vertices, b.attachments[i].vertices) << a.name;
+  }
 }
 
 TEST(FolderOfMadeBody, what_cannot_be_used_is_left_out_and_named) {

@@ -184,7 +184,7 @@ std::vector<DraftAttachment> draft_attachments(const FoundMuscle& muscle, const 
     draft.sites = {bones.end_sites(muscle.known->origin, muscle.side), bones.end_sites(muscle.known->insertion, muscle.side)};
   draft.drafted = from_patches(muscle, found, draft.sites, bones, skeleton, draft.ends);
   if (draft.drafted.empty())
-    draft.drafted = from_landmarks(muscle, landmarks, draft.sites, bones, skeleton, draft.ends);
+    draft.drafted = from_landmarks(muscle, landmarks, draft.sites, bones, skeleton, draft.ends, found.is_mirrored);
   const std::vector<AttachmentEnd> both = {AttachmentEnd::origin, AttachmentEnd::insertion};
   if (muscle.known) {
     for (const AttachmentEnd end : both)

@@ -30,7 +30,7 @@ std::string list(const std::vector<std::string>& texts) {
 /// Without "-0".
 std::string number(Real value, int digits) {
   const Real scale = std::pow(10.0, digits), rounded = std::round(value * scale) / scale;
-  return fmt::format("{:g}", rounded == 0 ? 0 : rounded);
+  return fmt::format("{:.10g}", rounded == 0 ? 0 : rounded);
 }
 
 std::string vector_text(const Vec3& v, int digits) {
@@ -52,7 +52,11 @@ struct Writing {
   std::string text = {};
 
   void line(const std::string& words) { text += words + "\n"; }
-  std::string unit() const { return draft.found.unit == "m" ? "" : "unit = " + quoted(draft.found.unit) + "\n"; }
+  /// What a surface's file needs to be said beside its name.
+  std::string unit() const {
+    return (draft.found.unit == "m" ? "" : "unit = " + quoted(draft.found.unit) + "\n") +
+           (draft.found.is_mirrored ? "mirror = true\n" : "");
+  }
 
   void head(const std::string& name, const fs::path& landmarks) {
     line("# Made by 'gracilis scene' from a folder of surfaces. What follows '# guessed:' nobody said: look at the picture");
@@ -61,8 +65,8 @@ struct Writing {
     line("name = " + quoted(name));
     const BodyFrame& frame = draft.skeleton.frame;
     text += guessed_line({"", frame.how, frame.certainty});
-    line("anterior = " + vector_text(frame.anterior, 4));
-    line("superior = " + vector_text(frame.superior, 4));
+    line("anterior = " + vector_text(frame.anterior, 6));
+    line("superior = " + vector_text(frame.superior, 6));
     line("guessed = [ # repeated in each run's manifest");
     for (const Guess& guess : draft.guesses) line("  " + quoted(guess.subject + ": " + to_string(guess)) + ",");
     line("]");

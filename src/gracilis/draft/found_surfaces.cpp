@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/draft/folder_names.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/scene/names.hpp>
@@ -189,6 +190,24 @@ struct Taking {
 };
 
 }  // namespace
+
+void mirror_body(FoundFolder& found, const Vec3& right) {
+  const auto turn = [&](auto& each) {
+    const std::string before = side_ending(each.side);
+    each.side = other_side(each.side);
+    if (!before.empty() && each.name.ends_with(before)) each.name.replace(each.name.size() - 2, 2, side_ending(each.side));
+    each.mesh = mirrored(each.mesh, right);
+  };
+  for (FoundBone& bone : found.bones) turn(bone);
+  for (FoundMuscle& muscle : found.muscles) turn(muscle);
+  for (FoundPatch& patch : found.patches) {
+    if (patch.muscle.ends_with("_r") || patch.muscle.ends_with("_l"))
+      patch.muscle.back() = patch.muscle.back() == 'r' ? 'l' : 'r';
+    patch.mesh = mirrored(patch.mesh, right);
+  }
+  found.side = other_side(found.side);
+  found.is_mirrored = !found.is_mirrored;
+}
 
 FoundFolder find_surfaces(const fs::path& folder) {
   const FolderFiles files = list_folder(folder);

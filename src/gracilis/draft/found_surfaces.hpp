@@ -48,6 +48,7 @@ struct FoundFolder {
   std::string unit = "m";
   Real unit_length = 1;               ///< m
   Real size = 1;                      ///< of the bones against those of a grown person
+  bool is_mirrored = false;           ///< as mirror_body leaves it
   std::vector<std::string> left_out;  ///< a line each: what was not taken, why, and what to do
 };
 
@@ -55,5 +56,8 @@ struct FoundFolder {
 /// person's. What a run would refuse is left out. Throws InputError where the folder cannot be read, holds no bone
 /// whose name is known, or bones of no possible size.
 FoundFolder find_surfaces(const std::filesystem::path& folder);
+
+/// Makes a left half of a right one, or the other way: surfaces, sides and names. `right` is the body's.
+void mirror_body(FoundFolder& found, const Vec3& right);
 
 }  // namespace gracilis

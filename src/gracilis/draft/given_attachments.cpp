@@ -162,13 +162,14 @@ std::vector<DraftAttachment> from_patches(const FoundMuscle& muscle, const Found
 
 std::vector<DraftAttachment> from_landmarks(const FoundMuscle& muscle, const Landmarks& landmarks,
                                             const MuscleSites& sites, const BoneParts& bones, const Skeleton& skeleton,
-                                            const MuscleEnds& ends) {
+                                            const MuscleEnds& ends, bool is_mirrored) {
   std::vector<DraftAttachment> result;
   if (!muscle.known || landmarks.empty()) return result;
   const NearestTriangle surface(ends.surface());
   for (const LandmarkCloud& cloud : landmarks) {
     const NameWords words = read_name(cloud.name, dictionary().words);
-    if (words.side != BodySide::none && words.side != muscle.side) continue;
+    const BodySide side = is_mirrored ? other_side(words.side) : words.side;
+    if (side != BodySide::none && side != muscle.side) continue;
     if (find_muscle(words).known != muscle.known || !lies_near(cloud.points, surface)) continue;
     const std::optional<std::size_t> bone = bone_under(cloud.points, bones);
     const std::optional<AttachmentEnd> said = end_in(words.words);

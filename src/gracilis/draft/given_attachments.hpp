@@ -22,8 +22,9 @@ std::vector<DraftAttachment> from_patches(const FoundMuscle& muscle, const Found
                                           const BoneParts& bones, const Skeleton& skeleton, const MuscleEnds& ends);
 
 /// Ends that landmarks named after the muscle give: one for each cloud that lies near the muscle.
+/// `is_mirrored`: their names tell the other side.
 std::vector<DraftAttachment> from_landmarks(const FoundMuscle& muscle, const Landmarks& landmarks,
                                             const MuscleSites& sites, const BoneParts& bones, const Skeleton& skeleton,
-                                            const MuscleEnds& ends);
+                                            const MuscleEnds& ends, bool is_mirrored);
 
 }  // namespace gracilis

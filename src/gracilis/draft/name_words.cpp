@@ -10,6 +10,10 @@ std::string side_ending(BodySide side) {
   return side == BodySide::right ? "_r" : side == BodySide::left ? "_l" : "";
 }
 
+BodySide other_side(BodySide side) {
+  return side == BodySide::right ? BodySide::left : side == BodySide::left ? BodySide::right : BodySide::none;
+}
+
 namespace {
 
 bool is_upper(char c) { return std::isupper(static_cast<unsigned char>(c)) != 0; }

@@ -14,6 +14,8 @@ enum class BodySide { none, right, left };
 /// What follows a name: "", "_r" or "_l".
 std::string side_ending(BodySide side);
 
+BodySide other_side(BodySide side);
+
 /// How the words of names are read (words.toml).
 struct WordTables {
   std::set<std::string> right, left, fillers, others;

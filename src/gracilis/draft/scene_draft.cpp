@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/suggestions.hpp>
 
 #include <fmt/format.h>
@@ -134,7 +135,12 @@ SceneDraft draft_scene(const fs::path& folder, const DraftOptions& options) {
   SceneDraft draft;
   draft.found = find_surfaces(folder);
   draft.left_out = draft.found.left_out;
-  const Landmarks landmarks = read_tables(draft.found);
+  Landmarks landmarks = read_tables(draft.found);
+  if (options.mirror) {
+    const Vec3 right = body_frame(draft.found, bone_axes(draft.found)).right();
+    mirror_body(draft.found, right);
+    for (LandmarkCloud& cloud : landmarks) cloud.points = mirrored(cloud.points, right);
+  }
   draft.skeleton = find_skeleton(draft.found, overrides_of(options, landmarks));
   if (draft.found.muscles.empty())
     refuse(folder, draft, "holds no muscle that could be used", "name muscles as in gluteus_maximus_r.ply");

@@ -7,6 +7,7 @@
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/bodies.hpp>
 #include <gracilis/io/scene/files.hpp>
+#include <gracilis/io/scene/surfaces.hpp>
 #include <gracilis/io/suggestions.hpp>
 
 #include <fmt/format.h>
@@ -76,7 +77,7 @@ AttachmentDescription read_attachment(TomlReader table) {
   result.clouds = table.texts("cloud");
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3))
     result.points = {rows->transpose() / 1000};
-  if (const std::optional<std::string> patch = table.text("patch")) result.patch = named_file(table, *patch);
+  if (const std::optional<std::string> patch = table.text("patch")) result.patch = surface_file(table, *patch);
   result.bone_distance = millimetres(table, "bone_distance_mm");
   result.landmark_distance = millimetres(table, "landmark_distance_mm");
   attachment.vertices = table.indices("vertices");
@@ -153,6 +154,7 @@ TriangleMesh AttachmentSelector::patch_of(const AttachmentDescription& descripti
   TriangleMesh patch;
   read_file(progress_, description.patch,
             [&](const std::filesystem::path& path) { patch = read_mesh(path, description.patch.unit); });
+  mirror_if_asked(progress_, description.patch, patch);
   if (!inspect_mesh(patch).is_finite()) {
     progress_.add_problem(description.place, "the patch '" + description.patch.path + "' has coordinates that are not finite",
                           "export the surface again");

@@ -23,6 +23,7 @@ struct NamedFile {
   std::string path;
   Real unit = 1;
   Problem place;
+  bool mirror = false;  ///< the surface is taken into the body's other half
 };
 
 /// A box instead of a file: surfaces for tests and demonstrations that need no data.

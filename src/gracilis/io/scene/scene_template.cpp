@@ -47,6 +47,9 @@ name = "example"
 anterior = [1, 0, 0]
 superior = [0, 1, 0]
 
+# Optional: what nobody measured, in words; repeated in each run's manifest.
+# guessed = ["joint hip_r: a sphere on the femur's head"]
+
 # Optional: other scene files, relative to this one, on which this one builds. Tables merge key by key, lists of tables
 # (bones, muscles, ...) by their names; what stands here wins. [motion] is replaced as a whole.
 # include = ["base.toml"]
@@ -75,6 +78,7 @@ unit = "mm" # "m" (default), "cm" or "mm"
 name = "femur_r"
 file = "femur_r.ply"
 unit = "mm"
+mirror = false # optional, of a bone, a muscle or a patch: what is right of the plane through the frame's origin goes left
 # Instead of a file, of a bone or a muscle: a box, each side cut into cells.
 # box = { size_mm = [200, 200, 10], center_mm = [0, 0, 0], cells = [1, 1, 1] }
 
