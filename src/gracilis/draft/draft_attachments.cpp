@@ -14,6 +14,8 @@ namespace {
 
 /// m; no vertex but the cloud's own lies so near to one of its points.
 constexpr Real own_vertices = 0.0002;
+/// m from its bone: an end so far would be carried about by it as on a rod, which a tendon is not.
+constexpr Real missing_tendon = 0.03;
 
 Points positions(const TriangleMesh& mesh, const std::vector<Index>& vertices) { return mesh.vertices(Eigen::all, vertices); }
 
@@ -71,6 +73,15 @@ struct EndsDraft {
       if (each.bone_distance <= nearest + 0.002) drafted.push_back(std::move(each));
   }
 
+  /// The body of the bone nearest to the middle of some vertices.
+  std::string body_beside(const std::vector<Index>& vertices) const {
+    const Vec3 middle = positions(ends.surface(), vertices).rowwise().mean();
+    std::size_t nearest = 0;
+    for (std::size_t b = 1; b < bones.count(); ++b)
+      if (bones.tree(b).query(middle).distance < bones.tree(nearest).query(middle).distance) nearest = b;
+    return bones.body(nearest);
+  }
+
   /// What is nearest to the end's bones, or, where they are not here, the end that is farthest from what is held.
   void reach(AttachmentEnd end) {
     const EndSites& wanted = sites.at(end);
@@ -78,9 +89,13 @@ struct EndsDraft {
       const HeldVertices held = ends.nearest(bones, wanted.zones);
       if (held.vertices.empty()) return;
       DraftAttachment attachment = on_bones(end, held);
-      attachment.guess = {"", fmt::format("touches none of {}: what is nearest, {:.0f} mm from {}", wanted.wanted,
-                                          1000 * held.distance, attachment.bones.front()),
-                          0.35};
+      const std::string bone = attachment.bones.front();
+      const bool far = held.distance > missing_tendon * found.size;
+      if (far) attachment.body = body_beside(held.vertices);
+      attachment.guess = {"", fmt::format("hardly touches {}: what is nearest, {:.0f} mm from {}{}", wanted.wanted,
+                                          1000 * held.distance, bone,
+                                          far ? "; its tendon is missing, so it moves with " + attachment.body : ""),
+                          far ? 0.2 : 0.35};
       attachment.bones.clear();
       attachment.bone_distance = 0;
       drafted.push_back(std::move(attachment));

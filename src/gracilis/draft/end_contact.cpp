@@ -93,12 +93,18 @@ HeldVertices MuscleEnds::nearest(const BoneParts& bones, const std::vector<Zone>
   Eigen::VectorXd distances = Eigen::VectorXd::Constant(count, std::numeric_limits<Real>::infinity());
   std::size_t of_bone = 0;
   Real least = std::numeric_limits<Real>::infinity();
-  for (const Zone& zone : zones)
-    for (Index v = 0; v < count; ++v) {
-      const Real distance = bones.tree(zone.bone).query(surface_.vertices.col(v), distances[v]).distance;
-      distances[v] = std::min(distances[v], distance);
-      if (distance < least) least = distance, of_bone = zone.bone;
+  // In the zones where they can be reached, else anywhere on their bones.
+  for (const bool anywhere : {false, true}) {
+    if (std::isfinite(least)) break;
+    for (const Zone& zone : zones) {
+      const Zone where = anywhere ? Zone{zone.bone, {bones.bone(zone.bone).name}} : zone;
+      for (Index v = 0; v < count; ++v) {
+        const Real distance = bones.distance(where, surface_.vertices.col(v), std::numeric_limits<Real>::infinity());
+        distances[v] = std::min(distances[v], distance);
+        if (distance < least) least = distance, of_bone = zone.bone;
+      }
     }
+  }
   if (!std::isfinite(least)) return {};
   for (Real more = 0.003; more < 0.1; more *= 1.4) {
     HeldVertices held{within(distances, least + more * size_), {of_bone}, least};

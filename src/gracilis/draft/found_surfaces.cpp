@@ -101,6 +101,7 @@ std::string advice(const fs::path& file, const std::string& unit) {
 /// Takes surfaces one by one.
 struct Taking {
   FoundFolder& found;
+  const FolderFiles& files;
   std::map<std::string, fs::path> taken = {};  ///< names
 
   bool is_new(const std::string& name, const fs::path& file) {
@@ -111,8 +112,13 @@ struct Taking {
     return inserted;
   }
 
-  BodySide side_of(BodySide said, bool paired) const {
-    return said != BodySide::none ? said : paired ? found.side : BodySide::none;
+  /// Of two that have the same name but for a side, the one without it is on the other side.
+  BodySide side_of(const NamedSurfaceFile& surface, bool paired) const {
+    if (surface.words.side != BodySide::none) return surface.words.side;
+    for (const NamedSurfaceFile& other : files.surfaces)
+      if (other.words.side != BodySide::none && other.words.words == surface.words.words)
+        return other_side(other.words.side);
+    return paired ? found.side : BodySide::none;
   }
 
   /// Nothing where a run would refuse it.
@@ -130,7 +136,7 @@ struct Taking {
 
   void take_bone(const NamedSurfaceFile& each) {
     const KnownBone* known = each.bone.known;
-    const BodySide side = side_of(each.words.side, known && known->paired);
+    const BodySide side = side_of(each, known && known->paired);
     const std::string name = known ? scene_name(known->name, each.bone.rest, side)
                                    : scene_name("", each.words.words, each.words.side);
     std::optional<TriangleMesh> mesh = load(each.file, SurfaceRole::bone);
@@ -142,7 +148,7 @@ struct Taking {
     const KnownMuscle* known = each.muscle.known;
     if (!known) return scene_name("", each.words.words, each.words.side);
     return scene_name(known->name, with_rest ? each.muscle.rest : std::vector<std::string>{},
-                      side_of(each.words.side, true));
+                      side_of(each, true));
   }
 
   void take_muscle(const NamedSurfaceFile& each) {
@@ -150,7 +156,7 @@ struct Taking {
     std::optional<TriangleMesh> mesh = load(each.file, SurfaceRole::muscle);
     if (!mesh || !is_new(name, each.file)) return;
     const KnownMuscle* known = each.muscle.known;
-    found.muscles.push_back({name, each.file, known, side_of(each.words.side, true),
+    found.muscles.push_back({name, each.file, known, side_of(each, true),
                              known ? each.muscle.certainty : 0.3, std::move(*mesh)});
   }
 
@@ -215,7 +221,7 @@ FoundFolder find_surfaces(const fs::path& folder) {
   found.tables = files.tables;
   choose_unit(files, folder, found);
   found.side = usual_side(files, found.side_is_guessed);
-  Taking taking{found};
+  Taking taking{found, files};
   for (const NamedSurfaceFile& each : files.surfaces) {
     if (each.kind == NamedKind::bone) taking.take_bone(each);
     if (each.kind == NamedKind::muscle) taking.take_muscle(each);

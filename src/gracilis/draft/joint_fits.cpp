@@ -13,6 +13,9 @@
 namespace gracilis {
 namespace {
 
+constexpr Index few_samples = 30;
+constexpr Real farthest_axis = radians(35);  // from where anatomy expects it
+
 Vec3 across(const Vec3& direction, const Vec3& axis) { return (direction - direction.dot(axis) * axis).normalized(); }
 
 std::vector<Vec3> body_axes(const JointQuestion& q) {
@@ -52,9 +55,9 @@ SurfaceSamples joined(const SurfaceSamples& a, const SurfaceSamples& b) {
 
 SurfaceSamples nothing() { return {Points(3, 0), Points(3, 0), Eigen::VectorXd(0)}; }
 
-/// Parts of the bones' surfaces that face others which are near: within `spread` more than the nearest are.
-SurfaceSamples facing(const JointQuestion& q, const std::vector<std::size_t>& bones, const Surroundings& others,
-                      Real spread) {
+/// Parts of the bones' surfaces that face others which are near: within 4 mm more than the nearest are, or, where the
+/// triangles are large, within as much as it takes to see a few.
+SurfaceSamples facing(const JointQuestion& q, const std::vector<std::size_t>& bones, const Surroundings& others) {
   SurfaceSamples all = nothing();
   for (const std::size_t b : bones) all = joined(all, surface_samples(q.found.bones[b].mesh));
   std::vector<Real> distances(static_cast<std::size_t>(all.count()), std::numeric_limits<Real>::infinity());
@@ -67,10 +70,15 @@ SurfaceSamples facing(const JointQuestion& q, const std::vector<std::size_t>& bo
     turned[static_cast<std::size_t>(i)] = towards.dot(all.normals.col(i)) > 0.6 * nearest.distance;
   }
   const Real least = *std::min_element(distances.begin(), distances.end());
-  return all.kept([&](Index i) {
-    const auto k = static_cast<std::size_t>(i);
-    return distances[k] <= least + spread && (turned[k] || distances[k] < 0.0005);
-  });
+  SurfaceSamples face = nothing();
+  for (const Real spread : {0.004, 0.006, 0.009, 0.013}) {
+    face = all.kept([&](Index i) {
+      const auto k = static_cast<std::size_t>(i);
+      return distances[k] <= least + spread * q.found.size && (turned[k] || distances[k] < 0.0005);
+    });
+    if (face.count() >= few_samples) break;
+  }
+  return face;
 }
 
 std::optional<JointFit> fit_ball(const JointQuestion& q) {
@@ -142,30 +150,53 @@ std::optional<JointFit> fit_hinge_of_condyles(const JointQuestion& q) {
                   off < radians(20) ? 0.85 : 0.6};
 }
 
-/// Along which way a hinge's axis runs about: the body's right, at right angles to the longest bone there.
+/// The vertex that lies farthest along a direction.
+Vec3 tip_along(const Vec3& direction, const TriangleMesh& mesh) {
+  Eigen::Index tip = 0;
+  (direction.transpose() * mesh.vertices).maxCoeff(&tip);
+  return mesh.vertices.col(tip);
+}
+
+/// Along which way a hinge's axis runs about: where two bones hold it like a fork (the malleoli), from the tip of one to
+/// that of the other (Inman 1976); else the body's right, at right angles to the longest bone there.
 Vec3 expected_axis(const JointQuestion& q, const std::vector<std::size_t>& bones) {
   Vec3 right = q.frame.named(q.joint.coordinates.front().about, q.side);
+  const std::vector<std::size_t> fork = bones_named(q.found, {"tibia", "fibula"}, q.side);
+  if (q.joint.name == "ankle" && fork.size() == 2 && q.axes[fork.front()]) {
+    const Vec3 down = q.axes[fork.front()]->direction();
+    const Vec3 line =
+        tip_along(down, q.found.bones[fork[1]].mesh) - tip_along(down, q.found.bones[fork[0]].mesh);
+    if (std::abs(line.normalized().dot(right)) > std::cos(farthest_axis))
+      return line.dot(right) > 0 ? line.normalized() : Vec3(-line.normalized());
+  }
   for (const std::size_t b : bones)
     if (q.axes[b]) return across(right, q.axes[b]->direction());
   return right;
 }
 
 /// Of the whole bones what lies on the roller: as far along its axis as the part that faces the others, about as far
-/// from it, and turned outwards.
+/// from it, within 40 degrees of it, and turned outwards.
 SurfaceSamples rolled_on(const JointQuestion& q, const std::vector<std::size_t>& bones, const RevolutionFit& fit,
                          const SurfaceSamples& face) {
   const Eigen::RowVectorXd along = fit.direction.transpose() * face.points;
   const Real low = along.minCoeff(), high = along.maxCoeff();
   SurfaceSamples all = nothing();
   for (const std::size_t b : bones) all = joined(all, surface_samples(q.found.bones[b].mesh));
+  const auto outwards = [&](const Vec3& p) -> Vec3 {
+    return (p - fit.center) - fit.direction.dot(p - fit.center) * fit.direction;
+  };
+  const auto beside_face = [&](const Vec3& out) {
+    for (Index i = 0; i < face.count(); ++i)
+      if (outwards(face.points.col(i)).normalized().dot(out) > std::cos(radians(40)) * out.norm()) return true;
+    return false;
+  };
   return all.kept([&](Index i) {
     const Real place = fit.direction.dot(all.points.col(i));
-    const Vec3 from_center = all.points.col(i) - fit.center;
-    const Vec3 out = from_center - fit.direction.dot(from_center) * fit.direction;
+    const Vec3 out = outwards(all.points.col(i));
     const Real distance = out.norm();
     const Vec3 slide = fit.direction.cross(out) / std::max(distance, 1e-9);
     return place >= low && place <= high && distance > 0.6 * fit.radius && distance < 1.5 * fit.radius &&
-           out.dot(all.normals.col(i)) > 0.4 * distance && std::abs(slide.dot(all.normals.col(i))) < 0.35;
+           out.dot(all.normals.col(i)) > 0.4 * distance && std::abs(slide.dot(all.normals.col(i))) < 0.35 && beside_face(out);
   });
 }
 
@@ -173,16 +204,22 @@ std::optional<JointFit> fit_roller(const JointQuestion& q) {
   const std::vector<std::size_t> convex = bones_named(q.found, q.joint.convex, q.side);
   const std::vector<std::size_t> concave = bones_named(q.found, q.joint.concave, q.side);
   if (convex.empty() || concave.empty()) return std::nullopt;
-  const SurfaceSamples face = facing(q, convex, Surroundings(q.found, concave), 0.004 * q.found.size);
+  const SurfaceSamples face = facing(q, convex, Surroundings(q.found, concave));
   const Vec3 expected = expected_axis(q, q.axes[convex.front()] ? convex : concave);
-  RevolutionFit fit = fit_revolution(face, expected);
-  // Only a part of the roller faces the other bones in this pose; the rest of it says more about the axis.
-  for (int round = 0; round < 4 && !fit.direction.isZero(); ++round)
-    fit = fit_revolution(rolled_on(q, convex, fit, face), expected);
+  RevolutionFit fit;
+  for (const Real bias : {0.1, 0.3, 1.0, 3.0}) {
+    fit = fit_revolution(face, expected, bias);
+    // Only a part of the roller faces the other bones in this pose; the rest of it says more about the axis.
+    for (int round = 0; round < 4 && !fit.direction.isZero(); ++round)
+      fit = fit_revolution(rolled_on(q, convex, fit, face), expected, bias);
+    // A joint is no hinge about any axis: a surface that has several is asked for the one that anatomy expects.
+    if (fit.direction.dot(expected) > std::cos(farthest_axis)) break;
+  }
   if (fit.direction.isZero()) return std::nullopt;
   const Real size = q.found.size;
   const bool fits = fit.radius > 0.7 * q.joint.radius_min * size && fit.radius < 1.5 * q.joint.radius_max * size;
-  const Real certainty = !fits ? 0.3 : fit.misfit < 0.2 ? 0.85 : fit.misfit < 0.35 ? 0.7 : 0.5;
+  const bool expected_there = fit.direction.dot(expected) > std::cos(farthest_axis);
+  const Real certainty = !fits || !expected_there ? 0.3 : fit.misfit < 0.2 ? 0.85 : fit.misfit < 0.35 ? 0.7 : 0.5;
   return JointFit{fit.center,
                   {fit.direction},
                   fmt::format("the axis about which the joint's surface on {} slides along itself, {:.1f} mm below it",
@@ -213,7 +250,7 @@ std::optional<JointFit> fit_saddle(const JointQuestion& q) {
   const std::vector<std::size_t> concave = bones_named(q.found, q.joint.concave, q.side);
   if (convex.empty() || concave.empty() || !q.axes[concave.front()]) return std::nullopt;
   const BoneAxis& radius = *q.axes[concave.front()];
-  const SurfaceSamples face = facing(q, convex, Surroundings(q.found, concave), 0.004 * q.found.size);
+  const SurfaceSamples face = facing(q, convex, Surroundings(q.found, concave));
   const SphereFit sphere =
       fit_sphere(face, q.joint.radius_min * q.found.size, q.joint.radius_max * q.found.size);
   const Vec3 up = -radius.direction();
