@@ -157,17 +157,17 @@ Vec3 tip_along(const Vec3& direction, const TriangleMesh& mesh) {
   return mesh.vertices.col(tip);
 }
 
-/// Along which way a hinge's axis runs about: where two bones hold it like a fork (the malleoli), from the tip of one to
-/// that of the other (Inman 1976); else the body's right, at right angles to the longest bone there.
+/// Along which way a hinge's axis runs about: at the ankle, seen from above, from the tip of one malleolus to that of the
+/// other, and outwards down by 7.3 degrees (Inman 1976); else the body's right, at right angles to the longest bone there.
 Vec3 expected_axis(const JointQuestion& q, const std::vector<std::size_t>& bones) {
   Vec3 right = q.frame.named(q.joint.coordinates.front().about, q.side);
   const std::vector<std::size_t> fork = bones_named(q.found, {"tibia", "fibula"}, q.side);
   if (q.joint.name == "ankle" && fork.size() == 2 && q.axes[fork.front()]) {
     const Vec3 down = q.axes[fork.front()]->direction();
-    const Vec3 line =
-        tip_along(down, q.found.bones[fork[1]].mesh) - tip_along(down, q.found.bones[fork[0]].mesh);
-    if (std::abs(line.normalized().dot(right)) > std::cos(farthest_axis))
-      return line.dot(right) > 0 ? line.normalized() : Vec3(-line.normalized());
+    const Vec3 outwards =
+        across(tip_along(down, q.found.bones[fork[1]].mesh) - tip_along(down, q.found.bones[fork[0]].mesh), down);
+    const Vec3 axis = (outwards + std::tan(radians(7.3)) * down).normalized();
+    if (std::abs(axis.dot(right)) > std::cos(farthest_axis)) return axis.dot(right) > 0 ? axis : Vec3(-axis);
   }
   for (const std::size_t b : bones)
     if (q.axes[b]) return across(right, q.axes[b]->direction());
