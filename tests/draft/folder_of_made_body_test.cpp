@@ -157,6 +157,45 @@ TEST(FolderOfMadeBody, a_left_arm_turned_in_its_frame_becomes_a_scene) {
   EXPECT_EQ(drafted.scene.muscles.size(), 3u);
 }
 
+TEST(FolderOfMadeBody, the_radius_turns_about_the_ulna_where_a_supinator_is_there) {
+  const TestFolder folder;
+  const std::map<std::string, std::string> names = {{"humerus_r", "humerus_r.vtp"},
+                                                    {"ulna_r", "ulna_r.vtp"},
+                                                    {"radius_r", "radius_r.vtp"},
+                                                    {"brachialis_r", "brachialis_r.vtp"},
+                                                    {"brachioradialis_r", "supinator_r.vtp"}};
+  write_body(folder.path() / "arm", elbow(), names);
+  const LoadedScene drafted = drafted_scene(folder.path() / "arm");
+  const Joint &found = joint_named(drafted.scene, "radioulnar_r"), &made = joint_named(elbow(), "radioulnar_r");
+  EXPECT_LT((found.frame.translation() - made.frame.translation()).cross(direction(made, 0)).norm(), 0.006);
+  EXPECT_GT(direction(found, 0).dot(direction(made, 0)), std::cos(radians(5)));
+  EXPECT_EQ(found.axes[0].coordinate, "pro_sup_r");
+  EXPECT_NEAR(found.axes[0].capture_value, made.axes[0].capture_value, radians(25)) << "the palm looks forward";
+  std::map<std::string, std::string> without = names;
+  without["brachioradialis_r"] = "brachioradialis_r.vtp";
+  write_body(folder.path() / "other" / "arm", elbow(), without);
+  EXPECT_EQ(drafted_scene(folder.path() / "other" / "arm").scene.joints.size(), 1u);
+}
+
+TEST(FolderOfMadeBody, a_muscle_of_an_unknown_name_attaches_where_it_touches) {
+  const TestFolder folder;
+  std::map<std::string, std::string> names = hip_names;
+  names["iliacus_r"] = "muscles/object seven.vtp";
+  write_body(folder.path() / "hip", hip(), names);
+  const LoadedScene drafted = drafted_scene(folder.path() / "hip");
+  for (const Muscle& muscle : drafted.scene.muscles) {
+    if (muscle.name != "object_seven") continue;
+    ASSERT_EQ(muscle.attachments.size(), 2u);
+    for (const Attachment& each : muscle.attachments) {
+      EXPECT_TRUE(each.guessed);
+      EXPECT_EQ(drafted.scene.bodies[static_cast<std::size_t>(each.body)],
+                each.end == AttachmentEnd::origin ? "pelvis" : "femur_r");
+    }
+    return;
+  }
+  FAIL() << "it is not in the scene";
+}
+
 TEST(FolderOfMadeBody, a_right_hip_mirrored_is_a_left_one) {
   const TestFolder folder;
   write_body(folder.path() / "hip", hip(), hip_names);

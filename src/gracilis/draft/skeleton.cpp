@@ -84,7 +84,7 @@ struct Building {
     const Real turned = degrees(angle_about(axis.direction, outwards, moving->far - resting->far));
     axis.capture = radians(std::round(turned) - 90);
     joint.capture_guess = {joint.name + " capture pose",
-                           fmt::format("the forearm is turned by {:.0f} degrees from palm forward", turned), 0.6};
+                           fmt::format("the forearm is turned by {:g} degrees from palm forward", std::round(turned) + 0.0), 0.6};
   }
 
   /// In the capture pose, by the long bones on both sides of a hinge.
@@ -99,7 +99,7 @@ struct Building {
     // A straight limb's bones are not quite parallel.
     if (std::abs(angle) > radians(6)) hinge.capture = std::round(degrees(angle)) * radians(1);
     joint.capture_guess = {joint.name + " capture pose",
-                           fmt::format("the long bones stand at {:.0f} degrees", degrees(angle)), 0.7};
+                           fmt::format("the long bones stand at {:g} degrees", std::round(degrees(angle)) + 0.0), 0.7};
   }
 
   void add_joint(const KnownJoint& known, BodySide side, const JointFit& fit, const std::string& parent,

@@ -107,6 +107,7 @@ SphereFit fit_sphere(const SurfaceSamples& samples, Real radius_min, Real radius
   }
   if (highest <= 0) return {};
   refine(samples, best);
+  if (!(best.radius >= radius_min && best.radius <= radius_max)) return {};  // a part of a larger or smaller one
   measure(samples, best);
   return best;
 }
