@@ -42,9 +42,11 @@ Vec3 vector_of(const toml::node_view<const toml::node> list) {
 
 WordTables read_words(const toml::table& table) {
   WordTables words{text_set(table["right"]), text_set(table["left"]), text_set(table["fillers"]),
-                   text_set(table["others"]), {}};
+                   text_set(table["others"]), {}, {}};
   for (const auto& [key, value] : *table["same"].as_table())
     words.same[std::string(key.str())] = value.value_or(std::string());
+  for (const auto& [key, value] : *table["instead"].as_table())
+    words.instead[std::string(key.str())] = value.value_or(std::string());
   return words;
 }
 

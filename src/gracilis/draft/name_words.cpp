@@ -66,6 +66,8 @@ NameWords read_name(std::string_view name, const WordTables& tables) {
         if (!tables.fillers.contains(each)) result.words.push_back(each);
     }
   }
+  for (const auto& [word, other] : tables.instead)
+    if (std::find(result.words.begin(), result.words.end(), word) != result.words.end()) std::erase(result.words, other);
   return result;
 }
 

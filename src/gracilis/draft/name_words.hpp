@@ -19,7 +19,8 @@ BodySide other_side(BodySide side);
 /// How the words of names are read (words.toml).
 struct WordTables {
   std::set<std::string> right, left, fillers, others;
-  std::map<std::string, std::string> same;
+  std::map<std::string, std::string> same;     ///< read as
+  std::map<std::string, std::string> instead;  ///< counts, and the other one does not
 };
 
 /// A name in comparable words: lower case, without side and fillers.
