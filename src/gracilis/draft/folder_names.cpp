@@ -73,6 +73,14 @@ NamedSurfaceFile named(const fs::path& file, const fs::path& folder) {
   return surface;
 }
 
+/// Whether a drafted scene beside it wrote this table of landmarks.
+bool is_of_a_scene(const fs::path& table) {
+  const std::string stem = table.stem().string(), ending = "_landmarks";
+  if (!stem.ends_with(ending)) return false;
+  std::error_code ignored;
+  return fs::exists(table.parent_path() / (stem.substr(0, stem.size() - ending.size()) + ".toml"), ignored);
+}
+
 }  // namespace
 
 FolderFiles list_folder(const fs::path& folder) {
@@ -89,7 +97,7 @@ FolderFiles list_folder(const fs::path& folder) {
       if (hidden || fs::exists(path / "run.json", failed)) entry.disable_recursion_pending();
     } else if (!hidden && surface_endings.contains(lower_case_extension(path))) {
       surfaces.push_back(path);
-    } else if (!hidden && lower_case_extension(path) == ".csv") {
+    } else if (!hidden && lower_case_extension(path) == ".csv" && !is_of_a_scene(path)) {
       files.tables.push_back(path);
     }
   }
