@@ -36,7 +36,8 @@ void add_joint_landmarks(const std::string& text, DraftOptions& draft) {
       names.push_back(text.substr(begin, comma - begin));
     names.push_back(text.substr(begin));
   }
-  const bool whole = !names.empty() && std::none_of(names.begin(), names.end(), [](auto& name) { return name.empty(); });
+  const bool whole =
+      !names.empty() && std::none_of(names.begin(), names.end(), [](auto& name) { return name.empty(); });
   if (!whole || names.size() > 2)
     throw ConfigurationError({"--joint", "", "'" + text + "' names no joint with one or two landmarks",
                               "write JOINT=CENTER or JOINT=ONE_SIDE,OTHER_SIDE, as in knee_r=R_Med_Epi,R_Lat_Epi"});
@@ -45,9 +46,11 @@ void add_joint_landmarks(const std::string& text, DraftOptions& draft) {
 
 void check_out(const SceneCommandOptions& options) {
   if (options.out.extension() != ".toml")
-    throw ConfigurationError({"--out", "", "'" + options.out.string() + "' is no name of a scene file", "name a .toml file"});
+    throw ConfigurationError(
+        {"--out", "", "'" + options.out.string() + "' is no name of a scene file", "name a .toml file"});
   if (is_there(options.out) && !options.force)
-    throw ConfigurationError({options.out.string(), "", "is there already", "give another name, or --force to replace it"});
+    throw ConfigurationError(
+        {options.out.string(), "", "is there already", "give another name, or --force to replace it"});
 }
 
 /// What was found and what was guessed, doubtful things first.
@@ -60,9 +63,8 @@ void tell(const SceneDraft& draft) {
       guesses.push_back(each.guess);
       guesses.back().how += fmt::format(" ({} vertices on {})", each.vertices.size(), each.body);
     }
-  std::stable_sort(guesses.begin(), guesses.end(), [](const Guess& a, const Guess& b) {
-    return (a.certainty < doubtful) > (b.certainty < doubtful);
-  });
+  std::stable_sort(guesses.begin(), guesses.end(),
+                   [](const Guess& a, const Guess& b) { return (a.certainty < doubtful) > (b.certainty < doubtful); });
   for (const Guess& guess : guesses)
     fmt::print("{} {}: {}\n", guess.certainty < doubtful ? "look at" : "guessed", guess.subject, to_string(guess));
   for (const std::string& line : draft.left_out) fmt::print("left out {}\n", line);
@@ -94,13 +96,15 @@ int make_scene(const SceneCommandOptions& options) {
   const SceneDraft draft = draft_scene(options.folder, draft_options);
 
   const std::string clouds = draft_landmarks(draft);
-  const fs::path table = clouds.empty() ? fs::path() : options.out.parent_path() / (options.out.stem().string() + "_landmarks.csv");
+  const fs::path table =
+      clouds.empty() ? fs::path() : options.out.parent_path() / (options.out.stem().string() + "_landmarks.csv");
   if (!clouds.empty()) write_text_atomically(table, clouds);
   write_text_atomically(options.out, draft_text(draft, options.out, table));
   const LoadedScene loaded = read_scene(options.out);
   tell(draft);
   for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
-  draw(draft, loaded.scene, options.picture.empty() ? fs::path(options.out).replace_extension(".png") : options.picture);
+  draw(draft, loaded.scene,
+       options.picture.empty() ? fs::path(options.out).replace_extension(".png") : options.picture);
   fmt::print("{}\n", options.out.string());
   return static_cast<int>(ExitCode::done);
 }
@@ -111,13 +115,15 @@ void add_scene_command(CLI::App& program, Command& chosen) {
   const auto options = std::make_shared<SceneCommandOptions>();
   CLI::App* command = program.add_subcommand(
       "scene", "Make a scene of a folder of surfaces: bones, joints, muscles and where they attach, each guess marked");
-  command->add_option("FOLDER", options->folder, "Folder with surfaces of bones and muscles, named after them")->required();
+  command->add_option("FOLDER", options->folder, "Folder with surfaces of bones and muscles, named after them")
+      ->required();
   command->add_option("--out", options->out, "Scene file to write (.toml)")->required();
   command
       ->add_option("--joint", options->joints,
                    "JOINT=CENTER or JOINT=ONE,OTHER: landmarks (of a .csv in the folder) that say where a joint is")
       ->allow_extra_args(false);
-  command->add_option("--picture", options->picture, "Where to draw what was guessed (.png; default: beside the scene file)");
+  command->add_option("--picture", options->picture,
+                      "Where to draw what was guessed (.png; default: beside the scene file)");
   command->add_flag("--mirror", options->mirror, "Make the body's other half: a left leg of a right one");
   command->add_flag("--force", options->force, "Replace the scene file");
   command->callback([&chosen, options] { chosen = [options] { return make_scene(*options); }; });

@@ -22,9 +22,9 @@ struct EndAgreement {
 
 struct JointAgreement {
   std::string joint;
-  Real apart = 0;               ///< m, between the centers
-  Real from_axis = 0;           ///< m, of the drafted center from the other's first axis
-  std::vector<Real> angles;     ///< rad, between the axes in their order
+  Real apart = 0;            ///< m, between the centers
+  Real from_axis = 0;        ///< m, of the drafted center from the other's first axis
+  std::vector<Real> angles;  ///< rad, between the axes in their order
 };
 
 inline std::vector<Index> held_at(const Muscle& muscle, AttachmentEnd end) {
@@ -47,7 +47,8 @@ inline bool same_body(const Scene& a, Index of_a, const Scene& b, Index of_b) {
   for (const Bone& bone : a.bones) {
     if (bone.body != of_a) continue;
     for (const Bone& other : b.bones)
-      if (other.body == of_b && (bone.surface.vertices.col(0) - other.surface.vertices.col(0)).norm() < 1e-6) return true;
+      if (other.body == of_b && (bone.surface.vertices.col(0) - other.surface.vertices.col(0)).norm() < 1e-6)
+        return true;
   }
   return false;
 }
@@ -84,7 +85,8 @@ inline std::vector<JointAgreement> joints_compared(const Scene& by_hand, const S
     for (const Joint& other : drafted.joints) {
       const Vec3 apart = other.frame.translation() - known.frame.translation();
       if (apart.norm() > 0.05) continue;
-      JointAgreement agreement{other.name, apart.norm(), (known.frame.linear() * known.axes[0].axis).cross(apart).norm(), {}};
+      JointAgreement agreement{
+          other.name, apart.norm(), (known.frame.linear() * known.axes[0].axis).cross(apart).norm(), {}};
       for (std::size_t i = 0; i < std::min(known.axes.size(), other.axes.size()); ++i)
         agreement.angles.push_back(std::acos(std::clamp(
             (known.frame.linear() * known.axes[i].axis).dot(other.frame.linear() * other.axes[i].axis), -1.0, 1.0)));

@@ -88,9 +88,8 @@ TEST(FolderOfMadeBody, every_site_of_the_dictionary_is_a_bone_that_it_knows) {
     if (site.bone.starts_with("#")) return !dictionary().segment(site.bone.substr(1)).name.empty();
     const bool many = site.bone.ends_with("*");
     const std::string start = many ? site.bone.substr(0, site.bone.size() - 1) : site.bone;
-    return std::any_of(dictionary().bones.begin(), dictionary().bones.end(), [&](const KnownBone& bone) {
-      return many ? bone.name.starts_with(start) : bone.name == start;
-    });
+    return std::any_of(dictionary().bones.begin(), dictionary().bones.end(),
+                       [&](const KnownBone& bone) { return many ? bone.name.starts_with(start) : bone.name == start; });
   };
   EXPECT_GT(dictionary().muscles.size(), 150u);
   for (const KnownMuscle& muscle : dictionary().muscles)
@@ -230,10 +229,11 @@ TEST(FolderOfMadeBody, what_cannot_be_used_is_left_out_and_named) {
   write_surface(folder.path() / "hip" / "iliofemoral ligament.vtp", open.vertices, open.faces);
   const SceneDraft draft = draft_scene(folder.path() / "hip");
   EXPECT_EQ(draft.muscles.size(), 4u);
-  EXPECT_THAT(draft.left_out, testing::UnorderedElementsAre(
-                                  testing::AllOf(testing::HasSubstr("piriformis_r"), testing::HasSubstr("gracilis prepare")),
-                                  testing::AllOf(testing::HasSubstr("thing7"), testing::HasSubstr("rename")),
-                                  testing::AllOf(testing::HasSubstr("ligament"), testing::HasSubstr("neither bone nor"))));
+  EXPECT_THAT(draft.left_out,
+              testing::UnorderedElementsAre(
+                  testing::AllOf(testing::HasSubstr("piriformis_r"), testing::HasSubstr("gracilis prepare")),
+                  testing::AllOf(testing::HasSubstr("thing7"), testing::HasSubstr("rename")),
+                  testing::AllOf(testing::HasSubstr("ligament"), testing::HasSubstr("neither bone nor"))));
 }
 
 TEST(FolderOfMadeBody, a_folder_without_known_bones_is_refused_in_words) {
@@ -241,13 +241,15 @@ TEST(FolderOfMadeBody, a_folder_without_known_bones_is_refused_in_words) {
   write_body(folder.path() / "hip", hip(), {{"iliacus_r", "iliacus.vtp"}, {"femur_r", "part_one.vtp"}});
   EXPECT_THAT(message_of_input_error([&] { draft_scene(folder.path() / "hip"); }),
               testing::AllOf(testing::HasSubstr("no bone whose name is known"), testing::HasSubstr("femur_r.ply")));
-  EXPECT_THAT(message_of_input_error([&] { draft_scene(folder.path() / "nowhere"); }), testing::HasSubstr("cannot be read"));
+  EXPECT_THAT(message_of_input_error([&] { draft_scene(folder.path() / "nowhere"); }),
+              testing::HasSubstr("cannot be read"));
 }
 
 TEST(FolderOfMadeBody, bones_of_no_possible_size_are_refused) {
   const TestFolder folder;
   write_body(folder.path() / "hip", hip(), hip_names, 1 / 2.5);
-  EXPECT_THAT(message_of_input_error([&] { draft_scene(folder.path() / "hip"); }), testing::HasSubstr("times as large"));
+  EXPECT_THAT(message_of_input_error([&] { draft_scene(folder.path() / "hip"); }),
+              testing::HasSubstr("times as large"));
 }
 
 TEST(FolderOfMadeBody, landmarks_say_where_a_joint_is_where_they_are_named) {

@@ -28,7 +28,8 @@ TEST_F(SceneReader, a_patch_holds_what_is_near_its_pieces_on_the_attachment_s_bo
 
 TEST_F(SceneReader, a_patch_without_distance_or_beside_landmarks_is_refused) {
   folder.write("patch.ply", patch);
-  EXPECT_THAT(problems(with(by_patch("pelvis", "2"), "landmark_distance_mm = 2", "")), HasSubstr("landmark_distance_mm"));
+  EXPECT_THAT(problems(with(by_patch("pelvis", "2"), "landmark_distance_mm = 2", "")),
+              HasSubstr("landmark_distance_mm"));
   EXPECT_THAT(problems(with(by_patch("pelvis", "2"), "patch =", "points_mm = [[0, 0, 30]]\npatch =")),
               HasSubstr("both a patch and landmarks"));
   EXPECT_THAT(problems(by_patch("pelvis", "0.5")), HasSubstr("holds no vertex"));

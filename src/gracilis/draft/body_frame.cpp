@@ -2,8 +2,8 @@
 
 #include <gracilis/geometry/measures.hpp>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>

@@ -33,8 +33,8 @@ struct BodyFrame {
   Vec3 named(const std::string& direction, BodySide side) const;
 };
 
-/// The turn that brings the dictionary's places of the bones nearest to where they lie (Kabsch 1976); where it is nearly
-/// one of the frame's axes, that axis. `side` says which half names without a side mean.
+/// The turn that brings the dictionary's places of the bones nearest to where they lie (Kabsch 1976); where it is
+/// nearly one of the frame's axes, that axis. `side` says which half names without a side mean.
 BodyFrame body_frame(const FoundFolder& found, const std::vector<std::optional<BoneAxis>>& axes);
 
 }  // namespace gracilis

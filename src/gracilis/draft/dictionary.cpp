@@ -41,8 +41,8 @@ Vec3 vector_of(const toml::node_view<const toml::node> list) {
 }
 
 WordTables read_words(const toml::table& table) {
-  WordTables words{text_set(table["right"]), text_set(table["left"]), text_set(table["fillers"]),
-                   text_set(table["others"]), {}, {}};
+  WordTables words{
+      text_set(table["right"]), text_set(table["left"]), text_set(table["fillers"]), text_set(table["others"]), {}, {}};
   for (const auto& [key, value] : *table["same"].as_table())
     words.same[std::string(key.str())] = value.value_or(std::string());
   for (const auto& [key, value] : *table["instead"].as_table())
@@ -177,7 +177,8 @@ Dictionary read_dictionary() {
 }  // namespace
 
 const KnownSegment& Dictionary::segment(const std::string& name) const {
-  const auto found = std::find_if(segments.begin(), segments.end(), [&](const auto& each) { return each.name == name; });
+  const auto found =
+      std::find_if(segments.begin(), segments.end(), [&](const auto& each) { return each.name == name; });
   if (found == segments.end()) throw std::logic_error("joints.toml: unknown segment " + name);
   return *found;
 }

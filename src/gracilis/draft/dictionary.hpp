@@ -19,8 +19,8 @@ struct KnownBone {
   std::string name, segment;
   std::vector<Alias> aliases;
   bool paired = false;
-  Real length = 0;           ///< largest extent
-  Vec3 place = Vec3::Zero(); ///< forward, up, right, of a person who stands upright
+  Real length = 0;                          ///< largest extent
+  Vec3 place = Vec3::Zero();                ///< forward, up, right, of a person who stands upright
   std::optional<std::array<Vec3, 2>> ends;  ///< near, far; likewise
 };
 

@@ -17,7 +17,9 @@ constexpr Real own_vertices = 0.0002;
 /// m from its bone: an end so far would be carried about by it as on a rod, which a tendon is not.
 constexpr Real missing_tendon = 0.03;
 
-Points positions(const TriangleMesh& mesh, const std::vector<Index>& vertices) { return mesh.vertices(Eigen::all, vertices); }
+Points positions(const TriangleMesh& mesh, const std::vector<Index>& vertices) {
+  return mesh.vertices(Eigen::all, vertices);
+}
 
 /// Drafts one muscle's ends.
 struct EndsDraft {
@@ -63,9 +65,9 @@ struct EndsDraft {
       if (held.vertices.empty()) continue;
       found_here.push_back(on_bones(end, held));
       const Real near = held.distance < 0.0035 ? 0.8 : held.distance < 0.0065 ? 0.65 : 0.45;
-      found_here.back().guess = {"", fmt::format("within {:g} mm of {}", 1000 * held.distance,
-                                                 fmt::join(found_here.back().bones, ", ")),
-                                 near * (muscle.known ? muscle.certainty / 0.95 : 0.7)};
+      found_here.back().guess = {
+          "", fmt::format("within {:g} mm of {}", 1000 * held.distance, fmt::join(found_here.back().bones, ", ")),
+          near * (muscle.known ? muscle.certainty / 0.95 : 0.7)};
     }
     Real nearest = std::numeric_limits<Real>::infinity();
     for (const DraftAttachment& each : found_here) nearest = std::min(nearest, each.bone_distance);
@@ -92,10 +94,11 @@ struct EndsDraft {
       const std::string bone = attachment.bones.front();
       const bool far = held.distance > missing_tendon * found.size;
       if (far) attachment.body = body_beside(held.vertices);
-      attachment.guess = {"", fmt::format("hardly touches {}: what is nearest, {:.0f} mm from {}{}", wanted.wanted,
-                                          1000 * held.distance, bone,
-                                          far ? "; its tendon is missing, so it moves with " + attachment.body : ""),
-                          far ? 0.2 : 0.35};
+      attachment.guess = {
+          "",
+          fmt::format("hardly touches {}: what is nearest, {:.0f} mm from {}{}", wanted.wanted, 1000 * held.distance,
+                      bone, far ? "; its tendon is missing, so it moves with " + attachment.body : ""),
+          far ? 0.2 : 0.35};
       attachment.bones.clear();
       attachment.bone_distance = 0;
       drafted.push_back(std::move(attachment));
@@ -106,9 +109,10 @@ struct EndsDraft {
       attachment.end = end;
       attachment.body = wanted.bodies.front();
       attachment.vertices = held.vertices;
-      attachment.guess = {"", fmt::format("{} is not here: the end farthest from the other, moved with {}", wanted.wanted,
-                                          attachment.body),
-                          0.35};
+      attachment.guess = {
+          "",
+          fmt::format("{} is not here: the end farthest from the other, moved with {}", wanted.wanted, attachment.body),
+          0.35};
       drafted.push_back(std::move(attachment));
     }
   }
@@ -122,13 +126,13 @@ struct EndsDraft {
       const HeldVertices held = ends.touching(bones, zones);
       if (held.vertices.empty() || held.distance > 0.0065) continue;
       touched.push_back(on_bones(AttachmentEnd::origin, held));
-      touched.back().guess = {"", fmt::format("its name is unknown: within {:g} mm of {}", 1000 * held.distance,
-                                              fmt::join(touched.back().bones, ", ")),
+      touched.back().guess = {"",
+                              fmt::format("its name is unknown: within {:g} mm of {}", 1000 * held.distance,
+                                          fmt::join(touched.back().bones, ", ")),
                               0.4};
     }
-    std::sort(touched.begin(), touched.end(), [](const DraftAttachment& a, const DraftAttachment& b) {
-      return a.vertices.size() > b.vertices.size();
-    });
+    std::sort(touched.begin(), touched.end(),
+              [](const DraftAttachment& a, const DraftAttachment& b) { return a.vertices.size() > b.vertices.size(); });
     if (touched.size() < 2) return;
     touched.resize(2);
     const bool turned = skeleton.depth(touched[0].body) > skeleton.depth(touched[1].body);
@@ -196,7 +200,8 @@ std::vector<DraftAttachment> draft_attachments(const FoundMuscle& muscle, const 
                                                const Landmarks& landmarks, std::string& why) {
   EndsDraft draft{muscle, found, skeleton, bones, MuscleEnds(muscle.mesh, found.size)};
   if (muscle.known)
-    draft.sites = {bones.end_sites(muscle.known->origin, muscle.side), bones.end_sites(muscle.known->insertion, muscle.side)};
+    draft.sites = {bones.end_sites(muscle.known->origin, muscle.side),
+                   bones.end_sites(muscle.known->insertion, muscle.side)};
   draft.drafted = from_patches(muscle, found, draft.sites, bones, skeleton, draft.ends);
   if (draft.drafted.empty())
     draft.drafted = from_landmarks(muscle, landmarks, draft.sites, bones, skeleton, draft.ends, found.is_mirrored);
@@ -214,10 +219,11 @@ std::vector<DraftAttachment> draft_attachments(const FoundMuscle& muscle, const 
   draft.keep_apart();
   for (const AttachmentEnd end : both)
     if (!draft.has_end(end)) {
-      why = muscle.known ? "no bone is here for its " + std::string(end == AttachmentEnd::origin ? "origin" : "insertion") +
-                               " (" + draft.sites.at(end).wanted + ")"
-                         : "its name is unknown and it touches fewer than two bones that move against each other; rename "
-                           "it to a muscle's name";
+      why = muscle.known
+                ? "no bone is here for its " + std::string(end == AttachmentEnd::origin ? "origin" : "insertion") +
+                      " (" + draft.sites.at(end).wanted + ")"
+                : "its name is unknown and it touches fewer than two bones that move against each other; rename "
+                  "it to a muscle's name";
       return {};
     }
   draft.name_all();

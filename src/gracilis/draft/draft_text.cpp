@@ -59,7 +59,9 @@ struct Writing {
   }
 
   void head(const std::string& name, const fs::path& landmarks) {
-    line("# Made by 'gracilis scene' from a folder of surfaces. What follows '# guessed:' nobody said: look at the picture");
+    line(
+        "# Made by 'gracilis scene' from a folder of surfaces. What follows '# guessed:' nobody said: look at the "
+        "picture");
     line("# beside this file, correct what is wrong, and take what you have checked off the list 'guessed'.");
     line("schema = 1");
     line("name = " + quoted(name));
@@ -88,8 +90,8 @@ struct Writing {
 
   void joints() {
     for (const DraftJoint& joint : draft.skeleton.joints) {
-      text += "\n" + guessed_line(joint.guess) + guessed_line({"", "capture pose: " + joint.capture_guess.how,
-                                                              joint.capture_guess.certainty});
+      text += "\n" + guessed_line(joint.guess) +
+              guessed_line({"", "capture pose: " + joint.capture_guess.how, joint.capture_guess.certainty});
       line("[[joints]]");
       line("name = " + quoted(joint.name));
       line("parent = " + quoted(joint.parent));
@@ -100,7 +102,8 @@ struct Writing {
         line("coordinate = " + quoted(axis.coordinate));
         line("axis = " + vector_text(axis.direction, 5));
         if (axis.capture != 0) line("capture_deg = " + number(degrees(axis.capture), 2));
-        line(fmt::format("range_deg = [{}, {}]", number(degrees(axis.range_min), 1), number(degrees(axis.range_max), 1)));
+        line(fmt::format("range_deg = [{}, {}]", number(degrees(axis.range_min), 1),
+                         number(degrees(axis.range_max), 1)));
       }
     }
   }
@@ -110,8 +113,10 @@ struct Writing {
     line(fmt::format("[[muscles.attachments]] # {} vertices", each.vertices.size()));
     line("name = " + quoted(each.name));
     line(each.end == AttachmentEnd::origin ? "end = \"origin\"" : "end = \"insertion\"");
-    if (each.bones.empty()) line("body = " + quoted(each.body));
-    else line("bone = " + list(each.bones));
+    if (each.bones.empty())
+      line("body = " + quoted(each.body));
+    else
+      line("bone = " + list(each.bones));
     if (!each.patch.empty()) text += "patch = " + path_text(each.patch, folder) + "\n" + unit();
     if (!each.cloud.empty()) line("cloud = " + quoted(each.cloud));
     if (each.line == LineKind::open) line("line = \"open\"");

@@ -11,7 +11,8 @@
 namespace gracilis {
 namespace {
 
-/// Surfaces of muscles are drawn on bones or some millimetres away from them, as far as a tendon's cross section reaches.
+/// Surfaces of muscles are drawn on bones or some millimetres away from them, as far as a tendon's cross section
+/// reaches.
 constexpr std::array<Real, 8> reaches = {0.003, 0.004, 0.005, 0.006, 0.008, 0.01, 0.012, 0.015};
 constexpr Real least_area_share = 0.005;  // of the muscle's surface
 constexpr Real crumb_share = 0.2;         // of the largest piece

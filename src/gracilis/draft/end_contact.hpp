@@ -11,9 +11,9 @@ namespace gracilis {
 
 /// Vertices of a muscle that an end may hold.
 struct HeldVertices {
-  std::vector<Index> vertices;       ///< ascending; empty: none
-  std::vector<std::size_t> bones;    ///< that they are near to, in FoundFolder::bones
-  Real distance = 0;                 ///< m, within which they lie
+  std::vector<Index> vertices;     ///< ascending; empty: none
+  std::vector<std::size_t> bones;  ///< that they are near to, in FoundFolder::bones
+  Real distance = 0;               ///< m, within which they lie
 };
 
 /// What several questions about one muscle share.

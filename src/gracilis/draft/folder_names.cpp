@@ -14,13 +14,11 @@ namespace fs = std::filesystem;
 const std::set<std::string> surface_endings = {".ply", ".stl", ".obj", ".vtk", ".vtp"};
 const std::set<std::string> bone_folders = {"bone", "bones", "os", "ossa", "skeleton", "bony"};
 const std::set<std::string> muscle_folders = {"muscle", "muscles", "musculus", "musculi", "musculature"};
-const std::set<std::string> patch_words = {"patch",  "patches", "attachment", "attachments", "origin", "origins",
-                                           "insertion", "insertions", "footprint", "footprints", "ori", "ins"};
+const std::set<std::string> patch_words = {"patch",     "patches",    "attachment", "attachments", "origin", "origins",
+                                           "insertion", "insertions", "footprint",  "footprints",  "ori",    "ins"};
 
 /// Words as they stand, without what read_name makes of them.
-std::vector<std::string> plain_words(const std::string& text) {
-  return read_name(text, WordTables{}).words;
-}
+std::vector<std::string> plain_words(const std::string& text) { return read_name(text, WordTables{}).words; }
 
 bool any_in(const std::vector<std::string>& words, const std::set<std::string>& set) {
   return std::any_of(words.begin(), words.end(), [&](const std::string& word) { return set.contains(word); });

@@ -62,17 +62,18 @@ void choose_unit(const FolderFiles& files, const fs::path& folder, FoundFolder& 
                       "name bones as in femur_r.ply or 'left scapula.stl', in English or Latin, with _r or _l"});
   }
   const auto off = [&](const Unit& unit) { return std::abs(std::log(size * unit.length)); };
-  const Unit& best = *std::min_element(units.begin(), units.end(),
-                                       [&](const Unit& a, const Unit& b) { return off(a) < off(b); });
+  const Unit& best =
+      *std::min_element(units.begin(), units.end(), [&](const Unit& a, const Unit& b) { return off(a) < off(b); });
   found.unit = best.name;
   found.unit_length = best.length;
   found.size = size * best.length;
   if (found.size >= smallest_size && found.size <= largest_size) return;
-  throw InputError({folder.string(), "",
-                    fmt::format("the bones are {:.3g} times as large as a grown person's in {}, and in no unit of m, cm "
-                                "and mm as large as bones are",
-                                found.size, best.name),
-                    "scale the surfaces to one of these units"});
+  throw InputError(
+      {folder.string(), "",
+       fmt::format("the bones are {:.3g} times as large as a grown person's in {}, and in no unit of m, cm "
+                   "and mm as large as bones are",
+                   found.size, best.name),
+       "scale the surfaces to one of these units"});
 }
 
 /// What both sides of one name are told apart by.
@@ -107,8 +108,8 @@ struct Taking {
   bool is_new(const std::string& name, const fs::path& file) {
     const auto [at, inserted] = taken.emplace(name, file);
     if (!inserted)
-      found.left_out.push_back(
-          fmt::format("{}: {} is there already, from {}; remove or rename one", file.string(), name, at->second.string()));
+      found.left_out.push_back(fmt::format("{}: {} is there already, from {}; remove or rename one", file.string(),
+                                           name, at->second.string()));
     return inserted;
   }
 
@@ -137,8 +138,8 @@ struct Taking {
   void take_bone(const NamedSurfaceFile& each) {
     const KnownBone* known = each.bone.known;
     const BodySide side = side_of(each, known && known->paired);
-    const std::string name = known ? scene_name(known->name, each.bone.rest, side)
-                                   : scene_name("", each.words.words, each.words.side);
+    const std::string name =
+        known ? scene_name(known->name, each.bone.rest, side) : scene_name("", each.words.words, each.words.side);
     std::optional<TriangleMesh> mesh = load(each.file, SurfaceRole::bone);
     if (!mesh || !is_new(name, each.file)) return;
     found.bones.push_back({name, each.file, known, side, known ? each.bone.certainty : 0.3, std::move(*mesh)});
@@ -147,8 +148,7 @@ struct Taking {
   std::string muscle_name(const NamedSurfaceFile& each, bool with_rest) const {
     const KnownMuscle* known = each.muscle.known;
     if (!known) return scene_name("", each.words.words, each.words.side);
-    return scene_name(known->name, with_rest ? each.muscle.rest : std::vector<std::string>{},
-                      side_of(each, true));
+    return scene_name(known->name, with_rest ? each.muscle.rest : std::vector<std::string>{}, side_of(each, true));
   }
 
   void take_muscle(const NamedSurfaceFile& each) {
@@ -156,8 +156,8 @@ struct Taking {
     std::optional<TriangleMesh> mesh = load(each.file, SurfaceRole::muscle);
     if (!mesh || !is_new(name, each.file)) return;
     const KnownMuscle* known = each.muscle.known;
-    found.muscles.push_back({name, each.file, known, side_of(each, true),
-                             known ? each.muscle.certainty : 0.3, std::move(*mesh)});
+    found.muscles.push_back(
+        {name, each.file, known, side_of(each, true), known ? each.muscle.certainty : 0.3, std::move(*mesh)});
   }
 
   /// By its shape: a closed surface no larger than a muscle may be one, which its ends on bones must show.
@@ -182,8 +182,8 @@ struct Taking {
 
   void take_patch(const NamedSurfaceFile& each) {
     if (!each.muscle.known) {
-      found.left_out.push_back(fmt::format("{}: a patch of no muscle whose name is known; name it after its muscle",
-                                           each.file.string()));
+      found.left_out.push_back(
+          fmt::format("{}: a patch of no muscle whose name is known; name it after its muscle", each.file.string()));
       return;
     }
     try {
@@ -201,7 +201,8 @@ void mirror_body(FoundFolder& found, const Vec3& right) {
   const auto turn = [&](auto& each) {
     const std::string before = side_ending(each.side);
     each.side = other_side(each.side);
-    if (!before.empty() && each.name.ends_with(before)) each.name.replace(each.name.size() - 2, 2, side_ending(each.side));
+    if (!before.empty() && each.name.ends_with(before))
+      each.name.replace(each.name.size() - 2, 2, side_ending(each.side));
     each.mesh = mirrored(each.mesh, right);
   };
   for (FoundBone& bone : found.bones) turn(bone);

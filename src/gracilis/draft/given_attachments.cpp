@@ -118,9 +118,7 @@ AttachmentEnd end_on(std::size_t bone, const MuscleSites& sites, const BoneParts
   };
   if (among(sites.origin) != among(sites.insertion))
     return among(sites.origin) ? AttachmentEnd::origin : AttachmentEnd::insertion;
-  const auto depth = [&](const EndSites& end) {
-    return end.bodies.empty() ? 0 : skeleton.depth(end.bodies.front());
-  };
+  const auto depth = [&](const EndSites& end) { return end.bodies.empty() ? 0 : skeleton.depth(end.bodies.front()); };
   return skeleton.depth(body) <= depth(sites.origin) ? AttachmentEnd::origin : AttachmentEnd::insertion;
 }
 
@@ -151,8 +149,9 @@ std::vector<DraftAttachment> from_patches(const FoundMuscle& muscle, const Found
         if (ends.is_enough(attachment.vertices)) break;
       }
       if (attachment.vertices.empty()) continue;
-      attachment.guess = {"", fmt::format("the patch's pieces on {}, within {:g} mm", fmt::join(attachment.bones, ", "),
-                                          1000 * attachment.landmark_distance),
+      attachment.guess = {"",
+                          fmt::format("the patch's pieces on {}, within {:g} mm", fmt::join(attachment.bones, ", "),
+                                      1000 * attachment.landmark_distance),
                           attachment.landmark_distance < 0.007 ? 0.95 : 0.7};
       result.push_back(std::move(attachment));
     }
@@ -183,8 +182,9 @@ std::vector<DraftAttachment> from_landmarks(const FoundMuscle& muscle, const Lan
     attachment.points = cloud.points;
     hold_by_landmarks(attachment, bone, bones, ends);
     if (attachment.vertices.empty()) continue;
-    attachment.guess = {"", bone ? "landmarks '" + cloud.name + "' on " + attachment.bones.front()
-                                 : "landmarks '" + cloud.name + "' on no bone that is here, moved with " + attachment.body,
+    attachment.guess = {"",
+                        bone ? "landmarks '" + cloud.name + "' on " + attachment.bones.front()
+                             : "landmarks '" + cloud.name + "' on no bone that is here, moved with " + attachment.body,
                         bone ? 0.9 : 0.6};
     result.push_back(std::move(attachment));
   }

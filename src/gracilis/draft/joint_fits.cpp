@@ -94,14 +94,15 @@ std::optional<JointFit> fit_ball(const JointQuestion& q) {
     const Real gap = socket.query(center, 2 * radius).distance - radius;
     return gap > -0.35 * radius && gap < 0.35 * radius ? 1 : 0;
   };
-  const SphereFit sphere = fit_sphere(end, q.joint.radius_min * q.found.size, q.joint.radius_max * q.found.size, liking);
+  const SphereFit sphere =
+      fit_sphere(end, q.joint.radius_min * q.found.size, q.joint.radius_max * q.found.size, liking);
   if (sphere.radius == 0 || sphere.share < 0.12) return std::nullopt;
   const Real certainty = std::clamp(0.5 + sphere.share, 0.0, 0.95);
-  return JointFit{sphere.center, body_axes(q),
-                  fmt::format("a sphere of {:.1f} mm on {}, which covers {:.0f} % of it to {:.2f} mm",
-                              1000 * sphere.radius, q.found.bones[convex.front()].name, 100 * sphere.share,
-                              1000 * sphere.residual),
-                  certainty};
+  return JointFit{
+      sphere.center, body_axes(q),
+      fmt::format("a sphere of {:.1f} mm on {}, which covers {:.0f} % of it to {:.2f} mm", 1000 * sphere.radius,
+                  q.found.bones[convex.front()].name, 100 * sphere.share, 1000 * sphere.residual),
+      certainty};
 }
 
 /// The two spheres of condyles, of what lies right and left of the middle.
@@ -141,13 +142,14 @@ std::optional<JointFit> fit_hinge_of_condyles(const JointQuestion& q) {
   const Vec3 line = condyles.right.center - condyles.left.center;
   if (line.norm() < 0.02 * q.found.size) return std::nullopt;
   const Real off = std::acos(std::clamp(line.normalized().dot(q.frame.right()), -1.0, 1.0));
-  const Vec3 direction = q.joint.coordinates.front().about.starts_with("-") ? Vec3(-line.normalized()) : line.normalized();
-  return JointFit{(condyles.right.center + condyles.left.center) / 2,
-                  {direction},
-                  fmt::format("a line through spheres of {:.1f} and {:.1f} mm on the condyles of {}",
-                              1000 * condyles.right.radius, 1000 * condyles.left.radius,
-                              q.found.bones[convex.front()].name),
-                  off < radians(20) ? 0.85 : 0.6};
+  const Vec3 direction =
+      q.joint.coordinates.front().about.starts_with("-") ? Vec3(-line.normalized()) : line.normalized();
+  return JointFit{
+      (condyles.right.center + condyles.left.center) / 2,
+      {direction},
+      fmt::format("a line through spheres of {:.1f} and {:.1f} mm on the condyles of {}", 1000 * condyles.right.radius,
+                  1000 * condyles.left.radius, q.found.bones[convex.front()].name),
+      off < radians(20) ? 0.85 : 0.6};
 }
 
 /// The vertex that lies farthest along a direction.
@@ -157,8 +159,9 @@ Vec3 tip_along(const Vec3& direction, const TriangleMesh& mesh) {
   return mesh.vertices.col(tip);
 }
 
-/// Along which way a hinge's axis runs about: at the ankle, seen from above, from the tip of one malleolus to that of the
-/// other, and outwards down by 7.3 degrees (Inman 1976); else the body's right, at right angles to the longest bone there.
+/// Along which way a hinge's axis runs about: at the ankle, seen from above, from the tip of one malleolus to that of
+/// the other, and outwards down by 7.3 degrees (Inman 1976); else the body's right, at right angles to the longest bone
+/// there.
 Vec3 expected_axis(const JointQuestion& q, const std::vector<std::size_t>& bones) {
   Vec3 right = q.frame.named(q.joint.coordinates.front().about, q.side);
   const std::vector<std::size_t> fork = bones_named(q.found, {"tibia", "fibula"}, q.side);
@@ -196,7 +199,8 @@ SurfaceSamples rolled_on(const JointQuestion& q, const std::vector<std::size_t>&
     const Real distance = out.norm();
     const Vec3 slide = fit.direction.cross(out) / std::max(distance, 1e-9);
     return place >= low && place <= high && distance > 0.6 * fit.radius && distance < 1.5 * fit.radius &&
-           out.dot(all.normals.col(i)) > 0.4 * distance && std::abs(slide.dot(all.normals.col(i))) < 0.35 && beside_face(out);
+           out.dot(all.normals.col(i)) > 0.4 * distance && std::abs(slide.dot(all.normals.col(i))) < 0.35 &&
+           beside_face(out);
   });
 }
 
@@ -251,8 +255,7 @@ std::optional<JointFit> fit_saddle(const JointQuestion& q) {
   if (convex.empty() || concave.empty() || !q.axes[concave.front()]) return std::nullopt;
   const BoneAxis& radius = *q.axes[concave.front()];
   const SurfaceSamples face = facing(q, convex, Surroundings(q.found, concave));
-  const SphereFit sphere =
-      fit_sphere(face, q.joint.radius_min * q.found.size, q.joint.radius_max * q.found.size);
+  const SphereFit sphere = fit_sphere(face, q.joint.radius_min * q.found.size, q.joint.radius_max * q.found.size);
   const Vec3 up = -radius.direction();
   const Vec3 surface = face.points * face.areas / face.areas.sum();
   const Vec3 center = sphere.radius > 0 ? sphere.center : Vec3(surface - 0.015 * q.found.size * up);
@@ -290,11 +293,16 @@ std::vector<std::size_t> bones_named(const FoundFolder& found, const std::vector
 
 std::optional<JointFit> fit_joint(const JointQuestion& question) {
   switch (question.joint.kind) {
-    case JointKind::ball: return fit_ball(question);
-    case JointKind::condyles: return fit_hinge_of_condyles(question);
-    case JointKind::roller: return fit_roller(question);
-    case JointKind::pivot: return fit_pivot(question);
-    case JointKind::saddle: return fit_saddle(question);
+    case JointKind::ball:
+      return fit_ball(question);
+    case JointKind::condyles:
+      return fit_hinge_of_condyles(question);
+    case JointKind::roller:
+      return fit_roller(question);
+    case JointKind::pivot:
+      return fit_pivot(question);
+    case JointKind::saddle:
+      return fit_saddle(question);
   }
   return std::nullopt;
 }

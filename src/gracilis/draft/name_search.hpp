@@ -11,9 +11,9 @@ namespace gracilis {
 /// The bone or muscle that a name means.
 template <class Known>
 struct NameMatch {
-  const Known* known = nullptr;  ///< null: none
-  std::vector<std::string> rest; ///< words that its alias does not have
-  Real certainty = 0;            ///< 0 to 1
+  const Known* known = nullptr;   ///< null: none
+  std::vector<std::string> rest;  ///< words that its alias does not have
+  Real certainty = 0;             ///< 0 to 1
 };
 
 /// The one whose alias has the most of the words, all of it among them; else the one that is spelled nearly so.

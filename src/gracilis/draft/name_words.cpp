@@ -6,9 +6,7 @@
 
 namespace gracilis {
 
-std::string side_ending(BodySide side) {
-  return side == BodySide::right ? "_r" : side == BodySide::left ? "_l" : "";
-}
+std::string side_ending(BodySide side) { return side == BodySide::right ? "_r" : side == BodySide::left ? "_l" : ""; }
 
 BodySide other_side(BodySide side) {
   return side == BodySide::right ? BodySide::left : side == BodySide::left ? BodySide::right : BodySide::none;
@@ -67,7 +65,8 @@ NameWords read_name(std::string_view name, const WordTables& tables) {
     }
   }
   for (const auto& [word, other] : tables.instead)
-    if (std::find(result.words.begin(), result.words.end(), word) != result.words.end()) std::erase(result.words, other);
+    if (std::find(result.words.begin(), result.words.end(), word) != result.words.end())
+      std::erase(result.words, other);
   return result;
 }
 

@@ -40,9 +40,9 @@ Vec3 landmark(const std::string& name, const Landmarks& landmarks) {
     known.push_back(cloud.name);
   }
   std::erase(known, "");
-  throw ConfigurationError({"--joint", "", "the folder's tables have no landmark '" + name + "'",
-                            known.empty() ? "there is no table with columns cloud, index, x_mm, y_mm, z_mm"
-                                          : suggestion(name, known)});
+  throw ConfigurationError(
+      {"--joint", "", "the folder's tables have no landmark '" + name + "'",
+       known.empty() ? "there is no table with columns cloud, index, x_mm, y_mm, z_mm" : suggestion(name, known)});
 }
 
 JointOverrides overrides_of(const DraftOptions& options, const Landmarks& landmarks) {
@@ -102,18 +102,20 @@ void draft_motion(SceneDraft& draft) {
 
 void collect_guesses(SceneDraft& draft) {
   const FoundFolder& found = draft.found;
-  draft.guesses.push_back({"unit", fmt::format("{}: bones are then {:.2f} times as large as a grown person's", found.unit,
-                                               found.size),
-                           found.size > 0.5 && found.size < 1.5 ? 0.95 : 0.6});
+  draft.guesses.push_back(
+      {"unit", fmt::format("{}: bones are then {:.2f} times as large as a grown person's", found.unit, found.size),
+       found.size > 0.5 && found.size < 1.5 ? 0.95 : 0.6});
   if (found.side_is_guessed) draft.guesses.push_back({"side", "no name says right or left: taken as right", 0.5});
   draft.guesses.push_back({"directions", draft.skeleton.frame.how, draft.skeleton.frame.certainty});
   for (const FoundBone& bone : found.bones)
     if (bone.known && bone.certainty < 0.8)
-      draft.guesses.push_back({bone.name, "by a name that is nearly this, or has more words: " + bone.file.stem().string(),
+      draft.guesses.push_back({bone.name,
+                               "by a name that is nearly this, or has more words: " + bone.file.stem().string(),
                                bone.certainty});
   for (const DraftMuscle& muscle : draft.muscles)
     if (muscle.found->known && muscle.found->certainty < 0.8)
-      draft.guesses.push_back({muscle.found->name, "by a name that is nearly this: " + muscle.found->file.stem().string(),
+      draft.guesses.push_back({muscle.found->name,
+                               "by a name that is nearly this: " + muscle.found->file.stem().string(),
                                muscle.found->certainty});
   for (const Guess& guess : draft.skeleton.guesses) draft.guesses.push_back(guess);
   for (const DraftJoint& joint : draft.skeleton.joints) {
@@ -145,7 +147,8 @@ SceneDraft draft_scene(const fs::path& folder, const DraftOptions& options) {
   if (draft.found.muscles.empty())
     refuse(folder, draft, "holds no muscle that could be used", "name muscles as in gluteus_maximus_r.ply");
   if (draft.skeleton.joints.empty())
-    refuse(folder, draft, "holds no two bones that move against each other", "a joint needs the bones on both of its sides");
+    refuse(folder, draft, "holds no two bones that move against each other",
+           "a joint needs the bones on both of its sides");
   draft_muscles(draft, landmarks);
   if (draft.muscles.empty()) refuse(folder, draft, "holds no muscle between its bones", "");
   draft_motion(draft);

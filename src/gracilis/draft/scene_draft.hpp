@@ -12,7 +12,7 @@ namespace gracilis {
 
 struct DraftOptions {
   std::map<std::string, std::vector<std::string>> joint_landmarks;  ///< names of one or two landmarks, by joint
-  bool mirror = false;  ///< make the other half of the body
+  bool mirror = false;                                              ///< make the other half of the body
 };
 
 /// One coordinate of the default motion.

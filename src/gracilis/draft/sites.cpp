@@ -31,8 +31,7 @@ BoneParts::BoneParts(const FoundFolder& found, const Skeleton& skeleton) : found
 bool BoneParts::matches(const Site& site, const FoundBone& bone, BodySide side) const {
   if (!bone.known || (bone.side != side && bone.side != BodySide::none && side != BodySide::none)) return false;
   if (site.bone.starts_with("#")) return bone.known->segment == site.bone.substr(1);
-  if (site.bone.ends_with("*"))
-    return bone.known->name.starts_with(site.bone.substr(0, site.bone.size() - 1));
+  if (site.bone.ends_with("*")) return bone.known->name.starts_with(site.bone.substr(0, site.bone.size() - 1));
   if (hip_parts.contains(site.bone) && hip_wholes.contains(bone.known->name)) return true;
   return bone.known->name == site.bone;
 }
@@ -68,8 +67,7 @@ bool BoneParts::in_hip_part(const std::string& part, const FoundBone& bone, cons
   for (const BodySide side : {BodySide::right, BodySide::left}) {
     if (bone.side != BodySide::none && bone.side != side) continue;
     for (const DraftJoint& each : skeleton_.joints)
-      if (each.name == "hip" + side_ending(side) &&
-          (!joint || (each.center - p).norm() < (joint->center - p).norm()))
+      if (each.name == "hip" + side_ending(side) && (!joint || (each.center - p).norm() < (joint->center - p).norm()))
         joint = &each;
   }
   if (!joint) return true;
@@ -91,8 +89,7 @@ bool BoneParts::in_zone(const Zone& zone, const Vec3& p) const {
 
 Real BoneParts::distance(const Zone& zone, const Vec3& p, Real reach) const {
   const NearestPoint nearest = trees_[zone.bone].query(p, reach);
-  return nearest.face >= 0 && in_zone(zone, nearest.point) ? nearest.distance
-                                                           : std::numeric_limits<Real>::infinity();
+  return nearest.face >= 0 && in_zone(zone, nearest.point) ? nearest.distance : std::numeric_limits<Real>::infinity();
 }
 
 }  // namespace gracilis

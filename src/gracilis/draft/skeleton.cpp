@@ -38,7 +38,8 @@ struct Building {
 
   bool has_muscle(const std::vector<std::string>& names, BodySide side) const {
     return std::any_of(found.muscles.begin(), found.muscles.end(), [&](const FoundMuscle& muscle) {
-      return muscle.known && muscle.side == side && std::find(names.begin(), names.end(), muscle.known->name) != names.end();
+      return muscle.known && muscle.side == side &&
+             std::find(names.begin(), names.end(), muscle.known->name) != names.end();
     });
   }
 
@@ -83,8 +84,9 @@ struct Building {
     DraftAxis& axis = joint.axes.front();
     const Real turned = degrees(angle_about(axis.direction, outwards, moving->far - resting->far));
     axis.capture = radians(std::round(turned) - 90);
-    joint.capture_guess = {joint.name + " capture pose",
-                           fmt::format("the forearm is turned by {:g} degrees from palm forward", std::round(turned) + 0.0), 0.6};
+    joint.capture_guess = {
+        joint.name + " capture pose",
+        fmt::format("the forearm is turned by {:g} degrees from palm forward", std::round(turned) + 0.0), 0.6};
   }
 
   /// In the capture pose, by the long bones on both sides of a hinge.
@@ -136,8 +138,7 @@ struct Building {
       return;
     }
     const std::string above = is_root ? skeleton.root : skeleton.body_of_segment.at(key_of(*at, side));
-    if (is_root)
-      skeleton.guesses.push_back({own, "fixed to " + above + ": no bones between the two are here", 0.4});
+    if (is_root) skeleton.guesses.push_back({own, "fixed to " + above + ": no bones between the two are here", 0.4});
     std::string why;
     for (auto joint = on_the_way.rbegin(); joint != on_the_way.rend() && !is_root; ++joint) {
       if (!(*joint)->only_with.empty() && !has_muscle((*joint)->only_with, side)) continue;
@@ -182,7 +183,8 @@ struct Building {
       }
       skeleton.bodies.push_back(
           skeleton.body_of_segment.at(key_of(dictionary().segment(nearest->known->segment), nearest->side)));
-      skeleton.guesses.push_back({bone.name, "its name is unknown: moves with " + nearest->name + ", the nearest bone", 0.3});
+      skeleton.guesses.push_back(
+          {bone.name, "its name is unknown: moves with " + nearest->name + ", the nearest bone", 0.3});
     }
   }
 };
@@ -200,7 +202,8 @@ std::string Skeleton::body_of(const std::string& segment, BodySide side) const {
   for (std::size_t i = 0; i < next.size(); ++i)
     for (const KnownSegment& each : known.segments) {
       if (each.parent != next[i]) continue;
-      if (const auto body = body_of_segment.find(key_of(each, side)); body != body_of_segment.end()) return body->second;
+      if (const auto body = body_of_segment.find(key_of(each, side)); body != body_of_segment.end())
+        return body->second;
       next.push_back(each.name);
     }
   return root;
@@ -227,7 +230,8 @@ Skeleton find_skeleton(const FoundFolder& found, const JointOverrides& overrides
     if (building.used.contains(name)) continue;
     std::vector<std::string> known;
     for (const DraftJoint& joint : skeleton.joints) known.push_back(joint.name);
-    throw ConfigurationError({"--joint", "", "there is no joint '" + name + "' between these bones", suggestion(name, known)});
+    throw ConfigurationError(
+        {"--joint", "", "there is no joint '" + name + "' between these bones", suggestion(name, known)});
   }
   return skeleton;
 }

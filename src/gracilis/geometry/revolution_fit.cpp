@@ -39,8 +39,7 @@ RevolutionFit fit_revolution(const SurfaceSamples& samples, const Vec3& expected
     const Eigen::Matrix3d solved = of_shift.ldlt().solve(mixed);
     const Vec3 wish = expected.normalized();
     const Eigen::Matrix3d form = sum.topLeftCorner<3, 3>() - mixed.transpose() * solved +
-                                 weights.sum() * bias * bias *
-                                     (Eigen::Matrix3d::Identity() - wish * wish.transpose());
+                                 weights.sum() * bias * bias * (Eigen::Matrix3d::Identity() - wish * wish.transpose());
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(form);
     direction = eigen.eigenvectors().col(0);
     if (direction.dot(wish) < 0) direction = -direction;

@@ -10,8 +10,8 @@
 namespace gracilis {
 namespace {
 
-constexpr Real near_share = 0.04;                // of the radius
-constexpr Real near_normal = 0.906;              // cosine of 25 degrees
+constexpr Real near_share = 0.04;    // of the radius
+constexpr Real near_normal = 0.906;  // cosine of 25 degrees
 constexpr int guess_count = 3000, rounds = 15;
 constexpr Index judged_samples = 700;
 

@@ -57,7 +57,8 @@ static void check_rule(TomlReader& table, const AttachmentDescription& descripti
   } else if (!listed && !patch && !description.bones.empty() && description.bone_distance == 0) {
     complain("needs the key 'bone_distance_mm'", "the distance to the bone within which vertices are taken");
   } else if (landmarks && description.landmark_distance == 0) {
-    complain("needs the key 'landmark_distance_mm'", "the distance to the landmarks or the patch within which vertices are taken");
+    complain("needs the key 'landmark_distance_mm'",
+             "the distance to the landmarks or the patch within which vertices are taken");
   } else if (description.line == LineKind::outline && description.bones.empty()) {
     complain("has an outline but no bone", "give 'bone', on whose surface the inside lies");
   } else if (!landmarks && description.landmark_distance > 0) {
@@ -156,7 +157,8 @@ TriangleMesh AttachmentSelector::patch_of(const AttachmentDescription& descripti
             [&](const std::filesystem::path& path) { patch = read_mesh(path, description.patch.unit); });
   mirror_if_asked(progress_, description.patch, patch);
   if (!inspect_mesh(patch).is_finite()) {
-    progress_.add_problem(description.place, "the patch '" + description.patch.path + "' has coordinates that are not finite",
+    progress_.add_problem(description.place,
+                          "the patch '" + description.patch.path + "' has coordinates that are not finite",
                           "export the surface again");
     return {};
   }
@@ -190,9 +192,8 @@ Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDe
   attachment.body = body_index(progress_.loaded.scene, body_of(description));
   std::vector<const NearestTriangle*> trees;
   for (const std::string& bone : description.bones) trees.push_back(&tree_of(bone_index(bone)));
-  attachment.vertices = description.patch.path.empty()
-                            ? select_vertices(muscle.surface, trees, rule_of(description))
-                            : held_by_patch(muscle, description, trees);
+  attachment.vertices = description.patch.path.empty() ? select_vertices(muscle.surface, trees, rule_of(description))
+                                                       : held_by_patch(muscle, description, trees);
   if (attachment.vertices.empty()) {
     progress_.add_problem(description.place,
                           "attachment '" + attachment.name + "' of " + muscle.name + " holds no vertex",

@@ -35,7 +35,10 @@ void add_attachments(const Scene& scene, const std::set<std::string>& doubtful, 
       const bool origin = attachment.end == AttachmentEnd::origin;
       std::string name = doubt ? "doubtful end" : origin ? "origin" : "insertion";
       if (!named.insert(name).second) name.clear();
-      panel.surfaces.push_back({name, std::move(faces), doubt ? doubtful_color : origin ? origin_color : insertion_color});
+      panel.surfaces.push_back({name, std::move(faces),
+                                doubt    ? doubtful_color
+                                : origin ? origin_color
+                                         : insertion_color});
     }
 }
 
@@ -80,8 +83,10 @@ Picture scene_picture(const Scene& scene, const std::set<std::string>& doubtful)
       panel.looking = looking;
       panel.up = scene.axes.superior;
       add_bones(scene, with_muscles ? 1 : bone_opacity, panel);
-      if (with_muscles) add_muscles(scene, panel);
-      else add_attachments(scene, doubtful, panel), add_axes(scene, panel);
+      if (with_muscles)
+        add_muscles(scene, panel);
+      else
+        add_attachments(scene, doubtful, panel), add_axes(scene, panel);
       picture.panels.push_back(std::move(panel));
     }
   return picture;
