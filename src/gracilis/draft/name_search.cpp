@@ -17,7 +17,7 @@ std::optional<std::vector<std::string>> without(std::vector<std::string> words, 
   return words;
 }
 
-std::string joined(const Alias& words) {
+std::string run_together(const Alias& words) {
   std::string all;
   for (const std::string& word : words) all += word;
   return all;
@@ -26,7 +26,7 @@ std::string joined(const Alias& words) {
 bool is_number(const std::string& word) { return word.find_first_not_of("0123456789") == std::string::npos; }
 
 /// Of what the alias says: more words before more letters.
-std::size_t weight(const Alias& alias) { return 100 * alias.size() + joined(alias).size(); }
+std::size_t weight(const Alias& alias) { return 100 * alias.size() + run_together(alias).size(); }
 
 /// Short forms as "sup" mean something as a whole name only.
 constexpr std::size_t short_form = 4;
@@ -50,11 +50,11 @@ NameMatch<Known> by_words(const NameWords& name, const std::vector<Known>& all) 
 template <class Known>
 NameMatch<Known> by_spelling(const NameWords& name, const std::vector<Known>& all) {
   NameMatch<Known> best;
-  const std::string text = joined(name.words);
+  const std::string text = run_together(name.words);
   int fewest = text.size() < 6 ? 0 : std::max(1, static_cast<int>(text.size()) / 8);
   for (const Known& known : all)
     for (const Alias& alias : known.aliases) {
-      const int distance = edit_distance(text, joined(alias));
+      const int distance = edit_distance(text, run_together(alias));
       if (distance > fewest || (best.known && distance == fewest)) continue;
       fewest = distance;
       best = {&known, {}, distance == 0 ? 0.9 : 0.6};
