@@ -17,6 +17,7 @@
 #include "report_command.hpp"
 #include "rom_command.hpp"
 #include "run_command.hpp"
+#include "scene_command.hpp"
 #include "static_optimization_command.hpp"
 #include "verify_command.hpp"
 #include "view_command.hpp"
@@ -53,6 +54,7 @@ int main(int count, char** arguments) {
   add_verify_command(program, chosen);
   add_view_command(program, chosen);
   add_prepare_command(program, chosen);
+  add_scene_command(program, chosen);
   add_import_command(program, chosen);
   add_motions_command(program, chosen);
   add_paths_command(program, chosen);

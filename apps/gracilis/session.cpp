@@ -156,6 +156,7 @@ class Session {
         if (attachment.guessed) guessed_.push_back(muscle.name + " " + attachment.name);
       }
     }
+    guessed_.insert(guessed_.end(), loaded_.guessed.begin(), loaded_.guessed.end());
     for (const std::string& warning : loaded_.warnings) warn(warning);
   }
 

@@ -18,7 +18,7 @@ namespace {
 
 const std::map<std::string, int> ranks = {
     {"core", 0},     {"geometry", 1}, {"dynamics", 2}, {"scene", 2},   {"anatomy", 3}, {"strings", 4}, {"methods", 5},
-    {"simulate", 6}, {"io", 7},       {"prepare", 7},  {"opensim", 8}, {"view", 9},    {"apps", 10}};
+    {"simulate", 6}, {"io", 7},       {"prepare", 7},  {"opensim", 8}, {"draft", 8},   {"view", 9},    {"apps", 10}};
 
 /// Rooms of a folder, "." for the files that stand in it without one, and the same rule between them.
 const std::map<std::string, std::map<std::string, int>> room_ranks = {

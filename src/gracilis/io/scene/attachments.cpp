@@ -1,9 +1,13 @@
 #include <gracilis/io/scene/attachments.hpp>
 
+#include <gracilis/anatomy/attachments/attachment_patch.hpp>
 #include <gracilis/anatomy/attachments/attachment_reach.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/geometry/mesh_inspection.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/bodies.hpp>
 #include <gracilis/io/scene/files.hpp>
+#include <gracilis/io/scene/surfaces.hpp>
 #include <gracilis/io/suggestions.hpp>
 
 #include <fmt/format.h>
@@ -32,9 +36,10 @@ static Real millimetres(TomlReader& table, const std::string& key) {
   return table.number(key, {0, 1000, "mm"}).value_or(0) / 1000;
 }
 
-/// Which of the four rules is meant follows from the keys; they must fit together.
+/// Which of the five rules is meant follows from the keys; they must fit together.
 static void check_rule(TomlReader& table, const AttachmentDescription& description) {
-  const bool landmarks = !description.clouds.empty() || !description.points.empty();
+  const bool patch = !description.patch.path.empty();
+  const bool points = !description.clouds.empty() || !description.points.empty(), landmarks = points || patch;
   const bool listed = description.attachment.listed;
   const auto complain = [&](const std::string& what, const std::string& remedy) {
     Problem problem = description.place;
@@ -43,18 +48,21 @@ static void check_rule(TomlReader& table, const AttachmentDescription& descripti
     table.add_problem(problem);
   };
   if (description.bones.empty() && description.body.empty()) complain("is fixed to nothing", "give 'bone' or 'body'");
-  if (listed && (landmarks || description.bone_distance > 0 || description.landmark_distance > 0)) {
+  if (patch && points) {
+    complain("has both a patch and landmarks", "keep one of the two");
+  } else if (listed && (landmarks || description.bone_distance > 0 || description.landmark_distance > 0)) {
     complain("lists its vertices and also asks for distances", "keep one of the two");
   } else if (!listed && !landmarks && description.bones.empty()) {
-    complain("does not say which vertices it takes", "give 'cloud', 'points_mm', 'bone' or 'vertices'");
-  } else if (!listed && !description.bones.empty() && description.bone_distance == 0) {
+    complain("does not say which vertices it takes", "give 'cloud', 'points_mm', 'patch', 'bone' or 'vertices'");
+  } else if (!listed && !patch && !description.bones.empty() && description.bone_distance == 0) {
     complain("needs the key 'bone_distance_mm'", "the distance to the bone within which vertices are taken");
   } else if (landmarks && description.landmark_distance == 0) {
-    complain("needs the key 'landmark_distance_mm'", "the distance to the landmarks within which vertices are taken");
+    complain("needs the key 'landmark_distance_mm'",
+             "the distance to the landmarks or the patch within which vertices are taken");
   } else if (description.line == LineKind::outline && description.bones.empty()) {
     complain("has an outline but no bone", "give 'bone', on whose surface the inside lies");
   } else if (!landmarks && description.landmark_distance > 0) {
-    complain("gives a distance to landmarks but no landmarks", "give 'cloud' or 'points_mm'");
+    complain("gives a distance to landmarks but no landmarks", "give 'cloud', 'points_mm' or 'patch'");
   }
 }
 
@@ -70,6 +78,7 @@ AttachmentDescription read_attachment(TomlReader table) {
   result.clouds = table.texts("cloud");
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3))
     result.points = {rows->transpose() / 1000};
+  if (const std::optional<std::string> patch = table.text("patch")) result.patch = surface_file(table, *patch);
   result.bone_distance = millimetres(table, "bone_distance_mm");
   result.landmark_distance = millimetres(table, "landmark_distance_mm");
   attachment.vertices = table.indices("vertices");
@@ -141,12 +150,50 @@ std::string AttachmentSelector::body_of(const AttachmentDescription& description
   return body;
 }
 
+/// The patch's pieces on the attachment's bones; all of them where it names none.
+TriangleMesh AttachmentSelector::patch_of(const AttachmentDescription& description) {
+  TriangleMesh patch;
+  read_file(progress_, description.patch,
+            [&](const std::filesystem::path& path) { patch = read_mesh(path, description.patch.unit); });
+  mirror_if_asked(progress_, description.patch, patch);
+  if (!inspect_mesh(patch).is_finite()) {
+    progress_.add_problem(description.place,
+                          "the patch '" + description.patch.path + "' has coordinates that are not finite",
+                          "export the surface again");
+    return {};
+  }
+  const std::vector<Bone>& bones = progress_.loaded.scene.bones;
+  if (description.bones.empty() || patch.face_count() == 0) return patch;
+  std::vector<const NearestTriangle*> trees;
+  for (Index bone = 0; bone < static_cast<Index>(bones.size()); ++bone) trees.push_back(&tree_of(bone));
+  std::vector<char> keep;
+  for (const std::size_t bone : bones_under(patch, trees))
+    keep.push_back(std::find(description.bones.begin(), description.bones.end(), bones[bone].name) !=
+                   description.bones.end());
+  return kept_faces(patch, keep);
+}
+
+/// Vertices near the patch and, where that is asked for, near the bone.
+std::vector<Index> AttachmentSelector::held_by_patch(const Muscle& muscle, const AttachmentDescription& description,
+                                                     const std::vector<const NearestTriangle*>& trees) {
+  const TriangleMesh patch = patch_of(description);
+  if (patch.face_count() == 0) return {};
+  const NearestTriangle tree(patch);
+  const std::vector<const NearestTriangle*> of_patch = {&tree};
+  std::vector<Index> vertices = select_vertices(muscle.surface, of_patch, NearBone{description.landmark_distance});
+  if (description.bone_distance == 0) return vertices;
+  const std::vector<Index> near = select_vertices(muscle.surface, trees, NearBone{description.bone_distance});
+  std::erase_if(vertices, [&](Index v) { return !std::binary_search(near.begin(), near.end(), v); });
+  return vertices;
+}
+
 Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDescription& description) {
   Attachment attachment = description.attachment;
   attachment.body = body_index(progress_.loaded.scene, body_of(description));
   std::vector<const NearestTriangle*> trees;
   for (const std::string& bone : description.bones) trees.push_back(&tree_of(bone_index(bone)));
-  attachment.vertices = select_vertices(muscle.surface, trees, rule_of(description));
+  attachment.vertices = description.patch.path.empty() ? select_vertices(muscle.surface, trees, rule_of(description))
+                                                       : held_by_patch(muscle, description, trees);
   if (attachment.vertices.empty()) {
     progress_.add_problem(description.place,
                           "attachment '" + attachment.name + "' of " + muscle.name + " holds no vertex",

@@ -26,6 +26,9 @@ class AttachmentSelector {
 
  private:
   Attachment selected(const Muscle& muscle, const AttachmentDescription& description);
+  std::vector<Index> held_by_patch(const Muscle& muscle, const AttachmentDescription& description,
+                                   const std::vector<const NearestTriangle*>& trees);
+  TriangleMesh patch_of(const AttachmentDescription& description);
   std::string body_of(const AttachmentDescription& description);
   AttachmentRule rule_of(const AttachmentDescription& description);
   std::vector<LandmarkSet> landmarks_of(const AttachmentDescription& description);

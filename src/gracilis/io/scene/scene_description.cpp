@@ -65,6 +65,7 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
 
   check_schema(top, path, problems);
   description.scene.name = top.text("name").value_or(path.stem().string());
+  description.guessed = top.texts("guessed");
   std::set<std::string> of_other_methods;
   const sections::MuscleDefaults defaults = sections::read_settings(top, description, of_other_methods);
   read_landmark_file(top, description.landmarks);

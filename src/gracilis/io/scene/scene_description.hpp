@@ -23,6 +23,7 @@ struct NamedFile {
   std::string path;
   Real unit = 1;
   Problem place;
+  bool mirror = false;  ///< the surface is taken into the body's other half
 };
 
 /// A box instead of a file: surfaces for tests and demonstrations that need no data.
@@ -50,6 +51,7 @@ struct AttachmentDescription {
   std::vector<std::string> bones;   ///< surfaces to measure the distance from
   std::vector<std::string> clouds;  ///< names in the landmark file
   std::vector<Points> points;       ///< landmarks written in the scene file itself
+  NamedFile patch;                  ///< an open surface on the bones; empty path: none
   LineKind line = LineKind::cloud;
   Real bone_distance = 0;
   Real landmark_distance = 0;
@@ -128,6 +130,7 @@ struct SceneDescription {
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
   NamedFile landmarks;
   std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
+  std::vector<std::string> guessed;           ///< what nobody measured, in words
   std::vector<std::string> notes;
 };
 

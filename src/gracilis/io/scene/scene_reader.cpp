@@ -35,6 +35,7 @@ static sections::SceneInProgress begin_scene(const SceneDescription& description
   loaded.max_frames = description.motion.max_frames;
   loaded.inputs = description.files;
   loaded.warnings = description.notes;
+  loaded.guessed = description.guessed;
   return progress;
 }
 

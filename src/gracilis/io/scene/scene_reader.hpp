@@ -26,6 +26,7 @@ struct LoadedScene {
   std::string preset;                         ///< the preset that its settings started from
   std::vector<std::filesystem::path> inputs;  ///< every file that was read, the scene file first
   std::vector<std::string> warnings;          ///< one line each
+  std::vector<std::string> guessed;           ///< what the scene file says was guessed, beside attachments
   int max_frames = default_max_frames;        ///< that a run of it may have
 };
 

@@ -47,6 +47,9 @@ name = "example"
 anterior = [1, 0, 0]
 superior = [0, 1, 0]
 
+# Optional: what nobody measured, in words; repeated in each run's manifest.
+# guessed = ["joint hip_r: a sphere on the femur's head"]
+
 # Optional: other scene files, relative to this one, on which this one builds. Tables merge key by key, lists of tables
 # (bones, muscles, ...) by their names; what stands here wins. [motion] is replaced as a whole.
 # include = ["base.toml"]
@@ -75,6 +78,7 @@ unit = "mm" # "m" (default), "cm" or "mm"
 name = "femur_r"
 file = "femur_r.ply"
 unit = "mm"
+mirror = false # optional, of a bone, a muscle or a patch: what is right of the plane through the frame's origin goes left
 # Instead of a file, of a bone or a muscle: a box, each side cut into cells.
 # box = { size_mm = [200, 200, 10], center_mm = [0, 0, 0], cells = [1, 1, 1] }
 
@@ -150,7 +154,7 @@ threshold = 0.02
 # first_point = 0
 # last_point = 3
 
-# At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of four ways:
+# At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of five ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.
 [[muscles.attachments]]
 name = "ilium"
@@ -184,6 +188,16 @@ name = "trochanter"
 end = "insertion"
 bone = "femur_r"
 bone_distance_mm = 3
+
+# 5. 'patch': within landmark_distance_mm of an open surface that lies on the bone; of its pieces those count that are nearest
+# to 'bone', and bone_distance_mm may be given, too.
+# [[muscles.attachments]]
+# name = "ischium"
+# end = "origin"
+# bone = "hip_bone_r"
+# patch = "patches/adductor_magnus_r.ply"
+# unit = "mm"
+# landmark_distance_mm = 3
 
 # Optional, for method = "cylinder": a section that gives way. It stays on its side of another muscle's section, to whose
 # corner its own is joined, and out of that muscle and of bones.

@@ -1,6 +1,7 @@
 #include <gracilis/io/scene/surfaces.hpp>
 
 #include <gracilis/geometry/box_mesh.hpp>
+#include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/files.hpp>
 
@@ -34,9 +35,19 @@ SurfaceDescription read_surface(TomlReader& table) {
     if (table.has("file")) table.add_problem("file", "the surface is given twice, by 'file' and by 'box'");
     surface.box = read_box(std::move(*box));
   } else {
-    surface.file = named_file(table, table.required_text("file"));
+    surface.file = surface_file(table, table.required_text("file"));
   }
   return surface;
+}
+
+NamedFile surface_file(TomlReader& table, const std::string& path) {
+  NamedFile file = named_file(table, path);
+  file.mirror = table.flag("mirror").value_or(false);
+  return file;
+}
+
+void mirror_if_asked(const SceneInProgress& progress, const NamedFile& file, TriangleMesh& mesh) {
+  if (file.mirror) mesh = mirrored(mesh, progress.description.scene.axes.right());
 }
 
 SurfaceLoader::SurfaceLoader(SceneInProgress& progress, bool muscles_stay_raw)
@@ -69,11 +80,13 @@ bool SurfaceLoader::take(const SurfaceDescription& surface, SurfaceRole role, Tr
   read_file(progress_, surface.file, [&](const fs::path& path) {
     if (stays_raw(surface, role)) {
       mesh = read_mesh(path, surface.file.unit);
+      mirror_if_asked(progress_, surface.file, mesh);
       return;
     }
     LoadOutcome& outcome = loaded_.at(&surface);
     if (outcome.error) throw InputError(*outcome.error);
     mesh = std::move(outcome.loaded.mesh);
+    mirror_if_asked(progress_, surface.file, mesh);
     repaired = !outcome.loaded.repairs.empty();
     progress_.add_warnings(outcome.loaded.repairs);
     progress_.add_warnings(outcome.loaded.warnings);

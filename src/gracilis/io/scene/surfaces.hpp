@@ -12,6 +12,13 @@ namespace gracilis::sections {
 /// The surface of an element: its key `file`, or its table `box`.
 SurfaceDescription read_surface(TomlReader& table);
 
+/// A surface's file under the key, with its keys `unit` and `mirror`.
+NamedFile surface_file(TomlReader& table, const std::string& path);
+
+/// What is right of the body's middle plane, which runs through the frame's origin, comes to lie left of it, where the
+/// file asks for that.
+void mirror_if_asked(const SceneInProgress& progress, const NamedFile& file, TriangleMesh& mesh);
+
 /// Loads the surfaces of all bones and muscles side by side, and then hands them out one by one.
 class SurfaceLoader {
  public:

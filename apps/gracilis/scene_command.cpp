@@ -1,0 +1,132 @@
+#include "scene_command.hpp"
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/draft/draft_text.hpp>
+#include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/input_file.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
+#include <gracilis/view/pictures/scene_picture.hpp>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct SceneCommandOptions {
+  fs::path folder, out, picture;
+  std::vector<std::string> joints;
+  bool force = false, mirror = false;
+};
+
+/// "knee_r=R_Med_Epi,R_Lat_Epi" as a joint and its landmarks.
+void add_joint_landmarks(const std::string& text, DraftOptions& draft) {
+  const std::size_t equals = text.find('=');
+  std::vector<std::string> names;
+  if (equals != std::string::npos) {
+    std::size_t begin = equals + 1;
+    for (std::size_t comma; (comma = text.find(',', begin)) != std::string::npos; begin = comma + 1)
+      names.push_back(text.substr(begin, comma - begin));
+    names.push_back(text.substr(begin));
+  }
+  const bool whole =
+      !names.empty() && std::none_of(names.begin(), names.end(), [](auto& name) { return name.empty(); });
+  if (!whole || names.size() > 2)
+    throw ConfigurationError({"--joint", "", "'" + text + "' names no joint with one or two landmarks",
+                              "write JOINT=CENTER or JOINT=ONE_SIDE,OTHER_SIDE, as in knee_r=R_Med_Epi,R_Lat_Epi"});
+  draft.joint_landmarks[text.substr(0, equals)] = names;
+}
+
+void check_out(const SceneCommandOptions& options) {
+  if (options.out.extension() != ".toml")
+    throw ConfigurationError(
+        {"--out", "", "'" + options.out.string() + "' is no name of a scene file", "name a .toml file"});
+  if (is_there(options.out) && !options.force)
+    throw ConfigurationError(
+        {options.out.string(), "", "is there already", "give another name, or --force to replace it"});
+}
+
+/// What was found and what was guessed, doubtful things first.
+void tell(const SceneDraft& draft) {
+  fmt::print("{} bones, {} joints, {} muscles\n", draft.found.bones.size(), draft.skeleton.joints.size(),
+             draft.muscles.size());
+  std::vector<Guess> guesses = draft.guesses;
+  for (const DraftMuscle& muscle : draft.muscles)
+    for (const DraftAttachment& each : muscle.attachments) {
+      guesses.push_back(each.guess);
+      guesses.back().how += fmt::format(" ({} vertices on {})", each.vertices.size(), each.body);
+    }
+  std::stable_sort(guesses.begin(), guesses.end(),
+                   [](const Guess& a, const Guess& b) { return (a.certainty < doubtful) > (b.certainty < doubtful); });
+  for (const Guess& guess : guesses)
+    fmt::print("{} {}: {}\n", guess.certainty < doubtful ? "look at" : "guessed", guess.subject, to_string(guess));
+  for (const std::string& line : draft.left_out) fmt::print("left out {}\n", line);
+}
+
+std::set<std::string> doubtful_ends(const SceneDraft& draft) {
+  std::set<std::string> ends;
+  for (const DraftMuscle& muscle : draft.muscles)
+    for (const DraftAttachment& each : muscle.attachments)
+      if (each.guess.certainty < doubtful) ends.insert(muscle.found->name + " " + each.name);
+  return ends;
+}
+
+/// The scene is of use without its picture, too.
+void draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
+  try {
+    render_picture(scene_picture(scene, doubtful_ends(draft)), path);
+    fmt::print("{}\n", path.string());
+  } catch (const Error& error) {
+    spdlog::warn("no picture: {}", error.what());
+  }
+}
+
+int make_scene(const SceneCommandOptions& options) {
+  check_out(options);
+  DraftOptions draft_options;
+  draft_options.mirror = options.mirror;
+  for (const std::string& joint : options.joints) add_joint_landmarks(joint, draft_options);
+  const SceneDraft draft = draft_scene(options.folder, draft_options);
+
+  const std::string clouds = draft_landmarks(draft);
+  const fs::path table =
+      clouds.empty() ? fs::path() : options.out.parent_path() / (options.out.stem().string() + "_landmarks.csv");
+  if (!clouds.empty()) write_text_atomically(table, clouds);
+  write_text_atomically(options.out, draft_text(draft, options.out, table));
+  const LoadedScene loaded = read_scene(options.out);
+  tell(draft);
+  for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
+  draw(draft, loaded.scene,
+       options.picture.empty() ? fs::path(options.out).replace_extension(".png") : options.picture);
+  fmt::print("{}\n", options.out.string());
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_scene_command(CLI::App& program, Command& chosen) {
+  const auto options = std::make_shared<SceneCommandOptions>();
+  CLI::App* command = program.add_subcommand(
+      "scene", "Make a scene of a folder of surfaces: bones, joints, muscles and where they attach, each guess marked");
+  command->add_option("FOLDER", options->folder, "Folder with surfaces of bones and muscles, named after them")
+      ->required();
+  command->add_option("--out", options->out, "Scene file to write (.toml)")->required();
+  command
+      ->add_option("--joint", options->joints,
+                   "JOINT=CENTER or JOINT=ONE,OTHER: landmarks (of a .csv in the folder) that say where a joint is")
+      ->allow_extra_args(false);
+  command->add_option("--picture", options->picture,
+                      "Where to draw what was guessed (.png; default: beside the scene file)");
+  command->add_flag("--mirror", options->mirror, "Make the body's other half: a left leg of a right one");
+  command->add_flag("--force", options->force, "Replace the scene file");
+  command->callback([&chosen, options] { chosen = [options] { return make_scene(*options); }; });
+}
+
+}  // namespace gracilis

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/draft/name_words.hpp>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What is known of human anatomy by names: read from bones.toml, joints.toml, muscles_*.toml and words.toml, which are
+/// compiled in. Lengths in m, angles in rad.
+namespace gracilis {
+
+/// The words of a name, in any order.
+using Alias = std::vector<std::string>;
+
+struct KnownBone {
+  std::string name, segment;
+  std::vector<Alias> aliases;
+  bool paired = false;
+  Real length = 0;                          ///< largest extent
+  Vec3 place = Vec3::Zero();                ///< forward, up, right, of a person who stands upright
+  std::optional<std::array<Vec3, 2>> ends;  ///< near, far; likewise
+};
+
+/// Where a muscle ends: a part of a bone (shares of its length from the near end), "name*": all whose names begin so,
+/// "#segment": all bones of it.
+struct Site {
+  std::string bone;
+  Real from = 0, to = 1;
+  bool or_before = false;  ///< only where the bone of the site before is not here
+
+  bool is_part() const { return from > 0 || to < 1; }
+};
+
+struct KnownMuscle {
+  std::string name;
+  std::vector<Alias> aliases;
+  std::vector<Site> origin, insertion;
+};
+
+struct KnownSegment {
+  std::string name, parent, body;
+  bool paired = false;
+};
+
+struct KnownCoordinate {
+  std::string name;
+  std::string about;  ///< "right", "anterior" or "superior", perhaps with "-"
+  Real range_min = -pi, range_max = pi;
+  std::optional<Real> shown;  ///< how far a default motion goes
+};
+
+enum class JointKind { ball, condyles, roller, pivot, saddle };
+
+struct KnownJoint {
+  std::string name, parent, child;  ///< segments
+  JointKind kind = JointKind::ball;
+  std::vector<std::string> convex, concave;  ///< bones
+  Real radius_min = 0, radius_max = 0;
+  std::vector<std::string> only_with;  ///< muscles
+  std::vector<KnownCoordinate> coordinates;
+};
+
+struct Dictionary {
+  WordTables words;
+  std::vector<KnownBone> bones;
+  std::vector<KnownMuscle> muscles;
+  std::vector<KnownSegment> segments;  ///< parents before children
+  std::vector<KnownJoint> joints;
+
+  const KnownSegment& segment(const std::string& name) const;
+};
+
+const Dictionary& dictionary();
+
+/// `name` with {s} as the ending of the side, and, where there is no {s}, as it is.
+std::string with_side(std::string name, BodySide side);
+
+}  // namespace gracilis

@@ -1,0 +1,234 @@
+#include <gracilis/draft/draft_attachments.hpp>
+
+#include <gracilis/draft/end_contact.hpp>
+#include <gracilis/draft/given_attachments.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace gracilis {
+namespace {
+
+/// m; no vertex but the cloud's own lies so near to one of its points.
+constexpr Real own_vertices = 0.0002;
+/// m from its bone: an end so far would be carried about by it as on a rod, which a tendon is not.
+constexpr Real missing_tendon = 0.03;
+
+Points positions(const TriangleMesh& mesh, const std::vector<Index>& vertices) {
+  return mesh.vertices(Eigen::all, vertices);
+}
+
+/// Drafts one muscle's ends.
+struct EndsDraft {
+  const FoundMuscle& muscle;
+  const FoundFolder& found;
+  const Skeleton& skeleton;
+  const BoneParts& bones;
+  MuscleEnds ends;
+  MuscleSites sites = {};
+  std::vector<DraftAttachment> drafted = {};
+
+  bool has_end(AttachmentEnd end) const {
+    return std::any_of(drafted.begin(), drafted.end(), [&](const DraftAttachment& each) { return each.end == end; });
+  }
+
+  std::vector<Index> all_held() const {
+    std::set<Index> all;
+    for (const DraftAttachment& each : drafted) all.insert(each.vertices.begin(), each.vertices.end());
+    return {all.begin(), all.end()};
+  }
+
+  DraftAttachment on_bones(AttachmentEnd end, const HeldVertices& held) const {
+    DraftAttachment attachment;
+    attachment.end = end;
+    for (const std::size_t bone : held.bones) attachment.bones.push_back(bones.bone(bone).name);
+    attachment.body = bones.body(held.bones.front());
+    attachment.bone_distance = held.distance;
+    attachment.vertices = held.vertices;
+    return attachment;
+  }
+
+  std::map<std::string, std::vector<Zone>> by_body(const std::vector<Zone>& zones) const {
+    std::map<std::string, std::vector<Zone>> groups;
+    for (const Zone& zone : zones) groups[bones.body(zone.bone)].push_back(zone);
+    return groups;
+  }
+
+  /// Where it touches the end's bones: on the body where it lies nearest, and on others where it lies as near.
+  void touch(AttachmentEnd end) {
+    std::vector<DraftAttachment> found_here;
+    for (const auto& [body, zones] : by_body(sites.at(end).zones)) {
+      const HeldVertices held = ends.touching(bones, zones);
+      if (held.vertices.empty()) continue;
+      found_here.push_back(on_bones(end, held));
+      const Real near = held.distance < 0.0035 ? 0.8 : held.distance < 0.0065 ? 0.65 : 0.45;
+      found_here.back().guess = {
+          "", fmt::format("within {:g} mm of {}", 1000 * held.distance, fmt::join(found_here.back().bones, ", ")),
+          near * (muscle.known ? muscle.certainty / 0.95 : 0.7)};
+    }
+    Real nearest = std::numeric_limits<Real>::infinity();
+    for (const DraftAttachment& each : found_here) nearest = std::min(nearest, each.bone_distance);
+    for (DraftAttachment& each : found_here)
+      if (each.bone_distance <= nearest + 0.002) drafted.push_back(std::move(each));
+  }
+
+  /// The body of the bone nearest to the middle of some vertices.
+  std::string body_beside(const std::vector<Index>& vertices) const {
+    const Vec3 middle = positions(ends.surface(), vertices).rowwise().mean();
+    std::size_t nearest = 0;
+    for (std::size_t b = 1; b < bones.count(); ++b)
+      if (bones.tree(b).query(middle).distance < bones.tree(nearest).query(middle).distance) nearest = b;
+    return bones.body(nearest);
+  }
+
+  /// What is nearest to the end's bones, or, where they are not here, the end that is farthest from what is held.
+  void reach(AttachmentEnd end) {
+    const EndSites& wanted = sites.at(end);
+    if (!wanted.zones.empty()) {
+      const HeldVertices held = ends.nearest(bones, wanted.zones);
+      if (held.vertices.empty()) return;
+      DraftAttachment attachment = on_bones(end, held);
+      const std::string bone = attachment.bones.front();
+      const bool far = held.distance > missing_tendon * found.size;
+      if (far) attachment.body = body_beside(held.vertices);
+      attachment.guess = {
+          "",
+          fmt::format("hardly touches {}: what is nearest, {:.0f} mm from {}{}", wanted.wanted, 1000 * held.distance,
+                      bone, far ? "; its tendon is missing, so it moves with " + attachment.body : ""),
+          far ? 0.2 : 0.35};
+      attachment.bones.clear();
+      attachment.bone_distance = 0;
+      drafted.push_back(std::move(attachment));
+    } else if (!wanted.bodies.empty() && !drafted.empty()) {
+      const HeldVertices held = ends.farthest(all_held());
+      if (held.vertices.empty()) return;
+      DraftAttachment attachment;
+      attachment.end = end;
+      attachment.body = wanted.bodies.front();
+      attachment.vertices = held.vertices;
+      attachment.guess = {
+          "",
+          fmt::format("{} is not here: the end farthest from the other, moved with {}", wanted.wanted, attachment.body),
+          0.35};
+      drafted.push_back(std::move(attachment));
+    }
+  }
+
+  /// A muscle of no known name: the two bodies that it touches most, the one nearer to the trunk its origin.
+  void touch_any() {
+    std::vector<DraftAttachment> touched;
+    std::vector<Zone> all;
+    for (std::size_t b = 0; b < bones.count(); ++b) all.push_back({b, {bones.bone(b).name}});
+    for (const auto& [body, zones] : by_body(all)) {
+      const HeldVertices held = ends.touching(bones, zones);
+      if (held.vertices.empty() || held.distance > 0.0065) continue;
+      touched.push_back(on_bones(AttachmentEnd::origin, held));
+      touched.back().guess = {"",
+                              fmt::format("its name is unknown: within {:g} mm of {}", 1000 * held.distance,
+                                          fmt::join(touched.back().bones, ", ")),
+                              0.4};
+    }
+    std::sort(touched.begin(), touched.end(),
+              [](const DraftAttachment& a, const DraftAttachment& b) { return a.vertices.size() > b.vertices.size(); });
+    if (touched.size() < 2) return;
+    touched.resize(2);
+    const bool turned = skeleton.depth(touched[0].body) > skeleton.depth(touched[1].body);
+    touched[turned ? 0 : 1].end = AttachmentEnd::insertion;
+    drafted = std::move(touched);
+  }
+
+  /// A vertex moves with one body: with that of the smaller attachment, which can spare none.
+  void keep_apart() {
+    for (std::size_t i = 0; i < drafted.size(); ++i)
+      for (std::size_t j = i + 1; j < drafted.size(); ++j) {
+        if (drafted[i].body == drafted[j].body) continue;
+        DraftAttachment *larger = &drafted[i], *smaller = &drafted[j];
+        if (larger->vertices.size() < smaller->vertices.size()) std::swap(larger, smaller);
+        const auto taken = std::erase_if(larger->vertices, [&](Index v) {
+          return std::binary_search(smaller->vertices.begin(), smaller->vertices.end(), v);
+        });
+        larger->trimmed |= taken > 0;
+      }
+    std::erase_if(drafted, [](const DraftAttachment& each) { return each.vertices.empty(); });
+  }
+
+  /// The vertices that a scene's reader would take by the attachment's distances.
+  std::vector<Index> by_rule(const DraftAttachment& attachment) const {
+    std::vector<const NearestTriangle*> trees;
+    for (std::size_t b = 0; b < bones.count(); ++b)
+      if (std::find(attachment.bones.begin(), attachment.bones.end(), bones.bone(b).name) != attachment.bones.end())
+        trees.push_back(&bones.tree(b));
+    return select_vertices(ends.surface(), trees, NearBone{attachment.bone_distance});
+  }
+
+  /// Names the vertices by a cloud at their places, where distances alone would take others.
+  void write_down(DraftAttachment& attachment) const {
+    if (!attachment.patch.empty() || !attachment.cloud.empty()) {
+      if (!attachment.trimmed) return;
+      attachment.patch.clear();
+      attachment.line = LineKind::cloud;
+      attachment.bone_distance = 0;
+    } else if (!attachment.bones.empty() && by_rule(attachment) == attachment.vertices) {
+      return;
+    }
+    attachment.cloud = muscle.name + "_" + attachment.name;
+    attachment.points = positions(ends.surface(), attachment.vertices);
+    attachment.landmark_distance = own_vertices;
+    if (attachment.bone_distance == 0) attachment.bones.clear();
+  }
+
+  void name_all() {
+    std::set<std::string> names;
+    for (DraftAttachment& each : drafted) {
+      const bool origin = each.end == AttachmentEnd::origin;
+      std::string name = each.bones.size() == 1 ? each.bones.front() : each.body;
+      if (names.contains(name)) name += origin ? "_origin" : "_insertion";
+      each.name = name;
+      for (int n = 2; !names.insert(each.name).second; ++n) each.name = fmt::format("{}_{}", name, n);
+      each.guess.subject = muscle.name + (origin ? " origin" : " insertion");
+    }
+  }
+};
+
+}  // namespace
+
+std::vector<DraftAttachment> draft_attachments(const FoundMuscle& muscle, const FoundFolder& found,
+                                               const Skeleton& skeleton, const BoneParts& bones,
+                                               const Landmarks& landmarks, std::string& why) {
+  EndsDraft draft{muscle, found, skeleton, bones, MuscleEnds(muscle.mesh, found.size)};
+  if (muscle.known)
+    draft.sites = {bones.end_sites(muscle.known->origin, muscle.side),
+                   bones.end_sites(muscle.known->insertion, muscle.side)};
+  draft.drafted = from_patches(muscle, found, draft.sites, bones, skeleton, draft.ends);
+  if (draft.drafted.empty())
+    draft.drafted = from_landmarks(muscle, landmarks, draft.sites, bones, skeleton, draft.ends, found.is_mirrored);
+  const std::vector<AttachmentEnd> both = {AttachmentEnd::origin, AttachmentEnd::insertion};
+  if (muscle.known) {
+    for (const AttachmentEnd end : both)
+      if (!draft.has_end(end)) draft.touch(end);
+    // What is nearest to bones that are here comes first: the other end may be the one that is farthest from it.
+    for (int round = 0; round < 2; ++round)
+      for (const AttachmentEnd end : both)
+        if (!draft.has_end(end)) draft.reach(end);
+  } else if (draft.drafted.empty()) {
+    draft.touch_any();
+  }
+  draft.keep_apart();
+  for (const AttachmentEnd end : both)
+    if (!draft.has_end(end)) {
+      why = muscle.known
+                ? "no bone is here for its " + std::string(end == AttachmentEnd::origin ? "origin" : "insertion") +
+                      " (" + draft.sites.at(end).wanted + ")"
+                : "its name is unknown and it touches fewer than two bones that move against each other; rename "
+                  "it to a muscle's name";
+      return {};
+    }
+  draft.name_all();
+  for (DraftAttachment& each : draft.drafted) draft.write_down(each);
+  return std::move(draft.drafted);
+}
+
+}  // namespace gracilis

@@ -1,0 +1,192 @@
+#include <gracilis/draft/draft_text.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace gracilis {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return result + "\"";
+}
+
+std::string list(const std::vector<std::string>& texts) {
+  if (texts.size() == 1) return quoted(texts.front());
+  std::string result;
+  for (const std::string& text : texts) result += (result.empty() ? "[" : ", ") + quoted(text);
+  return result + "]";
+}
+
+/// Without "-0".
+std::string number(Real value, int digits) {
+  const Real scale = std::pow(10.0, digits), rounded = std::round(value * scale) / scale;
+  return fmt::format("{:.10g}", rounded == 0 ? 0 : rounded);
+}
+
+std::string vector_text(const Vec3& v, int digits) {
+  return fmt::format("[{}, {}, {}]", number(v[0], digits), number(v[1], digits), number(v[2], digits));
+}
+
+std::string path_text(const fs::path& file, const fs::path& folder) {
+  std::error_code ignored;
+  const fs::path relative = fs::relative(fs::absolute(file), fs::absolute(folder), ignored);
+  return quoted((relative.empty() ? fs::absolute(file) : relative).generic_string());
+}
+
+std::string guessed_line(const Guess& guess) { return "# guessed: " + to_string(guess) + "\n"; }
+
+/// Writes one draft section by section.
+struct Writing {
+  const SceneDraft& draft;
+  fs::path folder;
+  std::string text = {};
+
+  void line(const std::string& words) { text += words + "\n"; }
+  /// What a surface's file needs to be said beside its name.
+  std::string unit() const {
+    return (draft.found.unit == "m" ? "" : "unit = " + quoted(draft.found.unit) + "\n") +
+           (draft.found.is_mirrored ? "mirror = true\n" : "");
+  }
+
+  void head(const std::string& name, const fs::path& landmarks) {
+    line(
+        "# Made by 'gracilis scene' from a folder of surfaces. What follows '# guessed:' nobody said: look at the "
+        "picture");
+    line("# beside this file, correct what is wrong, and take what you have checked off the list 'guessed'.");
+    line("schema = 1");
+    line("name = " + quoted(name));
+    const BodyFrame& frame = draft.skeleton.frame;
+    text += guessed_line({"", frame.how, frame.certainty});
+    line("anterior = " + vector_text(frame.anterior, 6));
+    line("superior = " + vector_text(frame.superior, 6));
+    line("guessed = [ # repeated in each run's manifest");
+    for (const Guess& guess : draft.guesses) line("  " + quoted(guess.subject + ": " + to_string(guess)) + ",");
+    line("]");
+    if (landmarks.empty()) return;
+    line("\n[landmarks]");
+    line("file = " + path_text(landmarks, folder));
+    line("unit = \"mm\"");
+  }
+
+  void bones() {
+    for (std::size_t b = 0; b < draft.found.bones.size(); ++b) {
+      const FoundBone& bone = draft.found.bones[b];
+      line("\n[[bones]]");
+      line("name = " + quoted(bone.name));
+      if (draft.skeleton.bodies[b] != bone.name) line("body = " + quoted(draft.skeleton.bodies[b]));
+      text += "file = " + path_text(bone.file, folder) + "\n" + unit();
+    }
+  }
+
+  void joints() {
+    for (const DraftJoint& joint : draft.skeleton.joints) {
+      text += "\n" + guessed_line(joint.guess) +
+              guessed_line({"", "capture pose: " + joint.capture_guess.how, joint.capture_guess.certainty});
+      line("[[joints]]");
+      line("name = " + quoted(joint.name));
+      line("parent = " + quoted(joint.parent));
+      line("child = " + quoted(joint.child));
+      line("center = " + vector_text(joint.center, 5));
+      for (const DraftAxis& axis : joint.axes) {
+        line("[[joints.axes]]");
+        line("coordinate = " + quoted(axis.coordinate));
+        line("axis = " + vector_text(axis.direction, 5));
+        if (axis.capture != 0) line("capture_deg = " + number(degrees(axis.capture), 2));
+        line(fmt::format("range_deg = [{}, {}]", number(degrees(axis.range_min), 1),
+                         number(degrees(axis.range_max), 1)));
+      }
+    }
+  }
+
+  void attachment(const DraftAttachment& each) {
+    text += "\n" + guessed_line(each.guess);
+    line(fmt::format("[[muscles.attachments]] # {} vertices", each.vertices.size()));
+    line("name = " + quoted(each.name));
+    line(each.end == AttachmentEnd::origin ? "end = \"origin\"" : "end = \"insertion\"");
+    if (each.bones.empty())
+      line("body = " + quoted(each.body));
+    else
+      line("bone = " + list(each.bones));
+    if (!each.patch.empty()) text += "patch = " + path_text(each.patch, folder) + "\n" + unit();
+    if (!each.cloud.empty()) line("cloud = " + quoted(each.cloud));
+    if (each.line == LineKind::open) line("line = \"open\"");
+    if (each.line == LineKind::closed) line("line = \"closed\"");
+    if (each.bone_distance > 0) line("bone_distance_mm = " + number(1000 * each.bone_distance, 2));
+    if (each.landmark_distance > 0) line("landmark_distance_mm = " + number(1000 * each.landmark_distance, 2));
+    if (each.guess.certainty < 0.85) line("guessed = true");
+  }
+
+  void muscles() {
+    for (const DraftMuscle& muscle : draft.muscles) {
+      line("\n[[muscles]]");
+      line("name = " + quoted(muscle.found->name));
+      text += "file = " + path_text(muscle.found->file, folder) + "\n" + unit();
+      for (const DraftAttachment& each : muscle.attachments) attachment(each);
+    }
+  }
+
+  void motion() {
+    if (draft.motion.empty()) return;
+    std::string names, from, to;
+    for (const DraftMotion& each : draft.motion) {
+      const std::string comma = names.empty() ? "" : ", ";
+      names += comma + quoted(each.coordinate);
+      from += comma + number(degrees(each.from), 1);
+      to += comma + number(degrees(each.to), 1);
+    }
+    line("\n# A motion to look at: the first coordinate of each joint that a muscle crosses.");
+    line("[motion]");
+    line("coordinates = [" + names + "]");
+    line("key_poses_deg = [[" + from + "], [" + to + "]]");
+    line("step_deg = 2");
+  }
+
+  void left_out() {
+    if (draft.left_out.empty()) return;
+    line("\n# Left out:");
+    for (std::string each : draft.left_out) {
+      std::replace(each.begin(), each.end(), '\n', ' ');
+      line("# - " + each);
+    }
+  }
+};
+
+}  // namespace
+
+std::string draft_text(const SceneDraft& draft, const fs::path& out, const fs::path& landmarks) {
+  Writing writing{draft, out.has_parent_path() ? out.parent_path() : fs::path(".")};
+  writing.head(out.stem().string(), landmarks);
+  writing.bones();
+  writing.joints();
+  writing.muscles();
+  writing.motion();
+  writing.left_out();
+  return std::move(writing.text);
+}
+
+std::string draft_landmarks(const SceneDraft& draft) {
+  std::string text;
+  std::map<std::string, bool> written;
+  for (const DraftMuscle& muscle : draft.muscles)
+    for (const DraftAttachment& each : muscle.attachments) {
+      if (each.cloud.empty() || written[each.cloud]) continue;
+      written[each.cloud] = true;
+      if (text.empty()) text = "cloud,index,x_mm,y_mm,z_mm\n";
+      for (Index i = 0; i < each.points.cols(); ++i)
+        text += fmt::format("{},{},{:.3f},{:.3f},{:.3f}\n", each.cloud, i, 1000 * each.points(0, i),
+                            1000 * each.points(1, i), 1000 * each.points(2, i));
+    }
+  return text;
+}
+
+}  // namespace gracilis

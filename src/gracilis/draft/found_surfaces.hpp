@@ -1,0 +1,63 @@
+#pragma once
+
+#include <gracilis/draft/name_search.hpp>
+#include <gracilis/geometry/triangle_mesh.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/// A folder of surfaces, told apart by their names and the folders they lie in.
+namespace gracilis {
+
+/// A surface of a bone.
+struct FoundBone {
+  std::string name;  ///< in the scene
+  std::filesystem::path file;
+  const KnownBone* known = nullptr;  ///< null: a bone by its folder alone
+  BodySide side = BodySide::none;
+  Real certainty = 0;  ///< of its being that
+  TriangleMesh mesh = {};
+};
+
+/// A closed surface of a muscle.
+struct FoundMuscle {
+  std::string name;
+  std::filesystem::path file;
+  const KnownMuscle* known = nullptr;  ///< null: a muscle by its folder or its shape alone
+  BodySide side = BodySide::none;
+  Real certainty = 0;
+  TriangleMesh mesh = {};
+};
+
+/// An open surface on bones that says where a muscle attaches.
+struct FoundPatch {
+  std::filesystem::path file;
+  std::string muscle;  ///< name in the scene
+  std::vector<std::string> words;
+  TriangleMesh mesh = {};
+};
+
+struct FoundFolder {
+  std::vector<FoundBone> bones;
+  std::vector<FoundMuscle> muscles;
+  std::vector<FoundPatch> patches;
+  std::vector<std::filesystem::path> tables;  ///< .csv, perhaps of landmarks
+  BodySide side = BodySide::right;            ///< of paired things whose names do not say
+  bool side_is_guessed = false;
+  std::string unit = "m";
+  Real unit_length = 1;               ///< m
+  Real size = 1;                      ///< of the bones against those of a grown person
+  bool is_mirrored = false;           ///< as mirror_body leaves it
+  std::vector<std::string> left_out;  ///< a line each: what was not taken, why, and what to do
+};
+
+/// Reads all surfaces below the folder. The unit is that in which the known bones are about as large as a grown
+/// person's. What a run would refuse is left out. Throws InputError where the folder cannot be read, holds no bone
+/// whose name is known, or bones of no possible size.
+FoundFolder find_surfaces(const std::filesystem::path& folder);
+
+/// Makes a left half of a right one, or the other way: surfaces, sides and names. `right` is the body's.
+void mirror_body(FoundFolder& found, const Vec3& right);
+
+}  // namespace gracilis

@@ -1,0 +1,159 @@
+#include <gracilis/draft/scene_draft.hpp>
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/mirrored_mesh.hpp>
+#include <gracilis/io/suggestions.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+namespace gracilis {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Tables that are none of landmarks are passed over: folders hold many.
+Landmarks read_tables(const FoundFolder& found) {
+  Landmarks all;
+  for (const fs::path& table : found.tables) {
+    try {
+      for (LandmarkCloud& cloud : read_landmarks(table, found.unit_length)) all.push_back(std::move(cloud));
+    } catch (const InputError&) {
+      continue;
+    }
+  }
+  return all;
+}
+
+/// A point by the label of its row, or the middle of a cloud by its name.
+Vec3 landmark(const std::string& name, const Landmarks& landmarks) {
+  std::vector<std::string> known;
+  for (const LandmarkCloud& cloud : landmarks) {
+    if (cloud.name == name) return cloud.points.rowwise().mean();
+    for (std::size_t i = 0; i < cloud.labels.size(); ++i) {
+      if (cloud.labels[i] == name) return cloud.points.col(static_cast<Index>(i));
+      known.push_back(cloud.labels[i]);
+    }
+    known.push_back(cloud.name);
+  }
+  std::erase(known, "");
+  throw ConfigurationError(
+      {"--joint", "", "the folder's tables have no landmark '" + name + "'",
+       known.empty() ? "there is no table with columns cloud, index, x_mm, y_mm, z_mm" : suggestion(name, known)});
+}
+
+JointOverrides overrides_of(const DraftOptions& options, const Landmarks& landmarks) {
+  JointOverrides overrides;
+  for (const auto& [joint, names] : options.joint_landmarks) {
+    Points points(3, static_cast<Index>(names.size()));
+    for (std::size_t i = 0; i < names.size(); ++i) points.col(static_cast<Index>(i)) = landmark(names[i], landmarks);
+    overrides[joint] = points;
+  }
+  return overrides;
+}
+
+void draft_muscles(SceneDraft& draft, const Landmarks& landmarks) {
+  const BoneParts bones(draft.found, draft.skeleton);
+  const std::vector<FoundMuscle>& all = draft.found.muscles;
+  std::vector<DraftMuscle> drafted(all.size());
+  std::vector<std::string> why(all.size());
+  parallel_for_each(all.size(), [&](std::size_t m) {
+    drafted[m] = {&all[m], draft_attachments(all[m], draft.found, draft.skeleton, bones, landmarks, why[m])};
+  });
+  for (std::size_t m = 0; m < all.size(); ++m) {
+    if (drafted[m].attachments.empty())
+      draft.left_out.push_back(fmt::format("{}: {}", all[m].file.string(), why[m]));
+    else
+      draft.muscles.push_back(std::move(drafted[m]));
+  }
+}
+
+/// Whether a body hangs on the joint.
+bool is_moved_by(const DraftJoint& joint, std::string body, const Skeleton& skeleton) {
+  for (const DraftJoint* at = skeleton.joint_of(body); at; at = skeleton.joint_of(at->parent))
+    if (at->child == joint.child) return true;
+  return false;
+}
+
+bool is_crossed(const DraftJoint& joint, const SceneDraft& draft) {
+  return std::any_of(draft.muscles.begin(), draft.muscles.end(), [&](const DraftMuscle& muscle) {
+    bool moved = false, resting = false;
+    for (const DraftAttachment& each : muscle.attachments)
+      (is_moved_by(joint, each.body, draft.skeleton) ? moved : resting) = true;
+    return moved && resting;
+  });
+}
+
+/// From the capture pose to where the dictionary says, and back to straight where that is hardly a way.
+void draft_motion(SceneDraft& draft) {
+  constexpr Real least_way = radians(25);
+  for (const DraftJoint& joint : draft.skeleton.joints) {
+    if (!is_crossed(joint, draft)) continue;
+    for (const DraftAxis& axis : joint.axes) {
+      if (!axis.shown) continue;
+      const bool far = std::abs(*axis.shown - axis.capture) >= least_way;
+      draft.motion.push_back({axis.coordinate, axis.capture, far ? *axis.shown : 0});
+    }
+  }
+}
+
+void collect_guesses(SceneDraft& draft) {
+  const FoundFolder& found = draft.found;
+  draft.guesses.push_back(
+      {"unit", fmt::format("{}: bones are then {:.2f} times as large as a grown person's", found.unit, found.size),
+       found.size > 0.5 && found.size < 1.5 ? 0.95 : 0.6});
+  if (found.side_is_guessed) draft.guesses.push_back({"side", "no name says right or left: taken as right", 0.5});
+  draft.guesses.push_back({"directions", draft.skeleton.frame.how, draft.skeleton.frame.certainty});
+  for (const FoundBone& bone : found.bones)
+    if (bone.known && bone.certainty < 0.8)
+      draft.guesses.push_back({bone.name,
+                               "by a name that is nearly this, or has more words: " + bone.file.stem().string(),
+                               bone.certainty});
+  for (const DraftMuscle& muscle : draft.muscles)
+    if (muscle.found->known && muscle.found->certainty < 0.8)
+      draft.guesses.push_back({muscle.found->name,
+                               "by a name that is nearly this: " + muscle.found->file.stem().string(),
+                               muscle.found->certainty});
+  for (const Guess& guess : draft.skeleton.guesses) draft.guesses.push_back(guess);
+  for (const DraftJoint& joint : draft.skeleton.joints) {
+    draft.guesses.push_back(joint.guess);
+    draft.guesses.push_back(joint.capture_guess);
+  }
+}
+
+[[noreturn]] void refuse(const fs::path& folder, const SceneDraft& draft, const std::string& what,
+                         const std::string& remedy) {
+  std::vector<Problem> problems = {{folder.string(), "", what, remedy}};
+  for (const std::string& line : draft.left_out) problems.push_back({"left out", "", line, ""});
+  throw InputError(problems);
+}
+
+}  // namespace
+
+SceneDraft draft_scene(const fs::path& folder, const DraftOptions& options) {
+  SceneDraft draft;
+  draft.found = find_surfaces(folder);
+  draft.left_out = draft.found.left_out;
+  Landmarks landmarks = read_tables(draft.found);
+  if (options.mirror) {
+    const Vec3 right = body_frame(draft.found, bone_axes(draft.found)).right();
+    mirror_body(draft.found, right);
+    for (LandmarkCloud& cloud : landmarks) cloud.points = mirrored(cloud.points, right);
+  }
+  draft.skeleton = find_skeleton(draft.found, overrides_of(options, landmarks));
+  if (draft.found.muscles.empty())
+    refuse(folder, draft, "holds no muscle that could be used", "name muscles as in gluteus_maximus_r.ply");
+  if (draft.skeleton.joints.empty())
+    refuse(folder, draft, "holds no two bones that move against each other",
+           "a joint needs the bones on both of its sides");
+  draft_muscles(draft, landmarks);
+  if (draft.muscles.empty()) refuse(folder, draft, "holds no muscle between its bones", "");
+  draft_motion(draft);
+  collect_guesses(draft);
+  return draft;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <gracilis/draft/draft_attachments.hpp>
+#include <gracilis/draft/found_surfaces.hpp>
+#include <gracilis/draft/skeleton.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+struct DraftOptions {
+  std::map<std::string, std::vector<std::string>> joint_landmarks;  ///< names of one or two landmarks, by joint
+  bool mirror = false;                                              ///< make the other half of the body
+};
+
+/// One coordinate of the default motion.
+struct DraftMotion {
+  std::string coordinate;
+  Real from = 0, to = 0;  ///< rad
+};
+
+/// A scene made of a folder of surfaces: what is there, and what was guessed about it.
+struct SceneDraft {
+  FoundFolder found;
+  Skeleton skeleton;
+  std::vector<DraftMuscle> muscles;
+  std::vector<DraftMotion> motion;
+  std::vector<Guess> guesses;         ///< of all but attachments, which hold their own
+  std::vector<std::string> left_out;  ///< a line each
+};
+
+/// Throws InputError where the folder holds no bones, no muscle that a scene could have, or nothing that moves, and
+/// ConfigurationError where options name what is not there.
+SceneDraft draft_scene(const std::filesystem::path& folder, const DraftOptions& options = {});
+
+}  // namespace gracilis

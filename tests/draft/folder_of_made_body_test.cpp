@@ -1,0 +1,265 @@
+#include "agreement.hpp"
+#include "body_folder.hpp"
+#include "drafted_scene.hpp"
+
+#include <gracilis/anatomy/builtin/builtin_elbow.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/draft/name_search.hpp>
+#include <gracilis/geometry/measures.hpp>
+
+#include <gmock/gmock.h>
+
+/// Folders of the built-in bodies, under the names that people give to files.
+namespace gracilis {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Scene& hip() {
+  static const Scene scene = builtin_hip();
+  return scene;
+}
+
+const Scene& elbow() {
+  static const Scene scene = builtin_elbow();
+  return scene;
+}
+
+const std::map<std::string, std::string> hip_names = {{"hip_bone_r", "bones/Os coxae dextrum.vtp"},
+                                                      {"sacrum", "bones/Sacrum.vtp"},
+                                                      {"femur_r", "bones/RightFemur.vtp"},
+                                                      {"gluteus_maximus_r", "muscles/Musculus gluteus maximus.R.vtp"},
+                                                      {"gluteus_medius_r", "muscles/GlutMed_right.vtp"},
+                                                      {"iliacus_r", "muscles/iliacus muscle (right).vtp"},
+                                                      {"adductor_longus_r", "muscles/addlong_r.vtp"}};
+
+const Joint& joint_named(const Scene& scene, const std::string& name) {
+  for (const Joint& joint : scene.joints)
+    if (joint.name == name) return joint;
+  throw std::runtime_error("no joint " + name);
+}
+
+Vec3 direction(const Joint& joint, std::size_t axis) { return joint.frame.linear() * joint.axes[axis].axis; }
+
+}  // namespace
+
+TEST(FolderOfMadeBody, names_of_people_s_files_are_understood) {
+  const auto bone = [](const char* name) {
+    const NameMatch<KnownBone> match = find_bone(read_name(name, dictionary().words));
+    return match.known ? match.known->name : "";
+  };
+  const auto muscle = [](const char* name) {
+    const NameMatch<KnownMuscle> match = find_muscle(read_name(name, dictionary().words));
+    return match.known ? match.known->name : "";
+  };
+  EXPECT_EQ(bone("Right femur"), "femur");
+  EXPECT_EQ(bone("os coxae sinistrum"), "hip_bone");
+  EXPECT_EQ(bone("vertebra_L4"), "vertebra_l4");
+  EXPECT_EQ(bone("Fifth lumbar vertebra"), "vertebra_l5");
+  EXPECT_EQ(bone("(Second metatarsal bone.r)"), "metatarsal_2");
+  EXPECT_EQ(muscle("Long head of biceps brachii muscle.l"), "biceps_brachii_long");
+  EXPECT_EQ(muscle("m. biceps femoris caput breve"), "biceps_femoris_short");
+  EXPECT_EQ(muscle("glmax2_r"), "gluteus_maximus");
+  EXPECT_EQ(muscle("(Acromial part of deltoid muscle.r)"), "deltoid_middle");
+  EXPECT_EQ(muscle("Peroneus longus"), "fibularis_longus");
+  EXPECT_EQ(muscle("Extensor carpi radialis brevis"), "extensor_carpi_radialis_brevis");
+  EXPECT_EQ(muscle("gluteusmaximus"), "gluteus_maximus");
+  EXPECT_EQ(muscle("semimembranosis"), "semimembranosus");
+  EXPECT_EQ(bone("Proximal phalanx of right big toe"), "proximal_phalanges_foot_1");
+  EXPECT_EQ(bone("Middle phalanx of second finger of foot.r"), "middle_phalanges_foot_2");
+  EXPECT_EQ(bone("Middle phalanx of second finger of hand.r"), "middle_phalanges_hand_2");
+  EXPECT_EQ(bone("Distal phalanx of right index finger"), "distal_phalanges_hand_2");
+  EXPECT_EQ(bone("Right fifth metatarsal bone"), "metatarsal_5");
+  EXPECT_EQ(bone("Third rib.l"), "rib_3");
+  EXPECT_EQ(muscle("Lateral head of right gastrocnemius"), "gastrocnemius_lateral");
+  EXPECT_EQ(muscle("Humero-ulnar head of flexor digitorum superficialis"), "flexor_digitorum_superficialis");
+  EXPECT_EQ(muscle("Sternocostal head of pectoralis major muscle.r"), "pectoralis_major_sternal");
+  EXPECT_EQ(muscle("Superior part of right trapezius"), "trapezius");
+  EXPECT_EQ(muscle("Flexor hallucis longus.r"), "flexor_hallucis_longus");
+  EXPECT_EQ(muscle("Oblique head of adductor hallucis"), "adductor_hallucis");
+  EXPECT_EQ(muscle("First dorsal interosseus muscle of foot"), "interossei_foot");
+  EXPECT_EQ(muscle("notes"), "");
+  EXPECT_EQ(read_name("femur_l", dictionary().words).side, BodySide::left);
+  EXPECT_EQ(read_name("Tibialis anterior.R", dictionary().words).side, BodySide::right);
+}
+
+TEST(FolderOfMadeBody, every_site_of_the_dictionary_is_a_bone_that_it_knows) {
+  const auto known = [](const Site& site) {
+    if (site.bone.starts_with("#")) return !dictionary().segment(site.bone.substr(1)).name.empty();
+    const bool many = site.bone.ends_with("*");
+    const std::string start = many ? site.bone.substr(0, site.bone.size() - 1) : site.bone;
+    return std::any_of(dictionary().bones.begin(), dictionary().bones.end(),
+                       [&](const KnownBone& bone) { return many ? bone.name.starts_with(start) : bone.name == start; });
+  };
+  EXPECT_GT(dictionary().muscles.size(), 150u);
+  for (const KnownMuscle& muscle : dictionary().muscles)
+    for (const std::vector<Site>* sites : {&muscle.origin, &muscle.insertion}) {
+      EXPECT_FALSE(sites->empty()) << muscle.name;
+      for (const Site& site : *sites) {
+        EXPECT_TRUE(known(site)) << muscle.name << " on " << site.bone;
+        EXPECT_LT(site.from, site.to) << muscle.name;
+      }
+    }
+  for (const KnownBone& bone : dictionary().bones) dictionary().segment(bone.segment);
+}
+
+TEST(FolderOfMadeBody, every_name_of_the_dictionary_finds_itself) {
+  for (const KnownMuscle& muscle : dictionary().muscles)
+    EXPECT_EQ(find_muscle(read_name(muscle.name, dictionary().words)).known, &muscle) << muscle.name;
+  for (const KnownBone& bone : dictionary().bones)
+    EXPECT_EQ(find_bone(read_name(bone.name, dictionary().words)).known, &bone) << bone.name;
+}
+
+TEST(FolderOfMadeBody, a_hip_in_millimetres_under_latin_and_short_names_becomes_a_scene) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names, 0.001);
+  const LoadedScene drafted = drafted_scene(folder.path() / "hip");
+  const Joint& joint = joint_named(drafted.scene, "hip_r");
+  EXPECT_LT(joint.frame.translation().norm(), 0.002) << "the head's center is the origin";
+  EXPECT_GT(direction(joint, 0).dot(Vec3::UnitZ()), 0.99) << "flexes forward";
+  EXPECT_GT(direction(joint, 1).dot(Vec3::UnitX()), 0.99);
+  EXPECT_EQ(joint.axes[0].coordinate, "hip_flexion_r");
+  const std::vector<EndAgreement> ends = ends_compared(hip(), drafted.scene);
+  ASSERT_EQ(ends.size(), 8u);
+  for (const EndAgreement& each : ends) {
+    EXPECT_TRUE(each.same_body) << each.muscle;
+    EXPECT_LT(each.apart, 0.03) << each.muscle << (each.end == AttachmentEnd::origin ? " origin" : " insertion");
+  }
+  EXPECT_THAT(drafted.scene.motion.coordinates, testing::ElementsAre("hip_flexion_r"));
+  EXPECT_THAT(drafted.guessed, testing::Contains(testing::HasSubstr("joint hip_r: a sphere")));
+}
+
+TEST(FolderOfMadeBody, a_left_arm_turned_in_its_frame_becomes_a_scene) {
+  const TestFolder folder;
+  // Mirrored into a left arm, z up and the subject looking along -y, as scanners have it.
+  const auto placed = [](const Vec3& p) { return Vec3(p[2], -p[0], p[1]); };
+  write_body(folder.path() / "arm", elbow(),
+             {{"scapula_r", "scapula_l.vtp"},
+              {"humerus_r", "left humerus.vtp"},
+              {"ulna_r", "ulna_l.vtp"},
+              {"radius_r", "radius_l.vtp"},
+              {"brachialis_r", "brachialis_l.vtp"},
+              {"biceps_brachii_long_r", "biceps long head L.vtp"},
+              {"triceps_brachii_medial_r", "Caput mediale m. tricipitis_ triceps brachii sinister.vtp"}},
+             1, placed, true);
+  const LoadedScene drafted = drafted_scene(folder.path() / "arm");
+  const Joint& joint = joint_named(drafted.scene, "elbow_l");
+  EXPECT_EQ(joint.axes[0].coordinate, "elbow_flex_l");
+  // Flexion turns the forearm forward, to -y: about the subject's right, -x.
+  EXPECT_GT(direction(joint, 0).dot(-Vec3::UnitX()), std::cos(radians(8)));
+  EXPECT_LT((joint.frame.translation() - joint.frame.translation()[0] * Vec3::UnitX()).norm(), 0.004)
+      << "the axis runs through the origin";
+  const Joint& shoulder = joint_named(drafted.scene, "shoulder_l");
+  EXPECT_EQ(shoulder.axes[1].coordinate, "arm_add_l");
+  EXPECT_GT(direction(shoulder, 1).dot(Vec3::UnitY()), 0.95) << "adduction of a left arm turns about backward";
+  const Joint& by_hand = joint_named(elbow(), "shoulder_r");
+  EXPECT_LT((shoulder.frame.translation() - placed(by_hand.frame.translation())).norm(), 0.004);
+  EXPECT_EQ(drafted.scene.muscles.size(), 3u);
+}
+
+TEST(FolderOfMadeBody, the_radius_turns_about_the_ulna_where_a_supinator_is_there) {
+  const TestFolder folder;
+  const std::map<std::string, std::string> names = {{"humerus_r", "humerus_r.vtp"},
+                                                    {"ulna_r", "ulna_r.vtp"},
+                                                    {"radius_r", "radius_r.vtp"},
+                                                    {"brachialis_r", "brachialis_r.vtp"},
+                                                    {"brachioradialis_r", "supinator_r.vtp"}};
+  write_body(folder.path() / "arm", elbow(), names);
+  const LoadedScene drafted = drafted_scene(folder.path() / "arm");
+  const Joint &found = joint_named(drafted.scene, "radioulnar_r"), &made = joint_named(elbow(), "radioulnar_r");
+  EXPECT_LT((found.frame.translation() - made.frame.translation()).cross(direction(made, 0)).norm(), 0.006);
+  EXPECT_GT(direction(found, 0).dot(direction(made, 0)), std::cos(radians(5)));
+  EXPECT_EQ(found.axes[0].coordinate, "pro_sup_r");
+  EXPECT_NEAR(found.axes[0].capture_value, made.axes[0].capture_value, radians(25)) << "the palm looks forward";
+  std::map<std::string, std::string> without = names;
+  without["brachioradialis_r"] = "brachioradialis_r.vtp";
+  write_body(folder.path() / "other" / "arm", elbow(), without);
+  EXPECT_EQ(drafted_scene(folder.path() / "other" / "arm").scene.joints.size(), 1u);
+}
+
+TEST(FolderOfMadeBody, a_muscle_of_an_unknown_name_attaches_where_it_touches) {
+  const TestFolder folder;
+  std::map<std::string, std::string> names = hip_names;
+  names["iliacus_r"] = "muscles/object seven.vtp";
+  write_body(folder.path() / "hip", hip(), names);
+  const LoadedScene drafted = drafted_scene(folder.path() / "hip");
+  for (const Muscle& muscle : drafted.scene.muscles) {
+    if (muscle.name != "object_seven") continue;
+    ASSERT_EQ(muscle.attachments.size(), 2u);
+    for (const Attachment& each : muscle.attachments) {
+      EXPECT_TRUE(each.guessed);
+      EXPECT_EQ(drafted.scene.bodies[static_cast<std::size_t>(each.body)],
+                each.end == AttachmentEnd::origin ? "pelvis" : "femur_r");
+    }
+    return;
+  }
+  FAIL() << "it is not in the scene";
+}
+
+TEST(FolderOfMadeBody, a_right_hip_mirrored_is_a_left_one) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  DraftOptions options;
+  options.mirror = true;
+  const LoadedScene right = drafted_scene(folder.path() / "hip"), left = drafted_scene(folder.path() / "hip", options);
+  const Joint &of_right = joint_named(right.scene, "hip_r"), &of_left = joint_named(left.scene, "hip_l");
+  const Vec3 mirror(1, 1, -1);
+  EXPECT_LT((of_left.frame.translation() - mirror.cwiseProduct(of_right.frame.translation())).norm(), 1e-4);
+  // Turns are no vectors: what flexes forward on the right does so on the left, what adducts turns the other way.
+  EXPECT_GT(direction(of_left, 0).dot(direction(of_right, 0)), 0.9999);
+  EXPECT_LT(direction(of_left, 1).dot(direction(of_right, 1)), -0.9999);
+  ASSERT_EQ(left.scene.muscles.size(), right.scene.muscles.size());
+  for (std::size_t m = 0; m < left.scene.muscles.size(); ++m) {
+    const Muscle &a = right.scene.muscles[m], &b = left.scene.muscles[m];
+    EXPECT_TRUE(b.name.ends_with("_l")) << b.name;
+    EXPECT_LT((mirror.asDiagonal() * a.surface.vertices - b.surface.vertices).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_GT(enclosed_volume(b.surface.vertices, b.surface.faces), 0);
+    for (std::size_t i = 0; i < a.attachments.size(); ++i)
+      EXPECT_EQ(a.attachments[i].vertices, b.attachments[i].vertices) << a.name;
+  }
+}
+
+TEST(FolderOfMadeBody, what_cannot_be_used_is_left_out_and_named) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  TriangleMesh open = hip().muscles[0].surface;
+  open.faces.conservativeResize(3, open.faces.cols() - 10);
+  write_surface(folder.path() / "hip" / "muscles" / "piriformis_r.vtp", open.vertices, open.faces);
+  write_surface(folder.path() / "hip" / "thing7.vtp", open.vertices, open.faces);
+  write_surface(folder.path() / "hip" / "iliofemoral ligament.vtp", open.vertices, open.faces);
+  const SceneDraft draft = draft_scene(folder.path() / "hip");
+  EXPECT_EQ(draft.muscles.size(), 4u);
+  EXPECT_THAT(draft.left_out,
+              testing::UnorderedElementsAre(
+                  testing::AllOf(testing::HasSubstr("piriformis_r"), testing::HasSubstr("gracilis prepare")),
+                  testing::AllOf(testing::HasSubstr("thing7"), testing::HasSubstr("rename")),
+                  testing::AllOf(testing::HasSubstr("ligament"), testing::HasSubstr("neither bone nor"))));
+}
+
+TEST(FolderOfMadeBody, a_folder_without_known_bones_is_refused_in_words) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), {{"iliacus_r", "iliacus.vtp"}, {"femur_r", "part_one.vtp"}});
+  EXPECT_THAT(message_of_input_error([&] { draft_scene(folder.path() / "hip"); }),
+              testing::AllOf(testing::HasSubstr("no bone whose name is known"), testing::HasSubstr("femur_r.ply")));
+  EXPECT_THAT(message_of_input_error([&] { draft_scene(folder.path() / "nowhere"); }),
+              testing::HasSubstr("cannot be read"));
+}
+
+TEST(FolderOfMadeBody, bones_of_no_possible_size_are_refused) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names, 1 / 2.5);
+  EXPECT_THAT(message_of_input_error([&] { draft_scene(folder.path() / "hip"); }),
+              testing::HasSubstr("times as large"));
+}
+
+TEST(FolderOfMadeBody, landmarks_say_where_a_joint_is_where_they_are_named) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  std::ofstream(folder.path() / "hip" / "points.csv") << "cloud,index,x_mm,y_mm,z_mm\nthigh,HJC,1,2,3\n";
+  const LoadedScene drafted = drafted_scene(folder.path() / "hip", {{{"hip_r", {"HJC"}}}});
+  EXPECT_LT((joint_named(drafted.scene, "hip_r").frame.translation() - Vec3(0.001, 0.002, 0.003)).norm(), 1e-5);
+  EXPECT_THROW(draft_scene(folder.path() / "hip", {{{"hip_r", {"HJ"}}}}), ConfigurationError);
+  EXPECT_THROW(draft_scene(folder.path() / "hip", {{{"hop_r", {"HJC"}}}}), ConfigurationError);
+}
+
+}  // namespace gracilis

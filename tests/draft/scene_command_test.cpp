@@ -1,0 +1,49 @@
+#include "body_folder.hpp"
+
+#include "app/program.hpp"
+#include "io/test_files.hpp"
+
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/io/input_file.hpp>
+
+#include <gmock/gmock.h>
+
+/// The program itself, from a folder to a run.
+namespace gracilis {
+
+using testing::HasSubstr;
+
+TEST(SceneCommand, a_folder_becomes_a_scene_with_a_picture_that_runs_and_tells_its_guesses) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", builtin_hip(),
+             {{"hip_bone_r", "hip_bone_r.vtp"},
+              {"sacrum", "sacrum.vtp"},
+              {"femur_r", "femur_r.vtp"},
+              {"adductor_longus_r", "adductor_longus_r.vtp"}});
+  const std::string in = (folder.path() / "hip").string(), scene = (folder.path() / "hip" / "made.toml").string();
+  const ProgramResult made = run_program("scene " + in + " --out " + scene);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("3 bones, 1 joints, 1 muscles"));
+  EXPECT_THAT(made.out, HasSubstr("guessed joint hip_r: a sphere"));
+  EXPECT_THAT(made.out, HasSubstr("guessed adductor_longus_r insertion"));
+  const bool no_picture = made.err.find("no picture") != std::string::npos;
+  EXPECT_TRUE(no_picture || std::filesystem::file_size(folder.path() / "hip" / "made.png") > 10000);
+
+  std::string text = read_text(scene);
+  EXPECT_THAT(text, HasSubstr("# guessed: within "));
+  const std::string motion = "key_poses_deg = [[0], [60]]";
+  ASSERT_NE(text.find(motion), std::string::npos);
+  folder.write("hip/made.toml", text.replace(text.find(motion), motion.size(), "key_poses_deg = [[0], [4]]"));
+  const std::string out = (folder.path() / "run").string();
+  const ProgramResult run = run_program("run " + scene + " --set method=skinning --out " + out);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(read_text(out + "/run.json"), HasSubstr("joint hip_r: a sphere"));
+
+  EXPECT_EQ(run_program("scene " + in + " --out " + scene).exit_code, 2) << "it is there already";
+  EXPECT_EQ(run_program("scene " + in + " --force --out " + scene).exit_code, 0)
+      << "the scene's own table is none of the folder's landmarks";
+  std::filesystem::create_directories(folder.path() / "empty");
+  EXPECT_EQ(run_program("scene " + (folder.path() / "empty").string() + " --out " + scene + " --force").exit_code, 3);
+}
+
+}  // namespace gracilis

@@ -1,0 +1,78 @@
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/mirrored_mesh.hpp>
+#include <gracilis/geometry/revolution_fit.hpp>
+#include <gracilis/geometry/sphere_fit.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace gracilis {
+using shapes::cylinder;
+using shapes::sphere;
+
+namespace {
+
+const Vec3 head(0.1, -0.2, 0.3);
+
+/// A ball on a neck: what the end of a femur is to a fit.
+SurfaceSamples ball_on_a_neck() {
+  TriangleMesh ball = sphere(head, 0.024, 4);
+  // Below its middle the ball narrows into a neck that leads away.
+  for (auto point : ball.vertices.colwise())
+    if (const Real below = head.z() - 0.008 - point.z(); below > 0) point.z() -= 4 * below;
+  return surface_samples(ball);
+}
+
+}  // namespace
+
+TEST(SphereFit, the_head_of_a_ball_on_a_neck_is_found) {
+  const SphereFit fit = fit_sphere(ball_on_a_neck(), 0.015, 0.035);
+  EXPECT_LT((fit.center - head).norm(), 0.0003);
+  EXPECT_NEAR(fit.radius, 0.024, 0.0003);
+  EXPECT_GT(fit.share, 0.55);
+  EXPECT_LT(fit.share, 0.8);
+}
+
+TEST(SphereFit, none_is_found_beyond_the_radii_that_may_be_or_where_it_is_not_liked) {
+  EXPECT_EQ(fit_sphere(ball_on_a_neck(), 0.03, 0.04).radius, 0);
+  EXPECT_EQ(fit_sphere(ball_on_a_neck(), 0.015, 0.035, [](const Vec3&, Real) { return 0.0; }).radius, 0);
+  EXPECT_EQ(fit_sphere(surface_samples({Points(3, 0), Eigen::Matrix3Xi(3, 0)}), 0.01, 1).radius, 0);
+}
+
+TEST(RevolutionFit, half_a_spool_shows_its_axis) {
+  // Thinner in the middle, as a trochlea is; about z through (0.02, 0.03).
+  TriangleMesh spool = cylinder(0.012, 0.03, 40, 20);
+  const Real middle = bounding_box(spool.vertices).center().z();
+  for (auto point : spool.vertices.colwise()) {
+    point.head<2>() *= 1 + 900 * std::pow(point.z() - middle, 2);
+    point += Vec3(0.02, 0.03, 0);
+  }
+  const SurfaceSamples all = surface_samples(spool);
+  const SurfaceSamples front = all.kept([&](Index i) {
+    return all.points(0, i) > 0.02 && std::abs(all.points(2, i) - middle) < 0.0149;  // without its flat ends
+  });
+  const Vec3 about = Vec3(0.2, 0.3, 1).normalized();
+  const RevolutionFit fit = fit_revolution(front, about, 0.02);
+  EXPECT_GT(fit.direction.dot(Vec3::UnitZ()), std::cos(radians(2)));
+  EXPECT_LT((fit.center - Vec3(0.02, 0.03, fit.center.z())).norm(), 0.001);
+  EXPECT_LT(fit.misfit, 0.1);
+}
+
+TEST(RevolutionFit, a_sphere_which_has_every_axis_gives_the_one_expected) {
+  const Vec3 expected = Vec3(1, 2, 0).normalized();
+  const RevolutionFit fit = fit_revolution(surface_samples(sphere(head, 0.02, 3)), expected);
+  EXPECT_GT(fit.direction.dot(expected), std::cos(radians(1)));
+  EXPECT_LT((fit.center - head).norm(), 0.0005);
+}
+
+TEST(MirroredMesh, a_closed_surface_faces_outwards_as_before) {
+  const TriangleMesh ball = sphere(head, 0.02, 2);
+  const TriangleMesh other = mirrored(ball, Vec3::UnitX());
+  EXPECT_NEAR(enclosed_volume(other.vertices, other.faces), enclosed_volume(ball.vertices, ball.faces), 1e-12);
+  EXPECT_LT((other.vertices.row(0) + ball.vertices.row(0)).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+}  // namespace gracilis
