@@ -19,10 +19,13 @@
 #include "run_command.hpp"
 #include "scene_command.hpp"
 #include "static_optimization_command.hpp"
+#include "usage.hpp"
 #include "verify_command.hpp"
 #include "view_command.hpp"
 
 #include <gracilis/core/errors.hpp>
+
+#include <fmt/format.h>
 
 #include <iostream>
 #include <string>
@@ -59,14 +62,21 @@ int main(int count, char** arguments) {
   add_motions_command(program, chosen);
   add_paths_command(program, chosen);
   add_static_optimization_command(program, chosen);
+  add_examples(program);
+  if (count < 2)
+    return run_guarded([] {
+      fmt::print("{}", first_steps());
+      return static_cast<int>(ExitCode::done);
+    });
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     // Help and version are no errors; everything else is a usage error, whatever CLI11's own code for it.
     const bool asked_for = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
     return run_guarded([&] {
+      if (!asked_for) throw Error(ExitCode::usage, usage_problem(program, error, words));
       program.exit(error, std::cout, std::cerr);
-      return static_cast<int>(asked_for ? ExitCode::done : ExitCode::usage);
+      return static_cast<int>(ExitCode::done);
     });
   }
   return run_guarded(chosen);

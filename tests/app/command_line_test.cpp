@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 namespace gracilis {
 
 using testing::HasSubstr;
@@ -20,12 +22,54 @@ TEST(CommandLine, help_and_version_go_to_stdout_and_are_no_errors) {
 }
 
 TEST(CommandLine, usage_errors_exit_with_2_and_keep_stdout_clean) {
-  for (const char* arguments : {"", "--no-such-option", "no-such-command", "print-config extra"}) {
+  for (const char* arguments : {"--no-such-option", "no-such-command", "print-config extra"}) {
     const ProgramResult result = run_program(arguments);
     EXPECT_EQ(result.exit_code, 2) << arguments;
     EXPECT_EQ(result.out, "") << arguments;
     EXPECT_NE(result.err, "") << arguments;
   }
+}
+
+TEST(CommandLine, without_a_word_the_first_steps_are_shown) {
+  const ProgramResult result = run_program("");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("gracilis demo"));
+  EXPECT_THAT(result.out, HasSubstr("--help"));
+}
+
+TEST(CommandLine, what_was_probably_meant_is_suggested) {
+  const auto problem = [](const char* arguments) { return run_program(arguments).err; };
+  EXPECT_THAT(problem("rnu leg.toml"), HasSubstr("there is no command 'rnu' (did you mean 'run'?"));
+  EXPECT_THAT(problem("verify leg --otu"), HasSubstr("there is no option '--otu'"));
+  EXPECT_THAT(problem("report leg --otu=x"), HasSubstr("did you mean '--out'?"));
+  EXPECT_THAT(problem("run"), HasSubstr("`gracilis run --help`"));
+}
+
+/// Every command and its options as their help has them.
+TEST(CommandLine, every_help_ends_with_an_example_that_uses_its_own_options) {
+  std::istringstream lines(run_program("--help").out);
+  int commands = 0;
+  for (std::string line; std::getline(lines, line) && line != "Subcommands:";) {
+  }
+  for (std::string line; std::getline(lines, line);) {
+    if (line.size() < 3 || line[2] == ' ') continue;  // a description goes on
+    const std::string command = line.substr(2, line.find(' ', 2) - 2);
+    std::string help = run_program(command + " --help").out;
+    const std::size_t begin = help.find("Example: gracilis " + command);
+    ASSERT_NE(begin, std::string::npos) << command;
+    ++commands;
+    std::istringstream example(help.substr(begin));
+    if (help.find("Subcommands:") != std::string::npos) {
+      std::string subcommand;
+      example >> subcommand >> subcommand >> subcommand >> subcommand;
+      help = run_program(command + " " + subcommand + " --help").out;
+    }
+    for (std::string word; example >> word;)
+      if (word.starts_with("--")) {
+        EXPECT_THAT(help, HasSubstr("  " + word + " ")) << command;
+      }
+  }
+  EXPECT_GT(commands, 15);
 }
 
 TEST(CommandLine, print_config_writes_the_template_to_stdout) {

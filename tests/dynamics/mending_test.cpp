@@ -27,11 +27,11 @@ Meeting folded_ball(bool lies_in_another) {
   return meeting;
 }
 
-bool mend_once(Meeting& meeting, int attempt = 0) {
+bool mend_once(Meeting& meeting) {
   meeting.find();
   meeting.follow();
   Movers movers;
-  return mend_surfaces(meeting.crowd, meeting.state, attempt, meeting.pointers<Particles*>(meeting.particles), movers);
+  return mend_surfaces(meeting.crowd, meeting.state, meeting.pointers<Particles*>(meeting.particles), movers);
 }
 
 }  // namespace
@@ -41,22 +41,14 @@ TEST(SurfaceContact, a_surface_that_cuts_itself_is_mended_and_says_so) {
   meeting.add(shapes::sphere(Vec3::Zero(), 0.01, 4));
   meeting.pair(0, 0, 0.0003f).reach = 0.001f;
   meeting.prepare();
-  const auto mend = [&](int attempt) {
-    meeting.find();
-    meeting.follow();
-    Movers movers;
-    return mend_surfaces(meeting.crowd, meeting.state, attempt, meeting.pointers<Particles*>(meeting.particles),
-                         movers);
-  };
   const Particles whole = meeting.particles[0];
-  EXPECT_FALSE(mend(0));
+  EXPECT_FALSE(mend_once(meeting));
   EXPECT_EQ(largest_motion(whole, meeting.particles[0]), 0);
   // Over and under its neighbors.
   const Vector3f place = whole.position(7);
   meeting.particles[0].position(7) = 0.95f * place + Vector3f(-place.y(), place.x(), 0).normalized() * 0.004f;
-  EXPECT_TRUE(mend(0));
-  for (int attempt = 1; attempt < 4 && mend(attempt);) ++attempt;
-  EXPECT_FALSE(mend(0)) << "all is mended";
+  EXPECT_TRUE(mend_once(meeting));
+  EXPECT_FALSE(mend_once(meeting)) << "all is mended";
   EXPECT_LT(largest_motion(whole, meeting.particles[0]), 0.003f);
 }
 
@@ -74,6 +66,7 @@ TEST(SurfaceContact, a_surface_that_has_folded_is_mended_though_it_cuts_nothing)
   EXPECT_TRUE(is_folded());
   EXPECT_TRUE(mend_once(meeting));
   EXPECT_FALSE(is_folded());
+  EXPECT_FALSE(meeting.state.torn[0][7]) << "it lay in nothing";
 }
 
 TEST(SurfaceContact, lets_go_of_what_folded_on_its_way_out_of_a_surface_that_it_lies_in_at_rest) {
@@ -83,13 +76,6 @@ TEST(SurfaceContact, lets_go_of_what_folded_on_its_way_out_of_a_surface_that_it_
   EXPECT_FALSE(meeting.state.torn[0][100]) << "not folded";
   remember_places(meeting.pointers<const Particles*>(meeting.particles), meeting.state);
   EXPECT_FALSE(meeting.state.torn[0][7]) << "in the next step";
-}
-
-TEST(SurfaceContact, what_folded_elsewhere_is_mended_in_the_first_attempts_only) {
-  Meeting meeting = folded_ball(false);
-  EXPECT_FALSE(mend_once(meeting, 2));
-  EXPECT_TRUE(mend_once(meeting, 0));
-  EXPECT_FALSE(meeting.state.torn[0][7]);
 }
 
 TEST(SurfaceContact, mending_leaves_only_what_was_mended_among_the_movers) {
@@ -109,7 +95,7 @@ TEST(SurfaceContact, mending_leaves_only_what_was_mended_among_the_movers) {
   meeting.follow();
   Movers movers{{1, 0, 1}};
   const Particles left_alone = meeting.particles[1];
-  EXPECT_TRUE(mend_surfaces(meeting.crowd, meeting.state, 0, meeting.pointers<Particles*>(meeting.particles), movers));
+  EXPECT_TRUE(mend_surfaces(meeting.crowd, meeting.state, meeting.pointers<Particles*>(meeting.particles), movers));
   EXPECT_EQ(movers.listed, std::vector<char>({1, 0, 0}));
   EXPECT_EQ(largest_motion(left_alone, meeting.particles[1]), 0);
 }

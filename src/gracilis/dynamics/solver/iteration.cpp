@@ -14,9 +14,9 @@ constexpr int motion_check = 4;
 /// Iterations between two looks at what is near between surfaces, which walk and list with reserve.
 constexpr int coupling_refresh = 15;
 
-/// Where contact settles after the last iteration it is projected in every other one, but for so many at the end: the
-/// shapes are as good, and contact takes most of an iteration's time. A muscle that contracts would be pulled into what
-/// it touches and out again, and small differences would grow.
+/// Where contact settles after the last iteration it is projected in every other one, and what comes after it, but for
+/// so many at the end: the shapes are as good, and contact takes most of an iteration's time. A muscle that contracts
+/// would be pulled into what it touches and out again, and small differences would grow.
 constexpr int contact_period = 2, last_with_contact = 8;
 
 bool projects_contact(const SurfaceSolve& surface, int iteration) {
@@ -37,7 +37,7 @@ void project_phase(ConstraintPhase phase, JointSolve& solve, std::size_t i) {
   const SurfaceSolve& surface = solve.surfaces[i];
   const bool with_contact = projects_contact(surface, surface.report.iterations);
   for (const ConstraintRow& row : constraint_table()) {
-    if (row.phase != phase || (row.kind == ConstraintKind::bone_contact && !with_contact)) continue;
+    if (row.phase != phase || (phase == ConstraintPhase::after_contact && !with_contact)) continue;
     row.project(solve.surfaces[i]);
     solve.tell(i, row.kind);
   }

@@ -9,13 +9,14 @@ namespace gracilis {
 
 namespace {
 
-/// Most attempts at mending what cannot stay; what is crushed may resist them all.
-constexpr int mending_attempts = 4;
+/// Most attempts at mending what cannot stay; what is crushed may resist them all, and each takes it away from its
+/// shape, so that with more of them it cuts itself the more in the steps that follow.
+constexpr int mending_attempts = 2;
 
 bool settles(const SurfaceSolve& surface) { return surface.settings.settling_rounds > 0; }
 
 /// Whether anything was mended and has to settle again.
-bool mend(JointSolve& solve, int attempt) { return solve.coupling.mend && solve.coupling.mend(solve.movers, attempt); }
+bool mend(JointSolve& solve) { return solve.coupling.mend && solve.coupling.mend(solve.movers); }
 
 }  // namespace
 
@@ -24,7 +25,10 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   iterate(solve);
   if (std::none_of(surfaces.begin(), surfaces.end(), settles)) return;
   settle(solve);
-  for (int attempt = 0; attempt < mending_attempts && mend(solve, attempt); ++attempt) settle(solve);
+  for (int attempt = 0; attempt < mending_attempts && mend(solve); ++attempt) {
+    if (attempt == 0) solve.movers = {};  // at first all give way to what was mended
+    settle(solve);
+  }
   recover(solve);
 }
 

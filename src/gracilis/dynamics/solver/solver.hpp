@@ -7,9 +7,9 @@
 namespace gracilis {
 
 /// Solves a substep of all surfaces in step (XPBD; Macklin, Müller, Chentanez 2016): resets the multipliers, iterates
-/// (iteration.hpp), and settles (settling.hpp); after each of a few attempts at mending, those that were mended settle
-/// again, among the others, which stay. Free particles with a fixed neighborhood, coinciding ends and flat triangles
-/// are survived; they are counted as skipped.
+/// (iteration.hpp), and settles (settling.hpp); where some cut themselves they are mended and all settle again; where
+/// some still do, those are mended once more and settle among the others, which stay. Free particles with a fixed
+/// neighborhood, coinciding ends and flat triangles are survived; they are counted as skipped.
 void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch = {});
 
 /// The same for one surface alone.

@@ -47,7 +47,7 @@ struct Coupling {
   std::function<void(const Movers&)> refresh;   ///< looks again at what is near what
   std::function<Index(const Movers&)> project;  ///< returns how many contacts pushed
   /// Mends those of the movers that settled but cannot stay, and leaves none else among them; whether there was any.
-  std::function<bool(Movers&, int attempt)> mend = {};
+  std::function<bool(Movers&)> mend = {};
 };
 
 /// Told after each projection of a kind on a surface.

@@ -19,9 +19,7 @@ Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const SurfaceC
           [&crowd, &state, start, particles](const Movers& movers) {
             return project_touches(crowd, state, start, particles, movers);
           },
-          [&crowd, &state, particles](Movers& movers, int attempt) {
-            return mend_surfaces(crowd, state, attempt, particles, movers);
-          }};
+          [&crowd, &state, particles](Movers& movers) { return mend_surfaces(crowd, state, particles, movers); }};
 }
 
 Coupling couple_by_edges(const std::vector<MuscleStep>& steps, const VirtualEdgeCrowd& crowd, VirtualEdgeState& state) {

@@ -12,9 +12,11 @@ namespace {
 
 /// How far a particle goes at once to be mended, in neighborhoods (of some edges each).
 constexpr float mended_within = 0.5f;
-/// Attempts in which folds are unfolded that have nothing to do with an overlap. What is unfolded may cut itself; the
-/// attempts that follow are for that.
-constexpr int unfolding_attempts = 2;
+/// Where no more pairs of faces than these cut each other, as when a needle turns over, they go back to the shape that
+/// they had at rest; a tangle of more is smoothed, so many times over. Fewer leave more of it, more take the surface so
+/// far from its shape that it folds again in the next steps.
+constexpr std::size_t few = 3;
+constexpr int smoothing_rounds = 4;
 
 /// The faces that may cut each other: where the surface is folded, and where parts of it meet.
 std::vector<Index> suspects(const ContactSurface& surface, const PairTouches& touches, const Particles& particles) {
@@ -59,7 +61,7 @@ std::vector<FacePair> let_go_of_overlaps(const SurfaceCrowd& crowd, std::size_t 
 
 }  // namespace
 
-bool mend_surfaces(const SurfaceCrowd& crowd, CrowdState& state, int attempt, const std::vector<Particles*>& particles,
+bool mend_surfaces(const SurfaceCrowd& crowd, CrowdState& state, const std::vector<Particles*>& particles,
                    Movers& movers) {
   std::vector<char> mended(crowd.surfaces.size(), 0);
   parallel_for_each(crowd.pairs.size(), [&](std::size_t i) {
@@ -70,13 +72,13 @@ bool mend_surfaces(const SurfaceCrowd& crowd, CrowdState& state, int attempt, co
                                                 suspects(surface, state.touches[i], *particles[at]));
     std::vector<FacePair> folds = find_folds(surface, crowd.rest[at], state.before[at], *particles[at]);
     const std::vector<FacePair> overlapping = let_go_of_overlaps(crowd, at, folds, state.torn[at]);
-    if (attempt >= unfolding_attempts || !cuts.empty()) folds = overlapping;
+    if (!cuts.empty()) folds = overlapping;
     cuts.insert(cuts.end(), folds.begin(), folds.end());
     const float most = mended_within * crowd.neighborhood[at];
-    if (attempt % 2 == 0)
+    if (cuts.size() <= few)
       unfold(surface, crowd.rest[at], cuts, most, *particles[at]);
     else
-      smooth(surface, cuts, attempt + 1, most, *particles[at]);
+      smooth(surface, cuts, smoothing_rounds, most, *particles[at]);
     mended[at] = !cuts.empty();
   });
   movers.listed = std::move(mended);

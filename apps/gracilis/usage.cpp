@@ -1,0 +1,101 @@
+#include "usage.hpp"
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/suggestions.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace gracilis {
+
+namespace {
+
+struct Example {
+  const char *command, *line;
+};
+
+constexpr Example examples[] = {
+    {"demo", "gracilis demo --flexion 90 --out hip"},
+    {"run", "gracilis run leg.toml --out leg --threads 2"},
+    {"compare", "gracilis compare leg.toml --methods xpbd,tissue --out compared"},
+    {"rom", "gracilis rom hip.toml --coord hip_flexion_r=-10:60:2 --out arms"},
+    {"fibers", "gracilis fibers leg.toml --out fibers"},
+    {"activations", "gracilis activations join walks results --out joined.sto"},
+    {"print-config", "gracilis print-config > scene.toml"},
+    {"bench", "gracilis bench leg.toml --frame 10"},
+    {"inspect", "gracilis inspect leg.toml"},
+    {"render", "gracilis render leg --view lateral --out leg.png"},
+    {"export", "gracilis export leg --to obj --frames 0,45,90 --out surfaces"},
+    {"report", "gracilis report leg"},
+    {"verify", "gracilis verify leg"},
+    {"view", "gracilis view leg.toml"},
+    {"prepare", "gracilis prepare biceps.stl triceps.stl --bone humerus.stl --unit mm --out prepared"},
+    {"scene", "gracilis scene scans --out leg.toml"},
+    {"import", "gracilis import model.osim --motion walk.mot --out walk"},
+    {"motions", "gracilis motions model.osim --joint hip_r --out motions"},
+    {"paths", "gracilis paths model.osim --coord hip_flexion_r=-10:60:2 --out paths"},
+    {"static-optimization", "gracilis static-optimization setup.xml --out activations"},
+};
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+/// The command in which parsing ended.
+const CLI::App& innermost(const CLI::App& program) {
+  const CLI::App* command = &program;
+  while (!command->get_subcommands().empty()) command = command->get_subcommands().back();
+  return *command;
+}
+
+bool is_option(const std::string& word) { return word.starts_with("-") && word != "-"; }
+
+}  // namespace
+
+std::string first_steps() {
+  return "Gracilis: bones, muscle surfaces and a motion become deforming, contracting muscles.\n"
+         "\n"
+         "  gracilis demo                      a hip flexes; needs no file, and shows where its picture is\n"
+         "  gracilis print-config > my.toml    a commented scene to fill in with your own surfaces\n"
+         "  gracilis inspect my.toml           what a run would refuse, and what mends it\n"
+         "  gracilis run my.toml --out my      the whole motion\n"
+         "  gracilis report my                 a page about it for the browser\n"
+         "\n"
+         "`gracilis --help` lists all commands, `gracilis COMMAND --help` explains one.\n";
+}
+
+void add_examples(CLI::App& program) {
+  for (CLI::App* command : program.get_subcommands({}))
+    for (const Example& example : examples)
+      if (command->get_name() == example.command) command->footer(std::string("Example: ") + example.line);
+}
+
+std::string usage_problem(const CLI::App& program, const CLI::ParseError& error,
+                          const std::vector<std::string>& words) {
+  const CLI::App& command = innermost(program);
+  const std::string begin = &command == &program ? "" : command.get_name() + ": ";
+  const std::string help = "`gracilis" + (&command == &program ? "" : " " + command.get_name()) + " --help` ";
+  if (&command == &program && words.size() > 1 && !is_option(words[1]))
+    return "there is no command '" + words[1] + "' (" + suggestion(words[1], command_names(program)) + "; " + help +
+           "lists all)";
+  const std::vector<std::string> known = option_names(command);
+  for (const std::string& word : words) {
+    const std::string option = word.substr(0, word.find('='));
+    if (option.starts_with("--") && std::find(known.begin(), known.end(), option) == known.end())
+      return fmt::format("{}there is no option '{}' ({}; {}explains all)", begin, option, suggestion(option, known),
+                         help);
+  }
+  return begin + error.what() + " (" + help + "explains)";
+}
+
+}  // namespace gracilis
