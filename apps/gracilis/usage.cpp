@@ -77,7 +77,10 @@ std::string first_steps() {
 void add_examples(CLI::App& program) {
   for (CLI::App* command : program.get_subcommands({}))
     for (const Example& example : examples)
-      if (command->get_name() == example.command) command->footer(std::string("Example: ") + example.line);
+      if (command->get_name() == example.command) {
+        const std::string own = command->get_footer();
+        command->footer((own.empty() ? "" : own + "\n") + "Example: " + example.line);
+      }
 }
 
 std::string usage_problem(const CLI::App& program, const CLI::ParseError& error,
