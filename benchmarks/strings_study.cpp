@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
+#include <gracilis/core/median.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/strings/lane_relaxation.hpp>
@@ -21,16 +22,9 @@ constexpr int reference_iterations = 40;
 constexpr Real reference_stop_move = 1e-8;
 
 struct Outcome {
-  Real microseconds = 0, reference_microseconds = 0;  ///< medians over poses
+  Real microseconds = 0, reference_microseconds = 0;                                    ///< medians over poses
   Real node_error = 0, worst_pose_error = 0, length_error = 0, worst_length_error = 0;  ///< m
 };
-
-Real median(std::vector<Real> numbers) {
-  if (numbers.empty()) return 0;
-  const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(numbers.size() / 2);
-  std::nth_element(numbers.begin(), middle, numbers.end());
-  return *middle;
-}
 
 template <class Act>
 Real microseconds_of(const Act& act) {
@@ -93,8 +87,9 @@ int run_all(int count, char** arguments) {
   const std::vector<Pose> poses = pose_sequence(scene);
   const std::vector<DistanceField> fields = cached_bone_fields(scene, far_field_settings());
   const BoneDistances bones = bone_distances(scene, fields);
-  fmt::print("muscle,microseconds,reference_microseconds,node_error_mm,worst_node_error_mm,length_error_mm,"
-             "worst_length_error_mm\n");
+  fmt::print(
+      "muscle,microseconds,reference_microseconds,node_error_mm,worst_node_error_mm,length_error_mm,"
+      "worst_length_error_mm\n");
   Real sum = 0;
   for (const Muscle& muscle : scene.muscles) {
     const std::optional<MuscleStrings> strung = muscle_strings(scene, muscle, bones, {});

@@ -84,7 +84,7 @@ void require_sizes(const std::vector<NamedSurface>& surfaces, const std::vector<
 /// Closed pieces of the surface, mended.
 std::vector<TriangleMesh> mended_pieces(const NamedSurface& surface, const PrepareSettings& settings) {
   try {
-    return pieces_of(fix_surface(surface.mesh, surface.name, 0.01, TimeLimit(settings.time_limit)).mesh);
+    return pieces_of(fix_surface(surface.mesh, surface.name, TimeLimit(settings.time_limit)).mesh);
   } catch (const OutOfTime&) {
     throw InputError(out_of_time(surface.name, settings));
   }

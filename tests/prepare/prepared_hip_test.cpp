@@ -6,7 +6,7 @@
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/prepare_surfaces.hpp>
-#include <gracilis/prepare/surface_repair.hpp>
+#include <gracilis/prepare/solids.hpp>
 
 #include <build_paths.hpp>
 

@@ -1,6 +1,7 @@
 #include <gracilis/draft/body_frame.hpp>
 
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/rotations.hpp>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
@@ -99,10 +100,8 @@ Turn best_turn(const Pairs& pairs) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < pairs.known.size(); ++i)
     sum += (pairs.found[i] - of_found) * (pairs.known[i] - of_known).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0 ? 1 : -1);
-  const Vec3 values = svd.singularValues();
-  return {svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose(), values[0] > 0 ? values[1] / values[0] : 0};
+  const Vec3 values = sum.jacobiSvd().singularValues();
+  return {nearest_rotation(sum), values[0] > 0 ? values[1] / values[0] : 0};
 }
 
 /// The nearest axis of the files' frame where it is within the angle, else the direction itself.

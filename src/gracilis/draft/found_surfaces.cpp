@@ -1,6 +1,7 @@
 #include <gracilis/draft/found_surfaces.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/median.hpp>
 #include <gracilis/draft/folder_names.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
@@ -35,7 +36,7 @@ constexpr Real largest_muscle = 0.003;
 
 Real largest_extent(const Points& points) {
   if (points.cols() == 0) return 0;
-  return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
+  return bounding_box(points).sizes().maxCoeff();
 }
 
 /// Half of the bones are this much larger than those of a grown person, were the files in metres.
@@ -50,9 +51,7 @@ Real median_size(const FolderFiles& files) {
       continue;  // said where the surface is read for its use
     }
   }
-  if (ratios.empty()) return 0;
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
-  return ratios[ratios.size() / 2];
+  return median(std::move(ratios));
 }
 
 void choose_unit(const FolderFiles& files, const fs::path& folder, FoundFolder& found) {

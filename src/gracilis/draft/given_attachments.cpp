@@ -1,6 +1,7 @@
 #include <gracilis/draft/given_attachments.hpp>
 
 #include <gracilis/anatomy/attachments/attachment_patch.hpp>
+#include <gracilis/core/median.hpp>
 
 #include <fmt/format.h>
 
@@ -35,13 +36,6 @@ std::optional<AttachmentEnd> end_in(const std::vector<std::string>& words) {
     if (insertion_words.contains(word)) return AttachmentEnd::insertion;
   }
   return std::nullopt;
-}
-
-Real median(std::vector<Real> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// How landmarks hang together: whether each follows the one before, and whether the last comes back to the first.

@@ -1,7 +1,7 @@
-#include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/cgal_mesh.hpp>
+#include <gracilis/prepare/solids.hpp>
 
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 
@@ -27,9 +27,7 @@ struct WatchedProjection {
 std::optional<TriangleMesh> remesh_isotropic(const TriangleMesh& mesh, Real edge_length, int iterations,
                                              const TimeLimit& limit) {
   namespace pmp = CGAL::Polygon_mesh_processing;
-  const MeshReport report = inspect_mesh(mesh);
-  if (!report.is_closed() || !report.is_manifold() || !report.is_oriented() || mesh.face_count() < 4)
-    return std::nullopt;
+  if (!bounds_a_solid(inspect_mesh(mesh)) || mesh.face_count() < 4) return std::nullopt;
   std::optional<CgalMesh> given = to_cgal(mesh);
   if (!given) return std::nullopt;
   const NearestTriangle surface_given(mesh);

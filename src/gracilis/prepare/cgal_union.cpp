@@ -1,6 +1,6 @@
-#include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/cgal_mesh.hpp>
+#include <gracilis/prepare/solids.hpp>
 
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 
@@ -8,14 +8,14 @@
 
 namespace gracilis {
 
-static bool bounds_a_solid(const TriangleMesh& mesh) {
+static bool encloses_something(const TriangleMesh& mesh) {
   const MeshReport report = inspect_mesh(mesh);
-  return report.is_closed() && report.is_manifold() && report.is_oriented() && report.volume > 0;
+  return bounds_a_solid(report) && report.volume > 0;
 }
 
 std::optional<TriangleMesh> exact_union(const TriangleMesh& a, const TriangleMesh& b) {
   namespace pmp = CGAL::Polygon_mesh_processing;
-  if (!bounds_a_solid(a) || !bounds_a_solid(b)) return std::nullopt;
+  if (!encloses_something(a) || !encloses_something(b)) return std::nullopt;
   std::optional<CgalMesh> first = to_cgal(a), second = to_cgal(b);
   if (!first || !second) return std::nullopt;
   try {

@@ -1,8 +1,8 @@
 #include <gracilis/prepare/cut_and_fill.hpp>
 
-#include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/prepare/cgal.hpp>
+#include <gracilis/prepare/solids.hpp>
 
 #include <algorithm>
 #include <array>
@@ -44,18 +44,13 @@ bool cut_out(TriangleMesh& mesh, const std::vector<char>& chosen) {
   return enough;
 }
 
-bool is_closed_solid(const TriangleMesh& mesh) {
-  const MeshReport report = inspect_mesh(mesh);
-  return report.is_closed() && report.is_manifold() && report.is_oriented() && !report.degenerate_faces;
-}
-
 }  // namespace
 
 bool cut_and_fill(TriangleMesh& mesh, Real crumb_share, const TimeLimit& limit) {
   for (int cut = 0; cut <= most_cuts; ++cut) {
     limit.check();
     std::vector<char> bad = faces_that_cut(mesh, limit);
-    if (std::find(bad.begin(), bad.end(), 1) == bad.end()) return is_closed_solid(mesh);
+    if (std::find(bad.begin(), bad.end(), 1) == bad.end()) return is_solid(inspect_mesh(mesh));
     if (cut == most_cuts) return false;
     for (int ring = 0; ring < cut; ++ring) widen(mesh, bad);
     if (!cut_out(mesh, bad)) return false;
@@ -64,7 +59,7 @@ bool cut_and_fill(TriangleMesh& mesh, Real crumb_share, const TimeLimit& limit) 
     // A fair patch follows its surroundings; where that failed a flat one has more room.
     fill_holes(mesh, std::numeric_limits<Real>::max(), cut < 3, limit);
     mesh = repair_mesh(mesh, crumb_share).mesh;
-    if (!is_closed_solid(mesh)) return false;
+    if (!is_solid(inspect_mesh(mesh))) return false;
   }
   return false;
 }

@@ -1,11 +1,11 @@
 #include <gracilis/prepare/pieces.hpp>
 
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/rebuilding.hpp>
+#include <gracilis/prepare/solids.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,8 +16,6 @@ namespace gracilis {
 /// What cuts each other more often costs exact arithmetic minutes, and is no clean overlap.
 static constexpr std::ptrdiff_t most_exact_pairs = 5000;
 static constexpr std::size_t most_exact_pieces = 8;
-
-static Real volume_of(const TriangleMesh& mesh) { return enclosed_volume(mesh.vertices, mesh.faces); }
 
 /// Some vertices, spread over the surface, and whether nearly all of them lie in another one, or on it.
 static bool lies_in(const TriangleMesh& mesh, const SignedDistance& other, Real tolerance) {
@@ -65,11 +63,6 @@ static std::ptrdiff_t crossing_pairs(const TriangleMesh& a, const TriangleMesh& 
   return std::count_if(pairs.begin(), pairs.end(), [&](const FacePair& pair) { return !touch(pair); });
 }
 
-static bool cuts_itself(const TriangleMesh& mesh, const TimeLimit& limit) {
-  const std::array<const TriangleMesh*, 1> one = {&mesh};
-  return !intersecting_faces(one, false, limit).empty();
-}
-
 /// None where exact arithmetic cannot, or would take minutes.
 static std::optional<TriangleMesh> sound_union(const TriangleMesh& a, const TriangleMesh& b, const TimeLimit& limit) {
   const std::ptrdiff_t pairs = crossing_pairs(a, b, limit);
@@ -79,8 +72,7 @@ static std::optional<TriangleMesh> sound_union(const TriangleMesh& a, const Tria
   if (!both) return std::nullopt;
   TriangleMesh mended = repair_mesh(*both).mesh;
   const MeshReport report = inspect_mesh(mended);
-  const bool sound = report.is_closed() && report.is_manifold() && report.is_oriented() && !report.degenerate_faces &&
-                     report.volume > 0.99 * std::max(volume_of(a), volume_of(b));
+  const bool sound = is_solid(report) && report.volume > 0.99 * std::max(volume_of(a), volume_of(b));
   if (!sound || cuts_itself(mended, limit)) return std::nullopt;
   return mended;
 }

@@ -1,17 +1,16 @@
 #include <gracilis/prepare/prepare_surfaces.hpp>
 
-#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/estimates.hpp>
 #include <gracilis/prepare/reshaping.hpp>
 #include <gracilis/prepare/separation.hpp>
 #include <gracilis/prepare/smoothing.hpp>
+#include <gracilis/prepare/solids.hpp>
 #include <gracilis/prepare/surface_repair.hpp>
 #include <gracilis/prepare/thickness.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -69,18 +68,11 @@ std::vector<TriangleMesh> meshes_of(const std::vector<NamedSurface>& surfaces) {
   return meshes;
 }
 
-Real volume_of(const TriangleMesh& mesh) { return enclosed_volume(mesh.vertices, mesh.faces); }
-
-bool cuts_itself(const TriangleMesh& mesh, const TimeLimit& limit) {
-  const std::array<const TriangleMesh*, 1> one = {&mesh};
-  return !intersecting_faces(one, false, limit).empty();
-}
-
 /// Self-intersections that rounding and pulling apart may have made. True when there were any.
 bool untangle(TriangleMesh& mesh, const std::string& name, const PrepareSettings& settings, const TimeLimit& limit) {
   if (!cuts_itself(mesh, limit)) return false;
   const Real volume = volume_of(mesh);
-  mesh = fix_surface(mesh, name, 0.01, limit).mesh;
+  mesh = fix_surface(mesh, name, limit).mesh;
   if (std::abs(volume_of(mesh) / volume - 1) <= settings.volume_tolerance) return true;
   TriangleMesh again = mesh;
   set_volume(again, volume, limit);
@@ -97,7 +89,7 @@ struct Shaped {
 Shaped shaped(const NamedSurface& muscle, const PrepareSettings& settings, const Say& say) {
   const TimeLimit limit(settings.time_limit);
   say("repairing " + muscle.name);
-  FixedSurface fixed = fix_surface(muscle.mesh, muscle.name, 0.01, limit);
+  FixedSurface fixed = fix_surface(muscle.mesh, muscle.name, limit);
   Shaped result{std::move(fixed.mesh), {}, std::move(fixed.repairs)};
   if (muscle.largest_piece) result.repaired = largest_piece(result.repaired);
   result.mesh = result.repaired;
@@ -110,7 +102,7 @@ Shaped shaped(const NamedSurface& muscle, const PrepareSettings& settings, const
     round_off(result.mesh, sharpest_turn, settings.rounding_rounds, farthest_rounding);
   }
   untangle(result.mesh, muscle.name, settings, limit);
-  if (!is_solid(result.mesh)) result.mesh = fix_surface(result.mesh, muscle.name, 0.01, limit).mesh;
+  if (!is_solid(result.mesh)) result.mesh = fix_surface(result.mesh, muscle.name, limit).mesh;
   return result;
 }
 
@@ -273,8 +265,8 @@ PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, cons
     muscle.faces_before = muscles[m].mesh.face_count();
     muscle.faces_after = mesh.face_count();
     muscle.pieces = static_cast<Index>(pieces_of(mesh).size());
-    muscle.volume_before = enclosed_volume(repaired[m].vertices, repaired[m].faces);
-    muscle.volume_after = enclosed_volume(mesh.vertices, mesh.faces);
+    muscle.volume_before = volume_of(repaired[m]);
+    muscle.volume_after = volume_of(mesh);
     const SurfaceDistance there = distance_from_to(mesh, repaired[m]), back = distance_from_to(repaired[m], mesh);
     muscle.hausdorff = std::max(there.largest, back.largest);
     muscle.mean_distance = there.mean;

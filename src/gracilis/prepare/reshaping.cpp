@@ -1,13 +1,12 @@
 #include <gracilis/prepare/reshaping.hpp>
 
-#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/pieces.hpp>
 #include <gracilis/prepare/rebuilding.hpp>
 #include <gracilis/prepare/smoothing.hpp>
-#include <gracilis/prepare/surface_repair.hpp>
+#include <gracilis/prepare/solids.hpp>
 #include <gracilis/prepare/thickness.hpp>
 
 #include <algorithm>
@@ -21,8 +20,6 @@ constexpr Real farthest_rounding = 0.4;  ///< of an edge
 constexpr Real thinnest_radius = 0.45;   ///< of an edge: about three go around
 constexpr Real finer = 0.6;              ///< edges of the next attempt
 constexpr int attempts = 3;
-
-Real volume_of(const TriangleMesh& mesh) { return enclosed_volume(mesh.vertices, mesh.faces); }
 
 Real volume_error(const TriangleMesh& mesh, Real volume) { return std::abs(volume_of(mesh) / volume - 1); }
 

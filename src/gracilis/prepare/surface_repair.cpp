@@ -7,9 +7,9 @@
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/cut_and_fill.hpp>
 #include <gracilis/prepare/rebuilding.hpp>
+#include <gracilis/prepare/solids.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -19,6 +19,7 @@ namespace {
 
 /// Volume over area to the power 3/2: 0.09 for a ball, 0.002 for a sheet of 2 mm of a hand's size. Less is no solid.
 constexpr Real flattest = 5e-5;
+constexpr Real crumb_share = 0.01;    ///< of the area; smaller pieces go
 constexpr Real least_area = 0.6;      ///< share that should be left of a surface
 constexpr Real least_volume = 0.002;  ///< share of all pieces'; less is a crumb, whatever its area
 
@@ -26,16 +27,7 @@ std::string counted(Index count, const std::string& thing, const std::string& th
   return std::to_string(count) + " " + (count == 1 ? thing : things);
 }
 
-bool is_solid(const MeshReport& report) {
-  return report.is_closed() && report.is_manifold() && report.is_oriented() && !report.degenerate_faces;
-}
-
 bool is_flat(const MeshReport& report) { return !(report.volume > flattest * std::pow(report.area, 1.5)); }
-
-Index self_intersection_count(const TriangleMesh& mesh, const TimeLimit& limit) {
-  const std::array<const TriangleMesh*, 1> one = {&mesh};
-  return static_cast<Index>(intersecting_faces(one, false, limit).size());
-}
 
 void take(RepairedMesh repaired, FixedSurface& fixed) {
   fixed.mesh = std::move(repaired.mesh);
@@ -80,15 +72,14 @@ TriangleMesh closed_piece(TriangleMesh piece, Tally& tally, const TimeLimit& lim
 /// Returns how many.
 Index drop_tiny(std::vector<TriangleMesh>& pieces) {
   Real sum = 0;
-  for (const TriangleMesh& piece : pieces) sum += enclosed_volume(piece.vertices, piece.faces);
-  return static_cast<Index>(std::erase_if(pieces, [&](const TriangleMesh& piece) {
-    return enclosed_volume(piece.vertices, piece.faces) < least_volume * sum;
-  }));
+  for (const TriangleMesh& piece : pieces) sum += volume_of(piece);
+  return static_cast<Index>(
+      std::erase_if(pieces, [&](const TriangleMesh& piece) { return volume_of(piece) < least_volume * sum; }));
 }
 
 /// Self-intersections are cut out and filled, or else the piece is rebuilt.
-TriangleMesh without_self_intersections(TriangleMesh piece, Real crumb_share, Tally& tally, const TimeLimit& limit) {
-  if (self_intersection_count(piece, limit) == 0) return piece;
+TriangleMesh without_self_intersections(TriangleMesh piece, Tally& tally, const TimeLimit& limit) {
+  if (!cuts_itself(piece, limit)) return piece;
   TriangleMesh mended = piece;
   if (cut_and_fill(mended, crumb_share, limit) && !is_flat(inspect_mesh(mended))) {
     ++tally.mended;
@@ -124,15 +115,16 @@ void check_input(const TriangleMesh& mesh, const std::string& name) {
 }
 
 /// Everything at once, where its pieces cannot be mended.
-void rebuild(FixedSurface& fixed, const std::string& name, Real crumb_share, const TimeLimit& limit) {
+void rebuild(FixedSurface& fixed, const std::string& name, const TimeLimit& limit) {
   if (fixed.mesh.face_count() == 0) refuse(name);
   fixed.mesh = repair_mesh(rebuilt_as_solid(fixed.mesh, limit), crumb_share).mesh;
-  if (!is_solid(inspect_mesh(fixed.mesh)) || is_flat(inspect_mesh(fixed.mesh))) refuse(name);
+  const MeshReport report = inspect_mesh(fixed.mesh);
+  if (!is_solid(report) || is_flat(report)) refuse(name);
   fixed.repairs.push_back("rebuilt the surface from what it encloses, on a grid");
 }
 
 /// Where much was dropped that could not be closed: all of it together may enclose more than what is left.
-void rebuild_if_more(const TriangleMesh& whole, FixedSurface& fixed, Real crumb_share, const TimeLimit& limit) {
+void rebuild_if_more(const TriangleMesh& whole, FixedSurface& fixed, const TimeLimit& limit) {
   const TriangleMesh rebuilt = repair_mesh(rebuilt_as_solid(whole, limit), crumb_share).mesh;
   if (rebuilt.face_count() == 0 || inspect_mesh(rebuilt).volume < inspect_mesh(fixed.mesh).volume) return;
   fixed.mesh = rebuilt;
@@ -141,12 +133,7 @@ void rebuild_if_more(const TriangleMesh& whole, FixedSurface& fixed, Real crumb_
 
 }  // namespace
 
-bool is_solid(const TriangleMesh& mesh) {
-  const MeshReport report = inspect_mesh(mesh);
-  return is_solid(report) && report.volume > 0;
-}
-
-FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, Real crumb_share, const TimeLimit& limit) {
+FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, const TimeLimit& limit) {
   check_input(mesh, name);
   FixedSurface fixed;
   take(repair_mesh(mesh, crumb_share), fixed);
@@ -165,10 +152,10 @@ FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, Real
   }
   tally.tiny = drop_tiny(pieces);
   if (pieces.empty()) {
-    rebuild(fixed, name, crumb_share, limit);
+    rebuild(fixed, name, limit);
     return fixed;
   }
-  for (TriangleMesh& piece : pieces) piece = without_self_intersections(std::move(piece), crumb_share, tally, limit);
+  for (TriangleMesh& piece : pieces) piece = without_self_intersections(std::move(piece), tally, limit);
   std::erase_if(pieces, [](const TriangleMesh& piece) { return piece.face_count() == 0; });
   if (pieces.empty()) refuse(name);
   tally.nested = drop_nested(pieces);
@@ -184,7 +171,7 @@ FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, Real
   fixed.mesh = merged(all.pieces);
   if (all.pieces.size() > 1) take(repair_mesh(fixed.mesh, crumb_share), fixed);
   if (tally.flat > 0 && surface_area(fixed.mesh.vertices, fixed.mesh.faces) < least_area * area)
-    rebuild_if_more(whole, fixed, crumb_share, limit);
+    rebuild_if_more(whole, fixed, limit);
   const MeshReport report = inspect_mesh(fixed.mesh);
   if (!is_solid(report) || !(report.volume > flattest * std::pow(area, 1.5))) refuse(name);
   return fixed;

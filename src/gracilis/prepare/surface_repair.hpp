@@ -17,14 +17,10 @@ struct FixedSurface {
 
 /// Repairs any triangle surface, in this order: what geometry/mesh_repair.hpp does; where that is not enough, equal
 /// vertices are merged, doubled faces dropped and sheets that meet in a vertex or an edge separated. Then each
-/// connected piece: with less than `crumb_share` of the area it is dropped, and where it encloses nothing; holes are
+/// connected piece: with less than a hundredth of the area it is dropped, and where it encloses nothing; holes are
 /// filled; faces turned outwards; where it cuts itself that is cut out and filled, and where this fails it is rebuilt
 /// from what it encloses. Pieces that lie in another one are dropped, those that cut each other united. A sound surface
 /// comes back as it is. Throws InputError naming `name` when nothing of it encloses a volume, and OutOfTime.
-FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, Real crumb_share = 0.01,
-                         const TimeLimit& limit = TimeLimit());
-
-/// Closed, manifold, oriented outwards, every triangle with an area: of one piece or more.
-bool is_solid(const TriangleMesh& mesh);
+FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, const TimeLimit& limit = TimeLimit());
 
 }  // namespace gracilis
