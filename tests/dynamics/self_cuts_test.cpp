@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <limits>
 #include <numeric>
 #include <random>
@@ -226,10 +225,10 @@ TEST(SelfCuts, a_tangle_that_nothing_can_mend_is_given_up_soon) {
   std::uniform_real_distribution<float> place(-1, 1);
   for (Index p = 0; p < sheet.particles.count(); ++p)
     sheet.particles.position(p) = Vector3f(place(random), place(random), place(random));
-  // Processor time, of all threads: the machine may be busy with something else.
-  const std::clock_t begin = std::clock();
-  EXPECT_FALSE(sheet.cuts().empty());
-  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 10) << "all pairs would take minutes";
+  const std::size_t found = sheet.cuts().size();
+  EXPECT_GT(found, 0u);
+  // About a third of all pairs cut each other, in hundreds of millions.
+  EXPECT_LT(found, 500 * static_cast<std::size_t>(sheet.surface.faces.cols()));
 }
 
 TEST(SelfCuts, with_nothing_to_mend_nothing_moves) {

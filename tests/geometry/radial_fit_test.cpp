@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <ctime>
 #include <random>
 
 namespace gracilis {
@@ -158,19 +157,13 @@ TEST(RadialFit, fewer_points_than_unknowns_are_an_error) {
                InputError);
 }
 
-TEST(RadialFit, sparse_systems_of_50000_centers_take_seconds) {
-  constexpr Index count = 50000;
-  const Points points = scattered(count, 3);
+// As a full matrix it would take 20 GB.
+TEST(RadialFit, systems_of_50000_centers_are_solved_as_sparse_ones) {
+  const Points points = scattered(50000, 3);
   const Eigen::VectorXd values = values_of(points, wave);
-  const std::clock_t started = std::clock();  // processor time: the machine may be busy
   const RadialFit fit = interpolate({{RadialShape::wendland_31}, RadialPolynomial::linear}, points, 0.12, values);
-  const Real seconds = static_cast<Real>(std::clock() - started) / CLOCKS_PER_SEC;
-  RecordProperty("seconds", std::to_string(seconds));
   RecordProperty("condition", std::to_string(fit.condition));
   EXPECT_LT(fit.largest_residual, 1e-10);
-#ifdef NDEBUG
-  EXPECT_LT(seconds, 30);
-#endif
 }
 
 TEST(RadialFit, sparse_solutions_have_the_same_bits_for_any_number_of_threads) {

@@ -45,8 +45,8 @@ TEST(PreparationEstimates, an_edge_length_that_is_too_small_is_named) {
 
 TEST(PreparationEstimates, a_surface_that_would_take_too_long_is_told_of_before_and_may_have_more_time) {
   PrepareSettings hasty;
-  hasty.edge_length = 0.0005;
-  hasty.time_limit = 1;
+  hasty.edge_length = 0.0002;
+  hasty.time_limit = 10;
   EXPECT_THAT(refused({{"psoas", ball()}}, {}, hasty), HasSubstr("psoas: would take about"));
   hasty.edge_length = 0.003;
   EXPECT_EQ(refused({{"psoas", ball()}}, {}, hasty), "no problem");
