@@ -88,6 +88,10 @@ std::vector<Index> component_of_vertices(const TriangleMesh& mesh) {
   return component;
 }
 
+Index component_count(const std::vector<Index>& component) {
+  return component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+}
+
 static void inspect_indices_and_coordinates(const TriangleMesh& mesh, MeshReport& report) {
   for (Index f = 0; f < mesh.face_count(); ++f) {
     if (mesh.faces.col(f).minCoeff() < 0 || mesh.faces.col(f).maxCoeff() >= mesh.vertex_count()) {
@@ -105,8 +109,8 @@ static void inspect_vertices(const TriangleMesh& mesh, MeshReport& report) {
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     if (first[static_cast<std::size_t>(v)] != v) report.duplicate_vertices.add(v);
     if (component[static_cast<std::size_t>(v)] < 0) report.unreferenced_vertices.add(v);
-    report.components = std::max(report.components, component[static_cast<std::size_t>(v)] + 1);
   }
+  report.components = component_count(component);
 }
 
 /// Corners of faces around a vertex hang together through the edges they share; two groups at one vertex are a pinch.

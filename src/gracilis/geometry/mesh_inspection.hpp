@@ -63,4 +63,7 @@ std::vector<Index> first_at_same_place(const Points& vertices);
 /// must be in range.
 std::vector<Index> component_of_vertices(const TriangleMesh& mesh);
 
+/// How many there are, of vertices numbered that way.
+Index component_count(const std::vector<Index>& component);
+
 }  // namespace gracilis

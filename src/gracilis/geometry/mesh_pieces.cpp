@@ -11,7 +11,7 @@ namespace gracilis {
 std::vector<TriangleMesh> pieces_of(const TriangleMesh& mesh) {
   const std::vector<Index> component = component_of_vertices(mesh);
   const auto of = [&](Index v) { return component[static_cast<std::size_t>(v)]; };
-  const Index count = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+  const Index count = component_count(component);
   std::vector<TriangleMesh> pieces(static_cast<std::size_t>(count));
   std::vector<Index> vertices(pieces.size(), 0), faces(pieces.size(), 0), number(component.size(), -1);
   for (Index v = 0; v < mesh.vertex_count(); ++v)

@@ -4,7 +4,6 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 
-#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -109,7 +108,7 @@ static void flip_lines(RepairedMesh& result) {
 
 static void drop_crumbs(RepairedMesh& result, Real crumb_share) {
   const std::vector<Index> component = component_of_vertices(result.mesh);
-  const Index count = component.empty() ? 0 : *std::max_element(component.begin(), component.end()) + 1;
+  const Index count = component_count(component);
   if (count < 2 || crumb_share <= 0) return;
   Eigen::VectorXd areas = Eigen::VectorXd::Zero(count);
   const auto component_of = [&, faces = result.mesh.faces](Index f) {

@@ -8,7 +8,7 @@ namespace gracilis {
 
 std::vector<std::size_t> bones_under(const TriangleMesh& patch, std::span<const NearestTriangle* const> bones) {
   const std::vector<Index> pieces = component_of_vertices(patch);
-  const Index count = pieces.empty() ? 0 : 1 + *std::max_element(pieces.begin(), pieces.end());
+  const Index count = component_count(pieces);
   Eigen::MatrixXd distances = Eigen::MatrixXd::Zero(std::max<Index>(count, 1), static_cast<Index>(bones.size()));
   for (Index v = 0; v < patch.vertex_count(); ++v) {
     const Index piece = pieces[static_cast<std::size_t>(v)];

@@ -56,7 +56,7 @@ VertexStars stars_with(const VertexStars& stars, const std::vector<Bridge>& brid
 MeshTopology joined_pieces(const TriangleMesh& surface, const MeshTopology& topology,
                            const std::vector<Index>& fixed_body) {
   const std::vector<Index> component = component_of_vertices(surface);
-  const Index count = component.empty() ? 0 : 1 + *std::max_element(component.begin(), component.end());
+  const Index count = component_count(component);
   if (count < 2) return topology;
   std::vector<std::vector<Index>> vertices(static_cast<std::size_t>(count));
   std::vector<std::set<Index>> bodies(vertices.size());

@@ -1,5 +1,7 @@
 #include <gracilis/opensim/export/run_paths.hpp>
 
+#include <gracilis/core/median.hpp>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -45,11 +47,6 @@ std::string fit_line(const Model& model, const FittedMuscle& muscle) {
   return line;
 }
 
-static Real median_of(std::vector<Real> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
-}
-
 std::string fit_summary(const Model& model, const std::vector<FittedMuscle>& muscles) {
   std::vector<Real> lengths, arms;
   Real worst = 0;
@@ -74,9 +71,8 @@ std::string fit_summary(const Model& model, const std::vector<FittedMuscle>& mus
   if (lengths.empty()) return "no muscle was written";
   std::string text =
       fmt::format("{} muscles; root mean square on held-out poses: lengths {:.3f} mm (median), {:.3f} (worst)",
-                  muscles.size(), median_of(lengths), *std::max_element(lengths.begin(), lengths.end()));
-  if (!arms.empty())
-    text += fmt::format("; arms {:.3f} mm (median), {:.3f} (worst, {})", median_of(arms), worst, where);
+                  muscles.size(), median(lengths), *std::max_element(lengths.begin(), lengths.end()));
+  if (!arms.empty()) text += fmt::format("; arms {:.3f} mm (median), {:.3f} (worst, {})", median(arms), worst, where);
   return text;
 }
 
