@@ -1,6 +1,5 @@
 #include "opensim/model_texts.hpp"
 
-#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/spindle.hpp>
