@@ -25,6 +25,7 @@ struct RenderOptions {
   std::string color_by = "muscle", size, title, palette = "flesh";
   bool transparent = false, gif = false, mp4 = false;
   int rate = 25, step = 1;
+  bool without_ramp = false;
   RunPictureOptions picture;
 };
 
@@ -72,6 +73,7 @@ int render(const RenderOptions& options) {
     throw ConfigurationError(
         {options.out.string(), "", "is no kind of picture that can be written", "name a .png, .gif or .mp4 file"});
   }
+  const int first = options.without_ramp ? runs[0].first_motion_frame : 0;
   PictureDrawer drawer;
   const auto picture_of = [&](const std::vector<int>& frames) {
     Picture picture = run_picture(runs, painters, frames, chosen);
@@ -80,15 +82,15 @@ int render(const RenderOptions& options) {
   };
   if (!film) {
     check_frames(options.frames, runs[0]);
-    Picture picture = picture_of(options.frames.empty() ? telling_frames(runs[0]) : options.frames);
+    Picture picture = picture_of(options.frames.empty() ? telling_frames(runs[0], first) : options.frames);
     set_size(options.size, picture);
     write_png(options.out, drawer.draw(picture, options.transparent));
   } else {
-    Points room = painters[0].room();
-    const int count = (runs[0].frame_count + options.step - 1) / options.step;
+    const Points room = painters[0].room(first);
+    const int count = (runs[0].frame_count - first + options.step - 1) / options.step;
     Progress progress(0, count - 1);
     const auto image = [&](int i) {
-      Picture picture = picture_of({i * options.step});
+      Picture picture = picture_of({first + i * options.step});
       for (Panel& panel : picture.panels) panel.room = room;
       set_size(options.size, picture);
       progress.show(i);
@@ -132,6 +134,7 @@ void add_render_command(CLI::App& program, Command& chosen) {
   command->add_flag("--mp4", options->mp4, "A film as .mp4; needs ffmpeg");
   command->add_option("--rate", options->rate, "Images per second of a film, 1 to 50")->check(CLI::Range(1, 50));
   command->add_option("--step", options->step, "Every which frame goes into a film")->check(CLI::Range(1, 1000));
+  command->add_flag("--no-ramp", options->without_ramp, "Leave out the frames between the capture pose and the motion");
   command->callback([&chosen, options] { chosen = [options] { return render(*options); }; });
 }
 

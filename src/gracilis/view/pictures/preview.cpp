@@ -101,6 +101,13 @@ static void aim(const Scene& scene, const std::vector<Frame>& frames, Panel& pan
   panel.looking = snapped_to_axis(axis.dot(outwards) > 0 ? Vec3(-axis) : axis);
 }
 
+/// Frames before the motion have times that say nothing.
+static std::string time_caption(const Scene& scene, const Frame& frame) {
+  const bool before = scene.motion.times.empty() || frame.pose.time < scene.motion.times.front();
+  if (before) return fmt::format("frame {}, on the way to the motion", frame.number);
+  return fmt::format("frame {}, {:.2f} s", frame.number, frame.pose.time);
+}
+
 /// The coordinates that left the capture pose, unless they went to 0: a motion of one coordinate sets the others there.
 static std::string caption_of(const Scene& scene, const Frame& frame) {
   if (frame.number == 0) return "capture pose";
@@ -114,7 +121,7 @@ static std::string caption_of(const Scene& scene, const Frame& frame) {
       const Real shown = shown_value(axis, value);
       if (std::abs(shown - shown_value(axis, axis.capture_value)) < 0.5 || std::abs(shown) < 0.5) continue;
       // A whole body has more coordinates than a caption has room.
-      if (++shown_coordinates > 3) return fmt::format("frame {}, {:.2f} s", frame.number, frame.pose.time);
+      if (++shown_coordinates > 3) return time_caption(scene, frame);
       caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", axis.coordinate, shown,
                              axis.translation ? " mm" : "°");
     }

@@ -36,6 +36,14 @@ Vec3 view_direction(const RecordedRun& run, const std::string& view) {
   return direction.normalized();
 }
 
+/// Frames before the motion have times that say nothing.
+static std::string frame_caption(const RecordedRun& run, int frame) {
+  const Real time = run.times[static_cast<std::size_t>(frame)];
+  if (frame == 0 && run.first_motion_frame > 0) return "capture pose";
+  if (frame < run.first_motion_frame || time < 0) return fmt::format("frame {}, on the way to the motion", frame);
+  return fmt::format("frame {}, {:.2f} s", frame, time);
+}
+
 std::string pose_caption(const RecordedRun& run, int frame) {
   std::string caption;
   int shown = 0;
@@ -44,7 +52,7 @@ std::string pose_caption(const RecordedRun& run, int frame) {
     const bool changed = std::abs(value - run.coordinate_values(0, i)) >= 0.5 && std::abs(value) >= 0.5;
     if (!changed && i != main_coordinate(run)) continue;
     // A whole body has more coordinates than a caption has room.
-    if (++shown > 3) return fmt::format("frame {}, {:.2f} s", frame, run.times[static_cast<std::size_t>(frame)]);
+    if (++shown > 3) return frame_caption(run, frame);
     const CoordinateLabel label = coordinate_label(run.coordinates[static_cast<std::size_t>(i)]);
     caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", label.name, value + 0.0, label.unit);
   }
@@ -152,22 +160,24 @@ Panel RunPainter::panel(int frame) const {
   return panel;
 }
 
-std::vector<int> telling_frames(const RecordedRun& run) {
-  std::vector<Pose> poses(static_cast<std::size_t>(run.frame_count));
+std::vector<int> telling_frames(const RecordedRun& run, int first) {
+  std::vector<Pose> poses(static_cast<std::size_t>(run.frame_count - first));
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::VectorXd row = run.coordinate_values.row(static_cast<Index>(i));
+    const Eigen::VectorXd row = run.coordinate_values.row(static_cast<Index>(i) + first);
     poses[i].coordinates.assign(row.begin(), row.end());
   }
-  return preview_frames(poses, run.frame_count);
+  std::vector<int> frames = preview_frames(poses, run.frame_count - first);
+  for (int& frame : frames) frame += first;
+  return frames;
 }
 
-Points RunPainter::room() const {
+Points RunPainter::room(int first) const {
   std::vector<Points> parts;
   std::vector<std::string> names = run_.bones;
   for (const std::string& muscle : run_.muscles)
     if (shown(muscle)) names.push_back(muscle);
-  const int step = std::max(1, run_.frame_count / 12);
-  for (int frame = 0; frame < run_.frame_count; frame += step)
+  const int step = std::max(1, (run_.frame_count - first) / 12);
+  for (int frame = first; frame < run_.frame_count; frame += step)
     for (const std::string& name : names) parts.push_back(recorded_surface(run_, name, frame).vertices);
   return join(parts).points;
 }

@@ -30,8 +30,8 @@ Vec3 view_direction(const RecordedRun& run, const std::string& view);
 /// "hip_flexion_r 45°", and other coordinates that have left the capture pose.
 std::string pose_caption(const RecordedRun& run, int frame);
 
-/// The capture pose, half way, and the farthest pose, as in a run's preview.
-std::vector<int> telling_frames(const RecordedRun& run);
+/// The first of the frames from `first` on, half way, and the farthest pose, as in a run's preview.
+std::vector<int> telling_frames(const RecordedRun& run, int first = 0);
 
 /// Draws any frame of a run. Throws InputError when a frame is damaged.
 class RunPainter {
@@ -40,8 +40,8 @@ class RunPainter {
   RunPainter(const RecordedRun& run, RunPictureOptions options);
 
   Panel panel(int frame) const;
-  /// Points that tell how much room the whole run takes: some of every surface in some frames.
-  Points room() const;
+  /// Points that tell how much room the run takes from a frame on: some of every surface in some frames.
+  Points room(int first = 0) const;
 
  private:
   Points vertex_colors(std::size_t muscle, const TriangleMesh& mesh, int frame) const;

@@ -62,8 +62,14 @@ static Json rounded(const Eigen::VectorXd& values) {
   return list;
 }
 
+/// Whether a run took this measure at all; a full one did, whatever came out.
+static bool is_measured(const RecordedRun& run, const Eigen::MatrixXd& values) {
+  return run.manifest.value("metrics", "full") == "full" || !values.array().isNaN().all();
+}
+
 static Json measure_chart(const RecordedRun& run, const ShownMeasure& shown) {
   const Eigen::MatrixXd values = measure_of(run, shown.measure);
+  if (!is_measured(run, values)) return nullptr;
   Json chart = {{"id", shown.measure}, {"title", shown.title}, {"unit", shown.unit}, {"limits", shown.limits}};
   Json series = Json::array();
   bool any = false;
@@ -124,6 +130,8 @@ static Json gate_of(const RecordedRun& run, const ShownMeasure& shown, Index mus
                {"limit", rounded(limit)},
                {"both_ways", shown.limits.size() > 1}};
   if (all.size() == 0) return nullptr;
+  gate["measured"] = is_measured(run, all);
+  if (!gate["measured"]) return gate;
   const Eigen::VectorXd values = shown.factor * (all.col(muscle).array() - shown.reference);
   Index worst = 0;
   int missed = 0;
