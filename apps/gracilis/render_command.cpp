@@ -10,8 +10,10 @@
 #include <gracilis/view/pictures/video.hpp>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace gracilis {
@@ -22,7 +24,7 @@ struct RenderOptions {
   std::filesystem::path run, out;
   std::vector<std::filesystem::path> compare;
   std::vector<int> frames;
-  std::string color_by = "muscle", size, title, palette = "flesh";
+  std::string color_by = "muscle", size, title;
   bool transparent = false, gif = false, mp4 = false;
   int rate = 25, step = 1;
   bool without_ramp = false;
@@ -55,6 +57,29 @@ void check_frames(const std::vector<int>& frames, const RecordedRun& run) {
   }
 }
 
+/// Colors of what a run does not have would say something all the same.
+void warn_of_missing(const RecordedRun& run, const RunPictureOptions& options) {
+  const std::string folder = run.folder.string();
+  const auto largest = [&](const char* measure) {
+    const Eigen::MatrixXd values = measure_of(run, measure);
+    Real found = 0;
+    for (const Real value : values.reshaped())
+      if (std::isfinite(value)) found = std::max(found, value);
+    return found;
+  };
+  if (options.color_by == ColorBy::activation && largest("activation") == 0)
+    spdlog::warn(
+        "{}: has no activation: all muscles are relaxed, and all have the color of 0; `activations` of a scene "
+        "says what they do (docs/guide/fibers.md)",
+        folder);
+  if (options.color_by == ColorBy::volume && largest("volume_ratio") == 0)
+    spdlog::warn("{}: was not measured: colors of volume say nothing (run it with --metrics light)", folder);
+  const bool fibers = options.fibers || options.color_by == ColorBy::fiber_strain;
+  const bool any = std::any_of(run.muscles.begin(), run.muscles.end(),
+                               [&](const std::string& muscle) { return recorded_fibers(run, muscle, 0).count() > 0; });
+  if (fibers && !any) spdlog::warn("{}: has no fibers (run it without --no-fibers)", folder);
+}
+
 int render(const RenderOptions& options) {
   std::vector<RecordedRun> runs = {open_recorded_run(options.run)};
   for (const std::filesystem::path& folder : options.compare) runs.push_back(open_recorded_run(folder));
@@ -63,7 +88,8 @@ int render(const RenderOptions& options) {
   chosen.color_by = static_cast<ColorBy>(
       std::find_if(scales.begin(), scales.end(), [&](const ColorScale& s) { return s.name == options.color_by; }) -
       scales.begin());
-  chosen.palette = options.palette == "flesh" ? Palette::flesh : Palette::okabe_ito;
+  for (const RecordedRun& run : runs) warn_of_missing(run, chosen);
+  if (chosen.bones == std::vector<std::string>{"none"}) chosen.bones.clear(), chosen.without_bones = true;
   std::vector<RunPainter> painters;
   for (const RecordedRun& run : runs) painters.emplace_back(run, chosen);
 
@@ -73,7 +99,7 @@ int render(const RenderOptions& options) {
     throw ConfigurationError(
         {options.out.string(), "", "is no kind of picture that can be written", "name a .png, .gif or .mp4 file"});
   }
-  const int first = options.without_ramp ? runs[0].first_motion_frame : 0;
+  const int first = options.without_ramp ? std::min(runs[0].first_motion_frame, runs[0].frame_count - 1) : 0;
   PictureDrawer drawer;
   const auto picture_of = [&](const std::vector<int>& frames) {
     Picture picture = run_picture(runs, painters, frames, chosen);
@@ -110,7 +136,9 @@ void add_render_command(CLI::App& program, Command& chosen) {
   command->add_option("RUN", options->run, "Run folder")->required();
   command->add_option("--out", options->out, "File to write: .png, or .gif or .mp4 for a film of all frames")
       ->required();
-  command->add_option("--view", options->picture.view, "From where: anterior, lateral, anteromedial ... (lateral)")
+  command
+      ->add_option("--view", options->picture.view,
+                   "From where: anterior, lateral, anteromedial ... (as the run's preview looks)")
       ->check(CLI::IsMember(view_names()));
   command->add_option("--size", options->size, "WIDTHxHEIGHT of the whole picture, pixels (default: 720 per panel)");
   std::vector<std::string> names;
@@ -124,8 +152,15 @@ void add_render_command(CLI::App& program, Command& chosen) {
   command->add_option("--muscles", options->picture.muscles, "Show these only; names separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--palette", options->palette, "Colors of muscles: flesh, or okabe-ito for diagrams (flesh)")
-      ->check(CLI::IsMember({"flesh", "okabe-ito"}));
+  command->add_option("--bones", options->picture.bones, "Show these bones only; names separated by commas, or none")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--hide", options->picture.hidden, "Muscles and bones that are not shown")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--focus", options->picture.focus, "The muscle or bone that fills the picture");
+  command->add_option("--zoom", options->picture.zoom, "How many times larger, 0.1 to 50 (1)")
+      ->check(CLI::Range(0.1, 50.0));
   command->add_option("--opacity", options->picture.opacity, "Of muscles, 0.05 to 1")->check(CLI::Range(0.05, 1.0));
   command->add_flag("--fibers", options->picture.fibers, "Show fibers inside muscles that one sees through");
   command->add_option("--title", options->title, "A line above");

@@ -198,6 +198,9 @@ class Session {
     manifest.every = options_.every;
     manifest.ramps = !options_.without_ramps;
     manifest.fibers = !options_.without_fibers;
+    const CameraDirection camera = preview_camera(loaded_.scene, recorded_poses_);
+    manifest.preview_looking = camera.looking;
+    manifest.preview_up = camera.up;
     manifest.first_motion_frame = plan_.first_motion_frame;
     manifest.metrics = name_of(options_.measures);
     for (const Muscle& muscle : loaded_.scene.muscles)

@@ -27,18 +27,21 @@ namespace gracilis {
 
 namespace fs = std::filesystem;
 
+static Vec3 vector_of(const nlohmann::ordered_json& manifest, const char* group, const char* key,
+                      const Vec3& otherwise) {
+  const auto found = manifest.find(group);
+  if (found == manifest.end() || !found->is_object() || !found->contains(key)) return otherwise;
+  const nlohmann::ordered_json& json = (*found)[key];
+  if (!json.is_array() || json.size() != 3) return otherwise;
+  for (const auto& number : json)
+    if (!number.is_number()) return otherwise;
+  return {json[0].get<Real>(), json[1].get<Real>(), json[2].get<Real>()};
+}
+
 static AnatomicalAxes axes_of(const nlohmann::ordered_json& manifest) {
-  const auto vector = [](const nlohmann::ordered_json& json, const Vec3& otherwise) {
-    if (!json.is_array() || json.size() != 3) return otherwise;
-    for (const auto& number : json)
-      if (!number.is_number()) return otherwise;
-    return Vec3(json[0].get<Real>(), json[1].get<Real>(), json[2].get<Real>());
-  };
   AnatomicalAxes axes;
-  const auto found = manifest.find("axes");
-  if (found == manifest.end() || !found->is_object()) return axes;
-  axes.anterior = vector(found->value("anterior", nlohmann::ordered_json()), axes.anterior);
-  axes.superior = vector(found->value("superior", nlohmann::ordered_json()), axes.superior);
+  axes.anterior = vector_of(manifest, "axes", "anterior", axes.anterior);
+  axes.superior = vector_of(manifest, "axes", "superior", axes.superior);
   return axes;
 }
 
@@ -217,10 +220,12 @@ RecordedRun open_recorded_run(const fs::path& folder) {
   run.layout = layout_of(folder);
   if (run.layout == RunLayout::compact) run.compact_fibers = std::make_shared<CompactFibers>(folder);
   run.axes = axes_of(run.manifest);
+  run.preview_looking = vector_of(run.manifest, "preview", "looking", Vec3::Zero());
+  run.preview_up = vector_of(run.manifest, "preview", "up", Vec3::Zero());
   read_measures(folder / "measures.csv", run);
   find_surfaces(run);
   run.first_motion_frame = std::clamp(static_cast<int>(run.manifest.value("first_motion_frame", Real(0))), 0,
-                                      std::max(0, run.frame_count - 1));
+                                      run.frame_count);  // an interrupted run may not have come there
   count_vertices(run);
   run.place = place_of(bounding_box(recorded_surface(run, run.muscles.front(), 0).vertices));
   return run;

@@ -110,7 +110,7 @@ nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
   require({"command", "guessed", "warnings"}, is_texts, "a list of texts");
   require({"inputs", "joints"}, is_objects, "a list of objects");
   require(
-      {"axes", "action_lines", "rest_overlaps", "libraries", "counters"},
+      {"axes", "action_lines", "rest_overlaps", "libraries", "counters", "preview"},
       [](const Json& json) { return json.is_object(); }, "an object");
   return manifest;
 }
@@ -136,6 +136,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"instruction_set", instruction_set()},  // results differ in the last bits between sets
       {"processors", std::thread::hardware_concurrency()},
       {"axes", {{"anterior", components(manifest.axes.anterior)}, {"superior", components(manifest.axes.superior)}}},
+      {"preview", {{"looking", components(manifest.preview_looking)}, {"up", components(manifest.preview_up)}}},
       {"joints", joints_json(manifest.joints)},
       {"action_lines", action_lines(manifest)},
       {"rest_overlaps", overlaps_json(manifest.overlaps)},

@@ -27,11 +27,12 @@ struct RunManifest {
   bool fibers = true;            ///< whether fibers are followed
   int first_motion_frame = 0;    ///< of those recorded: those before it lead from the capture pose to the motion
   std::string metrics = "full";  ///< what is measured: none, light or full
-  std::vector<std::pair<std::string, ActionLine>> lines;  ///< of muscles that have one, by their names
-  std::vector<Joint> joints;                              ///< of the scene
-  OverlapReport overlaps;                                 ///< in the capture pose
-  AnatomicalAxes axes;                                    ///< how the subject stands
-  std::string status = "running";                         ///< running, complete, interrupted, or "failed: why"
+  std::vector<std::pair<std::string, ActionLine>> lines;           ///< of muscles that have one, by their names
+  std::vector<Joint> joints;                                       ///< of the scene
+  OverlapReport overlaps;                                          ///< in the capture pose
+  AnatomicalAxes axes;                                             ///< how the subject stands
+  std::string status = "running";                                  ///< running, complete, interrupted, or "failed: why"
+  Vec3 preview_looking = Vec3::Zero(), preview_up = Vec3::Zero();  ///< of the preview's camera; zero: there is none
   int threads = 1;
   int frames = 0;                   ///< on disk
   double seconds = 0;               ///< spent on them

@@ -2,7 +2,7 @@
 
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/simulate/measures.hpp>
-#include <gracilis/view/pictures/palette.hpp>
+#include <gracilis/view/pictures/muscle_colors.hpp>
 
 #include <fmt/format.h>
 
@@ -174,7 +174,7 @@ static Json coordinates_of(const RecordedRun& run) {
 Json report_data(const RecordedRun& run) {
   Json muscles = Json::array();
   for (std::size_t i = 0; i < run.muscles.size(); ++i) {
-    const Color color = 255 * muscle_color(static_cast<Index>(i), Palette::okabe_ito);
+    const Color color = 255 * muscle_color(run.muscles[i]);
     muscles.push_back({{"name", run.muscles[i]},
                        {"color", fmt::format("#{:02x}{:02x}{:02x}", std::lround(color.x()), std::lround(color.y()),
                                              std::lround(color.z()))}});
