@@ -9,6 +9,7 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/mesh/polyline_file.hpp>
 #include <gracilis/view/pictures/fiber_picture.hpp>
+#include <gracilis/view/pictures/muscle_colors.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -72,7 +73,7 @@ static void draw(const Scene& scene, const std::vector<Polylines>& fibers, const
   try {
     render_picture(all_fibers_picture(scene, fibers), out / "fibers.png");
     for (std::size_t i = 0; i < scene.muscles.size(); ++i) {
-      render_picture(muscle_fiber_picture(scene.muscles[i], fibers[i], muscle_color(static_cast<Index>(i))),
+      render_picture(muscle_fiber_picture(scene.muscles[i], fibers[i], muscle_color(scene.muscles[i].name)),
                      out / (scene.muscles[i].name + "_fibers.png"));
     }
   } catch (const Error& error) {

@@ -3,6 +3,7 @@
 #include "opensim_model.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/shell_word.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/opensim/import/scene_folder.hpp>
@@ -71,6 +72,26 @@ std::map<std::string, TriangleMesh> muscle_surfaces(const opensim::Model& model,
   return opensim::load_muscle_surfaces(model, skeleton.poses(), opensim::read_geometry_map(path));
 }
 
+std::ptrdiff_t files_in(const fs::path& folder) {
+  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+}
+
+/// What was made of the model, and what to do with it.
+void say_next(const opensim::Model& model, const std::vector<opensim::NamedMotion>& motions, const fs::path& folder) {
+  spdlog::info("{}: {} muscles, {} bones, {} coordinates", folder.string(), files_in(folder / "muscles"),
+               files_in(folder / "bones"), model.coordinates.size());
+  for (const opensim::NamedMotion& motion : motions) {
+    const fs::path scene = folder / (opensim::motion_file_name(motion) + ".toml");
+    const std::size_t rows = motion.motion.times.size();
+    const int kept = opensim::kept_rows(motion);
+    if (static_cast<std::size_t>(kept) < rows)
+      spdlog::info("{}: of {} rows {} are taken, {} s apart; `time_step` in {} says so", motion.name, rows, kept,
+                   opensim::imported_time_step, scene.string());
+    spdlog::info("next: gracilis run {} --out {}", shell_word(scene.string()),
+                 shell_word("runs/" + scene.stem().string()));
+  }
+}
+
 int import_model(ImportOptions options) {
   opensim::Model model = read_opensim_model(options.model, options.strict);
   set_pose(model, options.pose);
@@ -82,13 +103,15 @@ int import_model(ImportOptions options) {
   opensim::GeometryPlaces places{options.model.parent_path(), options.geometry, {}};
   if (!options.map.empty()) places.named = opensim::read_geometry_map(options.map);
   if (fs::exists(options.out / "model.toml"))
-    throw ConfigurationError({options.out.string(), "", "holds a model already", "name another folder with --out"});
+    throw ConfigurationError(
+        {options.out.string(), "", "holds a model already", "name another folder with --out, or remove this one"});
   const std::vector<opensim::NamedMotion> motions = motions_of(model, options);
   const std::vector<std::string> left_out =
       opensim::write_scene_folder(model, places, motions, options.settings, options.out);
   for (const std::string& line : left_out) spdlog::warn("{}", line);
   for (const opensim::NamedMotion& motion : motions)
     fmt::print("{}\n", (options.out / (opensim::motion_file_name(motion) + ".toml")).string());
+  say_next(model, motions, options.out);
   if (options.strict && !left_out.empty())
     throw Error(ExitCode::unsupported, fmt::format("{} elements were left out (--strict)", left_out.size()));
   return static_cast<int>(ExitCode::done);

@@ -10,8 +10,10 @@
 #include <gracilis/view/pictures/video.hpp>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace gracilis {
@@ -22,9 +24,10 @@ struct RenderOptions {
   std::filesystem::path run, out;
   std::vector<std::filesystem::path> compare;
   std::vector<int> frames;
-  std::string color_by = "muscle", size, title, palette = "flesh";
+  std::string color_by = "muscle", size, title;
   bool transparent = false, gif = false, mp4 = false;
   int rate = 25, step = 1;
+  bool without_ramp = false;
   RunPictureOptions picture;
 };
 
@@ -54,6 +57,29 @@ void check_frames(const std::vector<int>& frames, const RecordedRun& run) {
   }
 }
 
+/// Colors of what a run does not have would say something all the same.
+void warn_of_missing(const RecordedRun& run, const RunPictureOptions& options) {
+  const std::string folder = run.folder.string();
+  const auto largest = [&](const char* measure) {
+    const Eigen::MatrixXd values = measure_of(run, measure);
+    Real found = 0;
+    for (const Real value : values.reshaped())
+      if (std::isfinite(value)) found = std::max(found, value);
+    return found;
+  };
+  if (options.color_by == ColorBy::activation && largest("activation") == 0)
+    spdlog::warn(
+        "{}: has no activation: all muscles are relaxed, and all have the color of 0; `activations` of a scene "
+        "says what they do (docs/guide/fibers.md)",
+        folder);
+  if (options.color_by == ColorBy::volume && largest("volume_ratio") == 0)
+    spdlog::warn("{}: was not measured: colors of volume say nothing (run it with --metrics light)", folder);
+  const bool fibers = options.fibers || options.color_by == ColorBy::fiber_strain;
+  const bool any = std::any_of(run.muscles.begin(), run.muscles.end(),
+                               [&](const std::string& muscle) { return recorded_fibers(run, muscle, 0).count() > 0; });
+  if (fibers && !any) spdlog::warn("{}: has no fibers (run it without --no-fibers)", folder);
+}
+
 int render(const RenderOptions& options) {
   std::vector<RecordedRun> runs = {open_recorded_run(options.run)};
   for (const std::filesystem::path& folder : options.compare) runs.push_back(open_recorded_run(folder));
@@ -62,7 +88,8 @@ int render(const RenderOptions& options) {
   chosen.color_by = static_cast<ColorBy>(
       std::find_if(scales.begin(), scales.end(), [&](const ColorScale& s) { return s.name == options.color_by; }) -
       scales.begin());
-  chosen.palette = options.palette == "flesh" ? Palette::flesh : Palette::okabe_ito;
+  for (const RecordedRun& run : runs) warn_of_missing(run, chosen);
+  if (chosen.bones == std::vector<std::string>{"none"}) chosen.bones.clear(), chosen.without_bones = true;
   std::vector<RunPainter> painters;
   for (const RecordedRun& run : runs) painters.emplace_back(run, chosen);
 
@@ -72,6 +99,7 @@ int render(const RenderOptions& options) {
     throw ConfigurationError(
         {options.out.string(), "", "is no kind of picture that can be written", "name a .png, .gif or .mp4 file"});
   }
+  const int first = options.without_ramp ? std::min(runs[0].first_motion_frame, runs[0].frame_count - 1) : 0;
   PictureDrawer drawer;
   const auto picture_of = [&](const std::vector<int>& frames) {
     Picture picture = run_picture(runs, painters, frames, chosen);
@@ -80,15 +108,15 @@ int render(const RenderOptions& options) {
   };
   if (!film) {
     check_frames(options.frames, runs[0]);
-    Picture picture = picture_of(options.frames.empty() ? telling_frames(runs[0]) : options.frames);
+    Picture picture = picture_of(options.frames.empty() ? telling_frames(runs[0], first) : options.frames);
     set_size(options.size, picture);
     write_png(options.out, drawer.draw(picture, options.transparent));
   } else {
-    Points room = painters[0].room();
-    const int count = (runs[0].frame_count + options.step - 1) / options.step;
+    const Points room = painters[0].room(first);
+    const int count = (runs[0].frame_count - first + options.step - 1) / options.step;
     Progress progress(0, count - 1);
     const auto image = [&](int i) {
-      Picture picture = picture_of({i * options.step});
+      Picture picture = picture_of({first + i * options.step});
       for (Panel& panel : picture.panels) panel.room = room;
       set_size(options.size, picture);
       progress.show(i);
@@ -108,7 +136,9 @@ void add_render_command(CLI::App& program, Command& chosen) {
   command->add_option("RUN", options->run, "Run folder")->required();
   command->add_option("--out", options->out, "File to write: .png, or .gif or .mp4 for a film of all frames")
       ->required();
-  command->add_option("--view", options->picture.view, "From where: anterior, lateral, anteromedial ... (lateral)")
+  command
+      ->add_option("--view", options->picture.view,
+                   "From where: anterior, lateral, anteromedial ... (as the run's preview looks)")
       ->check(CLI::IsMember(view_names()));
   command->add_option("--size", options->size, "WIDTHxHEIGHT of the whole picture, pixels (default: 720 per panel)");
   std::vector<std::string> names;
@@ -122,8 +152,15 @@ void add_render_command(CLI::App& program, Command& chosen) {
   command->add_option("--muscles", options->picture.muscles, "Show these only; names separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--palette", options->palette, "Colors of muscles: flesh, or okabe-ito for diagrams (flesh)")
-      ->check(CLI::IsMember({"flesh", "okabe-ito"}));
+  command->add_option("--bones", options->picture.bones, "Show these bones only; names separated by commas, or none")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--hide", options->picture.hidden, "Muscles and bones that are not shown")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--focus", options->picture.focus, "The muscle or bone that fills the picture");
+  command->add_option("--zoom", options->picture.zoom, "How many times larger, 0.1 to 50 (1)")
+      ->check(CLI::Range(0.1, 50.0));
   command->add_option("--opacity", options->picture.opacity, "Of muscles, 0.05 to 1")->check(CLI::Range(0.05, 1.0));
   command->add_flag("--fibers", options->picture.fibers, "Show fibers inside muscles that one sees through");
   command->add_option("--title", options->title, "A line above");
@@ -132,6 +169,7 @@ void add_render_command(CLI::App& program, Command& chosen) {
   command->add_flag("--mp4", options->mp4, "A film as .mp4; needs ffmpeg");
   command->add_option("--rate", options->rate, "Images per second of a film, 1 to 50")->check(CLI::Range(1, 50));
   command->add_option("--step", options->step, "Every which frame goes into a film")->check(CLI::Range(1, 1000));
+  command->add_flag("--no-ramp", options->without_ramp, "Leave out the frames between the capture pose and the motion");
   command->callback([&chosen, options] { chosen = [options] { return render(*options); }; });
 }
 

@@ -89,6 +89,9 @@ void draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
 }
 
 int make_scene(const SceneCommandOptions& options) {
+  if (is_there(options.folder / "run.json"))
+    throw ConfigurationError({options.folder.string(), "", "is the folder of a run, not of bones and muscles",
+                              run_folder_advice(options.folder)});
   check_out(options);
   DraftOptions draft_options;
   draft_options.mirror = options.mirror;

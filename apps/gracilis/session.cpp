@@ -2,13 +2,17 @@
 
 #include "console.hpp"
 #include "exit_handling.hpp"
+#include "run_plan.hpp"
+#include "session_summary.hpp"
 
 #include <gracilis/anatomy/attachments/attachments.hpp>
 #include <gracilis/anatomy/overlap/overlap_report.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/shell_word.hpp>
 #include <gracilis/core/stop.hpp>
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/run/run_folder.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/io/scene/scene_template.hpp>
@@ -20,67 +24,51 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <map>
 #include <memory>
 #include <optional>
 
 namespace gracilis {
 namespace {
 
-/// What became of the quality gates and of constraints that could not do their work, summed over frames.
-struct Summary {
-  struct PerMuscle {
-    int frames_missed = 0;
-    int first_missed = 0;
-    std::string first_reason;
-    std::vector<Real> sums;  ///< of the method's metrics, in their order
-  };
-  std::vector<MetricInfo> metrics;
-  std::vector<PerMuscle> muscles = {};
+std::filesystem::path folder_of(const LoadedScene& loaded, const SessionOptions& options) {
+  return options.out.empty() ? std::filesystem::path("runs") / file_name_of(loaded.scene.name) : options.out;
+}
 
-  void add(const FrameRecord& record) {
-    muscles.resize(record.measures.size());
-    for (std::size_t i = 0; i < muscles.size(); ++i) {
-      const std::vector<std::string> missed = missed_gates(record.measures[i], QualityGates{});
-      if (!missed.empty() && muscles[i].frames_missed++ == 0) {
-        muscles[i].first_missed = record.frame.number;
-        muscles[i].first_reason = fmt::format("{}", fmt::join(missed, "; "));
-      }
-      if (i < record.report.muscles.size()) {
-        muscles[i].sums.resize(metrics.size());
-        for (std::size_t k = 0; k < metrics.size(); ++k)
-          muscles[i].sums[k] += metric(record.report.muscles[i].metrics, metrics[k].name);
-      }
-    }
-  }
+std::vector<Pose> picked(const std::vector<Pose>& poses, const std::vector<int>& numbers) {
+  std::vector<Pose> some;
+  for (const int number : numbers) some.push_back(poses[static_cast<std::size_t>(number)]);
+  return some;
+}
 
-  /// What constraints could not do for a muscle, as in "3 projections skipped"; empty: nothing.
-  std::string trouble_of(std::size_t muscle) const {
-    std::string text;
-    bool any = false;
-    for (std::size_t k = 0; k < muscles[muscle].sums.size(); ++k) {
-      if (metrics[k].trouble.empty()) continue;
-      text += fmt::format("{}{:.0f} {}", text.empty() ? "" : ", ", muscles[muscle].sums[k], metrics[k].trouble);
-      any |= muscles[muscle].sums[k] > 0;
-    }
-    return any ? text : "";
-  }
-
-  bool all_gates_met() const {
-    return std::all_of(muscles.begin(), muscles.end(), [](const PerMuscle& m) { return m.frames_missed == 0; });
-  }
-};
+/// What a run records is asked for once: a run that goes on does as its folder says.
+SessionOptions as_begun(SessionOptions options, const std::filesystem::path& folder) {
+  if (!options.resume || !is_there(folder / "run.json")) return options;
+  const nlohmann::ordered_json manifest = read_manifest(folder);
+  options.every = std::max(1, manifest.value("every", 1));
+  options.without_ramps = !manifest.value("ramps", true);
+  options.without_fibers = !manifest.value("fibers", true);
+  const std::string measured = manifest.value("metrics", name_of(MeasureLevel::full));
+  for (const MeasureLevel level : {MeasureLevel::none, MeasureLevel::light, MeasureLevel::full})
+    if (measured == name_of(level)) options.measures = level;
+  return options;
+}
 
 class Session {
  public:
-  Session(const LoadedScene& loaded, const SessionOptions& options)
+  Session(const LoadedScene& loaded, const SessionOptions& options, RunPlan plan)
       : loaded_(loaded),
         options_(options),
+        plan_(std::move(plan)),
         poses_(pose_sequence(loaded.scene, loaded.max_frames)),
+        recorded_poses_(plan_.recorded.empty() ? poses_ : picked(poses_, plan_.recorded)),
         threads_(options.threads),
-        folder_(out_folder(), loaded.scene, poses_, existing()),
-        summary_{method_of(loaded.scene).metrics} {}
+        folder_(folder_of(loaded, options), loaded.scene, recorded_poses_, existing(), options.layout),
+        summary_(loaded.scene, options.measures) {}
 
   int run() {
     stop_requested();  // from here on a signal ends the run, but not while a frame is written
@@ -95,17 +83,20 @@ class Session {
     const ResumePoint* resume = folder_.resume_point() ? &*folder_.resume_point() : nullptr;
     if (resume) spdlog::info("going on after frame {}", resume->last.number);
     RunEnd end = RunEnd::complete;
-    const int last = static_cast<int>(poses_.size()) - 1;
-    Progress progress(resume ? resume->last.number : 0, last);
+    const int last = plan_.frames - 1;
+    const int first = resume ? resume->last.number : 0;
+    Progress progress(first, last);
+    began_ = std::chrono::steady_clock::now();
     try {
-      end = run_scene(
-          loaded_.scene, poses_, *method_, resume, stop_requested(),
-          [&](const FrameRecord& record) {
-            folder_.write_frame(record);
-            summary_.add(record);
-            progress.show(record.frame.number);
-          },
-          &*tracker_, options_.fiber_actions);
+      end = run_scene(loaded_.scene, poses_, *method_, resume, stop_requested(),
+                      [&](const FrameRecord& record) {
+                        folder_.write_frame(record);
+                        summary_.add(record);
+                        progress.show(record.frame.number);
+                        if (record.frame.number == first + frames_timed)
+                          say_how_long(progress, last - record.frame.number);
+                      },
+                      tracker_ ? &*tracker_ : nullptr, {options_.fiber_actions, options_.measures, plan_.recorded});
     } catch (const QualityError& error) {
       progress.clear();
       finish(std::string("failed: ") + error.what());
@@ -123,13 +114,19 @@ class Session {
     for (const std::string& warning : overlap_warnings(overlaps_, keeps_surfaces_apart(loaded_.scene))) warn(warning);
     method_ =
         make_method(loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
+    if (options_.without_fibers) return;
     spdlog::info("fibers");
     const Frame capture = capture_frame(loaded_.scene, capture_pose(loaded_.scene.bodies.size()), *method_);
     tracker_.emplace(loaded_.scene, &capture);
   }
 
-  std::filesystem::path out_folder() const {
-    return options_.out.empty() ? std::filesystem::path("runs") / file_name_of(loaded_.scene.name) : options_.out;
+  /// How long a run takes is known once some frames are done; told where it is worth waiting otherwise.
+  static constexpr int frames_timed = 3;
+  void say_how_long(Progress& progress, int left) const {
+    const double each = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count() / frames_timed;
+    if (each * left < 20) return;
+    progress.clear();
+    spdlog::info("{:.2f} s a frame: about {} for the {} frames to come", each, duration_text(each * left), left);
   }
 
   ExistingRun existing() const {
@@ -143,38 +140,48 @@ class Session {
 
   void describe_scene() {
     const Scene& scene = loaded_.scene;
-    spdlog::info("scene {}: {} bones, {} muscles, {} frames, preset {}", scene.name, scene.bones.size(),
-                 scene.muscles.size(), poses_.size(), loaded_.preset);
+    spdlog::info("scene {}: {} bones, {} muscles, preset {}", scene.name, scene.bones.size(), scene.muscles.size(),
+                 loaded_.preset);
+    spdlog::info("{}", describe_plan(plan_));
     for (const Muscle& muscle : scene.muscles) {
-      spdlog::info("{}: {} triangles", muscle.name, muscle.surface.face_count());
+      spdlog::debug("{}: {} triangles", muscle.name, muscle.surface.face_count());
       for (const Attachment& attachment : muscle.attachments) {
         const AttachmentArea area = attachment_area(muscle.surface, attachment.vertices);
-        spdlog::info("  {} '{}' on {}: {} vertices, {:.1f} cm²{}",
-                     attachment.end == AttachmentEnd::origin ? "origin" : "insertion", attachment.name,
-                     scene.bodies[static_cast<std::size_t>(attachment.body)], attachment.vertices.size(),
-                     area.area * 1e4, attachment.guessed ? ", guessed" : "");
+        spdlog::debug("  {} '{}' on {}: {} vertices, {:.1f} cm²{}",
+                      attachment.end == AttachmentEnd::origin ? "origin" : "insertion", attachment.name,
+                      scene.bodies[static_cast<std::size_t>(attachment.body)], attachment.vertices.size(),
+                      area.area * 1e4, attachment.guessed ? ", guessed" : "");
         if (attachment.guessed) guessed_.push_back(muscle.name + " " + attachment.name);
       }
     }
     guessed_.insert(guessed_.end(), loaded_.guessed.begin(), loaded_.guessed.end());
+    if (!guessed_.empty())
+      spdlog::info("{} things were guessed rather than measured; run.json names them", guessed_.size());
     for (const std::string& warning : loaded_.warnings) warn(warning);
   }
 
   std::vector<DistanceField> bone_fields(const DistanceFieldSettings& settings) {
-    for (const Bone& bone : loaded_.scene.bones) spdlog::info("distance field of {}", bone.name);
+    for (const Bone& bone : loaded_.scene.bones) spdlog::debug("distance field of {}", bone.name);
     return cached_bone_fields(loaded_.scene, settings, [this](const std::string& warning) { warn(warning); });
   }
 
-  /// Says per muscle what was missed, limited or skipped over the whole run.
+  /// Says what was missed in a line or two; the rest is for the manifest.
   void summarize() {
-    for (std::size_t i = 0; i < summary_.muscles.size(); ++i) {
-      const Summary::PerMuscle& muscle = summary_.muscles[i];
-      const std::string& name = loaded_.scene.muscles[i].name;
-      if (const std::string trouble = summary_.trouble_of(i); !trouble.empty()) spdlog::info("{}: {}", name, trouble);
-      if (muscle.frames_missed == 0) continue;
-      warn(fmt::format("{} misses quality gates in {} frames, first in frame {}: {}", name, muscle.frames_missed,
-                       muscle.first_missed, muscle.first_reason));
+    for (const auto& [muscle, text] : summary_.counters()) spdlog::debug("{}: {}", muscle, text);
+    for (std::string& line : summary_.missed_lines()) {
+      spdlog::debug("{}", line);
+      warnings_.push_back(std::move(line));
     }
+    summary_.all_gates_met() ? spdlog::info("{}", summary_.gates_line()) : spdlog::warn("{}", summary_.gates_line());
+    if (const std::string worst = summary_.worst_line(); !worst.empty()) spdlog::warn("{}", worst);
+  }
+
+  /// Where to look, and what to do next.
+  void say_next() const {
+    const std::string run = shell_word(folder_.path().string());
+    if (const auto picture = folder_.path() / "preview.png"; is_there(picture))
+      spdlog::info("picture: {}", picture.string());
+    spdlog::info("next: gracilis report {0}   (a page for the browser), or gracilis view {0}", run);
   }
 
   void write_manifest(const std::string& status) const {
@@ -187,6 +194,15 @@ class Session {
     manifest.inputs = loaded_.inputs;
     manifest.guessed = guessed_;
     manifest.warnings = warnings_;
+    manifest.counters = summary_.counters();
+    manifest.every = options_.every;
+    manifest.ramps = !options_.without_ramps;
+    manifest.fibers = !options_.without_fibers;
+    const CameraDirection camera = preview_camera(loaded_.scene, recorded_poses_);
+    manifest.preview_looking = camera.looking;
+    manifest.preview_up = camera.up;
+    manifest.first_motion_frame = plan_.first_motion_frame;
+    manifest.metrics = name_of(options_.measures);
     for (const Muscle& muscle : loaded_.scene.muscles)
       if (muscle.action_line.rays > 0) manifest.lines.emplace_back(muscle.name, muscle.action_line);
     manifest.joints = loaded_.scene.joints;
@@ -210,7 +226,7 @@ class Session {
     folder_.finish();
     write_run_charts(folder_.path(), loaded_.scene);
     try {
-      write_preview(folder_.path(), loaded_.scene, poses_);
+      write_preview(folder_.path(), loaded_.scene, recorded_poses_);
     } catch (const Error& error) {
       // A run is complete without its picture, as on a machine that offers no OpenGL.
       warn(std::string("no preview: ") + error.what());
@@ -226,20 +242,23 @@ class Session {
         spdlog::warn("stopped before the first frame; --resume begins it");
       return static_cast<int>(ExitCode::interrupted);
     }
+    if (options_.print_folder) say_next();
     if (options_.print_folder) fmt::print("{}\n", folder_.path().string());
     return static_cast<int>(options_.strict && !summary_.all_gates_met() ? ExitCode::quality : ExitCode::done);
   }
 
   const LoadedScene& loaded_;
   const SessionOptions& options_;
-  std::vector<Pose> poses_;
+  RunPlan plan_;
+  std::vector<Pose> poses_, recorded_poses_;
   ThreadLimit threads_;
   RunFolder folder_;
-  Summary summary_;
+  SessionSummary summary_;
   OverlapReport overlaps_;
   std::optional<FiberTracker> tracker_;
   std::unique_ptr<DeformationMethod> method_;
   std::vector<std::string> warnings_, guessed_;
+  std::chrono::steady_clock::time_point began_;
 };
 
 }  // namespace
@@ -251,9 +270,37 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
   CLI::Option* resume =
       command.add_flag("--resume", options.resume, "Go on where the run in the folder was interrupted");
   command.add_flag("--force", options.force, "Replace the run that is in the folder")->excludes(resume);
+  command.add_flag("--yes", options.yes, "Do not ask before a run that takes more than 2 GB");
+  command.add_option("--every", options.every, "Record every which frame; all are computed (1)")
+      ->check(CLI::Range(1, 1'000'000));
+  command.add_flag("--no-ramp", options.without_ramps,
+                   "Do not record the frames between the capture pose and the motion; the capture pose stays frame 0");
+  command.add_flag("--no-fibers", options.without_fibers, "Do not follow fibers");
+  static const std::map<std::string, MeasureLevel> levels = {
+      {"none", MeasureLevel::none}, {"light", MeasureLevel::light}, {"full", MeasureLevel::full}};
+  command
+      .add_option(
+          "--metrics", options.measures,
+          "What is measured: none; light: volume, edges and angles; full: depth in bones and places, too (full)")
+      ->transform(CLI::CheckedTransformer(levels));
+  static const std::map<std::string, RunLayout> layouts = {{"compact", RunLayout::compact},
+                                                           {"surfaces", RunLayout::surfaces}};
+  command
+      .add_option(
+          "--layout", options.layout,
+          "How frames lie in the folder: compact, a file per frame; or surfaces, one per muscle, bone and frame, "
+          "five to ten times the room (compact)")
+      ->transform(CLI::CheckedTransformer(layouts));
+  command.add_flag("--verbose", options.verbose, "Also list muscles, attachments, counters and every gate missed");
   command.add_flag("--strict", options.strict, "Exit with code 5 when a frame misses a quality gate");
 }
 
-int run_session(const LoadedScene& loaded, const SessionOptions& options) { return Session(loaded, options).run(); }
+int run_session(const LoadedScene& loaded, const SessionOptions& options) {
+  if (options.verbose) spdlog::set_level(spdlog::level::debug);
+  const SessionOptions chosen = as_begun(options, folder_of(loaded, options));
+  RunPlan plan = plan_run(loaded.scene, chosen);
+  confirm_size(plan, chosen);
+  return Session(loaded, chosen, std::move(plan)).run();
+}
 
 }  // namespace gracilis

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <gracilis/io/run/run_layout.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
+#include <gracilis/simulate/gates.hpp>
 
 #include <CLI/CLI.hpp>
 
@@ -12,11 +14,18 @@ namespace gracilis {
 
 /// What `run` and `demo` share on the command line.
 struct SessionOptions {
-  std::filesystem::path out;         ///< the run folder; empty: runs/NAME of the scene
-  int threads = 0;                   ///< 0: all of the machine's
-  bool resume = false;               ///< go on where the run in `out` was interrupted
-  bool force = false;                ///< replace the run in `out`
-  bool strict = false;               ///< exit with code 5 when a frame misses a quality gate
+  std::filesystem::path out;    ///< the run folder; empty: runs/NAME of the scene
+  int threads = 0;              ///< 0: all of the machine's
+  bool resume = false;          ///< go on where the run in `out` was interrupted
+  bool force = false;           ///< replace the run in `out`
+  bool strict = false;          ///< exit with code 5 when a frame misses a quality gate
+  bool yes = false;             ///< run also where it takes much room on the disk, without asking
+  bool verbose = false;         ///< also say what is of interest to few
+  int every = 1;                ///< record every which frame
+  bool without_ramps = false;   ///< do not record the frames that lead from and to the capture pose
+  bool without_fibers = false;  ///< do not follow fibers
+  MeasureLevel measures = MeasureLevel::full;
+  RunLayout layout = RunLayout::compact;
   bool fiber_actions = false;        ///< also write moment arms and lines of action, where the method knows them
   bool print_folder = true;          ///< its path to stdout, once the run is complete
   std::vector<std::string> command;  ///< the command line, for the manifest
@@ -25,8 +34,8 @@ struct SessionOptions {
 void add_session_options(CLI::App& command, SessionOptions& options);
 
 /// Takes a scene through its whole motion into a run folder, with progress and warnings on stderr. Returns the
-/// program's exit code: 0; 130 when the user stopped it, with every frame so far on disk; 5 under `strict` when a frame
-/// missed a quality gate. Throws Error.
+/// program's exit code: 0; 2 where it would take more room than is taken without being asked for; 130 when the user
+/// stopped it, with every frame so far on disk; 5 under `strict` when a frame missed a quality gate. Throws Error.
 int run_session(const LoadedScene& loaded, const SessionOptions& options);
 
 }  // namespace gracilis

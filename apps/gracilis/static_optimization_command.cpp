@@ -4,6 +4,7 @@
 #include "opensim_model.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/opensim/kinematics/low_pass.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 #include <gracilis/opensim/static_optimization/setup_reader.hpp>
@@ -48,6 +49,13 @@ opensim::StaticOptimizationSetup setup_from(const OptimizationOptions& options) 
   if (setup.model.empty() || setup.coordinates.empty())
     throw ConfigurationError(
         {"", "", "static optimization needs a model and coordinates", "give a set-up file, or --model and --motion"});
+  const bool from_setup = options.model.empty() && !options.setup.empty();
+  if (from_setup && !is_there(setup.model))
+    throw InputError({options.setup.string(), "model_file", "names a model that is not there: " + setup.model.string(),
+                      "name one with --model"});
+  if (options.motion.empty() && !options.setup.empty() && !is_there(setup.coordinates))
+    throw InputError({options.setup.string(), "coordinates_file",
+                      "names a motion that is not there: " + setup.coordinates.string(), "name one with --motion"});
   if (!(setup.settings.exponent > 1))
     throw ConfigurationError({"--exponent", "", "the exponent must be larger than 1", ""});
   return setup;

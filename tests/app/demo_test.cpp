@@ -1,6 +1,8 @@
 #include "app/program.hpp"
 
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/mesh/mesh_reader_vtp.hpp>
+#include <gracilis/io/run/run_layout.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,8 +16,8 @@ TEST(DemoCommand, flexes_the_elbow_and_meets_the_quality_gates) {
   std::filesystem::remove_all(folder);
   const ProgramResult result = run_program("demo elbow --flexion 6 --strict --out " + folder.string());
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(std::filesystem::exists(folder / "frames" / "biceps_brachii_long_r_0003.vtp"));
-  EXPECT_FALSE(std::filesystem::exists(folder / "frames" / "biceps_brachii_long_r_0004.vtp"));
+  EXPECT_TRUE(std::filesystem::exists(shapes_file(folder, 3)));
+  EXPECT_FALSE(std::filesystem::exists(shapes_file(folder, 4)));
   std::filesystem::remove_all(folder);
 }
 
@@ -27,8 +29,9 @@ TEST(DemoCommand, takes_the_settings_that_run_takes) {
       "--only iliacus_r,adductor_brevis_r --threads 1 --out " +
       folder.string());
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(std::filesystem::exists(folder / "frames" / "iliacus_r_0005.vtp")) << "three degrees and two frames more";
-  EXPECT_FALSE(std::filesystem::exists(folder / "frames" / "gluteus_maximus_r_0000.vtp"));
+  EXPECT_TRUE(std::filesystem::exists(shapes_file(folder, 5))) << "three degrees and two frames more";
+  EXPECT_TRUE(has_vtp_piece(shapes_file(folder, 5), "iliacus_r"));
+  EXPECT_FALSE(has_vtp_piece(shapes_file(folder, 5), "gluteus_maximus_r"));
   const std::string manifest = read_text(folder / "run.json");
   EXPECT_THAT(manifest, testing::HasSubstr("method = \\\"skinning\\\""));
   EXPECT_THAT(manifest, testing::HasSubstr("tendon_length = 0.01"));

@@ -38,7 +38,7 @@ class FailingCalls : public testing::Test {
   /// All frames and fibers below a run folder.
   static std::map<std::string, std::string> shapes(const fs::path& out) {
     std::map<std::string, std::string> files;
-    for (const char* part : {"frames", "fibers"})
+    for (const char* part : {"shapes", "bones", "fibers"})
       for (const auto& entry : fs::directory_iterator(out / part)) {
         std::stringstream text;
         text << std::ifstream(entry.path(), std::ios::binary).rdbuf();

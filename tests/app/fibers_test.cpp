@@ -61,7 +61,7 @@ TEST_F(FiberCommands, a_run_leaves_fiber_lengths_fibers_and_plots) {
   EXPECT_EQ(table.times.size(), 13u);
   EXPECT_NEAR(table.values(12, 0), 10, 1e-9);
   EXPECT_NEAR(table.values(5, 1), table.values.row(5).tail(3).mean(), 1e-8);
-  EXPECT_TRUE(exists("out/fibers/muscle_0012.vtp"));
+  EXPECT_TRUE(exists("out/fibers/0000.vtp"));
   EXPECT_TRUE(exists("out/plots/volume.svg"));
   EXPECT_TRUE(exists("out/plots/fiber_lengths_muscle.svg"));
 }
@@ -71,7 +71,7 @@ TEST_F(FiberCommands, a_resumed_run_goes_on_with_its_fiber_lengths) {
   const Table whole = read_table(folder.path("out/fiber_lengths.sto"));
   for (int frame = 7; frame <= 12; ++frame)
     std::filesystem::remove(
-        folder.path("out/frames/muscle_00" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".vtp"));
+        folder.path("out/shapes/00" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".vtp"));
   EXPECT_EQ(run("run", good_scene(), "--set fibers.count=3 --resume").exit_code, 0);
   const Table resumed = read_table(folder.path("out/fiber_lengths.sto"));
   EXPECT_TRUE(resumed.warnings.empty());

@@ -25,7 +25,7 @@ TEST(ImportCommand, an_imported_model_runs_its_motion) {
   EXPECT_EQ(imported.out, out + "/swing.toml\n");
   const ProgramResult ran = run_program("run " + out + "/swing.toml --out " + (folder.path() / "run").string());
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run/frames/m_0001.vtp"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run/shapes/0001.vtp"));
 }
 
 /// A muscle from the ground to the rod, and a swing of three degrees.
@@ -55,6 +55,26 @@ TEST(ImportCommand, an_imported_model_runs_by_sections_and_goes_back_to_opensim)
   ASSERT_EQ(points.exit_code, 0) << points.err;
   EXPECT_THAT(points.err, testing::HasSubstr("m: it follows the model's line; it keeps its original path"));
   EXPECT_EQ(run_program("export " + run + " --to osim-points").exit_code, 2);
+}
+
+TEST(ImportCommand, a_motion_of_many_rows_a_second_is_thinned_and_the_next_command_named) {
+  const TestFolder folder;
+  const auto model = folder.write(
+      "tiny.osim", pendulum(muscle("m", point("/ground", "0.1 0.1 0") + point("/bodyset/rod", "0.05 -0.3 0"))));
+  std::string rows;
+  for (int row = 0; row <= 30; ++row) rows += std::to_string(0.001 * row) + "\t" + std::to_string(0.1 * row) + "\n";
+  const auto motion =
+      folder.write("swing.mot", "m\nversion=1\nnRows=31\nnColumns=2\ninDegrees=yes\nendheader\ntime\tswing\n" + rows);
+  const std::string out = (folder.path() / "my scene").string();
+  const ProgramResult imported =
+      run_program("import " + model.string() + " --motion " + motion.string() + " --out '" + out + "'");
+  ASSERT_EQ(imported.exit_code, 0) << imported.err;
+  EXPECT_THAT(imported.err, testing::HasSubstr("1 muscles, 0 bones, 1 coordinates"));
+  EXPECT_THAT(imported.err, testing::HasSubstr("of 31 rows 4 are taken, 0.01 s apart"));
+  EXPECT_THAT(imported.err, testing::HasSubstr("next: gracilis run '" + out + "/swing.toml' --out runs/swing"));
+  const ProgramResult ran = run_program("run '" + out + "/swing.toml' --out " + (folder.path() / "run").string());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.err, testing::HasSubstr("info: 4 frames; about"));
 }
 
 TEST(ImportCommand, frames_by_sections_are_timed_without_a_solver) {

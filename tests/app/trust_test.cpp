@@ -48,7 +48,7 @@ class Trust : public testing::Test {
 
 TEST_F(Trust, a_run_killed_between_surfaces_and_measures_resumes_to_the_same_files) {
   ASSERT_EQ(run(good_scene(), "--set fibers.count=3").exit_code, 0);
-  const std::string fibers = bytes("out/fiber_lengths.sto"), surface = bytes("out/frames/muscle_0012.vtp");
+  const std::string fibers = bytes("out/fiber_lengths.sto"), surface = bytes("out/shapes/0012.vtp");
   const std::string measures = bytes("out/measures.csv");
   // As a kill leaves it: surfaces of the last frame, none of its measures, half a row of fibers.
   std::ofstream(folder.path("out/measures.csv")) << measures.substr(0, measures.rfind("\n12,") + 1);
@@ -56,7 +56,7 @@ TEST_F(Trust, a_run_killed_between_surfaces_and_measures_resumes_to_the_same_fil
   const ProgramResult resumed = run(good_scene(), "--set fibers.count=3 --resume");
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_EQ(bytes("out/fiber_lengths.sto"), fibers);
-  EXPECT_EQ(bytes("out/frames/muscle_0012.vtp"), surface);
+  EXPECT_EQ(bytes("out/shapes/0012.vtp"), surface);
   const std::string again = bytes("out/measures.csv");
   EXPECT_EQ(std::count(again.begin(), again.end(), '\n'), std::count(measures.begin(), measures.end(), '\n'));
   EXPECT_EQ(run_program("report " + out()).exit_code, 0);
@@ -99,7 +99,7 @@ TEST_F(Trust, coordinates_that_no_table_could_hold_are_refused_before_the_run) {
 
 TEST_F(Trust, a_damaged_distance_field_is_told_of_and_not_used) {
   ASSERT_EQ(run(good_scene()).exit_code, 0);
-  const std::string expected = bytes("out/frames/muscle_0012.vtp");
+  const std::string expected = bytes("out/shapes/0012.vtp");
   for (const auto& entry : fs::recursive_directory_iterator(folder.path("cache"))) {
     if (entry.path().extension() != ".field") continue;
     std::fstream stream(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
@@ -110,7 +110,7 @@ TEST_F(Trust, a_damaged_distance_field_is_told_of_and_not_used) {
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_THAT(again.err, HasSubstr("is damaged; made anew"));
   EXPECT_THAT(bytes("out/run.json"), HasSubstr("is damaged; made anew"));
-  EXPECT_EQ(bytes("out/frames/muscle_0012.vtp"), expected);
+  EXPECT_EQ(bytes("out/shapes/0012.vtp"), expected);
 }
 
 // ---- Nothing is written elsewhere
@@ -131,7 +131,7 @@ TEST_F(Trust, two_runs_into_one_folder_are_one_too_many) {
   const std::string slow = "run " + scene() + " --set iterations=20000 --out " + out();
   const std::string program(build_paths::program);
   const ProgramResult second = run_program(
-      slow + " 2>/dev/null & pid=$!; while kill -0 $pid && [ ! -e " + frame_file(out(), "femur", 0).string() +
+      slow + " 2>/dev/null & pid=$!; while kill -0 $pid && [ ! -e " + shapes_file(out(), 0).string() +
       " ]; do sleep 0.05; done; " + program + " run " + scene() + " --force --out " + out() + " 2>&1; echo exit $?; " +
       program + " run " + scene() + " --resume --out " + out() + " 2>&1; echo exit $?; kill -KILL $pid; wait $pid; " +
       program + " run " + scene() + " --resume --set iterations=20 --out " + out() + " 2>&1; echo exit $?; true");

@@ -48,6 +48,8 @@ static std::vector<std::string> measured_muscles(const fs::path& table) {
 RecordedRun open_run(const fs::path& folder) {
   RecordedRun run{folder, measured_muscles(folder / "measures.csv"), {}, 0};
   const std::string end = "_0000.vtp";
+  if (!fs::is_directory(folder / "frames"))
+    throw InputError({folder.string(), "", "has no folder 'frames'", "run it with --layout surfaces"});
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "frames")) {
     const std::string file = entry.path().filename().string();
     if (file.front() == '.' || !file.ends_with(end)) continue;

@@ -101,7 +101,7 @@ TEST(RunScene, asks_in_every_frame_what_fibers_do_where_it_is_told_to) {
   Stepping method(scene);
   Recorder asked, not_asked;
   const std::vector<Pose> poses = poses_of(scene, 3);
-  run_scene(scene, poses, method, nullptr, never, asked.function(), nullptr, true);
+  run_scene(scene, poses, method, nullptr, never, asked.function(), nullptr, {.fiber_actions = true});
   ASSERT_EQ(asked.records.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(asked.records[i].actions.at(0).arms(0, 0), static_cast<Real>(i));
   run_scene(scene, poses, method, nullptr, never, not_asked.function());
@@ -179,6 +179,25 @@ TEST(RunScene, resumed_gives_the_frames_an_uninterrupted_run_gives) {
   ASSERT_EQ(rest.numbers(), (std::vector<int>{5, 6, 7}));
   for (std::size_t i = 0; i < 3; ++i)
     EXPECT_EQ(hash_of(rest.records[i].frame.muscles[0].points), hash_of(whole.records[5 + i].frame.muscles[0].points));
+}
+
+TEST(RunScene, records_chosen_frames_of_all_that_are_computed_and_resumes_them_by_going_through_all) {
+  const Scene scene = tube_scene();
+  const std::vector<Pose> poses = poses_of(scene, 8);
+  Recorder whole, some, rest;
+  run_scene(scene, poses, *xpbd_on_tube(scene), nullptr, never, whole.function());
+  const RunChoices choices = {.recorded = {0, 3, 6, 7}};
+  run_scene(scene, poses, *xpbd_on_tube(scene), nullptr, never, some.function(), nullptr, choices);
+  ASSERT_EQ(some.numbers(), (std::vector<int>{0, 1, 2, 3}));
+  const ResumePoint resume{some.records[0].frame, some.records[1].frame};
+  run_scene(scene, poses, *xpbd_on_tube(scene), &resume, never, rest.function(), nullptr, choices);
+  ASSERT_EQ(rest.numbers(), (std::vector<int>{2, 3}));
+  for (const auto& [frame, of] : {std::pair{1, 3}, {2, 6}, {3, 7}}) {
+    const auto hash = hash_of(whole.records[static_cast<std::size_t>(of)].frame.muscles[0].points);
+    EXPECT_EQ(hash_of(some.records[static_cast<std::size_t>(frame)].frame.muscles[0].points), hash);
+    if (frame < 2) continue;
+    EXPECT_EQ(hash_of(rest.records[static_cast<std::size_t>(frame) - 2].frame.muscles[0].points), hash);
+  }
 }
 
 TEST(RunScene, resumed_after_the_last_frame_has_nothing_to_do) {

@@ -38,7 +38,7 @@ TEST(Comparison, rows_tell_the_worst_of_each_run) {
   const std::vector<ComparisonRow> rows = comparison_rows(two.runs, {0, 3});
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_EQ(rows[0].method, "one");
-  EXPECT_EQ(rows[0].muscle, "bulging_r");
+  EXPECT_EQ(rows[0].muscle, "gluteus_maximus_r");
   EXPECT_EQ(rows[0].values[column("frames")], 5);
   EXPECT_NEAR(rows[0].values[column("volume_error_percent")], 100 * (std::pow(1.04, 3) - 1), 1e-3);
   EXPECT_NEAR(rows[0].values[column("edge_change_percent")], 4, 1e-3);
@@ -50,7 +50,7 @@ TEST(Comparison, rows_tell_the_worst_of_each_run) {
 
 TEST(Comparison, moment_arms_are_those_of_the_recorded_lengths) {
   const TwoRuns two;
-  const FiberCourse course = fiber_course(two.runs[0].run, "bulging_r");
+  const FiberCourse course = fiber_course(two.runs[0].run, "gluteus_maximus_r");
   ASSERT_EQ(course.coordinate.size(), 5u);
   EXPECT_NEAR(course.coordinate[4], 12, 1e-6);
   for (const Real arm : course.moment_arm)

@@ -61,8 +61,8 @@ TEST(ExportGltf, a_viewer_that_adds_weighted_targets_gets_the_recorded_shapes_ba
   export_gltf(leg.written(folder.path() / "run"), folder.path() / "run.glb");
   const tinygltf::Model model = read_glb(folder.path() / "run.glb");
   const tinygltf::Primitive& shape =
-      model.meshes.at(static_cast<std::size_t>(node_of(model, "bulging_r").mesh)).primitives.at(0);
-  const tinygltf::AnimationSampler& sampler = sampler_of(model, "bulging_r", "weights");
+      model.meshes.at(static_cast<std::size_t>(node_of(model, "gluteus_maximus_r").mesh)).primitives.at(0);
+  const tinygltf::AnimationSampler& sampler = sampler_of(model, "gluteus_maximus_r", "weights");
   const Eigen::MatrixXf times = floats(model, sampler.input), weights = floats(model, sampler.output);
   ASSERT_EQ(times.cols(), 7);
   ASSERT_EQ(shape.targets.size(), 6u);
@@ -103,7 +103,7 @@ TEST(ExportGltf, a_run_kilometres_away_keeps_its_shapes_and_stands_there) {
   const tinygltf::Node& root = node_of(model, "flexing_leg");
   const Eigen::Quaterniond turn(root.rotation.at(3), root.rotation.at(0), root.rotation.at(1), root.rotation.at(2));
   const tinygltf::Primitive& shape =
-      model.meshes.at(static_cast<std::size_t>(node_of(model, "bulging_r").mesh)).primitives.at(0);
+      model.meshes.at(static_cast<std::size_t>(node_of(model, "gluteus_maximus_r").mesh)).primitives.at(0);
   const Points points = floats(model, shape.attributes.at("POSITION")).cast<Real>();
   const Points rest = leg.scene.muscles[0].surface.vertices;
   for (Index v = 0; v < points.cols(); ++v)
@@ -119,7 +119,7 @@ TEST(ExportGltf, keeps_to_the_frames_and_vertices_that_are_asked_for) {
   export_gltf(FlexingLeg(21).written(folder.path() / "run"), folder.path() / "run.glb", options);
   const tinygltf::Model model = read_glb(folder.path() / "run.glb");
   const tinygltf::Primitive& shape =
-      model.meshes.at(static_cast<std::size_t>(node_of(model, "steady_r").mesh)).primitives.at(0);
+      model.meshes.at(static_cast<std::size_t>(node_of(model, "gluteus_medius_r").mesh)).primitives.at(0);
   EXPECT_LE(shape.targets.size(), 4u);
   EXPECT_LT(floats(model, shape.attributes.at("POSITION")).cols(), 200);
 }
@@ -165,7 +165,7 @@ TEST(ExportCsv, holds_the_tables_and_the_points_that_are_asked_for) {
   const Table lengths = read_table(folder.path() / "csv/fiber_lengths.csv");
   EXPECT_EQ(lengths.columns, read_table(run.folder / "fiber_lengths.sto").columns);
   EXPECT_TRUE(lengths.values.isApprox(read_table(run.folder / "fiber_lengths.sto").values, 1e-7));
-  std::ifstream points(folder.path() / "csv/points_bulging_r.csv");
+  std::ifstream points(folder.path() / "csv/points_gluteus_maximus_r.csv");
   std::string line;
   int lines = 0;
   while (std::getline(points, line)) ++lines;

@@ -1,4 +1,5 @@
 #include <gracilis/core/errors.hpp>
+#include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/picture.hpp>
 #include <gracilis/view/pictures/picture_layout.hpp>
 
@@ -136,11 +137,37 @@ TEST(Picture, a_folder_that_cannot_be_written_is_named) {
   }
 }
 
-TEST(Palette, neighboring_muscle_colors_differ_in_lightness) {
-  const auto lightness = [](const Color& c) { return Vec3(0.2126, 0.7152, 0.0722).dot(c); };
-  for (const Palette palette : {Palette::flesh, Palette::okabe_ito}) {
-    for (Index i = 0; i + 1 < 6; ++i) {
-      EXPECT_GT(std::abs(lightness(muscle_color(i, palette)) - lightness(muscle_color(i + 1, palette))), 0.05) << i;
-    }
-  }
+TEST(MuscleColors, are_of_names_and_the_same_on_both_sides) {
+  EXPECT_EQ(muscle_color("gluteus_maximus_r"), muscle_color("gluteus_maximus_l"));
+  EXPECT_EQ(muscle_color("Gluteus maximus"), muscle_color("gluteus_maximus_r"));
+  EXPECT_EQ(muscle_color("nobody_knows_r"), muscle_color("nobody_knows_r"));
+  EXPECT_NE(muscle_color("nobody_knows_1"), muscle_color("nobody_knows_2"));
+  EXPECT_NE(muscle_color("biceps_femoris_long_r"), muscle_color("biceps_brachii_long_r"));
+}
+
+TEST(MuscleColors, of_neighbors_differ_in_lightness) {
+  const auto lightness = [](const char* name) { return Vec3(0.2126, 0.7152, 0.0722).dot(muscle_color(name)); };
+  const std::pair<const char*, const char*> neighbors[] = {{"gluteus_maximus_r", "gluteus_medius_r"},
+                                                           {"iliacus_r", "psoas_major_r"},
+                                                           {"adductor_brevis_r", "adductor_longus_r"},
+                                                           {"glut_max1_r", "glut_max2_r"},
+                                                           {"vas_lat_r", "vas_int_r"},
+                                                           {"biceps_long", "biceps_short"},
+                                                           {"triceps_long", "triceps_lateral"},
+                                                           {"triceps_lateral", "triceps_medial"}};
+  for (const auto& [one, other] : neighbors) EXPECT_GT(std::abs(lightness(one) - lightness(other)), 0.05) << one;
+}
+
+TEST(Picture, makes_room_for_lines_and_grows_with_the_zoom) {
+  Picture picture = two_panels();
+  const Real before = lay_out(picture).half_height;
+  picture.zoom = 2;
+  EXPECT_NEAR(lay_out(picture).half_height, before / 2, 1e-12);
+  picture.zoom = 1;
+  Points line(3, 2);
+  line << 0, 9, 0, 0, 0, 9;
+  picture.panels[0].lines.push_back({join({line})});
+  EXPECT_GT(lay_out(picture).half_height, before);
+  picture.panels[0].lines[0].framed = false;
+  EXPECT_NEAR(lay_out(picture).half_height, before, 1e-12);
 }

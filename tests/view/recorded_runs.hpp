@@ -11,8 +11,9 @@
 
 namespace gracilis {
 
-/// A leg that flexes by 3 degrees per frame, with two muscles: "bulging_r" gets wider by 1 % in each frame, which
-/// changes its volume and misses that gate from frame 1 on; "steady_r" keeps its shape. x anterior, y superior.
+/// A leg that flexes by 3 degrees per frame, with two muscles: "gluteus_maximus_r" gets wider by 1 % in each frame,
+/// which changes its volume and misses that gate from frame 1 on; "gluteus_medius_r" keeps its shape. x anterior, y
+/// superior.
 struct FlexingLeg {
   Scene scene;
   std::vector<Pose> poses;
@@ -22,9 +23,9 @@ struct FlexingLeg {
     scene.bodies = {"pelvis", "femur_r"};
     scene.bones = {{"femur_r", 1, shapes::sphere(Vec3(0, -0.2, 0), 0.05, 3)}};
     scene.muscles.resize(2);
-    scene.muscles[0].name = "bulging_r";
+    scene.muscles[0].name = "gluteus_maximus_r";
     scene.muscles[0].surface = shapes::sphere(Vec3(-0.1, -0.1, 0), 0.04, 3);
-    scene.muscles[1].name = "steady_r";
+    scene.muscles[1].name = "gluteus_medius_r";
     scene.muscles[1].surface = shapes::sphere(Vec3(0.1, -0.1, 0), 0.03, 3);
     Joint hip;
     hip.name = "hip_r";
@@ -72,7 +73,7 @@ struct FlexingLeg {
       manifest.scene = scene.name;
       manifest.preset = "physical";
       manifest.settings = "iterations = 30 # </script> & <b>\n";
-      manifest.warnings = {"steady_r looks <b>suspicious</b>"};
+      manifest.warnings = {"gluteus_medius_r looks <b>suspicious</b>"};
       manifest.status = "complete";
       run.write_manifest(manifest);
       run.finish();

@@ -44,7 +44,7 @@ TEST(RecordedRun, is_read_back_as_written) {
   const TestFolder folder;
   const FlexingLeg leg(5);
   const RecordedRun run = leg.written(folder.path());
-  EXPECT_THAT(run.muscles, ElementsAre("bulging_r", "steady_r"));
+  EXPECT_THAT(run.muscles, ElementsAre("gluteus_maximus_r", "gluteus_medius_r"));
   EXPECT_THAT(run.bones, ElementsAre("femur_r"));
   EXPECT_EQ(run.frame_count, 5);
   EXPECT_THAT(run.coordinates, ElementsAre("hip_flexion_r_deg"));
@@ -52,8 +52,8 @@ TEST(RecordedRun, is_read_back_as_written) {
   EXPECT_NEAR(measure_of(run, "volume_ratio")(3, 0), std::pow(1.03, 3), 1e-6);
   EXPECT_EQ(measure_of(run, "volume_ratio")(3, 1), 1);
   EXPECT_EQ(measure_of(run, "no_such_measure").size(), 0);
-  EXPECT_EQ(recorded_surface(run, "bulging_r", 2).vertices, leg.record(2).frame.muscles[0].points);
-  EXPECT_EQ(recorded_fibers(run, "bulging_r", 2).count(), 1);
+  EXPECT_EQ(recorded_surface(run, "gluteus_maximus_r", 2).vertices, leg.record(2).frame.muscles[0].points);
+  EXPECT_EQ(recorded_fibers(run, "gluteus_maximus_r", 2).count(), 1);
   EXPECT_EQ(recorded_fibers(run, "femur_r", 2).count(), 0);
   EXPECT_THROW(open_recorded_run(folder.path() / "frames"), InputError);
 }
@@ -87,7 +87,7 @@ TEST(ReportShapes, hold_recorded_points_to_a_hundredth_of_a_millimetre_and_the_s
   const TestFolder folder;
   const FlexingLeg leg(21);
   const ReportShapes shapes = report_shapes(leg.written(folder.path()), 8'000'000);
-  const Json& muscle = named(shapes.description["surfaces"], "name", "bulging_r");
+  const Json& muscle = named(shapes.description["surfaces"], "name", "gluteus_maximus_r");
   const auto vertices = muscle["vertices"].get<std::size_t>();
   const Points truth = leg.record(20).frame.muscles[0].points;
   ASSERT_EQ(vertices, static_cast<std::size_t>(truth.cols()));
@@ -196,7 +196,7 @@ TEST_F(ReportInBrowser, toggles_muscles_colors_and_fibers) {
   open({FlexingLeg(21).written(folder.path() / "run")});
   const std::string all = picture();
   const int lines = js("document.querySelectorAll('.plot path').length");
-  click("#muscles input[data-muscle=bulging_r]");
+  click("#muscles input[data-muscle=gluteus_maximus_r]");
   EXPECT_NE(picture(), all);
   EXPECT_LT(js("document.querySelectorAll('.plot path').length").get<int>(), lines);
   click("#all");
@@ -241,7 +241,8 @@ TEST_F(ReportInBrowser, plots_tell_values_under_the_pointer_and_go_where_one_cli
   EXPECT_GT(frame, 5);
   EXPECT_LT(frame, 15);
   EXPECT_EQ(js("document.querySelector('.plot .tooltip').hidden"), false);
-  EXPECT_THAT(js("document.querySelector('.plot .tooltip').textContent").get<std::string>(), HasSubstr("bulging r"));
+  EXPECT_THAT(js("document.querySelector('.plot .tooltip').textContent").get<std::string>(),
+              HasSubstr("gluteus maximus r"));
   expect_peace();
 }
 
@@ -251,7 +252,7 @@ TEST_F(ReportInBrowser, gates_link_to_their_worst_frame_and_warnings_stand_there
   EXPECT_THAT(js("document.querySelector('#gates tbody tr').textContent").get<std::string>(), HasSubstr("and 19 more"));
   click("#gates tbody tr button");
   EXPECT_EQ(js("page.state.frame"), 20);
-  EXPECT_EQ(js("document.querySelector('.warning').textContent"), "steady_r looks <b>suspicious</b>");
+  EXPECT_EQ(js("document.querySelector('.warning').textContent"), "gluteus_medius_r looks <b>suspicious</b>");
   expect_peace();
 }
 
@@ -275,7 +276,7 @@ TEST_F(ReportInBrowser, can_be_read_aloud_and_on_paper) {
   EXPECT_EQ(js("[...document.querySelectorAll('button, input, select, [role=img]')].filter(e => !(e.ariaLabel || "
                "e.textContent.trim() || e.closest('label') || e.labels?.length)).map(e => e.outerHTML)"),
             nlohmann::json::array());
-  EXPECT_THAT(js("document.querySelector('.plot svg').ariaLabel").get<std::string>(), HasSubstr("bulging r: "));
+  EXPECT_THAT(js("document.querySelector('.plot svg').ariaLabel").get<std::string>(), HasSubstr("gluteus maximus r: "));
   EXPECT_TRUE(browser->print().starts_with("%PDF"));
   EXPECT_EQ(js("document.querySelector('#settings details').open"), true);
   expect_peace();

@@ -76,7 +76,7 @@ TEST_F(RunPicture, frames_stand_side_by_side_and_runs_below_each_other) {
 TEST_F(RunPicture, stretch_is_seen_where_it_is) {
   RunPictureOptions options;
   options.color_by = ColorBy::edge_stretch;
-  options.muscles = {"bulging_r"};
+  options.muscles = {"gluteus_maximus_r"};
   PixelImage rest, stretched;
   const auto reddish = [](int r, int, int b, int) { return r > b + 35; };
   DRAW_OR_SKIP(rest, picture(options, {0}));
@@ -96,15 +96,51 @@ TEST_F(RunPicture, a_transparent_background_is_transparent_and_shapes_are_not) {
 
 TEST_F(RunPicture, muscles_can_be_chosen_by_name) {
   RunPictureOptions options;
-  options.muscles = {"steady_r"};
+  options.muscles = {"gluteus_medius_r"};
   EXPECT_EQ(picture(options, {0}).panels[0].surfaces.size(), 2u);  // with the bone
-  options.muscles = {"stedy_r"};
+  options.muscles = {"gluteus_medus_r"};
   try {
     picture(options, {0});
     FAIL() << "no error";
   } catch (const ConfigurationError& error) {
-    EXPECT_NE(std::string(error.what()).find("steady_r"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("gluteus_medius_r"), std::string::npos) << error.what();
   }
+}
+
+TEST_F(RunPicture, muscles_and_bones_can_be_hidden_and_one_can_fill_the_picture) {
+  RunPictureOptions options;
+  options.hidden = {"gluteus_medius_r"};
+  options.without_bones = true;
+  EXPECT_EQ(picture(options, {0}).panels[0].surfaces.size(), 1u);
+  options = {};
+  options.focus = "gluteus_medius_r";
+  const Picture focused = picture(options, {0});
+  for (const PaintedSurface& surface : focused.panels[0].surfaces)
+    EXPECT_EQ(surface.framed, surface.name == "gluteus medius r") << surface.name;
+  options.focus = "gluteus_medus_r";
+  EXPECT_THROW(picture(options, {0}), ConfigurationError);
+}
+
+TEST_F(RunPicture, a_scale_that_values_go_beyond_says_so) {
+  RunPictureOptions options;
+  options.color_by = ColorBy::bone_gap;  // everything farther than the scale has its last color
+  EXPECT_EQ(picture(options, {0}).color_bar->ticks.back(), "≥ 10");
+  options.color_by = ColorBy::volume;
+  EXPECT_EQ(picture(options, {0}).color_bar->ticks.back(), "+1");
+  const ColorBar swollen = *picture(options, {20}).color_bar;
+  EXPECT_EQ(swollen.ticks.back(), "≥ +1");
+  EXPECT_EQ(swollen.ticks.front(), "-1");
+}
+
+TEST_F(RunPicture, looks_as_the_preview_does_unless_it_is_told_otherwise) {
+  RecordedRun run = FlexingLeg(2).written(folder.path());
+  run.preview_looking = Vec3(0, 0, 2);
+  run.preview_up = Vec3::UnitX();
+  EXPECT_EQ(RunPainter(run, {}).panel(0).looking, Vec3::UnitZ());
+  EXPECT_EQ(RunPainter(run, {}).panel(0).up, Vec3::UnitX());
+  RunPictureOptions options;
+  options.view = "anterior";
+  EXPECT_TRUE(RunPainter(run, options).panel(0).looking.isApprox(-Vec3::UnitX()));
 }
 
 TEST(ColorScale, goes_from_its_first_color_to_its_last_and_no_further) {

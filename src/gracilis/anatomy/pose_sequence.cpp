@@ -136,4 +136,26 @@ std::vector<Pose> pose_sequence(const Scene& scene, int max_frames) {
   return poses;
 }
 
+SequenceParts sequence_parts(const Scene& scene) {
+  SequenceParts parts;
+  const std::size_t rows = scene.motion.times.size();
+  parts.motion = std::max(1, static_cast<int>(rows));
+  if (rows == 0) return parts;
+  const Coordinates capture = capture_coordinates(scene);
+  parts.ramp = static_cast<int>(ramp_length(scene, capture, motion_row(scene, 0)));
+  parts.settle = std::max(scene.sequence.settle_frames, 0);
+  parts.hold = std::max(scene.sequence.hold_frames, 0);
+  if (scene.sequence.return_to_capture)
+    parts.back = static_cast<int>(ramp_length(scene, motion_row(scene, rows - 1), capture));
+  return parts;
+}
+
+std::vector<int> recorded_frames(const SequenceParts& parts, int every, bool with_ramps) {
+  const int first = with_ramps ? 0 : parts.first_of_motion(), end = parts.count() - (with_ramps ? 0 : parts.back);
+  std::vector<int> frames = {0};
+  for (int frame = first == 0 ? every : first; frame < end; frame += every) frames.push_back(frame);
+  if (frames.back() != end - 1) frames.push_back(end - 1);
+  return frames;
+}
+
 }  // namespace gracilis

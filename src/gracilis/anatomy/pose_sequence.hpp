@@ -22,4 +22,21 @@ namespace gracilis {
 /// any, where there are more than `max_frames`.
 std::vector<Pose> pose_sequence(const Scene& scene, int max_frames = default_max_frames);
 
+/// How many frames of pose_sequence are what, in their order.
+struct SequenceParts {
+  int ramp = 0;    ///< from the capture pose (frame 0, counted here) to the motion's first row
+  int settle = 0;  ///< that hold the first row before the motion begins
+  int motion = 0;  ///< the motion's rows; 1 where there is no motion
+  int hold = 0;    ///< that hold the last row
+  int back = 0;    ///< back to the capture pose
+
+  int first_of_motion() const { return ramp + settle; }
+  int count() const { return ramp + settle + motion + hold + back; }
+};
+SequenceParts sequence_parts(const Scene& scene);
+
+/// The frames of a sequence to record: every n-th (of the motion's rows, where the ramps are left out) and the last;
+/// frame 0 always, since it is what all others are compared with. Precondition: every >= 1.
+std::vector<int> recorded_frames(const SequenceParts& parts, int every, bool with_ramps);
+
 }  // namespace gracilis

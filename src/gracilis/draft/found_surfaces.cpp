@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/median.hpp>
+#include <gracilis/core/shell_word.hpp>
 #include <gracilis/draft/folder_names.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
@@ -95,7 +96,7 @@ std::string scene_name(const std::string& known, const std::vector<std::string>&
 
 std::string advice(const fs::path& file, const std::string& unit) {
   return fmt::format("mend it with: gracilis prepare {} --unit {} --out prepared, and put what comes out in its place",
-                     file.string(), unit);
+                     shell_word(file.string()), unit);
 }
 
 /// Takes surfaces one by one.

@@ -1,6 +1,7 @@
 #include <gracilis/io/input_file.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/shell_word.hpp>
 #include <gracilis/io/text_cells.hpp>
 
 #include <cerrno>
@@ -12,6 +13,11 @@ namespace gracilis {
 
 namespace fs = std::filesystem;
 
+std::string run_folder_advice(const fs::path& folder) {
+  const std::string run = shell_word(folder.string());
+  return "`gracilis report " + run + "`, `gracilis view " + run + "` and `gracilis render " + run + "` show it";
+}
+
 void require_readable_file(const fs::path& path) {
   const auto fail = [&](const std::string& what, const std::string& remedy) {
     throw InputError({path.string(), "", what, remedy});
@@ -19,6 +25,8 @@ void require_readable_file(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (status.type() == fs::file_type::not_found) fail("does not exist", "check the path and the data root");
+  if (status.type() == fs::file_type::directory && fs::exists(path / "run.json", error))
+    fail("is the folder of a run, not a file", run_folder_advice(path));
   if (status.type() == fs::file_type::directory) fail("is a folder where a file is needed", "name a file in it");
   if (error || status.type() != fs::file_type::regular) fail("is not a file that can be read", "check the path");
   if (!std::ifstream(path)) fail(std::string("cannot be opened: ") + std::strerror(errno), "check its permissions");

@@ -8,6 +8,9 @@ namespace gracilis {
 /// Throws InputError unless `path` is a regular file that is not empty and may be read.
 void require_readable_file(const std::filesystem::path& path);
 
+/// What to do with a folder that holds a run where something else is asked for.
+std::string run_folder_advice(const std::filesystem::path& folder);
+
 /// The whole file as bytes. Throws InputError as above.
 std::string read_text(const std::filesystem::path& path);
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace gracilis {
 
@@ -51,53 +50,14 @@ std::vector<SignedDistance> distances_to_bones(const Scene& scene) {
   return distances;
 }
 
-std::string millimetres(const char* what, Real metres, Real limit) {
-  char text[120];
-  std::snprintf(text, sizeof text, "%s %.3f mm beyond rest (limit %.1f mm)", what, metres * 1e3, limit * 1e3);
-  return text;
-}
-
 }  // namespace
 
-std::vector<std::string> missed_gates(const MuscleMeasures& measures, const QualityGates& gates) {
-  std::vector<std::string> missed;
-  char text[120];
-  if (!measures.finite) missed.push_back("a vertex position is not finite");
-  if (std::abs(measures.volume_ratio - 1) > gates.volume) {
-    std::snprintf(text, sizeof text, "volume %.2f %% of rest (limit 100 ± %.1f %%)", measures.volume_ratio * 100,
-                  gates.volume * 100);
-    missed.push_back(text);
+Measurer::Measurer(const Scene& scene, const FiberTracker* tracker, MeasureLevel level) : scene_(scene), level_(level) {
+  if (level == MeasureLevel::full) {
+    bones_ = distances_to_bones(scene);
+    bellies_.emplace(scene, bones_);
+    ways_.emplace(scene, bones_, tracker);
   }
-  if (measures.vertex_depth_beyond_rest > gates.vertex_depth)
-    missed.push_back(millimetres("a vertex in a bone", measures.vertex_depth_beyond_rest, gates.vertex_depth));
-  if (measures.midpoint_depth_beyond_rest > gates.midpoint_depth)
-    missed.push_back(
-        millimetres("an edge's midpoint in a bone", measures.midpoint_depth_beyond_rest, gates.midpoint_depth));
-  if (measures.edge_ratio_max_free > gates.free_edge_ratio) {
-    std::snprintf(text, sizeof text, "an edge far from attachments stretched %.1f times (limit %.1f)",
-                  measures.edge_ratio_max_free, gates.free_edge_ratio);
-    missed.push_back(text);
-  }
-  if (measures.belly_off_place > gates.belly_off_place) {
-    std::snprintf(text, sizeof text, "the belly is %.1f mm off its place (limit %.0f mm)",
-                  measures.belly_off_place * 1e3, gates.belly_off_place * 1e3);
-    missed.push_back(text);
-  }
-  if (measures.wrong_side > gates.wrong_side) {
-    std::snprintf(text, sizeof text, "%.0f %% of its lines pass a bone on the wrong side (limit %.0f %%)",
-                  measures.wrong_side * 100, gates.wrong_side * 100);
-    missed.push_back(text);
-  }
-  if (measures.slack > gates.slack) {
-    std::snprintf(text, sizeof text, "its lines are %.0f %% longer than taut (limit %.0f %%)", measures.slack * 100,
-                  gates.slack * 100);
-    missed.push_back(text);
-  }
-  return missed;
-}
-
-Measurer::Measurer(const Scene& scene, const FiberTracker* tracker)
-    : scene_(scene), bones_(distances_to_bones(scene)), bellies_(scene, bones_), ways_(scene, bones_, tracker) {
   for (const Bone& bone : scene.bones) bone_boxes_.push_back(box_of(bone.surface.vertices));
   for (const Muscle& muscle : scene.muscles) muscles_.push_back(rest_of(muscle));
   last_.assign(muscles_.size(), std::vector<LastSeen>(2 * bones_.size()));
@@ -177,8 +137,9 @@ void Measurer::measure_depths(const MuscleRest& rest, const Points& points, cons
 MuscleMeasures Measurer::measure_shape(std::size_t muscle, const Points& x, const Pose& pose) {
   const MuscleRest& rest = muscles_[muscle];
   MuscleMeasures measures;
+  measures.level = level_;
   measures.finite = x.allFinite();
-  if (!measures.finite) return measures;
+  if (!measures.finite || level_ == MeasureLevel::none) return measures;
   measures.volume_ratio = enclosed_volume(x, scene_.muscles[muscle].surface.faces) / rest.volume;
   Real ratio_sum = 0, change_sum = 0;
   for (std::size_t e = 0; e < rest.edges.size(); ++e) {
@@ -202,12 +163,13 @@ MuscleMeasures Measurer::measure_shape(std::size_t muscle, const Points& x, cons
 /// Where the muscles run and lie. A frame that is not finite has no places.
 void Measurer::measure_places(const Frame& frame, const std::vector<MuscleFibers>& fibers,
                               std::vector<MuscleMeasures>& measures) {
-  ways_.follow(frame.pose);
+  if (level_ != MeasureLevel::full) return;
+  ways_->follow(frame.pose);
   if (!std::all_of(measures.begin(), measures.end(), [](const MuscleMeasures& m) { return m.finite; })) return;
-  const std::vector<MuscleWay> ways = ways_.measure(frame, fibers);
+  const std::vector<MuscleWay> ways = ways_->measure(frame, fibers);
   std::vector<Real> length_ratios;
   for (const MuscleWay& way : ways) length_ratios.push_back(way.length_ratio);
-  const std::vector<Real> off_place = bellies_.off_place(frame, length_ratios);
+  const std::vector<Real> off_place = bellies_->off_place(frame, length_ratios);
   for (std::size_t m = 0; m < measures.size(); ++m) {
     measures[m].belly_off_place = off_place[m];
     measures[m].wrong_side = ways[m].wrong_side;

@@ -5,8 +5,10 @@
 #include <gracilis/scene/frame.hpp>
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/simulate/belly_place.hpp>
+#include <gracilis/simulate/gates.hpp>
 #include <gracilis/simulate/way_measures.hpp>
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,21 +31,8 @@ struct MuscleMeasures {
   Real wrong_side = 0;                  ///< share of the muscle's lines, see is_on_wrong_side
   Real slack = 0;                       ///< mean over the muscle's lines, see slack_of
   bool finite = true;
+  MeasureLevel level = MeasureLevel::full;  ///< what of this was measured; the rest is as at rest
 };
-
-/// The bars that a frame must meet; `gracilis run` warns where they are missed.
-struct QualityGates {
-  Real volume = 0.005;         ///< |volume ratio - 1|
-  Real vertex_depth = 1e-4;    ///< m beyond rest
-  Real midpoint_depth = 5e-4;  ///< m beyond rest
-  Real free_edge_ratio = 3;
-  Real belly_off_place = 0.018;  ///< m
-  Real wrong_side = 0;           ///< share of lines
-  Real slack = 0.15;             ///< share of what the length must be
-};
-
-/// The gates that a muscle misses, in words; empty when it meets all.
-std::vector<std::string> missed_gates(const MuscleMeasures& measures, const QualityGates& gates);
 
 /// Measures frames of one scene. Shares no code with the solver: exact nearest triangles instead of grids, double
 /// precision.
@@ -51,7 +40,7 @@ class Measurer {
  public:
   /// With `tracker`, a muscle's way is measured along some of the fibers that it follows, otherwise along a few of its
   /// own, which takes longer to prepare. Both must outlive this.
-  explicit Measurer(const Scene& scene, const FiberTracker* tracker = nullptr);
+  explicit Measurer(const Scene& scene, const FiberTracker* tracker = nullptr, MeasureLevel level = MeasureLevel::full);
   Measurer(const Measurer&) = delete;
   Measurer& operator=(const Measurer&) = delete;
 
@@ -61,7 +50,9 @@ class Measurer {
   std::vector<MuscleMeasures> measure(const Frame& frame, const std::vector<MuscleFibers>& fibers = {});
   /// Goes through the pose of a frame that was measured before, as a run that goes on does: what comes after is
   /// measured as if this had measured them all.
-  void pass(const Pose& pose) { ways_.follow(pose); }
+  void pass(const Pose& pose) {
+    if (ways_) ways_->follow(pose);
+  }
 
  private:
   struct MuscleRest {
@@ -91,10 +82,11 @@ class Measurer {
                       std::vector<MuscleMeasures>& measures);
 
   const Scene& scene_;
-  std::vector<SignedDistance> bones_;
+  MeasureLevel level_;
+  std::vector<SignedDistance> bones_;  ///< these and what follows are there where depths and places are measured
   std::vector<Eigen::AlignedBox3d> bone_boxes_;  ///< in the capture pose
-  BellyPlace bellies_;
-  WayMeasures ways_;
+  std::optional<BellyPlace> bellies_;
+  std::optional<WayMeasures> ways_;
   std::vector<MuscleRest> muscles_;
   std::vector<std::vector<LastSeen>> last_;  ///< per muscle: of vertices, then of midpoints, per bone
 };

@@ -19,8 +19,9 @@ Real time_before(const std::vector<Pose>& poses, int number) {
   return passed > 0 ? passed : usual_time_step;
 }
 
-/// One frame, not measured yet. Throws Interrupted where it shall stop.
-FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int number, bool fiber_actions,
+/// The frame of a pose, not measured yet; where it is not `wanted`, the method takes the step and that is all. Throws
+/// Interrupted where it shall stop.
+FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int number, bool wanted, bool fiber_actions,
                        DeformationMethod& method) {
   throw_if_stopped();
   const Pose& pose = poses[static_cast<std::size_t>(number)];
@@ -34,10 +35,10 @@ FrameRecord make_frame(const Scene& scene, const std::vector<Pose>& poses, int n
     } catch (const QualityError& error) {
       throw QualityError("frame " + std::to_string(number) + ": " + error.what());
     }
+    if (!wanted) return now;
     now.frame.pose = pose;
     method.write(now.frame);
   }
-  now.frame.number = number;
   const std::vector<std::vector<Twist>> twists = joint_twists(scene, pose.coordinates);
   if (fiber_actions) now.actions = method.fiber_actions(twists);
   now.forces = method.muscle_forces(twists);
@@ -52,10 +53,13 @@ class FrameRecorder {
                 bool beside)
       : measurer_(measurer), tracker_(tracker), record_(record), beside_(beside) {}
 
-  void begin(FrameRecord now) {
+  /// `passed`: the poses between the last frame and this one.
+  void begin(FrameRecord now, std::vector<Pose> passed) {
     finish();
-    pending_ = std::async(beside_ ? std::launch::async : std::launch::deferred, [this, now = std::move(now)]() mutable {
+    const auto policy = beside_ ? std::launch::async : std::launch::deferred;
+    pending_ = std::async(policy, [this, now = std::move(now), passed = std::move(passed)]() mutable {
       const StopScope whole(nullptr);  // a frame is recorded whole or not at all
+      for (const Pose& pose : passed) measurer_.pass(pose);
       if (tracker_) now.fibers = tracker_->follow(now.frame);
       now.measures = measurer_.measure(now.frame, now.fibers);
       record_(now);
@@ -99,29 +103,42 @@ Frame capture_frame(const Scene& scene, const Pose& pose, const DeformationMetho
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
                  const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker,
-                 bool fiber_actions) {
+                 const RunChoices& choices) {
   try {
     const StopScope scope(&stop);
-    Measurer measurer(scene, tracker);
+    Measurer measurer(scene, tracker, choices.measures);
     method.reset();
+    const bool all = choices.recorded.empty();
+    const int done = resume ? resume->last.number + 1 : 0;  // frames that are recorded already
     int next = 0;
-    if (resume) {
-      next = resume->last.number + 1;
+    if (resume && all) {
+      next = done;
       method.restore({poses.begin(), poses.begin() + next}, resume->before, resume->last);
       for (int i = 0; i < next; ++i) measurer.pass(poses[static_cast<std::size_t>(i)]);
     }
     FrameRecorder recorder(measurer, tracker, record, may_record_beside(method));
+    int frame = next;
+    std::vector<Pose> passed;
     for (; next < static_cast<int>(poses.size()); ++next) {
+      const bool is_frame = all || (frame < static_cast<int>(choices.recorded.size()) &&
+                                    choices.recorded[static_cast<std::size_t>(frame)] == next);
+      const bool wanted = is_frame && frame >= done;
       FrameRecord now;
       try {
-        now = make_frame(scene, poses, next, fiber_actions, method);
+        now = make_frame(scene, poses, next, wanted, choices.fiber_actions, method);
       } catch (...) {
         recorder.finish();
         throw;
       }
+      now.frame.number = frame;
+      frame += is_frame;
+      if (!wanted) {
+        passed.push_back(poses[static_cast<std::size_t>(next)]);
+        continue;
+      }
       recorder.finish();
       throw_if_stopped();
-      recorder.begin(std::move(now));
+      recorder.begin(std::move(now), std::exchange(passed, {}));
     }
     recorder.finish();
   } catch (const Interrupted&) {

@@ -30,16 +30,25 @@ struct ResumePoint {
 
 enum class RunEnd { complete, interrupted };
 
+/// What of a run is recorded.
+struct RunChoices {
+  bool fiber_actions = false;  ///< the method is asked for these in every frame
+  MeasureLevel measures = MeasureLevel::full;
+  /// The poses whose frames are recorded, ascending, beginning with 0; frames are numbered by their places in this.
+  /// Empty: all.
+  std::vector<int> recorded = {};
+};
+
 /// Runs `method` through `poses` (pose 0 is the capture pose) and hands each frame to `record`, frame 0 with the input
 /// surfaces unchanged. Ends soon after `stop` is set; the frame under way is dropped, and the method is of no use until
-/// its next reset or restore. With `resume`, starts after its last frame. Throws QualityError,
-/// naming the frame, when a coordinate stops being finite; all frames before it have been recorded then. Frames are
-/// measured and recorded in order, but on a thread of their own while the next one is made. With `tracker`, fibers are
-/// followed; with `fiber_actions` the method is asked for these in every frame.
+/// its next reset or restore. With `resume`, starts after its last frame; where not all frames are recorded, the method
+/// goes through all again up to there. Throws QualityError, naming the pose, when a coordinate stops being finite; all
+/// frames before it have been recorded then. Frames are measured and recorded in order, but on a thread of their own
+/// while the next one is made. With `tracker`, fibers are followed.
 RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, DeformationMethod& method,
                  const ResumePoint* resume, const std::atomic<bool>& stop,
                  const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker = nullptr,
-                 bool fiber_actions = false);
+                 const RunChoices& choices = {});
 
 /// Frame 0: the input surfaces at the capture pose.
 Frame capture_frame(const Scene& scene, const Pose& pose);

@@ -1,6 +1,7 @@
 #include <gracilis/io/mesh/load_surface.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/shell_word.hpp>
 #include <gracilis/geometry/mesh_pieces.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
@@ -50,7 +51,7 @@ std::vector<Problem> fatal_problems(const MeshReport& report, Real unit, const s
 /// The command that mends a file; for surfaces from elsewhere its name stands as it is.
 static std::string mending(Real unit, const std::string& file) {
   const char* in_unit = unit == 0.001 ? " --unit mm" : unit == 0.01 ? " --unit cm" : "";
-  return fmt::format("'gracilis prepare {}{} --out prepared' mends it", file, in_unit);
+  return fmt::format("'gracilis prepare {}{} --out prepared' mends it", shell_word(file), in_unit);
 }
 
 /// What is wrong with the surface's shape after repair: an error for a muscle, a warning for a bone.

@@ -32,10 +32,23 @@ class VtpReader {
     return std::move(mesh_);
   }
 
-  Points read_vectors(const std::string& name) {
+  PolygonMesh read(const std::string& piece) {
     parse();
-    const pugi::xml_node array = root_.child("PolyData")
-                                     .child("Piece")
+    const pugi::xml_node found = named(piece);
+    if (!found) fail("has no piece '" + piece + "'");
+    read_piece(found);
+    return std::move(mesh_);
+  }
+
+  bool has(const std::string& piece) {
+    parse();
+    return named(piece);
+  }
+
+  /// Of the first piece, where none is named.
+  Points read_vectors(const std::string& name, const std::string& piece = "") {
+    parse();
+    const pugi::xml_node array = (piece.empty() ? root_.child("PolyData").child("Piece") : named(piece))
                                      .child("PointData")
                                      .find_child_by_attribute("DataArray", "Name", name.c_str());
     if (!array) return Points(3, 0);
@@ -44,9 +57,20 @@ class VtpReader {
     return Eigen::Map<const Points>(values.data(), 3, static_cast<Index>(values.size() / 3));
   }
 
+  std::vector<double> read_field(const std::string& name) {
+    parse();
+    const pugi::xml_node array =
+        root_.child("PolyData").child("FieldData").find_child_by_attribute("DataArray", "Name", name.c_str());
+    return array ? numbers(array, name) : std::vector<double>();
+  }
+
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& where = "") const {
     throw InputError({storage_.path.string(), where, what, "export the surface again"});
+  }
+
+  pugi::xml_node named(const std::string& piece) const {
+    return root_.child("PolyData").find_child_by_attribute("Piece", "Name", piece.c_str());
   }
 
   /// Appended data may hold any bytes, so the XML is what stands before it.
@@ -185,6 +209,20 @@ PolygonMesh read_vtp(const std::filesystem::path& path) { return VtpReader(path)
 
 Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name) {
   return VtpReader(path).read_vectors(name);
+}
+
+PolygonMesh read_vtp(const std::filesystem::path& path, const std::string& piece) {
+  return VtpReader(path).read(piece);
+}
+
+bool has_vtp_piece(const std::filesystem::path& path, const std::string& piece) { return VtpReader(path).has(piece); }
+
+Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name, const std::string& piece) {
+  return VtpReader(path).read_vectors(name, piece);
+}
+
+std::vector<double> read_vtp_field(const std::filesystem::path& path, const std::string& name) {
+  return VtpReader(path).read_field(name);
 }
 
 }  // namespace gracilis

@@ -2,6 +2,9 @@
 
 #include <gracilis/io/mesh/polygon_mesh.hpp>
 
+#include <string>
+#include <vector>
+
 namespace gracilis {
 
 /// Reads the polygons and strips of a .vtp: ascii, binary and appended arrays of any type, compressed or not, in any
@@ -11,5 +14,14 @@ PolygonMesh read_vtp(const std::filesystem::path& path);
 /// The point data `name` of a .vtp of one piece, 3 × n; 3 × 0 when the file has no such array. Throws InputError as
 /// above and when the numbers are not threes.
 Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name);
+
+/// The same of one piece of several, which its attribute Name tells (write_vtp_pieces). Throws InputError where there
+/// is none of that name.
+PolygonMesh read_vtp(const std::filesystem::path& path, const std::string& piece);
+bool has_vtp_piece(const std::filesystem::path& path, const std::string& piece);
+Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name, const std::string& piece);
+
+/// Numbers of the file as a whole (its FieldData); none where it has no such.
+std::vector<double> read_vtp_field(const std::filesystem::path& path, const std::string& name);
 
 }  // namespace gracilis

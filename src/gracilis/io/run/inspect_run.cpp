@@ -56,10 +56,11 @@ static Json worst_measures(const fs::path& path) {
     const std::string name(cells[muscle_column]);
     if (!found.contains(name)) {
       names.push_back(name);
-      for (const Worst& each : worst) found[name].push_back(each.reference);
+      found[name].assign(worst.size(), std::nan(""));
     }
     for (std::size_t i = 0; i < worst.size(); ++i) {
       double value = 0;
+      if (cells[worst[i].column].empty()) continue;  // not measured
       if (!parse_number(cells[worst[i].column], value))
         reader.fail("holds what is not a number", "run the scene again");
       Real& sofar = found[name][i];
@@ -69,7 +70,8 @@ static Json worst_measures(const fs::path& path) {
   Json muscles = Json::array();
   for (const std::string& name : names) {
     Json muscle = {{"name", name}};
-    for (std::size_t i = 0; i < worst.size(); ++i) muscle[worst[i].label] = found[name][i];
+    for (std::size_t i = 0; i < worst.size(); ++i)
+      muscle[worst[i].label] = std::isnan(found[name][i]) ? Json(nullptr) : Json(found[name][i]);
     muscles.push_back(muscle);
   }
   return muscles;

@@ -15,14 +15,14 @@ namespace fs = std::filesystem;
 
 std::vector<OutputHash> hash_outputs(const fs::path& folder) {
   std::vector<OutputHash> outputs;
-  for (const char* file : {"fiber_lengths.sto", "measures.csv", "preview.png", "run.pvd"})
+  for (const char* file : {"fiber_lengths.sto", "measures.csv", "paraview.py", "preview.png", "run.pvd"})
     if (is_there(folder / file)) outputs.push_back({file, ""});
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     const bool is_table = name.starts_with("moment_arms_") || name.starts_with("lines_of_action");
     if (is_table && name.ends_with(".sto") && entry.is_regular_file()) outputs.push_back({name, ""});
   }
-  for (const std::string part : {"fibers", "frames", "plots"}) {
+  for (const std::string part : {"bones", "fibers", "frames", "plots", "shapes"}) {
     if (!is_there(folder / part)) continue;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder / part)) {
       const std::string name = entry.path().filename().string();

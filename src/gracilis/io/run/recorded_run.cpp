@@ -27,18 +27,21 @@ namespace gracilis {
 
 namespace fs = std::filesystem;
 
+static Vec3 vector_of(const nlohmann::ordered_json& manifest, const char* group, const char* key,
+                      const Vec3& otherwise) {
+  const auto found = manifest.find(group);
+  if (found == manifest.end() || !found->is_object() || !found->contains(key)) return otherwise;
+  const nlohmann::ordered_json& json = (*found)[key];
+  if (!json.is_array() || json.size() != 3) return otherwise;
+  for (const auto& number : json)
+    if (!number.is_number()) return otherwise;
+  return {json[0].get<Real>(), json[1].get<Real>(), json[2].get<Real>()};
+}
+
 static AnatomicalAxes axes_of(const nlohmann::ordered_json& manifest) {
-  const auto vector = [](const nlohmann::ordered_json& json, const Vec3& otherwise) {
-    if (!json.is_array() || json.size() != 3) return otherwise;
-    for (const auto& number : json)
-      if (!number.is_number()) return otherwise;
-    return Vec3(json[0].get<Real>(), json[1].get<Real>(), json[2].get<Real>());
-  };
   AnatomicalAxes axes;
-  const auto found = manifest.find("axes");
-  if (found == manifest.end() || !found->is_object()) return axes;
-  axes.anterior = vector(found->value("anterior", nlohmann::ordered_json()), axes.anterior);
-  axes.superior = vector(found->value("superior", nlohmann::ordered_json()), axes.superior);
+  axes.anterior = vector_of(manifest, "axes", "anterior", axes.anterior);
+  axes.superior = vector_of(manifest, "axes", "superior", axes.superior);
   return axes;
 }
 
@@ -141,21 +144,32 @@ static void read_measures(const fs::path& path, RecordedRun& run) {
   }
 }
 
-static void find_surfaces(RecordedRun& run) {
-  const std::string end = "_0000.vtp";
-  if (!fs::is_directory(run.folder / "frames"))
-    throw InputError({run.folder.string(), "", "has no folder 'frames'", "run the scene again"});
-  for (const fs::directory_entry& entry : fs::directory_iterator(run.folder / "frames")) {
+/// Whatever of frame 0 is no muscle.
+static std::vector<std::string> find_bones(const RecordedRun& run) {
+  const bool compact = run.layout == RunLayout::compact;
+  const std::string end = compact ? ".vtp" : "_0000.vtp", part = compact ? "bones" : "frames";
+  if (!fs::is_directory(run.folder / part))
+    throw InputError({run.folder.string(), "", "has no folder '" + part + "'", "run the scene again"});
+  std::vector<std::string> bones;
+  for (const fs::directory_entry& entry : fs::directory_iterator(run.folder / part)) {
     const std::string file = entry.path().filename().string();
     if (file.front() == '.' || !file.ends_with(end)) continue;
     const std::string name = file.substr(0, file.size() - end.size());
-    if (std::find(run.muscles.begin(), run.muscles.end(), name) == run.muscles.end()) run.bones.push_back(name);
+    if (std::find(run.muscles.begin(), run.muscles.end(), name) == run.muscles.end()) bones.push_back(name);
   }
-  std::sort(run.bones.begin(), run.bones.end());
+  std::sort(bones.begin(), bones.end());
+  return bones;
+}
+
+static void find_surfaces(RecordedRun& run) {
+  run.bones = find_bones(run);
   std::vector<std::string> names = run.muscles;
   names.insert(names.end(), run.bones.begin(), run.bones.end());
+  if (run.layout == RunLayout::compact) names = {""};  // a file has all
   int complete = 0;
-  const auto is_there = [&](const std::string& name) { return fs::exists(frame_file(run.folder, name, complete)); };
+  const auto is_there = [&](const std::string& name) {
+    return fs::exists(file_of_surface(run.folder, run.layout, name, complete));
+  };
   while (complete < run.frame_count && std::all_of(names.begin(), names.end(), is_there)) ++complete;
   if (complete == 0) throw InputError({run.folder.string(), "", "holds no complete frame", "run the scene again"});
   run.frame_count = complete;
@@ -174,12 +188,18 @@ Eigen::MatrixXd measure_of(const RecordedRun& run, const std::string& measure) {
 static void require_vertices(const RecordedRun& run, const std::string& name, int frame, Eigen::Index count) {
   const auto found = run.vertex_counts.find(name);
   if (found == run.vertex_counts.end() || found->second == count) return;
-  throw InputError({frame_file(run.folder, name, frame).string(), "",
+  throw InputError({file_of_surface(run.folder, run.layout, name, frame).string(), "",
                     fmt::format("has {} vertices, but frame 0 has {}", count, found->second), "run the scene again"});
 }
 
+static TriangleMesh read_surface(const RecordedRun& run, const std::string& name, int frame) {
+  if (run.layout == RunLayout::surfaces) return read_mesh(frame_file(run.folder, name, frame), 1);
+  const bool is_bone = std::find(run.bones.begin(), run.bones.end(), name) != run.bones.end();
+  return is_bone ? read_compact_bone(run.folder, name, frame) : read_compact_muscle(run.folder, name, frame);
+}
+
 TriangleMesh recorded_surface(const RecordedRun& run, const std::string& name, int frame) {
-  TriangleMesh surface = read_mesh(frame_file(run.folder, name, frame), 1);
+  TriangleMesh surface = read_surface(run, name, frame);
   require_vertices(run, name, frame, surface.vertex_count());
   return surface;
 }
@@ -189,9 +209,7 @@ static void count_vertices(RecordedRun& run) {
   std::vector<std::string> names = run.muscles;
   names.insert(names.end(), run.bones.begin(), run.bones.end());
   std::vector<Index> counts(names.size());
-  parallel_for_each(names.size(), [&](std::size_t i) {
-    counts[i] = read_mesh(frame_file(run.folder, names[i], 0), 1).vertex_count();
-  });
+  parallel_for_each(names.size(), [&](std::size_t i) { counts[i] = read_surface(run, names[i], 0).vertex_count(); });
   for (std::size_t i = 0; i < names.size(); ++i) run.vertex_counts[names[i]] = counts[i];
 }
 
@@ -199,15 +217,22 @@ RecordedRun open_recorded_run(const fs::path& folder) {
   RecordedRun run;
   run.folder = folder;
   run.manifest = read_manifest(folder);
+  run.layout = layout_of(folder);
+  if (run.layout == RunLayout::compact) run.compact_fibers = std::make_shared<CompactFibers>(folder);
   run.axes = axes_of(run.manifest);
+  run.preview_looking = vector_of(run.manifest, "preview", "looking", Vec3::Zero());
+  run.preview_up = vector_of(run.manifest, "preview", "up", Vec3::Zero());
   read_measures(folder / "measures.csv", run);
   find_surfaces(run);
+  run.first_motion_frame = std::clamp(static_cast<int>(run.manifest.value("first_motion_frame", Real(0))), 0,
+                                      run.frame_count);  // an interrupted run may not have come there
   count_vertices(run);
   run.place = place_of(bounding_box(recorded_surface(run, run.muscles.front(), 0).vertices));
   return run;
 }
 
 Polylines recorded_fibers(const RecordedRun& run, const std::string& muscle, int frame) {
+  if (run.compact_fibers) return run.compact_fibers->read(muscle, frame);
   const fs::path path = fiber_file(run.folder, muscle, frame);
   return fs::exists(path) ? read_polylines(path, 1) : Polylines{};
 }
@@ -225,7 +250,9 @@ Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int f
 }
 
 Points recorded_tissue(const RecordedRun& run, const std::string& muscle) {
-  Points tissue = read_vtp_vectors(frame_file(run.folder, muscle, 0), tissue_name);
+  const Points tissue = run.layout == RunLayout::compact
+                            ? read_vtp_vectors(shapes_file(run.folder, 0), tissue_name, muscle)
+                            : read_vtp_vectors(frame_file(run.folder, muscle, 0), tissue_name);
   if (tissue.cols() > 0) require_vertices(run, muscle, 0, tissue.cols());
   return tissue;
 }

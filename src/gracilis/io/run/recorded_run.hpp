@@ -2,12 +2,15 @@
 
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/io/run/compact_frames.hpp>
+#include <gracilis/io/run/run_layout.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,13 +19,17 @@ namespace gracilis {
 /// A run folder as it was written, without the scene behind it: what reports, pictures and exports are made from.
 struct RecordedRun {
   std::filesystem::path folder;
-  nlohmann::ordered_json manifest;             ///< run.json
-  AnatomicalAxes axes;                         ///< how the subject stands in the frames
-  std::vector<std::string> muscles;            ///< in the scene's order
-  std::vector<std::string> bones;              ///< all other surfaces, sorted
-  std::map<std::string, Index> vertex_counts;  ///< of muscles and bones, in every frame
-  Vec3 place = Vec3::Zero();                   ///< about where it lies (scene/scene_place.hpp)
+  RunLayout layout = RunLayout::surfaces;
+  std::shared_ptr<const CompactFibers> compact_fibers;             ///< null: files have them
+  nlohmann::ordered_json manifest;                                 ///< run.json
+  AnatomicalAxes axes;                                             ///< how the subject stands in the frames
+  Vec3 preview_looking = Vec3::Zero(), preview_up = Vec3::Zero();  ///< of the preview's camera; zero: not known
+  std::vector<std::string> muscles;                                ///< in the scene's order
+  std::vector<std::string> bones;                                  ///< all other surfaces, sorted
+  std::map<std::string, Index> vertex_counts;                      ///< of muscles and bones, in every frame
+  Vec3 place = Vec3::Zero();                                       ///< about where it lies (scene/scene_place.hpp)
   int frame_count = 0;                   ///< frames 0 ... frame_count - 1 are there for every surface and measured
+  int first_motion_frame = 0;            ///< those before it lead from the capture pose to the motion (the ramp)
   std::vector<Real> times;               ///< s, per frame
   std::vector<std::string> coordinates;  ///< with their units, as in hip_flexion_r_deg
   Eigen::MatrixXd coordinate_values;     ///< frames × coordinates

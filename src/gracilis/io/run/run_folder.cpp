@@ -8,6 +8,7 @@
 #include <gracilis/io/mesh/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/mesh/polyline_file.hpp>
+#include <gracilis/io/run/compact_frames.hpp>
 #include <gracilis/io/run/measures_table.hpp>
 #include <gracilis/io/run/output_hashes.hpp>
 #include <gracilis/io/tables/action_tables.hpp>
@@ -28,10 +29,6 @@ namespace fs = std::filesystem;
 
 static constexpr const char* velocity_name = "velocity";
 
-fs::path frame_file(const fs::path& folder, const std::string& name, int number) {
-  return folder / "frames" / fmt::format("{}_{:04}.vtp", name, number);
-}
-
 static std::vector<std::string> surface_names(const Scene& scene) {
   std::vector<std::string> names;
   for (const Muscle& muscle : scene.muscles) names.push_back(muscle.name);
@@ -43,16 +40,19 @@ Frame read_frame(const fs::path& folder, const Scene& scene, int number, const P
   Frame frame;
   frame.number = number;
   frame.pose = pose;
+  const RunLayout layout = layout_of(folder);
   for (const Muscle& muscle : scene.muscles) {
-    const fs::path path = frame_file(folder, muscle.name, number);
-    const TriangleMesh mesh = read_mesh(path, 1);
+    const fs::path path = file_of_surface(folder, layout, muscle.name, number);
+    const bool compact = layout == RunLayout::compact;
+    const TriangleMesh mesh = compact ? read_compact_muscle(folder, muscle.name, number) : read_mesh(path, 1);
     if (mesh.vertex_count() != muscle.surface.vertex_count()) {
       throw InputError({path.string(), "",
                         fmt::format("has {} vertices, but {} has {}", mesh.vertex_count(), muscle.name,
                                     muscle.surface.vertex_count()),
                         "resume with the scene that the run was started with"});
     }
-    frame.muscles.push_back({mesh.vertices, read_vtp_vectors(path, velocity_name)});
+    frame.muscles.push_back({mesh.vertices, compact ? read_vtp_vectors(path, velocity_name, muscle.name)
+                                                    : read_vtp_vectors(path, velocity_name)});
   }
   return frame;
 }
@@ -73,12 +73,13 @@ static VertexArray tissue_array(const Muscle& muscle, Real tendon_length) {
   return {tissue_name, tissue.reshaped(), 3};
 }
 
-static void create_folders(const fs::path& folder) {
+void RunFolder::create_folders() {
+  const fs::path frames = folder_ / (layout_ == RunLayout::compact ? "shapes" : "frames");
   std::error_code error;
-  fs::create_directories(folder / "frames", error);
-  if (error || !fs::is_directory(folder / "frames")) {
+  fs::create_directories(frames, error);
+  if (error || !fs::is_directory(frames)) {
     throw InputError(
-        {folder.string(), "", "cannot be created: " + error.message(), "choose another folder with --out"});
+        {folder_.string(), "", "cannot be created: " + error.message(), "choose another folder with --out"});
   }
 }
 
@@ -87,9 +88,8 @@ static void remove_frames_from(const fs::path& folder, int first) {
   if (!fs::exists(folder)) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string();
-    const std::size_t underscore = stem.rfind('_');
-    if (entry.path().extension() != ".vtp" || underscore == std::string::npos) continue;
-    const std::string digits = stem.substr(underscore + 1);
+    if (entry.path().extension() != ".vtp") continue;
+    const std::string digits = stem.substr(stem.rfind('_') + 1);  // of names without, all of it
     const bool is_number = digits.size() >= 4 && digits.find_first_not_of("0123456789") == std::string::npos;
     Index number = 0;
     // A number beyond all indices is behind every frame.
@@ -97,16 +97,21 @@ static void remove_frames_from(const fs::path& folder, int first) {
   }
 }
 
-RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing)
-    : folder_(std::move(folder)), scene_(scene), poses_(poses), opened_(std::chrono::steady_clock::now()) {
-  create_folders(folder_);
+RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing,
+                     RunLayout layout)
+    : folder_(std::move(folder)),
+      layout_(existing == ExistingRun::resume ? layout_of(folder_, layout) : layout),
+      scene_(scene),
+      poses_(poses),
+      opened_(std::chrono::steady_clock::now()) {
+  create_folders();
   lock_.emplace(folder_);
   const bool has_run = fs::exists(folder_ / "run.json") || fs::exists(folder_ / "run.pvd");
   if (has_run && existing == ExistingRun::refuse) {
-    throw ConfigurationError(
-        {folder_.string(), "", "holds a run already", "resume it, replace it, or choose another folder"});
+    throw ConfigurationError({folder_.string(), "", "holds a run already",
+                              "--resume goes on with it, --force replaces it, --out names another folder"});
   }
-  for (const char* part : {"", "frames", "fibers", "plots"})
+  for (const char* part : {"", "frames", "shapes", "bones", "fibers", "plots"})
     remove_left_temporaries(folder_ / part, LeftBy::any_machine);
   if (existing == ExistingRun::resume) {
     require_same_columns(folder_ / "measures.csv", measures_header(scene));
@@ -125,8 +130,7 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
     }
   }
   fs::remove(folder_ / output_hashes_name);
-  remove_frames_from(folder_ / "frames", frame_count_);
-  remove_frames_from(folder_ / "fibers", frame_count_);
+  remove_frames();
   truncate_measures(folder_ / "measures.csv", frame_count_);
   truncate_tables(static_cast<int>(poses_.size()));
   if (frame_count_ == 0) {
@@ -134,6 +138,17 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
     for (const std::string& name : table_names(scene_)) fs::remove(folder_ / name);
   }
   write_index();
+}
+
+/// What comes after the frames that stay, and all of a run of the other layout.
+void RunFolder::remove_frames() const {
+  for (const char* part : {"frames", "shapes", "fibers"}) remove_frames_from(folder_ / part, frame_count_);
+  std::error_code ignored;  // what else lies in it keeps a folder
+  fs::remove(folder_ / (layout_ == RunLayout::compact ? "frames" : "shapes"), ignored);
+  if (layout_ == RunLayout::compact) return;
+  fs::remove(folder_ / "paraview.py");
+  for (const Bone& bone : scene_.bones) fs::remove(bone_file(folder_, bone.name), ignored);
+  fs::remove(folder_ / "bones", ignored);
 }
 
 RunFolder::~RunFolder() {
@@ -146,14 +161,35 @@ RunFolder::~RunFolder() {
 
 /// Surfaces come last: a frame whose surfaces are all there is whole, however a run was ended.
 void RunFolder::write_frame(const FrameRecord& record) {
+  if (layout_ == RunLayout::compact && record.frame.number == 0) write_compact_bones(folder_, scene_);
   write_fibers(record);
   const int rows = static_cast<int>(poses_.size());
   if (const std::optional<RunTable> table = force_table(scene_, record, rows))
     append_measures(folder_ / table->name, table->head, table->row);
   append_measures(folder_ / "measures.csv", measures_header(scene_), measures_rows(scene_, record));
-  write_surfaces(record.frame);
+  layout_ == RunLayout::compact ? write_compact(record) : write_surfaces(record.frame);
   frame_count_ = record.frame.number + 1;
   if (std::chrono::steady_clock::now() - indexed_ > std::chrono::seconds(1)) write_index();
+}
+
+std::vector<VertexArray> RunFolder::arrays_of(std::size_t muscle, const Frame& frame) const {
+  std::vector<VertexArray> arrays = velocity_array(frame.muscles[muscle]);
+  if (frame.number == 0)
+    arrays.push_back(tissue_array(scene_.muscles[muscle], tendon_length_of(scene_, scene_.muscles[muscle])));
+  return arrays;
+}
+
+void RunFolder::write_compact(const FrameRecord& record) const {
+  const Frame& frame = record.frame;
+  std::vector<std::vector<VertexArray>> arrays(scene_.muscles.size());
+  parallel_for_each(arrays.size(), [&](std::size_t m) { arrays[m] = arrays_of(m, frame); });
+  // One file has the same arrays for all: muscles that carry no velocity have zeros, which nobody asks for.
+  const bool any_moves = std::any_of(frame.muscles.begin(), frame.muscles.end(),
+                                     [](const MuscleShape& shape) { return shape.velocities.cols() > 0; });
+  for (std::size_t m = 0; any_moves && m < arrays.size(); ++m)
+    if (frame.muscles[m].velocities.cols() == 0)
+      arrays[m].insert(arrays[m].begin(), {velocity_name, Eigen::VectorXd::Zero(frame.muscles[m].points.size()), 3});
+  write_compact_shapes(folder_, scene_, frame, arrays);
 }
 
 void RunFolder::write_surfaces(const Frame& frame) const {
@@ -164,9 +200,8 @@ void RunFolder::write_surfaces(const Frame& frame) const {
       if (i < muscle_count) {
         const Muscle& muscle = scene_.muscles[static_cast<std::size_t>(i)];
         const MuscleShape& shape = frame.muscles[static_cast<std::size_t>(i)];
-        std::vector<VertexArray> arrays = velocity_array(shape);
-        if (frame.number == 0) arrays.push_back(tissue_array(muscle, tendon_length_of(scene_, muscle)));
-        write_surface(frame_file(folder_, muscle.name, frame.number), shape.points, muscle.surface.faces, arrays);
+        write_surface(frame_file(folder_, muscle.name, frame.number), shape.points, muscle.surface.faces,
+                      arrays_of(static_cast<std::size_t>(i), frame));
       } else {
         const Bone& bone = scene_.bones[static_cast<std::size_t>(i - muscle_count)];
         const RigidTransform& motion = frame.pose.bodies[static_cast<std::size_t>(bone.body)];
@@ -183,7 +218,8 @@ void RunFolder::write_fibers(const FrameRecord& record) {
   const auto muscles = static_cast<Index>(record.fibers.size());
   if (std::all_of(record.fibers.begin(), record.fibers.end(), [](const auto& m) { return m.lengths.empty(); })) return;
   fs::create_directories(folder_ / "fibers");
-  parallel_for(muscles, 1, [&](Index begin, Index end) {
+  if (layout_ == RunLayout::compact) write_compact_fibers(folder_, scene_, record);
+  parallel_for(layout_ == RunLayout::compact ? 0 : muscles, 1, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const MuscleFibers& fibers = record.fibers[static_cast<std::size_t>(i)];
       if (fibers.lengths.empty()) continue;
@@ -220,12 +256,13 @@ void RunFolder::finish() {
 
 void RunFolder::write_index() {
   std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
-  const std::vector<std::string> names = surface_names(scene_);
+  const bool compact = layout_ == RunLayout::compact;
+  const std::vector<std::string> names = compact ? std::vector<std::string>{"muscles"} : surface_names(scene_);
   for (int number = 0; number < frame_count_; ++number) {
     for (std::size_t part = 0; part < names.size(); ++part) {
       text += fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"{}\" name=\"{}\" file=\"{}\"/>\n",
                           poses_[static_cast<std::size_t>(number)].time, part, names[part],
-                          frame_file("", names[part], number).generic_string());
+                          file_of_surface("", layout_, names[part], number).generic_string());
     }
   }
   write_text_atomically(folder_ / "run.pvd", text + "  </Collection>\n</VTKFile>\n");

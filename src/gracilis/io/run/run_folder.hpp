@@ -1,6 +1,8 @@
 #pragma once
 
+#include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/run/folder_lock.hpp>
+#include <gracilis/io/run/run_layout.hpp>
 #include <gracilis/io/run/run_manifest.hpp>
 #include <gracilis/io/run/whole_frames.hpp>
 #include <gracilis/scene/scene.hpp>
@@ -24,11 +26,14 @@ enum class ExistingRun { refuse, replace, resume };
 ///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits
 ///                                  and tells which of a muscle's vertices are of an origin, an
 ///                                  insertion, and how much of a belly
+///   shapes/0000.vtp                instead, where the run is compact: all muscles of a frame, and the bones' motions;
+///   bones/<name>.vtp, paraview.py  then each bone in the capture pose, and a script that shows all in ParaView
 ///   measures.csv                   one row per frame and muscle; the units stand in the names of the columns
 ///   fiber_lengths.sto              one row per frame, see fiber_table.hpp
 ///   moment_arms_<coordinate>.sto, lines_of_action.sto   where they were asked for, see action_tables.hpp
 ///   forces.sto                     where the method knows forces, see force_table.hpp
 ///   fibers/<muscle>_0000.vtp       one per frame and muscle with fibers, m
+///   fibers/0000.vtp                where the run is compact: all of frame 0; of others what the surfaces do not tell
 ///   outputs.sha256                 hashes of all files but run.json, which has that of this one, once the run has
 ///   ended run.lock                       while a process writes here
 ///
@@ -39,8 +44,10 @@ class RunFolder {
   /// those of all frames to come (their times and coordinates). With `resume`, what comes after the last whole frame
   /// (count_frames) is dropped, and what comes after the last that a run can go on from (resume_period), unless the run
   /// is complete. Throws ConfigurationError when there is a run already and `existing` says refuse, and when another
-  /// process writes there; InputError when the folder cannot be written. Scene and poses must outlive this.
-  RunFolder(std::filesystem::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing);
+  /// process writes there; InputError when the folder cannot be written. Scene and poses must outlive this. A run that
+  /// goes on keeps its layout.
+  RunFolder(std::filesystem::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing,
+            RunLayout layout = RunLayout::surfaces);
   /// Writes run.pvd if it is behind; failures are lost here, call finish() to see them.
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
@@ -63,11 +70,16 @@ class RunFolder {
 
  private:
   void write_index();
+  void create_folders();
+  void write_compact(const FrameRecord& record) const;
+  std::vector<VertexArray> arrays_of(std::size_t muscle, const Frame& frame) const;
+  void remove_frames() const;
   void write_fibers(const FrameRecord& record);
   void write_surfaces(const Frame& frame) const;
   void truncate_tables(int announced) const;
 
   std::filesystem::path folder_;
+  RunLayout layout_;
   std::optional<FolderLock> lock_;
   const Scene& scene_;
   const std::vector<Pose>& poses_;
@@ -79,9 +91,6 @@ class RunFolder {
 
 /// Point data of muscles in frame 0: of an origin (0 or 1), of an insertion (0 or 1), share of belly against tendon.
 inline constexpr const char* tissue_name = "origin_insertion_belly";
-
-/// RUN/frames/<name>_<number as four digits>.vtp
-std::filesystem::path frame_file(const std::filesystem::path& folder, const std::string& name, int number);
 
 /// The muscles' shapes as recorded. Throws InputError when a file is missing, damaged or of another surface.
 Frame read_frame(const std::filesystem::path& folder, const Scene& scene, int number, const Pose& pose);

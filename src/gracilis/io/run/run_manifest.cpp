@@ -100,15 +100,18 @@ nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
     return json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& each) { return each.is_object(); });
   };
   require(
-      {"gracilis", "status", "scene", "preset", "written", "instruction_set", "settings", "outputs_sha256"},
+      {"gracilis", "status", "scene", "preset", "written", "instruction_set", "settings", "outputs_sha256", "metrics"},
       [](const Json& json) { return json.is_string(); }, "a text");
   require(
-      {"frames", "seconds", "threads", "processors"}, [](const Json& json) { return json.is_number(); }, "a number");
+      {"frames", "seconds", "threads", "processors", "every", "first_motion_frame"},
+      [](const Json& json) { return json.is_number(); }, "a number");
+  require(
+      {"ramps", "fibers"}, [](const Json& json) { return json.is_boolean(); }, "true or false");
   require({"command", "guessed", "warnings"}, is_texts, "a list of texts");
   require({"inputs", "joints"}, is_objects, "a list of objects");
   require(
-      {"axes", "action_lines", "rest_overlaps", "libraries"}, [](const Json& json) { return json.is_object(); },
-      "an object");
+      {"axes", "action_lines", "rest_overlaps", "libraries", "counters", "preview"},
+      [](const Json& json) { return json.is_object(); }, "an object");
   return manifest;
 }
 
@@ -117,6 +120,8 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
   for (const std::filesystem::path& input : manifest.inputs) {
     inputs.push_back({{"file", input.string()}, {"sha256", content_hash(input)}});
   }
+  nlohmann::ordered_json counters = nlohmann::json::object();
+  for (const auto& [muscle, text] : manifest.counters) counters[muscle] = text;
   nlohmann::ordered_json json = {
       {"gracilis", manifest.version},
       {"status", manifest.status},
@@ -131,11 +136,18 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"instruction_set", instruction_set()},  // results differ in the last bits between sets
       {"processors", std::thread::hardware_concurrency()},
       {"axes", {{"anterior", components(manifest.axes.anterior)}, {"superior", components(manifest.axes.superior)}}},
+      {"preview", {{"looking", components(manifest.preview_looking)}, {"up", components(manifest.preview_up)}}},
       {"joints", joints_json(manifest.joints)},
       {"action_lines", action_lines(manifest)},
       {"rest_overlaps", overlaps_json(manifest.overlaps)},
       {"guessed", manifest.guessed},
       {"warnings", manifest.warnings},
+      {"every", manifest.every},
+      {"ramps", manifest.ramps},
+      {"fibers", manifest.fibers},
+      {"first_motion_frame", manifest.first_motion_frame},
+      {"metrics", manifest.metrics},
+      {"counters", counters},
       {"inputs", inputs},
       {"libraries", library_versions()},
       {"settings", manifest.settings}};

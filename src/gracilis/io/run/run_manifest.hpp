@@ -21,11 +21,18 @@ struct RunManifest {
   std::vector<std::filesystem::path> inputs;  ///< each is listed with its SHA-256
   std::vector<std::string> guessed;           ///< what was guessed rather than measured, e.g. "psoas_r origin"
   std::vector<std::string> warnings;
-  std::vector<std::pair<std::string, ActionLine>> lines;  ///< of muscles that have one, by their names
-  std::vector<Joint> joints;                              ///< of the scene
-  OverlapReport overlaps;                                 ///< in the capture pose
-  AnatomicalAxes axes;                                    ///< how the subject stands
-  std::string status = "running";                         ///< running, complete, interrupted, or "failed: why"
+  std::vector<std::pair<std::string, std::string>> counters;  ///< per muscle: what constraints could not do, in words
+  int every = 1;                                              ///< which of the motion's frames are recorded
+  bool ramps = true;             ///< whether those on the way from and to the capture pose are
+  bool fibers = true;            ///< whether fibers are followed
+  int first_motion_frame = 0;    ///< of those recorded: those before it lead from the capture pose to the motion
+  std::string metrics = "full";  ///< what is measured: none, light or full
+  std::vector<std::pair<std::string, ActionLine>> lines;           ///< of muscles that have one, by their names
+  std::vector<Joint> joints;                                       ///< of the scene
+  OverlapReport overlaps;                                          ///< in the capture pose
+  AnatomicalAxes axes;                                             ///< how the subject stands
+  std::string status = "running";                                  ///< running, complete, interrupted, or "failed: why"
+  Vec3 preview_looking = Vec3::Zero(), preview_up = Vec3::Zero();  ///< of the preview's camera; zero: there is none
   int threads = 1;
   int frames = 0;                   ///< on disk
   double seconds = 0;               ///< spent on them

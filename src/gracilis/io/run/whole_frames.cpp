@@ -75,15 +75,20 @@ int count_frames(const fs::path& folder, const Scene& scene) {
   if (scene.muscles.empty()) return 0;
   const MeasuredFrames measured = read_measured(folder / "measures.csv", scene);
   const int fiber_rows = count_fiber_rows(folder / "fiber_lengths.sto");
+  const bool compact = layout_of(folder) == RunLayout::compact;
   const auto is_whole = [&](int number) {
     const auto found = measured.find(number);
     if (found == measured.end()) return false;
     for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
       const std::string& name = scene.muscles[m].name;
-      if (found->second[m].rows != 1 || !is_there(frame_file(folder, name, number))) return false;
-      if (found->second[m].has_fibers && (number >= fiber_rows || !is_there(fiber_file(folder, name, number))))
-        return false;
+      if (found->second[m].rows != 1) return false;
+      if (found->second[m].has_fibers && number >= fiber_rows) return false;
+      if (compact) continue;
+      if (!is_there(frame_file(folder, name, number))) return false;
+      if (found->second[m].has_fibers && !is_there(fiber_file(folder, name, number))) return false;
     }
+    // A compact frame's own file is the last that is written of it.
+    if (compact) return is_there(shapes_file(folder, number));
     return std::all_of(scene.bones.begin(), scene.bones.end(),
                        [&](const Bone& bone) { return is_there(frame_file(folder, bone.name, number)); });
   };

@@ -7,12 +7,14 @@
 #include <gracilis/opensim/import/scene_lines.hpp>
 #include <gracilis/opensim/import/toml_text.hpp>
 #include <gracilis/opensim/kinematics/skeleton.hpp>
+#include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 namespace gracilis::opensim {
@@ -117,12 +119,24 @@ std::string motion_file_name(const NamedMotion& motion) {
   return file_name_of(motion.name, taken);
 }
 
+int kept_rows(const NamedMotion& motion) {
+  gracilis::Motion rows;
+  rows.times = motion.motion.times;
+  rows.values = motion.motion.values;
+  const Real never = std::numeric_limits<Real>::infinity();
+  thin_out(rows, -never, never, imported_time_step);
+  return static_cast<int>(rows.times.size());
+}
+
 static void write_motion(const Model& model, const NamedMotion& motion, const fs::path& folder) {
   const std::string name = motion_file_name(motion);
   write_sto(folder / (name + ".sto"), scene_motion(model, motion.motion, name));
-  write_text_atomically(folder / (name + ".toml"),
-                        fmt::format("schema = 1\nname = {}\ninclude = \"model.toml\"\n\n[motion]\nfile = {}\n",
-                                    toml_text(name), toml_text(name + ".sto")));
+  write_text_atomically(
+      folder / (name + ".toml"),
+      fmt::format("schema = 1\nname = {}\ninclude = \"model.toml\"\n\n[motion]\nfile = {}\n"
+                  "time_step = {}   # s; rows of the file that follow sooner are left out ({} of {} stay)\n",
+                  toml_text(name), toml_text(name + ".sto"), imported_time_step, kept_rows(motion),
+                  motion.motion.times.size()));
 }
 
 std::vector<std::string> write_scene_folder(const Model& model, const GeometryPlaces& places,

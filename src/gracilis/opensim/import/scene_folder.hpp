@@ -18,6 +18,13 @@ struct SceneFolderSettings {
   bool apart = false;                ///< muscles whose surfaces are not known keep out of each other
 };
 
+/// s, between the frames of an imported motion where its rows are closer: marker and force data come with 100 to 1000
+/// rows a second, of which a run shows no more than these.
+inline constexpr Real imported_time_step = 0.01;
+
+/// How many of a motion's rows a run takes, each `imported_time_step` or more after the last.
+int kept_rows(const NamedMotion& motion);
+
 /// What a motion's files are called, without the extension: file_name_of its name, and not "model".
 std::string motion_file_name(const NamedMotion& motion);
 

@@ -90,6 +90,7 @@ std::string to_svg(const LineChart& chart) {
     for (const Real y : chart.series[s].y) y_range.add(y);
     if (!chart.series[s].name.empty()) named.push_back(s);
   }
+  for (const Real limit : chart.limits) y_range.add(limit);
   x_range.close(0);
   y_range.close(0.04);
   const Real right_edge = width - right, bottom_edge = height - bottom;
@@ -112,6 +113,10 @@ std::string to_svg(const LineChart& chart) {
                        top, bottom_edge);
     svg += text_at(x_of(tick), bottom_edge + 18, "middle", 12, fmt::format("{:.6g}", tick));
   }
+  for (const Real limit : chart.limits)
+    svg += fmt::format(
+        "<line x1=\"{}\" y1=\"{:.1f}\" x2=\"{}\" y2=\"{:.1f}\" stroke=\"#999\" stroke-dasharray=\"6 4\"/>\n", left,
+        y_of(limit), right_edge, y_of(limit));
   for (const Real tick : axis_ticks(y_range.low, y_range.high, 8)) {
     const bool zero = std::abs(tick) < 1e-12;
     svg += fmt::format("<line x1=\"{1}\" y1=\"{0:.1f}\" x2=\"{2}\" y2=\"{0:.1f}\" stroke=\"{3}\"/>\n", y_of(tick), left,

@@ -20,6 +20,7 @@ struct ChartSeries {
 struct LineChart {
   std::string title, x_label, y_label;
   std::vector<ChartSeries> series;
+  std::vector<Real> limits = {};  ///< values of y that are shown as lines across, however far off the series are
 };
 
 /// The chart as .svg: needs neither a display nor OpenGL. Values that are not finite interrupt their line.

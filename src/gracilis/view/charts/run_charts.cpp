@@ -4,6 +4,8 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/text_cells.hpp>
 #include <gracilis/io/value_reader.hpp>
+#include <gracilis/simulate/gates.hpp>
+#include <gracilis/view/pictures/muscle_colors.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -47,8 +49,7 @@ LineChart muscles_chart(const Table& table, const ChartCoordinate& coordinate, c
   const std::vector<Real> x = column(table, coordinate.name, coordinate.factor);
   for (std::size_t i = 0; i < muscles.size(); ++i) {
     const std::vector<Real> y = column(table, muscles[i], 1000);
-    if (!y.empty())
-      chart.series.push_back({muscles[i], x, y, muscle_color(static_cast<Index>(i), Palette::okabe_ito), 2});
+    if (!y.empty()) chart.series.push_back({muscles[i], x, y, muscle_color(muscles[i]), 2});
   }
   return chart;
 }
@@ -71,6 +72,7 @@ struct ShownMeasure {
   Real rest = 0;    ///< what it is where nothing has changed
   Real factor = 1;  ///< of what is above that
   std::string file, title, y_label;
+  std::vector<Real> limits = {};  ///< of the gate, as shown
 };
 
 /// The column per muscle against the frame.
@@ -82,9 +84,9 @@ static LineChart measures_chart(const fs::path& file, const Scene& scene, const 
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
   const std::size_t frame = index_of("frame"), muscle = index_of("muscle"), value = index_of(shown.column);
-  LineChart chart{scene.name + ": " + shown.title, "frame", shown.y_label, {}};
+  LineChart chart{scene.name + ": " + shown.title, "frame", shown.y_label, {}, shown.limits};
   for (std::size_t i = 0; i < scene.muscles.size(); ++i)
-    chart.series.push_back({scene.muscles[i].name, {}, {}, muscle_color(static_cast<Index>(i), Palette::okabe_ito), 2});
+    chart.series.push_back({scene.muscles[i].name, {}, {}, muscle_color(scene.muscles[i].name), 2});
   while (!reader.at_end()) {
     const std::vector<std::string_view> cells = cells_of(reader.line());
     if (cells.size() <= std::max({frame, muscle, value})) continue;
@@ -103,8 +105,9 @@ void write_run_charts(const fs::path& run_folder, const Scene& scene) {
   fs::create_directories(run_folder / "plots");
   const fs::path measures = run_folder / "measures.csv", lengths = run_folder / "fiber_lengths.sto";
   if (fs::exists(measures)) {
+    const Real volume = 100 * QualityGates{}.volume;
     const ShownMeasure shown[] = {
-        {"volume_ratio", 1, 100, "volume.svg", "volume", "change of volume (%)"},
+        {"volume_ratio", 1, 100, "volume.svg", "volume", "change of volume (%)", {-volume, volume}},
         {"edge_ratio_mean", 1, 100, "edges.svg", "edges", "mean change of edges (%)"},
         {"dihedral_change_mean_deg", 0, 1, "angles.svg", "angles", "mean change of dihedral angles (degrees)"}};
     for (const ShownMeasure& each : shown)

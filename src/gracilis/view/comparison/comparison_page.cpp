@@ -82,7 +82,7 @@ std::string method_table(const std::vector<ComparedRun>& runs, const std::vector
 
 /// A line per method over the frames, against the main coordinate where there is one.
 ChartSeries course(const ComparedRun& run, std::size_t number, std::vector<Real> x, std::vector<Real> y) {
-  return {run.method, std::move(x), std::move(y), muscle_color(static_cast<Index>(number), Palette::okabe_ito), 2};
+  return {run.method, std::move(x), std::move(y), series_color(static_cast<Index>(number)), 2};
 }
 
 std::string muscle_charts(const std::vector<ComparedRun>& runs, const std::string& muscle) {

@@ -1,6 +1,7 @@
 #include <gracilis/view/export/export_gltf.hpp>
 
 #include <gracilis/geometry/decimation.hpp>
+#include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/palette.hpp>
 
 #include <gracilis/io/atomic_file.hpp>
@@ -134,7 +135,7 @@ int add_muscle(Model& model, const RecordedRun& run, std::size_t number, const s
   const TriangleMesh rest = placed_surface(run, name, 0);
   const CoarseSurface coarse = decimate(rest, vertices);
   const Points points = picked(rest.vertices, coarse.vertices);
-  const int mesh = add_mesh(model, name, points, coarse.faces, muscle_color(static_cast<Index>(number)));
+  const int mesh = add_mesh(model, name, points, coarse.faces, muscle_color(name));
   const int node = model.add("nodes", {{"name", name}, {"mesh", mesh}});
   const std::size_t targets = frames.size() - 1;  // frame 0 is the mesh itself
   if (targets == 0) return node;

@@ -25,7 +25,7 @@ const std::vector<ColorScale>& color_scales() {
       {"activation", "activation", rising, 0, 1, {"0", "0.5", "1"}},
       {"fiber-strain", "fiber length, × rest", lines, -fiber_end, fiber_end, {"0.67", "1", "1.5"}},
       {"edge-stretch", "edge length, × rest", diverging, -1, 1, {"0.5", "1", "2"}},
-      {"bone-gap", "distance to bone, mm", falling, 0, 0.01, {"0", "5", "10"}},
+      {"bone-gap", "distance to bone, mm", falling, 0, 0.01, {"0", "5", "≥ 10"}},
       {"volume", "change of volume, %", diverging, -0.01, 0.01, {"-1", "0", "+1"}}};
   return scales;
 }

@@ -1,27 +1,8 @@
 #include <gracilis/view/pictures/fiber_picture.hpp>
 
+#include <gracilis/view/pictures/muscle_colors.hpp>
+
 namespace gracilis {
-
-namespace {
-
-/// The world's upright axis: the one along which bones hang below each other, else the one that muscles are longest in.
-Vec3 up_direction(const Scene& scene) {
-  Eigen::AlignedBox3d fixed, moving;
-  for (const Bone& bone : scene.bones) {
-    Eigen::AlignedBox3d& box = bone.body == 0 ? fixed : moving;
-    box.extend(Vec3(bone.surface.vertices.rowwise().minCoeff()));
-    box.extend(Vec3(bone.surface.vertices.rowwise().maxCoeff()));
-  }
-  if (fixed.isEmpty() || moving.isEmpty()) return Vec3::UnitZ();
-  const Vec3 upwards = fixed.center() - moving.center();
-  Eigen::Index axis = 2;
-  upwards.cwiseAbs().maxCoeff(&axis);
-  Vec3 up = Vec3::Zero();
-  up[axis] = upwards[axis] < 0 ? -1 : 1;
-  return up;
-}
-
-}  // namespace
 
 Picture muscle_fiber_picture(const Muscle& muscle, const Polylines& fibers, const Color& color) {
   Picture picture;
@@ -31,8 +12,11 @@ Picture muscle_fiber_picture(const Muscle& muscle, const Polylines& fibers, cons
   Eigen::Index longest = 2;
   extent.maxCoeff(&longest);
   const Vec3 up = Vec3::Unit(longest), side = Vec3::Unit((longest + 1) % 3), front = Vec3::Unit((longest + 2) % 3);
-  for (const Vec3& looking : {side, front, Vec3((side + front).normalized())}) {
+  for (const auto& [caption, looking] : {std::pair{"from a side", side},
+                                         {"from the next, 90 degrees on", front},
+                                         {"from between the two", Vec3((side + front).normalized())}}) {
     Panel panel;
+    panel.caption = caption;
     panel.looking = looking;
     panel.up = up;
     panel.surfaces.push_back({"", muscle.surface, color, 0.2});
@@ -46,14 +30,18 @@ Picture muscle_fiber_picture(const Muscle& muscle, const Polylines& fibers, cons
 Picture all_fibers_picture(const Scene& scene, const std::vector<Polylines>& fibers) {
   Picture picture;
   picture.title = scene.name;
-  const Vec3 up = up_direction(scene), side = up.unitOrthogonal(), front = up.cross(side);
-  for (const Vec3& looking : {side, front, Vec3(-side), Vec3(-front)}) {
+  const Vec3 forward = scene.axes.anterior, right = scene.axes.right();
+  for (const auto& [caption, looking] : {std::pair{"from the front", Vec3(-forward)},
+                                         {"from the right", Vec3(-right)},
+                                         {"from behind", forward},
+                                         {"from the left", right}}) {
     Panel panel;
+    panel.caption = caption;
     panel.looking = looking;
-    panel.up = up;
+    panel.up = scene.axes.superior;
     for (const Bone& bone : scene.bones) panel.surfaces.push_back({"", bone.surface});
     for (std::size_t i = 0; i < scene.muscles.size(); ++i)
-      panel.lines.push_back({fibers[i], muscle_color(static_cast<Index>(i)), 1});
+      panel.lines.push_back({fibers[i], muscle_color(scene.muscles[i].name), 1});
     picture.panels.push_back(std::move(panel));
   }
   picture.columns = 2;

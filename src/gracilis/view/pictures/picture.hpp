@@ -23,13 +23,14 @@ struct PaintedSurface {
   Points colors = Points(3, 0);  ///< one per vertex, instead of `color`; empty: none
 };
 
-/// Lines of a picture, such as fibers; never in the legend, and no room is made for them.
+/// Lines of a picture, such as fibers; never in the legend.
 struct PaintedLines {
   Polylines lines;
   Color color = Color::Zero();
   int width = 2;                   ///< pixels
   Real radius = 0;                 ///< m; above 0 they are tubes of this radius, and `width` says nothing
   std::vector<Color> colors = {};  ///< one per line, instead of `color`; empty: none
+  bool framed = true;              ///< false: the picture makes no room for them
 };
 
 /// What the colors of a picture mean.
@@ -59,6 +60,7 @@ struct Picture {
   Color background = Color::Ones();
   std::optional<ColorBar> color_bar = {};  ///< beside the legend
   bool scale_bar = false;                  ///< in the first panel
+  Real zoom = 1;                           ///< shows everything so many times larger, about the middle
 };
 
 /// Pixels as red, green, blue and opacity, 0 ... 255; the upper row first.

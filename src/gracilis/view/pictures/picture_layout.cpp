@@ -38,6 +38,8 @@ static Extent extent_seen_by(const CameraView& camera, const Picture& picture) {
     add(panel.room);
     for (const PaintedSurface& surface : panel.surfaces)
       if (surface.framed) add(surface.mesh.vertices);
+    for (const PaintedLines& lines : panel.lines)
+      if (lines.framed) add(lines.lines.points);
   }
   return extent;
 }
@@ -95,7 +97,7 @@ PictureLayout lay_out(const Picture& picture) {
   const Eigen::Vector2d needed = place_cameras(picture, layout);
   const int fitting_height = static_cast<int>(picture.panel_width * std::clamp(needed.y() / needed.x(), 0.5, 2.0));
   const int panel_height = picture.panel_height > 0 ? picture.panel_height : fitting_height;
-  layout.half_height = std::max(needed.y(), needed.x() * panel_height / picture.panel_width);
+  layout.half_height = std::max(needed.y(), needed.x() * panel_height / picture.panel_width) / picture.zoom;
   const int row_height = panel_height + caption_height;
   layout.legend_entries = legend_of(picture);
   layout.width = columns * picture.panel_width;

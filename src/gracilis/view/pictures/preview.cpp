@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/io/run/run_folder.hpp>
+#include <gracilis/view/pictures/muscle_colors.hpp>
 
 #include <fmt/format.h>
 
@@ -10,6 +11,11 @@
 #include <optional>
 
 namespace gracilis {
+
+std::string words_of_name(std::string name) {
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
 
 static Real distance_from_capture(const std::vector<Pose>& poses, std::size_t i) {
   Real largest = 0;
@@ -64,17 +70,17 @@ struct TurningAxis {
 }  // namespace
 
 /// The axis whose coordinate varies most over the frames.
-static TurningAxis main_axis(const Scene& scene, const std::vector<Frame>& frames) {
+static TurningAxis main_axis(const Scene& scene, const std::vector<Pose>& poses) {
   TurningAxis found;
   Real largest = -1;
   std::size_t coordinate = 0;
   for (const Joint& joint : scene.joints) {
     for (const JointAxis& axis : joint.axes) {
       Real low = axis.capture_value, high = low;
-      for (const Frame& frame : frames) {
-        if (coordinate >= frame.pose.coordinates.size()) continue;
-        low = std::min(low, frame.pose.coordinates[coordinate]);
-        high = std::max(high, frame.pose.coordinates[coordinate]);
+      for (const Pose& pose : poses) {
+        if (coordinate >= pose.coordinates.size()) continue;
+        low = std::min(low, pose.coordinates[coordinate]);
+        high = std::max(high, pose.coordinates[coordinate]);
       }
       if (high - low > largest) {
         largest = high - low;
@@ -86,9 +92,10 @@ static TurningAxis main_axis(const Scene& scene, const std::vector<Frame>& frame
   return found;
 }
 
-static void aim(const Scene& scene, const std::vector<Frame>& frames, Panel& panel) {
-  const TurningAxis turning = main_axis(scene, frames);
-  if (!turning.joint) return;
+CameraDirection preview_camera(const Scene& scene, const std::vector<Pose>& poses) {
+  CameraDirection panel;
+  const TurningAxis turning = main_axis(scene, poses);
+  if (!turning.joint) return panel;
   const Joint& joint = *turning.joint;
   const Vec3 center = joint.frame.translation();
   panel.up = snapped_to_axis(center - middle_of_body(scene, joint.child_body));
@@ -99,6 +106,20 @@ static void aim(const Scene& scene, const std::vector<Frame>& frames, Panel& pan
   // The joint lies outwards from the middle of the resting body: look from there inwards.
   const Vec3 outwards = center - middle_of_body(scene, joint.parent_body);
   panel.looking = snapped_to_axis(axis.dot(outwards) > 0 ? Vec3(-axis) : axis);
+  return panel;
+}
+
+static std::vector<Pose> poses_of(const std::vector<Frame>& frames) {
+  std::vector<Pose> poses;
+  for (const Frame& frame : frames) poses.push_back(frame.pose);
+  return poses;
+}
+
+/// Frames before the motion have times that say nothing.
+static std::string time_caption(const Scene& scene, const Frame& frame) {
+  const bool before = scene.motion.times.empty() || frame.pose.time < scene.motion.times.front();
+  if (before) return fmt::format("frame {}, on the way to the motion", frame.number);
+  return fmt::format("frame {}, {:.2f} s", frame.number, frame.pose.time);
 }
 
 /// The coordinates that left the capture pose, unless they went to 0: a motion of one coordinate sets the others there.
@@ -114,7 +135,7 @@ static std::string caption_of(const Scene& scene, const Frame& frame) {
       const Real shown = shown_value(axis, value);
       if (std::abs(shown - shown_value(axis, axis.capture_value)) < 0.5 || std::abs(shown) < 0.5) continue;
       // A whole body has more coordinates than a caption has room.
-      if (++shown_coordinates > 3) return fmt::format("frame {}, {:.2f} s", frame.number, frame.pose.time);
+      if (++shown_coordinates > 3) return time_caption(scene, frame);
       caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", axis.coordinate, shown,
                              axis.translation ? " mm" : "°");
     }
@@ -122,11 +143,13 @@ static std::string caption_of(const Scene& scene, const Frame& frame) {
   return caption.empty() ? fmt::format("frame {}", frame.number) : caption;
 }
 
-Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames, Palette palette) {
+Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames) {
   Picture picture;
   picture.title = scene.name;
+  const CameraDirection camera = preview_camera(scene, poses_of(frames));
   Panel aimed;
-  aim(scene, frames, aimed);
+  aimed.looking = camera.looking;
+  aimed.up = camera.up;
   for (const Frame& frame : frames) {
     Panel panel = aimed;
     panel.caption = caption_of(scene, frame);
@@ -137,7 +160,7 @@ Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames, Pa
     for (std::size_t i = 0; i < scene.muscles.size(); ++i) {
       const Muscle& muscle = scene.muscles[i];
       panel.surfaces.push_back(
-          {muscle.name, {frame.muscles[i].points, muscle.surface.faces}, muscle_color(static_cast<Index>(i), palette)});
+          {words_of_name(muscle.name), {frame.muscles[i].points, muscle.surface.faces}, muscle_color(muscle.name)});
     }
     picture.panels.push_back(panel);
   }

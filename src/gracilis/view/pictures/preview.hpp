@@ -5,6 +5,7 @@
 #include <gracilis/view/pictures/picture.hpp>
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace gracilis {
@@ -15,7 +16,17 @@ std::vector<int> preview_frames(const std::vector<Pose>& poses, int frame_count)
 
 /// A panel per frame. The camera looks from the outside along the axis about which the bones turn most, or along the
 /// joint's first axis where that one is upright, with the moving bones down at the capture pose.
-Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames, Palette palette = Palette::flesh);
+Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames);
+
+/// Where a preview's camera looks, and what is up in it; the manifest keeps it, so that later pictures look the same
+/// way.
+struct CameraDirection {
+  Vec3 looking = Vec3::UnitY(), up = Vec3::UnitZ();
+};
+CameraDirection preview_camera(const Scene& scene, const std::vector<Pose>& poses);
+
+/// A name as pictures show it: "gluteus_maximus_r" as "gluteus maximus r".
+std::string words_of_name(std::string name);
 
 /// Reads the frames back from the run folder and writes its preview.png. Throws Error; exit code 4 says that this
 /// machine offers no OpenGL.

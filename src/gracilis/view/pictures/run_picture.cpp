@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/preview.hpp>
 
 #include <fmt/format.h>
@@ -36,6 +37,21 @@ Vec3 view_direction(const RecordedRun& run, const std::string& view) {
   return direction.normalized();
 }
 
+/// Where the preview looks, unless another view is named.
+static CameraDirection camera_of(const RecordedRun& run, const std::string& view) {
+  if (view.empty() && run.preview_looking.norm() > 0.5)
+    return {run.preview_looking.normalized(), run.preview_up.normalized()};
+  return {-view_direction(run, view.empty() ? "lateral" : view), run.axes.superior};
+}
+
+/// Frames before the motion have times that say nothing.
+static std::string frame_caption(const RecordedRun& run, int frame) {
+  const Real time = run.times[static_cast<std::size_t>(frame)];
+  if (frame == 0 && run.first_motion_frame > 0) return "capture pose";
+  if (frame < run.first_motion_frame || time < 0) return fmt::format("frame {}, on the way to the motion", frame);
+  return fmt::format("frame {}, {:.2f} s", frame, time);
+}
+
 std::string pose_caption(const RecordedRun& run, int frame) {
   std::string caption;
   int shown = 0;
@@ -44,7 +60,7 @@ std::string pose_caption(const RecordedRun& run, int frame) {
     const bool changed = std::abs(value - run.coordinate_values(0, i)) >= 0.5 && std::abs(value) >= 0.5;
     if (!changed && i != main_coordinate(run)) continue;
     // A whole body has more coordinates than a caption has room.
-    if (++shown > 3) return fmt::format("frame {}, {:.2f} s", frame, run.times[static_cast<std::size_t>(frame)]);
+    if (++shown > 3) return frame_caption(run, frame);
     const CoordinateLabel label = coordinate_label(run.coordinates[static_cast<std::size_t>(i)]);
     caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", label.name, value + 0.0, label.unit);
   }
@@ -52,11 +68,7 @@ std::string pose_caption(const RecordedRun& run, int frame) {
 }
 
 RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options) : run_(run), options_(std::move(options)) {
-  for (const std::string& name : options_.muscles) {
-    if (std::find(run.muscles.begin(), run.muscles.end(), name) != run.muscles.end()) continue;
-    throw ConfigurationError(
-        {run.folder.string(), "", "the run has no muscle '" + name + "'", suggestion(name, run.muscles)});
-  }
+  require_names();
   if (options_.color_by == ColorBy::fiber_strain) options_.fibers = true;
   for (const std::string& bone : run.bones) bones_.push_back(recorded_surface(run, bone, 0));
   if (options_.color_by == ColorBy::bone_gap)
@@ -67,9 +79,36 @@ RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options) : run_
   }
 }
 
-bool RunPainter::shown(const std::string& muscle) const {
-  return options_.muscles.empty() ||
-         std::find(options_.muscles.begin(), options_.muscles.end(), muscle) != options_.muscles.end();
+static bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void RunPainter::require_names() const {
+  std::vector<std::string> all = run_.muscles;
+  all.insert(all.end(), run_.bones.begin(), run_.bones.end());
+  const auto require = [&](const std::string& name, const std::vector<std::string>& known, const char* what) {
+    if (contains(known, name)) return;
+    throw ConfigurationError(
+        {run_.folder.string(), "", fmt::format("the run has no {} '{}'", what, name), suggestion(name, known)});
+  };
+  for (const std::string& name : options_.muscles) require(name, run_.muscles, "muscle");
+  for (const std::string& name : options_.bones) require(name, run_.bones, "bone");
+  for (const std::string& name : options_.hidden) require(name, all, "muscle or bone");
+  if (!options_.focus.empty()) require(options_.focus, all, "muscle or bone");
+}
+
+bool RunPainter::shown(const std::string& name) const {
+  if (contains(options_.hidden, name)) return false;
+  const bool is_bone = contains(run_.bones, name);
+  if (is_bone && options_.without_bones) return false;
+  const std::vector<std::string>& chosen = is_bone ? options_.bones : options_.muscles;
+  return chosen.empty() || contains(chosen, name);
+}
+
+/// By the scale, and remembered for what its bar says.
+Color RunPainter::color_of(Real value) const {
+  if (std::isfinite(value)) seen_ = {std::min(seen_.first, value), std::max(seen_.second, value)};
+  return color_at(color_scale(options_.color_by), value);
 }
 
 /// A measure of one muscle in one frame; nan when the run does not have it.
@@ -81,7 +120,7 @@ static Real measured(const RecordedRun& run, const std::string& measure, int fra
 Points RunPainter::vertex_colors(std::size_t muscle, const TriangleMesh& mesh, int frame) const {
   const ColorScale& scale = color_scale(options_.color_by);
   Points colors(3, mesh.vertex_count());
-  const auto all = [&](Real value) { colors.colwise() = color_at(scale, value); };
+  const auto all = [&](Real value) { colors.colwise() = color_of(value); };
   switch (options_.color_by) {
     case ColorBy::muscle:
       return Points(3, 0);
@@ -92,12 +131,12 @@ Points RunPainter::vertex_colors(std::size_t muscle, const TriangleMesh& mesh, i
       all(measured(run_, "volume_ratio", frame, muscle) - 1);
       break;
     case ColorBy::fiber_strain:
-      colors.colwise() = Color::Constant(0.8);
+      colors.colwise() = Color(0.88, 0.76, 0.72);  // pale flesh: neither bone nor a color of the scale
       break;
     case ColorBy::edge_stretch: {
       const std::vector<Real> ratios = stretches_[muscle].of(mesh.vertices);
       for (Index v = 0; v < colors.cols(); ++v)
-        colors.col(v) = color_at(scale, std::log2(ratios[static_cast<std::size_t>(v)]));
+        colors.col(v) = color_of(std::log2(ratios[static_cast<std::size_t>(v)]));
       break;
     }
     case ColorBy::bone_gap: {
@@ -105,14 +144,13 @@ Points RunPainter::vertex_colors(std::size_t muscle, const TriangleMesh& mesh, i
       for (std::size_t b = 0; b < bones_.size(); ++b)
         to_rest.push_back(
             rigid_motion(bones_[b].vertices, recorded_surface(run_, run_.bones[b], frame).vertices).inverse());
+      Eigen::VectorXd gaps = Eigen::VectorXd::Constant(mesh.vertex_count(), scale.high);
       parallel_for(mesh.vertex_count(), 256, [&](Index begin, Index end) {
-        for (Index v = begin; v < end; ++v) {
-          Real gap = scale.high;
+        for (Index v = begin; v < end; ++v)
           for (std::size_t b = 0; b < distances_.size(); ++b)
-            gap = std::min(gap, distances_[b].query(to_rest[b] * mesh.vertices.col(v), scale.high).distance);
-          colors.col(v) = color_at(scale, gap);
-        }
+            gaps[v] = std::min(gaps[v], distances_[b].query(to_rest[b] * mesh.vertices.col(v), scale.high).distance);
       });
+      for (Index v = 0; v < gaps.size(); ++v) colors.col(v) = color_of(gaps[v]);
     }
   }
   return colors;
@@ -121,55 +159,73 @@ Points RunPainter::vertex_colors(std::size_t muscle, const TriangleMesh& mesh, i
 PaintedLines RunPainter::fibers(std::size_t muscle, int frame) const {
   PaintedLines painted;
   painted.lines = recorded_fibers(run_, run_.muscles[muscle], frame);
-  painted.color = Color(0.45, 0.08, 0.08);
+  painted.color = muscle_color(run_.muscles[muscle]);
   painted.radius = 0.0006;
   if (options_.color_by != ColorBy::fiber_strain) return painted;
   const std::vector<Real> lengths = polyline_lengths(painted.lines);
   for (std::size_t i = 0; i < std::min(lengths.size(), lengths_[muscle].size()); ++i)
-    painted.colors.push_back(color_at(color_scale(ColorBy::fiber_strain), std::log2(lengths[i] / lengths_[muscle][i])));
+    painted.colors.push_back(color_of(std::log2(lengths[i] / lengths_[muscle][i])));
   return painted;
 }
 
 Panel RunPainter::panel(int frame) const {
   Panel panel;
-  panel.looking = -view_direction(run_, options_.view);
-  panel.up = run_.axes.superior;
+  const CameraDirection camera = camera_of(run_, options_.view);
+  panel.looking = camera.looking;
+  panel.up = camera.up;
   panel.caption = pose_caption(run_, frame);
   // Beside colors that mean something bones step back.
   const Color bone = options_.color_by == ColorBy::muscle ? bone_color() : Color(0.72, 0.74, 0.75);
-  for (const std::string& name : run_.bones) panel.surfaces.push_back({"", recorded_surface(run_, name, frame), bone});
+  for (const std::string& name : run_.bones)
+    if (shown(name)) panel.surfaces.push_back({"", recorded_surface(run_, name, frame), bone, 1, framed(name)});
   for (std::size_t m = 0; m < run_.muscles.size(); ++m) {
     if (!shown(run_.muscles[m])) continue;
-    std::string name = options_.color_by == ColorBy::muscle ? run_.muscles[m] : "";
-    std::replace(name.begin(), name.end(), '_', ' ');
-    PaintedSurface surface{name, recorded_surface(run_, run_.muscles[m], frame),
-                           muscle_color(static_cast<Index>(m), options_.palette)};
+    const std::string name = options_.color_by == ColorBy::muscle ? words_of_name(run_.muscles[m]) : "";
+    PaintedSurface surface{name, recorded_surface(run_, run_.muscles[m], frame), muscle_color(run_.muscles[m])};
+    surface.framed = framed(run_.muscles[m]);
     surface.opacity = options_.fibers ? std::min(options_.opacity, 0.3) : options_.opacity;
+    if (!surface.framed) surface.opacity = std::min(surface.opacity, 0.25);  // the one in focus is seen through them
     surface.colors = vertex_colors(m, surface.mesh, frame);
     panel.surfaces.push_back(std::move(surface));
     if (options_.fibers) panel.lines.push_back(fibers(m, frame));
+    if (options_.fibers) panel.lines.back().framed = framed(run_.muscles[m]);
   }
   return panel;
 }
 
-std::vector<int> telling_frames(const RecordedRun& run) {
-  std::vector<Pose> poses(static_cast<std::size_t>(run.frame_count));
+std::vector<int> telling_frames(const RecordedRun& run, int first) {
+  std::vector<Pose> poses(static_cast<std::size_t>(run.frame_count - first));
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::VectorXd row = run.coordinate_values.row(static_cast<Index>(i));
+    const Eigen::VectorXd row = run.coordinate_values.row(static_cast<Index>(i) + first);
     poses[i].coordinates.assign(row.begin(), row.end());
   }
-  return preview_frames(poses, run.frame_count);
+  std::vector<int> frames = preview_frames(poses, run.frame_count - first);
+  for (int& frame : frames) frame += first;
+  return frames;
 }
 
-Points RunPainter::room() const {
+Points RunPainter::room(int first) const {
   std::vector<Points> parts;
-  std::vector<std::string> names = run_.bones;
-  for (const std::string& muscle : run_.muscles)
-    if (shown(muscle)) names.push_back(muscle);
-  const int step = std::max(1, run_.frame_count / 12);
-  for (int frame = 0; frame < run_.frame_count; frame += step)
+  std::vector<std::string> names;
+  for (const std::vector<std::string>* all : {&run_.bones, &run_.muscles})
+    for (const std::string& name : *all)
+      if (shown(name) && framed(name)) names.push_back(name);
+  const int step = std::max(1, (run_.frame_count - first) / 12);
+  for (int frame = first; frame < run_.frame_count; frame += step)
     for (const std::string& name : names) parts.push_back(recorded_surface(run_, name, frame).vertices);
   return join(parts).points;
+}
+
+/// Ends of a scale that values go beyond say so.
+static ColorBar color_bar_of(const ColorScale& scale, const std::vector<RunPainter>& painters) {
+  ColorBar bar{scale.title, scale.colors, scale.ticks};
+  constexpr Real rounding = 1e-9;
+  const auto beyond = [&](auto&& is_beyond) { return std::any_of(painters.begin(), painters.end(), is_beyond); };
+  if (beyond([&](const RunPainter& painter) { return painter.values_seen().first < scale.low - rounding; }))
+    bar.ticks.front() = "≤ " + bar.ticks.front();
+  if (beyond([&](const RunPainter& painter) { return painter.values_seen().second > scale.high + rounding; }))
+    bar.ticks.back() = "≥ " + bar.ticks.back();
+  return bar;
 }
 
 Picture run_picture(const std::vector<RecordedRun>& runs, const std::vector<RunPainter>& painters,
@@ -186,7 +242,8 @@ Picture run_picture(const std::vector<RecordedRun>& runs, const std::vector<RunP
     }
   }
   const ColorScale& scale = color_scale(options.color_by);
-  if (!scale.colors.empty()) picture.color_bar = ColorBar{scale.title, scale.colors, scale.ticks};
+  if (!scale.colors.empty()) picture.color_bar = color_bar_of(scale, painters);
+  picture.zoom = options.zoom;
   return picture;
 }
 

@@ -6,18 +6,24 @@
 #include <gracilis/view/pictures/picture.hpp>
 #include <gracilis/view/pictures/vertex_stretch.hpp>
 
+#include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gracilis {
 
 struct RunPictureOptions {
-  std::string view = "lateral";
+  std::string view;  ///< empty: as the run's preview looks, or lateral where that is not known
   ColorBy color_by = ColorBy::muscle;
   bool fibers = false;               ///< with muscles that one sees through; fiber_strain shows them anyway
   Real opacity = 1;                  ///< of muscles
   std::vector<std::string> muscles;  ///< to show; empty: all
-  Palette palette = Palette::flesh;
+  std::vector<std::string> bones;    ///< to show; empty: all
+  std::vector<std::string> hidden;   ///< muscles and bones that are not shown
+  bool without_bones = false;
+  std::string focus;  ///< the muscle or bone that fills the picture; empty: everything does
+  Real zoom = 1;
 };
 
 /// anterior, posterior, lateral, medial, superior, inferior, and anteromedial ... posterolateral.
@@ -30,26 +36,33 @@ Vec3 view_direction(const RecordedRun& run, const std::string& view);
 /// "hip_flexion_r 45°", and other coordinates that have left the capture pose.
 std::string pose_caption(const RecordedRun& run, int frame);
 
-/// The capture pose, half way, and the farthest pose, as in a run's preview.
-std::vector<int> telling_frames(const RecordedRun& run);
+/// The first of the frames from `first` on, half way, and the farthest pose, as in a run's preview.
+std::vector<int> telling_frames(const RecordedRun& run, int first = 0);
 
 /// Draws any frame of a run. Throws InputError when a frame is damaged.
 class RunPainter {
  public:
-  /// Throws ConfigurationError when the options name a muscle that the run does not have. The run must outlive this.
+  /// Throws ConfigurationError when the options name what the run does not have. The run must outlive this.
   RunPainter(const RecordedRun& run, RunPictureOptions options);
 
   Panel panel(int frame) const;
-  /// Points that tell how much room the whole run takes: some of every surface in some frames.
-  Points room() const;
+  /// Points that tell how much room the run takes from a frame on: some of every surface in some frames.
+  Points room(int first = 0) const;
+
+  /// The least and largest value that panels have shown by color so far.
+  std::pair<Real, Real> values_seen() const { return seen_; }
 
  private:
+  Color color_of(Real value) const;
+  bool framed(const std::string& name) const { return options_.focus.empty() || options_.focus == name; }
   Points vertex_colors(std::size_t muscle, const TriangleMesh& mesh, int frame) const;
   PaintedLines fibers(std::size_t muscle, int frame) const;
-  bool shown(const std::string& muscle) const;
+  bool shown(const std::string& name) const;
+  void require_names() const;
 
   const RecordedRun& run_;
   RunPictureOptions options_;
+  mutable std::pair<Real, Real> seen_{std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
   std::vector<TriangleMesh> bones_;         ///< at rest
   std::vector<SignedDistance> distances_;   ///< per bone, where colors need them
   std::vector<VertexStretch> stretches_;    ///< per muscle, where colors need them

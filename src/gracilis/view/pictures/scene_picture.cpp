@@ -1,5 +1,7 @@
 #include <gracilis/view/pictures/scene_picture.hpp>
 
+#include <gracilis/view/pictures/muscle_colors.hpp>
+
 #include <algorithm>
 #include <array>
 
@@ -62,7 +64,7 @@ void add_bones(const Scene& scene, Real opacity, Panel& panel) {
 
 void add_muscles(const Scene& scene, Panel& panel) {
   for (std::size_t m = 0; m < scene.muscles.size(); ++m)
-    panel.surfaces.push_back({"", scene.muscles[m].surface, muscle_color(static_cast<Index>(m))});
+    panel.surfaces.push_back({"", scene.muscles[m].surface, muscle_color(scene.muscles[m].name)});
 }
 
 }  // namespace

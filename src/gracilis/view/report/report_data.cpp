@@ -2,7 +2,7 @@
 
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/simulate/measures.hpp>
-#include <gracilis/view/pictures/palette.hpp>
+#include <gracilis/view/pictures/muscle_colors.hpp>
 
 #include <fmt/format.h>
 
@@ -62,8 +62,14 @@ static Json rounded(const Eigen::VectorXd& values) {
   return list;
 }
 
+/// Whether a run took this measure at all; a full one did, whatever came out.
+static bool is_measured(const RecordedRun& run, const Eigen::MatrixXd& values) {
+  return run.manifest.value("metrics", "full") == "full" || !values.array().isNaN().all();
+}
+
 static Json measure_chart(const RecordedRun& run, const ShownMeasure& shown) {
   const Eigen::MatrixXd values = measure_of(run, shown.measure);
+  if (!is_measured(run, values)) return nullptr;
   Json chart = {{"id", shown.measure}, {"title", shown.title}, {"unit", shown.unit}, {"limits", shown.limits}};
   Json series = Json::array();
   bool any = false;
@@ -124,6 +130,8 @@ static Json gate_of(const RecordedRun& run, const ShownMeasure& shown, Index mus
                {"limit", rounded(limit)},
                {"both_ways", shown.limits.size() > 1}};
   if (all.size() == 0) return nullptr;
+  gate["measured"] = is_measured(run, all);
+  if (!gate["measured"]) return gate;
   const Eigen::VectorXd values = shown.factor * (all.col(muscle).array() - shown.reference);
   Index worst = 0;
   int missed = 0;
@@ -166,7 +174,7 @@ static Json coordinates_of(const RecordedRun& run) {
 Json report_data(const RecordedRun& run) {
   Json muscles = Json::array();
   for (std::size_t i = 0; i < run.muscles.size(); ++i) {
-    const Color color = 255 * muscle_color(static_cast<Index>(i), Palette::okabe_ito);
+    const Color color = 255 * muscle_color(run.muscles[i]);
     muscles.push_back({{"name", run.muscles[i]},
                        {"color", fmt::format("#{:02x}{:02x}{:02x}", std::lround(color.x()), std::lround(color.y()),
                                              std::lround(color.z()))}});

@@ -31,8 +31,11 @@ function writeHead(runs) {
     `${run.manifest.status}, ${(run.manifest.written || '').slice(0, 10)}`).join('; ');
   const verdict = document.getElementById('verdict');
   for (const run of runs) {
-    const missed = run.gates.filter(gate => !gate.met).length;
-    const text = missed ? `${missed} of ${run.gates.length} quality gates missed` : 'all quality gates met';
+    const measured = run.gates.filter(gate => gate.measured);
+    const missed = measured.filter(gate => !gate.met).length;
+    const unmeasured = measured.length < run.gates.length ? ', others not measured' : '';
+    const text = !measured.length ? 'quality gates not measured' :
+                 (missed ? `${missed} of ${measured.length} quality gates missed` : 'all quality gates met') + unmeasured;
     verdict.append(make('a', (runs.length > 1 ? run.label + ': ' : '') + text,
                         {class: 'badge ' + (missed ? 'bad' : 'good'), href: '#gates-title', style: 'text-decoration: none'}),
                    ' ');
@@ -62,6 +65,7 @@ function writeGates(runs, goTo) {
 
 // Whether a gate is met, its worst value, and a way to the frame of it.
 function gateCell(gate, index, goTo) {
+  if (!gate.measured) return make('td', 'not measured');
   const cell = make('td', gate.met ? '✓ ' : '✗ ', {class: gate.met ? 'met' : 'missed'});
   const value = gate.worst === null ? 'not finite' : `${shownNumber(gate.worst)} ${gate.unit}`;
   const link = make('button', `frame ${gate.frame}`, {type: 'button', class: 'link',

@@ -8,6 +8,7 @@
 #include <vtkCamera.h>
 #include <vtkPolyData.h>
 #include <vtkTextActor.h>
+#include <gracilis/view/pictures/muscle_colors.hpp>
 
 #include <algorithm>
 #include <array>
@@ -78,7 +79,7 @@ void Viewer::lay_out_left() {
     const MuscleState shown = state_.muscles[m];
     // Where colors mean something else, the muscles' own would only confuse.
     const Color color =
-        state_.color_by == WindowColor::muscle ? muscle_color(static_cast<Index>(m)) : Color(Color::Constant(0.6));
+        state_.color_by == WindowColor::muscle ? muscle_color(shapes_.muscles[m]) : Color(Color::Constant(0.6));
     muscles.push_back({words_of(shapes_.muscles[m]), color,
                        shown == MuscleState::solid         ? 1
                        : shown == MuscleState::transparent ? 0.35

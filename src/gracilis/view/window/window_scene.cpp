@@ -1,5 +1,6 @@
 #include <gracilis/view/window/window_scene.hpp>
 
+#include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/window/arrows.hpp>
 
@@ -32,7 +33,7 @@ WindowScene::WindowScene(const ShownShapes& shapes, const ShapeHistory& history,
     bones_.push_back(add_surface(shapes.bone_points[b], shapes.bone_faces[b], bone_color(), renderer));
   for (std::size_t m = 0; m < shapes.muscles.size(); ++m) {
     MuscleActors actors{
-        add_surface(first->muscles[m], shapes.muscle_faces[m], muscle_color(static_cast<Index>(m)), renderer),
+        add_surface(first->muscles[m], shapes.muscle_faces[m], muscle_color(shapes.muscles[m]), renderer),
         add_empty(true, renderer),
         add_empty(true, renderer),
         {}};

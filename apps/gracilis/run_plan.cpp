@@ -1,0 +1,80 @@
+#include "run_plan.hpp"
+
+#include <gracilis/core/errors.hpp>
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace gracilis {
+
+namespace {
+
+/// 117000 as "117,000".
+std::string with_commas(std::int64_t number) {
+  std::string text = std::to_string(number);
+  for (int at = static_cast<int>(text.size()) - 3; at > 0; at -= 3) text.insert(static_cast<std::size_t>(at), ",");
+  return text;
+}
+
+std::string taken(const RunPlan& plan) {
+  return fmt::format("{} in {} files", size_text(plan.size.bytes), with_commas(plan.size.files));
+}
+
+}  // namespace
+
+RunPlan plan_run(const Scene& scene, const SessionOptions& options) {
+  RunPlan plan;
+  plan.parts = sequence_parts(scene);
+  plan.frames = plan.parts.count();
+  plan.first_motion_frame = plan.parts.first_of_motion();
+  if (options.every > 1 || options.without_ramps) {
+    plan.recorded = recorded_frames(plan.parts, options.every, !options.without_ramps);
+    plan.frames = static_cast<int>(plan.recorded.size());
+    plan.first_motion_frame = static_cast<int>(
+        std::lower_bound(plan.recorded.begin(), plan.recorded.end(), plan.first_motion_frame) - plan.recorded.begin());
+  }
+  plan.size = estimated_size(scene, plan.frames, !options.without_fibers, options.layout);
+  return plan;
+}
+
+std::string describe_plan(const RunPlan& plan) {
+  std::string text = fmt::format("{} frames", plan.frames);
+  std::string what;
+  const auto add = [&](int frames, const char* are) {
+    if (frames > 0) what += fmt::format("{}{} {}", what.empty() ? "" : ", ", frames, are);
+  };
+  if (plan.recorded.empty()) {
+    add(plan.parts.ramp, "from the capture pose to the motion (the ramp)");
+    add(plan.parts.settle, "that hold its first pose");
+    if (!what.empty() || plan.parts.hold + plan.parts.back > 0) add(plan.parts.motion, "of the motion");
+    add(plan.parts.hold, "that hold its last pose");
+    add(plan.parts.back, "back to the capture pose");
+  } else {
+    what = fmt::format("of {} that are computed", plan.parts.count());
+  }
+  return fmt::format("{}{}{}; about {}", text,
+                     what.empty()            ? ""
+                     : plan.recorded.empty() ? ": "
+                                             : " ",
+                     what, taken(plan));
+}
+
+void confirm_size(const RunPlan& plan, const SessionOptions& options) {
+  if (plan.size.bytes <= asking_bytes || options.yes || options.resume) return;
+  const std::string fewer = fmt::format("--every N records every Nth frame{}",
+                                        options.without_fibers ? "" : ", --no-fibers leaves out fibers");
+  if (isatty(STDIN_FILENO) && isatty(STDERR_FILENO)) {
+    fmt::print(stderr, "This run writes about {} ({}). Go on? [y/N] ", taken(plan), fewer);
+    std::string answer;
+    if (std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes")) return;
+    throw Error(ExitCode::usage, "nothing was run");
+  }
+  throw Error(ExitCode::usage,
+              fmt::format("the run would write about {}: --yes runs it all the same, {}", taken(plan), fewer));
+}
+
+}  // namespace gracilis

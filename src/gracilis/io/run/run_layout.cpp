@@ -1,0 +1,34 @@
+#include <gracilis/io/run/run_layout.hpp>
+
+#include <fmt/format.h>
+
+namespace gracilis {
+
+namespace fs = std::filesystem;
+
+RunLayout layout_of(const fs::path& folder, RunLayout otherwise) {
+  if (fs::exists(shapes_file(folder, 0))) return RunLayout::compact;
+  // Frames of the other layout, or a run of before there were two.
+  const bool has_frames = fs::is_directory(folder / "frames") && !fs::is_empty(folder / "frames");
+  return has_frames ? RunLayout::surfaces : otherwise;
+}
+
+fs::path frame_file(const fs::path& folder, const std::string& name, int number) {
+  return folder / "frames" / fmt::format("{}_{:04}.vtp", name, number);
+}
+
+fs::path shapes_file(const fs::path& folder, int number) {
+  return folder / "shapes" / fmt::format("{:04}.vtp", number);
+}
+
+fs::path fibers_file(const fs::path& folder, int number) {
+  return folder / "fibers" / fmt::format("{:04}.vtp", number);
+}
+
+fs::path bone_file(const fs::path& folder, const std::string& name) { return folder / "bones" / (name + ".vtp"); }
+
+fs::path file_of_surface(const fs::path& folder, RunLayout layout, const std::string& name, int number) {
+  return layout == RunLayout::compact ? shapes_file(folder, number) : frame_file(folder, name, number);
+}
+
+}  // namespace gracilis

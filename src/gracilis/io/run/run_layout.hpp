@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace gracilis {
+
+/// How a run's frames lie in its folder. `surfaces`: a file per muscle, bone and frame. `compact`: a file per frame
+/// with all muscles (shapes/), each bone once (bones/) with its motion in the frames' files, and fibers once where they
+/// follow the surfaces. Both hold the same numbers.
+enum class RunLayout { surfaces, compact };
+
+/// That of the run in a folder; `otherwise` where there is no frame yet.
+RunLayout layout_of(const std::filesystem::path& folder, RunLayout otherwise = RunLayout::surfaces);
+
+/// RUN/frames/<name>_<number as four digits>.vtp
+std::filesystem::path frame_file(const std::filesystem::path& folder, const std::string& name, int number);
+/// RUN/shapes/<number as four digits>.vtp
+std::filesystem::path shapes_file(const std::filesystem::path& folder, int number);
+/// RUN/fibers/<number as four digits>.vtp
+std::filesystem::path fibers_file(const std::filesystem::path& folder, int number);
+/// RUN/bones/<name>.vtp
+std::filesystem::path bone_file(const std::filesystem::path& folder, const std::string& name);
+
+/// The file that holds a muscle or a bone in a frame.
+std::filesystem::path file_of_surface(const std::filesystem::path& folder, RunLayout layout, const std::string& name,
+                                      int number);
+
+}  // namespace gracilis

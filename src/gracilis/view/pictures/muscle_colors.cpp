@@ -1,0 +1,168 @@
+#include <gracilis/view/pictures/muscle_colors.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdint>
+
+namespace gracilis {
+
+namespace {
+
+/// Muscles that lie and work together: one hue, and a lightness for each in turn.
+struct MuscleGroup {
+  Real hue;         ///< degrees
+  Real saturation;  ///< of the HSL color
+  std::vector<std::string_view> muscles;
+};
+
+/// Latin names as anatomists write them and OpenSim's short ones; neighbors stand beside each other.
+const std::vector<MuscleGroup>& muscle_groups() {
+  static const std::vector<MuscleGroup> groups = {
+      {4,
+       0.60,
+       {"gluteus_maximus", "gluteus_medius", "gluteus_minimus", "glut_max", "glut_med", "glut_min", "glmax", "glmed",
+        "glmin"}},
+      {318, 0.40, {"iliacus", "psoas_major", "psoas_minor", "psoas", "iliopsoas"}},
+      {28,
+       0.68,
+       {"adductor_brevis", "adductor_longus", "adductor_magnus", "adductor_minimus", "pectineus", "gracilis",
+        "add_brev", "add_long", "add_mag", "pect", "grac", "addbrev", "addlong", "addmag"}},
+      {212,
+       0.52,
+       {"rectus_femoris", "vastus_lateralis", "vastus_intermedius", "vastus_medialis", "sartorius",
+        "tensor_fasciae_latae", "rect_fem", "vas_lat", "vas_int", "vas_med", "sar", "tfl", "recfem", "vaslat", "vasint",
+        "vasmed"}},
+      {150,
+       0.42,
+       {"semimembranosus", "semitendinosus", "biceps_femoris_long", "biceps_femoris_short", "biceps_femoris", "semimem",
+        "semiten", "bifemlh", "bifemsh", "bflh", "bfsh"}},
+      {48,
+       0.62,
+       {"piriformis", "gemellus_superior", "superior_gemellus", "obturator_internus", "gemellus_inferior",
+        "inferior_gemellus", "obturator_externus", "quadratus_femoris", "peri", "gem", "quad_fem", "piri"}},
+      {182,
+       0.48,
+       {"gastrocnemius_medial", "gastrocnemius_lateral", "gastrocnemius", "soleus", "plantaris", "popliteus", "med_gas",
+        "lat_gas", "gasmed", "gaslat"}},
+      {268,
+       0.34,
+       {"tibialis_anterior",
+        "tibialis_posterior",
+        "fibularis_longus",
+        "fibularis_brevis",
+        "fibularis_tertius",
+        "peroneus_longus",
+        "peroneus_brevis",
+        "peroneus_tertius",
+        "extensor_digitorum_longus",
+        "extensor_hallucis_longus",
+        "flexor_digitorum_longus",
+        "flexor_hallucis_longus",
+        "tib_ant",
+        "tib_post",
+        "per_long",
+        "per_brev",
+        "per_tert",
+        "ext_dig",
+        "ext_hal",
+        "flex_dig",
+        "flex_hal",
+        "tibant",
+        "tibpost",
+        "perlong",
+        "perbrev",
+        "edl",
+        "ehl",
+        "fdl",
+        "fhl"}},
+      {232,
+       0.20,
+       {"erector_spinae", "external_oblique", "internal_oblique", "rectus_abdominis", "quadratus_lumborum", "ercspn",
+        "extobl", "intobl"}},
+      {4,
+       0.60,
+       {"biceps_brachii_long", "biceps_brachii_short", "biceps_brachii", "biceps_long", "biceps_short", "biceps",
+        "brachialis", "brachioradialis", "bic_long", "bic_brev", "biclong", "bicshort", "bra", "brd"}},
+      {212,
+       0.52,
+       {"triceps_brachii_long", "triceps_brachii_lateral", "triceps_brachii_medial", "triceps_brachii", "triceps_long",
+        "triceps_lateral", "triceps_medial", "triceps", "anconeus", "tri_long", "tri_lat", "tri_med", "trilong",
+        "trilat", "trimed"}},
+      {28,
+       0.68,
+       {"deltoid", "supraspinatus", "infraspinatus", "subscapularis", "teres_minor", "teres_major", "coracobrachialis",
+        "pectoralis_major", "latissimus_dorsi"}}};
+  return groups;
+}
+
+// Dark and light alternate: lightness is what survives gray print and every kind of color blindness.
+constexpr std::array<Real, 6> lightnesses = {0.40, 0.67, 0.30, 0.57, 0.36, 0.75};
+
+Color from_hsl(Real hue, Real saturation, Real lightness) {
+  const Real a = saturation * std::min(lightness, 1 - lightness);
+  const auto channel = [&](Real n) {
+    const Real k = std::fmod(n + hue / 30, 12);
+    return lightness - a * std::max(Real(-1), std::min({k - 3, 9 - k, Real(1)}));
+  };
+  return {channel(0), channel(8), channel(4)};
+}
+
+/// FNV-1a: the same on every machine, unlike std::hash.
+std::uint32_t hash_of_name(std::string_view text) {
+  std::uint32_t hash = 2166136261u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return hash;
+}
+
+/// In lower case, words joined by '_', without the side: a muscle has one color on both.
+std::string plain_name(std::string_view name) {
+  std::string plain;
+  for (const char c : name)
+    plain += c == ' ' || c == '-' || c == '.' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const std::string_view side : {"_right", "_left", "_r", "_l"})
+    if (plain.size() > side.size() && plain.ends_with(side)) return plain.substr(0, plain.size() - side.size());
+  return plain;
+}
+
+/// Whether the name is this muscle's or a part's of it, as glut_max1 or triceps_long_proximal.
+bool begins_with_words(std::string_view name, std::string_view muscle) {
+  if (!name.starts_with(muscle)) return false;
+  return name.size() == muscle.size() || std::isalpha(static_cast<unsigned char>(name[muscle.size()])) == 0;
+}
+
+struct FoundMuscleColor {
+  const MuscleGroup* group = nullptr;
+  std::size_t place = 0, length = 0;
+};
+
+FoundMuscleColor find(std::string_view name) {
+  FoundMuscleColor found;
+  for (const MuscleGroup& group : muscle_groups())
+    for (std::size_t i = 0; i < group.muscles.size(); ++i)
+      if (group.muscles[i].size() > found.length && begins_with_words(name, group.muscles[i]))
+        found = {&group, i, group.muscles[i].size()};
+  return found;
+}
+
+}  // namespace
+
+Color muscle_color(std::string_view name) {
+  const std::string plain = plain_name(name);
+  const FoundMuscleColor found = find(plain);
+  const std::uint32_t rest = hash_of_name(std::string_view(plain).substr(found.length));
+  if (!found.group) return from_hsl(Real(rest % 12) * 30, 0.45, lightnesses[rest / 12 % lightnesses.size()]);
+  const std::string_view part = std::string_view(plain).substr(found.length);
+  const std::size_t shift = part.empty() ? 0
+                            : std::isdigit(static_cast<unsigned char>(part.back())) != 0
+                                ? static_cast<std::size_t>(part.back() - '0')
+                                : rest % lightnesses.size();
+  const std::size_t shade = (found.place + shift) % lightnesses.size();
+  // Every third leans to the side in hue, and so do those of a large group for which lightnesses begin again.
+  const std::size_t turns = (found.place + shift) % 3 + 2 * ((found.place + shift) / lightnesses.size() % 3);
+  const Real turn = 9 * static_cast<Real>(turns);
+  return from_hsl(std::fmod(found.group->hue + turn, 360), found.group->saturation, lightnesses[shade]);
+}
+
+}  // namespace gracilis

@@ -1,0 +1,183 @@
+#include <gracilis/core/errors.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_reader_vtp.hpp>
+#include <gracilis/io/mesh/vtp_pieces.hpp>
+#include <gracilis/io/run/recorded_run.hpp>
+#include <gracilis/io/run/run_folder.hpp>
+#include <gracilis/io/run/run_size.hpp>
+#include <gracilis/io/run/verify_run.hpp>
+#include <gracilis/simulate/fiber_tracker.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <io/test_files.hpp>
+#include <io/tiny_run.hpp>
+#include <scenes_for_tests.hpp>
+
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
+
+using namespace gracilis;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Writes the same frames in both layouts and opens them.
+struct BothLayouts {
+  TestFolder folder;
+  RecordedRun surfaces, compact;
+
+  template <class Run>
+  explicit BothLayouts(const Run& run) {
+    surfaces = written(run, "surfaces", RunLayout::surfaces);
+    compact = written(run, "compact", RunLayout::compact);
+  }
+  template <class Run>
+  RecordedRun written(const Run& run, const std::string& name, RunLayout layout) const {
+    RunFolder out(folder.path() / name, run.scene, run.poses, ExistingRun::refuse, layout);
+    for (std::size_t i = 0; i < run.poses.size(); ++i) out.write_frame(run.record(static_cast<int>(i)));
+    out.finish();
+    RunManifest manifest;
+    manifest.status = "complete";
+    out.write_manifest(manifest);
+    return open_recorded_run(folder.path() / name);
+  }
+};
+
+/// A tube around a hinge, with fibers that follow it.
+struct TubeRun {
+  Scene scene = tube_scene();
+  std::vector<Pose> poses;
+  FiberTracker tracker;
+  bool knows_fibers = false;
+
+  TubeRun() : tracker(scene) {
+    for (int i = 0; i < 4; ++i) {
+      poses.push_back(flexed(scene, radians(10 * i)));
+      poses.back().time = 0.1 * i;
+    }
+  }
+  FrameRecord record(int number) const {
+    FrameRecord result;
+    result.frame = capture_frame(scene, poses[static_cast<std::size_t>(number)]);
+    result.frame.number = number;
+    Points& points = result.frame.muscles[0].points;
+    points.row(0).array() += 0.01 * number * (20 * points.row(2).array()).sin();
+    result.fibers = tracker.follow(result.frame);
+    if (knows_fibers) {
+      result.fibers[0].lines.points.array() += 0.001 * number;
+      result.frame.muscles[0].fibers = result.fibers[0].lines;
+    }
+    result.measures.resize(1);
+    return result;
+  }
+};
+
+std::uintmax_t bytes_in(const fs::path& folder) {
+  std::uintmax_t sum = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) sum += entry.file_size();
+  return sum;
+}
+
+}  // namespace
+
+TEST(CompactFrames, hold_the_same_bits) {
+  const BothLayouts runs{TubeRun()};
+  ASSERT_EQ(runs.compact.frame_count, 4);
+  EXPECT_EQ(runs.compact.bones, runs.surfaces.bones);
+  for (int frame = 0; frame < 4; ++frame) {
+    for (const std::string& name : {runs.surfaces.muscles[0], runs.surfaces.bones[0], runs.surfaces.bones[1]}) {
+      const TriangleMesh a = recorded_surface(runs.surfaces, name, frame),
+                         b = recorded_surface(runs.compact, name, frame);
+      EXPECT_EQ(a.vertices, b.vertices) << name << " " << frame;
+      EXPECT_EQ(a.faces, b.faces);
+    }
+    const Polylines a = recorded_fibers(runs.surfaces, "tube", frame), b = recorded_fibers(runs.compact, "tube", frame);
+    ASSERT_GT(a.count(), 0);
+    EXPECT_EQ(a.points, b.points) << frame;
+    EXPECT_EQ(a.offsets, b.offsets);
+  }
+  EXPECT_EQ(recorded_tissue(runs.compact, "tube"), recorded_tissue(runs.surfaces, "tube"));
+  EXPECT_FALSE(fs::exists(runs.compact.folder / "fibers/0001.vtp")) << "they follow the surface";
+}
+
+TEST(CompactFrames, keep_fibers_that_the_method_knows) {
+  TubeRun tube;
+  tube.knows_fibers = true;
+  const BothLayouts runs{tube};
+  EXPECT_EQ(recorded_fibers(runs.compact, "tube", 3).points, recorded_fibers(runs.surfaces, "tube", 3).points);
+  EXPECT_EQ(recorded_fibers(runs.compact, "femur", 3).count(), 0);
+}
+
+TEST(CompactFrames, are_few_and_small_and_VTK_reads_them) {
+  const BothLayouts runs{TubeRun()};
+  EXPECT_LT(2 * bytes_in(runs.compact.folder / "shapes"),
+            bytes_in(runs.surfaces.folder / "frames") + bytes_in(runs.surfaces.folder / "fibers"));
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(shapes_file(runs.compact.folder, 2).c_str());
+  reader->Update();
+  const TriangleMesh tube = recorded_surface(runs.compact, "tube", 2);
+  ASSERT_EQ(reader->GetOutput()->GetNumberOfPoints(), tube.vertex_count());
+  EXPECT_EQ(reader->GetOutput()->GetNumberOfPolys(), tube.face_count());
+  double point[3];
+  reader->GetOutput()->GetPoint(3, point);
+  EXPECT_EQ(point[0], tube.vertices(0, 3));
+}
+
+TEST(CompactFrames, of_several_muscles_are_one_data_set_with_a_number_per_muscle) {
+  const TestFolder folder;
+  const fs::path path = folder.path() / "a.vtp";
+  const TriangleMesh one = tetrahedron(Vec3::Zero()), other = tetrahedron(Vec3(1, 2, 3));
+  write_vtp_pieces(path, {{"one", one.vertices, one.faces}, {"other", other.vertices, other.faces}},
+                   {{"numbers", Eigen::VectorXd(Eigen::Vector3d(1, 2, 3))}});
+  EXPECT_EQ(read_vtp_piece(path, "other").vertices, other.vertices);
+  EXPECT_EQ(read_vtp_field(path, "numbers"), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(read_mesh(path, 1).vertex_count(), 8);
+  EXPECT_FALSE(has_vtp_piece(path, "third"));
+  EXPECT_THROW(read_vtp_piece(path, "third"), InputError);
+}
+
+TEST(CompactFrames, a_run_of_them_is_found_unchanged_and_every_change_is_found) {
+  const BothLayouts runs{TubeRun()};
+  EXPECT_THAT(verify_run(runs.compact.folder).findings, testing::IsEmpty());
+  write_surface(bone_file(runs.compact.folder, runs.compact.bones[0]), Points::Zero(3, 3),
+                Eigen::Matrix3Xi::Zero(3, 1));
+  EXPECT_THAT(verify_run(runs.compact.folder).findings, testing::Contains(testing::HasSubstr("has changed")));
+}
+
+TEST(CompactFrames, a_run_goes_on_in_its_layout_and_one_of_the_other_replaces_it) {
+  const TestFolder folder;
+  TinyRun run;
+  run.scene.method.contact["muscle"] = "none";  // any frame can be resumed
+  {
+    RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse, RunLayout::compact);
+    for (int i = 0; i < 4; ++i) out.write_frame(run.record(i));
+  }
+  fs::remove(shapes_file(folder.path(), 3));
+  {
+    const RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::resume);
+    EXPECT_EQ(out.frame_count(), 3);
+    EXPECT_EQ(layout_of(folder.path()), RunLayout::compact);
+  }
+  RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::replace);
+  out.write_frame(run.record(0));
+  EXPECT_EQ(layout_of(folder.path()), RunLayout::surfaces);
+  EXPECT_FALSE(fs::exists(folder.path() / "shapes"));
+  EXPECT_FALSE(fs::exists(folder.path() / "bones"));
+  EXPECT_EQ(count_frames(folder.path(), run.scene), 1);
+}
+
+TEST(RunSize, is_about_what_frames_take) {
+  const TubeRun tube;
+  const BothLayouts runs{tube};
+  const double surfaces =
+      static_cast<double>(bytes_in(runs.surfaces.folder / "frames") + bytes_in(runs.surfaces.folder / "fibers"));
+  EXPECT_NEAR(estimated_size(tube.scene, 4, true).bytes / surfaces, 1, 0.3);
+  EXPECT_EQ(estimated_size(tube.scene, 4, true).files, 4 * 4);
+  EXPECT_GE(estimated_size(tube.scene, 4, true, RunLayout::compact).bytes,
+            static_cast<double>(bytes_in(runs.compact.folder / "shapes")));
+  EXPECT_EQ(size_text(8.13e9), "8.1 GB");
+  EXPECT_EQ(duration_text(540), "9 min");
+}
