@@ -7,6 +7,7 @@
 #include <gracilis/methods/tissue/forces.hpp>
 #include <gracilis/methods/tissue/minimize.hpp>
 #include <gracilis/methods/tissue/neighbors.hpp>
+#include <gracilis/methods/tissue/seen_surface.hpp>
 #include <gracilis/methods/tissue/total_energy.hpp>
 #include <gracilis/scene/setting_values.hpp>
 
@@ -72,7 +73,11 @@ class TissueMethod final : public DeformationMethod {
     for (const PreparedTissue& muscle : muscles_) nodes_.push_back(muscle.lattice.nodes);
     bodies_.assign(body_count_, RigidTransform::Identity());
     equilibria_.clear();
-    for (std::size_t m = 0; m < muscles_.size(); ++m) equilibria_.push_back(at_rest(m));
+    seen_.clear();
+    for (std::size_t m = 0; m < muscles_.size(); ++m) {
+      equilibria_.push_back(at_rest(m));
+      seen_.push_back(surface_at(muscles_[m], nodes_[m]));
+    }
     frame_ = 0;
   }
 
@@ -88,10 +93,15 @@ class TissueMethod final : public DeformationMethod {
         for_each_timed(moving, [&](std::size_t m) { settle_once(m, moving[m]); });
       }
     }
+    for_each_timed(moving, [&](std::size_t m) {
+      moving[m].seen = seen_surface(muscles_[m], moving[m].equilibrium.around, moving[m].nodes);
+      check(m, moving[m].seen.allFinite());
+    });
     StepReport report;
     for (std::size_t m = 0; m < muscles_.size(); ++m) report.muscles.push_back(reported(m, moving[m]));
     for (std::size_t m = 0; m < muscles_.size(); ++m) {
       nodes_[m] = std::move(moving[m].nodes);
+      seen_[m] = std::move(moving[m].seen);
       equilibria_[m] = std::move(moving[m].equilibrium);
     }
     bodies_ = pose.bodies;
@@ -101,7 +111,7 @@ class TissueMethod final : public DeformationMethod {
 
   void write(Frame& frame) const override {
     frame.muscles.clear();
-    for (std::size_t m = 0; m < muscles_.size(); ++m) frame.muscles.push_back({surface_at(muscles_[m], nodes_[m])});
+    for (std::size_t m = 0; m < muscles_.size(); ++m) frame.muscles.push_back({seen_[m]});
   }
 
   std::vector<MuscleForces> muscle_forces(const std::vector<std::vector<Twist>>& coordinates) const override {
@@ -145,6 +155,7 @@ class TissueMethod final : public DeformationMethod {
   /// A muscle on its way to a pose.
   struct MovingMuscle {
     Points nodes;
+    Points seen;  ///< its surface in the end
     Equilibrium equilibrium;
     std::vector<RigidTransform> bodies;  ///< where they were in the last step
     const FactoredMatrix* metric = nullptr;
@@ -236,6 +247,7 @@ class TissueMethod final : public DeformationMethod {
   int rounds_ = 0;                                      ///< of looking at neighbors, in each step
   std::vector<std::map<int, FactoredMatrix>> metrics_;  ///< by muscle and activation, made when first asked for
   std::vector<Points> nodes_;
+  std::vector<Points> seen_;  ///< surfaces, 3 × vertices
   std::vector<Equilibrium> equilibria_;
   std::vector<RigidTransform> bodies_;
   int frame_ = 0;

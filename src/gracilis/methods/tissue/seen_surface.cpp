@@ -1,0 +1,146 @@
+#include <gracilis/methods/tissue/seen_surface.hpp>
+
+#include <gracilis/geometry/measures.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis::tissue {
+
+namespace {
+
+/// Of volume, then out of bones; each disturbs the other a little.
+constexpr int rounds = 3, volume_rounds = 2, bone_rounds = 4;
+/// A vertex whose triangles face different ways moves as if they had this share of their area.
+constexpr Real least_facing = 0.3;
+
+Real distance_in(const BoneGap& bone, const RigidTransform& inverse, const Vec3& p) {
+  return static_cast<Real>(sample_bounded(bone.field, (inverse * p).cast<float>()).distance);
+}
+
+/// How the enclosed volume grows with each vertex, m²; and how far a vertex is moved for a volume, 1/m².
+struct VolumeSlopes {
+  Points slopes, moves;
+};
+
+VolumeSlopes volume_slopes(const PreparedTissue& muscle, const Points& x) {
+  const Eigen::Matrix3Xi& faces = muscle.faces;
+  VolumeSlopes found{Points::Zero(3, x.cols()), Points::Zero(3, x.cols())};
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(x.cols());
+  for (Index f = 0; f < static_cast<Index>(faces.cols()); ++f) {
+    const Vec3 part = area_vector(x, faces.col(f)) / 6;
+    const Real area = part.norm();
+    for (Index k = 0; k < 3; ++k) {
+      found.slopes.col(faces(k, f)) += part;
+      areas[faces(k, f)] += area;
+    }
+  }
+  for (Index v = 0; v < static_cast<Index>(x.cols()); ++v) {
+    const Real least = least_facing * areas[v];
+    const Real squared = std::max(found.slopes.col(v).squaredNorm(), least * least);
+    if (squared > 0) found.moves.col(v) = found.slopes.col(v) / squared;
+  }
+  return found;
+}
+
+/// What each free vertex is asked to bring in, m³: the triangles' parts shared among their free corners.
+Eigen::VectorXd shared_among_corners(const PreparedTissue& muscle, const std::vector<Real>& of_faces) {
+  Eigen::VectorXd shared = Eigen::VectorXd::Zero(muscle.vertex_count);
+  for (std::size_t i = 0; i < of_faces.size(); ++i) {
+    const Eigen::Vector3i corners = muscle.faces.col(muscle.large_faces.faces[i].face);
+    int free = 0;
+    for (const Index v : corners) free += muscle.points[static_cast<std::size_t>(v)].held_by < 0;
+    for (const Index v : corners)
+      if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) shared[v] += of_faces[i] / free;
+  }
+  return shared;
+}
+
+/// Moves vertices so that the volume comes to what is asked for, each by its weight.
+void meet_volume(const PreparedTissue& muscle, Real asked, const Eigen::VectorXd& weights, Points& x) {
+  for (int i = 0; i < volume_rounds; ++i) {
+    const VolumeSlopes volume = volume_slopes(muscle, x);
+    const Real gain = (volume.slopes.cwiseProduct(volume.moves).colwise().sum() * weights).value();
+    if (!(gain > 0)) return;
+    const Real share = (asked - enclosed_volume(x, muscle.faces)) / gain;
+    x += share * (volume.moves * weights.asDiagonal());
+  }
+}
+
+/// Pushes places on large triangles out of the bone, one after the other, so that none of it jumps.
+void push_out(const PreparedTissue& muscle, const Surroundings& around, std::size_t b, Points& x) {
+  const BoneGap& bone = muscle.bones[b];
+  const auto body = static_cast<std::size_t>(bone.body);
+  const std::vector<Real>& least = muscle.large_faces.least[b];
+  for (std::size_t i = 0; i < least.size(); ++i) {
+    const FacePlace& kept = muscle.large_faces.kept[i];
+    Vec3 p = Vec3::Zero();
+    for (Index k = 0; k < 3; ++k) p += kept.shares[k] * x.col(kept.corners[static_cast<std::size_t>(k)]);
+    if (distance_in(bone, around.inverses[body], p) > least[i] + near_bones) continue;
+    const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * p);
+    if (!(found.distance < least[i])) continue;
+    const Vec3 push = (least[i] - found.distance) / kept.shares.squaredNorm() *
+                      (around.bodies[body].linear() * found.gradient);
+    for (Index k = 0; k < 3; ++k) {
+      const Index v = kept.corners[static_cast<std::size_t>(k)];
+      if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) x.col(v) += kept.shares[k] * push;
+    }
+  }
+}
+
+/// Vertices that contact, which is soft, lets come too near.
+void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around, Points& x) {
+  for (Index v = 0; v < muscle.vertex_count; ++v) {
+    const auto p = static_cast<std::size_t>(v);
+    for (Index i = around.near_begin[p]; i < around.near_begin[p + 1]; ++i) {
+      const BoneGap& bone = muscle.bones[static_cast<std::size_t>(around.near[static_cast<std::size_t>(i)].bone)];
+      const auto body = static_cast<std::size_t>(bone.body);
+      const Real least = std::min(bone.gaps[p], 0.0);
+      if (distance_in(bone, around.inverses[body], x.col(v)) > least + near_bones) continue;
+      const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * x.col(v));
+      if (found.distance < least)
+        x.col(v) += (least - found.distance) * (around.bodies[body].linear() * found.gradient);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& nodes, const Points& corners) {
+  const Points moved = nodes - muscle.lattice.nodes;
+  std::vector<Real> lacking;
+  for (const LargeFace& large : muscle.large_faces.faces) {
+    const Eigen::Vector3i vertices = muscle.faces.col(large.face);
+    Eigen::Matrix3d corners_moved;
+    for (Index k = 0; k < 3; ++k)
+      corners_moved.col(k) = corners.col(vertices[k]) - muscle.points[static_cast<std::size_t>(vertices[k])].rest;
+    Vec3 mean = Vec3::Zero();
+    for (Index i = large.places_begin; i < large.places_end; ++i) {
+      const LargeFacePlace& place = muscle.large_faces.places[static_cast<std::size_t>(i)];
+      mean += place.share * (mean_at(place.at, moved) - corners_moved * place.shares);
+    }
+    lacking.push_back(mean.dot(area_vector(corners, vertices)) / 2);
+  }
+  return lacking;
+}
+
+Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes) {
+  Points x = surface_at(muscle, nodes);
+  if (!muscle.large_faces.faces.empty()) {
+    const std::vector<Real> lacking = lacking_volumes(muscle, nodes, x);
+    Real asked = enclosed_volume(x, muscle.faces);
+    std::vector<Real> sizes;
+    for (const Real each : lacking) asked += each, sizes.push_back(std::abs(each));
+    const Eigen::VectorXd weights = shared_among_corners(muscle, sizes);
+    x += volume_slopes(muscle, x).moves * shared_among_corners(muscle, lacking).asDiagonal();
+    for (int round = 0; round < rounds; ++round) {
+      meet_volume(muscle, asked, weights, x);
+      for (int i = 0; i < bone_rounds; ++i)
+        for (std::size_t b = 0; b < muscle.bones.size(); ++b) push_out(muscle, around, b, x);
+    }
+  }
+  push_vertices_out(muscle, around, x);
+  return x;
+}
+
+}  // namespace gracilis::tissue
