@@ -44,8 +44,7 @@ TEST(TissueSeenSurface, a_coarse_sheet_that_is_twisted_encloses_what_the_tissue_
   const auto method = make_tissue_method(scene, {});
   for (int frame = 1; frame <= 12; ++frame) {
     Pose pose;
-    pose.bodies = {RigidTransform::Identity(),
-                   RigidTransform(Eigen::AngleAxisd(radians(10 * frame), Vec3::UnitZ()))};
+    pose.bodies = {RigidTransform::Identity(), RigidTransform(Eigen::AngleAxisd(radians(10 * frame), Vec3::UnitZ()))};
     method->advance(pose, usual_time_step);
     EXPECT_NEAR(volume_ratio(scene, frame_of(*method, pose, frame)), 1, 0.005) << frame;
   }

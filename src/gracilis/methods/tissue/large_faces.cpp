@@ -7,6 +7,9 @@ namespace gracilis::tissue {
 
 namespace {
 
+/// Triangles whose longest edge is longer than this are large.
+constexpr Real large_in_cells = 0.5;
+
 Vec3 place_of(const TriangleMesh& surface, Index face, const Vec3& shares) {
   Vec3 sum = Vec3::Zero();
   for (Index k = 0; k < 3; ++k) sum += shares[k] * surface.vertices.col(surface.faces(k, face));
@@ -33,7 +36,7 @@ void add_places(const TriangleMesh& surface, const Lattice& lattice, Index face,
   found.faces.push_back({face, begin, static_cast<Index>(found.places.size())});
 }
 
-/// Half as far apart as the places that are measured, the middles of edges among them.
+/// The middles of edges among them.
 void keep_places(const TriangleMesh& surface, Index face, int pieces, LargeFaces& found) {
   const Eigen::Vector3i corners = surface.faces.col(face);
   const int parts = 2 * ((pieces + 1) / 2);
@@ -53,10 +56,10 @@ LargeFaces find_large_faces(const TriangleMesh& surface, const std::vector<char>
     bool has_free = false;
     for (Index k = 0; k < 3; ++k) {
       has_free = has_free || is_free[static_cast<std::size_t>(corners[k])];
-      longest = std::max(longest,
-                         (surface.vertices.col(corners[k]) - surface.vertices.col(corners[(k + 1) % 3])).norm());
+      longest =
+          std::max(longest, (surface.vertices.col(corners[k]) - surface.vertices.col(corners[(k + 1) % 3])).norm());
     }
-    const int pieces = static_cast<int>(std::ceil(longest / lattice.cell_size));
+    const int pieces = static_cast<int>(std::ceil(longest / (large_in_cells * lattice.cell_size)));
     if (!has_free || pieces < 2) continue;
     add_places(surface, lattice, f, pieces, found);
     keep_places(surface, f, pieces, found);

@@ -187,6 +187,7 @@ void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, Pre
 
 void see_large_faces(const TriangleMesh& surface, PreparedTissue& prepared) {
   prepared.faces = surface.faces;
+  prepared.volume = enclosed_volume(surface.vertices, surface.faces);
   std::vector<char> is_free;
   for (Index v = 0; v < prepared.vertex_count; ++v)
     is_free.push_back(prepared.points[static_cast<std::size_t>(v)].held_by < 0);
@@ -197,7 +198,7 @@ void see_large_faces(const TriangleMesh& surface, PreparedTissue& prepared) {
       Vec3 p = Vec3::Zero();
       for (Index k = 0; k < 3; ++k)
         p += kept.shares[k] * surface.vertices.col(kept.corners[static_cast<std::size_t>(k)]);
-      least.push_back(std::min(0.0, sample_spline_precise(bone.field.grid, p).distance));
+      least.push_back(std::min(seen_clearance, sample_spline_precise(bone.field.grid, p).distance));
     }
   }
 }

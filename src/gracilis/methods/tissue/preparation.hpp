@@ -51,6 +51,7 @@ struct PreparedTissue {
   Index vertex_count = 0;
   Eigen::Matrix3Xi faces;  ///< of the surface
   LargeFaces large_faces;
+  Real volume = 0;        ///< m³, that the surface encloses at rest
   std::vector<Tie> ties;  ///< of points, one after the other
   std::vector<BoneGap> bones;
   GroupedByKey points_of_nodes;    ///< point * 4 + corner, by their nodes

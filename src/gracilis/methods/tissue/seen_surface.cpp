@@ -56,14 +56,19 @@ Eigen::VectorXd shared_among_corners(const PreparedTissue& muscle, const std::ve
   return shared;
 }
 
-/// Moves vertices so that the volume comes to what is asked for, each by its weight.
-void meet_volume(const PreparedTissue& muscle, Real asked, const Eigen::VectorXd& weights, Points& x) {
+/// Moves the free part of the surface out evenly, so that the volume comes to what is asked for.
+void meet_volume(const PreparedTissue& muscle, Real asked, Points& x) {
+  Eigen::VectorXd areas(muscle.vertex_count);
+  for (Index v = 0; v < muscle.vertex_count; ++v) {
+    const SurfacePoint& point = muscle.points[static_cast<std::size_t>(v)];
+    areas[v] = point.held_by < 0 ? point.vertex_area : 0;
+  }
   for (int i = 0; i < volume_rounds; ++i) {
     const VolumeSlopes volume = volume_slopes(muscle, x);
-    const Real gain = (volume.slopes.cwiseProduct(volume.moves).colwise().sum() * weights).value();
+    const Real gain = (volume.slopes.cwiseProduct(volume.moves).colwise().sum() * areas).value();
     if (!(gain > 0)) return;
     const Real share = (asked - enclosed_volume(x, muscle.faces)) / gain;
-    x += share * (volume.moves * weights.asDiagonal());
+    x += share * (volume.moves * areas.asDiagonal());
   }
 }
 
@@ -79,8 +84,8 @@ void push_out(const PreparedTissue& muscle, const Surroundings& around, std::siz
     if (distance_in(bone, around.inverses[body], p) > least[i] + near_bones) continue;
     const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * p);
     if (!(found.distance < least[i])) continue;
-    const Vec3 push = (least[i] - found.distance) / kept.shares.squaredNorm() *
-                      (around.bodies[body].linear() * found.gradient);
+    const Vec3 push =
+        (least[i] - found.distance) / kept.shares.squaredNorm() * (around.bodies[body].linear() * found.gradient);
     for (Index k = 0; k < 3; ++k) {
       const Index v = kept.corners[static_cast<std::size_t>(k)];
       if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) x.col(v) += kept.shares[k] * push;
@@ -95,7 +100,7 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
     for (Index i = around.near_begin[p]; i < around.near_begin[p + 1]; ++i) {
       const BoneGap& bone = muscle.bones[static_cast<std::size_t>(around.near[static_cast<std::size_t>(i)].bone)];
       const auto body = static_cast<std::size_t>(bone.body);
-      const Real least = std::min(bone.gaps[p], 0.0);
+      const Real least = std::min(bone.gaps[p], seen_clearance);
       if (distance_in(bone, around.inverses[body], x.col(v)) > least + near_bones) continue;
       const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * x.col(v));
       if (found.distance < least)
@@ -127,14 +132,11 @@ std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& no
 Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes) {
   Points x = surface_at(muscle, nodes);
   if (!muscle.large_faces.faces.empty()) {
-    const std::vector<Real> lacking = lacking_volumes(muscle, nodes, x);
-    Real asked = enclosed_volume(x, muscle.faces);
-    std::vector<Real> sizes;
-    for (const Real each : lacking) asked += each, sizes.push_back(std::abs(each));
-    const Eigen::VectorXd weights = shared_among_corners(muscle, sizes);
-    x += volume_slopes(muscle, x).moves * shared_among_corners(muscle, lacking).asDiagonal();
+    const Eigen::VectorXd lacking = shared_among_corners(muscle, lacking_volumes(muscle, nodes, x));
+    const Real asked = muscle.volume * filled_volume_ratio(muscle.lattice, nodes);
+    x += volume_slopes(muscle, x).moves * lacking.asDiagonal();
     for (int round = 0; round < rounds; ++round) {
-      meet_volume(muscle, asked, weights, x);
+      meet_volume(muscle, asked, x);
       for (int i = 0; i < bone_rounds; ++i)
         for (std::size_t b = 0; b < muscle.bones.size(); ++b) push_out(muscle, around, b, x);
     }
