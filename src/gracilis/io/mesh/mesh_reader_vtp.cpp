@@ -32,14 +32,18 @@ class VtpReader {
     return std::move(mesh_);
   }
 
-  Points read_vectors(const std::string& name) {
+  /// Empty when there is no such array.
+  std::vector<double> read_point_data(const std::string& name) {
     parse();
     const pugi::xml_node array = root_.child("PolyData")
                                      .child("Piece")
                                      .child("PointData")
                                      .find_child_by_attribute("DataArray", "Name", name.c_str());
-    if (!array) return Points(3, 0);
-    const std::vector<double> values = numbers(array, name);
+    return array ? numbers(array, name) : std::vector<double>();
+  }
+
+  Points read_vectors(const std::string& name) {
+    const std::vector<double> values = read_point_data(name);
     if (values.size() % 3 != 0) fail("does not hold three numbers for each point", "array " + name);
     return Eigen::Map<const Points>(values.data(), 3, static_cast<Index>(values.size() / 3));
   }
@@ -185,6 +189,11 @@ PolygonMesh read_vtp(const std::filesystem::path& path) { return VtpReader(path)
 
 Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name) {
   return VtpReader(path).read_vectors(name);
+}
+
+Eigen::VectorXd read_vtp_scalars(const std::filesystem::path& path, const std::string& name) {
+  const std::vector<double> values = VtpReader(path).read_point_data(name);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
 }
 
 }  // namespace gracilis

@@ -12,4 +12,7 @@ PolygonMesh read_vtp(const std::filesystem::path& path);
 /// above and when the numbers are not threes.
 Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name);
 
+/// The same of one number for each point; none when the file has no such array.
+Eigen::VectorXd read_vtp_scalars(const std::filesystem::path& path, const std::string& name);
+
 }  // namespace gracilis

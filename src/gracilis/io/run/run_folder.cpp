@@ -165,6 +165,7 @@ void RunFolder::write_surfaces(const Frame& frame) const {
         const Muscle& muscle = scene_.muscles[static_cast<std::size_t>(i)];
         const MuscleShape& shape = frame.muscles[static_cast<std::size_t>(i)];
         std::vector<VertexArray> arrays = velocity_array(shape);
+        if (shape.fiber_stresses.size() > 0) arrays.push_back({fiber_stress_name, shape.fiber_stresses});
         if (frame.number == 0) arrays.push_back(tissue_array(muscle, tendon_length_of(scene_, muscle)));
         write_surface(frame_file(folder_, muscle.name, frame.number), shape.points, muscle.surface.faces, arrays);
       } else {

@@ -11,6 +11,7 @@ namespace {
 
 /// Of volume, then out of bones; each disturbs the other a little.
 constexpr int rounds = 3, volume_rounds = 2, bone_rounds = 4;
+constexpr Real volume_tolerance = 1e-6;
 /// A vertex whose triangles face different ways moves as if they had this share of their area.
 constexpr Real least_facing = 0.3;
 
@@ -64,11 +65,12 @@ void meet_volume(const PreparedTissue& muscle, Real asked, Points& x) {
     areas[v] = point.held_by < 0 ? point.vertex_area : 0;
   }
   for (int i = 0; i < volume_rounds; ++i) {
+    const Real missing = asked - enclosed_volume(x, muscle.faces);
+    if (std::abs(missing) < volume_tolerance * asked) return;
     const VolumeSlopes volume = volume_slopes(muscle, x);
     const Real gain = (volume.slopes.cwiseProduct(volume.moves).colwise().sum() * areas).value();
     if (!(gain > 0)) return;
-    const Real share = (asked - enclosed_volume(x, muscle.faces)) / gain;
-    x += share * (volume.moves * areas.asDiagonal());
+    x += missing / gain * (volume.moves * areas.asDiagonal());
   }
 }
 
