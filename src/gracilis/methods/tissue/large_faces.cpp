@@ -9,6 +9,8 @@ namespace {
 
 /// Triangles whose longest edge is longer than this are large.
 constexpr Real large_in_cells = 0.5;
+/// Along an edge: more tell no more of a mean.
+constexpr int most_pieces = 8;
 
 Vec3 place_of(const TriangleMesh& surface, Index face, const Vec3& shares) {
   Vec3 sum = Vec3::Zero();
@@ -33,17 +35,20 @@ void add_places(const TriangleMesh& surface, const Lattice& lattice, Index face,
       add_triangle(i, j, 1);
       if (i + j + 1 < pieces) add_triangle(i + 1, j + 1, -1);
     }
-  found.faces.push_back({face, begin, static_cast<Index>(found.places.size())});
+  found.faces.back().places_begin = begin;
+  found.faces.back().places_end = static_cast<Index>(found.places.size());
 }
 
 /// The middles of edges among them.
 void keep_places(const TriangleMesh& surface, Index face, int pieces, LargeFaces& found) {
   const Eigen::Vector3i corners = surface.faces.col(face);
   const int parts = 2 * ((pieces + 1) / 2);
+  found.faces.back().kept_begin = static_cast<Index>(found.kept.size());
   for (int i = 0; i <= parts; ++i)
     for (int j = 0; i + j <= parts; ++j)
       if (std::max({i, j, parts - i - j}) < parts)
         found.kept.push_back({{corners[0], corners[1], corners[2]}, Vec3(parts - i - j, i, j) / parts});
+  found.faces.back().kept_end = static_cast<Index>(found.kept.size());
 }
 
 }  // namespace
@@ -53,14 +58,16 @@ LargeFaces find_large_faces(const TriangleMesh& surface, const std::vector<char>
   for (Index f = 0; f < surface.face_count(); ++f) {
     const Eigen::Vector3i corners = surface.faces.col(f);
     Real longest = 0;
-    bool has_free = false;
+    Index free_corner = -1;
     for (Index k = 0; k < 3; ++k) {
-      has_free = has_free || is_free[static_cast<std::size_t>(corners[k])];
+      if (is_free[static_cast<std::size_t>(corners[k])]) free_corner = corners[k];
       longest =
           std::max(longest, (surface.vertices.col(corners[k]) - surface.vertices.col(corners[(k + 1) % 3])).norm());
     }
-    const int pieces = static_cast<int>(std::ceil(longest / (large_in_cells * lattice.cell_size)));
-    if (!has_free || pieces < 2) continue;
+    const int pieces =
+        std::min(most_pieces, static_cast<int>(std::ceil(longest / (large_in_cells * lattice.cell_size))));
+    if (free_corner < 0 || pieces < 2) continue;
+    found.faces.push_back({.face = f, .free_corner = free_corner});
     add_places(surface, lattice, f, pieces, found);
     keep_places(surface, f, pieces, found);
   }

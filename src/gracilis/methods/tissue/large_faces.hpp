@@ -22,7 +22,9 @@ struct FacePlace {
 /// A triangle that is larger than half a cell and has a free corner.
 struct LargeFace {
   Index face = -1;
+  Index free_corner = -1;                  ///< a vertex
   Index places_begin = 0, places_end = 0;  ///< of `LargeFaces::places`
+  Index kept_begin = 0, kept_end = 0;      ///< of `LargeFaces::kept`
 };
 
 /// A place on a large triangle and the tissue that lies there at rest.

@@ -19,6 +19,22 @@ Real distance_in(const BoneGap& bone, const RigidTransform& inverse, const Vec3&
   return static_cast<Real>(sample_bounded(bone.field, (inverse * p).cast<float>()).distance);
 }
 
+Vec3 spot_on(const FacePlace& place, const Points& x) {
+  Vec3 sum = Vec3::Zero();
+  for (Index k = 0; k < 3; ++k) sum += place.shares[k] * x.col(place.corners[static_cast<std::size_t>(k)]);
+  return sum;
+}
+
+Real longest_edge(const Points& x, const Eigen::Vector3i& corners) {
+  Real longest = 0;
+  for (Index k = 0; k < 3; ++k) longest = std::max(longest, (x.col(corners[k]) - x.col(corners[(k + 1) % 3])).norm());
+  return longest;
+}
+
+Real volume_asked(const PreparedTissue& muscle, const Points& nodes) {
+  return muscle.volume * filled_volume_ratio(muscle.lattice, nodes);
+}
+
 /// How the enclosed volume grows with each vertex, m²; and how far a vertex is moved for a volume, 1/m².
 struct VolumeSlopes {
   Points slopes, moves;
@@ -74,20 +90,43 @@ void meet_volume(const PreparedTissue& muscle, Real asked, Points& x) {
   }
 }
 
-/// Pushes places on large triangles out of the bone, one after the other, so that none of it jumps.
-void push_out(const PreparedTissue& muscle, const Surroundings& around, std::size_t b, Points& x) {
+/// The places on large triangles that a bone may have to push.
+std::vector<std::size_t> places_near(const PreparedTissue& muscle, const Surroundings& around, std::size_t b,
+                                     const Points& x) {
+  const BoneGap& bone = muscle.bones[b];
+  const RigidTransform& inverse = around.inverses[static_cast<std::size_t>(bone.body)];
+  const std::vector<Real>& least = muscle.large_faces.least[b];
+  std::vector<std::size_t> found;
+  for (const LargeFace& large : muscle.large_faces.faces) {
+    // Where the bone was seen from a corner tells of most triangles that they are far.
+    const Index v = large.free_corner;
+    if (b < around.sights.size()) {
+      const BoneSight& sight = around.sights[b];
+      const Real moved = (inverse * x.col(v) - sight.places.col(v)).norm();
+      const Real size = longest_edge(x, muscle.faces.col(large.face));
+      if (sight.distances[v] - largest_slope * (moved + size) > seen_clearance + near_bones) continue;
+    }
+    for (Index i = large.kept_begin; i < large.kept_end; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (distance_in(bone, inverse, spot_on(muscle.large_faces.kept[at], x)) < least[at] + near_bones)
+        found.push_back(at);
+    }
+  }
+  return found;
+}
+
+/// Pushes these places out of the bone, one after the other, so that none of it jumps.
+void push_out(const PreparedTissue& muscle, const Surroundings& around, std::size_t b,
+              const std::vector<std::size_t>& near, Points& x) {
   const BoneGap& bone = muscle.bones[b];
   const auto body = static_cast<std::size_t>(bone.body);
-  const std::vector<Real>& least = muscle.large_faces.least[b];
-  for (std::size_t i = 0; i < least.size(); ++i) {
+  for (const std::size_t i : near) {
     const FacePlace& kept = muscle.large_faces.kept[i];
-    Vec3 p = Vec3::Zero();
-    for (Index k = 0; k < 3; ++k) p += kept.shares[k] * x.col(kept.corners[static_cast<std::size_t>(k)]);
-    if (distance_in(bone, around.inverses[body], p) > least[i] + near_bones) continue;
-    const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * p);
-    if (!(found.distance < least[i])) continue;
+    const Real least = muscle.large_faces.least[b][i];
+    const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * spot_on(kept, x));
+    if (!(found.distance < least)) continue;
     const Vec3 push =
-        (least[i] - found.distance) / kept.shares.squaredNorm() * (around.bodies[body].linear() * found.gradient);
+        (least - found.distance) / kept.shares.squaredNorm() * (around.bodies[body].linear() * found.gradient);
     for (Index k = 0; k < 3; ++k) {
       const Index v = kept.corners[static_cast<std::size_t>(k)];
       if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) x.col(v) += kept.shares[k] * push;
@@ -131,17 +170,27 @@ std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& no
   return lacking;
 }
 
-Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes) {
+Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes) {
   Points x = surface_at(muscle, nodes);
-  if (!muscle.large_faces.faces.empty()) {
-    const Eigen::VectorXd lacking = shared_among_corners(muscle, lacking_volumes(muscle, nodes, x));
-    const Real asked = muscle.volume * filled_volume_ratio(muscle.lattice, nodes);
-    x += volume_slopes(muscle, x).moves * lacking.asDiagonal();
-    for (int round = 0; round < rounds; ++round) {
-      meet_volume(muscle, asked, x);
-      for (int i = 0; i < bone_rounds; ++i)
-        for (std::size_t b = 0; b < muscle.bones.size(); ++b) push_out(muscle, around, b, x);
-    }
+  if (muscle.large_faces.faces.empty()) return x;
+  const Eigen::VectorXd lacking = shared_among_corners(muscle, lacking_volumes(muscle, nodes, x));
+  x += volume_slopes(muscle, x).moves * lacking.asDiagonal();
+  meet_volume(muscle, volume_asked(muscle, nodes), x);
+  return x;
+}
+
+Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes) {
+  Points x = enclosing_surface(muscle, nodes);
+  std::vector<std::vector<std::size_t>> near;
+  bool any = false;
+  for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
+    near.push_back(places_near(muscle, around, b, x));
+    any = any || !near.back().empty();
+  }
+  for (int round = 0; any && round < rounds; ++round) {
+    if (round > 0) meet_volume(muscle, volume_asked(muscle, nodes), x);
+    for (int i = 0; i < bone_rounds; ++i)
+      for (std::size_t b = 0; b < near.size(); ++b) push_out(muscle, around, b, near[b], x);
   }
   push_vertices_out(muscle, around, x);
   return x;

@@ -10,6 +10,9 @@ namespace gracilis::tissue {
 /// forces and lengths inside are those of the tissue. 3 × vertices, m.
 Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes);
 
+/// The same without a look at bones.
+Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes);
+
 /// What the surface lacks of the tissue beneath each large triangle, m³; of `corners`, which are where its vertices
 /// are. Less than zero where it holds more.
 std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& nodes, const Points& corners);
