@@ -81,7 +81,7 @@ for iterations in 8 30 "400 --set minimizer_residual=1e-5"; do
     "$program" bench "${hip[@]}" --only "$four" --frame 45 --repeats 1 --set method=tissue --set contact_rounds=$contact_rounds \
       --set minimizer_iterations=$iterations |
       awk -v i="${iterations%% *}" -v c="$contact_rounds" '$2 == "frame" {
-        printf "| %s | %s | %s | %s | %.1f | `%s` |\n", i, c > 0 ? "yes" : "no", $3, $5, 1000 / $5, $6 }' >>"$work/page"
+        printf "| %s | %s | %s | %s | %.1f | `%s` |\n", i, (c > 0 ? "yes" : "no"), $3, $5, 1000 / $5, $6 }' >>"$work/page"
   done
 done
 
