@@ -37,6 +37,7 @@ short() {
   local method=$1 coordinate=$2 flexion=$3 other=$4
   local folder=$out/sweeps/$method/${coordinate}_at_$flexion
   [[ -f $folder/moment_arms.sto ]] && return
+  mkdir -p "${folder%/*}"
   "$gracilis" rom "$root/scenes/lhdl_hip/hip.toml" --data "$data" --coord "$coordinate=-4:4:2" --coord "hip_flexion_r=$flexion" \
     --coord "$other=0" --set method="$method" --out "$folder" --force >"$folder.txt" 2>&1 ||
     [[ -f $folder/moment_arms.sto ]] || echo "$method, $coordinate at $flexion: failed, see $folder.txt" >&2
@@ -50,6 +51,6 @@ if ((${#thin[@]} == 0)); then
   done
 fi
 # shellcheck disable=SC2086  # a word per method
-python3 "$here/compare.py" "$data/validation" "$out/sweeps" "$out" ${methods//,/ }
+python3 -B "$here/compare.py" "$data/validation" "$out/sweeps" "$out" ${methods//,/ }
 echo "$out/table.csv"
 echo "$out/index.html"
