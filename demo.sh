@@ -12,5 +12,4 @@ echo
 echo "The muscles have moved."
 echo "  A picture:                   $PWD/out/demo/preview.png"
 echo "  All frames, for ParaView:    $PWD/out/demo/run.pvd"
-echo "  With the bones in ParaView:  $PWD/out/demo/paraview.py (File > Load State)"
 echo "  What was measured:           $PWD/out/demo/measures.csv"

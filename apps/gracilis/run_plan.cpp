@@ -21,7 +21,8 @@ std::string with_commas(std::int64_t number) {
 }
 
 std::string taken(const RunPlan& plan) {
-  return fmt::format("{} in {} files", size_text(plan.size.bytes), with_commas(plan.size.files));
+  return fmt::format("{} in {} {}", size_text(plan.size.bytes), with_commas(plan.size.files),
+                     plan.layout == RunLayout::compact ? "compact files" : "files");
 }
 
 }  // namespace
@@ -37,7 +38,12 @@ RunPlan plan_run(const Scene& scene, const SessionOptions& options) {
     plan.first_motion_frame = static_cast<int>(
         std::lower_bound(plan.recorded.begin(), plan.recorded.end(), plan.first_motion_frame) - plan.recorded.begin());
   }
-  plan.size = estimated_size(scene, plan.frames, !options.without_fibers, options.layout);
+  const auto size_as = [&](RunLayout layout) {
+    return estimated_size(scene, plan.frames, !options.without_fibers, layout);
+  };
+  const bool is_large = size_as(RunLayout::surfaces).bytes > asking_bytes;
+  plan.layout = options.layout.value_or(is_large ? RunLayout::compact : RunLayout::surfaces);
+  plan.size = size_as(plan.layout);
   return plan;
 }
 

@@ -15,6 +15,7 @@ struct RunPlan {
   std::vector<int> recorded;   ///< poses of the sequence; empty: all
   int frames = 0;              ///< that are recorded
   int first_motion_frame = 0;  ///< of those recorded
+  RunLayout layout = RunLayout::surfaces;
   RunSize size;
 };
 

@@ -67,7 +67,7 @@ class Session {
         poses_(pose_sequence(loaded.scene, loaded.max_frames)),
         recorded_poses_(plan_.recorded.empty() ? poses_ : picked(poses_, plan_.recorded)),
         threads_(options.threads),
-        folder_(folder_of(loaded, options), loaded.scene, recorded_poses_, existing(), options.layout),
+        folder_(folder_of(loaded, options), loaded.scene, recorded_poses_, existing(), plan_.layout),
         summary_(loaded.scene, options.measures) {}
 
   int run() {
@@ -288,8 +288,8 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
   command
       .add_option(
           "--layout", options.layout,
-          "How frames lie in the folder: compact, a file per frame; or surfaces, one per muscle, bone and frame, "
-          "five to ten times the room (compact)")
+          "How frames lie in the folder: surfaces, a file per muscle, bone and frame; or compact, one per frame, in a "
+          "fifth to a tenth of the room (surfaces; compact where they took more than 2 GB)")
       ->transform(CLI::CheckedTransformer(layouts));
   command.add_flag("--verbose", options.verbose, "Also list muscles, attachments, counters and every gate missed");
   command.add_flag("--strict", options.strict, "Exit with code 5 when a frame misses a quality gate");

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct SessionOptions {
   bool without_ramps = false;   ///< do not record the frames that lead from and to the capture pose
   bool without_fibers = false;  ///< do not follow fibers
   MeasureLevel measures = MeasureLevel::full;
-  RunLayout layout = RunLayout::compact;
+  std::optional<RunLayout> layout;   ///< none: compact where surfaces took more than asking_bytes (run_plan.hpp)
   bool fiber_actions = false;        ///< also write moment arms and lines of action, where the method knows them
   bool print_folder = true;          ///< its path to stdout, once the run is complete
   std::vector<std::string> command;  ///< the command line, for the manifest

@@ -1,19 +1,23 @@
 #!/usr/bin/env bash
 # Moment arms by every method beside published ones: the cadaver's hip, and the elbow and knee beside what OpenSim models have.
-#   reproductions/moment_arms/run.sh [--methods strings,xpbd] [--data FOLDER] [--out FOLDER]
+#   reproductions/moment_arms/run.sh [--methods strings,xpbd] [--joints hip,elbow,knee] [--step 2] [--data FOLDER] [--out FOLDER]
 # Leaves OUT/summary.csv, a row per method, coordinate, muscle and source, and the plots of each run.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 methods=strings,xpbd,tissue,skinning
+joints=hip,elbow,knee
+step=2
 data=${GRACILIS_DATA:-$root/../shared/data}
 out=$root/out/moment_arms
 while (($#)); do
   case $1 in
     --methods) methods=$2 ;;
+    --joints) joints=$2 ;;
+    --step) step=$2 ;;
     --data) data=$2 ;;
     --out) out=$2 ;;
     *)
-      echo "usage: run.sh [--methods M,...] [--data FOLDER] [--out FOLDER]" >&2
+      echo "usage: run.sh [--methods M,...] [--joints J,...] [--step DEGREES] [--data FOLDER] [--out FOLDER]" >&2
       exit 2
       ;;
   esac
@@ -55,11 +59,15 @@ at_zero=(--coord hip_rotation_r=0)
 
 echo "method,coordinate,muscle,source,angles,from_deg,to_deg,rms_mm,largest_mm,slope_mm_per_deg,reference_slope_mm_per_deg,beyond_band_mm" >"$summary"
 for method in ${methods//,/ }; do
-  sweep "$method" hip_flexion "$hip" "$data" hip_flexion_r=-10:60:2 "$out/hip_flexion.csv" \
-    --coord hip_adduction_r=0 "${at_zero[@]}"
-  sweep "$method" hip_adduction "$hip" "$data" hip_adduction_r=-40:20:2 "$out/hip_adduction.csv" \
-    --coord hip_flexion_r=0 "${at_zero[@]}"
-  sweep "$method" elbow "$data/elbow/elbow.toml" "$data/elbow" elbow_flexion=20:120:2 "$out/models_elbow.csv"
-  sweep "$method" knee "$data/leg/leg.toml" "$data/leg" knee_flexion_r=0:90:2 "$validation/models_elbow_knee_ankle.csv"
+  if [[ ,$joints, == *,hip,* ]]; then
+    sweep "$method" hip_flexion "$hip" "$data" hip_flexion_r=-10:60:"$step" "$out/hip_flexion.csv" \
+      --coord hip_adduction_r=0 "${at_zero[@]}"
+    sweep "$method" hip_adduction "$hip" "$data" hip_adduction_r=-40:20:"$step" "$out/hip_adduction.csv" \
+      --coord hip_flexion_r=0 "${at_zero[@]}"
+  fi
+  [[ ,$joints, != *,elbow,* ]] ||
+    sweep "$method" elbow "$data/elbow/elbow.toml" "$data/elbow" elbow_flexion=20:120:"$step" "$out/models_elbow.csv"
+  [[ ,$joints, != *,knee,* ]] ||
+    sweep "$method" knee "$data/leg/leg.toml" "$data/leg" knee_flexion_r=0:90:"$step" "$validation/models_elbow_knee_ankle.csv"
 done
 column -s, -t "$summary" 2>/dev/null || cat "$summary"

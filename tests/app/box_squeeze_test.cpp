@@ -55,9 +55,8 @@ Index through(const TriangleMesh& box, const TriangleMesh& plate, Real side) {
 
 TEST(BoxSqueeze, a_box_pressed_to_a_tenth_stays_between_the_plates_and_comes_back) {
   const SqueezedBox run;
-  const ProgramResult result =
-      run_program(std::string("run ") + build_paths::source_folder +
-                  "/scenes/box_squeeze/box_squeeze.toml --layout surfaces --out " + run.folder.string());
+  const ProgramResult result = run_program(std::string("run ") + build_paths::source_folder +
+                                           "/scenes/box_squeeze/box_squeeze.toml --out " + run.folder.string());
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const TriangleMesh rest = run.surface("box", 0);
   ASSERT_EQ(rest.face_count(), 5292);

@@ -16,8 +16,8 @@ TEST(DemoCommand, flexes_the_elbow_and_meets_the_quality_gates) {
   std::filesystem::remove_all(folder);
   const ProgramResult result = run_program("demo elbow --flexion 6 --strict --out " + folder.string());
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(std::filesystem::exists(shapes_file(folder, 3)));
-  EXPECT_FALSE(std::filesystem::exists(shapes_file(folder, 4)));
+  EXPECT_TRUE(std::filesystem::exists(frame_file(folder, "biceps_brachii_long_r", 3)));
+  EXPECT_FALSE(std::filesystem::exists(frame_file(folder, "biceps_brachii_long_r", 4)));
   std::filesystem::remove_all(folder);
 }
 
@@ -25,7 +25,7 @@ TEST(DemoCommand, takes_the_settings_that_run_takes) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / "gracilis_demo_settings_test";
   std::filesystem::remove_all(folder);
   const ProgramResult result = run_program(
-      "demo --flexion 3 --set method=skinning --set tendon_length=0.01 --set sequence.hold_frames=2 "
+      "demo --flexion 3 --layout compact --set method=skinning --set tendon_length=0.01 --set sequence.hold_frames=2 "
       "--only iliacus_r,adductor_brevis_r --threads 1 --out " +
       folder.string());
   EXPECT_EQ(result.exit_code, 0) << result.err;

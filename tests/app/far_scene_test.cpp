@@ -32,7 +32,7 @@ class FarScene : public testing::Test {
     const TriangleMesh& tube = scene.muscles[0].surface;
     write_surface(folder.path(name + "/tube.vtp"), tube.vertices, tube.faces);
     const std::filesystem::path out = folder.path(name + "_run");
-    const ProgramResult result = run_program("run " + scene_file.string() + " --layout surfaces --out " + out.string());
+    const ProgramResult result = run_program("run " + scene_file.string() + " --out " + out.string());
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return out;
   }

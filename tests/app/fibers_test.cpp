@@ -71,7 +71,7 @@ TEST_F(FiberCommands, a_resumed_run_goes_on_with_its_fiber_lengths) {
   const Table whole = read_table(folder.path("out/fiber_lengths.sto"));
   for (int frame = 7; frame <= 12; ++frame)
     std::filesystem::remove(
-        folder.path("out/shapes/00" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".vtp"));
+        folder.path("out/frames/muscle_00" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".vtp"));
   EXPECT_EQ(run("run", good_scene(), "--set fibers.count=3 --resume").exit_code, 0);
   const Table resumed = read_table(folder.path("out/fiber_lengths.sto"));
   EXPECT_TRUE(resumed.warnings.empty());

@@ -25,7 +25,7 @@ TEST(ImportCommand, an_imported_model_runs_its_motion) {
   EXPECT_EQ(imported.out, out + "/swing.toml\n");
   const ProgramResult ran = run_program("run " + out + "/swing.toml --out " + (folder.path() / "run").string());
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run/shapes/0001.vtp"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run/frames/m_0001.vtp"));
 }
 
 /// A muscle from the ground to the rod, and a swing of three degrees.

@@ -64,7 +64,7 @@ TEST_F(RunChoices, every_nth_frame_is_recorded_of_a_run_that_computes_all) {
 }
 
 TEST_F(RunChoices, a_thinned_run_resumes_as_it_was_begun) {
-  ASSERT_EQ(run("--every 3 --no-fibers --metrics light").exit_code, 0);
+  ASSERT_EQ(run("--layout compact --every 3 --no-fibers --metrics light").exit_code, 0);
   const Points expected = recorded_surface(recorded(), "muscle", 4).vertices;
   for (int frame = 3; frame <= 4; ++frame) std::filesystem::remove(shapes_file(folder.path("out"), frame));
   const ProgramResult resumed = run("--resume");

@@ -64,10 +64,10 @@ TEST_F(RunCommand, guessed_attachments_are_marked_in_the_manifest) {
 
 TEST_F(RunCommand, the_results_do_not_depend_on_the_number_of_threads) {
   EXPECT_EQ(run(good_scene(), "--threads 1").exit_code, 0);
-  const std::string one = bytes("out/shapes/0012.vtp");
+  const std::string one = bytes("out/frames/muscle_0012.vtp");
   EXPECT_EQ(run(good_scene(), "--threads 2 --force").exit_code, 0);
   EXPECT_FALSE(one.empty());
-  EXPECT_TRUE(one == bytes("out/shapes/0012.vtp"));
+  EXPECT_TRUE(one == bytes("out/frames/muscle_0012.vtp"));
 }
 
 TEST_F(RunCommand, another_run_in_the_folder_is_not_overwritten_unless_asked) {
@@ -81,7 +81,7 @@ TEST_F(RunCommand, another_run_in_the_folder_is_not_overwritten_unless_asked) {
 
 TEST_F(RunCommand, an_interrupted_run_exits_with_130_and_resumes_to_the_same_bits) {
   EXPECT_EQ(run(good_scene()).exit_code, 0);
-  const std::string expected = bytes("out/shapes/0012.vtp");
+  const std::string expected = bytes("out/frames/muscle_0012.vtp");
 
   // The signal comes once the run has got somewhere.
   const ProgramResult stopped =
@@ -100,7 +100,7 @@ TEST_F(RunCommand, an_interrupted_run_exits_with_130_and_resumes_to_the_same_bit
   const ProgramResult resumed = run(good_scene(), "--resume");
   EXPECT_EQ(resumed.exit_code, 0);
   EXPECT_THAT(resumed.err, HasSubstr("going on after frame 5")) << "where contact is searched anew";
-  EXPECT_TRUE(bytes("out/shapes/0012.vtp") == expected);
+  EXPECT_TRUE(bytes("out/frames/muscle_0012.vtp") == expected);
   EXPECT_EQ(manifest()["frames"], 13);
 }
 

@@ -47,7 +47,7 @@ class Trust : public testing::Test {
 // ---- Nothing is lost
 
 TEST_F(Trust, a_run_killed_between_surfaces_and_measures_resumes_to_the_same_files) {
-  ASSERT_EQ(run(good_scene(), "--set fibers.count=3").exit_code, 0);
+  ASSERT_EQ(run(good_scene(), "--layout compact --set fibers.count=3").exit_code, 0);
   const std::string fibers = bytes("out/fiber_lengths.sto"), surface = bytes("out/shapes/0012.vtp");
   const std::string measures = bytes("out/measures.csv");
   // As a kill leaves it: surfaces of the last frame, none of its measures, half a row of fibers.
@@ -99,7 +99,7 @@ TEST_F(Trust, coordinates_that_no_table_could_hold_are_refused_before_the_run) {
 
 TEST_F(Trust, a_damaged_distance_field_is_told_of_and_not_used) {
   ASSERT_EQ(run(good_scene()).exit_code, 0);
-  const std::string expected = bytes("out/shapes/0012.vtp");
+  const std::string expected = bytes("out/frames/muscle_0012.vtp");
   for (const auto& entry : fs::recursive_directory_iterator(folder.path("cache"))) {
     if (entry.path().extension() != ".field") continue;
     std::fstream stream(entry.path(), std::ios::in | std::ios::out | std::ios::binary);
@@ -110,7 +110,7 @@ TEST_F(Trust, a_damaged_distance_field_is_told_of_and_not_used) {
   EXPECT_EQ(again.exit_code, 0);
   EXPECT_THAT(again.err, HasSubstr("is damaged; made anew"));
   EXPECT_THAT(bytes("out/run.json"), HasSubstr("is damaged; made anew"));
-  EXPECT_EQ(bytes("out/shapes/0012.vtp"), expected);
+  EXPECT_EQ(bytes("out/frames/muscle_0012.vtp"), expected);
 }
 
 // ---- Nothing is written elsewhere

@@ -21,6 +21,21 @@ TEST(TissueForces, the_tension_of_an_active_bar_is_activation_times_stress_times
   EXPECT_NEAR(bar.muscle.mean_section, section, 0.01 * section);
 }
 
+TEST(TissueForces, the_stress_at_the_surface_is_that_of_the_fibers_there) {
+  const Scene scene = bar_scene({{"fiber_tension", 2e4}, {"fiber_stiffness", 5e4}});
+  const PreparedTissue muscle = prepare_tissue(scene, scene.muscles[0], {}, {});
+  // Of one material, evenly stretched.
+  std::vector<CellLaw> laws = cell_laws(muscle, 0.3, 1);
+  for (CellLaw& law : laws) law = laws[laws.size() / 2];
+  const Points nodes = Vec3(0.9, 0.9, 1.2).asDiagonal() * muscle.lattice.nodes;
+  const Eigen::VectorXd stresses = vertex_fiber_stresses(muscle, laws, nodes);
+  ASSERT_EQ(stresses.size(), muscle.vertex_count);
+  const Real expected = fiber_curve(laws[0].fibers, 1.2).slope;
+  // Where fibers begin they do not all run straight along the bar.
+  for (const Real stress : stresses) EXPECT_NEAR(stress, expected, 0.03 * expected);
+  EXPECT_EQ(vertex_fiber_stresses(muscle, cell_laws(muscle, 0, 0), nodes).norm(), 0);
+}
+
 /// The tube of the tests, bent, under tension and active, at rest.
 class BentTube : public ::testing::Test {
  protected:

@@ -85,7 +85,7 @@ TEST(TissueNeighbors, what_overlaps_in_the_capture_pose_may_stay) {
 
 TEST(TissueNeighbors, planes_lie_midway_and_face_away_from_the_other) {
   const Scene scene = crossing_tubes(0.001);
-  Neighbors neighbors = prepare_neighbors(scene, {0.0005, 0.0005});
+  Neighbors neighbors = prepare_neighbors(scene, {{0.0005}, {0.0005}});
   std::vector<Points> shapes = {scene.muscles[0].surface.vertices, scene.muscles[1].surface.vertices};
   shapes[1].row(0).array() -= 0.003;  // 2 mm into each other
   const std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors, shapes);
@@ -116,7 +116,7 @@ TEST(TissueNeighbors, muscles_press_on_each_other_with_the_same_force) {
 
 TEST(TissueNeighbors, planes_far_from_the_origin_are_the_same) {
   const Scene scene = crossing_tubes(0.001);
-  Neighbors neighbors = prepare_neighbors(scene, {0.0005, 0.0005});
+  Neighbors neighbors = prepare_neighbors(scene, {{0.0005}, {0.0005}});
   std::vector<Points> shapes = {scene.muscles[0].surface.vertices, scene.muscles[1].surface.vertices};
   const std::vector<std::vector<ContactPlane>> near = contact_planes(neighbors, shapes);
   const Vec3 by(3000, -2000, 1000);
@@ -125,6 +125,83 @@ TEST(TissueNeighbors, planes_far_from_the_origin_are_the_same) {
   ASSERT_EQ(far[0].size(), near[0].size());
   for (std::size_t i = 0; i < near[0].size(); ++i)
     EXPECT_NEAR(far[0][i].least - far[0][i].normal.dot(by), near[0][i].least, 1e-6);
+}
+
+/// A tube in the shape of a U, whose legs are 50 mm long and 10 mm apart; a body holds the top of each.
+Scene horseshoe() {
+  constexpr Real radius = 0.008, bend = 0.013, leg = 0.05;
+  Scene scene;
+  scene.name = "horseshoe";
+  scene.bodies = {"a", "b"};
+  Muscle muscle;
+  muscle.name = "horseshoe";
+  muscle.surface = shapes::cylinder(radius, 2 * leg + pi * bend, 20, 56);
+  for (Index v = 0; v < muscle.surface.vertex_count(); ++v) {
+    const Vec3 p = muscle.surface.vertices.col(v);
+    const Real angle = pi + std::clamp((p.z() - leg) / bend, 0.0, pi);
+    const Real beyond = p.z() < leg ? leg - p.z() : std::max(0.0, p.z() - leg - pi * bend);
+    const Vec3 out(std::cos(angle), 0, std::sin(angle));
+    muscle.surface.vertices.col(v) = (bend + p.x()) * out + Vec3(0, p.y(), beyond);
+  }
+  Attachment origin{"one leg", AttachmentEnd::origin, 0, {}, false};
+  Attachment insertion{"other leg", AttachmentEnd::insertion, 1, {}, false};
+  for (Index v = 0; v < muscle.surface.vertex_count(); ++v)
+    if (muscle.surface.vertices(2, v) > leg - 0.006)
+      (muscle.surface.vertices(0, v) < 0 ? origin : insertion).vertices.push_back(v);
+  muscle.attachments = {origin, insertion};
+  scene.muscles = {muscle};
+  scene.method.name = "tissue";
+  scene.method.settings = {
+      {"minimizer_iterations", 60}, {"tension_frames", 1}, {"cell_size", 0.004}, {"cells_at_least", 0}};
+  return scene;
+}
+
+/// How deep the second leg of the horseshoe is in the first, m.
+Real depth_of_legs(const Scene& scene, const Points& now) {
+  const TriangleMesh& rest = scene.muscles[0].surface;
+  const auto is_of_leg = [&](Index v, Real side) {
+    return rest.vertices(2, v) > 0.005 && side * rest.vertices(0, v) > 0;
+  };
+  TriangleMesh first{now, Eigen::Matrix3Xi(3, 0)};
+  for (const Eigen::Vector3i face : rest.faces.colwise())
+    if (std::all_of(face.begin(), face.end(), [&](Index v) { return is_of_leg(v, -1); })) {
+      first.faces.conservativeResize(3, first.faces.cols() + 1);
+      first.faces.rightCols<1>() = face;
+    }
+  const SignedDistance distance(first);
+  Real deepest = 0;
+  for (Index v = 0; v < rest.vertex_count(); ++v)
+    if (is_of_leg(v, 1)) deepest = std::max(deepest, -distance.query(now.col(v)).distance);
+  return deepest;
+}
+
+TEST(TissueNeighbors, legs_of_one_muscle_that_are_drawn_across_each_other_give_way_and_do_not_pass_through) {
+  Scene scene = horseshoe();
+  const auto depth_after = [&] {
+    const auto method = make_tissue_method(scene, {});
+    Real deepest = 0;
+    for (int step = 1; step <= 48; ++step) {
+      Pose pose;
+      pose.bodies.assign(2, RigidTransform::Identity());
+      // The second leg's top goes behind the first leg's, past it, and then back to the front, where the leg is in the
+      // way.
+      const auto done = [&](int from, int to) { return std::clamp(Real(step - from) / (to - from), 0.0, 1.0); };
+      pose.bodies[1].translation() = Vec3(-0.043 * done(8, 28), 0.017 * done(0, 8) - 0.021 * done(28, 48), 0);
+      method->advance(pose, usual_time_step);
+      deepest = std::max(deepest, depth_of_legs(scene, frame_of(*method, pose, step).muscles[0].points));
+    }
+    return deepest;
+  };
+  EXPECT_LT(depth_after(), 1e-3);
+  scene.method.settings["self_contact"] = false;
+  EXPECT_GT(depth_after(), 3e-3) << "nothing was pressed";
+}
+
+TEST(TissueNeighbors, what_a_muscle_does_to_itself_is_no_force_on_another) {
+  const Scene scene = horseshoe();
+  const auto method = make_tissue_method(scene, {});
+  method->advance({0, {}, std::vector<RigidTransform>(2, RigidTransform::Identity()), {}}, usual_time_step);
+  EXPECT_TRUE(method->muscle_forces({})[0].muscles.empty());
 }
 
 }  // namespace

@@ -17,6 +17,9 @@ namespace gracilis {
 struct FlexingLeg {
   Scene scene;
   std::vector<Pose> poses;
+  /// Of "bulging_r", by a method whose muscles are under tension: 10 kPa and 0.1 N in frame 0, twice as much in each
+  /// next.
+  bool knows_forces = false;
 
   explicit FlexingLeg(int frames = 21) {
     scene.name = "flexing_leg";
@@ -61,7 +64,20 @@ struct FlexingLeg {
       result.fibers[m].lengths = polyline_lengths(result.fibers[m].lines);
       result.fibers[m].mean_length = result.fibers[m].lengths[0];
     }
+    if (knows_forces) add_forces(result);
     return result;
+  }
+
+  void add_forces(FrameRecord& record) const {
+    const Real factor = std::pow(2, record.frame.number);
+    record.frame.muscles[0].fiber_stresses =
+        Eigen::VectorXd::Constant(scene.muscles[0].surface.vertex_count(), 1e4 * factor);
+    record.forces.resize(2);
+    MuscleForces& forces = record.forces[0];
+    forces.is_known = true;
+    forces.tension = 0.1 * factor;
+    forces.fiber_tensions = {0.1 * factor};
+    forces.moments = forces.moments_by_work = {-0.01 * factor};
   }
 
   /// Writes the whole run and its manifest, and opens it again.

@@ -83,6 +83,21 @@ TEST(ReportData, gates_name_the_worst_frame_and_charts_show_every_value) {
   EXPECT_GT(lengths["series"][0]["values"][20].get<Real>(), lengths["series"][0]["values"][0].get<Real>());
 }
 
+TEST(ReportData, shows_tensions_and_moments_where_the_run_knows_them) {
+  const TestFolder folder;
+  FlexingLeg leg(6);
+  leg.knows_forces = true;
+  const Json data = report_data(leg.written(folder.path()));
+  const Json& tension = named(data["charts"], "id", "tension");
+  ASSERT_EQ(tension["series"].size(), 1u) << "the other muscle knows none";
+  EXPECT_NEAR(tension["series"][0]["values"][5].get<Real>(), 3.2, 1e-6);
+  const Json& moment = named(data["charts"], "id", "moment_hip_flexion_r");
+  EXPECT_EQ(moment["unit"], "N·m");
+  EXPECT_NEAR(moment["series"][0]["values"][5].get<Real>(), -0.32, 1e-6);
+  for (const Json& chart : report_data(FlexingLeg(2).written(folder.path() / "without"))["charts"])
+    EXPECT_NE(chart["id"], "tension");
+}
+
 TEST(ReportShapes, hold_recorded_points_to_a_hundredth_of_a_millimetre_and_the_stretch_of_edges) {
   const TestFolder folder;
   const FlexingLeg leg(21);

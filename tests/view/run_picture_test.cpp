@@ -85,6 +85,26 @@ TEST_F(RunPicture, stretch_is_seen_where_it_is) {
   EXPECT_GT(count(stretched, reddish), 3 * count(rest, reddish));
 }
 
+TEST_F(RunPicture, stress_and_tension_are_seen_where_a_method_knows_them) {
+  FlexingLeg leg(6);
+  RunPictureOptions options;
+  options.color_by = ColorBy::stress;
+  const RecordedRun without = leg.written(folder.path() / "without");
+  EXPECT_THROW(RunPainter(without, options), ConfigurationError);
+  leg.knows_forces = true;
+  const RecordedRun run = leg.written(folder.path() / "with");
+  const RunPainter by_stress(run, options);
+  const auto expected = [](ColorBy by, Real value) { return color_at(color_scale(by), std::log10(value)); };
+  // The bone comes first. The other muscle knows none and is gray.
+  EXPECT_TRUE(by_stress.panel(0).surfaces[1].colors.col(7).isApprox(expected(ColorBy::stress, 1e4)));
+  EXPECT_TRUE(by_stress.panel(5).surfaces[1].colors.col(7).isApprox(expected(ColorBy::stress, 3.2e5)));
+  EXPECT_TRUE(by_stress.panel(5).surfaces[2].colors.col(7).isApprox(Color(Color::Constant(0.6))));
+  options.color_by = ColorBy::tension;
+  const RunPainter by_tension(run, options);
+  EXPECT_TRUE(by_tension.panel(5).lines[0].colors.at(0).isApprox(expected(ColorBy::tension, 3.2)));
+  EXPECT_FALSE(expected(ColorBy::tension, 3.2).isApprox(expected(ColorBy::tension, 0.1)));
+}
+
 TEST_F(RunPicture, a_transparent_background_is_transparent_and_shapes_are_not) {
   PixelImage image;
   DRAW_OR_SKIP(image, picture({}, {0}), true);

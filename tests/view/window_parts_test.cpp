@@ -123,6 +123,24 @@ TEST(FrameMaker, thins_surfaces_and_measures_the_whole_ones) {
   EXPECT_NEAR(frame.volume[0], 1.331, 1e-9);
   for (const float stretch : frame.stretch[0]) EXPECT_NEAR(stretch, 1.1, 1e-5);
   EXPECT_TRUE(frame.contact_depth.empty());
+  maker.fill_stress({Eigen::VectorXd(muscle.vertices.row(0))}, frame);
+  ASSERT_EQ(static_cast<Index>(frame.stress[0].size()), frame.muscles[0].cols());
+  for (std::size_t v = 0; v < frame.stress[0].size(); ++v)
+    EXPECT_NEAR(1.1 * frame.stress[0][v], frame.muscles[0](0, static_cast<Index>(v)), 1e-6);
+}
+
+TEST(FrameMaker, shows_the_tensions_of_the_fibers_that_it_shows) {
+  std::vector<Points> lines;
+  for (Index i = 0; i < 100; ++i) lines.push_back(Points::Constant(3, 2, i));
+  ShownShapes shapes;
+  shapes.muscles = {"a"};
+  FrameMaker maker({shapes::sphere(Vec3::Zero(), 1, 2)}, {}, shapes);
+  ShownFrame frame;
+  maker.fill_fibers({join(lines)}, frame);
+  FrameMaker::fill_tension({Eigen::VectorXd::LinSpaced(100, 0, 99)}, frame);
+  ASSERT_EQ(static_cast<Index>(frame.tension[0].size()), frame.fibers[0].count());
+  for (Index i = 0; i < frame.fibers[0].count(); ++i)
+    EXPECT_EQ(frame.tension[0][static_cast<std::size_t>(i)], frame.fibers[0].line(i)(0, 0));
 }
 
 TEST(FrameMaker, spreads_arrows_evenly) {

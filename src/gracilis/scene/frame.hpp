@@ -17,6 +17,8 @@ struct MuscleShape {
   /// The muscle's fibers from origin to insertion, as many in every frame, where the method itself knows where they
   /// run; empty: they follow the surface.
   Polylines fibers = {};
+  /// Pa, per vertex: the tension of the fibers there over their section at rest; empty where the method knows none.
+  Eigen::VectorXd fiber_stresses = {};
 };
 
 /// Everything a method reports for one instant.

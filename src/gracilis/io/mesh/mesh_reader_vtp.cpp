@@ -45,14 +45,17 @@ class VtpReader {
     return named(piece);
   }
 
-  /// Of the first piece, where none is named.
-  Points read_vectors(const std::string& name, const std::string& piece = "") {
+  /// Of the first piece, where none is named. Empty when there is no such array.
+  std::vector<double> read_point_data(const std::string& name, const std::string& piece) {
     parse();
     const pugi::xml_node array = (piece.empty() ? root_.child("PolyData").child("Piece") : named(piece))
                                      .child("PointData")
                                      .find_child_by_attribute("DataArray", "Name", name.c_str());
-    if (!array) return Points(3, 0);
-    const std::vector<double> values = numbers(array, name);
+    return array ? numbers(array, name) : std::vector<double>();
+  }
+
+  Points read_vectors(const std::string& name, const std::string& piece = "") {
+    const std::vector<double> values = read_point_data(name, piece);
     if (values.size() % 3 != 0) fail("does not hold three numbers for each point", "array " + name);
     return Eigen::Map<const Points>(values.data(), 3, static_cast<Index>(values.size() / 3));
   }
@@ -223,6 +226,11 @@ Points read_vtp_vectors(const std::filesystem::path& path, const std::string& na
 
 std::vector<double> read_vtp_field(const std::filesystem::path& path, const std::string& name) {
   return VtpReader(path).read_field(name);
+}
+
+Eigen::VectorXd read_vtp_scalars(const std::filesystem::path& path, const std::string& name, const std::string& piece) {
+  const std::vector<double> values = VtpReader(path).read_point_data(name, piece);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
 }
 
 }  // namespace gracilis

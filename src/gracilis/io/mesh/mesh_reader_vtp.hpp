@@ -24,4 +24,8 @@ Points read_vtp_vectors(const std::filesystem::path& path, const std::string& na
 /// Numbers of the file as a whole (its FieldData); none where it has no such.
 std::vector<double> read_vtp_field(const std::filesystem::path& path, const std::string& name);
 
+/// The same of one number for each point, of the first piece where none is named; none when there is no such array.
+Eigen::VectorXd read_vtp_scalars(const std::filesystem::path& path, const std::string& name,
+                                 const std::string& piece = "");
+
 }  // namespace gracilis

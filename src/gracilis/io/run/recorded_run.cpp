@@ -10,6 +10,8 @@
 #include <gracilis/io/run/run_folder.hpp>
 #include <gracilis/io/run/run_manifest.hpp>
 #include <gracilis/io/tables/fiber_table.hpp>
+#include <gracilis/io/tables/force_table.hpp>
+#include <gracilis/io/tables/table.hpp>
 #include <gracilis/io/text_cells.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/scene/names.hpp>
@@ -255,6 +257,29 @@ Points recorded_tissue(const RecordedRun& run, const std::string& muscle) {
                             : read_vtp_vectors(frame_file(run.folder, muscle, 0), tissue_name);
   if (tissue.cols() > 0) require_vertices(run, muscle, 0, tissue.cols());
   return tissue;
+}
+
+Eigen::VectorXd recorded_fiber_stresses(const RecordedRun& run, const std::string& muscle, int frame) {
+  Eigen::VectorXd stresses = run.layout == RunLayout::compact
+                                 ? read_vtp_scalars(shapes_file(run.folder, frame), fiber_stress_name, muscle)
+                                 : read_vtp_scalars(frame_file(run.folder, muscle, frame), fiber_stress_name);
+  if (stresses.size() > 0) require_vertices(run, muscle, frame, static_cast<Index>(stresses.size()));
+  return stresses;
+}
+
+std::vector<Eigen::MatrixXd> recorded_tensions(const RecordedRun& run) {
+  std::vector<Eigen::MatrixXd> tensions(run.muscles.size());
+  if (!fs::exists(run.folder / force_file)) return tensions;
+  const Table table = read_table(run.folder / force_file);
+  const Eigen::Index rows = std::min<Eigen::Index>(table.values.rows(), run.frame_count);
+  for (std::size_t m = 0; m < tensions.size(); ++m) {
+    std::vector<Eigen::Index> columns;
+    while (const auto found =
+               column_of(table, fiber_name(run.muscles[m], static_cast<Index>(columns.size())) + "_tension"))
+      columns.push_back(*found);
+    if (!columns.empty()) tensions[m] = table.values.topRows(rows)(Eigen::all, columns);
+  }
+  return tensions;
 }
 
 RigidTransform rigid_motion(const Points& rest, const Points& now) {

@@ -57,6 +57,12 @@ Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int f
 /// 3 × 0 when the run was made before runs told it.
 Points recorded_tissue(const RecordedRun& run, const std::string& muscle);
 
+/// Per vertex of a muscle in a frame: the stress of its fibers, Pa; none when the run knows none.
+Eigen::VectorXd recorded_fiber_stresses(const RecordedRun& run, const std::string& muscle, int frame);
+
+/// Per muscle, frame and fiber: its tension, N; 0 × 0 where the run knows none.
+std::vector<Eigen::MatrixXd> recorded_tensions(const RecordedRun& run);
+
 /// How a bone has moved since frame 0 (least squares over its vertices, Umeyama 1991).
 RigidTransform rigid_motion(const Points& rest, const Points& now);
 

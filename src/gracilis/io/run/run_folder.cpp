@@ -173,22 +173,41 @@ void RunFolder::write_frame(const FrameRecord& record) {
 }
 
 std::vector<VertexArray> RunFolder::arrays_of(std::size_t muscle, const Frame& frame) const {
-  std::vector<VertexArray> arrays = velocity_array(frame.muscles[muscle]);
+  const MuscleShape& shape = frame.muscles[muscle];
+  std::vector<VertexArray> arrays = velocity_array(shape);
+  if (shape.fiber_stresses.size() > 0) arrays.push_back({fiber_stress_name, shape.fiber_stresses});
   if (frame.number == 0)
     arrays.push_back(tissue_array(scene_.muscles[muscle], tendon_length_of(scene_, scene_.muscles[muscle])));
   return arrays;
+}
+
+/// One file has the same arrays for all: what a muscle lacks are zeros, which nobody asks for.
+static void make_alike(std::vector<std::vector<VertexArray>>& arrays, const Frame& frame) {
+  const auto of_name = [](std::vector<VertexArray>& of, const std::string& name) {
+    return std::find_if(of.begin(), of.end(), [&](const VertexArray& array) { return array.name == name; });
+  };
+  std::vector<VertexArray> kinds;
+  for (std::vector<VertexArray>& each : arrays)
+    for (const VertexArray& array : each)
+      if (of_name(kinds, array.name) == kinds.end()) kinds.push_back({array.name, {}, array.components});
+  for (std::size_t m = 0; m < arrays.size(); ++m) {
+    std::vector<VertexArray> all = kinds;
+    for (VertexArray& array : all) {
+      const auto own = of_name(arrays[m], array.name);
+      if (own != arrays[m].end())
+        array = std::move(*own);
+      else
+        array.values = Eigen::VectorXd::Zero(array.components * frame.muscles[m].points.cols());
+    }
+    arrays[m] = std::move(all);
+  }
 }
 
 void RunFolder::write_compact(const FrameRecord& record) const {
   const Frame& frame = record.frame;
   std::vector<std::vector<VertexArray>> arrays(scene_.muscles.size());
   parallel_for_each(arrays.size(), [&](std::size_t m) { arrays[m] = arrays_of(m, frame); });
-  // One file has the same arrays for all: muscles that carry no velocity have zeros, which nobody asks for.
-  const bool any_moves = std::any_of(frame.muscles.begin(), frame.muscles.end(),
-                                     [](const MuscleShape& shape) { return shape.velocities.cols() > 0; });
-  for (std::size_t m = 0; any_moves && m < arrays.size(); ++m)
-    if (frame.muscles[m].velocities.cols() == 0)
-      arrays[m].insert(arrays[m].begin(), {velocity_name, Eigen::VectorXd::Zero(frame.muscles[m].points.size()), 3});
+  make_alike(arrays, frame);
   write_compact_shapes(folder_, scene_, frame, arrays);
 }
 

@@ -92,6 +92,9 @@ class RunFolder {
 /// Point data of muscles in frame 0: of an origin (0 or 1), of an insertion (0 or 1), share of belly against tendon.
 inline constexpr const char* tissue_name = "origin_insertion_belly";
 
+/// Point data of muscles whose method knows stresses: of the fibers at each vertex, Pa.
+inline constexpr const char* fiber_stress_name = "fiber_stress_pa";
+
 /// The muscles' shapes as recorded. Throws InputError when a file is missing, damaged or of another surface.
 Frame read_frame(const std::filesystem::path& folder, const Scene& scene, int number, const Pose& pose);
 

@@ -128,6 +128,27 @@ std::vector<Real> fiber_tensions(const PreparedTissue& muscle, const std::vector
   return tensions;
 }
 
+Eigen::VectorXd vertex_fiber_stresses(const PreparedTissue& muscle, const std::vector<CellLaw>& laws,
+                                      const Points& nodes) {
+  const Eigen::VectorXd of_cells = fiber_stresses(muscle, laws, nodes);
+  const Index count = muscle.lattice.node_count();
+  Eigen::VectorXd of_nodes = Eigen::VectorXd::Zero(count), filled = of_nodes;
+  for (std::size_t c = 0; c < muscle.lattice.cells.size(); ++c)
+    for (const Index n : muscle.lattice.cells[c].nodes) {
+      filled[n] += muscle.lattice.cells[c].fill;
+      of_nodes[n] += muscle.lattice.cells[c].fill * of_cells[static_cast<Index>(c)];
+    }
+  of_nodes = of_nodes.cwiseQuotient(filled);
+  Eigen::VectorXd stresses(muscle.vertex_count);
+  for (Index v = 0; v < muscle.vertex_count; ++v) {
+    const EmbeddedPoint& at = muscle.points[static_cast<std::size_t>(v)].at;
+    Real sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) sum += at.weights[static_cast<Index>(k)] * of_nodes[at.nodes[k]];
+    stresses[v] = std::max(0.0, sum);
+  }
+  return stresses;
+}
+
 MuscleForces muscle_forces(const PreparedTissue& muscle, const Surroundings& around, const std::vector<CellLaw>& laws,
                            const Points& nodes, const std::vector<std::vector<Twist>>& coordinates) {
   MuscleForces forces = listed(muscle, around);
@@ -139,6 +160,7 @@ MuscleForces muscle_forces(const PreparedTissue& muscle, const Surroundings& aro
     const bool at_origin = muscle.points[v].end == AttachmentEnd::origin;
     // Where point and body move together nothing changes, so the body feels at the point what the point resists.
     for_each_action(muscle, around, v, p, [&](PointActor actor, Index on, const PointState& acting) {
+      if (actor == PointActor::muscle && on < 0) return;  // what it does to itself
       wrench_on(on, list_of(actor, at_origin, forces)).add(p, acting.gradient);
     });
   }

@@ -20,4 +20,8 @@ std::vector<Real> fiber_tensions(const PreparedTissue& muscle, const std::vector
 MuscleForces muscle_forces(const PreparedTissue& muscle, const Surroundings& around, const std::vector<CellLaw>& laws,
                            const Points& nodes, const std::vector<std::vector<Twist>>& coordinates);
 
+/// Tension per area at rest along the fibers at the surface's vertices, Pa; between cells it is blended.
+Eigen::VectorXd vertex_fiber_stresses(const PreparedTissue& muscle, const std::vector<CellLaw>& laws,
+                                      const Points& nodes);
+
 }  // namespace gracilis::tissue

@@ -201,6 +201,22 @@ Real filled_volume(const Lattice& lattice, const Cell& cell) {
   return share * lattice.cell_volume();
 }
 
+Real filled_volume_ratio(const Lattice& lattice, const Points& nodes) {
+  Real rest = 0, now = 0;
+  for (const Cell& cell : lattice.cells) {
+    const CubeCut& cut = cube_cut(cell.parity);
+    const Corners corners = corners_of(cell, nodes);
+    for (std::size_t t = 0; t < 5; ++t) {
+      Eigen::Matrix<Real, 3, 4> x;
+      for (std::size_t k = 0; k < 4; ++k) x.col(static_cast<Index>(k)) = corners.col(cut.tetrahedra[t][k]);
+      const Real filled = cell.fills[t] * cut.shares[t];
+      rest += filled;
+      now += filled * (x * cut.shape_gradients[t].transpose() / lattice.cell_size).determinant();
+    }
+  }
+  return rest > 0 ? now / rest : 1;
+}
+
 EmbeddedPoint embed(const Lattice& lattice, const Vec3& p) {
   const std::array<Index, 3> place = place_at(lattice, p);
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -73,6 +73,9 @@ EmbeddedPoint embed(const Lattice& lattice, const Vec3& p);
 /// How much of a cell lies inside the surface, m³.
 Real filled_volume(const Lattice& lattice, const Cell& cell);
 
+/// What the lattice's tissue fills of space where its nodes are at `nodes`, over that at rest.
+Real filled_volume_ratio(const Lattice& lattice, const Points& nodes);
+
 /// A cell's corners where the nodes are at `nodes`.
 inline Corners corners_of(const Cell& cell, const Points& nodes) {
   Corners corners;

@@ -3,12 +3,16 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
 #include <gracilis/dynamics/contact/surface/touch_search.hpp>
+#include <gracilis/geometry/topology.hpp>
 
 #include <algorithm>
 
 namespace gracilis::tissue {
 
 namespace {
+
+/// Parts of a surface nearer than this at rest are neighbors, in edges.
+constexpr Real neighborhood_edges = 4;
 
 /// All surfaces near a common origin, where single precision is fine enough.
 struct PlacedSurfaces {
@@ -52,11 +56,47 @@ std::vector<SeenVertex> see(const Neighbors& neighbors, const PlacedSurfaces& pl
   return seen;
 }
 
+/// Where folds of a surface come near each other from outside. What lies back to back has tissue in between.
+std::vector<SeenVertex> see_itself(const Neighbors& neighbors, const PlacedSurfaces& placed, const SelfMeeting& self) {
+  const auto m = static_cast<std::size_t>(self.muscle);
+  const ContactSurface& surface = neighbors.surfaces[m];
+  const SelfRule rule = {surface,   self.rest_points,    self.rest_normals,
+                         self.rest, placed.particles[m], self.neighborhood};
+  std::vector<PointTouch> touches;
+  find_self({surface, placed.particles[m], neighbors.trees[m]}, rule, static_cast<float>(self_reach), touches);
+  std::vector<SeenVertex> seen;
+  for (const PointTouch& touch : touches)
+    if (touch.side > 0)
+      seen.push_back({touch.particle,
+                      point_gap(placed.particles[m].position(touch.particle), surface,
+                                NearestFace{touch.face, touch.barycentric}, placed.particles[m], placed.normals[m])});
+  return seen;
+}
+
 std::vector<Real> gaps_at_rest(const std::vector<SeenVertex>& seen, Index count, Real gap) {
   std::vector<Real> gaps(static_cast<std::size_t>(count), gap);
   for (const SeenVertex& each : seen)
     gaps[static_cast<std::size_t>(each.vertex)] = std::min(gap, static_cast<Real>(each.gap.distance));
   return gaps;
+}
+
+Real mean_edge_of(const TriangleMesh& surface) {
+  Real sum = 0;
+  const std::vector<MeshEdge> edges = build_topology(surface.faces, surface.vertex_count()).edges;
+  for (const MeshEdge& edge : edges) sum += (surface.vertices.col(edge.a) - surface.vertices.col(edge.b)).norm();
+  return sum / static_cast<Real>(edges.size());
+}
+
+SelfMeeting meeting_of(const TriangleMesh& surface, Index muscle, const PlacedSurfaces& placed) {
+  const auto m = static_cast<std::size_t>(muscle);
+  SelfMeeting self;
+  self.muscle = muscle;
+  self.rest = placed.particles[m];
+  self.rest_points.resize(3, self.rest.count());
+  for (Index v = 0; v < self.rest.count(); ++v) self.rest_points.col(v) = self.rest.position(v);
+  self.rest_normals = placed.normals[m];
+  self.neighborhood = static_cast<float>(neighborhood_edges * mean_edge_of(surface));
+  return self;
 }
 
 /// Each of the two surfaces goes half of the way, or may come as near.
@@ -73,7 +113,7 @@ void add_planes(const PlacedSurfaces& placed, const std::vector<SeenVertex>& see
 
 }  // namespace
 
-Neighbors prepare_neighbors(const Scene& scene, const std::vector<Real>& gaps) {
+Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSettings>& settings) {
   Neighbors neighbors;
   std::vector<Points> shapes;
   for (const Muscle& muscle : scene.muscles) {
@@ -84,17 +124,23 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<Real>& gaps) {
   const PlacedSurfaces placed = place(neighbors, shapes);
   const auto gaps_of = [&](Index muscle, Index other) {
     const auto m = static_cast<std::size_t>(muscle);
-    return gaps_at_rest(see(neighbors, placed, muscle, other), static_cast<Index>(shapes[m].cols()), gaps[m]);
+    return gaps_at_rest(see(neighbors, placed, muscle, other), static_cast<Index>(shapes[m].cols()), settings[m].gap);
   };
   const auto count = static_cast<Index>(shapes.size());
   for (Index a = 0; a < count; ++a)
     for (Index b = a + 1; b < count; ++b) neighbors.pairs.push_back({a, b, gaps_of(a, b), gaps_of(b, a)});
+  for (std::size_t m = 0; m < settings.size(); ++m) {
+    if (!settings[m].self) continue;
+    SelfMeeting self = meeting_of(scene.muscles[m].surface, static_cast<Index>(m), placed);
+    self.gaps = gaps_at_rest(see_itself(neighbors, placed, self), self.rest.count(), settings[m].gap);
+    neighbors.selves.push_back(std::move(self));
+  }
   return neighbors;
 }
 
 std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes) {
   std::vector<std::vector<ContactPlane>> planes(shapes.size());
-  if (neighbors.pairs.empty()) return planes;
+  if (neighbors.none()) return planes;
   const PlacedSurfaces placed = place(neighbors, shapes);
   for (const NeighborPair& pair : neighbors.pairs) {
     add_planes(placed, see(neighbors, placed, pair.first, pair.second), pair.first_gaps, pair.first, pair.second,
@@ -102,6 +148,9 @@ std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, cons
     add_planes(placed, see(neighbors, placed, pair.second, pair.first), pair.second_gaps, pair.second, pair.first,
                planes[static_cast<std::size_t>(pair.second)]);
   }
+  for (const SelfMeeting& self : neighbors.selves)
+    add_planes(placed, see_itself(neighbors, placed, self), self.gaps, self.muscle, -1,
+               planes[static_cast<std::size_t>(self.muscle)]);
   for (std::vector<ContactPlane>& each : planes)
     std::stable_sort(each.begin(), each.end(),
                      [](const ContactPlane& a, const ContactPlane& b) { return a.point < b.point; });

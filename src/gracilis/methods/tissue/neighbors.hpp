@@ -10,7 +10,7 @@ namespace gracilis::tissue {
 /// Keeps a point of a muscle on its side of a plane that lies midway between it and another muscle's surface.
 struct ContactPlane {
   Index point = 0;             ///< of the muscle
-  Index muscle = 0;            ///< the other one
+  Index muscle = 0;            ///< the other one; -1: another part of its own surface
   Vec3 normal = Vec3::Zero();  ///< unit, away from the other
   Real least = 0;              ///< m: normal · place is no less
 };
@@ -22,18 +22,36 @@ struct NeighborPair {
   std::vector<Real> first_gaps, second_gaps;  ///< m, per vertex
 };
 
+/// How parts of one surface that fold onto each other keep apart.
+struct SelfMeeting {
+  Index muscle = 0;
+  Particles rest;
+  Eigen::Matrix3Xf rest_points, rest_normals;
+  float neighborhood = 0;  ///< m, see SelfRule
+  std::vector<Real> gaps;  ///< m, per vertex
+};
+
 /// The surfaces of all muscles for each other; constant but for the trees, which are fitted anew in each search.
 struct Neighbors {
   std::vector<ContactSurface> surfaces;
   std::vector<PatchTree> trees;
   std::vector<NeighborPair> pairs;
+  std::vector<SelfMeeting> selves;  ///< of muscles that keep out of themselves
+
+  bool none() const { return pairs.empty() && selves.empty(); }
 };
 
 /// How far apart muscles see each other, m: what they move in a step is less.
 inline constexpr Real neighbor_reach = 0.012;
+/// The same of parts of one muscle, m: they move together.
+inline constexpr Real self_reach = 0.006;
 
-/// `gaps`: what the vertices of each muscle keep to others, m.
-Neighbors prepare_neighbors(const Scene& scene, const std::vector<Real>& gaps);
+/// What a muscle asks of contact with muscles.
+struct MeetingSettings {
+  Real gap = 0;       ///< m, that its vertices keep
+  bool self = false;  ///< also to itself
+};
+Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSettings>& settings);
 
 /// The planes of every muscle, in the order of its points, where the surfaces are at `shapes` (3 × vertices, m).
 std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes);

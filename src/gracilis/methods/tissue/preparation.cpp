@@ -185,6 +185,24 @@ void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, Pre
   }
 }
 
+void see_large_faces(const TriangleMesh& surface, PreparedTissue& prepared) {
+  prepared.faces = surface.faces;
+  prepared.volume = enclosed_volume(surface.vertices, surface.faces);
+  std::vector<char> is_free;
+  for (Index v = 0; v < prepared.vertex_count; ++v)
+    is_free.push_back(prepared.points[static_cast<std::size_t>(v)].held_by < 0);
+  LargeFaces& large = prepared.large_faces = find_large_faces(surface, is_free, prepared.lattice);
+  for (const BoneGap& bone : prepared.bones) {
+    std::vector<Real>& least = large.least.emplace_back();
+    for (const FacePlace& kept : large.kept) {
+      Vec3 p = Vec3::Zero();
+      for (Index k = 0; k < 3; ++k)
+        p += kept.shares[k] * surface.vertices.col(kept.corners[static_cast<std::size_t>(k)]);
+      least.push_back(std::min(seen_clearance, sample_spline_precise(bone.field.grid, p).distance));
+    }
+  }
+}
+
 void sort_out(PreparedTissue& prepared) {
   prepared.cells = cell_lanes(prepared.lattice);
   std::vector<Index> node_of_point, node_of_corner;
@@ -241,6 +259,7 @@ PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const st
   find_fibers(muscle, prepared);
   tie_to_bones(scene, distances, prepared);
   keep_gaps(scene, fields, prepared);
+  see_large_faces(muscle.surface, prepared);
   sort_out(prepared);
   share_carriers(prepared);
   return prepared;

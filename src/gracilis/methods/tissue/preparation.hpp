@@ -4,6 +4,7 @@
 #include <gracilis/geometry/field_path.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/methods/tissue/cell_lanes.hpp>
+#include <gracilis/methods/tissue/large_faces.hpp>
 #include <gracilis/methods/tissue/settings.hpp>
 
 #include <string>
@@ -48,6 +49,9 @@ struct PreparedTissue {
   std::vector<std::vector<Index>> fiber_cells;  ///< of each of the muscle's fibers: the cells it runs through
   std::vector<SurfacePoint> points;             ///< the surface's vertices in their order, then the others
   Index vertex_count = 0;
+  Eigen::Matrix3Xi faces;  ///< of the surface
+  LargeFaces large_faces;
+  Real volume = 0;        ///< m³, that the surface encloses at rest
   std::vector<Tie> ties;  ///< of points, one after the other
   std::vector<BoneGap> bones;
   GroupedByKey points_of_nodes;    ///< point * 4 + corner, by their nodes

@@ -50,6 +50,7 @@ std::span<const Setting<TissueSettings>> setting_table() {
        "How often in a step muscles look where their neighbors are, the largest of all muscles; 0: they do not feel "
        "each "
        "other."},
+      {"self_contact", &S::self_contact, "", 0, 0, "Keep a muscle out of itself, too, where it folds."},
       {"fascia_stiffness", &S::fascia_stiffness, "N/m³", 0, 1e13,
        "Stiffness per area of the ties of fascia to bones, across the fibers alone, where the surface touches a bone; "
        "less with distance."},

@@ -28,6 +28,7 @@ struct TissueSettings {
   Real neighbor_gap = 0.0005;        ///< m, between muscles
   Real neighbor_stiffness = 1e8;     ///< N/m per m²
   int contact_rounds = 2;            ///< of looking where other muscles are, in each step; 0: muscles do not meet
+  bool self_contact = true;          ///< keeps a muscle out of itself where it folds
   Real fascia_stiffness = 1.5e7;     ///< N/m per m², at the bone
   Real fascia_reach = 0.03;          ///< m
   Real fascia_yield = 0.002;         ///< m

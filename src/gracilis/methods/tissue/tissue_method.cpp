@@ -7,6 +7,7 @@
 #include <gracilis/methods/tissue/forces.hpp>
 #include <gracilis/methods/tissue/minimize.hpp>
 #include <gracilis/methods/tissue/neighbors.hpp>
+#include <gracilis/methods/tissue/seen_surface.hpp>
 #include <gracilis/methods/tissue/total_energy.hpp>
 #include <gracilis/scene/setting_values.hpp>
 
@@ -57,13 +58,15 @@ class TissueMethod final : public DeformationMethod {
       muscles_[m] = prepare_tissue(scene, scene.muscles[m], fields_, distances);
     });
     metrics_.resize(muscles_.size());
-    std::vector<Real> gaps;
+    std::vector<MeetingSettings> meetings;
+    bool any_self = false;
     for (const PreparedTissue& muscle : muscles_) {
       rounds_ = std::max(rounds_, muscle.settings.contact_rounds);
-      gaps.push_back(muscle.settings.neighbor_gap);
+      meetings.push_back({muscle.settings.neighbor_gap, muscle.settings.self_contact});
+      any_self = any_self || muscle.settings.self_contact;
     }
-    if (rounds_ > 0 && muscles_.size() > 1) neighbors_ = prepare_neighbors(scene, gaps);
-    if (neighbors_.pairs.empty()) rounds_ = 1;
+    if (rounds_ > 0 && (muscles_.size() > 1 || any_self)) neighbors_ = prepare_neighbors(scene, meetings);
+    if (neighbors_.none()) rounds_ = 1;
     reset();
   }
 
@@ -72,7 +75,11 @@ class TissueMethod final : public DeformationMethod {
     for (const PreparedTissue& muscle : muscles_) nodes_.push_back(muscle.lattice.nodes);
     bodies_.assign(body_count_, RigidTransform::Identity());
     equilibria_.clear();
-    for (std::size_t m = 0; m < muscles_.size(); ++m) equilibria_.push_back(at_rest(m));
+    seen_.clear();
+    for (std::size_t m = 0; m < muscles_.size(); ++m) {
+      equilibria_.push_back(at_rest(m));
+      seen_.push_back(surface_at(muscles_[m], nodes_[m]));
+    }
     frame_ = 0;
   }
 
@@ -88,10 +95,15 @@ class TissueMethod final : public DeformationMethod {
         for_each_timed(moving, [&](std::size_t m) { settle_once(m, moving[m]); });
       }
     }
+    for_each_timed(moving, [&](std::size_t m) {
+      moving[m].seen = seen_surface(muscles_[m], moving[m].equilibrium.around, moving[m].nodes);
+      check(m, moving[m].seen.allFinite());
+    });
     StepReport report;
     for (std::size_t m = 0; m < muscles_.size(); ++m) report.muscles.push_back(reported(m, moving[m]));
     for (std::size_t m = 0; m < muscles_.size(); ++m) {
       nodes_[m] = std::move(moving[m].nodes);
+      seen_[m] = std::move(moving[m].seen);
       equilibria_[m] = std::move(moving[m].equilibrium);
     }
     bodies_ = pose.bodies;
@@ -101,7 +113,9 @@ class TissueMethod final : public DeformationMethod {
 
   void write(Frame& frame) const override {
     frame.muscles.clear();
-    for (std::size_t m = 0; m < muscles_.size(); ++m) frame.muscles.push_back({surface_at(muscles_[m], nodes_[m])});
+    for (std::size_t m = 0; m < muscles_.size(); ++m)
+      frame.muscles.push_back(
+          {.points = seen_[m], .fiber_stresses = vertex_fiber_stresses(muscles_[m], equilibria_[m].laws, nodes_[m])});
   }
 
   std::vector<MuscleForces> muscle_forces(const std::vector<std::vector<Twist>>& coordinates) const override {
@@ -145,6 +159,7 @@ class TissueMethod final : public DeformationMethod {
   /// A muscle on its way to a pose.
   struct MovingMuscle {
     Points nodes;
+    Points seen;  ///< its surface in the end
     Equilibrium equilibrium;
     std::vector<RigidTransform> bodies;  ///< where they were in the last step
     const FactoredMatrix* metric = nullptr;
@@ -196,12 +211,19 @@ class TissueMethod final : public DeformationMethod {
   }
 
   void look_at_neighbors(std::vector<MovingMuscle>& moving) {
-    if (neighbors_.pairs.empty()) return;
-    std::vector<Points> shapes(moving.size());
-    parallel_for_each(moving.size(), [&](std::size_t m) { shapes[m] = surface_at(muscles_[m], moving[m].nodes); });
-    std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, shapes);
-    for (std::size_t m = 0; m < moving.size(); ++m)
+    if (neighbors_.none()) return;
+    // What is seen of them meets, and the tissue gives way by as much.
+    std::vector<Points> seen(moving.size()), tissue(moving.size());
+    parallel_for_each(moving.size(), [&](std::size_t m) {
+      seen[m] = enclosing_surface(muscles_[m], moving[m].nodes);
+      tissue[m] = surface_at(muscles_[m], moving[m].nodes);
+    });
+    std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, seen);
+    for (std::size_t m = 0; m < moving.size(); ++m) {
+      for (ContactPlane& plane : planes[m])
+        plane.least += plane.normal.dot(tissue[m].col(plane.point) - seen[m].col(plane.point));
       set_planes(muscles_[m], std::move(planes[m]), moving[m].equilibrium.around);
+    }
   }
 
   void settle_once(std::size_t m, MovingMuscle& moving) const {
@@ -215,7 +237,8 @@ class TissueMethod final : public DeformationMethod {
     const Wrench pull =
         attachment_wrench(muscles_[m], moving.equilibrium.around, moving.nodes, AttachmentEnd::insertion);
     return {moving.milliseconds,
-            {{"minimizer_iterations", static_cast<Real>(moving.iterations)},
+            {{"cells", static_cast<Real>(muscles_[m].lattice.cell_count())},
+             {"minimizer_iterations", static_cast<Real>(moving.iterations)},
              {"residual_n", moving.done.residual},
              {"pull_n", pull.force.norm()},
              {"least_volume_ratio", least_volume_ratio(muscles_[m].lattice, moving.nodes)}}};
@@ -236,6 +259,7 @@ class TissueMethod final : public DeformationMethod {
   int rounds_ = 0;                                      ///< of looking at neighbors, in each step
   std::vector<std::map<int, FactoredMatrix>> metrics_;  ///< by muscle and activation, made when first asked for
   std::vector<Points> nodes_;
+  std::vector<Points> seen_;  ///< surfaces, 3 × vertices
   std::vector<Equilibrium> equilibria_;
   std::vector<RigidTransform> bodies_;
   int frame_ = 0;
@@ -251,7 +275,7 @@ MethodEntry tissue_entry() {
   return {.name = "tissue",
           .meaning = "their inside as tissue under tension, at rest in every frame",
           .settings = describe_settings<TissueSettings>(),
-          .metrics = {{"minimizer_iterations"}, {"residual_n", 6}, {"pull_n", 3}, {"least_volume_ratio", 3}},
+          .metrics = {{"cells"}, {"minimizer_iterations"}, {"residual_n", 6}, {"pull_n", 3}, {"least_volume_ratio", 3}},
           .make = [](const Scene& scene, const BoneFieldSource& fields) {
             return make_tissue_method(scene, fields(scene.distance_fields));
           }};

@@ -13,8 +13,6 @@ namespace gracilis::tissue {
 namespace {
 
 constexpr Index groups_per_task = 16, points_per_task = 512, nodes_per_task = 512;
-/// Of what follows a distance's values on a grid: along each axis by no more than the way.
-const Real largest_slope = std::sqrt(3.0);
 /// Keeps parts that nothing holds solvable, as a share of a cell's stiffness.
 constexpr Real least_stiffness = 1e-6;
 

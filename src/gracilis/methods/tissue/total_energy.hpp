@@ -40,6 +40,9 @@ struct Surroundings {
 Surroundings surroundings(const PreparedTissue& muscle, const std::vector<RigidTransform>& bodies,
                           const std::vector<CellLaw>& laws);
 
+/// Of what follows a distance's values on a grid: along each axis by no more than the way.
+inline constexpr Real largest_slope = 1.7320508075688772;
+
 /// Points within this distance of touching a bone are near it, m: less than the margin of usual distance fields.
 inline constexpr Real near_bones = 0.006;
 /// Makes these planes those of other muscles. Precondition: in the order of points.

@@ -19,6 +19,7 @@ const std::vector<ColorScale>& color_scales() {
   // Thin lines on white want a dark middle.
   static const std::vector<Color> lines =
       bytes({{20, 80, 170}, {70, 120, 170}, {110, 110, 110}, {190, 90, 60}, {178, 24, 43}});
+  static const std::vector<Color> lines_rising = bytes({{70, 120, 170}, {170, 110, 120}, {205, 70, 60}, {110, 10, 60}});
   static const Real fiber_end = std::log2(1.5);
   static const std::vector<ColorScale> scales = {
       {"muscle", "", {}, 0, 1, {}},
@@ -26,7 +27,9 @@ const std::vector<ColorScale>& color_scales() {
       {"fiber-strain", "fiber length, × rest", lines, -fiber_end, fiber_end, {"0.67", "1", "1.5"}},
       {"edge-stretch", "edge length, × rest", diverging, -1, 1, {"0.5", "1", "2"}},
       {"bone-gap", "distance to bone, mm", falling, 0, 0.01, {"0", "5", "≥ 10"}},
-      {"volume", "change of volume, %", diverging, -0.01, 0.01, {"-1", "0", "+1"}}};
+      {"volume", "change of volume, %", diverging, -0.01, 0.01, {"-1", "0", "+1"}},
+      {"stress", "stress of fibers, kPa", rising, 4, 6, {"10", "100", "1000"}},
+      {"tension", "tension of fibers, N", lines_rising, -2, 1, {"0.01", "0.1", "1", "10"}}};
   return scales;
 }
 

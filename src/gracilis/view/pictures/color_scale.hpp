@@ -8,7 +8,7 @@
 namespace gracilis {
 
 /// What pictures of runs tell by color.
-enum class ColorBy { muscle, activation, fiber_strain, edge_stretch, bone_gap, volume };
+enum class ColorBy { muscle, activation, fiber_strain, edge_stretch, bone_gap, volume, stress, tension };
 
 /// Values to colors, with what stands beside the bar. Colors run from the lowest value to the highest.
 struct ColorScale {
@@ -21,7 +21,8 @@ struct ColorScale {
 
 /// One for each ColorBy, in its order. Scales with a middle go from blue over a light tone to red (after Brewer's
 /// RdBu), the others from light to dark: color-blind readers and gray print keep the order. Ratios are shown by their
-/// binary logarithm, so that half and double are equally far from 1.
+/// binary logarithm, so that half and double are equally far from 1; stress
+/// (Pa) and tension (N) by the decimal one.
 const std::vector<ColorScale>& color_scales();
 
 const ColorScale& color_scale(ColorBy by);

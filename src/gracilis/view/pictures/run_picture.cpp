@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/preview.hpp>
 
@@ -67,12 +68,22 @@ std::string pose_caption(const RecordedRun& run, int frame) {
   return caption.empty() ? fmt::format("frame {}", frame) : caption;
 }
 
+/// Of methods whose muscles are under tension.
+static void require_forces(const RecordedRun& run, ColorBy color_by) {
+  if ((color_by != ColorBy::stress && color_by != ColorBy::tension) || std::filesystem::exists(run.folder / force_file))
+    return;
+  throw ConfigurationError({run.folder.string(), "", "the run knows no forces",
+                            "run the scene again with --set method=tissue, or color by something else"});
+}
+
 RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options) : run_(run), options_(std::move(options)) {
   require_names();
-  if (options_.color_by == ColorBy::fiber_strain) options_.fibers = true;
+  if (options_.color_by == ColorBy::fiber_strain || options_.color_by == ColorBy::tension) options_.fibers = true;
+  require_forces(run, options_.color_by);
   for (const std::string& bone : run.bones) bones_.push_back(recorded_surface(run, bone, 0));
   if (options_.color_by == ColorBy::bone_gap)
     for (const TriangleMesh& bone : bones_) distances_.emplace_back(bone);
+  if (options_.color_by == ColorBy::tension) tensions_ = recorded_tensions(run);
   for (const std::string& muscle : run.muscles) {
     if (options_.color_by == ColorBy::edge_stretch) stretches_.emplace_back(recorded_surface(run, muscle, 0));
     if (options_.fibers) lengths_.push_back(polyline_lengths(recorded_fibers(run, muscle, 0)));
@@ -130,6 +141,13 @@ Points RunPainter::vertex_colors(std::size_t muscle, const TriangleMesh& mesh, i
     case ColorBy::volume:
       all(measured(run_, "volume_ratio", frame, muscle) - 1);
       break;
+    case ColorBy::stress: {
+      const Eigen::VectorXd stresses = recorded_fiber_stresses(run_, run_.muscles[muscle], frame);
+      for (Index v = 0; v < colors.cols(); ++v)
+        colors.col(v) = color_at(scale, v < stresses.size() ? std::log10(std::max(1.0, stresses[v])) : std::nan(""));
+      break;
+    }
+    case ColorBy::tension:
     case ColorBy::fiber_strain:
       colors.colwise() = Color(0.88, 0.76, 0.72);  // pale flesh: neither bone nor a color of the scale
       break;
@@ -161,6 +179,9 @@ PaintedLines RunPainter::fibers(std::size_t muscle, int frame) const {
   painted.lines = recorded_fibers(run_, run_.muscles[muscle], frame);
   painted.color = muscle_color(run_.muscles[muscle]);
   painted.radius = 0.0006;
+  if (options_.color_by == ColorBy::tension && frame < tensions_[muscle].rows())
+    for (const Real tension : tensions_[muscle].row(frame))
+      painted.colors.push_back(color_at(color_scale(ColorBy::tension), std::log10(std::max(1e-9, tension))));
   if (options_.color_by != ColorBy::fiber_strain) return painted;
   const std::vector<Real> lengths = polyline_lengths(painted.lines);
   for (std::size_t i = 0; i < std::min(lengths.size(), lengths_[muscle].size()); ++i)

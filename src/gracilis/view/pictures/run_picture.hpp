@@ -16,7 +16,7 @@ namespace gracilis {
 struct RunPictureOptions {
   std::string view;  ///< empty: as the run's preview looks, or lateral where that is not known
   ColorBy color_by = ColorBy::muscle;
-  bool fibers = false;               ///< with muscles that one sees through; fiber_strain shows them anyway
+  bool fibers = false;               ///< with muscles that one sees through; fiber_strain and tension show them anyway
   Real opacity = 1;                  ///< of muscles
   std::vector<std::string> muscles;  ///< to show; empty: all
   std::vector<std::string> bones;    ///< to show; empty: all
@@ -42,7 +42,8 @@ std::vector<int> telling_frames(const RecordedRun& run, int first = 0);
 /// Draws any frame of a run. Throws InputError when a frame is damaged.
 class RunPainter {
  public:
-  /// Throws ConfigurationError when the options name what the run does not have. The run must outlive this.
+  /// Throws ConfigurationError when the options name what the run does not have, or color by what it does not know. The
+  /// run must outlive this.
   RunPainter(const RecordedRun& run, RunPictureOptions options);
 
   Panel panel(int frame) const;
@@ -67,6 +68,7 @@ class RunPainter {
   std::vector<SignedDistance> distances_;   ///< per bone, where colors need them
   std::vector<VertexStretch> stretches_;    ///< per muscle, where colors need them
   std::vector<std::vector<Real>> lengths_;  ///< per muscle and fiber at rest, m
+  std::vector<Eigen::MatrixXd> tensions_;   ///< per muscle: frames × fibers, N, where colors need them
 };
 
 /// Frames of one or several runs: a row per run, a column per frame of the first one; other runs show the frame in the

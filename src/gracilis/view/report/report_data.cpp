@@ -1,5 +1,6 @@
 #include <gracilis/view/report/report_data.hpp>
 
+#include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/simulate/measures.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
@@ -109,6 +110,31 @@ static Json table_chart(const RecordedRun& run, const std::string& file, const s
   return {{"id", id}, {"title", title}, {"unit", "mm"}, {"limits", Json::array()}, {"series", series}};
 }
 
+/// Forces as the run wrote them: tensions of whole muscles, and what these do about each coordinate.
+static std::vector<Json> force_charts(const RecordedRun& run) {
+  if (!std::filesystem::exists(run.folder / force_file)) return {};
+  const Table table = read_table(run.folder / force_file);
+  const auto rows = std::min<Eigen::Index>(table.values.rows(), run.frame_count);
+  const auto chart = [&](const std::string& id, const std::string& title, const std::string& unit) {
+    Json series = Json::array();
+    for (const std::string& muscle : run.muscles) {
+      const std::optional<Eigen::Index> column = column_of(table, muscle + "_" + id);
+      if (!column) continue;
+      Eigen::VectorXd values = Eigen::VectorXd::Constant(run.frame_count, std::nan(""));
+      values.tail(rows) = table.values.col(*column).head(rows);
+      series.push_back({{"muscle", muscle}, {"values", rounded(values)}});
+    }
+    return Json{{"id", id}, {"title", title}, {"unit", unit}, {"limits", Json::array()}, {"series", series}};
+  };
+  std::vector<Json> charts = {chart("tension", "Tension of all fibers", "N")};
+  for (const std::string& column : run.coordinates) {
+    const CoordinateLabel label = coordinate_label(column);
+    const Json each = chart("moment_" + label.name, "Moment about " + label.name, label.unit == "°" ? "N·m" : "N");
+    if (!each["series"].empty()) charts.push_back(each);
+  }
+  return charts;
+}
+
 static Json charts_of(const RecordedRun& run) {
   Json charts = Json::array();
   const auto add = [&](const Json& chart) {
@@ -116,6 +142,7 @@ static Json charts_of(const RecordedRun& run) {
   };
   add(table_chart(run, "fiber_lengths.sto", "fiber_lengths", "Fiber length, mean (band: shortest to longest)"));
   add(table_chart(run, "moment_arms.sto", "moment_arms", "Moment arm, mean (band: least to greatest)"));
+  for (const Json& chart : force_charts(run)) add(chart);
   for (const ShownMeasure& shown : shown_measures()) add(measure_chart(run, shown));
   return charts;
 }

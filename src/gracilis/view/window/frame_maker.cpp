@@ -97,4 +97,20 @@ void FrameMaker::fill_fibers(const std::vector<Polylines>& fibers, ShownFrame& f
   }
 }
 
+void FrameMaker::fill_stress(const std::vector<Eigen::VectorXd>& stresses, ShownFrame& frame) const {
+  frame.stress.resize(stresses.size());
+  for (std::size_t m = 0; m < stresses.size(); ++m)
+    if (stresses[m].size() > 0)
+      for (const Index v : shown_[m]) frame.stress[m].push_back(static_cast<float>(stresses[m][v]));
+}
+
+void FrameMaker::fill_tension(const std::vector<Eigen::VectorXd>& tensions, ShownFrame& frame) {
+  frame.tension.resize(tensions.size());
+  for (std::size_t m = 0; m < tensions.size(); ++m) {
+    // The same as spread_lines chooses.
+    const auto all = static_cast<Index>(tensions[m].size()), count = std::min(all, fibers_shown);
+    for (Index i = 0; i < count; ++i) frame.tension[m].push_back(tensions[m][i * all / count]);
+  }
+}
+
 }  // namespace gracilis

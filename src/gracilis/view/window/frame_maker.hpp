@@ -22,6 +22,9 @@ class FrameMaker {
             ShownFrame& frame);
   /// Fibers, and their lengths over those of the first call. At most 24 of a muscle's are shown.
   void fill_fibers(const std::vector<Polylines>& fibers, ShownFrame& frame);
+  /// Of the fibers at each vertex (Pa), and of all fibers of each muscle (N); empty entries: nobody knows.
+  void fill_stress(const std::vector<Eigen::VectorXd>& stresses, ShownFrame& frame) const;
+  static void fill_tension(const std::vector<Eigen::VectorXd>& tensions, ShownFrame& frame);
 
   /// Values per vertex of a muscle's whole surface, at those that are shown.
   template <class Value>

@@ -284,6 +284,20 @@ void LiveSimulation::work() {
   }
 }
 
+/// Tensions cost the method some time, so only while somebody looks at them.
+void LiveSimulation::fill_forces(const Frame& frame, ShownFrame& result) const {
+  std::vector<Eigen::VectorXd> stresses, tensions(frame.muscles.size());
+  for (const MuscleShape& shape : frame.muscles) stresses.push_back(shape.fiber_stresses);
+  maker_->fill_stress(stresses, result);
+  if (history_.wishes.tension && method_) {
+    const std::vector<MuscleForces> forces = method_->muscle_forces({});
+    for (std::size_t m = 0; m < forces.size(); ++m)
+      tensions[m] = Eigen::Map<const Eigen::VectorXd>(forces[m].fiber_tensions.data(),
+                                                      static_cast<Index>(forces[m].fiber_tensions.size()));
+  }
+  FrameMaker::fill_tension(tensions, result);
+}
+
 ShownFrame LiveSimulation::shown(const Frame& frame) {
   ShownFrame result;
   std::size_t coordinate = 0;
@@ -311,6 +325,7 @@ ShownFrame LiveSimulation::shown(const Frame& frame) {
     result.fibers = fibers;
     result.strain.resize(fibers.size());
   }
+  fill_forces(frame, result);
   result.activation = frame.pose.activations;
   result.activation.resize(scene_.muscles.size());
   result.milliseconds = milliseconds_;

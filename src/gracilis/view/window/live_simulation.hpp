@@ -65,6 +65,7 @@ class LiveSimulation {
   void watch_passes();
   Frame next_frame(int number);
   ShownFrame shown(const Frame& frame);
+  void fill_forces(const Frame& frame, ShownFrame& result) const;
   void tell(const std::string& status);
 
   const Scene& scene_;

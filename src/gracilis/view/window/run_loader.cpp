@@ -33,6 +33,7 @@ RunLoader::RunLoader(const RecordedRun& run, ShapeHistory& history)
   shapes_.bones = run.bones;
   maker_.emplace(read_surfaces(run, run.muscles, 0), read_surfaces(run, run.bones, 0), shapes_);
   for (std::size_t m = 0; m < run.muscles.size(); ++m) take_tissue(m);
+  tensions_ = recorded_tensions(run);
   history_.append(read(0));
   thread_ = std::thread([this] { work(); });
 }
@@ -78,6 +79,16 @@ int RunLoader::frame_without_depth() const {
   return -1;
 }
 
+void RunLoader::fill_forces(int number, ShownFrame& frame) const {
+  std::vector<Eigen::VectorXd> stresses, tensions;
+  for (std::size_t m = 0; m < run_.muscles.size(); ++m) {
+    stresses.push_back(recorded_fiber_stresses(run_, run_.muscles[m], number));
+    tensions.emplace_back(number < tensions_[m].rows() ? Eigen::VectorXd(tensions_[m].row(number)) : Eigen::VectorXd());
+  }
+  maker_->fill_stress(stresses, frame);
+  FrameMaker::fill_tension(tensions, frame);
+}
+
 ShownFrame RunLoader::read(int number) {
   ShownFrame frame;
   frame.caption = pose_caption(run_, number);
@@ -94,6 +105,7 @@ ShownFrame RunLoader::read(int number) {
   std::vector<Polylines> fibers;
   for (const std::string& name : run_.muscles) fibers.push_back(placed_fibers(run_, name, number));
   maker_->fill_fibers(fibers, frame);
+  fill_forces(number, frame);
   for (Index m = 0; m < static_cast<Index>(run_.muscles.size()); ++m) {
     frame.activation.push_back(activations_.size() > 0 ? activations_(number, m) : 0);
     if (volumes_.size() > 0) frame.volume[static_cast<std::size_t>(m)] = volumes_(number, m);

@@ -27,6 +27,7 @@ class RunLoader {
 
  private:
   void take_tissue(std::size_t muscle);
+  void fill_forces(int number, ShownFrame& frame) const;
   void work();
   ShownFrame read(int frame);
   int frame_without_depth() const;
@@ -37,6 +38,7 @@ class RunLoader {
   std::optional<FrameMaker> maker_;
   std::vector<bool> has_depth_;  ///< per frame
   Eigen::MatrixXd activations_, volumes_, milliseconds_;
+  std::vector<Eigen::MatrixXd> tensions_;  ///< per muscle: frames × fibers, N
   std::atomic<bool> stop_ = false;
   std::thread thread_;
 };

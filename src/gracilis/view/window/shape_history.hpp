@@ -48,10 +48,12 @@ struct ShownFrame {
   std::string caption;
   std::vector<ShownPoints> muscles;
   std::vector<std::vector<float>> stretch;        ///< per vertex, × rest
+  std::vector<std::vector<float>> stress;         ///< per vertex, of fibers, Pa; an empty entry: nobody knows
   std::vector<std::vector<float>> contact_depth;  ///< per vertex, m, see contact_depth.hpp; empty: not asked for
   std::vector<RigidTransform> bones;              ///< per bone, from rest
   std::vector<Polylines> fibers;                  ///< some of them, m
   std::vector<std::vector<Real>> strain;          ///< per fiber, length × rest
+  std::vector<std::vector<Real>> tension;         ///< per fiber, N; an empty entry: nobody knows
   std::vector<Real> activation, volume;           ///< volume × rest
   std::vector<ShownPass> passes;                  ///< in their order; empty: not asked for
   Real milliseconds = 0;                          ///< that the solver took for all muscles
@@ -59,7 +61,7 @@ struct ShownFrame {
 
 /// What costs time and is made only while somebody looks at it.
 struct ShownWishes {
-  std::atomic<bool> contact_depth = false, passes = false;
+  std::atomic<bool> contact_depth = false, passes = false, tension = false;
   std::atomic<int> frame = 0;  ///< the one that is looked at
 };
 

@@ -128,9 +128,10 @@ void Viewer::step_iteration(int by) {
 }
 
 void Viewer::update_wishes() {
+  history_.wishes.tension = state_.color_by == WindowColor::tension;
   history_.wishes.contact_depth = state_.color_by == WindowColor::contact_depth;
   history_.wishes.passes = state_.arrows != Arrows::none;
-  if (options_.live && history_.wishes.contact_depth) options_.live->look_again();
+  if (options_.live && (history_.wishes.contact_depth || history_.wishes.tension)) options_.live->look_again();
 }
 
 void Viewer::cycle_muscle(std::size_t muscle) {

@@ -42,8 +42,8 @@ void Viewer::look(const std::string& view) {
 }
 
 static const char* name_of(WindowColor color) {
-  static constexpr std::array names = {"muscle",       "tissue",        "activation", "fiber strain",
-                                       "edge stretch", "contact depth", "volume"};
+  static constexpr std::array names = {"muscle",        "tissue", "activation", "fiber strain", "edge stretch",
+                                       "contact depth", "volume", "stress",     "tension"};
   return names[static_cast<std::size_t>(color)];
 }
 
@@ -217,6 +217,11 @@ void Viewer::lay_out_directions() {
   overlay_.add_text_centered(width_ / 2, track_height + 10, direction_word(-above, shapes_.axes), 14, faint);
 }
 
+template <class Values>
+static bool none_known(const std::vector<Values>& of_muscles) {
+  return std::all_of(of_muscles.begin(), of_muscles.end(), [](const Values& each) { return each.empty(); });
+}
+
 /// What the user should know before anything else; empty: nothing.
 std::string Viewer::hint() const {
   if (!frame_number_.empty()) return "jump to frame " + frame_number_.substr(1) + "_";
@@ -224,6 +229,8 @@ std::string Viewer::hint() const {
   if (state_.slice != Slice::none && fields_.empty())
     return options_.bone_fields ? "building the bones' distance fields ..." : "no bones to slice";
   if (state_.color_by == WindowColor::contact_depth && frame->contact_depth.empty()) return "contact depth comes ...";
+  if (state_.color_by == WindowColor::stress && none_known(frame->stress)) return "this method knows no forces";
+  if (state_.color_by == WindowColor::tension && none_known(frame->tension)) return "this method knows no forces";
   if (state_.arrows != Arrows::none && frame->passes.empty()) return "arrows are there from the next step on";
   const bool knows_tissue =
       std::any_of(shapes_.belly.begin(), shapes_.belly.end(), [](const auto& b) { return !b.empty(); });

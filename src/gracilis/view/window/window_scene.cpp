@@ -49,10 +49,13 @@ WindowScene::WindowScene(const ShownShapes& shapes, const ShapeHistory& history,
   arrows_ = add_empty(true, renderer);
 }
 
+static bool colors_fibers(const WindowState& state) {
+  return state.color_by == WindowColor::fiber_strain || state.color_by == WindowColor::tension;
+}
+
 bool is_seen_through(std::size_t muscle, const WindowState& state) {
-  return state.muscles[muscle] == MuscleState::transparent || state.fibers ||
-         state.color_by == WindowColor::fiber_strain || state.arrows != Arrows::none || state.slice != Slice::none ||
-         state.attachments;
+  return state.muscles[muscle] == MuscleState::transparent || state.fibers || colors_fibers(state) ||
+         state.arrows != Arrows::none || state.slice != Slice::none || state.attachments;
 }
 
 static std::vector<Color> tissue_of(const ShownShapes& shapes, std::size_t muscle, std::size_t count) {
@@ -89,6 +92,10 @@ static std::vector<Color> vertex_colors(std::size_t muscle, const ShownShapes& s
       return std::vector<Color>(count, color_at(scale, frame.activation[muscle]));
     case WindowColor::volume:
       return std::vector<Color>(count, color_at(scale, frame.volume[muscle] - 1));
+    case WindowColor::stress:
+      return each(frame.stress.empty() ? std::vector<float>() : frame.stress[muscle],
+                  [](float stress) { return std::log10(std::max(1.0, static_cast<Real>(stress))); });
+    case WindowColor::tension:
     case WindowColor::fiber_strain:
       return std::vector<Color>(count, Color::Constant(0.8));
     case WindowColor::edge_stretch:
@@ -116,15 +123,19 @@ void WindowScene::show_muscle(std::size_t muscle, const ShownFrame& frame, const
 }
 
 void WindowScene::show_fibers(std::size_t muscle, const ShownFrame& frame, const WindowState& state) {
-  const bool by_strain = state.color_by == WindowColor::fiber_strain;
+  const bool by_fiber = colors_fibers(state);
   SurfaceActor& tubes = muscles_[muscle].fibers;
   const bool visible =
-      (state.fibers || by_strain) && state.muscles[muscle] != MuscleState::hidden && frame.fibers[muscle].count() > 0;
+      (state.fibers || by_fiber) && state.muscles[muscle] != MuscleState::hidden && frame.fibers[muscle].count() > 0;
   tubes.actor->SetVisibility(visible);
   if (!visible) return;
   std::vector<Color> colors;
+  if (state.color_by == WindowColor::tension && !frame.tension.empty())
+    for (const Real tension : frame.tension[muscle])
+      colors.push_back(color_at(color_scale(ColorBy::tension), std::log10(std::max(1e-9, tension))));
   for (const Real strain : frame.strain[muscle])
-    if (by_strain) colors.push_back(color_at(color_scale(ColorBy::fiber_strain), std::log2(strain)));
+    if (state.color_by == WindowColor::fiber_strain)
+      colors.push_back(color_at(color_scale(ColorBy::fiber_strain), std::log2(strain)));
   set_tubes(frame.fibers[muscle], fiber_radius, colors, tubes);
 }
 

@@ -24,6 +24,10 @@ const ColorScale& window_scale(WindowColor color) {
       return color_scale(ColorBy::edge_stretch);
     case WindowColor::volume:
       return color_scale(ColorBy::volume);
+    case WindowColor::stress:
+      return color_scale(ColorBy::stress);
+    case WindowColor::tension:
+      return color_scale(ColorBy::tension);
     case WindowColor::contact_depth:
       return depth;
     case WindowColor::muscle:

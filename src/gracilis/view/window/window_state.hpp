@@ -11,14 +11,24 @@ namespace gracilis {
 enum class MuscleState { solid, transparent, hidden };
 enum class SurfaceStyle { solid, edges, wireframe };
 /// What the colors of muscles tell.
-enum class WindowColor { muscle, tissue, activation, fiber_strain, edge_stretch, contact_depth, volume };
+enum class WindowColor {
+  muscle,
+  tissue,
+  activation,
+  fiber_strain,
+  edge_stretch,
+  contact_depth,
+  volume,
+  stress,
+  tension
+};
 /// Earlier frames that are seen through.
 enum class Ghost { none, first_frame, trail };
 enum class Arrows { none, frame, iteration };
 /// A plane through the bones' distance fields.
 enum class Slice { none, sagittal, coronal, transverse };
 
-inline constexpr int window_color_count = 7;
+inline constexpr int window_color_count = 9;
 inline constexpr std::array trail_steps = {10, 20, 30};  ///< frames back
 
 /// What of the shapes is seen, and how.

@@ -1,0 +1,199 @@
+#include <gracilis/methods/tissue/seen_surface.hpp>
+
+#include <gracilis/geometry/measures.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis::tissue {
+
+namespace {
+
+/// Of volume, then out of bones; each disturbs the other a little.
+constexpr int rounds = 3, volume_rounds = 2, bone_rounds = 4;
+constexpr Real volume_tolerance = 1e-6;
+/// A vertex whose triangles face different ways moves as if they had this share of their area.
+constexpr Real least_facing = 0.3;
+
+Real distance_in(const BoneGap& bone, const RigidTransform& inverse, const Vec3& p) {
+  return static_cast<Real>(sample_bounded(bone.field, (inverse * p).cast<float>()).distance);
+}
+
+Vec3 spot_on(const FacePlace& place, const Points& x) {
+  Vec3 sum = Vec3::Zero();
+  for (Index k = 0; k < 3; ++k) sum += place.shares[k] * x.col(place.corners[static_cast<std::size_t>(k)]);
+  return sum;
+}
+
+Real longest_edge(const Points& x, const Eigen::Vector3i& corners) {
+  Real longest = 0;
+  for (Index k = 0; k < 3; ++k) longest = std::max(longest, (x.col(corners[k]) - x.col(corners[(k + 1) % 3])).norm());
+  return longest;
+}
+
+Real volume_asked(const PreparedTissue& muscle, const Points& nodes) {
+  return muscle.volume * filled_volume_ratio(muscle.lattice, nodes);
+}
+
+/// How the enclosed volume grows with each vertex, m²; and how far a vertex is moved for a volume, 1/m².
+struct VolumeSlopes {
+  Points slopes, moves;
+};
+
+VolumeSlopes volume_slopes(const PreparedTissue& muscle, const Points& x) {
+  const Eigen::Matrix3Xi& faces = muscle.faces;
+  VolumeSlopes found{Points::Zero(3, x.cols()), Points::Zero(3, x.cols())};
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(x.cols());
+  for (Index f = 0; f < static_cast<Index>(faces.cols()); ++f) {
+    const Vec3 part = area_vector(x, faces.col(f)) / 6;
+    const Real area = part.norm();
+    for (Index k = 0; k < 3; ++k) {
+      found.slopes.col(faces(k, f)) += part;
+      areas[faces(k, f)] += area;
+    }
+  }
+  for (Index v = 0; v < static_cast<Index>(x.cols()); ++v) {
+    const Real least = least_facing * areas[v];
+    const Real squared = std::max(found.slopes.col(v).squaredNorm(), least * least);
+    if (squared > 0) found.moves.col(v) = found.slopes.col(v) / squared;
+  }
+  return found;
+}
+
+/// What each free vertex is asked to bring in, m³: the triangles' parts shared among their free corners.
+Eigen::VectorXd shared_among_corners(const PreparedTissue& muscle, const std::vector<Real>& of_faces) {
+  Eigen::VectorXd shared = Eigen::VectorXd::Zero(muscle.vertex_count);
+  for (std::size_t i = 0; i < of_faces.size(); ++i) {
+    const Eigen::Vector3i corners = muscle.faces.col(muscle.large_faces.faces[i].face);
+    int free = 0;
+    for (const Index v : corners) free += muscle.points[static_cast<std::size_t>(v)].held_by < 0;
+    for (const Index v : corners)
+      if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) shared[v] += of_faces[i] / free;
+  }
+  return shared;
+}
+
+/// Moves the free part of the surface out evenly, so that the volume comes to what is asked for.
+void meet_volume(const PreparedTissue& muscle, Real asked, Points& x) {
+  Eigen::VectorXd areas(muscle.vertex_count);
+  for (Index v = 0; v < muscle.vertex_count; ++v) {
+    const SurfacePoint& point = muscle.points[static_cast<std::size_t>(v)];
+    areas[v] = point.held_by < 0 ? point.vertex_area : 0;
+  }
+  for (int i = 0; i < volume_rounds; ++i) {
+    const Real missing = asked - enclosed_volume(x, muscle.faces);
+    if (std::abs(missing) < volume_tolerance * asked) return;
+    const VolumeSlopes volume = volume_slopes(muscle, x);
+    const Real gain = (volume.slopes.cwiseProduct(volume.moves).colwise().sum() * areas).value();
+    if (!(gain > 0)) return;
+    x += missing / gain * (volume.moves * areas.asDiagonal());
+  }
+}
+
+/// The places on large triangles that a bone may have to push.
+std::vector<std::size_t> places_near(const PreparedTissue& muscle, const Surroundings& around, std::size_t b,
+                                     const Points& x) {
+  const BoneGap& bone = muscle.bones[b];
+  const RigidTransform& inverse = around.inverses[static_cast<std::size_t>(bone.body)];
+  const std::vector<Real>& least = muscle.large_faces.least[b];
+  std::vector<std::size_t> found;
+  for (const LargeFace& large : muscle.large_faces.faces) {
+    // Where the bone was seen from a corner tells of most triangles that they are far.
+    const Index v = large.free_corner;
+    if (b < around.sights.size()) {
+      const BoneSight& sight = around.sights[b];
+      const Real moved = (inverse * x.col(v) - sight.places.col(v)).norm();
+      const Real size = longest_edge(x, muscle.faces.col(large.face));
+      if (sight.distances[v] - largest_slope * (moved + size) > seen_clearance + near_bones) continue;
+    }
+    for (Index i = large.kept_begin; i < large.kept_end; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      if (distance_in(bone, inverse, spot_on(muscle.large_faces.kept[at], x)) < least[at] + near_bones)
+        found.push_back(at);
+    }
+  }
+  return found;
+}
+
+/// Pushes these places out of the bone, one after the other, so that none of it jumps.
+void push_out(const PreparedTissue& muscle, const Surroundings& around, std::size_t b,
+              const std::vector<std::size_t>& near, Points& x) {
+  const BoneGap& bone = muscle.bones[b];
+  const auto body = static_cast<std::size_t>(bone.body);
+  for (const std::size_t i : near) {
+    const FacePlace& kept = muscle.large_faces.kept[i];
+    const Real least = muscle.large_faces.least[b][i];
+    const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * spot_on(kept, x));
+    if (!(found.distance < least)) continue;
+    const Vec3 push =
+        (least - found.distance) / kept.shares.squaredNorm() * (around.bodies[body].linear() * found.gradient);
+    for (Index k = 0; k < 3; ++k) {
+      const Index v = kept.corners[static_cast<std::size_t>(k)];
+      if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) x.col(v) += kept.shares[k] * push;
+    }
+  }
+}
+
+/// Vertices that contact, which is soft, lets come too near.
+void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around, Points& x) {
+  for (Index v = 0; v < muscle.vertex_count; ++v) {
+    const auto p = static_cast<std::size_t>(v);
+    for (Index i = around.near_begin[p]; i < around.near_begin[p + 1]; ++i) {
+      const BoneGap& bone = muscle.bones[static_cast<std::size_t>(around.near[static_cast<std::size_t>(i)].bone)];
+      const auto body = static_cast<std::size_t>(bone.body);
+      const Real least = std::min(bone.gaps[p], seen_clearance);
+      if (distance_in(bone, around.inverses[body], x.col(v)) > least + near_bones) continue;
+      const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * x.col(v));
+      if (found.distance < least)
+        x.col(v) += (least - found.distance) * (around.bodies[body].linear() * found.gradient);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& nodes, const Points& corners) {
+  const Points moved = nodes - muscle.lattice.nodes;
+  std::vector<Real> lacking;
+  for (const LargeFace& large : muscle.large_faces.faces) {
+    const Eigen::Vector3i vertices = muscle.faces.col(large.face);
+    Eigen::Matrix3d corners_moved;
+    for (Index k = 0; k < 3; ++k)
+      corners_moved.col(k) = corners.col(vertices[k]) - muscle.points[static_cast<std::size_t>(vertices[k])].rest;
+    Vec3 mean = Vec3::Zero();
+    for (Index i = large.places_begin; i < large.places_end; ++i) {
+      const LargeFacePlace& place = muscle.large_faces.places[static_cast<std::size_t>(i)];
+      mean += place.share * (mean_at(place.at, moved) - corners_moved * place.shares);
+    }
+    lacking.push_back(mean.dot(area_vector(corners, vertices)) / 2);
+  }
+  return lacking;
+}
+
+Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes) {
+  Points x = surface_at(muscle, nodes);
+  if (muscle.large_faces.faces.empty()) return x;
+  const Eigen::VectorXd lacking = shared_among_corners(muscle, lacking_volumes(muscle, nodes, x));
+  x += volume_slopes(muscle, x).moves * lacking.asDiagonal();
+  meet_volume(muscle, volume_asked(muscle, nodes), x);
+  return x;
+}
+
+Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes) {
+  Points x = enclosing_surface(muscle, nodes);
+  std::vector<std::vector<std::size_t>> near;
+  bool any = false;
+  for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
+    near.push_back(places_near(muscle, around, b, x));
+    any = any || !near.back().empty();
+  }
+  for (int round = 0; any && round < rounds; ++round) {
+    if (round > 0) meet_volume(muscle, volume_asked(muscle, nodes), x);
+    for (int i = 0; i < bone_rounds; ++i)
+      for (std::size_t b = 0; b < near.size(); ++b) push_out(muscle, around, b, near[b], x);
+  }
+  push_vertices_out(muscle, around, x);
+  return x;
+}
+
+}  // namespace gracilis::tissue

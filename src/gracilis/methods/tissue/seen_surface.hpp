@@ -1,0 +1,20 @@
+#pragma once
+
+#include <gracilis/methods/tissue/total_energy.hpp>
+
+namespace gracilis::tissue {
+
+/// A muscle's surface as it is seen: its vertices lie in the tissue, but where its triangles are larger than cells the
+/// flat ones hold more or less than what the tissue between their corners does, and lie in bones that the tissue winds
+/// around. Vertices give way by as much as is missing at them. Follows from the nodes and bodies alone, without jumps;
+/// forces and lengths inside are those of the tissue. 3 × vertices, m.
+Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes);
+
+/// The same without a look at bones.
+Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes);
+
+/// What the surface lacks of the tissue beneath each large triangle, m³; of `corners`, which are where its vertices
+/// are. Less than zero where it holds more.
+std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& nodes, const Points& corners);
+
+}  // namespace gracilis::tissue
