@@ -27,6 +27,8 @@ inline Scene moved(const RigidTransform& by, Scene scene) {
   for (Muscle& muscle : scene.muscles) {
     muscle.surface.vertices = moved(by, muscle.surface.vertices);
     muscle.given_fibers.points = moved(by, muscle.given_fibers.points);
+    for (Aponeurosis& each : muscle.aponeuroses) each.surface.vertices = moved(by, each.surface.vertices);
+    muscle.tracts.points = moved(by, muscle.tracts.points);
     muscle.given_surface_fibers.points = moved(by, muscle.given_surface_fibers.points);
     move_line(by, muscle.action_line);
   }

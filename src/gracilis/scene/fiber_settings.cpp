@@ -8,6 +8,9 @@ std::span<const Setting<FiberSettings>> setting_table() {
   static const Setting<S> table[] = {
       {"count", &S::count, "", 0, 100000, "Fibers inside the muscle; 0 makes none."},
       {"segments", &S::segments, "", 1, 10000, "Pieces of each fiber."},
+      {"ends", &S::ends, "", 0, 0,
+       "Where fibers end: at attachments, at aponeuroses, or at these where they are known or attachments are spread "
+       "along the belly as they are."},
       {"shape", &S::shape, "", 0, 0,
        "How fibers run from origin to insertion: side by side, at an angle, in arcs, or drawn together at the "
        "insertion."},

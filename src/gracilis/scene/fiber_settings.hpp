@@ -13,12 +13,21 @@ enum class FiberTemplate {
 };
 constexpr std::array<std::string_view, 4> choices_of(FiberTemplate) { return {"parallel", "pennate", "curved", "fan"}; }
 
+/// Where fibers end.
+enum class FiberEnds {
+  automatic,    ///< on aponeuroses where these are known or attachments are spread along the belly as such are
+  attachments,  ///< on attachments
+  aponeuroses   ///< on aponeuroses, which are the belly's broad sides where nothing is known of them
+};
+constexpr std::array<std::string_view, 3> choices_of(FiberEnds) { return {"automatic", "attachments", "aponeuroses"}; }
+
 /// The fibers of one muscle. Defaults, units and ranges: setting_table<FiberSettings>().
 struct FiberSettings {
   int count = 100;    ///< fibers; 0: none
   int segments = 15;  ///< of each fiber
+  FiberEnds ends = FiberEnds::automatic;
   FiberTemplate shape = FiberTemplate::parallel;
-  Real pennation = 0.26;   ///< rad, angle of the pennate template to the muscle's axis
+  Real pennation = 0.26;   ///< rad, angle of pennate fibers to the muscle's axis
   Real curvature = 0.2;    ///< largest deflection of the curved template, as a share of the muscle's width
   Real convergence = 0.5;  ///< how far the fan template draws together at the insertion, 0: not, 1: to a point
   int smoothing = 30;      ///< rounds of smoothing

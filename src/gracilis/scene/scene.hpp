@@ -117,6 +117,12 @@ struct MethodChoice {
   SettingValues contact = {};   ///< of contact between muscles
 };
 
+/// A sheet that fibers end on, in a muscle or on its surface: tendon spread along the belly. It is moved by the muscle.
+struct Aponeurosis {
+  AttachmentEnd end = AttachmentEnd::origin;
+  TriangleMesh surface;  ///< open or closed, either way around
+};
+
 struct Muscle {
   std::string name;
   TriangleMesh surface;  ///< closed, oriented outwards
@@ -126,6 +132,8 @@ struct Muscle {
   Polylines given_fibers;  ///< from outside; where there are any, none are made from the template
   bool given_are_superficial =
       false;  ///< given_fibers lie on the surface and are to be filled in, not used as they are
+  std::vector<Aponeurosis> aponeuroses;
+  Polylines tracts;  ///< fascicles as measured, noisy and cut short; fibers are made that run like them
   ContractionSettings contraction = {};
   Polylines given_surface_fibers;  ///< picked by hand; where there are any, the muscle contracts along them
   ActionLine action_line = {};     ///< asked for by the method `cylinder`

@@ -37,6 +37,8 @@ Scene shifted(Scene scene, const Vec3& by) {
   for (Muscle& muscle : scene.muscles) {
     muscle.surface.vertices.colwise() += by;
     muscle.given_fibers.points.colwise() += by;
+    for (Aponeurosis& each : muscle.aponeuroses) each.surface.vertices.colwise() += by;
+    muscle.tracts.points.colwise() += by;
     muscle.given_surface_fibers.points.colwise() += by;
     shift(muscle.action_line, by);
   }

@@ -217,8 +217,9 @@ struct Validation {
       check_line(where, muscle);
       check_settings(where, muscle.fibers);
       check_settings(where, muscle.contraction);
-      for (const Polylines* lines : {&muscle.given_fibers, &muscle.given_surface_fibers})
+      for (const Polylines* lines : {&muscle.given_fibers, &muscle.tracts, &muscle.given_surface_fibers})
         if (!lines->points.allFinite()) add(where, "a point of its fibers is not finite");
+      for (const Aponeurosis& each : muscle.aponeuroses) check_surface(where + ", an aponeurosis", each.surface);
       std::map<Index, const Attachment*> owners;
       for (const Attachment& attachment : muscle.attachments) {
         check_attachment(where + ", attachment '" + attachment.name + "'", muscle, attachment, owners);

@@ -176,7 +176,7 @@ std::optional<MuscleStrings> muscle_strings(const Scene& scene, const Muscle& mu
   Muscle fibered = muscle;
   fibered.fibers.count = settings.count;
   fibered.fibers.segments = settings.segments;
-  const Polylines fibers = fibers_of(fibered);
+  const Polylines fibers = attached_fibers_of(fibered);
   if (fibers.count() == 0 || !fibers.points.allFinite()) return std::nullopt;
   MuscleStrings result;
   result.settings = settings;

@@ -20,13 +20,12 @@ std::vector<char> attached(const Muscle& muscle, AttachmentEnd end) {
 }
 
 /// Points that stand for equal areas each, in the order of the triangles.
-std::vector<Vec3> dense_samples(const Muscle& muscle, AttachmentEnd end, Index count) {
-  const std::vector<char> held = attached(muscle, end);
-  const Points& x = muscle.surface.vertices;
+std::vector<Vec3> dense_samples(const TriangleMesh& surface, const std::vector<char>& held, Index count) {
+  const Points& x = surface.vertices;
   std::vector<Index> faces;
   Real total = 0;
-  for (Index f = 0; f < muscle.surface.face_count(); ++f) {
-    const Eigen::Vector3i corners = muscle.surface.faces.col(f);
+  for (Index f = 0; f < surface.face_count(); ++f) {
+    const Eigen::Vector3i corners = surface.faces.col(f);
     if (!std::all_of(corners.begin(), corners.end(), [&](Index v) { return held[static_cast<std::size_t>(v)]; }))
       continue;
     faces.push_back(f);
@@ -34,7 +33,7 @@ std::vector<Vec3> dense_samples(const Muscle& muscle, AttachmentEnd end, Index c
   }
   std::vector<Vec3> samples;
   if (!(total > 0)) {
-    for (Index v = 0; v < muscle.surface.vertex_count(); ++v)
+    for (Index v = 0; v < surface.vertex_count(); ++v)
       if (held[static_cast<std::size_t>(v)]) samples.emplace_back(x.col(v));
     return samples;
   }
@@ -42,7 +41,7 @@ std::vector<Vec3> dense_samples(const Muscle& muscle, AttachmentEnd end, Index c
   Real passed = 0;
   Index i = 0;
   for (const Index f : faces) {
-    const Eigen::Vector3i corners = muscle.surface.faces.col(f);
+    const Eigen::Vector3i corners = surface.faces.col(f);
     passed += area_vector(x, corners).norm() / 2;
     for (; i < count && (i + 0.5) * total / count <= passed; ++i) {
       Real u = std::fmod(0.5 + 0.7548776662466927 * i, 1.0), v = std::fmod(0.5 + 0.5698402909980532 * i, 1.0);
@@ -76,11 +75,9 @@ void take_from_parts(std::span<Vec3> samples, Index count, std::vector<Vec3>& ta
   take_from_parts(samples.subspan(size), count - first, taken);
 }
 
-}  // namespace
-
-Points attachment_samples(const Muscle& muscle, AttachmentEnd end, Index count) {
+Points even_samples(const TriangleMesh& surface, const std::vector<char>& held, Index count) {
   constexpr Index dense = 20;
-  std::vector<Vec3> samples = dense_samples(muscle, end, dense * count);
+  std::vector<Vec3> samples = dense_samples(surface, held, dense * count);
   if (samples.empty() || count == 0) return Points(3, 0);
   // Vertices instead of areas may be fewer than the points asked for.
   const std::size_t given = samples.size();
@@ -92,8 +89,18 @@ Points attachment_samples(const Muscle& muscle, AttachmentEnd end, Index count) 
   return points;
 }
 
+}  // namespace
+
+Points attachment_samples(const Muscle& muscle, AttachmentEnd end, Index count) {
+  return even_samples(muscle.surface, attached(muscle, end), count);
+}
+
+Points surface_points(const TriangleMesh& surface, Index count) {
+  return even_samples(surface, std::vector<char>(static_cast<std::size_t>(surface.vertex_count()), 1), count);
+}
+
 Vec3 attachment_center(const Muscle& muscle, AttachmentEnd end) {
-  const std::vector<Vec3> samples = dense_samples(muscle, end, 1000);
+  const std::vector<Vec3> samples = dense_samples(muscle.surface, attached(muscle, end), 1000);
   Vec3 sum = Vec3::Zero();
   for (const Vec3& sample : samples) sum += sample;
   return samples.empty() ? sum : Vec3(sum / static_cast<Real>(samples.size()));

@@ -11,6 +11,9 @@ namespace gracilis {
 /// for the same surface. 3 × count, m; empty when the muscle has no such end.
 Points attachment_samples(const Muscle& muscle, AttachmentEnd end, Index count);
 
+/// The same on a whole surface. Precondition: at least one vertex.
+Points surface_points(const TriangleMesh& surface, Index count);
+
 /// The middle of the area (of the vertices where it has none), m.
 Vec3 attachment_center(const Muscle& muscle, AttachmentEnd end);
 

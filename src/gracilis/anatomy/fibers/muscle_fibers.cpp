@@ -1,6 +1,7 @@
 #include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 
 #include <gracilis/anatomy/attachments/attachment_samples.hpp>
+#include <gracilis/anatomy/fibers/fascicles.hpp>
 #include <gracilis/anatomy/fibers/inner_fibers.hpp>
 #include <gracilis/anatomy/fibers/superficial_fibers.hpp>
 
@@ -28,9 +29,19 @@ static bool has_end(const Muscle& muscle, AttachmentEnd end) {
                      [&](const Attachment& attachment) { return attachment.end == end; });
 }
 
+static bool wants_fibers(const Muscle& muscle) {
+  return muscle.fibers.count > 0 && has_end(muscle, AttachmentEnd::origin) && has_end(muscle, AttachmentEnd::insertion);
+}
+
 Polylines fibers_of(const Muscle& muscle) {
-  if (muscle.fibers.count == 0) return {};
-  if (!has_end(muscle, AttachmentEnd::origin) || !has_end(muscle, AttachmentEnd::insertion)) return {};
+  if (!wants_fibers(muscle)) return {};
+  if (muscle.given_fibers.count() == 0)
+    if (Polylines fascicles = fascicles_of(muscle); fascicles.count() > 0) return fascicles;
+  return attached_fibers_of(muscle);
+}
+
+Polylines attached_fibers_of(const Muscle& muscle) {
+  if (!wants_fibers(muscle)) return {};
   if (muscle.given_fibers.count() == 0) return inner_fibers(muscle);
   if (muscle.given_are_superficial) return filled_between(muscle, muscle.given_fibers);
   return prepared(muscle.given_fibers, muscle);

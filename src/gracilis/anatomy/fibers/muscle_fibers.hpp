@@ -7,10 +7,15 @@
 
 namespace gracilis {
 
-/// The fibers of a muscle in the capture pose, from origin to insertion: those given with the scene, resampled and
+/// The fibers of a muscle in the capture pose, from origin to insertion: fascicles from aponeurosis to
+/// aponeurosis, where these or measured tracts are known (see fascicles.hpp); else `attached_fibers_of`. Empty when the
+/// muscle wants none.
+Polylines fibers_of(const Muscle& muscle);
+
+/// Fibers that run all the way between a muscle's attachments: those given with the scene, resampled and
 /// turned so that they begin at the origin; or, where they are superficial ones, those that fill the muscle between
 /// them; or, where none are given, those of the template. Empty when the muscle wants none.
-Polylines fibers_of(const Muscle& muscle);
+Polylines attached_fibers_of(const Muscle& muscle);
 
 /// What one fiber says about a muscle.
 struct FiberMeasures {

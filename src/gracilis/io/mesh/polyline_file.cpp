@@ -3,6 +3,9 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/mesh/line_reader_csv.hpp>
+#include <gracilis/io/mesh/line_reader_tck.hpp>
+#include <gracilis/io/mesh/line_reader_trk.hpp>
 #include <gracilis/io/mesh/mesh_reader_vtk.hpp>
 #include <gracilis/io/mesh/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh/polygon_mesh.hpp>
@@ -21,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
 
 namespace gracilis {
 
@@ -96,13 +100,26 @@ PolygonMesh read_cells(const fs::path& path) {
   if (extension == ".vtk") return read_legacy_vtk(path);
   if (extension == ".vtp") return read_vtp(path);
   throw InputError({path.string(), "", fmt::format("'{}' is not a format that lines can be read from", extension),
-                    "use .vtk or .vtp"});
+                    "use .vtk, .vtp, .tck, .trk or .csv"});
+}
+
+/// Lines of a format that holds nothing but lines; none for the others.
+std::optional<Polylines> read_whole_lines(const fs::path& path, Real unit) {
+  const std::string extension = lower_case_extension(path);
+  if (extension == ".tck") return read_tck(path, unit);
+  if (extension == ".trk") return read_trk(path, unit);
+  if (extension == ".csv") return read_csv_lines(path, unit);
+  return std::nullopt;
 }
 
 }  // namespace
 
 Polylines read_polylines(const fs::path& path, Real unit) {
   require_readable_file(path);
+  if (std::optional<Polylines> whole = read_whole_lines(path, unit)) {
+    if (whole->count() == 0) throw InputError({path.string(), "", "holds no lines", "export it again"});
+    return std::move(*whole);
+  }
   const PolygonMesh mesh = read_cells(path);
   const auto fail = [&](const std::string& what) { throw InputError({path.string(), "", what, "export it again"}); };
   const std::size_t count = mesh.coordinates.size() / 3;

@@ -79,6 +79,7 @@ AttachmentDescription read_attachment(TomlReader table) {
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3))
     result.points = {rows->transpose() / 1000};
   if (const std::optional<std::string> patch = table.text("patch")) result.patch = surface_file(table, *patch);
+  for (const std::string& file : table.texts("aponeurosis")) result.aponeuroses.push_back(surface_file(table, file));
   result.bone_distance = millimetres(table, "bone_distance_mm");
   result.landmark_distance = millimetres(table, "landmark_distance_mm");
   attachment.vertices = table.indices("vertices");
@@ -202,9 +203,32 @@ Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDe
   return attachment;
 }
 
+/// A sheet in the muscle or on it, from its file.
+void AttachmentSelector::add_aponeurosis(Muscle& muscle, const AttachmentDescription& description,
+                                         const NamedFile& file) {
+  const auto complain = [&](const std::string& what, const std::string& remedy) {
+    progress_.add_problem(description.place, "the aponeurosis '" + file.path + "' " + what, remedy);
+  };
+  Aponeurosis result{description.attachment.end, {}};
+  bool is_read = false;
+  read_file(progress_, file, [&](const std::filesystem::path& path) {
+    result.surface = read_mesh(path, file.unit);
+    is_read = true;
+  });
+  if (!is_read) return;
+  if (!inspect_mesh(result.surface).is_finite())
+    return complain("has coordinates that are not finite", "export the surface again");
+  mirror_if_asked(progress_, file, result.surface);
+  if (muscle.surface.vertex_count() > 0 && !any_point_within(muscle.surface, result.surface.vertices))
+    return complain("lies outside of " + muscle.name, "check the units and that both are in the same frame");
+  muscle.aponeuroses.push_back(std::move(result));
+}
+
 void AttachmentSelector::attach(Muscle& muscle, const std::vector<AttachmentDescription>& attachments) {
-  for (const AttachmentDescription& description : attachments)
+  for (const AttachmentDescription& description : attachments) {
     muscle.attachments.push_back(selected(muscle, description));
+    for (const NamedFile& file : description.aponeuroses) add_aponeurosis(muscle, description, file);
+  }
 }
 
 void let_go_of_attachments(LoadedScene& loaded) {

@@ -25,6 +25,7 @@ class AttachmentSelector {
   void attach(Muscle& muscle, const std::vector<AttachmentDescription>& attachments);
 
  private:
+  void add_aponeurosis(Muscle& muscle, const AttachmentDescription& description, const NamedFile& file);
   Attachment selected(const Muscle& muscle, const AttachmentDescription& description);
   std::vector<Index> held_by_patch(const Muscle& muscle, const AttachmentDescription& description,
                                    const std::vector<const NearestTriangle*>& trees);

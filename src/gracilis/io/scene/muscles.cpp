@@ -1,16 +1,35 @@
 #include <gracilis/io/scene/muscles.hpp>
 
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh/polyline_file.hpp>
 #include <gracilis/io/scene/attachments.hpp>
 #include <gracilis/io/scene/bodies.hpp>
 #include <gracilis/io/scene/files.hpp>
 #include <gracilis/io/scene/method_reader.hpp>
+#include <gracilis/io/scene/surfaces.hpp>
 
 namespace gracilis::sections {
 
+/// A file of lines. Formats of tractography are in mm, whatever others are in.
+static NamedFile line_file(TomlReader& table, const std::string& path) {
+  NamedFile file = named_file(table, path);
+  const std::string extension = lower_case_extension(path);
+  if (!table.has("unit") && (extension == ".trk" || extension == ".tck")) file.unit = 0.001;
+  return file;
+}
+
 static void read_fibers(TomlReader table, MuscleDescription& description) {
-  table.read_settings(description.muscle.fibers);
-  if (const std::optional<std::string> file = table.text("file")) description.fiber_file = named_file(table, *file);
+  FiberSettings& fibers = description.muscle.fibers;
+  table.read_settings(fibers);
+  if (table.has("pennation_deg")) {
+    if (table.has("pennation")) table.add_problem("pennation_deg", "'pennation' is given twice, in rad and in degrees");
+    fibers.pennation = radians(table.number("pennation_deg", {-68, 68, "degrees"}).value_or(degrees(fibers.pennation)));
+  }
+  if (const std::optional<std::string> file = table.text("file")) description.fiber_file = line_file(table, *file);
+  if (const std::optional<std::string> file = table.text("tracts")) description.tract_file = line_file(table, *file);
+  if (table.has("file") && table.has("tracts"))
+    table.add_problem("tracts", "'file' holds the fibers themselves, 'tracts' what fibers are made from",
+                      "keep one of the two");
   const std::string kind = table.text("lines").value_or("inner");
   description.muscle.given_are_superficial = kind == "superficial";
   if (kind != "inner" && kind != "superficial") {
@@ -24,7 +43,7 @@ static void read_fibers(TomlReader table, MuscleDescription& description) {
 static void read_contraction(TomlReader table, MuscleDescription& description) {
   table.read_settings(description.muscle.contraction);
   if (const std::optional<std::string> file = table.text("file"))
-    description.surface_fiber_file = named_file(table, *file);
+    description.surface_fiber_file = line_file(table, *file);
   table.reject_unknown_keys();
 }
 
@@ -83,13 +102,24 @@ static void read_lines(SceneInProgress& progress, const NamedFile& file, Polylin
   read_file(progress, file, [&](const std::filesystem::path& path) { lines = read_polylines(path, file.unit); });
 }
 
+/// Tracts in another unit or frame than the muscle say nothing about it.
+static void check_tracts(SceneInProgress& progress, const NamedFile& file, const Muscle& muscle) {
+  if (muscle.tracts.count() == 0 || muscle.surface.vertex_count() == 0) return;
+  if (any_point_within(muscle.surface, muscle.tracts.points)) return;
+  progress.add_problem(file.place, "no tract of '" + file.path + "' lies in " + muscle.name,
+                       "check the units and that both are in the same frame");
+}
+
 void add_muscle(SceneInProgress& progress, SurfaceLoader& surfaces, const MuscleDescription& description) {
   Scene& scene = progress.loaded.scene;
   Muscle& muscle = scene.muscles.emplace_back(description.muscle);
   read_lines(progress, description.fiber_file, muscle.given_fibers);
   place_line(muscle.action_line, description, scene);
+  read_lines(progress, description.tract_file, muscle.tracts);
   read_lines(progress, description.surface_fiber_file, muscle.given_surface_fibers);
-  if (!surfaces.take(description.surface, SurfaceRole::muscle, muscle.surface)) return;
+  const bool is_repaired = surfaces.take(description.surface, SurfaceRole::muscle, muscle.surface);
+  check_tracts(progress, description.tract_file, muscle);
+  if (!is_repaired) return;
   for (const AttachmentDescription& each : description.attachments) {
     if (!each.attachment.listed) continue;
     progress.add_problem(each.place,

@@ -52,6 +52,7 @@ struct AttachmentDescription {
   std::vector<std::string> clouds;  ///< names in the landmark file
   std::vector<Points> points;       ///< landmarks written in the scene file itself
   NamedFile patch;                  ///< an open surface on the bones; empty path: none
+  std::vector<NamedFile> aponeuroses;  ///< sheets that the fibers of this end begin or end on
   LineKind line = LineKind::cloud;
   Real bone_distance = 0;
   Real landmark_distance = 0;
@@ -62,6 +63,7 @@ struct MuscleDescription {
   Muscle muscle;  ///< without surface, attachments and given fibers; its action line without bodies and path
   SurfaceDescription surface;
   NamedFile fiber_file;          ///< empty path: none
+  NamedFile tract_file;          ///< empty path: none
   NamedFile surface_fiber_file;  ///< along which it contracts; empty path: none
   std::vector<AttachmentDescription> attachments;
   std::vector<std::string> line_bodies;  ///< of each point of the action line

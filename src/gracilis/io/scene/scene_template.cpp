@@ -111,7 +111,10 @@ piece = "all"          # optional: the surface may consist of several closed pie
 distance_stiffness = 5.0
 
 # Optional: any key of [fibers] below, for this muscle alone; and
-# file = "fibers.vtp"     # lines to use instead (.vtk or .vtp), with unit = "m" (default), "cm" or "mm"
+# file = "fibers.vtp"     # lines to use instead (.vtk, .vtp, .csv, .tck or .trk), with unit = "m" (default, of .tck and
+#                         # .trk "mm"), "cm" or "mm"
+# tracts = "tracts.trk"   # instead of 'file': fascicles as measured, noisy and cut short, that fibers are made to run like
+# pennation_deg = 25      # instead of 'pennation'
 # lines = "superficial"   # "inner" (default): they are the fibers; "superficial": they lie on the surface, fill it in
 [muscles.fibers]
 count = 100
@@ -165,6 +168,8 @@ line = "closed"     # "cloud" (default): separate points; "open": a line through
                     # seen in its plane; "outline": points around an area in any order, and its inside on the bone
 bone_distance_mm = 4
 landmark_distance_mm = 12
+# aponeurosis = ["sheet.ply"] # optional, for any of the five: surfaces in the muscle or on it, tendon spread along
+# unit = "mm"                 # the belly, on which fibers end instead
 
 # 2. 'body' and landmarks, where the bone is not in the scene: within landmark_distance_mm of them.
 [[muscles.attachments]]

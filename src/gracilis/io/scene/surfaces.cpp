@@ -1,6 +1,7 @@
 #include <gracilis/io/scene/surfaces.hpp>
 
 #include <gracilis/geometry/box_mesh.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/files.hpp>
@@ -48,6 +49,13 @@ NamedFile surface_file(TomlReader& table, const std::string& path) {
 
 void mirror_if_asked(const SceneInProgress& progress, const NamedFile& file, TriangleMesh& mesh) {
   if (file.mirror) mesh = mirrored(mesh, progress.description.scene.axes.right());
+}
+
+bool any_point_within(const TriangleMesh& surface, const Points& points) {
+  const Eigen::AlignedBox3d box = bounding_box(surface.vertices);
+  for (Index i = 0; i < static_cast<Index>(points.cols()); ++i)
+    if (box.contains(points.col(i))) return true;
+  return false;
 }
 
 SurfaceLoader::SurfaceLoader(SceneInProgress& progress, bool muscles_stay_raw)

@@ -19,6 +19,10 @@ NamedFile surface_file(TomlReader& table, const std::string& path);
 /// file asks for that.
 void mirror_if_asked(const SceneInProgress& progress, const NamedFile& file, TriangleMesh& mesh);
 
+/// Whether any of the points lies in the surface's bounding box, as what belongs to it does. Precondition: the surface
+/// has a vertex.
+bool any_point_within(const TriangleMesh& surface, const Points& points);
+
 /// Loads the surfaces of all bones and muscles side by side, and then hands them out one by one.
 class SurfaceLoader {
  public:

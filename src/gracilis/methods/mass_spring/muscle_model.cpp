@@ -16,7 +16,7 @@ namespace {
 
 Polylines fibers_for_particles(Muscle muscle, int count) {
   muscle.fibers.count = count;
-  return fibers_of(muscle);
+  return attached_fibers_of(muscle);
 }
 
 SpringPairs pairs_of(const Muscle& muscle, const Polylines& particles, const MassSpringSettings& settings) {
