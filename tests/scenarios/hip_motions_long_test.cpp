@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(Long, HipInMotion,
                                          to_the_limit("rotation_inward_60", "rotation", true),
                                          crushing(to_the_limit("rotation_outward_60", "rotation_outward", true), 20,
                                                   15)),
-                         name_of);
+                         motion_name);
 
 TEST_P(HipInMotion, the_end_depends_little_on_the_size_of_the_steps) {
   const JudgedRun& reference = run(1);

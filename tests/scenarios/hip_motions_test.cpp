@@ -27,7 +27,7 @@ INSTANTIATE_TEST_SUITE_P(
                     as_scanned("flexion", 8, true), as_scanned("extension", 4, false),
                     as_scanned("abduction", 5, false), as_scanned("rotation", 6, true), prepared("flexion", 8, true),
                     prepared("extension", 4, false), prepared("abduction", 5, false), prepared("rotation", 6, true)),
-    name_of);
+    motion_name);
 
 /// Contact is what keeps muscles out of each other: the facts above are false without it.
 static void expect_muscles_to_sink_in(const HipMotion& motion) {

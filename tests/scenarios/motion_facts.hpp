@@ -29,7 +29,7 @@ struct HipMotion {
 
 inline void PrintTo(const HipMotion& motion, std::ostream* out) { *out << motion.name; }
 
-inline std::string name_of(const testing::TestParamInfo<HipMotion>& info) { return info.param.name; }
+inline std::string motion_name(const testing::TestParamInfo<HipMotion>& info) { return info.param.name; }
 
 /// The motion with contact as the scene says ("") or as `contact` does.
 inline Scene scene_of(const HipMotion& motion, Real step, const std::string& contact = "") {

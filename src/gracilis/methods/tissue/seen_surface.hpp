@@ -10,8 +10,9 @@ namespace gracilis::tissue {
 /// forces and lengths inside are those of the tissue. 3 × vertices, m.
 Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes);
 
-/// The same without a look at bones.
-Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes);
+/// The same without a look at bones, its volume met by the vertices beside large triangles alone: nearly what is seen,
+/// in a fraction of the time.
+Points bulging_surface(const PreparedTissue& muscle, const Points& nodes);
 
 /// What the surface lacks of the tissue beneath each large triangle, m³; of `corners`, which are where its vertices
 /// are. Less than zero where it holds more.

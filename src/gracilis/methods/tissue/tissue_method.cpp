@@ -215,7 +215,7 @@ class TissueMethod final : public DeformationMethod {
     // What is seen of them meets, and the tissue gives way by as much.
     std::vector<Points> seen(moving.size()), tissue(moving.size());
     parallel_for_each(moving.size(), [&](std::size_t m) {
-      seen[m] = enclosing_surface(muscles_[m], moving[m].nodes);
+      seen[m] = bulging_surface(muscles_[m], moving[m].nodes);
       tissue[m] = surface_at(muscles_[m], moving[m].nodes);
     });
     std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, seen);
