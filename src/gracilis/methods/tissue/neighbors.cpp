@@ -138,7 +138,8 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
   return neighbors;
 }
 
-std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes) {
+std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes,
+                                                      SelfLook self_look) {
   std::vector<std::vector<ContactPlane>> planes(shapes.size());
   if (neighbors.none()) return planes;
   const PlacedSurfaces placed = place(neighbors, shapes);
@@ -148,9 +149,14 @@ std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, cons
     add_planes(placed, see(neighbors, placed, pair.second, pair.first), pair.second_gaps, pair.second, pair.first,
                planes[static_cast<std::size_t>(pair.second)]);
   }
-  for (const SelfMeeting& self : neighbors.selves)
-    add_planes(placed, see_itself(neighbors, placed, self), self.gaps, self.muscle, -1,
-               planes[static_cast<std::size_t>(self.muscle)]);
+  for (SelfMeeting& self : neighbors.selves) {
+    if (self_look == SelfLook::anew) {
+      self.planes.clear();
+      add_planes(placed, see_itself(neighbors, placed, self), self.gaps, self.muscle, -1, self.planes);
+    }
+    std::vector<ContactPlane>& of_muscle = planes[static_cast<std::size_t>(self.muscle)];
+    of_muscle.insert(of_muscle.end(), self.planes.begin(), self.planes.end());
+  }
   for (std::vector<ContactPlane>& each : planes)
     std::stable_sort(each.begin(), each.end(),
                      [](const ContactPlane& a, const ContactPlane& b) { return a.point < b.point; });

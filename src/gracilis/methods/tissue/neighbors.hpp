@@ -27,11 +27,13 @@ struct SelfMeeting {
   Index muscle = 0;
   Particles rest;
   Eigen::Matrix3Xf rest_points, rest_normals;
-  float neighborhood = 0;  ///< m, see SelfRule
-  std::vector<Real> gaps;  ///< m, per vertex
+  float neighborhood = 0;            ///< m, see SelfRule
+  std::vector<Real> gaps;            ///< m, per vertex
+  std::vector<ContactPlane> planes;  ///< as last found
 };
 
-/// The surfaces of all muscles for each other; constant but for the trees, which are fitted anew in each search.
+/// The surfaces of all muscles for each other; constant but for the trees, which are fitted anew in each
+/// search, and planes of muscles that meet themselves.
 struct Neighbors {
   std::vector<ContactSurface> surfaces;
   std::vector<PatchTree> trees;
@@ -53,7 +55,11 @@ struct MeetingSettings {
 };
 Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSettings>& settings);
 
+/// Whether muscles look at themselves anew, or keep the planes that they found when they last did.
+enum class SelfLook { anew, kept };
+
 /// The planes of every muscle, in the order of its points, where the surfaces are at `shapes` (3 × vertices, m).
-std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes);
+std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes,
+                                                      SelfLook self = SelfLook::anew);
 
 }  // namespace gracilis::tissue

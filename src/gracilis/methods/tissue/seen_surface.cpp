@@ -12,6 +12,9 @@ namespace {
 /// Of volume, then out of bones; each disturbs the other a little.
 constexpr int rounds = 3, volume_rounds = 2, bone_rounds = 4;
 constexpr Real volume_tolerance = 1e-6;
+/// Places that are nearer to a bone than this beyond what they keep may have to be pushed: more than volume moves them
+/// (m).
+constexpr Real candidates_within = 0.001;
 /// A vertex whose triangles face different ways moves as if they had this share of their area.
 constexpr Real least_facing = 0.3;
 
@@ -104,11 +107,11 @@ std::vector<std::size_t> places_near(const PreparedTissue& muscle, const Surroun
       const BoneSight& sight = around.sights[b];
       const Real moved = (inverse * x.col(v) - sight.places.col(v)).norm();
       const Real size = longest_edge(x, muscle.faces.col(large.face));
-      if (sight.distances[v] - largest_slope * (moved + size) > seen_clearance + near_bones) continue;
+      if (sight.distances[v] - largest_slope * (moved + size) > seen_clearance + candidates_within) continue;
     }
     for (Index i = large.kept_begin; i < large.kept_end; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      if (distance_in(bone, inverse, spot_on(muscle.large_faces.kept[at], x)) < least[at] + near_bones)
+      if (distance_in(bone, inverse, spot_on(muscle.large_faces.kept[at], x)) < least[at] + candidates_within)
         found.push_back(at);
     }
   }
@@ -142,7 +145,7 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
       const BoneGap& bone = muscle.bones[static_cast<std::size_t>(around.near[static_cast<std::size_t>(i)].bone)];
       const auto body = static_cast<std::size_t>(bone.body);
       const Real least = std::min(bone.gaps[p], seen_clearance);
-      if (distance_in(bone, around.inverses[body], x.col(v)) > least + near_bones) continue;
+      if (distance_in(bone, around.inverses[body], x.col(v)) > least + candidates_within) continue;
       const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * x.col(v));
       if (found.distance < least)
         x.col(v) += (least - found.distance) * (around.bodies[body].linear() * found.gradient);
@@ -170,8 +173,8 @@ std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& no
   return lacking;
 }
 
-Points bulging_surface(const PreparedTissue& muscle, const Points& nodes) {
-  Points x = surface_at(muscle, nodes);
+Points bulging_surface(const PreparedTissue& muscle, const Points& nodes, const Points& tissue_surface) {
+  Points x = tissue_surface;
   if (muscle.large_faces.faces.empty()) return x;
   const Eigen::VectorXd lacking = shared_among_corners(muscle, lacking_volumes(muscle, nodes, x));
   x += volume_slopes(muscle, x).moves * lacking.asDiagonal();
@@ -179,7 +182,7 @@ Points bulging_surface(const PreparedTissue& muscle, const Points& nodes) {
 }
 
 Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes) {
-  Points x = bulging_surface(muscle, nodes);
+  Points x = bulging_surface(muscle, nodes, surface_at(muscle, nodes));
   if (!muscle.large_faces.faces.empty()) meet_volume(muscle, volume_asked(muscle, nodes), x);
   std::vector<std::vector<std::size_t>> near;
   bool any = false;

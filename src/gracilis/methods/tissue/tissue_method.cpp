@@ -91,7 +91,7 @@ class TissueMethod final : public DeformationMethod {
     for (int step = 1; step <= count; ++step) {
       for_each_timed(moving, [&](std::size_t m) { carry_on(m, pose, step, count, moving[m]); });
       for (int round = 0; round < rounds_; ++round) {
-        look_at_neighbors(moving);
+        look_at_neighbors(moving, round == 0 ? SelfLook::anew : SelfLook::kept);
         for_each_timed(moving, [&](std::size_t m) { settle_once(m, moving[m]); });
       }
     }
@@ -210,15 +210,16 @@ class TissueMethod final : public DeformationMethod {
     moving.bodies = now;
   }
 
-  void look_at_neighbors(std::vector<MovingMuscle>& moving) {
+  /// Folds move little between rounds, so muscles look at themselves once a step.
+  void look_at_neighbors(std::vector<MovingMuscle>& moving, SelfLook self) {
     if (neighbors_.none()) return;
     // What is seen of them meets, and the tissue gives way by as much.
     std::vector<Points> seen(moving.size()), tissue(moving.size());
     parallel_for_each(moving.size(), [&](std::size_t m) {
-      seen[m] = bulging_surface(muscles_[m], moving[m].nodes);
       tissue[m] = surface_at(muscles_[m], moving[m].nodes);
+      seen[m] = bulging_surface(muscles_[m], moving[m].nodes, tissue[m]);
     });
-    std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, seen);
+    std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, seen, self);
     for (std::size_t m = 0; m < moving.size(); ++m) {
       for (ContactPlane& plane : planes[m])
         plane.least += plane.normal.dot(tissue[m].col(plane.point) - seen[m].col(plane.point));
