@@ -26,7 +26,8 @@ class FailingCalls : public testing::Test {
   }
 
   std::string command(const std::string& out) const {
-    return " run " + folder.path("scene.toml").string() + " --set iterations=3 --set fibers.count=2 --out " + out;
+    return " run " + folder.path("scene.toml").string() + " --set iterations=3 --set fibers.count=2 --layout " +
+           layout + " --out " + out;
   }
   /// The run into `out` whose call number `at` fails; 0: none does.
   ProgramResult run_failing(const std::string& out, long at) const {
@@ -38,19 +39,24 @@ class FailingCalls : public testing::Test {
   /// All frames and fibers below a run folder.
   static std::map<std::string, std::string> shapes(const fs::path& out) {
     std::map<std::string, std::string> files;
-    for (const char* part : {"shapes", "bones", "fibers"})
+    for (const char* part : {"frames", "shapes", "bones", "fibers"}) {
+      if (!fs::exists(out / part)) continue;
       for (const auto& entry : fs::directory_iterator(out / part)) {
         std::stringstream text;
         text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
         files[fs::relative(entry.path(), out).string()] = text.str();
       }
+    }
     return files;
   }
 
   SceneFolder folder;
+  std::string layout = "surfaces";
+
+  void expect_one_message_each();
 };
 
-TEST_F(FailingCalls, each_is_one_message_leaves_nothing_half_written_and_can_be_resumed) {
+void FailingCalls::expect_one_message_each() {
   const std::string whole = folder.path("whole").string();
   ASSERT_EQ(run_failing(whole, 0).exit_code, 0);
   long calls = 0;
@@ -71,6 +77,13 @@ TEST_F(FailingCalls, each_is_one_message_leaves_nothing_half_written_and_can_be_
     EXPECT_EQ(run_program("verify " + out).exit_code, 0) << "call " << at;
     fs::remove_all(out);
   }
+}
+
+TEST_F(FailingCalls, each_is_one_message_leaves_nothing_half_written_and_can_be_resumed) { expect_one_message_each(); }
+
+TEST_F(FailingCalls, the_same_holds_for_compact_frames) {
+  layout = "compact";
+  expect_one_message_each();
 }
 
 }  // namespace

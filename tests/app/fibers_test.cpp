@@ -61,7 +61,7 @@ TEST_F(FiberCommands, a_run_leaves_fiber_lengths_fibers_and_plots) {
   EXPECT_EQ(table.times.size(), 13u);
   EXPECT_NEAR(table.values(12, 0), 10, 1e-9);
   EXPECT_NEAR(table.values(5, 1), table.values.row(5).tail(3).mean(), 1e-8);
-  EXPECT_TRUE(exists("out/fibers/0000.vtp"));
+  EXPECT_TRUE(exists("out/fibers/muscle_0012.vtp"));
   EXPECT_TRUE(exists("out/plots/volume.svg"));
   EXPECT_TRUE(exists("out/plots/fiber_lengths_muscle.svg"));
 }

@@ -40,9 +40,9 @@ TEST_F(RunCommand, a_run_leaves_a_complete_folder_and_prints_its_path_alone_to_s
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, out() + "\n");
   // Capture pose (2 degrees), two steps to 0, ten to 10 degrees.
-  EXPECT_TRUE(std::filesystem::exists(shapes_file(out(), 12)));
-  EXPECT_TRUE(std::filesystem::exists(bone_file(out(), "femur")));
-  EXPECT_FALSE(std::filesystem::exists(shapes_file(out(), 13)));
+  EXPECT_TRUE(std::filesystem::exists(frame_file(out(), "muscle", 12)));
+  EXPECT_TRUE(std::filesystem::exists(frame_file(out(), "femur", 12)));
+  EXPECT_FALSE(std::filesystem::exists(frame_file(out(), "muscle", 13)));
   EXPECT_EQ(manifest()["status"], "complete");
   EXPECT_EQ(manifest()["frames"], 13);
   EXPECT_EQ(manifest()["preset"], "physical");
@@ -87,7 +87,7 @@ TEST_F(RunCommand, an_interrupted_run_exits_with_130_and_resumes_to_the_same_bit
   const ProgramResult stopped =
       run_program("run " + folder.write("scene.toml", long_scene()).string() + " --force --out " + out() + " 2>" +
                   folder.path("log").string() + " & pid=$!; while kill -0 $pid && [ ! -e " +
-                  shapes_file(out(), 20).string() + " ]; do sleep 0.05; done; kill -INT $pid; wait $pid");
+                  frame_file(out(), "muscle", 20).string() + " ]; do sleep 0.05; done; kill -INT $pid; wait $pid");
   EXPECT_EQ(stopped.exit_code, 130);
   EXPECT_EQ(stopped.out, "");
   EXPECT_THAT(bytes("log"), HasSubstr("--resume goes on from there"));
@@ -96,7 +96,7 @@ TEST_F(RunCommand, an_interrupted_run_exits_with_130_and_resumes_to_the_same_bit
 
   // Cut the complete run short by hand, then go on.
   EXPECT_EQ(run(good_scene(), "--force").exit_code, 0);
-  for (int frame = 8; frame <= 12; ++frame) std::filesystem::remove(shapes_file(out(), frame));
+  for (int frame = 8; frame <= 12; ++frame) std::filesystem::remove(frame_file(out(), "muscle", frame));
   const ProgramResult resumed = run(good_scene(), "--resume");
   EXPECT_EQ(resumed.exit_code, 0);
   EXPECT_THAT(resumed.err, HasSubstr("going on after frame 5")) << "where contact is searched anew";
@@ -109,7 +109,7 @@ TEST_F(RunCommand, SIGTERM_ends_a_run_within_a_second_in_the_middle_of_a_frame) 
   const std::string command = "run " + folder.write("scene.toml", good_scene()).string() + " --set iterations=100000";
   const ProgramResult stopped = run_program(
       command + " --out " + out() + " 2>" + folder.path("log").string() + " & pid=$!; while kill -0 $pid && [ ! -e " +
-      shapes_file(out(), 0).string() +
+      frame_file(out(), "muscle", 0).string() +
       " ]; do sleep 0.05; done; sleep 0.5; kill -TERM $pid; sleep 1; kill -0 $pid 2>/dev/null && echo late; wait $pid");
   EXPECT_EQ(stopped.exit_code, 130);
   EXPECT_EQ(stopped.out, "");

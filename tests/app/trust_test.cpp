@@ -131,7 +131,7 @@ TEST_F(Trust, two_runs_into_one_folder_are_one_too_many) {
   const std::string slow = "run " + scene() + " --set iterations=20000 --out " + out();
   const std::string program(build_paths::program);
   const ProgramResult second = run_program(
-      slow + " 2>/dev/null & pid=$!; while kill -0 $pid && [ ! -e " + shapes_file(out(), 0).string() +
+      slow + " 2>/dev/null & pid=$!; while kill -0 $pid && [ ! -e " + frame_file(out(), "muscle", 0).string() +
       " ]; do sleep 0.05; done; " + program + " run " + scene() + " --force --out " + out() + " 2>&1; echo exit $?; " +
       program + " run " + scene() + " --resume --out " + out() + " 2>&1; echo exit $?; kill -KILL $pid; wait $pid; " +
       program + " run " + scene() + " --resume --set iterations=20 --out " + out() + " 2>&1; echo exit $?; true");
