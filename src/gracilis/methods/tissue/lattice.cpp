@@ -203,17 +203,11 @@ Real filled_volume(const Lattice& lattice, const Cell& cell) {
 
 Real filled_volume_ratio(const Lattice& lattice, const Points& nodes) {
   Real rest = 0, now = 0;
-  for (const Cell& cell : lattice.cells) {
-    const CubeCut& cut = cube_cut(cell.parity);
-    const Corners corners = corners_of(cell, nodes);
-    for (std::size_t t = 0; t < 5; ++t) {
-      Eigen::Matrix<Real, 3, 4> x;
-      for (std::size_t k = 0; k < 4; ++k) x.col(static_cast<Index>(k)) = corners.col(cut.tetrahedra[t][k]);
-      const Real filled = cell.fills[t] * cut.shares[t];
-      rest += filled;
-      now += filled * (x * cut.shape_gradients[t].transpose() / lattice.cell_size).determinant();
-    }
-  }
+  for_each_volume_ratio(lattice, nodes, [&](const Cell& cell, std::size_t t, Real ratio) {
+    const Real filled = cell.fills[t] * cube_cut(cell.parity).shares[t];
+    rest += filled;
+    now += filled * ratio;
+  });
   return rest > 0 ? now / rest : 1;
 }
 

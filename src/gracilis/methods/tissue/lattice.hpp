@@ -83,6 +83,21 @@ inline Corners corners_of(const Cell& cell, const Points& nodes) {
   return corners;
 }
 
+/// Calls act(cell, t, ratio) for every tetrahedron t of every cell: its volume where the nodes are at `nodes`,
+/// over that at rest.
+template <class Act>
+void for_each_volume_ratio(const Lattice& lattice, const Points& nodes, const Act& act) {
+  for (const Cell& cell : lattice.cells) {
+    const CubeCut& cut = cube_cut(cell.parity);
+    const Corners corners = corners_of(cell, nodes);
+    for (std::size_t t = 0; t < 5; ++t) {
+      Eigen::Matrix<Real, 3, 4> x;
+      for (std::size_t k = 0; k < 4; ++k) x.col(static_cast<Index>(k)) = corners.col(cut.tetrahedra[t][k]);
+      act(cell, t, (x * cut.shape_gradients[t].transpose() / lattice.cell_size).determinant());
+    }
+  }
+}
+
 /// The mean of what the lattice's nodes have, 3 × nodes.
 inline Vec3 mean_at(const EmbeddedPoint& point, const Points& of_nodes) {
   Vec3 mean = Vec3::Zero();

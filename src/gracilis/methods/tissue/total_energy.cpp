@@ -212,15 +212,7 @@ Points surface_at(const PreparedTissue& muscle, const Points& nodes) {
 
 Real least_volume_ratio(const Lattice& lattice, const Points& nodes) {
   Real least = std::numeric_limits<Real>::infinity();
-  for (const Cell& cell : lattice.cells) {
-    const CubeCut& cut = cube_cut(cell.parity);
-    const Corners corners = corners_of(cell, nodes);
-    for (std::size_t t = 0; t < 5; ++t) {
-      Eigen::Matrix<Real, 3, 4> x;
-      for (std::size_t k = 0; k < 4; ++k) x.col(static_cast<Index>(k)) = corners.col(cut.tetrahedra[t][k]);
-      least = std::min(least, (x * cut.shape_gradients[t].transpose() / lattice.cell_size).determinant());
-    }
-  }
+  for_each_volume_ratio(lattice, nodes, [&](const Cell&, std::size_t, Real ratio) { least = std::min(least, ratio); });
   return least;
 }
 
