@@ -27,9 +27,9 @@ std::string taken(const RunPlan& plan) {
 
 }  // namespace
 
-RunPlan plan_run(const Scene& scene, const SessionOptions& options) {
+RunPlan plan_run(const LoadedScene& loaded, const SessionOptions& options) {
   RunPlan plan;
-  plan.parts = sequence_parts(scene);
+  plan.parts = sequence_parts(loaded.scene, loaded.max_frames);
   plan.frames = plan.parts.count();
   plan.first_motion_frame = plan.parts.first_of_motion();
   if (options.every > 1 || options.without_ramps) {
@@ -39,7 +39,7 @@ RunPlan plan_run(const Scene& scene, const SessionOptions& options) {
         std::lower_bound(plan.recorded.begin(), plan.recorded.end(), plan.first_motion_frame) - plan.recorded.begin());
   }
   const auto size_as = [&](RunLayout layout) {
-    return estimated_size(scene, plan.frames, !options.without_fibers, layout);
+    return estimated_size(loaded.scene, plan.frames, !options.without_fibers, layout);
   };
   const bool is_large = size_as(RunLayout::surfaces).bytes > asking_bytes;
   plan.layout = options.layout.value_or(is_large ? RunLayout::compact : RunLayout::surfaces);
@@ -48,25 +48,19 @@ RunPlan plan_run(const Scene& scene, const SessionOptions& options) {
 }
 
 std::string describe_plan(const RunPlan& plan) {
-  std::string text = fmt::format("{} frames", plan.frames);
+  const SequenceParts& parts = plan.parts;
+  if (!plan.recorded.empty())
+    return fmt::format("{} frames of {} that are computed; about {}", plan.frames, parts.count(), taken(plan));
   std::string what;
   const auto add = [&](int frames, const char* are) {
-    if (frames > 0) what += fmt::format("{}{} {}", what.empty() ? "" : ", ", frames, are);
+    if (frames > 0) what += fmt::format("{}{} {}", what.empty() ? ": " : ", ", frames, are);
   };
-  if (plan.recorded.empty()) {
-    add(plan.parts.ramp, "from the capture pose to the motion (the ramp)");
-    add(plan.parts.settle, "that hold its first pose");
-    if (!what.empty() || plan.parts.hold + plan.parts.back > 0) add(plan.parts.motion, "of the motion");
-    add(plan.parts.hold, "that hold its last pose");
-    add(plan.parts.back, "back to the capture pose");
-  } else {
-    what = fmt::format("of {} that are computed", plan.parts.count());
-  }
-  return fmt::format("{}{}{}; about {}", text,
-                     what.empty()            ? ""
-                     : plan.recorded.empty() ? ": "
-                                             : " ",
-                     what, taken(plan));
+  add(parts.ramp, "from the capture pose to the motion (the ramp)");
+  add(parts.settle, "that hold its first pose");
+  if (parts.count() > parts.motion) add(parts.motion, "of the motion");
+  add(parts.hold, "that hold its last pose");
+  add(parts.back, "back to the capture pose");
+  return fmt::format("{} frames{}; about {}", plan.frames, what, taken(plan));
 }
 
 void confirm_size(const RunPlan& plan, const SessionOptions& options) {

@@ -19,7 +19,8 @@ struct RunPlan {
   RunSize size;
 };
 
-RunPlan plan_run(const Scene& scene, const SessionOptions& options);
+/// Throws ConfigurationError where the scene asks for more frames than it allows.
+RunPlan plan_run(const LoadedScene& loaded, const SessionOptions& options);
 
 /// How many frames of what there are, and what they take, as in "151 frames: 51 from the capture pose to the motion,
 /// 100 of the motion; about 1.1 GB in 30,653 files".

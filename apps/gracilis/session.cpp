@@ -53,7 +53,7 @@ SessionOptions as_begun(SessionOptions options, const std::filesystem::path& fol
   options.without_ramps = !manifest.value("ramps", true);
   options.without_fibers = !manifest.value("fibers", true);
   const std::string measured = manifest.value("metrics", name_of(MeasureLevel::full));
-  for (const MeasureLevel level : {MeasureLevel::none, MeasureLevel::light, MeasureLevel::full})
+  for (const MeasureLevel level : measure_levels)
     if (measured == name_of(level)) options.measures = level;
   return options;
 }
@@ -276,8 +276,8 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
   command.add_flag("--no-ramp", options.without_ramps,
                    "Do not record the frames between the capture pose and the motion; the capture pose stays frame 0");
   command.add_flag("--no-fibers", options.without_fibers, "Do not follow fibers");
-  static const std::map<std::string, MeasureLevel> levels = {
-      {"none", MeasureLevel::none}, {"light", MeasureLevel::light}, {"full", MeasureLevel::full}};
+  std::map<std::string, MeasureLevel> levels;
+  for (const MeasureLevel level : measure_levels) levels[name_of(level)] = level;
   command
       .add_option(
           "--metrics", options.measures,
@@ -298,7 +298,7 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
 int run_session(const LoadedScene& loaded, const SessionOptions& options) {
   if (options.verbose) spdlog::set_level(spdlog::level::debug);
   const SessionOptions chosen = as_begun(options, folder_of(loaded, options));
-  RunPlan plan = plan_run(loaded.scene, chosen);
+  RunPlan plan = plan_run(loaded, chosen);
   confirm_size(plan, chosen);
   return Session(loaded, chosen, std::move(plan)).run();
 }

@@ -155,6 +155,7 @@ TEST(PoseSequence, is_never_longer_than_allowed) {
   scene.motion = motion({"flexion"}, {0, 0.5}, Eigen::Vector2d(0.03 + radians(7.5), 1));
   EXPECT_EQ(pose_sequence(scene, 10).size(), 10u);
   EXPECT_THROW(pose_sequence(scene, 9), ConfigurationError);
+  EXPECT_THROW(sequence_parts(scene, 9), ConfigurationError);
   scene.sequence.settle_frames = 1;
   EXPECT_THROW(pose_sequence(scene, 10), ConfigurationError);
   scene.motion.values(0, 0) = 1e300;

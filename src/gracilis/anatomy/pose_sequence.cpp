@@ -67,20 +67,22 @@ static std::int64_t ramp_length(const Scene& scene, const Coordinates& from, con
   return steps_over(largest, 1);
 }
 
-/// Throws ConfigurationError where the whole sequence is longer than allowed, before any of it is made.
-static void require_length(const Scene& scene, int max_frames) {
-  const Sequence& sequence = scene.sequence;
-  const auto require = [&](std::int64_t frames) { require_frames(frames, max_frames); };
-  const auto count = static_cast<std::int64_t>(scene.motion.times.size());
-  require(count);
-  if (count == 0) return;
+SequenceParts sequence_parts(const Scene& scene, int max_frames) {
+  const auto bounded = [&](std::int64_t frames) {
+    require_frames(frames, max_frames);
+    return static_cast<int>(frames);
+  };
+  SequenceParts parts;
+  const std::size_t rows = scene.motion.times.size();
+  if (rows == 0) return parts;
   const Coordinates capture = capture_coordinates(scene);
-  const std::int64_t into = ramp_length(scene, capture, motion_row(scene, 0));
-  const std::int64_t back =
-      sequence.return_to_capture ? ramp_length(scene, motion_row(scene, scene.motion.times.size() - 1), capture) : 0;
-  require(into);
-  require(back);
-  require(count + into + back + std::max(sequence.settle_frames, 0) + std::max(sequence.hold_frames, 0));
+  parts.motion = bounded(static_cast<std::int64_t>(rows));
+  parts.ramp = bounded(ramp_length(scene, capture, motion_row(scene, 0)));
+  if (scene.sequence.return_to_capture) parts.back = bounded(ramp_length(scene, motion_row(scene, rows - 1), capture));
+  parts.settle = std::max(scene.sequence.settle_frames, 0);
+  parts.hold = std::max(scene.sequence.hold_frames, 0);
+  bounded(std::int64_t{parts.motion} + parts.ramp + parts.back + parts.settle + parts.hold);
+  return parts;
 }
 
 /// Equal steps from one set of values to another; without the first, with the last exactly.
@@ -130,24 +132,10 @@ static std::vector<Pose> relaxed_sequence(const Scene& scene) {
 }
 
 std::vector<Pose> pose_sequence(const Scene& scene, int max_frames) {
-  require_length(scene, max_frames);
+  sequence_parts(scene, max_frames);
   std::vector<Pose> poses = relaxed_sequence(scene);
   set_activations(scene, poses);
   return poses;
-}
-
-SequenceParts sequence_parts(const Scene& scene) {
-  SequenceParts parts;
-  const std::size_t rows = scene.motion.times.size();
-  parts.motion = std::max(1, static_cast<int>(rows));
-  if (rows == 0) return parts;
-  const Coordinates capture = capture_coordinates(scene);
-  parts.ramp = static_cast<int>(ramp_length(scene, capture, motion_row(scene, 0)));
-  parts.settle = std::max(scene.sequence.settle_frames, 0);
-  parts.hold = std::max(scene.sequence.hold_frames, 0);
-  if (scene.sequence.return_to_capture)
-    parts.back = static_cast<int>(ramp_length(scene, motion_row(scene, rows - 1), capture));
-  return parts;
 }
 
 std::vector<int> recorded_frames(const SequenceParts& parts, int every, bool with_ramps) {

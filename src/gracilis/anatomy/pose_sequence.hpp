@@ -26,14 +26,15 @@ std::vector<Pose> pose_sequence(const Scene& scene, int max_frames = default_max
 struct SequenceParts {
   int ramp = 0;    ///< from the capture pose (frame 0, counted here) to the motion's first row
   int settle = 0;  ///< that hold the first row before the motion begins
-  int motion = 0;  ///< the motion's rows; 1 where there is no motion
+  int motion = 1;  ///< the motion's rows; 1 where there is no motion
   int hold = 0;    ///< that hold the last row
   int back = 0;    ///< back to the capture pose
 
   int first_of_motion() const { return ramp + settle; }
   int count() const { return ramp + settle + motion + hold + back; }
 };
-SequenceParts sequence_parts(const Scene& scene);
+/// Throws ConfigurationError where there are more than `max_frames` in all.
+SequenceParts sequence_parts(const Scene& scene, int max_frames = default_max_frames);
 
 /// The frames of a sequence to record: every n-th (of the motion's rows, where the ramps are left out) and the last;
 /// frame 0 always, since it is what all others are compared with. Precondition: every >= 1.

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/types.hpp>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct QualityGates {
 /// How much of a muscle is measured: nothing; its shape alone (volume, edges, angles); or also how deep it lies in
 /// bones and where it runs and lies, which takes as long as some methods do.
 enum class MeasureLevel { none, light, full };
+inline constexpr std::array<MeasureLevel, 3> measure_levels = {MeasureLevel::none, MeasureLevel::light,
+                                                               MeasureLevel::full};
 
 /// A gate that a muscle misses.
 struct MissedGate {
