@@ -54,7 +54,7 @@ class VtpReader {
     return array ? numbers(array, name) : std::vector<double>();
   }
 
-  Points read_vectors(const std::string& name, const std::string& piece = "") {
+  Points read_vectors(const std::string& name, const std::string& piece) {
     const std::vector<double> values = read_point_data(name, piece);
     if (values.size() % 3 != 0) fail("does not hold three numbers for each point", "array " + name);
     return Eigen::Map<const Points>(values.data(), 3, static_cast<Index>(values.size() / 3));
@@ -209,10 +209,6 @@ class VtpReader {
 }  // namespace
 
 PolygonMesh read_vtp(const std::filesystem::path& path) { return VtpReader(path).read(); }
-
-Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name) {
-  return VtpReader(path).read_vectors(name);
-}
 
 PolygonMesh read_vtp(const std::filesystem::path& path, const std::string& piece) {
   return VtpReader(path).read(piece);

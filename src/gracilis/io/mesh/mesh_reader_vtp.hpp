@@ -13,13 +13,12 @@ PolygonMesh read_vtp(const std::filesystem::path& path);
 
 /// The point data `name` of a .vtp of one piece, 3 × n; 3 × 0 when the file has no such array. Throws InputError as
 /// above and when the numbers are not threes.
-Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name);
+Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name, const std::string& piece = "");
 
 /// The same of one piece of several, which its attribute Name tells (write_vtp_pieces). Throws InputError where there
 /// is none of that name.
 PolygonMesh read_vtp(const std::filesystem::path& path, const std::string& piece);
 bool has_vtp_piece(const std::filesystem::path& path, const std::string& piece);
-Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name, const std::string& piece);
 
 /// Numbers of the file as a whole (its FieldData); none where it has no such.
 std::vector<double> read_vtp_field(const std::filesystem::path& path, const std::string& name);

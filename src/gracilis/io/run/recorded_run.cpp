@@ -252,17 +252,16 @@ Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int f
 }
 
 Points recorded_tissue(const RecordedRun& run, const std::string& muscle) {
-  const Points tissue = run.layout == RunLayout::compact
-                            ? read_vtp_vectors(shapes_file(run.folder, 0), tissue_name, muscle)
-                            : read_vtp_vectors(frame_file(run.folder, muscle, 0), tissue_name);
+  const Points tissue = read_vtp_vectors(file_of_surface(run.folder, run.layout, muscle, 0), tissue_name,
+                                         piece_of_muscle(run.layout, muscle));
   if (tissue.cols() > 0) require_vertices(run, muscle, 0, tissue.cols());
   return tissue;
 }
 
 Eigen::VectorXd recorded_fiber_stresses(const RecordedRun& run, const std::string& muscle, int frame) {
-  Eigen::VectorXd stresses = run.layout == RunLayout::compact
-                                 ? read_vtp_scalars(shapes_file(run.folder, frame), fiber_stress_name, muscle)
-                                 : read_vtp_scalars(frame_file(run.folder, muscle, frame), fiber_stress_name);
+  if (!fs::exists(run.folder / force_file)) return {};  // the method knows none: no need to read every frame for that
+  Eigen::VectorXd stresses = read_vtp_scalars(file_of_surface(run.folder, run.layout, muscle, frame), fiber_stress_name,
+                                              piece_of_muscle(run.layout, muscle));
   if (stresses.size() > 0) require_vertices(run, muscle, frame, static_cast<Index>(stresses.size()));
   return stresses;
 }

@@ -43,16 +43,16 @@ Frame read_frame(const fs::path& folder, const Scene& scene, int number, const P
   const RunLayout layout = layout_of(folder);
   for (const Muscle& muscle : scene.muscles) {
     const fs::path path = file_of_surface(folder, layout, muscle.name, number);
-    const bool compact = layout == RunLayout::compact;
-    const TriangleMesh mesh = compact ? read_compact_muscle(folder, muscle.name, number) : read_mesh(path, 1);
+    const TriangleMesh mesh =
+        layout == RunLayout::compact ? read_compact_muscle(folder, muscle.name, number) : read_mesh(path, 1);
     if (mesh.vertex_count() != muscle.surface.vertex_count()) {
       throw InputError({path.string(), "",
                         fmt::format("has {} vertices, but {} has {}", mesh.vertex_count(), muscle.name,
                                     muscle.surface.vertex_count()),
                         "resume with the scene that the run was started with"});
     }
-    frame.muscles.push_back({mesh.vertices, compact ? read_vtp_vectors(path, velocity_name, muscle.name)
-                                                    : read_vtp_vectors(path, velocity_name)});
+    frame.muscles.push_back(
+        {mesh.vertices, read_vtp_vectors(path, velocity_name, piece_of_muscle(layout, muscle.name))});
   }
   return frame;
 }

@@ -31,4 +31,8 @@ fs::path file_of_surface(const fs::path& folder, RunLayout layout, const std::st
   return layout == RunLayout::compact ? shapes_file(folder, number) : frame_file(folder, name, number);
 }
 
+std::string piece_of_muscle(RunLayout layout, const std::string& muscle) {
+  return layout == RunLayout::compact ? muscle : "";
+}
+
 }  // namespace gracilis

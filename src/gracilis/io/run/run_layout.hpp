@@ -25,5 +25,7 @@ std::filesystem::path bone_file(const std::filesystem::path& folder, const std::
 /// The file that holds a muscle or a bone in a frame.
 std::filesystem::path file_of_surface(const std::filesystem::path& folder, RunLayout layout, const std::string& name,
                                       int number);
+/// Which piece of that file a muscle is; empty: the only one.
+std::string piece_of_muscle(RunLayout layout, const std::string& muscle);
 
 }  // namespace gracilis
