@@ -1,5 +1,7 @@
 #include <gracilis/view/pictures/muscle_colors.hpp>
 
+#include <gracilis/core/state_hash.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -109,13 +111,6 @@ Color from_hsl(Real hue, Real saturation, Real lightness) {
   return {channel(0), channel(8), channel(4)};
 }
 
-/// FNV-1a: the same on every machine, unlike std::hash.
-std::uint32_t hash_of_name(std::string_view text) {
-  std::uint32_t hash = 2166136261u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-  return hash;
-}
-
 /// In lower case, words joined by '_', without the side: a muscle has one color on both.
 std::string plain_name(std::string_view name) {
   std::string plain;
@@ -151,13 +146,13 @@ FoundMuscleColor find(std::string_view name) {
 Color muscle_color(std::string_view name) {
   const std::string plain = plain_name(name);
   const FoundMuscleColor found = find(plain);
-  const std::uint32_t rest = hash_of_name(std::string_view(plain).substr(found.length));
-  if (!found.group) return from_hsl(Real(rest % 12) * 30, 0.45, lightnesses[rest / 12 % lightnesses.size()]);
   const std::string_view part = std::string_view(plain).substr(found.length);
+  const std::uint64_t hash = hash_of(part);  // the same on every machine, unlike std::hash
+  if (!found.group) return from_hsl(Real(hash % 12) * 30, 0.45, lightnesses[hash / 12 % lightnesses.size()]);
   const std::size_t shift = part.empty() ? 0
                             : std::isdigit(static_cast<unsigned char>(part.back())) != 0
                                 ? static_cast<std::size_t>(part.back() - '0')
-                                : rest % lightnesses.size();
+                                : hash % lightnesses.size();
   const std::size_t shade = (found.place + shift) % lightnesses.size();
   // Every third leans to the side in hue, and so do those of a large group for which lightnesses begin again.
   const std::size_t turns = (found.place + shift) % 3 + 2 * ((found.place + shift) / lightnesses.size() % 3);
