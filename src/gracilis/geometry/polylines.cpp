@@ -23,10 +23,16 @@ Polylines join(const std::vector<Points>& lines) {
   return joined;
 }
 
+std::vector<Index> spread_numbers(Index all, Index most) {
+  std::vector<Index> numbers;
+  const Index count = std::min(all, most);
+  for (Index i = 0; i < count; ++i) numbers.push_back(i * all / count);
+  return numbers;
+}
+
 Polylines spread_lines(const Polylines& lines, Index most) {
-  const Index count = std::min(lines.count(), most);
   std::vector<Points> chosen;
-  for (Index i = 0; i < count; ++i) chosen.push_back(lines.line(i * lines.count() / count));
+  for (const Index i : spread_numbers(lines.count(), most)) chosen.push_back(lines.line(i));
   return join(chosen);
 }
 

@@ -23,6 +23,9 @@ struct Polylines {
 /// All lines in one, in their order.
 Polylines join(const std::vector<Points>& lines);
 
+/// At most `most` of the numbers 0 .. all - 1, evenly spread over them.
+std::vector<Index> spread_numbers(Index all, Index most);
+
 /// At most `most` of the lines, evenly spread over their numbers.
 Polylines spread_lines(const Polylines& lines, Index most);
 

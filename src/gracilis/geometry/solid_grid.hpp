@@ -26,6 +26,13 @@ class SolidGrid {
     std::array<Index, 8> nodes;
     std::array<Real, 8> weights;
     bool is_known = false;
+
+    /// What vectors at the nodes (3 × count) come to here. Precondition: is_known.
+    Vec3 mean(const Points& of_nodes) const {
+      Vec3 sum = Vec3::Zero();
+      for (std::size_t k = 0; k < 8; ++k) sum += weights[k] * of_nodes.col(nodes[k]);
+      return sum;
+    }
   };
 
   /// About `nodes_inside` nodes lie inside; `sheets` have no faces where there are none. Precondition: a closed

@@ -11,8 +11,7 @@ namespace gracilis {
 Vec3 FiberField::direction(const Vec3& p) const {
   const SolidGrid::Place at = grid_->place(p);
   if (!at.is_known) return Vec3::Zero();
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t k = 0; k < 8; ++k) sum += at.weights[k] * vectors_.col(at.nodes[k]);
+  const Vec3 sum = at.mean(vectors_);
   const Real size = sum.norm();
   return size > 1e-9 ? Vec3(sum / size) : Vec3::Zero();
 }
@@ -40,7 +39,7 @@ class DirectionEnergy {
       result.col(edge.a) += flow;
       result.col(edge.b) -= flow;
     }
-    for (const Term& term : samples_) spread(term, value(term, v), result);
+    for (const Term& term : samples_) spread(term, term.at.mean(v), result);
     return result;
   }
 
@@ -67,11 +66,6 @@ class DirectionEnergy {
 
   Real conductance(const SolidGrid::Edge& edge) const { return smoothness_ * edge.share; }
 
-  static Vec3 value(const Term& term, const Points& v) {
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < 8; ++k) sum += term.at.weights[k] * v.col(term.at.nodes[k]);
-    return sum;
-  }
   static void spread(const Term& term, const Vec3& vector, Points& result) {
     for (std::size_t k = 0; k < 8; ++k) result.col(term.at.nodes[k]) += term.weight * term.at.weights[k] * vector;
   }

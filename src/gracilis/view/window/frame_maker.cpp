@@ -106,11 +106,9 @@ void FrameMaker::fill_stress(const std::vector<Eigen::VectorXd>& stresses, Shown
 
 void FrameMaker::fill_tension(const std::vector<Eigen::VectorXd>& tensions, ShownFrame& frame) {
   frame.tension.resize(tensions.size());
-  for (std::size_t m = 0; m < tensions.size(); ++m) {
-    // The same as spread_lines chooses.
-    const auto all = static_cast<Index>(tensions[m].size()), count = std::min(all, fibers_shown);
-    for (Index i = 0; i < count; ++i) frame.tension[m].push_back(tensions[m][i * all / count]);
-  }
+  for (std::size_t m = 0; m < tensions.size(); ++m)
+    for (const Index i : spread_numbers(static_cast<Index>(tensions[m].size()), fibers_shown))
+      frame.tension[m].push_back(tensions[m][i]);
 }
 
 }  // namespace gracilis
