@@ -173,17 +173,17 @@ std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& no
   return lacking;
 }
 
-Points bulging_surface(const PreparedTissue& muscle, const Points& nodes, const Points& tissue_surface) {
+Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes, const Points& tissue_surface) {
   Points x = tissue_surface;
   if (muscle.large_faces.faces.empty()) return x;
   const Eigen::VectorXd lacking = shared_among_corners(muscle, lacking_volumes(muscle, nodes, x));
   x += volume_slopes(muscle, x).moves * lacking.asDiagonal();
+  meet_volume(muscle, volume_asked(muscle, nodes), x);
   return x;
 }
 
 Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes) {
-  Points x = bulging_surface(muscle, nodes, surface_at(muscle, nodes));
-  if (!muscle.large_faces.faces.empty()) meet_volume(muscle, volume_asked(muscle, nodes), x);
+  Points x = enclosing_surface(muscle, nodes, surface_at(muscle, nodes));
   std::vector<std::vector<std::size_t>> near;
   bool any = false;
   for (std::size_t b = 0; b < muscle.bones.size(); ++b) {

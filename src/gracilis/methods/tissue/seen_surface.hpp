@@ -10,9 +10,8 @@ namespace gracilis::tissue {
 /// forces and lengths inside are those of the tissue. 3 × vertices, m.
 Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes);
 
-/// The same without a look at bones, its volume met by the vertices beside large triangles alone: nearly what is seen,
-/// in a fraction of the time. `tissue_surface`: surface_at these nodes.
-Points bulging_surface(const PreparedTissue& muscle, const Points& nodes, const Points& tissue_surface);
+/// The same without a look at bones. `tissue_surface`: surface_at these nodes.
+Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes, const Points& tissue_surface);
 
 /// What the surface lacks of the tissue beneath each large triangle, m³; of `corners`, which are where its vertices
 /// are. Less than zero where it holds more.

@@ -217,7 +217,7 @@ class TissueMethod final : public DeformationMethod {
     std::vector<Points> seen(moving.size()), tissue(moving.size());
     parallel_for_each(moving.size(), [&](std::size_t m) {
       tissue[m] = surface_at(muscles_[m], moving[m].nodes);
-      seen[m] = bulging_surface(muscles_[m], moving[m].nodes, tissue[m]);
+      seen[m] = enclosing_surface(muscles_[m], moving[m].nodes, tissue[m]);
     });
     std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, seen, self);
     for (std::size_t m = 0; m < moving.size(); ++m) {
