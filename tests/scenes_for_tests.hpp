@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/anatomy/attachments/muscle_bodies.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/geometry/distance_field.hpp>
@@ -52,6 +53,26 @@ inline Scene tube_scene(const XpbdSettings& settings = {}) {
   muscle.attachments = {origin, insertion};
   scene.method.settings = changed_values(settings);
   scene.muscles = {muscle};
+  return scene;
+}
+
+/// The same with a second muscle in front of the tube, from the upper bone to the tube's middle, which it lies on.
+inline Scene end_on_muscle_scene(const XpbdSettings& settings = {}) {
+  Scene scene = tube_scene(settings);
+  Muscle rider;
+  rider.name = "rider";
+  rider.surface = shapes::cylinder(0.006, 0.1, 14, 30);
+  rider.surface.vertices.colwise() += Vec3(0.0422, 0, -0.03);
+  Attachment origin{"bone", AttachmentEnd::origin, 0, {}, false};
+  Attachment insertion{"tube", AttachmentEnd::insertion, 0, {}, false};
+  for (Index v = 0; v < rider.surface.vertex_count(); ++v) {
+    const Real z = rider.surface.vertices(2, v);
+    if (z > 0.06) origin.vertices.push_back(v);
+    if (z < -0.02) insertion.vertices.push_back(v);
+  }
+  insertion.body = add_muscle_body(scene, "rider_on_tube", 0, rider.surface.vertices(Eigen::all, insertion.vertices));
+  rider.attachments = {origin, insertion};
+  scene.muscles.push_back(rider);
   return scene;
 }
 

@@ -111,7 +111,7 @@ TEST_F(SceneReader, attachments_must_say_which_vertices_they_take) {
   EXPECT_THAT(problems(with(good_scene(), "bone = \"pelvis\"\nbone_distance_mm = 2\n", "body = \"pelvis\"\n")),
               HasSubstr("attachment 'top' does not say which vertices it takes"));
   EXPECT_THAT(problems(with(good_scene(), "bone = \"pelvis\"\nbone_distance_mm = 2\n", "vertices = [4]\n")),
-              HasSubstr("attachment 'top' is fixed to nothing (give 'bone' or 'body')"));
+              HasSubstr("attachment 'top' is fixed to nothing (give 'bone', 'body' or 'muscle')"));
   EXPECT_THAT(problems(with(good_scene(), "bone_distance_mm = 2", "bone_distance_mm = 2\nvertices = [4]")),
               HasSubstr("attachment 'top' lists its vertices and also asks for distances"));
   EXPECT_THAT(problems(with(good_scene(), "bone_distance_mm = 2",

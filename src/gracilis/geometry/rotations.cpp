@@ -16,4 +16,10 @@ Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix) {
   return u * svd.matrixV().transpose();
 }
 
+RigidTransform rigid_motion(const Points& from, const Points& to) {
+  RigidTransform motion = RigidTransform::Identity();
+  if (from != to) motion.matrix() = Eigen::umeyama(from, to, false);
+  return motion;
+}
+
 }  // namespace gracilis

@@ -14,4 +14,8 @@ Eigen::Quaterniond turn_from_to(const Vec3& from, const Vec3& to);
 /// another where `matrix` is Σ to fromᵀ (Kabsch 1976).
 Eigen::Matrix3d nearest_rotation(const Eigen::Matrix3d& matrix);
 
+/// The rigid motion that takes `from` nearest to `to` in the least squares (Umeyama 1991); without rounding the
+/// identity where they are equal. Precondition: as many points, at least one.
+RigidTransform rigid_motion(const Points& from, const Points& to);
+
 }  // namespace gracilis

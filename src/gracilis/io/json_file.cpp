@@ -27,8 +27,9 @@ static void require_shallow(const std::filesystem::path& path, const std::string
   }
 }
 
-nlohmann::ordered_json read_json(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+nlohmann::ordered_json read_json(const std::filesystem::path& path) { return parse_json(path, read_text(path)); }
+
+nlohmann::ordered_json parse_json(const std::filesystem::path& path, const std::string& text) {
   require_shallow(path, text);
   try {
     return nlohmann::ordered_json::parse(text);

@@ -3,11 +3,15 @@
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
+#include <string>
 
 namespace gracilis {
 
 /// The file as JSON, its keys in their order. Throws InputError where it is none or nested more than 64 times: what
 /// walks through it again calls itself for every level.
 nlohmann::ordered_json read_json(const std::filesystem::path& path);
+
+/// The same of a text that stands in the file.
+nlohmann::ordered_json parse_json(const std::filesystem::path& path, const std::string& text);
 
 }  // namespace gracilis

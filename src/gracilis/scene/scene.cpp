@@ -17,4 +17,10 @@ std::span<const Setting<Sequence>> setting_table() {
   return table;
 }
 
+const MuscleBody* muscle_body(const Scene& scene, Index body) {
+  for (const MuscleBody& each : scene.muscle_bodies)
+    if (each.body == body) return &each;
+  return nullptr;
+}
+
 }  // namespace gracilis

@@ -56,6 +56,19 @@ struct Attachment {
   bool listed = false;          ///< its vertices were named one by one, so they are held whatever that takes
 };
 
+/// A body that a muscle carries: what is attached to it lies on that muscle. It moves as a patch of the muscle's
+/// surface does (anatomy/attachments/muscle_bodies.hpp).
+struct MuscleBody {
+  Index body = 0;            ///< moved by no joint
+  Index muscle = 0;          ///< that carries it
+  std::vector<Index> patch;  ///< vertices of the muscle's surface, ascending
+  /// The bodies that carry the patch, by the muscle's attachments, and their shares (sum 1): where no shape is known
+  /// their motions are blended, about `center`.
+  std::vector<Index> bodies;
+  std::vector<Real> shares;
+  Vec3 center = Vec3::Zero();
+};
+
 /// A coordinate that a point of a line depends on.
 struct LineCoordinate {
   Index index = -1;  ///< in Pose::coordinates; -1: none
@@ -174,6 +187,7 @@ struct Scene {
   std::vector<Bone> bones;
   std::vector<Joint> joints;  ///< parents before children
   std::vector<Muscle> muscles;
+  std::vector<MuscleBody> muscle_bodies;  ///< a muscle that lies on another after that one's
   Motion motion;
   Sequence sequence;
   DistanceFieldSettings distance_fields;
@@ -182,5 +196,8 @@ struct Scene {
   MethodChoice method = {};
   std::vector<Transversal> transversals = {};  ///< of the method `cylinder`
 };
+
+/// The muscle body with this number, or null: joints move it, or nothing does.
+const MuscleBody* muscle_body(const Scene& scene, Index body);
 
 }  // namespace gracilis

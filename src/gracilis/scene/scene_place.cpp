@@ -34,6 +34,7 @@ static void shift(ActionLine& line, const Vec3& by) {
 Scene shifted(Scene scene, const Vec3& by) {
   for (Bone& bone : scene.bones) bone.surface.vertices.colwise() += by;
   for (Joint& joint : scene.joints) joint.frame.pretranslate(by);
+  for (MuscleBody& each : scene.muscle_bodies) each.center += by;
   for (Muscle& muscle : scene.muscles) {
     muscle.surface.vertices.colwise() += by;
     muscle.given_fibers.points.colwise() += by;

@@ -1,6 +1,7 @@
 #include <gracilis/scene/validate.hpp>
 
 #include <gracilis/scene/setting_table.hpp>
+#include <gracilis/scene/validate_muscle_bodies.hpp>
 #include <gracilis/scene/validate_names.hpp>
 #include <gracilis/scene/validate_sizes.hpp>
 
@@ -95,7 +96,7 @@ struct Validation {
       for (const JointAxis& axis : joint.axes) check_axis(where, axis, coordinates);
     }
     for (Index body = 1; body < static_cast<Index>(scene.bodies.size()); ++body) {
-      if (children.count(body)) continue;
+      if (children.count(body) || muscle_body(scene, body)) continue;
       add("body '" + body_name(body) + "'", "no joint says how it moves against '" + body_name(0) + "'",
           "add a joint, or fix what belongs to it to '" + body_name(0) + "'");
     }
@@ -315,6 +316,7 @@ std::vector<Problem> validate(const Scene& scene) {
   validation.check_bones();
   validation.check_joints();
   validation.check_muscles();
+  for (Problem& problem : muscle_body_problems(scene)) validation.problems.push_back(std::move(problem));
   validation.check_transversals();
   validation.check_activation();
   validation.check_motion();

@@ -1,6 +1,7 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 
 #include <gracilis/anatomy/joints/axis_motion.hpp>
+#include <gracilis/anatomy/joints/blended_bodies.hpp>
 
 #include <cassert>
 
@@ -54,6 +55,7 @@ Pose pose_at(const Scene& scene, std::span<const Real> coordinates) {
     about_center.translation() = center - turned * center + joint.frame.linear() * motion.translation();
     child = parent * about_center;
   }
+  place_by_bodies(scene, pose);
   return pose;
 }
 

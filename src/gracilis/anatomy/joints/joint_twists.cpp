@@ -1,6 +1,7 @@
 #include <gracilis/anatomy/joints/joint_twists.hpp>
 
 #include <gracilis/anatomy/joints/axis_motion.hpp>
+#include <gracilis/anatomy/joints/blended_bodies.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 
 namespace gracilis {
@@ -34,6 +35,7 @@ std::vector<std::vector<Twist>> joint_twists(const Scene& scene, std::span<const
       std::vector<Twist>& of_bodies = twists.emplace_back(scene.bodies.size());
       for (std::size_t body = 0; body < of_bodies.size(); ++body)
         if (hangs_on(scene, static_cast<Index>(body), joint)) of_bodies[body] = twist;
+      add_twists(scene, of_bodies);
       frame = frame * axis_motion(axis, coordinates[coordinate++]);
     }
   }

@@ -99,9 +99,9 @@ std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& files) {
   parallel_for_each(files.size(), [&](std::size_t i) {
     try {
       const SurfaceFile& file = files[i];
-      outcomes[i].loaded = file.largest_piece ? check_surface(largest_piece(read_mesh(file.path, file.unit)), file.unit,
-                                                              file.role, file.path.string())
-                                              : load_surface(file.path, file.unit, file.role);
+      const TriangleMesh mesh = read_mesh(file.path, file.unit, file.part);
+      const std::string name = file.path.string() + (file.part.empty() ? "" : " (" + file.part + ")");
+      outcomes[i].loaded = check_surface(file.largest_piece ? largest_piece(mesh) : mesh, file.unit, file.role, name);
     } catch (const InputError& error) {
       outcomes[i].error = error;
     }

@@ -37,6 +37,7 @@ struct SurfaceFile {
   Real unit = 1;  ///< length of the file's unit, m
   SurfaceRole role = SurfaceRole::muscle;
   bool largest_piece = false;  ///< only the piece that encloses most
+  std::string part = {};       ///< as in read_mesh
 };
 /// What load_surface answers with or throws.
 struct LoadOutcome {

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/mesh/mesh_reader_glb.hpp>
 #include <gracilis/io/mesh/mesh_reader_obj.hpp>
 #include <gracilis/io/mesh/mesh_reader_ply.hpp>
 #include <gracilis/io/mesh/mesh_reader_vtk.hpp>
@@ -67,21 +68,24 @@ static PolygonMesh read_stl(const fs::path& path) {
   return mesh;
 }
 
-static PolygonMesh read_polygons(const fs::path& path) {
+static PolygonMesh read_polygons(const fs::path& path, const std::string& part) {
   const std::string extension = lower_case_extension(path);
+  if (extension == ".glb") return read_glb(path, part);
+  if (!part.empty())
+    throw_read_error(path, "has no parts that a name could choose", "leave 'part' out, or give a .glb");
   if (extension == ".ply") return read_ply(path);
   if (extension == ".obj") return read_obj(path);
   if (extension == ".vtk") return read_legacy_vtk(path);
   if (extension == ".vtp") return read_vtp(path);
   if (extension == ".stl") return read_stl(path);
   throw_read_error(path, fmt::format("'{}' is not a mesh format that can be read", extension),
-                   "use .ply, .stl, .obj, .vtk or .vtp");
+                   "use .ply, .stl, .obj, .vtk, .vtp or .glb");
 }
 
-TriangleMesh read_mesh(const fs::path& path, Real unit) {
+TriangleMesh read_mesh(const fs::path& path, Real unit, const std::string& part) {
   require_readable_file(path);
   try {
-    return triangulated(read_polygons(path), unit, path);
+    return triangulated(read_polygons(path, part), unit, path);
   } catch (const std::bad_alloc&) {
     throw_read_error(path, "announces more data than memory can hold: the file is damaged");
   } catch (const std::length_error&) {

@@ -19,7 +19,7 @@ static Json inspect_by_kind(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) return inspect_run(path);
   require_readable_file(path);
   const std::string extension = lower_case_extension(path);
-  static const std::set<std::string> surfaces = {".ply", ".stl", ".obj", ".vtk", ".vtp"};
+  static const std::set<std::string> surfaces = {".ply", ".stl", ".obj", ".vtk", ".vtp", ".glb"};
   if (surfaces.contains(extension)) return inspect_surface(path);
   if (extension == ".mot" || extension == ".sto") return inspect_table(path);
   if (extension == ".osim") return inspect_model(path);
@@ -29,8 +29,9 @@ static Json inspect_by_kind(const std::filesystem::path& path) {
     const bool landmarks = text.substr(0, text.find('\n')).find("cloud") != std::string::npos;
     return landmarks ? inspect_landmarks(path) : inspect_table(path);
   }
-  throw InputError({path.string(), "", fmt::format("files of kind '{}' are unknown", extension),
-                    "surfaces: .ply .stl .obj .vtk .vtp; tables: .mot .sto .csv; also .osim, .toml and run folders"});
+  throw InputError(
+      {path.string(), "", fmt::format("files of kind '{}' are unknown", extension),
+       "surfaces: .ply .stl .obj .vtk .vtp .glb; tables: .mot .sto .csv; also .osim, .toml and run folders"});
 }
 
 Json inspect_file(const std::filesystem::path& path) {

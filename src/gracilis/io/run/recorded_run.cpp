@@ -281,12 +281,6 @@ std::vector<Eigen::MatrixXd> recorded_tensions(const RecordedRun& run) {
   return tensions;
 }
 
-RigidTransform rigid_motion(const Points& rest, const Points& now) {
-  RigidTransform motion;
-  motion.matrix() = Eigen::umeyama(rest, now, false);
-  return motion;
-}
-
 int main_coordinate(const RecordedRun& run) {
   int found = -1;
   Real largest = -1;

@@ -63,9 +63,6 @@ Eigen::VectorXd recorded_fiber_stresses(const RecordedRun& run, const std::strin
 /// Per muscle, frame and fiber: its tension, N; 0 × 0 where the run knows none.
 std::vector<Eigen::MatrixXd> recorded_tensions(const RecordedRun& run);
 
-/// How a bone has moved since frame 0 (least squares over its vertices, Umeyama 1991).
-RigidTransform rigid_motion(const Points& rest, const Points& now);
-
 /// The coordinate that changes most over the run, as an index; -1 when there is none.
 int main_coordinate(const RecordedRun& run);
 

@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/attachments/attachment_patch.hpp>
 #include <gracilis/anatomy/attachments/attachment_reach.hpp>
+#include <gracilis/anatomy/attachments/muscle_bodies.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace gracilis::sections {
 
@@ -47,18 +49,26 @@ static void check_rule(TomlReader& table, const AttachmentDescription& descripti
     problem.remedy = remedy;
     table.add_problem(problem);
   };
-  if (description.bones.empty() && description.body.empty()) complain("is fixed to nothing", "give 'bone' or 'body'");
+  const bool on_muscle = !description.muscle.empty();
+  if (on_muscle && (!description.bones.empty() || !description.body.empty()))
+    complain("lies on a muscle and also on a bone or body", "keep one of the two, or make it two attachments");
+  if (description.bones.empty() && description.body.empty() && !on_muscle)
+    complain("is fixed to nothing", "give 'bone', 'body' or 'muscle'");
   if (patch && points) {
     complain("has both a patch and landmarks", "keep one of the two");
   } else if (listed && (landmarks || description.bone_distance > 0 || description.landmark_distance > 0)) {
     complain("lists its vertices and also asks for distances", "keep one of the two");
-  } else if (!listed && !landmarks && description.bones.empty()) {
+  } else if (!listed && !landmarks && description.bones.empty() && !on_muscle) {
     complain("does not say which vertices it takes", "give 'cloud', 'points_mm', 'patch', 'bone' or 'vertices'");
   } else if (!listed && !patch && !description.bones.empty() && description.bone_distance == 0) {
     complain("needs the key 'bone_distance_mm'", "the distance to the bone within which vertices are taken");
+  } else if (!listed && !patch && on_muscle && description.bone_distance == 0) {
+    complain("needs the key 'muscle_distance_mm'", "the distance to the muscle within which vertices are taken");
   } else if (landmarks && description.landmark_distance == 0) {
     complain("needs the key 'landmark_distance_mm'",
              "the distance to the landmarks or the patch within which vertices are taken");
+  } else if (description.line == LineKind::outline && on_muscle) {
+    complain("has an outline on a muscle", "list its vertices, or give 'muscle_distance_mm'");
   } else if (description.line == LineKind::outline && description.bones.empty()) {
     complain("has an outline but no bone", "give 'bone', on whose surface the inside lies");
   } else if (!landmarks && description.landmark_distance > 0) {
@@ -75,12 +85,13 @@ AttachmentDescription read_attachment(TomlReader table) {
   result.line = read_line_kind(table);
   result.body = table.text("body").value_or("");
   result.bones = table.texts("bone");
+  result.muscle = table.text("muscle").value_or("");
   result.clouds = table.texts("cloud");
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3))
     result.points = {rows->transpose() / 1000};
   if (const std::optional<std::string> patch = table.text("patch")) result.patch = surface_file(table, *patch);
   for (const std::string& file : table.texts("aponeurosis")) result.aponeuroses.push_back(surface_file(table, file));
-  result.bone_distance = millimetres(table, "bone_distance_mm");
+  result.bone_distance = millimetres(table, result.muscle.empty() ? "bone_distance_mm" : "muscle_distance_mm");
   result.landmark_distance = millimetres(table, "landmark_distance_mm");
   attachment.vertices = table.indices("vertices");
   attachment.listed = !attachment.vertices.empty();
@@ -106,6 +117,17 @@ Index AttachmentSelector::bone_index(const std::string& name) const {
   return static_cast<Index>(found - bones.begin());
 }
 
+Index AttachmentSelector::muscle_index(const std::string& name) const {
+  const std::vector<Muscle>& muscles = progress_.loaded.scene.muscles;
+  const auto found =
+      std::find_if(muscles.begin(), muscles.end(), [&](const Muscle& each) { return each.name == name; });
+  return static_cast<Index>(found - muscles.begin());
+}
+
+const NearestTriangle& AttachmentSelector::tree_of_muscle(Index muscle) {
+  return muscle_trees_.try_emplace(muscle, progress_.loaded.scene.muscles[muscle].surface).first->second;
+}
+
 std::vector<LandmarkSet> AttachmentSelector::landmarks_of(const AttachmentDescription& description) {
   std::vector<LandmarkSet> sets;
   std::vector<std::string> known;
@@ -127,7 +149,8 @@ AttachmentRule AttachmentSelector::rule_of(const AttachmentDescription& descript
   if (description.attachment.listed) return ListedVertices{description.attachment.vertices};
   std::vector<LandmarkSet> landmarks = landmarks_of(description);
   if (description.clouds.empty() && description.points.empty()) return NearBone{description.bone_distance};
-  if (description.bones.empty()) return NearPoints{std::move(landmarks), description.landmark_distance};
+  if (description.bones.empty() && description.muscle.empty())
+    return NearPoints{std::move(landmarks), description.landmark_distance};
   if (description.line == LineKind::outline) {
     std::vector<const TriangleMesh*> surfaces;
     for (const std::string& bone : description.bones)
@@ -154,8 +177,9 @@ std::string AttachmentSelector::body_of(const AttachmentDescription& description
 /// The patch's pieces on the attachment's bones; all of them where it names none.
 TriangleMesh AttachmentSelector::patch_of(const AttachmentDescription& description) {
   TriangleMesh patch;
-  read_file(progress_, description.patch,
-            [&](const std::filesystem::path& path) { patch = read_mesh(path, description.patch.unit); });
+  read_file(progress_, description.patch, [&](const std::filesystem::path& path) {
+    patch = read_mesh(path, description.patch.unit, description.patch.part);
+  });
   mirror_if_asked(progress_, description.patch, patch);
   if (!inspect_mesh(patch).is_finite()) {
     progress_.add_problem(description.place,
@@ -188,18 +212,39 @@ std::vector<Index> AttachmentSelector::held_by_patch(const Muscle& muscle, const
   return vertices;
 }
 
-Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDescription& description) {
-  Attachment attachment = description.attachment;
-  attachment.body = body_index(progress_.loaded.scene, body_of(description));
+std::vector<const NearestTriangle*> AttachmentSelector::trees_under(const AttachmentDescription& description) {
   std::vector<const NearestTriangle*> trees;
   for (const std::string& bone : description.bones) trees.push_back(&tree_of(bone_index(bone)));
+  if (!description.muscle.empty()) trees.push_back(&tree_of_muscle(muscle_index(description.muscle)));
+  return trees;
+}
+
+/// The body that the muscle below carries there.
+Index AttachmentSelector::body_on_muscle(const Muscle& muscle, const Attachment& attachment,
+                                         const AttachmentDescription& description) {
+  Scene& scene = progress_.loaded.scene;
+  std::string name = muscle.name + "_on_" + description.muscle;
+  if (std::find(scene.bodies.begin(), scene.bodies.end(), name) != scene.bodies.end()) name += "_" + attachment.name;
+  for (const Index v : attachment.vertices)
+    if (v < 0 || v >= muscle.surface.vertex_count()) return 0;  // validation says so
+  return add_muscle_body(scene, name, muscle_index(description.muscle),
+                         muscle.surface.vertices(Eigen::all, attachment.vertices));
+}
+
+Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDescription& description) {
+  Attachment attachment = description.attachment;
+  const std::vector<const NearestTriangle*> trees = trees_under(description);
   attachment.vertices = description.patch.path.empty() ? select_vertices(muscle.surface, trees, rule_of(description))
                                                        : held_by_patch(muscle, description, trees);
   if (attachment.vertices.empty()) {
     progress_.add_problem(description.place,
                           "attachment '" + attachment.name + "' of " + muscle.name + " holds no vertex",
                           "give larger distances, or check the units and that the muscle reaches there");
+  } else if (!description.muscle.empty()) {
+    attachment.body = body_on_muscle(muscle, attachment, description);
+    return attachment;
   }
+  if (description.muscle.empty()) attachment.body = body_index(progress_.loaded.scene, body_of(description));
   return attachment;
 }
 
@@ -212,7 +257,7 @@ void AttachmentSelector::add_aponeurosis(Muscle& muscle, const AttachmentDescrip
   Aponeurosis result{description.attachment.end, {}};
   bool is_read = false;
   read_file(progress_, file, [&](const std::filesystem::path& path) {
-    result.surface = read_mesh(path, file.unit);
+    result.surface = read_mesh(path, file.unit, file.part);
     is_read = true;
   });
   if (!is_read) return;
@@ -229,6 +274,28 @@ void AttachmentSelector::attach(Muscle& muscle, const std::vector<AttachmentDesc
     muscle.attachments.push_back(selected(muscle, description));
     for (const NamedFile& file : description.aponeuroses) add_aponeurosis(muscle, description, file);
   }
+}
+
+void AttachmentSelector::attach_all(const std::vector<MuscleDescription>& descriptions) {
+  std::vector<Muscle>& muscles = progress_.loaded.scene.muscles;
+  std::set<std::string> attached;
+  const auto is_ready = [&](const MuscleDescription& description) {
+    return std::all_of(description.attachments.begin(), description.attachments.end(),
+                       [&](const auto& each) { return each.muscle.empty() || attached.count(each.muscle); });
+  };
+  for (bool any = true; any;) {
+    any = false;
+    for (std::size_t m = 0; m < muscles.size(); ++m) {
+      if (attached.count(muscles[m].name) || !is_ready(descriptions[m])) continue;
+      attach(muscles[m], descriptions[m].attachments);
+      attached.insert(muscles[m].name);
+      any = true;
+    }
+  }
+  for (const MuscleDescription& description : descriptions)
+    if (!attached.count(description.muscle.name))
+      progress_.add_problem(description.place, description.muscle.name + " lies on a muscle that lies on it in turn",
+                            "attach one of them to bones alone");
 }
 
 void let_go_of_attachments(LoadedScene& loaded) {

@@ -84,6 +84,7 @@ static void check_attachment(const SceneDescription& scene, const AttachmentDesc
                              const KnownNames& known, std::vector<Problem>& problems) {
   require_known(description.bones, known.bones, "bone", description.place, problems);
   require_known(description.body, known.bodies, "body", description.place, problems);
+  require_known(description.muscle, known.muscles, "muscle", description.place, problems);
   if (description.clouds.empty() || !scene.landmarks.path.empty()) return;
   Problem problem = description.place;
   problem.what = "attachment '" + description.attachment.name + "' names a cloud but the scene names no landmark file";
@@ -151,6 +152,15 @@ void keep_only(std::vector<MuscleDescription>& muscles, const std::vector<std::s
   if (only.empty()) return;
   require_known(only, names_of(muscles), "muscle", place, problems);
   std::erase_if(muscles, [&](const MuscleDescription& description) { return !among(only, description.muscle.name); });
+  const Names kept = names_of(muscles);
+  for (const MuscleDescription& description : muscles)
+    for (const AttachmentDescription& each : description.attachments) {
+      if (each.muscle.empty() || among(kept, each.muscle)) continue;
+      Problem problem = place;
+      problem.what = description.muscle.name + " lies on " + each.muscle + ", which is left out";
+      problem.remedy = "name " + each.muscle + ", too";
+      problems.push_back(problem);
+    }
 }
 
 }  // namespace gracilis::sections

@@ -72,6 +72,16 @@ void keep_only(Scene& scene, const std::vector<std::string>& only, const std::ve
   for (const std::string& name : only)
     if (std::find(names.begin(), names.end(), name) == names.end())
       problems.push_back({"--only", "", "there is no muscle '" + name + "'", suggestion(name, names)});
+  std::vector<Index> number(scene.muscles.size(), -1);
+  for (std::size_t m = 0, kept = 0; m < scene.muscles.size(); ++m)
+    if (std::find(only.begin(), only.end(), scene.muscles[m].name) != only.end())
+      number[m] = static_cast<Index>(kept++);
+  for (MuscleBody& each : scene.muscle_bodies) {
+    const std::string& name = scene.muscles[static_cast<std::size_t>(each.muscle)].name;
+    each.muscle = number[static_cast<std::size_t>(each.muscle)];
+    if (each.muscle < 0)
+      problems.push_back({"--only", "", "a muscle lies on " + name + ", which is left out", "name " + name + ", too"});
+  }
   std::erase_if(scene.muscles,
                 [&](const Muscle& muscle) { return std::find(only.begin(), only.end(), muscle.name) == only.end(); });
 }

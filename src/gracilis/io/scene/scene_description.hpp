@@ -23,7 +23,8 @@ struct NamedFile {
   std::string path;
   Real unit = 1;
   Problem place;
-  bool mirror = false;  ///< the surface is taken into the body's other half
+  bool mirror = false;    ///< the surface is taken into the body's other half
+  std::string part = {};  ///< of the file, where it holds several
 };
 
 /// A box instead of a file: surfaces for tests and demonstrations that need no data.
@@ -46,15 +47,16 @@ struct BoneDescription {
 };
 
 struct AttachmentDescription {
-  Attachment attachment;            ///< its body is not set, its vertices are those that the scene file lists
-  std::string body;                 ///< empty: that of the bones
-  std::vector<std::string> bones;   ///< surfaces to measure the distance from
-  std::vector<std::string> clouds;  ///< names in the landmark file
-  std::vector<Points> points;       ///< landmarks written in the scene file itself
-  NamedFile patch;                  ///< an open surface on the bones; empty path: none
+  Attachment attachment;               ///< its body is not set, its vertices are those that the scene file lists
+  std::string body;                    ///< empty: that of the bones
+  std::vector<std::string> bones;      ///< surfaces to measure the distance from
+  std::string muscle;                  ///< that it lies on, in a bone's place; empty: none
+  std::vector<std::string> clouds;     ///< names in the landmark file
+  std::vector<Points> points;          ///< landmarks written in the scene file itself
+  NamedFile patch;                     ///< an open surface on the bones; empty path: none
   std::vector<NamedFile> aponeuroses;  ///< sheets that the fibers of this end begin or end on
   LineKind line = LineKind::cloud;
-  Real bone_distance = 0;
+  Real bone_distance = 0;  ///< m, from the bones or from the muscle
   Real landmark_distance = 0;
   Problem place;
 };
@@ -132,7 +134,7 @@ struct SceneDescription {
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
   NamedFile landmarks;
   std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
-  std::vector<std::string> guessed;           ///< what nobody measured, in words
+  std::vector<std::string> guessed;          ///< what nobody measured, in words
   std::vector<std::string> notes;
 };
 

@@ -69,8 +69,7 @@ LoadedScene read_scene(const fs::path& path, const SceneOptions& options) {
   progress.stop_at<ConfigurationError>();
   sections::AttachmentSelector selector = read_files(progress, description.prepare.has_value());
   if (description.prepare) sections::prepare_muscles(progress);
-  for (std::size_t m = 0; m < scene.muscles.size(); ++m)
-    selector.attach(scene.muscles[m], description.muscles[m].attachments);
+  selector.attach_all(description.muscles);
   sections::add_transversals(progress);
   progress.stop_at<ConfigurationError>();
   require_valid(scene, description.files.front());

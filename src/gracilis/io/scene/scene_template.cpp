@@ -67,7 +67,7 @@ static constexpr const char* elements =
 file = "landmarks.csv"
 unit = "mm" # "m" (default), "cm" or "mm"
 
-# Rigid surfaces, in the pose in which everything was captured, all in one frame. Formats: .ply .stl .obj .vtk .vtp
+# Rigid surfaces, in the pose in which everything was captured, all in one frame. Formats: .ply .stl .obj .vtk .vtp .glb
 [[bones]]
 name = "hip_bone_r"
 body = "pelvis" # the body it belongs to; default: its own name
@@ -78,6 +78,7 @@ unit = "mm" # "m" (default), "cm" or "mm"
 name = "femur_r"
 file = "femur_r.ply"
 unit = "mm"
+# part = "femur" # optional, of a bone, a muscle or a patch in a .glb: the node or mesh of this name alone
 mirror = false # optional, of a bone, a muscle or a patch: what is right of the plane through the frame's origin goes left
 # Instead of a file, of a bone or a muscle: a box, each side cut into cells.
 # box = { size_mm = [200, 200, 10], center_mm = [0, 0, 0], cells = [1, 1, 1] }
@@ -157,7 +158,7 @@ threshold = 0.02
 # first_point = 0
 # last_point = 3
 
-# At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of five ways:
+# At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of six ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.
 [[muscles.attachments]]
 name = "ilium"
@@ -168,7 +169,7 @@ line = "closed"     # "cloud" (default): separate points; "open": a line through
                     # seen in its plane; "outline": points around an area in any order, and its inside on the bone
 bone_distance_mm = 4
 landmark_distance_mm = 12
-# aponeurosis = ["sheet.ply"] # optional, for any of the five: surfaces in the muscle or on it, tendon spread along
+# aponeurosis = ["sheet.ply"] # optional, for any of the six: surfaces in the muscle or on it, tendon spread along
 # unit = "mm"                 # the belly, on which fibers end instead
 
 # 2. 'body' and landmarks, where the bone is not in the scene: within landmark_distance_mm of them.
@@ -203,6 +204,14 @@ bone_distance_mm = 3
 # patch = "patches/adductor_magnus_r.ply"
 # unit = "mm"
 # landmark_distance_mm = 3
+
+# 6. 'muscle': within muscle_distance_mm of another muscle of the scene, whose motion it follows and which it pulls at (a
+# tendon that two share, a belly that another arises from). Landmarks, 'patch' or 'vertices' may say where, as on a bone.
+# [[muscles.attachments]]
+# name = "quadriceps_tendon"
+# end = "insertion"
+# muscle = "vastus_intermedius_r"
+# muscle_distance_mm = 1
 
 # Optional, for method = "cylinder": a section that gives way. It stays on its side of another muscle's section, to whose
 # corner its own is joined, and out of that muscle and of bones.

@@ -44,6 +44,7 @@ SurfaceDescription read_surface(TomlReader& table) {
 NamedFile surface_file(TomlReader& table, const std::string& path) {
   NamedFile file = named_file(table, path);
   file.mirror = table.flag("mirror").value_or(false);
+  file.part = table.text("part").value_or("");
   return file;
 }
 
@@ -67,7 +68,7 @@ SurfaceLoader::SurfaceLoader(SceneInProgress& progress, bool muscles_stay_raw)
     const fs::path path = located(progress, surface.file);
     if (path.empty()) return;
     surfaces.push_back(&surface);
-    files.push_back({path, surface.file.unit, role, surface.largest_piece});
+    files.push_back({path, surface.file.unit, role, surface.largest_piece, surface.file.part});
   };
   for (const BoneDescription& bone : progress.description.bones) add(bone.surface, SurfaceRole::bone);
   for (const MuscleDescription& muscle : progress.description.muscles) add(muscle.surface, SurfaceRole::muscle);
@@ -87,7 +88,7 @@ bool SurfaceLoader::take(const SurfaceDescription& surface, SurfaceRole role, Tr
   bool repaired = false;
   read_file(progress_, surface.file, [&](const fs::path& path) {
     if (stays_raw(surface, role)) {
-      mesh = read_mesh(path, surface.file.unit);
+      mesh = read_mesh(path, surface.file.unit, surface.file.part);
       mirror_if_asked(progress_, surface.file, mesh);
       return;
     }

@@ -1,6 +1,7 @@
 #include <gracilis/methods/strings/strings_method.hpp>
 
 #include <gracilis/anatomy/attachments/body_carriers.hpp>
+#include <gracilis/anatomy/attachments/muscle_bodies.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/stop.hpp>
@@ -60,6 +61,8 @@ class StringsMethod final : public DeformationMethod {
       : far_fields_(std::move(far_fields)),
         bones_(strings::bone_distances(scene, far_fields_)),
         body_count_(scene.bodies.size()),
+        groups_(hosts_first(scene)),
+        carried_(carried_bodies(scene)),
         muscles_(scene.muscles.size()) {
     parallel_for_each(muscles_.size(), [&](std::size_t m) { muscles_[m] = prepare(scene, scene.muscles[m], bones_); });
     reset();
@@ -73,15 +76,8 @@ class StringsMethod final : public DeformationMethod {
   StepReport advance(const Pose& pose, Real) override {
     StepReport report;
     report.muscles.resize(muscles_.size());
-    std::vector<StrungState> next(states_.size());
-    parallel_for_each(muscles_.size(), [&](std::size_t m) {
-      const auto started = std::chrono::steady_clock::now();
-      next[m].strings = states_[m].strings;
-      follow(muscles_[m], pose, next[m].strings);
-      next[m].shape = shape_of(muscles_[m], pose, next[m].strings);
-      const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
-      report.muscles[m].milliseconds = taken.count();
-    });
+    std::vector<StrungState> next = states_;
+    follow_all(pose, next, &report);
     for (std::size_t m = 0; m < muscles_.size(); ++m)
       if (!next[m].shape.allFinite())
         throw QualityError("muscle " + muscles_[m].name + ": a vertex position is not finite; check the pose");
@@ -112,10 +108,15 @@ class StringsMethod final : public DeformationMethod {
   /// Surfaces do not tell where strings are: they go through all poses again.
   void restore(const std::vector<Pose>& poses, const Frame&, const Frame& last) override {
     reset();
-    parallel_for_each(muscles_.size(), [&](std::size_t m) {
-      for (std::size_t frame = 1; frame < poses.size(); ++frame) follow(muscles_[m], poses[frame], states_[m].strings);
-      states_[m].shape = last.muscles[m].points;
-    });
+    if (carried_.empty()) {
+      parallel_for_each(muscles_.size(), [&](std::size_t m) {
+        for (std::size_t frame = 1; frame < poses.size(); ++frame)
+          follow(muscles_[m], poses[frame], states_[m].strings);
+      });
+    } else {
+      for (std::size_t frame = 1; frame < poses.size(); ++frame) follow_all(poses[frame], states_, nullptr);
+    }
+    for (std::size_t m = 0; m < muscles_.size(); ++m) states_[m].shape = last.muscles[m].points;
   }
 
  private:
@@ -124,6 +125,22 @@ class StringsMethod final : public DeformationMethod {
     if (muscle.strings) state.strings = capture_state(*muscle.strings, body_count_);
     state.shape = muscle.rest.vertices;
     return state;
+  }
+
+  /// Takes all muscles to a pose, those that lie on others after these.
+  void follow_all(Pose pose, std::vector<StrungState>& states, StepReport* report) const {
+    for (const std::vector<std::size_t>& group : groups_) {
+      parallel_for_each(group.size(), [&](std::size_t i) {
+        const auto started = std::chrono::steady_clock::now();
+        StrungState& state = states[group[i]];
+        follow(muscles_[group[i]], pose, state.strings);
+        state.shape = shape_of(muscles_[group[i]], pose, state.strings);
+        const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
+        if (report) report->muscles[group[i]].milliseconds = taken.count();
+      });
+      place_carried_bodies(
+          carried_, group, [&](std::size_t m) { return &states[m].shape; }, pose);
+    }
   }
 
   void follow(const StrungMuscle& muscle, const Pose& pose, strings::StringState& state) const {
@@ -139,6 +156,8 @@ class StringsMethod final : public DeformationMethod {
   std::vector<DistanceField> far_fields_;
   strings::BoneDistances bones_;
   std::size_t body_count_;
+  std::vector<std::vector<std::size_t>> groups_;  ///< of muscles, hosts first
+  std::vector<CarriedBody> carried_;
   std::vector<StrungMuscle> muscles_;
   std::vector<StrungState> states_;
 };

@@ -15,6 +15,9 @@ void for_each_action(const PreparedTissue& muscle, const Surroundings& around, s
                      const Act& act) {
   const SurfacePoint& point = muscle.points[v];
   const TissueSettings& settings = muscle.settings;
+  if (v < around.drawn_by.size() && around.drawn_by[v] >= 0)
+    act(PointActor::muscle, around.drawn_by[v],
+        spring(p - around.drawn_to.col(static_cast<Index>(v)), around.drawn_stiffness[static_cast<Index>(v)]));
   if (point.held_by >= 0) {
     act(PointActor::attachment, point.held_by,
         spring(p - around.held.col(static_cast<Index>(v)), settings.attachment_stiffness * point.area));

@@ -28,6 +28,7 @@ struct SurfacePoint {
   Index held_by = -1;                         ///< the body that it is attached to, or -1
   AttachmentEnd end = AttachmentEnd::origin;  ///< of the attachment, where it is held
   Index ties_begin = 0, ties_end = 0;
+  Real joined_stiffness = 0;  ///< N/m, of the springs to ends of muscles that lie on it
 };
 
 /// What a bone asks of the surface.

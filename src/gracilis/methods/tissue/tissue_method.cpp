@@ -3,11 +3,13 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/tissue/carry.hpp>
+#include <gracilis/methods/tissue/ends_on_muscles.hpp>
 #include <gracilis/methods/tissue/factored_matrix.hpp>
 #include <gracilis/methods/tissue/forces.hpp>
-#include <gracilis/methods/tissue/minimize.hpp>
 #include <gracilis/methods/tissue/neighbors.hpp>
 #include <gracilis/methods/tissue/seen_surface.hpp>
+#include <gracilis/methods/tissue/settle.hpp>
+#include <gracilis/methods/tissue/settle_joined.hpp>
 #include <gracilis/methods/tissue/total_energy.hpp>
 #include <gracilis/scene/setting_values.hpp>
 
@@ -24,39 +26,24 @@ using namespace tissue;
 
 /// Metrics are made for activations in steps of this.
 constexpr int activation_steps = 4;
-/// How often in a step it is looked anew what bones are near.
-constexpr int most_rounds = 4;
-
-/// To the least energy near the nodes.
-Minimized settle(const PreparedTissue& muscle, Surroundings& around, const FactoredMatrix& metric, int iterations,
-                 Points& nodes) {
-  MinimizeSettings settings = {iterations, muscle.settings.minimizer_residual, muscle.lattice.cell_size};
-  EnergyWorkspace workspace;
-  const auto energy = [&](const Points& at, Points& gradient) {
-    return total_energy(muscle, around, at, workspace, gradient);
-  };
-  const auto by_metric = [&](std::span<Points> gradients) { metric.solve(gradients); };
-  Minimized sum;
-  for (int round = 0; round < most_rounds; ++round) {
-    find_near_bones(muscle, nodes, around);
-    const Points from = nodes;
-    const Minimized done = minimize(energy, by_metric, settings, nodes);
-    sum = {sum.iterations + done.iterations, done.energy, done.residual};
-    settings.iterations -= done.iterations;
-    if (settings.iterations <= 0 || (nodes - from).colwise().norm().maxCoeff() < near_bones) break;
-  }
-  return sum;
-}
-
 class TissueMethod final : public DeformationMethod {
  public:
   TissueMethod(const Scene& scene, std::vector<DistanceField> fields)
-      : fields_(std::move(fields)), body_count_(scene.bodies.size()), muscles_(scene.muscles.size()) {
+      : fields_(std::move(fields)),
+        body_count_(scene.bodies.size()),
+        groups_(hosts_first(scene)),
+        muscles_(scene.muscles.size()) {
     std::vector<SignedDistance> distances;
     for (const Bone& bone : scene.bones) distances.emplace_back(bone.surface);
     parallel_for_each(muscles_.size(), [&](std::size_t m) {
       muscles_[m] = prepare_tissue(scene, scene.muscles[m], fields_, distances);
     });
+    ends_ = ends_on_muscles(scene, muscles_);
+    prepare_joints(ends_, muscles_);
+    groups_joined_ = joined_groups(ends_, muscles_.size());
+    is_joined_.assign(muscles_.size(), 0);
+    for (const std::vector<std::size_t>& group : groups_joined_)
+      for (const std::size_t m : group) is_joined_[m] = 1;
     metrics_.resize(muscles_.size());
     std::vector<MeetingSettings> meetings;
     bool any_self = false;
@@ -83,16 +70,22 @@ class TissueMethod final : public DeformationMethod {
     frame_ = 0;
   }
 
-  StepReport advance(const Pose& pose, Real) override {
+  StepReport advance(const Pose& asked, Real) override {
+    Pose pose = asked;
     std::vector<MovingMuscle> moving(muscles_.size());
     for_each_timed(moving, [&](std::size_t m) { moving[m] = begun(m, pose); });
     int count = 1;
     for (const PreparedTissue& muscle : muscles_) count = std::max(count, steps_needed(muscle, bodies_, pose.bodies));
     for (int step = 1; step <= count; ++step) {
-      for_each_timed(moving, [&](std::size_t m) { carry_on(m, pose, step, count, moving[m]); });
+      for (const std::vector<std::size_t>& group : groups_) {
+        parallel_for_each(group.size(), [&](std::size_t i) {
+          timed(moving[group[i]], [&] { carry_on(group[i], pose, step, count, moving[group[i]]); });
+        });
+        carry_ends(group, moving, pose);
+      }
       for (int round = 0; round < rounds_; ++round) {
         look_at_neighbors(moving, round == 0 ? SelfLook::anew : SelfLook::kept);
-        for_each_timed(moving, [&](std::size_t m) { settle_once(m, moving[m]); });
+        settle_all(moving);
       }
     }
     for_each_timed(moving, [&](std::size_t m) {
@@ -169,14 +162,27 @@ class TissueMethod final : public DeformationMethod {
   };
 
   template <class Act>
+  static void timed(MovingMuscle& moving, const Act& act) {
+    const Real before = moving.milliseconds;
+    const auto started = std::chrono::steady_clock::now();
+    act();
+    const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
+    moving.milliseconds = before + taken.count();
+  }
+
+  template <class Act>
   static void for_each_timed(std::vector<MovingMuscle>& moving, const Act& act) {
-    parallel_for_each(moving.size(), [&](std::size_t m) {
-      const Real before = moving[m].milliseconds;
-      const auto started = std::chrono::steady_clock::now();
-      act(m);
-      const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
-      moving[m].milliseconds = before + taken.count();
-    });
+    parallel_for_each(moving.size(), [&](std::size_t m) { timed(moving[m], [&] { act(m); }); });
+  }
+
+  /// Puts what these muscles carry where they are now.
+  void carry_ends(const std::vector<std::size_t>& muscles, const std::vector<MovingMuscle>& moving, Pose& pose) const {
+    for (const EndOnMuscle& end : ends_) {
+      if (std::find(muscles.begin(), muscles.end(), end.host) == muscles.end()) continue;
+      const Points surface = surface_at(muscles_[end.host], moving[end.host].nodes);
+      place_carried_bodies(
+          {end.body}, {end.host}, [&](std::size_t) { return &surface; }, pose);
+    }
   }
 
   void check(std::size_t m, bool is_finite) const {
@@ -199,7 +205,12 @@ class TissueMethod final : public DeformationMethod {
   }
 
   void carry_on(std::size_t m, const Pose& pose, int step, int count, MovingMuscle& moving) const {
-    const std::vector<RigidTransform> now = bodies_after(step, count, muscles_[m], bodies_, pose.bodies);
+    std::vector<RigidTransform> now = bodies_after(step, count, muscles_[m], bodies_, pose.bodies);
+    for (const EndOnMuscle& end : ends_)
+      if (end.guest == m) {
+        const auto body = static_cast<std::size_t>(end.body.body);
+        now[body] = pose.bodies[body];  // where the muscle below has come by this step
+      }
     carry(muscles_[m], moving.bodies, now, moving.nodes);
     std::vector<BoneSight> sights = std::move(moving.equilibrium.around.sights);
     moving.equilibrium.around = surroundings(muscles_[m], now, moving.equilibrium.laws);
@@ -227,11 +238,38 @@ class TissueMethod final : public DeformationMethod {
     }
   }
 
+  int iterations_of(std::size_t m) const { return (muscles_[m].settings.minimizer_iterations + rounds_ - 1) / rounds_; }
+
   void settle_once(std::size_t m, MovingMuscle& moving) const {
-    const int iterations = (muscles_[m].settings.minimizer_iterations + rounds_ - 1) / rounds_;
-    moving.done = settle(muscles_[m], moving.equilibrium.around, *moving.metric, iterations, moving.nodes);
+    moving.done = settle(muscles_[m], moving.equilibrium.around, *moving.metric, iterations_of(m), moving.nodes);
     moving.iterations += moving.done.iterations;
     check(m, moving.nodes.allFinite());
+  }
+
+  /// The muscles of a group, whose time counts for the first of them.
+  void settle_group(const std::vector<std::size_t>& group, std::vector<MovingMuscle>& moving) const {
+    std::vector<JoinedTissue> joined;
+    int iterations = 0;
+    for (const std::size_t m : group) {
+      joined.push_back({m, &muscles_[m], &moving[m].equilibrium.around, moving[m].metric, &moving[m].nodes});
+      iterations = std::max(iterations, iterations_of(m));
+    }
+    Minimized done;
+    timed(moving[group.front()], [&] { done = settle_joined(ends_, joined, iterations); });
+    for (const std::size_t m : group) {
+      moving[m].done = done;
+      moving[m].iterations += done.iterations;
+      check(m, moving[m].nodes.allFinite());
+    }
+  }
+
+  void settle_all(std::vector<MovingMuscle>& moving) const {
+    parallel_for_each(moving.size() + groups_joined_.size(), [&](std::size_t i) {
+      if (i >= moving.size())
+        settle_group(groups_joined_[i - moving.size()], moving);
+      else if (!is_joined_[i])
+        timed(moving[i], [&] { settle_once(i, moving[i]); });
+    });
   }
 
   MuscleReport reported(std::size_t m, const MovingMuscle& moving) const {
@@ -245,16 +283,23 @@ class TissueMethod final : public DeformationMethod {
              {"least_volume_ratio", least_volume_ratio(muscles_[m].lattice, moving.nodes)}}};
   }
 
-  /// The muscles that one may touch.
+  /// The muscles that one may touch, or that may lie on it.
   std::vector<Index> others_of(std::size_t m) const {
     std::vector<Index> others;
-    for (std::size_t other = 0; other < muscles_.size() && !neighbors_.pairs.empty(); ++other)
-      if (other != m) others.push_back(static_cast<Index>(other));
+    for (std::size_t other = 0; other < muscles_.size(); ++other) {
+      const bool pulls = std::any_of(ends_.begin(), ends_.end(),
+                                     [&](const EndOnMuscle& end) { return end.host == m && end.guest == other; });
+      if (other != m && (pulls || !neighbors_.pairs.empty())) others.push_back(static_cast<Index>(other));
+    }
     return others;
   }
 
   std::vector<DistanceField> fields_;  ///< of all bones, which the muscles look at
   std::size_t body_count_;
+  std::vector<std::vector<std::size_t>> groups_;  ///< of muscles, hosts first
+  std::vector<EndOnMuscle> ends_;
+  std::vector<std::vector<std::size_t>> groups_joined_;  ///< of muscles, by ends
+  std::vector<char> is_joined_;                          ///< per muscle: whether it is in such a group
   std::vector<PreparedTissue> muscles_;
   Neighbors neighbors_;                                 ///< without pairs where muscles do not meet
   int rounds_ = 0;                                      ///< of looking at neighbors, in each step

@@ -29,8 +29,8 @@ PointState point_energy(const PreparedTissue& muscle, const Surroundings& around
 /// A third of the trace of the second derivatives of what acts on a point at rest, N/m.
 Real point_stiffness(const PreparedTissue& muscle, const SurfacePoint& point) {
   const TissueSettings& settings = muscle.settings;
-  if (point.held_by >= 0) return settings.attachment_stiffness * point.area;
-  Real sum = 0;
+  Real sum = point.joined_stiffness;
+  if (point.held_by >= 0) return sum + settings.attachment_stiffness * point.area;
   for (Index t = point.ties_begin; t < point.ties_end; ++t) {
     const Tie& each = muscle.ties[static_cast<std::size_t>(t)];
     sum += tie_hessian(Vec3::Zero(), each.along, each.stiffness, settings.fascia_yield).trace() / 3;

@@ -34,6 +34,11 @@ struct Surroundings {
   std::vector<Index> planes_begin;  ///< per point and one more: where its planes begin in `planes`
   std::vector<ContactPlane> planes;
   std::vector<Index> others;  ///< muscles that it may ever touch, in their order
+  /// Springs on the surface's vertices to ends of muscles that lie on it: to where, how stiff (N/m; 0: none) and by
+  /// which muscle; empty: there are no such ends.
+  Points drawn_to = Points(3, 0);
+  Eigen::VectorXd drawn_stiffness;
+  std::vector<Index> drawn_by;
 };
 
 /// Everything about the bodies there; nothing is near yet.

@@ -4,6 +4,7 @@
 #include <gracilis/dynamics/contact/surface/surface_follow.hpp>
 #include <gracilis/dynamics/contact/surface/surface_mending.hpp>
 #include <gracilis/dynamics/contact/surface/surface_search.hpp>
+#include <gracilis/dynamics/contact/surface/surface_ties.hpp>
 
 namespace gracilis::xpbd {
 
@@ -29,12 +30,25 @@ Coupling couple_by_edges(const std::vector<MuscleStep>& steps, const VirtualEdge
           [&crowd, &state, particles](const Movers&) { return project_virtual_edges(crowd, particles, state); }};
 }
 
+Coupling couple_by_contact(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& state) {
+  if (!crowd.surfaces.pairs.empty()) return couple_by_surfaces(steps, crowd.surfaces, state.surfaces);
+  if (!crowd.edges.pairs.empty()) return couple_by_edges(steps, crowd.edges, state.edges);
+  return {[](const Movers&) {}, [](const Movers&) { return Index{0}; }};
+}
+
 }  // namespace
 
 Coupling couple(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& state) {
-  if (!crowd.surfaces.pairs.empty()) return couple_by_surfaces(steps, crowd.surfaces, state.surfaces);
-  if (!crowd.edges.pairs.empty()) return couple_by_edges(steps, crowd.edges, state.edges);
-  return {};
+  if (!crowd.meets()) return {};
+  Coupling coupling = couple_by_contact(steps, crowd, state);
+  if (!crowd.ties.any()) return coupling;
+  coupling.project = [&ties = crowd.ties.surfaces, project = std::move(coupling.project),
+                      particles = particles_of<Particles*>(steps)](const Movers& movers) {
+    const Index pushed = project(movers);
+    project_ties(ties, particles, movers);
+    return pushed;
+  };
+  return coupling;
 }
 
 }  // namespace gracilis::xpbd

@@ -62,7 +62,7 @@ SurfacePair pair_of(Index first, Index second, const std::vector<PreparedMuscle>
 }
 
 SurfaceCrowd surfaces_of(const ContactSettings& settings, const SurfaceContactSettings& meeting,
-                         const std::vector<PreparedMuscle>& muscles) {
+                         const std::vector<PreparedMuscle>& muscles, const MuscleTies& ties) {
   SurfaceCrowd crowd;
   const auto margin = static_cast<float>(settings.margin);
   crowd.settings = meeting;
@@ -93,7 +93,7 @@ SurfaceCrowd surfaces_of(const ContactSettings& settings, const SurfaceContactSe
 
   CrowdState state = gracilis::make_crowd_state(crowd);
   find_touches(crowd, rest, state);
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) measure_rest_gaps(state, rest, i, crowd);
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) measure_rest_gaps(state, rest, i, ties.surfaces, crowd);
   return crowd;
 }
 
@@ -115,12 +115,14 @@ VirtualEdgeCrowd edges_of(const VirtualEdgeSettings& settings, const std::vector
 
 }  // namespace
 
-MuscleCrowd prepare_crowd(const Scene& scene, const std::vector<PreparedMuscle>& muscles) {
+MuscleCrowd prepare_crowd(const Scene& scene, const std::vector<PreparedMuscle>& muscles, bool meet) {
   const SettingValues& values = scene.method.contact;
   const ContactSettings settings = contact_settings(scene);
   MuscleCrowd crowd;
+  crowd.ties = prepare_ties(scene, muscles);
+  if (!meet) return crowd;
   if (settings.muscle == MuscleContact::surface)
-    crowd.surfaces = surfaces_of(settings, with_values(SurfaceContactSettings{}, values), muscles);
+    crowd.surfaces = surfaces_of(settings, with_values(SurfaceContactSettings{}, values), muscles, crowd.ties);
   if (settings.muscle == MuscleContact::virtual_edges)
     crowd.edges = edges_of(with_values(VirtualEdgeSettings{}, values), muscles);
   return crowd;

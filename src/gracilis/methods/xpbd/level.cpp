@@ -5,6 +5,7 @@
 #include <gracilis/core/parallel.hpp>
 
 #include <exception>
+#include <set>
 
 namespace gracilis::xpbd {
 
@@ -32,6 +33,13 @@ void advance_each(const Level& level, const std::vector<MuscleStep>& steps, cons
   // The first in the scene's order, whichever thread was faster.
   for (const std::exception_ptr& failure : failures)
     if (failure) std::rethrow_exception(failure);
+}
+
+/// What of a copy stands for these vertices.
+std::vector<Index> patch_on_copy(const std::vector<Index>& patch, const CoarserMuscle& copy) {
+  std::set<Index> on_copy;
+  for (const Index v : patch) on_copy.insert(copy.went_to[static_cast<std::size_t>(v)]);
+  return {on_copy.begin(), on_copy.end()};
 }
 
 /// Velocities of the copy between its vertices.
@@ -63,7 +71,7 @@ Level make_level(const Scene& scene, const std::vector<DistanceField>& fields,
     level.muscles[m] = prepare_muscle(scene, scene.muscles[m], fields, carrying[m]);
     level.states[m] = make_muscle_state(level.muscles[m], level.bodies);
   });
-  if (meet) level.crowd = prepare_crowd(scene, level.muscles);
+  level.crowd = prepare_crowd(scene, level.muscles, meet);
   level.crowd_state = make_crowd_state(level.crowd);
   return level;
 }
@@ -89,9 +97,29 @@ void advance(Level& level, const Pose& before, const Pose& now, const std::vecto
   }
 }
 
+/// Where muscles lie on others, those below come first in every step.
+static void replay_tied_strings(const Level& level, const std::vector<const PreparedMuscle*>& muscles,
+                                const std::vector<Pose>& poses, std::vector<MuscleState>& states) {
+  const MuscleTies& ties = level.crowd.ties;
+  for (std::size_t m = 0; m < states.size(); ++m)
+    if (const CarryingStrings& carrying = level.muscles[m].carrying; carrying.strings) {
+      states[m].strings = strings::capture_state(*carrying.strings, level.bodies);
+      skin_by_strings(level.muscles[m], states[m]);
+    }
+  for (std::size_t frame = 1; frame < poses.size(); ++frame)
+    for (Pose pose : substep_poses(muscles, poses[frame - 1], poses[frame]))
+      for (const std::vector<std::size_t>& group : ties.groups) {
+        parallel_for_each(group.size(),
+                          [&](std::size_t i) { follow_strings(level.muscles[group[i]], pose, states[group[i]]); });
+        place_carried_bodies(
+            ties.bodies, group, [&](std::size_t m) { return skinned_vertices(states[m]); }, pose);
+      }
+}
+
 void replay_strings(const Level& level, const std::vector<Pose>& poses, std::vector<MuscleState>& states) {
   std::vector<const PreparedMuscle*> all;
   for (const PreparedMuscle& muscle : level.muscles) all.push_back(&muscle);
+  if (level.crowd.ties.any()) return replay_tied_strings(level, all, poses, states);
   parallel_for_each(states.size(), [&](std::size_t m) {
     const CarryingStrings& carrying = level.muscles[m].carrying;
     if (!carrying.strings) return;
@@ -112,6 +140,8 @@ CoarserLevel make_coarser_level(const Scene& scene, const Level& full, const std
     coarser_muscles[m] = coarser_muscle(scene.muscles[m], xpbd_settings(scene, scene.muscles[m]).simulated_edge);
     copies.muscles[m] = coarser_muscles[m].muscle;
   });
+  for (MuscleBody& each : copies.muscle_bodies)
+    each.patch = patch_on_copy(each.patch, coarser_muscles[static_cast<std::size_t>(each.muscle)]);
   std::vector<CarryingStrings> carrying;
   for (const PreparedMuscle& muscle : full.muscles) carrying.push_back(muscle.carrying);
   CoarserLevel coarser{make_level(copies, fields, carrying), {}};

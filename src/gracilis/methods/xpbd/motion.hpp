@@ -22,6 +22,11 @@ void follow_strings(const PreparedMuscle& muscle, const Pose& pose, MuscleState&
 /// The skinned surface for where the strings are.
 void skin_by_strings(const PreparedMuscle& muscle, MuscleState& state);
 
+/// The vertices of the skinned surface; null where no strings carry the muscle.
+inline const Points* skinned_vertices(const MuscleState& state) {
+  return state.skinned ? &state.skinned->vertices : nullptr;
+}
+
 /// Attached particles go where their bodies are: T_body x_rest; the ends of tendons, where their lines end.
 void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles);
 

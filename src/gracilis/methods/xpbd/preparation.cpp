@@ -78,7 +78,7 @@ void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepa
 }
 
 /// Mass of each vertex by its share of the surface, over all: density times volume. Tendons are heavier.
-Eigen::VectorXd inverse_masses(const PreparedMuscle& prepared) {
+Eigen::VectorXd inverse_masses(const Scene& scene, const PreparedMuscle& prepared) {
   const MaterialSettings& settings = prepared.settings;
   Eigen::VectorXd masses = Eigen::VectorXd::Ones(prepared.rest.cols());
   if (!settings.unit_masses) {
@@ -90,8 +90,11 @@ Eigen::VectorXd inverse_masses(const PreparedMuscle& prepared) {
   Eigen::VectorXd inverse = masses.cwiseInverse();
   for (std::size_t p = 0; p < prepared.belly.size(); ++p)
     inverse[static_cast<Index>(p)] *= std::pow(tendon_mobility, 1 - prepared.belly[p]);
-  for (Index p = 0; p < inverse.size(); ++p)
-    if (prepared.fixed_body[static_cast<std::size_t>(p)] >= 0) inverse[p] = 0;
+  for (Index p = 0; p < inverse.size(); ++p) {
+    const Index body = prepared.fixed_body[static_cast<std::size_t>(p)];
+    // What lies on a muscle gives way with it.
+    if (body >= 0 && !muscle_body(scene, body)) inverse[p] = 0;
+  }
   return inverse;
 }
 
@@ -268,7 +271,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
     prepared.carried = std::make_shared<const CarriedSurface>(
         CarriedSurface{prepared.rest, prepared.faces,
                        strings::bind_skin(*carrying.strings, {prepared.rest, prepared.faces}, prepared.fixed_body)});
-  prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(prepared));
+  prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(scene, prepared));
   // What takes the most memory while it is built comes first.
   const ContactSettings contact = contact_settings(scene);
   prepared.keeps_out_of_itself = contact.self && contact.muscle == MuscleContact::surface && prepared.belly.empty();

@@ -40,6 +40,16 @@ struct RestSide {
   const Eigen::Matrix3Xf& target_normals;
   Eigen::Vector3f shift;
   const std::vector<char>& overlaps;
+  const std::vector<char>&probe_tied, &target_tied;  ///< particles that are tied to the other
+
+  /// Whether the two belong where they are.
+  bool grown_together(const PointTouch& touch) const {
+    if (probe_tied[static_cast<std::size_t>(touch.particle)]) return true;
+    const auto corners = target_surface.faces.col(touch.face);
+    if (std::all_of(corners.begin(), corners.end(), [&](Index p) { return target_tied[static_cast<std::size_t>(p)]; }))
+      return true;
+    return !(probe.inverse_mass(touch.particle) > 0) && is_held(target_surface, touch.face, target);
+  }
 
   float distance(const PointTouch& touch) const {
     return touch.side *
@@ -63,11 +73,12 @@ void measure_side(const std::vector<PointTouch>& near, const RestSide& side, boo
   }
 }
 
-/// The depth at which attachments lie in attachments of the other surface, on both; +infinity elsewhere.
+/// The depth at which attachments lie in attachments of the other surface, or what is tied to it lies in it, on both;
+/// +infinity elsewhere.
 void gather_grown_together(const std::vector<PointTouch>& near, const RestSide& side, std::vector<float>& of_probe,
                            std::vector<float>& of_target) {
   for (const PointTouch& touch : near) {
-    if (side.probe.inverse_mass(touch.particle) > 0 || !is_held(side.target_surface, touch.face, side.target)) continue;
+    if (!side.grown_together(touch)) continue;
     const float rest = side.distance(touch);
     if (!(rest < 0)) continue;
     const auto lower = [rest](float& depth) { depth = std::min(depth, rest); };
@@ -75,6 +86,15 @@ void gather_grown_together(const std::vector<PointTouch>& near, const RestSide& 
     for (const Index corner : side.target_surface.faces.col(touch.face))
       lower(of_target[static_cast<std::size_t>(corner)]);
   }
+}
+
+/// Which of a surface's particles are tied to another surface.
+std::vector<char> tied_to(Index guest, Index host, Index count, const std::vector<TiedSurfaces>& ties) {
+  std::vector<char> tied(static_cast<std::size_t>(count), 0);
+  for (const TiedSurfaces& each : ties)
+    if (each.guest == guest && each.host == host)
+      for (const SurfaceTie& tie : each.ties) tied[static_cast<std::size_t>(tie.particle)] = 1;
+  return tied;
 }
 
 /// Lowers gaps around what has a depth: to that depth, and by `release_slope` of the way from there less (Dijkstra
@@ -142,14 +162,18 @@ void OverlapTable::mark(SurfacePair& pair) const {
 }
 
 void measure_rest_gaps(const CrowdState& state, const std::vector<const Particles*>& rest, std::size_t number,
-                       SurfaceCrowd& crowd) {
+                       const std::vector<TiedSurfaces>& ties, SurfaceCrowd& crowd) {
   SurfacePair& pair = crowd.pairs[number];
   const PairTouches& touches = state.touches[number];
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-  const RestSide first{*rest[a],         *rest[b],   crowd.surfaces[a],  crowd.surfaces[b],
-                       state.normals[b], pair.shift, pair.first_overlaps},
-      second{*rest[b],         *rest[a],    crowd.surfaces[b],   crowd.surfaces[a],
-             state.normals[a], -pair.shift, pair.second_overlaps};
+  const std::vector<char> first_tied = tied_to(pair.first, pair.second, rest[a]->count(), ties),
+                          second_tied = tied_to(pair.second, pair.first, rest[b]->count(), ties);
+  const RestSide first{*rest[a],         *rest[b],   crowd.surfaces[a],   crowd.surfaces[b],
+                       state.normals[b], pair.shift, pair.first_overlaps, first_tied,
+                       second_tied},
+      second{*rest[b],         *rest[a],    crowd.surfaces[b],    crowd.surfaces[a],
+             state.normals[a], -pair.shift, pair.second_overlaps, second_tied,
+             first_tied};
   measure_side(touches.near_second, first, pair.is_self(), pair.first_gap, pair.first_touches);
   measure_side(touches.near_first, second, pair.is_self(), pair.second_gap, pair.second_touches);
   if (pair.is_self()) {

@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/overlap/overlap_sides.hpp>
 #include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
+#include <gracilis/dynamics/contact/surface/surface_ties.hpp>
 
 #include <map>
 #include <utility>
@@ -19,7 +20,8 @@ class OverlapTable {
   bool is_left_out(Index first, Index second) const;
   /// m; 0 where they do not overlap.
   Real deepest(Index first, Index second) const;
-  /// Notes which particles overlap, and how fast they come out. Those that have no side to come out on are not kept out of the other.
+  /// Notes which particles overlap, and how fast they come out. Those that have no side to come out on are not kept out
+  /// of the other.
   void mark(SurfacePair& pair) const;
 
  private:
@@ -32,9 +34,9 @@ class OverlapTable {
 };
 
 /// Lowers the gaps of a pair, which are the margin, to what there is at rest, but for what overlaps there: that is
-/// released. Around attachments that overlap attachments of the other the release fades, for those stay. `state` has
-/// what was found at `rest`.
+/// released. Around attachments that overlap attachments of the other, and around ends that are tied to it, the release
+/// fades, for those stay. `state` has what was found at `rest`.
 void measure_rest_gaps(const CrowdState& state, const std::vector<const Particles*>& rest, std::size_t pair,
-                       SurfaceCrowd& crowd);
+                       const std::vector<TiedSurfaces>& ties, SurfaceCrowd& crowd);
 
 }  // namespace gracilis::xpbd

@@ -119,6 +119,13 @@ void move_bones(const MuscleStep& step, int substeps, const Pose& before, const 
   remember_sides(muscle.system, place_fields(muscle, before), *step.state);
 }
 
+/// Puts ends that lie on muscles where these are: now, or where the step began.
+void hold_ends(const MuscleTies& ties, const std::vector<MuscleStep>& steps, Particles SurfaceState::*places) {
+  for (const TiedSurfaces& tied : ties.surfaces)
+    place_on_host(tied, steps[static_cast<std::size_t>(tied.host)].state->*places,
+                  steps[static_cast<std::size_t>(tied.guest)].state->*places);
+}
+
 /// Solves from the prediction and adds to the reports. On failure the crowd is as it was.
 void solve_predicted(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
                      Substep& substep) {
@@ -133,23 +140,44 @@ void solve_predicted(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
     forget_touches(crowd_state.surfaces);
     throw_failure(steps, find_failure(substep.solves, substep.predicted, steps, crowd, crowd_state));
   }
+  hold_ends(crowd.ties, steps, &SurfaceState::particles);
   parallel_for_each(steps.size(), [&](std::size_t i) {
     const float correction = largest_motion(substep.predicted[i], steps[i].state->particles);
     add_to(*steps[i].report, substep.solves[i].report, static_cast<Real>(correction));
   });
 }
 
-/// One of `substeps` steps of a frame: bones and inertia predict, the solver corrects.
+/// Puts the bodies that muscles carry where their strings have them now.
+void see_carried_bodies(const MuscleTies& ties, const std::vector<MuscleStep>& steps,
+                        const std::vector<std::size_t>& muscles, Pose& pose) {
+  place_carried_bodies(
+      ties.bodies, muscles, [&](std::size_t m) { return skinned_vertices(*steps[m].state); }, pose);
+}
+
+/// Calls act(i) for each muscle, side by side, but for those that lie on others after these, which then carry what lies
+/// on them to `pose`.
+template <class Act>
+void for_each_group(const MuscleTies& ties, const std::vector<MuscleStep>& steps, Pose& pose, const Act& act) {
+  if (!ties.any()) return parallel_for_each(steps.size(), act);
+  for (const std::vector<std::size_t>& group : ties.groups) {
+    parallel_for_each(group.size(), [&](std::size_t i) { act(group[i]); });
+    see_carried_bodies(ties, steps, group, pose);
+  }
+}
+
+/// One of `substeps` steps of a frame: bones and inertia predict, the solver corrects. The bodies that muscles carry
+/// are put into `now` where they are.
 void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
-                     int substeps, const Pose& before, const Pose& now) {
+                     int substeps, const Pose& before, Pose& now) {
   Substep substep = begin_substep(steps, crowd, crowd_state);
   const auto time_step = [&](std::size_t i) { return static_cast<float>(substep.solves[i].settings.time_step); };
-  parallel_for_each(steps.size(), [&](std::size_t i) {
+  for_each_group(crowd.ties, steps, now, [&](std::size_t i) {
     const MuscleStep& step = steps[i];
     move_bones(step, substeps, before, now, substep.placements[i], substep.solves[i]);
     predict(*step.muscle, step.activation, before, now, time_step(i), *step.state);
-    substep.predicted[i] = step.state->particles;
   });
+  for (const auto places : {&SurfaceState::particles, &SurfaceState::start}) hold_ends(crowd.ties, steps, places);
+  for (std::size_t i = 0; i < steps.size(); ++i) substep.predicted[i] = steps[i].state->particles;
   solve_predicted(steps, crowd, crowd_state, substep);
   parallel_for_each(steps.size(), [&](std::size_t i) {
     if (steps[i].muscle->settings.time_mode == TimeMode::dynamic) take_velocities(time_step(i), *steps[i].state);
@@ -187,9 +215,10 @@ void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& c
   begin_touch_frame(crowd.surfaces, crowd_state.surfaces);
   begin_edge_frame(crowd.edges, particles_of<const Particles*>(steps), crowd_state.edges);
   Pose reached = before;
-  for (const Pose& pose : poses) {
+  for (const std::vector<std::size_t>& group : crowd.ties.groups) see_carried_bodies(crowd.ties, steps, group, reached);
+  for (Pose pose : poses) {
     advance_substep(steps, crowd, crowd_state, static_cast<int>(poses.size()), reached, pose);
-    reached = pose;
+    reached = std::move(pose);
   }
   end_edge_frame(crowd.edges, crowd_state.edges);
   report_edges(crowd.edges, crowd_state.edges, steps);
@@ -205,8 +234,9 @@ void refine_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
     solve.settings.iterations = step.muscle->settings.full_iterations;
     place(*step.muscle, step.activation, now, placed[i], *step.state);
     if (solve.settings.iterations == 0) refresh_contacts(step.muscle->system, substep.placements[i], *step.state);
-    substep.predicted[i] = step.state->particles;
   });
+  hold_ends(crowd.ties, steps, &SurfaceState::particles);
+  for (std::size_t i = 0; i < steps.size(); ++i) substep.predicted[i] = steps[i].state->particles;
   solve_predicted(steps, crowd, crowd_state, substep);
 }
 

@@ -1,6 +1,7 @@
 #include <gracilis/view/export/export_gltf.hpp>
 
 #include <gracilis/geometry/decimation.hpp>
+#include <gracilis/geometry/rotations.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/palette.hpp>
 

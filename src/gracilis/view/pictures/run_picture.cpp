@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/rotations.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/decimation.hpp>
+#include <gracilis/geometry/rotations.hpp>
 #include <gracilis/view/pictures/vertex_stretch.hpp>
 
 #include <algorithm>

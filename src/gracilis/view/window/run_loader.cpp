@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/rotations.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 
 #include <spdlog/spdlog.h>
