@@ -11,9 +11,11 @@
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -29,6 +31,7 @@ struct OptimizationOptions {
   std::vector<fs::path> forces;
   bool replace = false, isometric = false, strict = false;
   std::optional<Real> begin, end, cutoff, exponent;
+  std::optional<opensim::MuscleForces> muscles;
   std::optional<int> every;
 };
 
@@ -41,6 +44,7 @@ opensim::StaticOptimizationSetup setup_from(const OptimizationOptions& options) 
   if (!options.forces.empty()) setup.force_sets = options.forces;
   if (options.replace) setup.replace_force_set = true;
   if (options.isometric) setup.settings.use_muscle_physiology = false;
+  setup.settings.muscle_forces = options.muscles.value_or(setup.settings.muscle_forces);
   setup.begin = options.begin.value_or(setup.begin);
   setup.end = options.end.value_or(setup.end);
   setup.cutoff = options.cutoff.value_or(setup.cutoff);
@@ -91,6 +95,13 @@ void report(const opensim::StaticOptimizationResult& result) {
   }
 }
 
+/// Last, so that nobody takes the results for those of the whole model.
+void say_missing_forces(const opensim::Model& model) {
+  if (!model.missing_forces.empty())
+    spdlog::warn("{} of the model's forces took no part, so results are not those of the whole model: {}",
+                 model.missing_forces.size(), fmt::join(model.missing_forces, ", "));
+}
+
 int optimize(const OptimizationOptions& options) {
   const opensim::StaticOptimizationSetup setup = setup_from(options);
   for (const std::string& note : setup.notes) spdlog::warn("{}: {}", options.setup.string(), note);
@@ -111,11 +122,15 @@ int optimize(const OptimizationOptions& options) {
   report(result);
   fs::create_directories(options.out);
   const std::string start = file_name_of(setup.name) + "_" + file_name_of(setup.analysis);
-  for (const auto& [what, table] : {std::pair{"activation", &result.activations}, {"force", &result.forces}}) {
+  for (const auto& [what, table] : {std::pair{"activation", &result.activations},
+                                    {"force", &result.forces},
+                                    {"fiber_length", &result.fiber_lengths}}) {
+    if (table->columns.empty()) continue;
     const fs::path path = options.out / fmt::format("{}_{}.sto", start, what);
     write_sto(path, *table);
     fmt::print("{}\n", path.string());
   }
+  say_missing_forces(model);
   const bool failed = options.strict && !result.infeasible.empty();
   return static_cast<int>(failed ? ExitCode::quality : ExitCode::done);
 }
@@ -140,6 +155,14 @@ void add_static_optimization_command(CLI::App& program, Command& chosen) {
   command->add_option("--cutoff", options->cutoff, "Low-pass filter of the coordinates, Hz");
   command->add_option("--exponent", options->exponent, "Minimize the sum of activations to this power (2)");
   command->add_flag("--isometric", options->isometric, "Forces do not depend on length and velocity");
+  command
+      ->add_option("--muscles", options->muscles,
+                   "What muscles pull with: opensim (active force on rigid tendons, as OpenSim's static optimization), "
+                   "rigid (passive force, too), elastic (fibers and tendons in equilibrium)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, opensim::MuscleForces>{{"opensim", opensim::MuscleForces::opensim},
+                                                       {"rigid", opensim::MuscleForces::rigid},
+                                                       {"elastic", opensim::MuscleForces::elastic}}));
   command->add_flag("--strict", options->strict,
                     "Fail where something is not supported (exit code 4) or muscles are too weak (5)");
   command->callback([&chosen, options] { chosen = [options] { return optimize(*options); }; });

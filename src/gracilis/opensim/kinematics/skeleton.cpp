@@ -195,6 +195,19 @@ Eigen::VectorXd Skeleton::inverse_dynamics(const Eigen::VectorXd& speeds, const 
   return generalized_forces(forces);
 }
 
+Eigen::VectorXd Skeleton::generalized_forces(const AppliedForces& forces) const {
+  return generalized_forces(forces.bodies) + forces.coordinates;
+}
+
+AppliedForces::AppliedForces(const Model& model)
+    : bodies(BodyForces::Zero(6, static_cast<Eigen::Index>(model.bodies.size()))),
+      coordinates(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.coordinates.size()))) {}
+
+void AppliedForces::add(const AppliedForces& others, Real times) {
+  bodies += times * others.bodies;
+  coordinates += times * others.coordinates;
+}
+
 void add_force(BodyForces& forces, Index body, const RigidTransform& pose, const Vec3& point, const Vec3& force) {
   forces.col(body).head<3>() += (point - pose.translation()).cross(force);
   forces.col(body).tail<3>() += force;

@@ -18,6 +18,11 @@ void apply_couplers(const Model& model, Eigen::VectorXd& coordinates) {
   }
 }
 
+MuscleCurves curves_of(const Muscle& muscle) {
+  if (muscle.type.starts_with("Thelen")) return MuscleCurves::thelen;
+  return muscle.type.starts_with("Millard2012") ? MuscleCurves::millard : MuscleCurves::de_groote;
+}
+
 RigidTransform body_fixed_xyz(const Vec3& angles, const Vec3& translation) {
   RigidTransform transform = RigidTransform::Identity();
   transform.translation() = translation;

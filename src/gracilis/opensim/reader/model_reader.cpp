@@ -115,6 +115,7 @@ void read_force_set(const std::filesystem::path& path, bool replace, Model& mode
     model.muscles.clear();
     model.actuators.clear();
     model.passive_forces.clear();
+    model.missing_forces.clear();
   }
   ModelReading reading{{path, set.child("defaults"), file.version}, model};
   read_forces(reading, file.root, "ForceSet");
