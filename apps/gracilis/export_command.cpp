@@ -13,6 +13,7 @@
 #include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/export/run_points.hpp>
 #include <gracilis/opensim/export/scene_lengths.hpp>
+#include <gracilis/opensim/kinematics/loop_closer.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 #include <gracilis/view/export/export_gltf.hpp>
 #include <gracilis/view/export/export_tables.hpp>
@@ -112,11 +113,17 @@ opensim::LengthSamples lengths_for(const opensim::Model& model, const ExportOpti
   return run;
 }
 
+opensim::Model closed_model(const std::filesystem::path& path) {
+  opensim::Model model = opensim::read_model(path);
+  opensim::assemble_defaults(model);
+  return model;
+}
+
 void export_functions(const std::filesystem::path& out, const ExportOptions& options) {
   if (options.model.empty())
     spdlog::warn("without --model polynomials are fitted to the run's own poses alone, and the joints are the scene's");
   const opensim::Model model =
-      options.model.empty() ? opensim::joints_of_run(options.run) : opensim::read_model(options.model);
+      options.model.empty() ? opensim::joints_of_run(options.run) : closed_model(options.model);
   opensim::MuscleFitSettings settings = options.fit;
   if (options.sampled > 0) settings.poses = options.sampled;
   const opensim::FittedMuscles fitted = opensim::fit_muscles(lengths_for(model, options), model, settings);
@@ -163,7 +170,7 @@ const std::vector<ExportFormat>& formats() {
        [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
          if (options.model.empty())
            throw ConfigurationError({"--to osim-points", "", "needs the model", "add --model MODEL.osim"});
-         const opensim::Model model = opensim::read_model(options.model);
+         const opensim::Model model = closed_model(options.model);
          const opensim::PointExport written = opensim::export_points(options.run, model, options.points, out);
          for (const std::string& line : written.lines) spdlog::info("{}", line);
          say_left_out(written.left_out);

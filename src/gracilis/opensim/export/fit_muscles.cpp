@@ -16,11 +16,6 @@ namespace gracilis::opensim {
 
 static constexpr Real no_arm = 1e-6;  // m
 
-static bool is_dependent(const Model& model, Index coordinate) {
-  return std::any_of(model.couplers.begin(), model.couplers.end(),
-                     [&](const Coupler& coupler) { return coupler.dependent == coordinate; });
-}
-
 /// Those that can change a path's length and that OpenSim lets move by themselves: couplers' own stand for what depends
 /// on them.
 static std::vector<Index> free_coordinates(const Model& model, const Path& path) {

@@ -58,6 +58,20 @@ struct Coupler {
   Function function;
 };
 
+/// Closes a loop of bodies.
+struct LoopConstraint {
+  enum class Kind {
+    point,     ///< points of two bodies coincide (PointConstraint)
+    distance,  ///< they keep a distance (ConstantDistanceConstraint)
+    weld       ///< frames of two bodies coincide (WeldConstraint)
+  };
+  std::string name;
+  Kind kind = Kind::point;
+  Index body = 0, other_body = 0;
+  RigidTransform frame = RigidTransform::Identity(), other_frame = RigidTransform::Identity();  ///< in their bodies
+  Real distance = 0;                                                                            ///< m
+};
+
 struct WrapObject {
   std::string name;
   Index body = 0;
@@ -169,6 +183,7 @@ struct Model {
   std::vector<Joint> joints;  ///< parents before children; every body but the ground is a child once
   std::vector<Coordinate> coordinates;
   std::vector<Coupler> couplers;
+  std::vector<LoopConstraint> loops;
   std::vector<WrapObject> wrap_objects;
   std::vector<Muscle> muscles;
   std::vector<Actuator> actuators;
@@ -185,11 +200,13 @@ Index index_of(const std::vector<T>& things, const std::string& name) {
   return -1;
 }
 
-/// The coordinates' default values.
+/// The coordinates' default values, with dependent ones set from the couplers; loops may be open (assembled_defaults).
 Eigen::VectorXd default_coordinates(const Model& model);
 
 /// Sets dependent coordinates from the couplers.
 void apply_couplers(const Model& model, Eigen::VectorXd& coordinates);
+/// Whether a coupler sets the coordinate.
+bool is_dependent(const Model& model, Index coordinate);
 
 /// A rotation about x, then about the new y, then about the new z, as OpenSim gives orientations; then the translation.
 RigidTransform body_fixed_xyz(const Vec3& angles, const Vec3& translation);

@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/opensim/reader/body_reader.hpp>
+#include <gracilis/opensim/reader/constraint_reader.hpp>
 #include <gracilis/opensim/reader/force_reader.hpp>
 #include <gracilis/opensim/reader/joint_reader.hpp>
 

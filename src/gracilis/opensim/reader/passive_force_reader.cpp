@@ -2,7 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/opensim/functions/expression.hpp>
-#include <gracilis/opensim/reader/body_reader.hpp>
+#include <gracilis/opensim/reader/constraint_reader.hpp>
 #include <gracilis/opensim/reader/function_reader.hpp>
 #include <gracilis/opensim/reader/muscle_reader.hpp>
 #include <gracilis/opensim/reader/path_reader.hpp>
@@ -62,20 +62,13 @@ static std::string formula(const XmlContext& context, const pugi::xml_node& node
   return text;
 }
 
-/// The two frames of a bushing: 4.x names them, 3.x their bodies and where the frames lie in these.
 static void read_bushing(ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
   const XmlContext& context = reading.context;
-  read_frames(reading, node, "frames", force.name);
-  for (const int side : {1, 2}) {
-    const std::string number = std::to_string(side);
-    const PlacedFrame placed =
-        reading.frame(node, context.socket(node, "frame" + number, ("body_" + number).c_str()), force.name);
-    const RigidTransform frame =
-        placed.in_body * body_fixed_xyz(context.vector(node, ("orientation_body_" + number).c_str(), Vec3::Zero()),
-                                        context.vector(node, ("location_body_" + number).c_str(), Vec3::Zero()));
-    (side == 1 ? force.body : force.other_body) = placed.body;
-    (side == 1 ? force.frame : force.other_frame) = frame;
-  }
+  const auto [first, second] = two_frames(reading, node);
+  force.body = first.body;
+  force.frame = first.in_body;
+  force.other_body = second.body;
+  force.other_frame = second.in_body;
   if (force.kind == PassiveForce::Kind::formula_bushing)
     for (const char* name : {"Mx", "My", "Mz", "Fx", "Fy", "Fz"})
       force.formulas.push_back(formula(context, node, (std::string(name) + "_expression").c_str(),

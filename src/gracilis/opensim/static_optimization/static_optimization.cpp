@@ -1,5 +1,6 @@
 #include <gracilis/opensim/static_optimization/static_optimization.hpp>
 
+#include <gracilis/opensim/kinematics/loop_closer.hpp>
 #include <gracilis/opensim/static_optimization/active_forces.hpp>
 #include <gracilis/opensim/static_optimization/bounded_qp.hpp>
 #include <gracilis/opensim/static_optimization/needed_forces.hpp>
@@ -9,26 +10,11 @@
 
 namespace gracilis::opensim {
 
-/// Coordinates whose forces must be found: neither locked nor dependent.
-static std::vector<Eigen::Index> asked_coordinates(const Model& model) {
-  std::vector<Eigen::Index> asked;
-  for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
-    const auto index = static_cast<Index>(i);
-    const bool dependent = std::any_of(model.couplers.begin(), model.couplers.end(),
-                                       [&](const Coupler& coupler) { return coupler.dependent == index; });
-    if (!dependent && !model.coordinates[i].locked) asked.push_back(index);
-  }
-  return asked;
-}
-
-static InfeasibleInstant missing_forces(const Model& model, const std::vector<Eigen::Index>& asked, Real time,
-                                        const Eigen::VectorXd& missing) {
+static InfeasibleInstant missing_forces(const Model& model, Real time, const Eigen::VectorXd& missing) {
   InfeasibleInstant instant{time, {}};
-  for (std::size_t i = 0; i < asked.size(); ++i) {
-    const Real value = missing[static_cast<Eigen::Index>(i)];
-    if (std::abs(value) > 1e-4 * missing.lpNorm<Eigen::Infinity>())
-      instant.missing.emplace_back(model.coordinates[static_cast<std::size_t>(asked[i])].name, value);
-  }
+  for (Eigen::Index i = 0; i < missing.size(); ++i)
+    if (std::abs(missing[i]) > 1e-4 * missing.lpNorm<Eigen::Infinity>())
+      instant.missing.emplace_back(model.coordinates[static_cast<std::size_t>(i)].name, missing[i]);
   std::sort(instant.missing.begin(), instant.missing.end(),
             [](const auto& a, const auto& b) { return std::abs(a.second) > std::abs(b.second); });
   return instant;
@@ -105,7 +91,6 @@ StaticOptimizationResult static_optimization(const Model& model, const Coordinat
                                              const StaticOptimizationSettings& settings,
                                              const std::function<void(std::size_t)>& progress) {
   const Kinematics kinematics(motion);
-  const std::vector<Eigen::Index> asked = asked_coordinates(model);
   const ActiveForces active(model);
   const BoundedQp problem = limits(active);
   const std::vector<std::string> names = active.names();
@@ -120,14 +105,15 @@ StaticOptimizationResult static_optimization(const Model& model, const Coordinat
     const auto row = static_cast<Eigen::Index>(rows[i]);
     const Eigen::VectorXd needed = needed_forces(skeleton, kinematics, loads, rows[i]);
     const InstantForces instant = instant_forces(skeleton, active, motion.values.row(row), kinematics.speeds.row(row));
-    const InstantSolution solution =
-        solve_instant(active, instant, instant.effects(asked, Eigen::all), needed(asked), problem, settings);
+    const Eigen::MatrixXd asked = free_motions(skeleton, motion.values.row(row));
+    const InstantSolution solution = solve_instant(active, instant, asked.transpose() * instant.effects,
+                                                   asked.transpose() * needed, problem, settings);
     const auto place = static_cast<Eigen::Index>(i);
     result.activations.values.row(place) = solution.activations;
     result.forces.values.row(place) = solution.strong.forces;
     if (fibers) result.fiber_lengths.values.row(place) = solution.strong.fiber_lengths;
     if (!solution.feasible)
-      result.infeasible.push_back(missing_forces(model, asked, motion.times[rows[i]], solution.missing));
+      result.infeasible.push_back(missing_forces(model, motion.times[rows[i]], asked * solution.missing));
     if (progress) progress(i + 1);
   }
   return result;

@@ -33,7 +33,8 @@ struct StaticOptimizationResult {
 /// its maximum isometric force), as in OpenSim, or that of muscle_state, which does not grow evenly with activation:
 /// then problems follow each other in which it does, until activations stay. An actuator's force is its control times
 /// its optimal force. Passive forces of the model do their part beforehand (needed_forces). Locked coordinates ask for
-/// nothing; dependent ones work through their couplers. `progress` is told every finished row.
+/// nothing, dependent ones work through their couplers, and what closes loops holds what it must. `progress` is told
+/// every finished row.
 StaticOptimizationResult static_optimization(const Model& model, const CoordinateMotion& motion,
                                              const ExternalLoads& loads, const std::vector<std::size_t>& rows,
                                              const StaticOptimizationSettings& settings,
