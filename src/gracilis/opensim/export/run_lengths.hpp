@@ -13,6 +13,8 @@ struct MuscleLengths {
   std::string name;
   Eigen::VectorXd lengths;  ///< m
   Eigen::MatrixXd arms;     ///< -dL/dq, poses × coordinates of the model; without columns: not known
+  /// m, of the same fibers if the muscle's surface followed the model's line (add_line_lengths); empty: not known.
+  Eigen::VectorXd line_lengths = {};
 };
 
 /// Lengths in poses, the first of which is the capture pose.

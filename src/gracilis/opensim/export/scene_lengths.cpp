@@ -3,6 +3,8 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/tables/table.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/opensim/import/scene_joints.hpp>
 #include <gracilis/simulate/fiber_tracker.hpp>
 #include <gracilis/simulate/run.hpp>
@@ -102,6 +104,66 @@ LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const
     if (progress) progress(row);
   }
   return samples;
+}
+
+/// The scene with those muscles alone whose line it knows.
+static Scene with_lines(Scene scene) {
+  std::erase_if(scene.muscles, [](const gracilis::Muscle& muscle) { return muscle.action_line.rays == 0; });
+  scene.transversals.clear();
+  scene.activation = {};
+  return scene;
+}
+
+/// The same, moved by their lines.
+static Scene moved_by_lines(Scene scene) {
+  scene.method = {};
+  scene.method.name = "cylinder";
+  for (gracilis::Muscle& muscle : scene.muscles) muscle.settings = {};
+  return scene;
+}
+
+/// The scene's coordinates in each row of the run, rad and m. Those of a ramp need not be what the model's joints
+/// allow.
+static Eigen::MatrixXd scene_coordinates(const Scene& scene, const Table& table) {
+  const std::vector<Real> capture = capture_coordinates(scene);
+  Eigen::MatrixXd values =
+      Eigen::Map<const Eigen::RowVectorXd>(capture.data(), static_cast<Eigen::Index>(capture.size()))
+          .replicate(table.values.rows(), 1);
+  const std::vector<std::string> names = coordinate_names(scene);
+  std::size_t place = 0;
+  for (const gracilis::Joint& joint : scene.joints)
+    for (const auto& axis : joint.axes) {
+      if (const auto column = column_of(table, names[place]))
+        values.col(static_cast<Eigen::Index>(place)) =
+            table.values.col(*column) * (table.in_degrees && !axis.translation ? radians(1) : 1);
+      ++place;
+    }
+  return values;
+}
+
+void add_line_lengths(const Scene& scene, const std::filesystem::path& run, LengthSamples& samples) {
+  const Scene own = with_lines(scene), lines = moved_by_lines(own);
+  if (own.muscles.empty()) return;
+  const auto method = make_method(lines, [](const DistanceFieldSettings&) { return std::vector<DistanceField>{}; });
+  const Frame rest = capture_frame(lines, capture_pose(lines.bodies.size()), *method);
+  const FiberTracker tracker(own, &rest);  // fibers as the run has them
+  const Eigen::MatrixXd coordinates = scene_coordinates(lines, read_table(run / "fiber_lengths.sto"));
+  std::vector<MuscleLengths*> wanted;
+  for (const gracilis::Muscle& muscle : lines.muscles) {
+    const auto found = std::find_if(samples.muscles.begin(), samples.muscles.end(),
+                                    [&](const MuscleLengths& each) { return each.name == muscle.name; });
+    wanted.push_back(found == samples.muscles.end() ? nullptr : &*found);
+    if (wanted.back()) wanted.back()->line_lengths.resize(coordinates.rows());
+  }
+  for (Eigen::Index row = 0; row < coordinates.rows(); ++row) {
+    const std::vector<Real> axes(coordinates.row(row).begin(), coordinates.row(row).end());
+    method->advance(pose_at(lines, axes), usual_time_step);
+    Frame frame = rest;
+    method->write(frame);
+    const std::vector<MuscleFibers> fibers = tracker.follow(frame);
+    for (std::size_t m = 0; m < wanted.size(); ++m)
+      if (wanted[m]) wanted[m]->line_lengths[row] = fibers[m].mean_length;
+  }
 }
 
 std::vector<Index> moved_coordinates(const LengthSamples& run, const Model& model, const Scene& scene) {

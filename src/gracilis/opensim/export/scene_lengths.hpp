@@ -17,6 +17,12 @@ namespace gracilis::opensim {
 LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const Model& model, const CoordinateBox& box,
                             Index count, const std::function<void(Index)>& progress = {});
 
+/// Sets line_lengths of the run's muscles whose model line the scene knows: the mean lengths of their fibers in the
+/// run's poses when sections across the lines carry the surfaces (method cylinder). What the run's lengths differ by
+/// from these is the muscles' own deforming; what they differ by from the model's path is also that fibers lie beside
+/// the line.
+void add_line_lengths(const Scene& scene, const std::filesystem::path& run, LengthSamples& samples);
+
 /// Those of a model's coordinates that the run changes and its scene has an axis of.
 std::vector<Index> moved_coordinates(const LengthSamples& run, const Model& model, const Scene& scene);
 
