@@ -98,7 +98,7 @@ LoadedScene scene_of_run(const std::filesystem::path& run) {
   const nlohmann::ordered_json manifest = read_manifest(run);
   std::vector<std::string> words = manifest.value("command", std::vector<std::string>{});
   if (words.size() < 3 || (words[1] != "run" && words[1] != "rom"))
-    throw ConfigurationError({"--sample", "", "the run was not made of a scene file", "run a scene file"});
+    throw ConfigurationError({run.string(), "", "the run was not made of a scene file", "run a scene file"});
   CLI::App parser;
   std::filesystem::path file;
   SceneOptions options;
@@ -123,10 +123,11 @@ void compare_with_lines(const ExportOptions& options, opensim::LengthSamples& ru
 }
 
 /// The run's lengths; of strings, where poses are asked for, lengths and arms of its scene in such poses.
-opensim::LengthSamples lengths_for(const opensim::Model& model, const ExportOptions& options) {
+opensim::LengthSamples lengths_for(const opensim::Model& model, const ExportOptions& options, Index fiber_points = 0) {
   opensim::LengthSamples run = opensim::run_lengths(options.run, model);
   const bool strings = read_manifest(options.run).value("settings", "").starts_with("method = \"strings\"");
-  if (!strings && !run.follow_lines && !options.fit.run_alone) compare_with_lines(options, run);
+  const bool corrects = !options.model.empty() && !options.fit.run_alone && fiber_points == 0;
+  if (corrects && !strings && !run.follow_lines) compare_with_lines(options, run);
   if (options.sampled == 0 || !strings) return run;
   const LoadedScene loaded = scene_of_run(options.run);
   const auto method = make_method(
@@ -134,8 +135,9 @@ opensim::LengthSamples lengths_for(const opensim::Model& model, const ExportOpti
   const opensim::CoordinateBox box = opensim::box_around(model, opensim::moved_coordinates(run, model, loaded.scene),
                                                          run.coordinates, options.fit.whole_ranges);
   Progress progress(0, static_cast<int>(options.sampled));
-  run = opensim::scene_lengths(loaded.scene, *method, model, box, options.sampled,
-                               [&](Index done) { progress.show(static_cast<int>(done)); });
+  run = opensim::scene_lengths(
+      loaded.scene, *method, model, box, options.sampled, [&](Index done) { progress.show(static_cast<int>(done)); },
+      fiber_points);
   progress.clear();
   return run;
 }
@@ -199,7 +201,11 @@ const std::vector<ExportFormat>& formats() {
          if (options.model.empty())
            throw ConfigurationError({"--to osim-points", "", "needs the model", "add --model MODEL.osim"});
          const opensim::Model model = closed_model(options.model);
-         const opensim::PointExport written = opensim::export_points(options.run, model, options.points, out);
+         const opensim::LengthSamples samples = lengths_for(model, options, options.points);
+         if (options.sampled > 0 && !samples.spread)
+           spdlog::warn(
+               "--sample: only a run by strings can be solved in other poses; points are fitted to the run's own");
+         const opensim::PointExport written = opensim::export_points(options.run, model, samples, options.points, out);
          for (const std::string& line : written.lines) spdlog::info("{}", line);
          say_left_out(written.left_out);
          if (options.check.empty() && options.page.empty()) return;
@@ -210,7 +216,7 @@ const std::vector<ExportFormat>& formats() {
            after.muscles[static_cast<std::size_t>(known)].path = muscle.path;
            after.muscles[static_cast<std::size_t>(known)].tendon_slack_length = muscle.tendon_slack_length;
          }
-         compare_paths(model, after, opensim::run_lengths(options.run, model).coordinates, options, {});
+         compare_paths(model, after, samples.coordinates, options, {});
        }}};
   return list;
 }
@@ -258,7 +264,8 @@ void add_export_command(CLI::App& program, Command& chosen) {
       ->add_option(
           "--sample", options->sampled,
           "Poses that polynomials are fitted to, spread over each muscle's coordinates: of the model's own paths, "
-          "and of a run by strings those of its scene, which is solved in them (osim-function; 1000 of the model)")
+          "and of a run by strings those of its scene, which is solved in them (osim-function, 1000 of the model; "
+          "osim-points, of strings)")
       ->check(CLI::Range(64, 1'000'000));
   command->add_flag("--whole-ranges", options->fit.whole_ranges,
                     "Over the whole ranges of the model's coordinates instead of 10 degrees around where the run goes "

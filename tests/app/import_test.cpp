@@ -60,6 +60,21 @@ TEST(ImportCommand, an_imported_model_runs_by_sections_and_goes_back_to_opensim)
   EXPECT_EQ(run_program("export " + run + " --to osim-points").exit_code, 2);
 }
 
+TEST(ImportCommand, points_are_fitted_to_strings_in_poses_that_fill_the_range) {
+  const TestFolder folder;
+  ASSERT_EQ(import_swing(folder, "").exit_code, 0);
+  const std::string run = (folder.path() / "run").string(), scene = (folder.path() / "scene/swing.toml").string();
+  ASSERT_EQ(run_program("run " + scene + " --set method=strings --out " + run).exit_code, 0);
+  const std::string points =
+      "export " + run + " --to osim-points --sample 64 --model " + (folder.path() / "tiny.osim").string();
+  const ProgramResult result = run_program(points);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  // Told beside the strings' own arms, which poses of a run do not have, instead of the model's.
+  EXPECT_THAT(result.err, testing::HasSubstr("points; lengths 0."));
+  EXPECT_THAT(result.err, testing::Not(testing::HasSubstr("from the model's own")));
+  EXPECT_THAT(read_text(folder.path() / "run/point_paths.osim"), testing::HasSubstr("PathPoint"));
+}
+
 /// Fibers of sections lie beside the line that carries them: what they change by as it moves is no deforming of the
 /// muscle's own. A run of the same surfaces by an unknown method comes back as the model's own path, therefore.
 TEST(ImportCommand, fibers_that_follow_the_model_s_line_change_nothing_of_it) {

@@ -5,9 +5,13 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/methods/registry.hpp>
+#include <gracilis/opensim/export/sobol_points.hpp>
 #include <gracilis/opensim/import/scene_joints.hpp>
+#include <gracilis/opensim/reader/crossed_coordinates.hpp>
 #include <gracilis/simulate/fiber_tracker.hpp>
 #include <gracilis/simulate/run.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +69,13 @@ static bool is_doubtful(const FiberActions& actions) {
 }
 
 LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const Model& model, const CoordinateBox& box,
-                            Index count, const std::function<void(Index)>& progress) {
+                            Index count, const std::function<void(Index)>& progress, Index fiber_points) {
+  if (box.coordinates.empty() || static_cast<int>(box.coordinates.size()) > most_sobol_dimensions)
+    throw ConfigurationError(
+        {"--sample", "",
+         fmt::format("the run's muscles cross {} coordinates that it moves; poses are spread over 1 to {}",
+                     box.coordinates.size(), most_sobol_dimensions),
+         "run fewer muscles, or a motion that moves their joints"});
   const std::vector<KnownAxis> known = known_axes(model, scene);
   const Eigen::VectorXd capture = captured(model, scene, known);
   const Eigen::MatrixXd poses = spread_poses(box, count);
@@ -99,6 +109,7 @@ LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const
       const bool whole = actions[m].arms.rows() > 0 && !is_doubtful(actions[m]);
       samples.muscles[m].lengths[row] = whole ? fibers[m].mean_length : std::numeric_limits<Real>::quiet_NaN();
       samples.muscles[m].arms.row(row).setZero();
+      if (fiber_points > 0) samples.muscles[m].fibers.push_back(mean_fiber(fibers[m].lines, fiber_points));
       if (whole) samples.muscles[m].arms.row(row) = arms_of_model(known, actions[m].mean_arms, values);
     }
     if (progress) progress(row);
@@ -166,10 +177,24 @@ void add_line_lengths(const Scene& scene, const std::filesystem::path& run, Leng
   }
 }
 
+/// Whether any of the run's muscles crosses the coordinate, as far as the model knows them.
+static std::vector<bool> crossed_by_any(const LengthSamples& run, const Model& model) {
+  std::vector<bool> crossed(model.coordinates.size(), false);
+  for (const MuscleLengths& muscle : run.muscles) {
+    const Index known = index_of(model.muscles, muscle.name);
+    if (known < 0) return std::vector<bool>(model.coordinates.size(), true);
+    for (const Index i : crossed_coordinates(model, model.muscles[static_cast<std::size_t>(known)].path))
+      crossed[static_cast<std::size_t>(i)] = true;
+  }
+  return crossed;
+}
+
 std::vector<Index> moved_coordinates(const LengthSamples& run, const Model& model, const Scene& scene) {
   const std::vector<std::string> names = coordinate_names(scene);
+  const std::vector<bool> crossed = crossed_by_any(run, model);
   std::vector<Index> moved;
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
+    if (!crossed[i] || is_dependent(model, static_cast<Index>(i))) continue;
     const auto column = run.coordinates.col(static_cast<Eigen::Index>(i));
     if (column.maxCoeff() - column.minCoeff() > 1e-6 &&
         std::find(names.begin(), names.end(), model.coordinates[i].name) != names.end())
