@@ -8,12 +8,15 @@
 #include <gracilis/io/run/run_manifest.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/methods/registry.hpp>
+#include <gracilis/opensim/export/arm_courses.hpp>
 #include <gracilis/opensim/export/export_check.hpp>
 #include <gracilis/opensim/export/replace_paths.hpp>
 #include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/export/run_points.hpp>
 #include <gracilis/opensim/export/scene_lengths.hpp>
+#include <gracilis/opensim/kinematics/loop_closer.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
+#include <gracilis/view/comparison/arm_page.hpp>
 #include <gracilis/view/export/export_gltf.hpp>
 #include <gracilis/view/export/export_tables.hpp>
 #include <gracilis/view/export/export_tetrahedra.hpp>
@@ -31,7 +34,7 @@ namespace gracilis {
 namespace {
 
 struct ExportOptions {
-  std::filesystem::path run, out, model, check;
+  std::filesystem::path run, out, model, check, page;
   std::string to;
   std::vector<int> frames;
   GltfOptions gltf;
@@ -73,6 +76,18 @@ void check_against(const opensim::Model& before, const opensim::Model& after, co
     spdlog::info("{}", line);
 }
 
+/// With --check and --page what the exported paths do, beside the model's own.
+void compare_paths(const opensim::Model& before, const opensim::Model& after, const Eigen::MatrixXd& coordinates,
+                   const ExportOptions& options, const std::vector<std::string>& lines) {
+  if (!options.check.empty()) check_against(before, after, options.check);
+  if (options.page.empty()) return;
+  const std::string heading =
+      fmt::format("{}: moment arms of {}", before.name,
+                  std::filesystem::absolute(options.run).lexically_normal().filename().string());
+  write_arm_page(options.page, heading, lines, opensim::arm_courses(before, after, coordinates));
+  spdlog::info("moment arms before and after: {}", options.page.string());
+}
+
 std::vector<opensim::Muscle> muscles_in(const std::filesystem::path& force_set, opensim::Model model) {
   opensim::read_force_set(force_set, true, model);
   return model.muscles;
@@ -83,7 +98,7 @@ LoadedScene scene_of_run(const std::filesystem::path& run) {
   const nlohmann::ordered_json manifest = read_manifest(run);
   std::vector<std::string> words = manifest.value("command", std::vector<std::string>{});
   if (words.size() < 3 || (words[1] != "run" && words[1] != "rom"))
-    throw ConfigurationError({"--sample", "", "the run was not made of a scene file", "run a scene file"});
+    throw ConfigurationError({run.string(), "", "the run was not made of a scene file", "run a scene file"});
   CLI::App parser;
   std::filesystem::path file;
   SceneOptions options;
@@ -95,31 +110,53 @@ LoadedScene scene_of_run(const std::filesystem::path& run) {
   return read_scene(file, options);
 }
 
+/// What lengths the run's fibers would have along the model's lines, from its scene; a run whose scene is gone goes
+/// without.
+void compare_with_lines(const ExportOptions& options, opensim::LengthSamples& run) {
+  try {
+    opensim::add_line_lengths(scene_of_run(options.run).scene, options.run, run);
+  } catch (const Error& error) {
+    spdlog::warn(
+        "the run's scene cannot be read ({}), so corrections are beside the model's paths, which fibers lie beside",
+        error.what());
+  }
+}
+
 /// The run's lengths; of strings, where poses are asked for, lengths and arms of its scene in such poses.
-opensim::LengthSamples lengths_for(const opensim::Model& model, const ExportOptions& options) {
+opensim::LengthSamples lengths_for(const opensim::Model& model, const ExportOptions& options, Index fiber_points = 0) {
   opensim::LengthSamples run = opensim::run_lengths(options.run, model);
-  if (options.sampled == 0 || !read_manifest(options.run).value("settings", "").starts_with("method = \"strings\""))
-    return run;
+  const bool strings = read_manifest(options.run).value("settings", "").starts_with("method = \"strings\"");
+  const bool corrects = !options.model.empty() && !options.fit.run_alone && fiber_points == 0;
+  if (corrects && !strings && !run.follow_lines) compare_with_lines(options, run);
+  if (options.sampled == 0 || !strings) return run;
   const LoadedScene loaded = scene_of_run(options.run);
   const auto method = make_method(
       loaded.scene, [&](const DistanceFieldSettings& settings) { return cached_bone_fields(loaded.scene, settings); });
   const opensim::CoordinateBox box = opensim::box_around(model, opensim::moved_coordinates(run, model, loaded.scene),
                                                          run.coordinates, options.fit.whole_ranges);
   Progress progress(0, static_cast<int>(options.sampled));
-  run = opensim::scene_lengths(loaded.scene, *method, model, box, options.sampled,
-                               [&](Index done) { progress.show(static_cast<int>(done)); });
+  run = opensim::scene_lengths(
+      loaded.scene, *method, model, box, options.sampled, [&](Index done) { progress.show(static_cast<int>(done)); },
+      fiber_points);
   progress.clear();
   return run;
+}
+
+opensim::Model closed_model(const std::filesystem::path& path) {
+  opensim::Model model = opensim::read_model(path);
+  opensim::assemble_defaults(model);
+  return model;
 }
 
 void export_functions(const std::filesystem::path& out, const ExportOptions& options) {
   if (options.model.empty())
     spdlog::warn("without --model polynomials are fitted to the run's own poses alone, and the joints are the scene's");
   const opensim::Model model =
-      options.model.empty() ? opensim::joints_of_run(options.run) : opensim::read_model(options.model);
+      options.model.empty() ? opensim::joints_of_run(options.run) : closed_model(options.model);
   opensim::MuscleFitSettings settings = options.fit;
   if (options.sampled > 0) settings.poses = options.sampled;
-  const opensim::FittedMuscles fitted = opensim::fit_muscles(lengths_for(model, options), model, settings);
+  const opensim::LengthSamples lengths = lengths_for(model, options);
+  const opensim::FittedMuscles fitted = opensim::fit_muscles(lengths, model, settings);
   write_text_atomically(out, opensim::function_path_set(model, fitted.muscles));
   for (const opensim::FittedMuscle& muscle : fitted.muscles) spdlog::info("{}", opensim::fit_line(model, muscle));
   say_left_out(fitted.left_out);
@@ -127,7 +164,7 @@ void export_functions(const std::filesystem::path& out, const ExportOptions& opt
   if (model.muscles.empty()) return;
   opensim::Model after = model;
   opensim::replace_paths(out, after);
-  if (!options.check.empty()) check_against(model, after, options.check);
+  compare_paths(model, after, lengths.coordinates, options, {opensim::fit_summary(model, fitted.muscles)});
 }
 
 /// A new format is a line here.
@@ -163,11 +200,15 @@ const std::vector<ExportFormat>& formats() {
        [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
          if (options.model.empty())
            throw ConfigurationError({"--to osim-points", "", "needs the model", "add --model MODEL.osim"});
-         const opensim::Model model = opensim::read_model(options.model);
-         const opensim::PointExport written = opensim::export_points(options.run, model, options.points, out);
+         const opensim::Model model = closed_model(options.model);
+         const opensim::LengthSamples samples = lengths_for(model, options, options.points);
+         if (options.sampled > 0 && !samples.spread)
+           spdlog::warn(
+               "--sample: only a run by strings can be solved in other poses; points are fitted to the run's own");
+         const opensim::PointExport written = opensim::export_points(options.run, model, samples, options.points, out);
          for (const std::string& line : written.lines) spdlog::info("{}", line);
          say_left_out(written.left_out);
-         if (options.check.empty()) return;
+         if (options.check.empty() && options.page.empty()) return;
          opensim::Model after = model;
          for (const opensim::Muscle& muscle : muscles_in(out, model)) {
            const Index known = opensim::index_of(after.muscles, muscle.name);
@@ -175,7 +216,7 @@ const std::vector<ExportFormat>& formats() {
            after.muscles[static_cast<std::size_t>(known)].path = muscle.path;
            after.muscles[static_cast<std::size_t>(known)].tendon_slack_length = muscle.tendon_slack_length;
          }
-         check_against(model, after, options.check);
+         compare_paths(model, after, samples.coordinates, options, {});
        }}};
   return list;
 }
@@ -215,11 +256,16 @@ void add_export_command(CLI::App& program, Command& chosen) {
       "--check", options->check,
       "OpenSim's set-up of static optimization: solved with the model's own paths and the exported ones, "
       "and compared (osim-function, osim-points)");
+  command->add_option(
+      "--page", options->page,
+      "A page (.html) of all muscles' moment arms, the model's own and the exported ones, by coordinate "
+      "(osim-function, osim-points with --model)");
   command
       ->add_option(
           "--sample", options->sampled,
           "Poses that polynomials are fitted to, spread over each muscle's coordinates: of the model's own paths, "
-          "and of a run by strings those of its scene, which is solved in them (osim-function; 1000 of the model)")
+          "and of a run by strings those of its scene, which is solved in them (osim-function, 1000 of the model; "
+          "osim-points, of strings)")
       ->check(CLI::Range(64, 1'000'000));
   command->add_flag("--whole-ranges", options->fit.whole_ranges,
                     "Over the whole ranges of the model's coordinates instead of 10 degrees around where the run goes "

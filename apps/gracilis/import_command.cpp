@@ -47,6 +47,7 @@ std::vector<opensim::NamedMotion> motions_of(const opensim::Model& model, const 
 
 /// "hip_flexion_r=30", in degrees or m: the values become the coordinates' defaults.
 void set_pose(opensim::Model& model, const std::vector<std::string>& pose) {
+  std::vector<bool> held(model.coordinates.size(), false);
   for (const std::string& setting : pose) {
     const std::size_t equals = setting.find('=');
     double number = 0;
@@ -62,7 +63,9 @@ void set_pose(opensim::Model& model, const std::vector<std::string>& pose) {
     }
     opensim::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
     coordinate.default_value = number * (coordinate.rotation ? radians(1) : 1);
+    held[static_cast<std::size_t>(index)] = true;
   }
+  if (!pose.empty()) close_default_pose(model, held);
 }
 
 /// Surfaces of muscles, from a file as --map has it, for the pose of the default coordinates.

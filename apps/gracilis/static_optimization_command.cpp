@@ -11,9 +11,11 @@
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -25,10 +27,12 @@ namespace fs = std::filesystem;
 
 /// What the command line says; where it says nothing, the set-up file does.
 struct OptimizationOptions {
-  fs::path setup, model, motion, loads, out;
+  fs::path setup, model, motion, loads, out, known_forces;
+  opensim::ReactionSettings reactions = {{}, {"child"}, {"ground"}};
   std::vector<fs::path> forces;
   bool replace = false, isometric = false, strict = false;
   std::optional<Real> begin, end, cutoff, exponent;
+  std::optional<opensim::MuscleForces> muscles;
   std::optional<int> every;
 };
 
@@ -41,6 +45,13 @@ opensim::StaticOptimizationSetup setup_from(const OptimizationOptions& options) 
   if (!options.forces.empty()) setup.force_sets = options.forces;
   if (options.replace) setup.replace_force_set = true;
   if (options.isometric) setup.settings.use_muscle_physiology = false;
+  if (!options.reactions.joints.empty() || !options.known_forces.empty()) {
+    if (!setup.reactions) setup.reactions.emplace();
+    if (!options.reactions.joints.empty()) setup.reactions->settings = options.reactions;
+    setup.reactions->forces = options.known_forces;
+    setup.optimizes = options.known_forces.empty();
+  }
+  setup.settings.muscle_forces = options.muscles.value_or(setup.settings.muscle_forces);
   setup.begin = options.begin.value_or(setup.begin);
   setup.end = options.end.value_or(setup.end);
   setup.cutoff = options.cutoff.value_or(setup.cutoff);
@@ -91,6 +102,28 @@ void report(const opensim::StaticOptimizationResult& result) {
   }
 }
 
+void write_table(const opensim::StaticOptimizationSetup& setup, const fs::path& out, const std::string& what,
+                 const Table& table) {
+  const fs::path path = out / fmt::format("{}_{}.sto", file_name_of(setup.name), file_name_of(what));
+  write_sto(path, table);
+  fmt::print("{}\n", path.string());
+}
+
+void write_results(const opensim::StaticOptimizationSetup& setup, const fs::path& out,
+                   const opensim::StaticOptimizationResult& result) {
+  write_table(setup, out, setup.analysis + "_activation", result.activations);
+  write_table(setup, out, setup.analysis + "_force", result.forces);
+  if (!result.fiber_lengths.columns.empty())
+    write_table(setup, out, setup.analysis + "_fiber_length", result.fiber_lengths);
+}
+
+/// Last, so that nobody takes the results for those of the whole model.
+void say_missing_forces(const opensim::Model& model) {
+  if (!model.missing_forces.empty())
+    spdlog::warn("{} of the model's forces took no part, so results are not those of the whole model: {}",
+                 model.missing_forces.size(), fmt::join(model.missing_forces, ", "));
+}
+
 int optimize(const OptimizationOptions& options) {
   const opensim::StaticOptimizationSetup setup = setup_from(options);
   for (const std::string& note : setup.notes) spdlog::warn("{}: {}", options.setup.string(), note);
@@ -104,19 +137,26 @@ int optimize(const OptimizationOptions& options) {
   if (!loads.forces.empty() && (motion.times[rows.front()] < loads.begin || motion.times[rows.back()] > loads.end))
     spdlog::warn("{}: the loads are measured from {} to {} s only", setup.external_loads.string(), loads.begin,
                  loads.end);
-  Progress progress(0, static_cast<int>(rows.size()));
-  const opensim::StaticOptimizationResult result = opensim::static_optimization(
-      model, motion, loads, rows, setup.settings, [&](std::size_t done) { progress.show(static_cast<int>(done)); });
-  progress.clear();
-  report(result);
   fs::create_directories(options.out);
-  const std::string start = file_name_of(setup.name) + "_" + file_name_of(setup.analysis);
-  for (const auto& [what, table] : {std::pair{"activation", &result.activations}, {"force", &result.forces}}) {
-    const fs::path path = options.out / fmt::format("{}_{}.sto", start, what);
-    write_sto(path, *table);
-    fmt::print("{}\n", path.string());
+  bool weak = false;
+  Table forces;
+  if (setup.optimizes) {
+    Progress progress(0, static_cast<int>(rows.size()));
+    const opensim::StaticOptimizationResult result = opensim::static_optimization(
+        model, motion, loads, rows, setup.settings, [&](std::size_t done) { progress.show(static_cast<int>(done)); });
+    progress.clear();
+    report(result);
+    weak = !result.infeasible.empty();
+    forces = result.forces;
+    write_results(setup, options.out, result);
   }
-  const bool failed = options.strict && !result.infeasible.empty();
+  if (setup.reactions) {
+    if (!setup.reactions->forces.empty()) forces = read_table(setup.reactions->forces);
+    write_table(setup, options.out, setup.reactions->name + "_ReactionLoads",
+                opensim::joint_reactions(model, motion, loads, rows, forces, setup.reactions->settings));
+  }
+  say_missing_forces(model);
+  const bool failed = options.strict && weak;
   return static_cast<int>(failed ? ExitCode::quality : ExitCode::done);
 }
 
@@ -140,6 +180,30 @@ void add_static_optimization_command(CLI::App& program, Command& chosen) {
   command->add_option("--cutoff", options->cutoff, "Low-pass filter of the coordinates, Hz");
   command->add_option("--exponent", options->exponent, "Minimize the sum of activations to this power (2)");
   command->add_flag("--isometric", options->isometric, "Forces do not depend on length and velocity");
+  command
+      ->add_option("--muscles", options->muscles,
+                   "What muscles pull with: opensim (active force on rigid tendons, as OpenSim's static optimization), "
+                   "rigid (passive force, too), elastic (fibers and tendons in equilibrium)")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, opensim::MuscleForces>{{"opensim", opensim::MuscleForces::opensim},
+                                                       {"rigid", opensim::MuscleForces::rigid},
+                                                       {"elastic", opensim::MuscleForces::elastic}}));
+  command
+      ->add_option(
+          "--reactions", options->reactions.joints,
+          "Also the loads in these joints, as in knee_r,ankle_r or ALL (a set-up may ask for them: JointReaction)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--on", options->reactions.on, "Loads on child or parent of the joint (child)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--in", options->reactions.in, "In the axes of ground, child, parent or a body (ground)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option("--known-forces", options->known_forces,
+                   "Muscles' and actuators' forces (.sto): joint loads with these, without an optimization")
+      ->check(CLI::ExistingFile);
   command->add_flag("--strict", options->strict,
                     "Fail where something is not supported (exit code 4) or muscles are too weak (5)");
   command->callback([&chosen, options] { chosen = [options] { return optimize(*options); }; });

@@ -2,7 +2,10 @@
 #include "opensim/model_texts.hpp"
 
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/opensim/export/replace_paths.hpp>
+#include <gracilis/opensim/paths/muscle_path.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,6 +58,57 @@ TEST(ImportCommand, an_imported_model_runs_by_sections_and_goes_back_to_opensim)
   ASSERT_EQ(points.exit_code, 0) << points.err;
   EXPECT_THAT(points.err, testing::HasSubstr("m: it follows the model's line; it keeps its original path"));
   EXPECT_EQ(run_program("export " + run + " --to osim-points").exit_code, 2);
+}
+
+TEST(ImportCommand, points_are_fitted_to_strings_in_poses_that_fill_the_range) {
+  const TestFolder folder;
+  ASSERT_EQ(import_swing(folder, "").exit_code, 0);
+  const std::string run = (folder.path() / "run").string(), scene = (folder.path() / "scene/swing.toml").string();
+  ASSERT_EQ(run_program("run " + scene + " --set method=strings --out " + run).exit_code, 0);
+  const std::string points =
+      "export " + run + " --to osim-points --sample 64 --model " + (folder.path() / "tiny.osim").string();
+  const ProgramResult result = run_program(points);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  // Told beside the strings' own arms, which poses of a run do not have, instead of the model's.
+  EXPECT_THAT(result.err, testing::HasSubstr("points; lengths 0."));
+  EXPECT_THAT(result.err, testing::Not(testing::HasSubstr("from the model's own")));
+  EXPECT_THAT(read_text(folder.path() / "run/point_paths.osim"), testing::HasSubstr("PathPoint"));
+}
+
+/// Fibers of sections lie beside the line that carries them: what they change by as it moves is no deforming of the
+/// muscle's own. A run of the same surfaces by an unknown method comes back as the model's own path, therefore.
+TEST(ImportCommand, fibers_that_follow_the_model_s_line_change_nothing_of_it) {
+  const std::string text = pendulum(muscle(
+      "m", point("/ground", "0.1 0.1 0") + point("/ground", "0.1 -0.02 0") + point("/bodyset/rod", "0.05 -0.3 0")));
+  opensim::Model own = opensim::model_from(text), after = own;  // first: it uses the folder, too
+  const TestFolder folder;
+  const auto model = folder.write("tiny.osim", text);
+  std::string rows;
+  for (int i = 0; i <= 12; ++i) rows += fmt::format("{}\t{}\n", 0.1 * i, 3 * i);
+  const auto motion =
+      folder.write("swing.mot", "m\nversion=1\nnRows=13\nnColumns=2\ninDegrees=yes\nendheader\ntime\tswing\n" + rows);
+  const std::string scene = (folder.path() / "scene").string(), run = (folder.path() / "run").string();
+  ASSERT_EQ(run_program("import " + model.string() + " --motion " + motion.string() + " --out " + scene).exit_code, 0);
+  ASSERT_EQ(run_program("run " + scene + "/swing.toml --set method=cylinder --out " + run).exit_code, 0);
+  std::string manifest = read_text(folder.path() / "run/run.json");
+  manifest.replace(manifest.find("cylinder\\\"", manifest.find("method = ")), 8, "stranger");
+  folder.write("run/run.json", manifest);
+  const auto page = folder.path() / "arms.html";
+  const ProgramResult exported =
+      run_program("export " + run + " --to osim-function --model " + model.string() + " --page " + page.string());
+  ASSERT_EQ(exported.exit_code, 0) << exported.err;
+  opensim::replace_paths(folder.path() / "run/function_paths.osim", after);
+  opensim::Skeleton skeleton(own);
+  for (const Real swing : {0.1, 0.3, 0.5}) {
+    const Eigen::VectorXd q = Eigen::VectorXd::Constant(1, swing);
+    skeleton.place(q);
+    const Real arm = opensim::measure_path(skeleton, own.muscles[0].path, q).moment_arms[0];
+    EXPECT_NEAR(opensim::measure_path(skeleton, after.muscles[0].path, q).moment_arms[0], arm, 1e-5);
+  }
+  const std::string shown = read_text(page);
+  EXPECT_THAT(shown, testing::HasSubstr("<h2 id=\"swing\">"));
+  EXPECT_THAT(shown, testing::HasSubstr("m: differs by"));
+  EXPECT_THAT(shown, testing::Not(testing::HasSubstr("<script")));
 }
 
 TEST(ImportCommand, a_motion_of_many_rows_a_second_is_thinned_and_the_next_command_named) {

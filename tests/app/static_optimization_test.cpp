@@ -53,4 +53,32 @@ TEST(StaticOptimizationCommand, a_model_and_a_motion_are_needed) {
   EXPECT_THAT(result.err, testing::HasSubstr("give a set-up file, or --model and --motion"));
 }
 
+TEST(StaticOptimizationCommand, joint_loads_come_with_it_or_of_known_forces) {
+  const TestFolder folder;
+  ASSERT_EQ(optimize(folder, "1", "--reactions ALL").exit_code, 0);
+  const auto file = folder.path() / "gracilis_JointReaction_ReactionLoads.sto";
+  const Table loads = read_table(file);
+  ASSERT_EQ(loads.columns.size(), 9u);
+  EXPECT_NEAR(loads.values(3, 1), 2 * 9.80665, 1e-6);  // the rod's weight
+  std::filesystem::remove(file);
+  const auto forces = folder.path() / "gracilis_StaticOptimization_force.sto";
+  const ProgramResult known = optimize(folder, "1", "--on parent --reactions hinge --known-forces " + forces.string());
+  ASSERT_EQ(known.exit_code, 0) << known.err;
+  EXPECT_NEAR(read_table(file).values(3, 1), -2 * 9.80665, 1e-6);
+  EXPECT_EQ(optimize(folder, "1", "--reactions hing").exit_code, 3);
+}
+
+TEST(StaticOptimizationCommand, forces_that_take_no_part_are_named_last) {
+  const TestFolder folder;
+  std::string text = held;
+  text.replace(text.find("CONTROL"), 7, "1");
+  text.insert(text.find("<CoordinateActuator"), "<HuntCrossleyForce name=\"heel\"/>");
+  const auto model = folder.write("tiny.osim", text), motion = folder.write("still.mot", still_motion());
+  const ProgramResult result = run_program("static-optimization --model " + model.string() + " --motion " +
+                                           motion.string() + " --muscles elastic --out " + folder.path().string());
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, testing::HasSubstr("1 of the model's forces took no part"));
+  EXPECT_THAT(result.err, testing::HasSubstr("whole model: heel"));
+}
+
 }  // namespace gracilis

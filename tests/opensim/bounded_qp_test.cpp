@@ -92,4 +92,20 @@ TEST(BoundedQp, higher_powers_share_more_evenly) {
   }
 }
 
+/// A strong entry in both rows and a weak one in the first alone: what the weak one must do is told exactly.
+TEST(BoundedQp, rows_that_say_nearly_the_same_are_met) {
+  BoundedQp problem;
+  problem.a.resize(2, 2);
+  problem.a << 400, 1, 390, 0;
+  problem.b = Eigen::Vector2d(30, 15);
+  problem.weights = Eigen::Vector2d::Ones();
+  problem.centers = Eigen::Vector2d::Zero();
+  problem.lower = Eigen::Vector2d(0, -1e9);
+  problem.upper = Eigen::Vector2d(1, 1e9);
+  const BoundedQpSolution solution = solve(problem);
+  EXPECT_TRUE(solution.feasible);
+  EXPECT_NEAR(solution.x[0], 15.0 / 390, 1e-7);
+  EXPECT_NEAR(solution.x[1], 30 - 400 * 15.0 / 390, 1e-4);
+}
+
 }  // namespace gracilis::opensim

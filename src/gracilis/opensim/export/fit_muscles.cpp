@@ -16,11 +16,6 @@ namespace gracilis::opensim {
 
 static constexpr Real no_arm = 1e-6;  // m
 
-static bool is_dependent(const Model& model, Index coordinate) {
-  return std::any_of(model.couplers.begin(), model.couplers.end(),
-                     [&](const Coupler& coupler) { return coupler.dependent == coordinate; });
-}
-
 /// Those that can change a path's length and that OpenSim lets move by themselves: couplers' own stand for what depends
 /// on them.
 static std::vector<Index> free_coordinates(const Model& model, const Path& path) {
@@ -90,6 +85,15 @@ static PathSamples beyond_path(const PathSamples& run, const Eigen::MatrixXd& co
   return difference;
 }
 
+/// The same beyond what the fibers' lengths did along the model's line, where that is known: of fibers that follow it,
+/// though they lie beside it, nothing is left.
+static PathSamples beyond_line(const PathSamples& run, const Eigen::VectorXd& line_lengths) {
+  PathSamples difference = run;
+  difference.lengths -= line_lengths;
+  difference.lengths.array() -= difference.lengths[0];
+  return difference;
+}
+
 /// The correction, drawn to nothing over the whole box.
 static PathFit fit_correction(const PathSamples& difference, const CoordinateBox& box, bool spread) {
   PathFitSettings settings;
@@ -120,8 +124,10 @@ static std::optional<FittedMuscle> fit_known(const LengthSamples& run, const Mus
   result.arms = arm_errors(fit.function, held_out);
   if (run.follow_lines) return result;
   const PathSamples of_run = samples_of(run, muscle, box, model);
-  const PathSamples difference =
-      beyond_path(of_run, run.coordinates(known_rows(muscle), Eigen::all), skeleton, path, box);
+  const std::vector<Eigen::Index> rows = known_rows(muscle);
+  const bool line = muscle.line_lengths.size() > 0 && muscle.arms.cols() == 0;
+  const PathSamples difference = line ? beyond_line(of_run, muscle.line_lengths(rows))
+                                      : beyond_path(of_run, run.coordinates(rows, Eigen::all), skeleton, path, box);
   const PathFit correction = fit_correction(difference, box, run.spread);
   result.length = sum_of(fit.function, correction.function);
   result.corrects = true;

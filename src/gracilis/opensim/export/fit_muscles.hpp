@@ -31,11 +31,12 @@ struct FittedMuscles {
 
 /// Fits every muscle of the samples. One that the model has becomes its own path and a correction: lengths and arms of
 /// the path at `poses`, spread over the coordinates that it crosses, plus what the run's lengths changed by more since
-/// the capture pose than the path did, which is drawn to nothing where the run does not tell (ridge regression, by the
-/// weight that predicts left-out poses best). So lengths are those of the path in the capture pose, for which the
-/// model's fiber and tendon lengths hold. Muscles that follow the model's lines (method cylinder) need no correction.
-/// One that the model lacks, and all with `run_alone`, are fitted to the run's lengths as they are, over the
-/// coordinates whose loss would make it worse by a tenth.
+/// the capture pose than the path did (than the same fibers did along the model's line, where that is known and arms
+/// are not), which is drawn to nothing where the run does not tell (ridge regression, by the weight that predicts
+/// left-out poses best). So lengths are those of the path in the capture pose, for which the model's fiber and tendon
+/// lengths hold. Muscles that follow the model's lines (method cylinder) need no correction. One that the model lacks,
+/// and all with `run_alone`, are fitted to the run's lengths as they are, over the coordinates whose loss would make it
+/// worse by a tenth.
 FittedMuscles fit_muscles(const LengthSamples& samples, const Model& model, const MuscleFitSettings& settings = {});
 
 }  // namespace gracilis::opensim

@@ -1,6 +1,7 @@
 #include <gracilis/opensim/export/model_samples.hpp>
 
 #include <gracilis/opensim/export/sobol_points.hpp>
+#include <gracilis/opensim/kinematics/loop_closer.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 
 #include <algorithm>
@@ -30,11 +31,14 @@ PathSamples model_samples(Skeleton& skeleton, const Path& path, const Coordinate
   const Model& model = skeleton.model();
   PathSamples samples{poses, Eigen::VectorXd(poses.rows()), Eigen::MatrixXd(poses.rows(), poses.cols()),
                       box.scales(model)};
+  LoopCloser closer(model);
+  std::vector<bool> held(model.coordinates.size(), false);
+  for (const Index i : box.coordinates) held[static_cast<std::size_t>(i)] = true;
   for (Eigen::Index row = 0; row < poses.rows(); ++row) {
     Eigen::VectorXd values = default_coordinates(model);
     for (std::size_t i = 0; i < box.coordinates.size(); ++i)
       values[box.coordinates[i]] = poses(row, static_cast<Eigen::Index>(i));
-    apply_couplers(model, values);
+    closer.close(values, held);
     skeleton.place(values);
     const PathMeasure measure = measure_path(skeleton, path, values);
     samples.lengths[row] = measure.length;

@@ -44,6 +44,13 @@ static bool follows_lines(const std::filesystem::path& run) {
   return manifest.value("settings", "").starts_with("method = \"cylinder\"");
 }
 
+Points mean_fiber(const Polylines& fibers, Index count) {
+  if (fibers.count() == 0) return Points(3, 0);
+  Points mean = Points::Zero(3, count);
+  for (Index i = 0; i < fibers.count(); ++i) mean += resampled(fibers.line(i), count - 1);
+  return mean / fibers.count();
+}
+
 LengthSamples run_lengths(const std::filesystem::path& run, const Model& model) {
   const std::filesystem::path path = run / "fiber_lengths.sto";
   const Table table = read_table(path);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/geometry/polylines.hpp>
 #include <gracilis/opensim/reader/model.hpp>
 
 #include <filesystem>
@@ -13,6 +14,10 @@ struct MuscleLengths {
   std::string name;
   Eigen::VectorXd lengths;  ///< m
   Eigen::MatrixXd arms;     ///< -dL/dq, poses × coordinates of the model; without columns: not known
+  /// m, of the same fibers if the muscle's surface followed the model's line (add_line_lengths); empty: not known.
+  Eigen::VectorXd line_lengths = {};
+  /// The mean fiber in each pose, 3 × points, where a scene was asked for it (scene_lengths); otherwise empty.
+  std::vector<Points> fibers = {};
 };
 
 /// Lengths in poses, the first of which is the capture pose.
@@ -22,6 +27,9 @@ struct LengthSamples {
   bool follow_lines = false;  ///< the muscles' sections follow the model's own paths, wherever these run
   bool spread = false;        ///< the poses are spread over the coordinates' ranges instead of following a motion
 };
+
+/// The mean of fibers, `count` points along it; none where there are none.
+Points mean_fiber(const Polylines& fibers, Index count);
 
 /// The lengths in a run's fiber_lengths.sto and, where there are some, its moment_arms_*.sto. What the scene moves
 /// beside its coordinates (knee_r_translation1) counts as what it is in the model. Throws InputError where there are

@@ -20,13 +20,38 @@
 
 namespace gracilis::opensim {
 
-/// The mean of a muscle's fibers in a frame, `count` points; none where the run has none of it.
-static Points mean_fiber(const RecordedRun& run, const std::string& muscle, int frame, Index count) {
-  const Polylines fibers = recorded_fibers(run, muscle, frame);
-  if (fibers.count() == 0) return Points(3, 0);
-  Points mean = Points::Zero(3, count);
-  for (Index i = 0; i < fibers.count(); ++i) mean += resampled(fibers.line(i), count - 1);
-  return mean / fibers.count();
+namespace {
+
+/// What points of one muscle are fitted to: poses in which its fibers are known.
+struct KnownFibers {
+  LengthSamples samples;  ///< of this muscle alone
+  std::vector<Points> lines;
+  std::vector<std::vector<RigidTransform>> poses;
+};
+
+}  // namespace
+
+/// The muscle in the poses in which it has a length: those of the samples where they hold fibers, else the run's
+/// frames.
+static KnownFibers known_fibers(const RecordedRun& run, const LengthSamples& samples, const MuscleLengths& muscle,
+                                const std::vector<std::vector<RigidTransform>>& poses, Index count) {
+  KnownFibers known;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t pose = 0; pose < poses.size(); ++pose) {
+    const auto row = static_cast<Eigen::Index>(pose);
+    if (!std::isfinite(muscle.lengths[row])) continue;
+    Points line = muscle.fibers.empty() ? mean_fiber(recorded_fibers(run, muscle.name, static_cast<int>(pose)), count)
+                                        : muscle.fibers[pose];
+    if (line.cols() == 0) return {};
+    rows.push_back(row);
+    known.lines.push_back(std::move(line));
+    known.poses.push_back(poses[pose]);
+  }
+  known.samples.coordinates = samples.coordinates(rows, Eigen::all);
+  known.samples.muscles = {{muscle.name, muscle.lengths(rows),
+                            muscle.arms.cols() > 0 ? Eigen::MatrixXd(muscle.arms(rows, Eigen::all))
+                                                   : Eigen::MatrixXd(static_cast<Eigen::Index>(rows.size()), 0)}};
+  return known;
 }
 
 /// The coordinates that points of the muscle may follow.
@@ -130,63 +155,71 @@ static bool holds_end(const FiberPoint& end, const PathPoint* own) {
   return (own && own->moving ? end.left : end.moves) <= 0.005;
 }
 
-PointExport export_points(const std::filesystem::path& folder, const Model& model, Index count,
-                          const std::filesystem::path& out) {
+/// Points of one muscle; why it has none.
+static std::vector<FiberPoint> points_of(Skeleton& skeleton, const KnownFibers& known, const Muscle* own,
+                                         std::string& why) {
+  why = "has no fibers";
+  if (known.lines.size() < 4) return {};
+  std::vector<FiberPoint> points =
+      best_points(skeleton, own ? &own->path : nullptr, known.samples, known.samples.muscles[0], known.lines,
+                  known.poses, followed_coordinates(skeleton.model(), own, known.samples.coordinates));
+  const bool held = holds_end(points.front(), own ? &own->path.points.front() : nullptr) &&
+                    holds_end(points.back(), own ? &own->path.points.back() : nullptr);
+  why = "its ends move with no body of the model";
+  return held ? points : std::vector<FiberPoint>{};
+}
+
+/// The model's muscle, or a new one, along these points. Fibers are no longer than they were in the capture pose: what
+/// the way is longer there is tendon.
+static Muscle muscle_along(Skeleton& skeleton, const std::vector<FiberPoint>& points, const std::string& name,
+                           const Muscle* own, const Eigen::VectorXd& capture) {
+  Muscle muscle = own ? *own : Muscle{};
+  muscle.name = name;
+  muscle.path = path_of(points);
+  if (!own) return muscle;
+  skeleton.place(capture);
+  const Real more =
+      measure_path(skeleton, muscle.path, capture).length - measure_path(skeleton, own->path, capture).length;
+  muscle.tendon_slack_length = std::max(muscle.tendon_slack_length + more, 0.0);
+  return muscle;
+}
+
+PointExport export_points(const std::filesystem::path& folder, const Model& model, const LengthSamples& samples,
+                          Index count, const std::filesystem::path& out) {
   const RecordedRun run = open_recorded_run(folder);
-  const LengthSamples lengths = run_lengths(folder, model);
-  if (lengths.coordinates.rows() < run.frame_count)
+  const Eigen::Index pose_count = samples.spread ? samples.coordinates.rows() : run.frame_count;
+  if (samples.coordinates.rows() < pose_count)
     throw InputError({folder.string(), "", "has fewer rows of fiber lengths than frames", "run the scene again"});
   Skeleton skeleton(model);
   std::vector<std::vector<RigidTransform>> poses;
-  for (int f = 0; f < run.frame_count; ++f) {
-    skeleton.place(lengths.coordinates.row(f));
+  for (Eigen::Index row = 0; row < pose_count; ++row) {
+    skeleton.place(samples.coordinates.row(row));
     poses.push_back(skeleton.poses());
   }
   PointExport result;
   std::string text;
-  std::vector<std::vector<Points>> fibers;
-  std::vector<const MuscleLengths*> written;
-  for (const MuscleLengths& each : lengths.muscles) {
-    const Index known = index_of(model.muscles, each.name);
-    const Muscle* own = known < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(known)];
+  std::vector<KnownFibers> written;
+  for (const MuscleLengths& each : samples.muscles) {
+    const Index index = index_of(model.muscles, each.name);
+    const Muscle* own = index < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(index)];
     if (own && own->path.points.empty()) {
       result.left_out.push_back(fmt::format("{}: its path is a function", each.name));
       continue;
     }
-    std::vector<Points> lines;
-    for (int f = 0; f < run.frame_count && !(own && lengths.follow_lines); ++f)
-      lines.push_back(mean_fiber(run, each.name, f, count));
     std::vector<FiberPoint> points;
     std::string why = "it follows the model's line";
-    if (!lines.empty()) {
-      why = "has no fibers";
-      if (lines.front().cols() > 0)
-        points = best_points(skeleton, own ? &own->path : nullptr, lengths, each, lines, poses,
-                             followed_coordinates(model, own, lengths.coordinates.topRows(run.frame_count)));
-      if (!points.empty() && !(holds_end(points.front(), own ? &own->path.points.front() : nullptr) &&
-                               holds_end(points.back(), own ? &own->path.points.back() : nullptr))) {
-        why = "its ends move with no body of the model";
-        points.clear();
-      }
+    KnownFibers known;
+    if (!(own && samples.follow_lines)) {
+      known = known_fibers(run, samples, each, poses, count);
+      points = points_of(skeleton, known, own, why);
     }
     if (points.empty()) {
       result.left_out.push_back(fmt::format("{}: {}", each.name, why));
       if (own) text += muscle_text(model, *own);
       continue;
     }
-    Muscle muscle = own ? *own : Muscle{};
-    muscle.name = each.name;
-    muscle.path = path_of(points);
-    if (own) {
-      // Fibers are no longer than they were in the capture pose: what the way is longer is tendon.
-      skeleton.place(lengths.coordinates.row(0));
-      const Real more = measure_path(skeleton, muscle.path, lengths.coordinates.row(0)).length -
-                        measure_path(skeleton, own->path, lengths.coordinates.row(0)).length;
-      muscle.tendon_slack_length = std::max(muscle.tendon_slack_length + more, 0.0);
-    }
-    text += muscle_text(model, muscle);
-    fibers.push_back(std::move(lines));
-    written.push_back(&each);
+    text += muscle_text(model, muscle_along(skeleton, points, each.name, own, samples.coordinates.row(0)));
+    written.push_back(std::move(known));
   }
   if (text.empty()) throw InputError({folder.string(), "", "has no fibers", "run the scene with fibers"});
   write_text_atomically(out, fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument "
@@ -196,15 +229,15 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
   Model read = model;
   read_force_set(out, true, read);
   Skeleton read_skeleton(read);
-  for (std::size_t m = 0; m < written.size(); ++m) {
-    const std::string& name = written[m]->name;
-    const Index known = index_of(model.muscles, name);
-    const Path* own = known < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(known)].path;
-    const Path& path = read.muscles[static_cast<std::size_t>(index_of(read.muscles, name))].path;
+  for (const KnownFibers& known : written) {
+    const MuscleLengths& muscle = known.samples.muscles[0];
+    const Index index = index_of(model.muscles, muscle.name);
+    const Path* own = index < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(index)].path;
+    const Path& path = read.muscles[static_cast<std::size_t>(index_of(read.muscles, muscle.name))].path;
     result.lines.push_back(
-        fmt::format("{}: {} points; {}", name, path.points.size(),
-                    point_errors_text(errors_of(read_skeleton, path, own, lengths, *written[m], fibers[m]),
-                                      written[m]->arms.cols() == 0)));
+        fmt::format("{}: {} points; {}", muscle.name, path.points.size(),
+                    point_errors_text(errors_of(read_skeleton, path, own, known.samples, muscle, known.lines),
+                                      muscle.arms.cols() == 0)));
   }
   return result;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/opensim/reader/model.hpp>
+#include <gracilis/opensim/export/run_lengths.hpp>
 
 #include <filesystem>
 #include <string>
@@ -21,8 +21,9 @@ struct PointExport {
 /// for the tendon's slack length, which takes what the way is longer in the capture pose than the model's path. Muscles
 /// whose ends move with no body of the model, or that follow the model's lines (method cylinder), keep the model's
 /// path, which is written. The set is read again, and what is told is told of that. The run's scene must have been made
-/// of the model, or share its bodies' places and coordinates. Throws InputError.
-PointExport export_points(const std::filesystem::path& run, const Model& model, Index count,
-                          const std::filesystem::path& out);
+/// of the model, or share its bodies' places and coordinates. `samples`: the run's lengths (run_lengths), or those of
+/// its scene in spread poses with mean fibers (scene_lengths), to which points are fitted then. Throws InputError.
+PointExport export_points(const std::filesystem::path& run, const Model& model, const LengthSamples& samples,
+                          Index count, const std::filesystem::path& out);
 
 }  // namespace gracilis::opensim

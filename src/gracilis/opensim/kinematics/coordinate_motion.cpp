@@ -1,6 +1,7 @@
 #include <gracilis/opensim/kinematics/coordinate_motion.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/opensim/kinematics/loop_closer.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +10,48 @@
 #include <cmath>
 
 namespace gracilis::opensim {
+
+/// Goes from the default pose to the first row by small steps, so that loops stay on the side that they are on.
+static void approach(const Model& model, LoopCloser& closer, const std::vector<bool>& held,
+                     const Eigen::VectorXd& first, Eigen::VectorXd& pose) {
+  Eigen::VectorXd way = Eigen::VectorXd::Zero(pose.size());
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (const auto k = static_cast<Eigen::Index>(i); held[i]) way[k] = first[k] - pose[k];
+  const Eigen::VectorXd start = pose;
+  const int steps = model.loops.empty() ? 0 : static_cast<int>(std::min(way.lpNorm<Eigen::Infinity>() / 0.05, 200.0));
+  for (int step = 1; step <= steps; ++step) {
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (const auto k = static_cast<Eigen::Index>(i); held[i]) pose[k] = start[k] + way[k] * step / (steps + 1);
+    closer.close(pose, held);
+  }
+}
+
+void complete_rows(const Model& model, const std::vector<bool>& held, CoordinateMotion& motion) {
+  LoopCloser closer(model);
+  LoopClosure worst;
+  Eigen::VectorXd pose = default_coordinates(model);
+  if (motion.values.rows() > 0) approach(model, closer, held, motion.values.row(0), pose);
+  for (Eigen::Index row = 0; row < motion.values.rows(); ++row) {
+    // What loops set goes on from the row before.
+    for (std::size_t i = 0; i < held.size(); ++i)
+      if (const auto k = static_cast<Eigen::Index>(i); held[i]) pose[k] = motion.values(row, k);
+    const LoopClosure closure = closer.close(pose, held);
+    motion.values.row(row) = pose;
+    worst.open = std::max(worst.open, closure.open);
+    if (closure.moved > worst.moved) {
+      worst.moved = closure.moved;
+      worst.coordinate = closure.coordinate;
+    }
+  }
+  if (worst.coordinate >= 0) {
+    const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(worst.coordinate)];
+    motion.notes.push_back(fmt::format(
+        "to close the model's loops given coordinates had to give way, {} by {:.3g} {} at most", coordinate.name,
+        worst.moved * (coordinate.rotation ? degrees(1) : 1), coordinate.rotation ? "degrees" : "m"));
+  }
+  if (worst.open > 1e-5)
+    motion.notes.push_back(fmt::format("the model's loops stay open by up to {:.3g} (m or rad)", worst.open));
+}
 
 CoordinateMotion coordinate_motion(const Model& model, const Table& table) {
   CoordinateMotion motion;
@@ -25,18 +68,14 @@ CoordinateMotion coordinate_motion(const Model& model, const Table& table) {
   if (std::find(given.begin(), given.end(), true) == given.end())
     throw InputError({table.name, "", fmt::format("holds no coordinate of the model '{}'", model.name),
                       "its columns must be named as the model's coordinates"});
-  for (const Coupler& coupler : model.couplers) given[static_cast<std::size_t>(coupler.dependent)] = true;
   std::vector<std::string> missing;
   for (std::size_t i = 0; i < given.size(); ++i)
-    if (!given[i]) missing.push_back(model.coordinates[i].name);
+    if (!given[i] && !is_dependent(model, static_cast<Index>(i))) missing.push_back(model.coordinates[i].name);
   if (!missing.empty())
-    motion.notes.push_back(
-        fmt::format("{}: has no {}, which keep their default values", table.name, fmt::join(missing, ", ")));
-  for (Eigen::Index row = 0; row < motion.values.rows(); ++row) {
-    Eigen::VectorXd values = motion.values.row(row);
-    apply_couplers(model, values);
-    motion.values.row(row) = values;
-  }
+    motion.notes.push_back(fmt::format(
+        "{}: has no {}, which {}", table.name, fmt::join(missing, ", "),
+        model.loops.empty() ? "keep their default values" : "stay as near to their default values as loops let them"));
+  complete_rows(model, given, motion);
   return motion;
 }
 
@@ -48,11 +87,11 @@ CoordinateMotion sweep(const Model& model, Index coordinate, Real begin, Real en
   motion.values = default_coordinates(model).transpose().replicate(rows, 1);
   for (Eigen::Index row = 0; row < rows; ++row) {
     motion.times.push_back(0.01 * static_cast<Real>(row));
-    Eigen::VectorXd values = motion.values.row(row);
-    values[coordinate] = begin + std::copysign(step, end - begin) * static_cast<Real>(row);
-    apply_couplers(model, values);
-    motion.values.row(row) = values;
+    motion.values(row, coordinate) = begin + std::copysign(step, end - begin) * static_cast<Real>(row);
   }
+  std::vector<bool> held(model.coordinates.size(), false);
+  held[static_cast<std::size_t>(coordinate)] = true;
+  complete_rows(model, held, motion);
   return motion;
 }
 

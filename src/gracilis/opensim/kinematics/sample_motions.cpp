@@ -41,16 +41,16 @@ static CoordinateMotion combined(const Model& model, const std::vector<Index>& a
   motion.values = default_coordinates(model).transpose().replicate(rows, 1);
   for (Eigen::Index row = 0; row < rows; ++row) {
     motion.times.push_back(0.01 * static_cast<Real>(row));
-    Eigen::VectorXd values = motion.values.row(row);
     const std::vector<int> digits = combination(row, angles.size(), steps);
     for (std::size_t i = 0; i < angles.size(); ++i) {
       const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(angles[i])];
       const Real share = static_cast<Real>(digits[i]) / steps;
-      values[angles[i]] = coordinate.range_min + share * (coordinate.range_max - coordinate.range_min);
+      motion.values(row, angles[i]) = coordinate.range_min + share * (coordinate.range_max - coordinate.range_min);
     }
-    apply_couplers(model, values);
-    motion.values.row(row) = values;
   }
+  std::vector<bool> held(model.coordinates.size(), false);
+  for (const Index i : angles) held[static_cast<std::size_t>(i)] = true;
+  complete_rows(model, held, motion);
   return motion;
 }
 

@@ -114,6 +114,21 @@ static SimTK::MobilizedBody add_joint(const Joint& joint, SimTK::MobilizedBody& 
                                              static_cast<int>(joint.coordinates.size()), functions, arguments, axes);
 }
 
+static void add_loop(const LoopConstraint& loop, SimTK::MobilizedBody first, SimTK::MobilizedBody second) {
+  const SimTK::Transform frame = to_simbody(loop.frame), other = to_simbody(loop.other_frame);
+  switch (loop.kind) {
+    case LoopConstraint::Kind::point:
+      SimTK::Constraint::Ball(first, frame.p(), second, other.p());
+      break;
+    case LoopConstraint::Kind::distance:
+      SimTK::Constraint::Rod(first, frame.p(), second, other.p(), loop.distance);
+      break;
+    case LoopConstraint::Kind::weld:
+      SimTK::Constraint::Weld(first, frame, second, other);
+      break;
+  }
+}
+
 Skeleton::Skeleton(const Model& model) : tree_(std::make_unique<Tree>(model)) {
   Tree& tree = *tree_;
   tree.bodies.assign(model.bodies.size(), tree.matter.getGround().getMobilizedBodyIndex());
@@ -127,6 +142,9 @@ Skeleton::Skeleton(const Model& model) : tree_(std::make_unique<Tree>(model)) {
       const auto child = static_cast<std::size_t>(joint.child_body);
       tree.bodies[child] = add_joint(joint, parent, any_body()).getMobilizedBodyIndex();
     }
+    for (const LoopConstraint& loop : model.loops)
+      add_loop(loop, tree.matter.updMobilizedBody(tree.bodies[static_cast<std::size_t>(loop.body)]),
+               tree.matter.updMobilizedBody(tree.bodies[static_cast<std::size_t>(loop.other_body)]));
     tree.state = tree.system.realizeTopology();
     tree.system.realize(tree.state, SimTK::Stage::Model);
   } catch (const std::exception& error) {
@@ -179,8 +197,8 @@ static Eigen::Vector<Real, 6> inertial_force(const Body& body, const RigidTransf
   return result;
 }
 
-Eigen::VectorXd Skeleton::inverse_dynamics(const Eigen::VectorXd& speeds, const Eigen::VectorXd& accelerations,
-                                           const BodyForces& applied) const {
+BodyForces Skeleton::needed_on_bodies(const Eigen::VectorXd& speeds, const Eigen::VectorXd& accelerations,
+                                      const BodyForces& applied) const {
   Tree& tree = *tree_;
   tree.state.updU() = tree.sorted(speeds);
   tree.system.realize(tree.state, SimTK::Stage::Velocity);
@@ -192,7 +210,55 @@ Eigen::VectorXd Skeleton::inverse_dynamics(const Eigen::VectorXd& speeds, const 
     forces.col(static_cast<Eigen::Index>(i)) +=
         inertial_force(tree.model.bodies[i], tree.poses[i], speed, moved[tree.bodies[i]], tree.model.gravity);
   }
-  return generalized_forces(forces);
+  return forces;
+}
+
+Eigen::VectorXd Skeleton::inverse_dynamics(const Eigen::VectorXd& speeds, const Eigen::VectorXd& accelerations,
+                                           const BodyForces& applied) const {
+  return generalized_forces(needed_on_bodies(speeds, accelerations, applied));
+}
+
+Eigen::VectorXd Skeleton::loop_errors() const {
+  const SimTK::Vector& errors = tree_->state.getQErr();
+  Eigen::VectorXd result(errors.size());
+  for (int i = 0; i < errors.size(); ++i) result[i] = errors[i];
+  return result;
+}
+
+Eigen::MatrixXd Skeleton::loop_slopes() const {
+  SimTK::Matrix slopes;  // by rates of coordinates, which are this tree's speeds
+  tree_->matter.calcPq(tree_->state, slopes);
+  Eigen::MatrixXd result(slopes.nrow(), static_cast<Eigen::Index>(tree_->coordinates.size()));
+  for (int row = 0; row < slopes.nrow(); ++row)
+    for (std::size_t i = 0; i < tree_->coordinates.size(); ++i)
+      result(row, static_cast<Eigen::Index>(i)) = slopes(row, tree_->coordinates[i]);
+  return result;
+}
+
+BodyForces Skeleton::loop_forces(const Eigen::VectorXd& multipliers) const {
+  SimTK::Vector lambda(static_cast<int>(multipliers.size()));
+  for (int i = 0; i < lambda.size(); ++i) lambda[i] = multipliers[i];
+  SimTK::Vector_<SimTK::SpatialVec> on_bodies;
+  SimTK::Vector on_coordinates;  // none: loops hold bodies
+  tree_->system.realize(tree_->state, SimTK::Stage::Velocity);
+  tree_->matter.calcConstraintForcesFromMultipliers(tree_->state, lambda, on_bodies, on_coordinates);
+  BodyForces result = BodyForces::Zero(6, static_cast<Eigen::Index>(tree_->bodies.size()));
+  for (std::size_t i = 0; i < tree_->bodies.size(); ++i)
+    for (int k = 0; k < 6; ++k) result(k, static_cast<Eigen::Index>(i)) = on_bodies[tree_->bodies[i]][k / 3][k % 3];
+  return result;
+}
+
+Eigen::VectorXd Skeleton::generalized_forces(const AppliedForces& forces) const {
+  return generalized_forces(forces.bodies) + forces.coordinates;
+}
+
+AppliedForces::AppliedForces(const Model& model)
+    : bodies(BodyForces::Zero(6, static_cast<Eigen::Index>(model.bodies.size()))),
+      coordinates(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.coordinates.size()))) {}
+
+void AppliedForces::add(const AppliedForces& others, Real times) {
+  bodies += times * others.bodies;
+  coordinates += times * others.coordinates;
 }
 
 void add_force(BodyForces& forces, Index body, const RigidTransform& pose, const Vec3& point, const Vec3& force) {

@@ -74,27 +74,28 @@ static void add_moving_work(const Path& path, const PathStop& current, const Vec
   }
 }
 
-static PathMeasure measure_function(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates) {
+static std::vector<Real> arguments_of(const Path& path, const Eigen::VectorXd& coordinates) {
   std::vector<Real> arguments;
   for (const Index i : path.function_coordinates) arguments.push_back(coordinates[i]);
-  PathMeasure measure{value(path.length_function, arguments), Eigen::VectorXd::Zero(coordinates.size())};
-  for (std::size_t i = 0; i < arguments.size(); ++i)
-    measure.moment_arms[path.function_coordinates[i]] -=
-        derivative(path.length_function, arguments, {static_cast<int>(i)});
-  measure.moment_arms = onto_independent(skeleton.model(), coordinates, measure.moment_arms);
-  return measure;
+  return arguments;
 }
 
-PathMeasure measure_path(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates) {
-  if (!path.function_coordinates.empty()) return measure_function(skeleton, path, coordinates);
-  const Model& model = skeleton.model();
+static AppliedForces function_pull(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates) {
+  const std::vector<Real> arguments = arguments_of(path, coordinates);
+  AppliedForces pull(skeleton.model());
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    pull.coordinates[path.function_coordinates[i]] -=
+        derivative(path.length_function, arguments, {static_cast<int>(i)});
+  return pull;
+}
+
+static AppliedForces pull_through(const Skeleton& skeleton, const Path& path, const std::vector<PathStop>& points,
+                                  const Eigen::VectorXd& coordinates) {
   const Poses& poses = skeleton.poses();
-  const std::vector<PathStop> points = current_points(model, path, poses, coordinates);
-  BodyForces forces = BodyForces::Zero(6, static_cast<Eigen::Index>(poses.size()));
-  Eigen::VectorXd arms = Eigen::VectorXd::Zero(coordinates.size());
+  AppliedForces forces(skeleton.model());
   const auto pull = [&](const PathStop& point, const Vec3& force) {
-    add_force(forces, point.body, pose_of(poses, point.body), point.place, force);
-    add_moving_work(path, point, force, poses, coordinates, arms);
+    add_force(forces.bodies, point.body, pose_of(poses, point.body), point.place, force);
+    add_moving_work(path, point, force, poses, coordinates, forces.coordinates);
   };
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].wrap >= 0 && points[i].wrap == points[i - 1].wrap) continue;  // pulls on one body only
@@ -104,8 +105,25 @@ PathMeasure measure_path(const Skeleton& skeleton, const Path& path, const Eigen
     pull(points[i - 1], along / length);
     pull(points[i], -along / length);
   }
-  arms += skeleton.generalized_forces(forces);
-  return {length_of(points), onto_independent(model, coordinates, arms)};
+  return forces;
+}
+
+AppliedForces unit_pull(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates) {
+  if (!path.function_coordinates.empty()) return function_pull(skeleton, path, coordinates);
+  return pull_through(skeleton, path, current_points(skeleton.model(), path, skeleton.poses(), coordinates),
+                      coordinates);
+}
+
+PathMeasure measure_path(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates) {
+  const Model& model = skeleton.model();
+  if (!path.function_coordinates.empty()) {
+    const AppliedForces pull = function_pull(skeleton, path, coordinates);
+    return {value(path.length_function, arguments_of(path, coordinates)),
+            onto_independent(model, coordinates, pull.coordinates)};
+  }
+  const std::vector<PathStop> points = current_points(model, path, skeleton.poses(), coordinates);
+  const AppliedForces pull = pull_through(skeleton, path, points, coordinates);
+  return {length_of(points), onto_independent(model, coordinates, skeleton.generalized_forces(pull))};
 }
 
 }  // namespace gracilis::opensim

@@ -31,6 +31,10 @@ struct PathMeasure {
   Eigen::VectorXd moment_arms;
 };
 
+/// What a unit tension along the path does: its pulls on bodies, and the work of points that move with coordinates. A
+/// path that is a function of coordinates pulls on these alone.
+AppliedForces unit_pull(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates);
+
 /// Measures a path for the skeleton as placed at `coordinates`. The coordinates must obey the couplers.
 PathMeasure measure_path(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates);
 

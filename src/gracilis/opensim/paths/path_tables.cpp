@@ -1,5 +1,6 @@
 #include <gracilis/opensim/paths/path_tables.hpp>
 
+#include <gracilis/opensim/kinematics/loop_closer.hpp>
 #include <gracilis/opensim/paths/length_by_opensim.hpp>
 
 namespace gracilis::opensim {
@@ -17,9 +18,11 @@ PathTables path_tables(const Model& model, const CoordinateMotion& motion) {
   for (Eigen::Index row = 0; row < rows; ++row) {
     const Eigen::VectorXd coordinates = motion.values.row(row);
     skeleton.place(coordinates);
+    const Eigen::MatrixXd motions = model.loops.empty() ? Eigen::MatrixXd() : free_motions(skeleton, coordinates);
     for (std::size_t i = 0; i < model.muscles.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
-      const PathMeasure measure = measure_path(skeleton, model.muscles[i].path, coordinates);
+      PathMeasure measure = measure_path(skeleton, model.muscles[i].path, coordinates);
+      if (!model.loops.empty()) measure.moment_arms = arms_through_loops(motions, measure.moment_arms);
       tables.lengths.values(row, column) = length_by_opensim(skeleton, model.muscles[i].path, coordinates);
       tables.way_lengths.values(row, column) = measure.length;
       for (std::size_t c = 0; c < arms.size(); ++c)

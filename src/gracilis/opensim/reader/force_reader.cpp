@@ -1,56 +1,12 @@
 #include <gracilis/opensim/reader/force_reader.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/opensim/reader/muscle_reader.hpp>
 #include <gracilis/opensim/reader/passive_force_reader.hpp>
-#include <gracilis/opensim/reader/path_reader.hpp>
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace gracilis::opensim {
-
-/// 4.x says appliesForce, 3.x isDisabled.
-static bool applies_force(const XmlContext& context, const pugi::xml_node& node) {
-  return context.boolean(node, "appliesForce", !context.boolean(node, "isDisabled", false));
-}
-
-static Real positive(const XmlContext& context, const pugi::xml_node& node, const char* name, Real otherwise) {
-  const Real value = context.number(node, name, otherwise);
-  if (!(value > 0)) context.fail(node, fmt::format("<{}> is {}", name, value), "it must be larger than zero");
-  return value;
-}
-
-static Muscle read_muscle(ModelReading& reading, const pugi::xml_node& node) {
-  const XmlContext& context = reading.context;
-  Muscle muscle;
-  muscle.name = name_of(node);
-  muscle.type = node.name();
-  muscle.applies_force = applies_force(context, node);
-  muscle.path = read_path(reading, node);
-  muscle.max_isometric_force = context.number(node, "max_isometric_force", muscle.max_isometric_force);
-  if (!(muscle.max_isometric_force >= 0))
-    context.fail(node, fmt::format("<max_isometric_force> is {}", muscle.max_isometric_force), "give 0 or more");
-  muscle.optimal_fiber_length = positive(context, node, "optimal_fiber_length", muscle.optimal_fiber_length);
-  muscle.tendon_slack_length = context.number(node, "tendon_slack_length", muscle.tendon_slack_length);
-  if (!(muscle.tendon_slack_length >= 0))
-    context.fail(node, fmt::format("<tendon_slack_length> is {}", muscle.tendon_slack_length), "give 0 or more");
-  muscle.pennation_angle_at_optimal = context.number(node, "pennation_angle_at_optimal", 0);
-  if (const Real velocity = context.number(node, "max_contraction_velocity", muscle.max_contraction_velocity);
-      velocity > 0)
-    muscle.max_contraction_velocity = velocity;
-  else
-    reading.leave_out(
-        node, fmt::format("<max_contraction_velocity> is {}; {} is taken", velocity, muscle.max_contraction_velocity));
-  muscle.min_control = context.number(node, "min_control", muscle.min_control);
-  muscle.max_control = context.number(node, "max_control", muscle.max_control);
-  muscle.active_shape = positive(context, node, "KshapeActive", muscle.active_shape);
-  muscle.velocity_shape = positive(context, node, "Af", muscle.velocity_shape);
-  muscle.eccentric_force = positive(context, node, "Flen", muscle.eccentric_force);
-  if (!(std::abs(muscle.pennation_angle_at_optimal) < pi / 2))
-    context.fail(node, fmt::format("is pennate by {} rad", muscle.pennation_angle_at_optimal), "give less than pi/2");
-  return muscle;
-}
 
 static Index body_of(const ModelReading& reading, const pugi::xml_node& node, const char* name) {
   const std::string body = reading.context.text(node, name);
@@ -91,6 +47,13 @@ static bool forget(Model& model, const std::string& name) {
          0;
 }
 
+/// A force that takes no part.
+static void leave_force_out(ModelReading& reading, const pugi::xml_node& node, const std::string& why) {
+  reading.leave_out(node, why);
+  if (applies_force(reading.context, node))
+    reading.model.missing_forces.push_back(name_of(node).empty() ? node.name() : name_of(node));
+}
+
 /// The first body that a muscle's points name and the model does not have; empty: it has all.
 static std::string missing_body(const ModelReading& reading, const pugi::xml_node& force) {
   for (const pugi::xml_node& holder : {force, force.child("path")})
@@ -106,7 +69,7 @@ static void add_passive_force(ModelReading& reading, const pugi::xml_node& node)
   try {
     reading.model.passive_forces.push_back(read_passive_force(reading, node));
   } catch (const InputError& error) {
-    reading.leave_out(node, fmt::format("left out: {}", error.problems().front().what));
+    leave_force_out(reading, node, fmt::format("left out: {}", error.problems().front().what));
   }
 }
 
@@ -117,14 +80,14 @@ void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char
     const bool muscle = kind.find("Muscle") != std::string_view::npos || node.child("max_isometric_force");
     const bool passive = !muscle && is_passive_force(node);
     if (!muscle && !passive && kind != "CoordinateActuator" && kind != "PointActuator" && kind != "TorqueActuator") {
-      reading.leave_out(node, "kind of force not known; left out");
+      leave_force_out(reading, node, "kind of force not known; left out");
       continue;
     }
     if (name.empty() && !passive) reading.context.fail(node, "has no name", "give every force its own name");
     if (!name.empty() && forget(reading.model, name))
       reading.leave_out(node, "replaces the force of this name that was there before");
     if (const std::string body = muscle || passive ? missing_body(reading, node) : ""; !body.empty())
-      reading.leave_out(node, fmt::format("has a point on '{}', which does not exist; left out", body));
+      leave_force_out(reading, node, fmt::format("has a point on '{}', which does not exist; left out", body));
     else if (muscle)
       reading.model.muscles.push_back(read_muscle(reading, node));
     else if (passive)

@@ -226,31 +226,4 @@ void read_joints(ModelReading& reading, const pugi::xml_node& model) {
   sort_joints(reading, model);
 }
 
-void read_constraints(ModelReading& reading, const pugi::xml_node& model) {
-  for (const pugi::xml_node& node : objects_of(model, "ConstraintSet")) {
-    if (std::string_view(node.name()) != "CoordinateCouplerConstraint") {
-      reading.leave_out(node, "constraint left out");
-      continue;
-    }
-    if (reading.context.boolean(node, "isDisabled", false) || !reading.context.boolean(node, "isEnforced", true))
-      continue;
-    Coupler coupler;
-    coupler.name = name_of(node);
-    const std::string independent = reading.context.text(node, "independent_coordinate_names");
-    for (const std::string_view name : words_of(independent))
-      coupler.independent.push_back(reading.coordinate(node, std::string(name)));
-    coupler.dependent = reading.coordinate(node, reading.context.text(node, "dependent_coordinate_name"));
-    const pugi::xml_node holder = node.child("coupled_coordinates_function");
-    const pugi::xml_node function = function_below(holder ? holder : node);
-    if (!function || coupler.independent.empty())
-      reading.context.fail(node, "needs a function and a coordinate that it depends on", "give both");
-    if (std::find(coupler.independent.begin(), coupler.independent.end(), coupler.dependent) !=
-        coupler.independent.end())
-      reading.context.fail(node, "makes a coordinate depend on itself", "name another coordinate");
-    coupler.function = read_function(reading.context, function, coupler.independent.size(), reading.model.unsupported);
-    coupler.function.scale *= reading.context.number(node, "scale_factor", 1);
-    reading.model.couplers.push_back(std::move(coupler));
-  }
-}
-
 }  // namespace gracilis::opensim

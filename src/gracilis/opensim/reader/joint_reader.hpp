@@ -10,7 +10,4 @@ void read_joints(ModelReading& reading, const pugi::xml_node& model);
 /// moves along are chosen to suit. Throws InputError where a moving axis has no length or repeats another.
 void complete_axes(const ModelReading& reading, const pugi::xml_node& joint, TransformAxis* axes);
 
-/// CoordinateCouplerConstraints.
-void read_constraints(ModelReading& reading, const pugi::xml_node& model);
-
 }  // namespace gracilis::opensim

@@ -1,5 +1,7 @@
 #include <gracilis/opensim/reader/model.hpp>
 
+#include <algorithm>
+
 namespace gracilis::opensim {
 
 Eigen::VectorXd default_coordinates(const Model& model) {
@@ -16,6 +18,16 @@ void apply_couplers(const Model& model, Eigen::VectorXd& coordinates) {
     for (const Index i : coupler.independent) arguments.push_back(coordinates[i]);
     coordinates[coupler.dependent] = value(coupler.function, arguments);
   }
+}
+
+bool is_dependent(const Model& model, Index coordinate) {
+  return std::any_of(model.couplers.begin(), model.couplers.end(),
+                     [&](const Coupler& coupler) { return coupler.dependent == coordinate; });
+}
+
+MuscleCurves curves_of(const Muscle& muscle) {
+  if (muscle.type.starts_with("Thelen")) return MuscleCurves::thelen;
+  return muscle.type.starts_with("Millard2012") ? MuscleCurves::millard : MuscleCurves::de_groote;
 }
 
 RigidTransform body_fixed_xyz(const Vec3& angles, const Vec3& translation) {

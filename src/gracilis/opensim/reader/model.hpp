@@ -2,6 +2,7 @@
 
 #include <gracilis/geometry/wrapping.hpp>
 #include <gracilis/opensim/functions/function.hpp>
+#include <gracilis/opensim/functions/millard_curves.hpp>
 
 #include <array>
 #include <limits>
@@ -57,6 +58,20 @@ struct Coupler {
   Function function;
 };
 
+/// Closes a loop of bodies.
+struct LoopConstraint {
+  enum class Kind {
+    point,     ///< points of two bodies coincide (PointConstraint)
+    distance,  ///< they keep a distance (ConstantDistanceConstraint)
+    weld       ///< frames of two bodies coincide (WeldConstraint)
+  };
+  std::string name;
+  Kind kind = Kind::point;
+  Index body = 0, other_body = 0;
+  RigidTransform frame = RigidTransform::Identity(), other_frame = RigidTransform::Identity();  ///< in their bodies
+  Real distance = 0;                                                                            ///< m
+};
+
 struct WrapObject {
   std::string name;
   Index body = 0;
@@ -98,9 +113,20 @@ struct Muscle {
   Real max_isometric_force = 1000, optimal_fiber_length = 0.1, tendon_slack_length = 0.2;  ///< N, m, m
   Real pennation_angle_at_optimal = 0, max_contraction_velocity = 10;                      ///< rad, fiber lengths/s
   Real min_control = 0.01, max_control = 1;
-  /// Curves of Thelen2003Muscle (KshapeActive, Af, Flen).
-  Real active_shape = 0.45, velocity_shape = 0.25, eccentric_force = 1.4;
+  bool ignore_tendon_compliance = false, ignore_passive_force = false;
+  Real max_pennation_angle = 1.4706289056333368;  ///< rad, acos(0.1)
+  Real fiber_damping = 0;                         ///< over the largest force, by speed over the largest speed
+  /// Curves of Thelen2003Muscle (KshapeActive, Af, Flen, KshapePassive).
+  Real active_shape = 0.45, velocity_shape = 0.25, eccentric_force = 1.4, passive_shape = 5;
+  /// Of Thelen2003Muscle and DeGrooteFregly2016Muscle: strains at which fibers' passive and tendons' force are the
+  /// largest isometric one; how much wider the latter's active force is.
+  Real fiber_strain = 0.6, tendon_strain = 0.04, active_width = 1;
+  MillardCurves millard = MillardCurves();  ///< of Millard2012EquilibriumMuscle
 };
+
+/// Which curves a muscle has, by its type: all that are neither Thelen's nor Millard's have De Groote's.
+enum class MuscleCurves { thelen, millard, de_groote };
+MuscleCurves curves_of(const Muscle& muscle);
 
 /// A force that is not a muscle's: on one coordinate, at a point, or about an axis.
 struct Actuator {
@@ -119,12 +145,16 @@ struct Actuator {
 /// A force that follows from the pose and its speed alone.
 struct PassiveForce {
   enum class Kind {
-    limit,              ///< of a coordinate beyond two values (CoordinateLimitForce)
-    coordinate_spring,  ///< of a coordinate (SpringGeneralizedForce)
-    path_spring,        ///< along a path longer than at rest (PathSpring)
-    ligament,           ///< the same by a curve of the relative length (Ligament)
-    point_spring,       ///< between two points (PointToPointSpring)
-    bushing             ///< between two frames (BushingForce)
+    limit,               ///< of a coordinate beyond two values (CoordinateLimitForce)
+    coordinate_spring,   ///< of a coordinate (SpringGeneralizedForce)
+    path_spring,         ///< along a path longer than at rest (PathSpring)
+    ligament,            ///< the same by a curve of the relative length (Ligament)
+    toe_ligament,        ///< along a path, curved up to a strain and straight beyond it (Blankevoort1991Ligament)
+    point_spring,        ///< between two points (PointToPointSpring)
+    bushing,             ///< between two frames (BushingForce)
+    formula_bushing,     ///< the same by formulas (ExpressionBasedBushingForce)
+    formula_coordinate,  ///< on a coordinate by a formula of it (ExpressionBasedCoordinateForce)
+    formula_points       ///< between two points by a formula (ExpressionBasedPointToPointForce)
   };
   std::string name;
   Kind kind = Kind::limit;
@@ -136,11 +166,13 @@ struct PassiveForce {
   Real rest_length = 0;             ///< m; of a coordinate's spring its value at rest
   Real stiffness = 0, damping = 0;  ///< N/m (N·m/rad); N·m·s/rad, of path springs s/m
   Real pcsa_force = 0;              ///< N
+  Real transition_strain = 0;       ///< up to which a toe ligament is curved; its stiffness is N per strain
   Function curve;                   ///< force over pcsa_force by length over rest length
   Index body = 0, other_body = 0;
   RigidTransform frame = RigidTransform::Identity(), other_frame = RigidTransform::Identity();  ///< in their bodies
   Eigen::Matrix<Real, 6, 1> stiffnesses = Eigen::Matrix<Real, 6, 1>::Zero();  ///< of a bushing: rotations, translations
   Eigen::Matrix<Real, 6, 1> dampings = Eigen::Matrix<Real, 6, 1>::Zero();
+  std::vector<std::string> formulas;  ///< six of a bushing (Mx ... Fz), one of others
 };
 
 struct Model {
@@ -151,11 +183,13 @@ struct Model {
   std::vector<Joint> joints;  ///< parents before children; every body but the ground is a child once
   std::vector<Coordinate> coordinates;
   std::vector<Coupler> couplers;
+  std::vector<LoopConstraint> loops;
   std::vector<WrapObject> wrap_objects;
   std::vector<Muscle> muscles;
   std::vector<Actuator> actuators;
   std::vector<PassiveForce> passive_forces;
-  std::vector<std::string> unsupported;  ///< what the file holds and this model leaves out, a sentence each
+  std::vector<std::string> missing_forces;  ///< names of the file's forces that act there and not here
+  std::vector<std::string> unsupported;     ///< what the file holds and this model leaves out, a sentence each
 };
 
 /// Index of what is called `name`; -1 when nothing is.
@@ -166,11 +200,13 @@ Index index_of(const std::vector<T>& things, const std::string& name) {
   return -1;
 }
 
-/// The coordinates' default values.
+/// The coordinates' default values, with dependent ones set from the couplers; loops may be open (assembled_defaults).
 Eigen::VectorXd default_coordinates(const Model& model);
 
 /// Sets dependent coordinates from the couplers.
 void apply_couplers(const Model& model, Eigen::VectorXd& coordinates);
+/// Whether a coupler sets the coordinate.
+bool is_dependent(const Model& model, Index coordinate);
 
 /// A rotation about x, then about the new y, then about the new z, as OpenSim gives orientations; then the translation.
 RigidTransform body_fixed_xyz(const Vec3& angles, const Vec3& translation);

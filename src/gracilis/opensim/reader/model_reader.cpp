@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/opensim/reader/body_reader.hpp>
+#include <gracilis/opensim/reader/constraint_reader.hpp>
 #include <gracilis/opensim/reader/force_reader.hpp>
 #include <gracilis/opensim/reader/joint_reader.hpp>
 
@@ -115,6 +116,7 @@ void read_force_set(const std::filesystem::path& path, bool replace, Model& mode
     model.muscles.clear();
     model.actuators.clear();
     model.passive_forces.clear();
+    model.missing_forces.clear();
   }
   ModelReading reading{{path, set.child("defaults"), file.version}, model};
   read_forces(reading, file.root, "ForceSet");

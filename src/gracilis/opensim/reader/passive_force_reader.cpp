@@ -1,8 +1,13 @@
 #include <gracilis/opensim/reader/passive_force_reader.hpp>
 
-#include <gracilis/opensim/reader/body_reader.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/opensim/functions/expression.hpp>
+#include <gracilis/opensim/reader/constraint_reader.hpp>
 #include <gracilis/opensim/reader/function_reader.hpp>
+#include <gracilis/opensim/reader/muscle_reader.hpp>
 #include <gracilis/opensim/reader/path_reader.hpp>
+
+#include <fmt/format.h>
 
 #include <map>
 #include <string_view>
@@ -11,10 +16,16 @@ namespace gracilis::opensim {
 
 static const std::map<std::string_view, PassiveForce::Kind>& passive_kinds() {
   using Kind = PassiveForce::Kind;
-  static const std::map<std::string_view, Kind> kinds = {
-      {"CoordinateLimitForce", Kind::limit},      {"SpringGeneralizedForce", Kind::coordinate_spring},
-      {"PathSpring", Kind::path_spring},          {"Ligament", Kind::ligament},
-      {"PointToPointSpring", Kind::point_spring}, {"BushingForce", Kind::bushing}};
+  static const std::map<std::string_view, Kind> kinds = {{"CoordinateLimitForce", Kind::limit},
+                                                         {"SpringGeneralizedForce", Kind::coordinate_spring},
+                                                         {"PathSpring", Kind::path_spring},
+                                                         {"Ligament", Kind::ligament},
+                                                         {"PointToPointSpring", Kind::point_spring},
+                                                         {"BushingForce", Kind::bushing},
+                                                         {"Blankevoort1991Ligament", Kind::toe_ligament},
+                                                         {"ExpressionBasedBushingForce", Kind::formula_bushing},
+                                                         {"ExpressionBasedCoordinateForce", Kind::formula_coordinate},
+                                                         {"ExpressionBasedPointToPointForce", Kind::formula_points}};
   return kinds;
 }
 
@@ -38,27 +49,43 @@ static Function ligament_curve() {
                      {0, 0, 0, 0, 0.035, 0.12, 0.26, 0.55, 1.17, 2, 2, 2, 2});
 }
 
-/// The two frames of a bushing: 4.x names them, 3.x their bodies and where the frames lie in these.
+/// A formula that must be understood; `trial` says which variables it may use.
+static std::string formula(const XmlContext& context, const pugi::xml_node& node, const char* name,
+                           const Variables& trial) {
+  const std::string text = context.text(node, name);
+  if (text.empty()) return "0";
+  try {
+    value(text, trial);
+  } catch (const InputError& error) {
+    context.fail(node, error.problems().front().what, "");
+  }
+  return text;
+}
+
 static void read_bushing(ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
   const XmlContext& context = reading.context;
-  read_frames(reading, node, "frames", force.name);
-  for (const int side : {1, 2}) {
-    const std::string number = std::to_string(side);
-    const PlacedFrame placed =
-        reading.frame(node, context.socket(node, "frame" + number, ("body_" + number).c_str()), force.name);
-    const RigidTransform frame =
-        placed.in_body * body_fixed_xyz(context.vector(node, ("orientation_body_" + number).c_str(), Vec3::Zero()),
-                                        context.vector(node, ("location_body_" + number).c_str(), Vec3::Zero()));
-    (side == 1 ? force.body : force.other_body) = placed.body;
-    (side == 1 ? force.frame : force.other_frame) = frame;
-  }
-  force.stiffnesses << context.vector(node, "rotational_stiffness", Vec3::Zero()),
-      context.vector(node, "translational_stiffness", Vec3::Zero());
+  const auto [first, second] = two_frames(reading, node);
+  force.body = first.body;
+  force.frame = first.in_body;
+  force.other_body = second.body;
+  force.other_frame = second.in_body;
+  if (force.kind == PassiveForce::Kind::formula_bushing)
+    for (const char* name : {"Mx", "My", "Mz", "Fx", "Fy", "Fz"})
+      force.formulas.push_back(formula(context, node, (std::string(name) + "_expression").c_str(),
+                                       {{"theta_x", 0.1},
+                                        {"theta_y", 0.1},
+                                        {"theta_z", 0.1},
+                                        {"delta_x", 0.1},
+                                        {"delta_y", 0.1},
+                                        {"delta_z", 0.1}}));
+  else
+    force.stiffnesses << context.vector(node, "rotational_stiffness", Vec3::Zero()),
+        context.vector(node, "translational_stiffness", Vec3::Zero());
   force.dampings << context.vector(node, "rotational_damping", Vec3::Zero()),
       context.vector(node, "translational_damping", Vec3::Zero());
 }
 
-static void read_point_spring(const ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
+static void read_two_points(const ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
   for (const int side : {1, 2}) {
     const std::string number = std::to_string(side);
     const PlacedFrame placed =
@@ -67,8 +94,39 @@ static void read_point_spring(const ModelReading& reading, const pugi::xml_node&
     (side == 1 ? force.body : force.other_body) = placed.body;
     (side == 1 ? force.frame : force.other_frame) = placed.in_body * Eigen::Translation3d(point);
   }
-  force.stiffness = reading.context.number(node, "stiffness", 1);
-  force.rest_length = reading.context.number(node, "rest_length", 0);
+}
+
+/// A force on one coordinate.
+static void read_coordinate_force(const ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
+  const XmlContext& context = reading.context;
+  force.coordinate = reading.coordinate(node, context.socket(node, "coordinate", "coordinate"));
+  if (force.kind == PassiveForce::Kind::limit) {
+    read_limit(reading, node, force);
+  } else if (force.kind == PassiveForce::Kind::formula_coordinate) {
+    force.formulas = {formula(context, node, "expression", {{"q", 0.1}, {"qdot", 0.1}})};
+  } else {
+    force.stiffness = context.number(node, "stiffness", 0);
+    force.rest_length = context.number(node, "rest_length", 0);
+    force.damping = context.number(node, "viscosity", 0);
+  }
+}
+
+/// A force along a path.
+static void read_path_force(ModelReading& reading, const pugi::xml_node& node, PassiveForce& force) {
+  const XmlContext& context = reading.context;
+  const bool toe = force.kind == PassiveForce::Kind::toe_ligament;
+  const char* length = toe ? "slack_length" : "resting_length";
+  force.path = read_path(reading, node);
+  force.rest_length = context.number(node, length, 0);
+  if (!(force.rest_length > 0)) context.fail(node, fmt::format("has no <{}> above zero", length), "give it");
+  force.stiffness = context.number(node, toe ? "linear_stiffness" : "stiffness", toe ? 1 : 0);
+  force.damping = toe ? context.number(node, "damping_coefficient", 0.003) : context.number(node, "dissipation", 0);
+  force.transition_strain = context.number(node, "transition_strain", 0.06);
+  force.pcsa_force = context.number(node, "pcsa_force", 0);
+  force.curve = ligament_curve();
+  if (const pugi::xml_node holder = node.child("force_length_curve"))
+    if (const pugi::xml_node curve = function_below(holder))
+      force.curve = read_function(context, curve, 1, reading.model.unsupported);
 }
 
 PassiveForce read_passive_force(ModelReading& reading, const pugi::xml_node& node) {
@@ -76,36 +134,29 @@ PassiveForce read_passive_force(ModelReading& reading, const pugi::xml_node& nod
   PassiveForce force;
   force.name = name_of(node);
   force.kind = passive_kinds().at(node.name());
-  force.applies_force = context.boolean(node, "appliesForce", !context.boolean(node, "isDisabled", false));
+  force.applies_force = applies_force(context, node);
   switch (force.kind) {
     case PassiveForce::Kind::limit:
     case PassiveForce::Kind::coordinate_spring:
-      force.coordinate = reading.coordinate(node, context.socket(node, "coordinate", "coordinate"));
-      if (force.kind == PassiveForce::Kind::limit) {
-        read_limit(reading, node, force);
-      } else {
-        force.stiffness = context.number(node, "stiffness", 0);
-        force.rest_length = context.number(node, "rest_length", 0);
-        force.damping = context.number(node, "viscosity", 0);
-      }
+    case PassiveForce::Kind::formula_coordinate:
+      read_coordinate_force(reading, node, force);
       break;
     case PassiveForce::Kind::path_spring:
     case PassiveForce::Kind::ligament:
-      force.path = read_path(reading, node);
-      force.rest_length = context.number(node, "resting_length", 0);
-      if (!(force.rest_length > 0)) context.fail(node, "has no <resting_length> above zero", "give it");
-      force.stiffness = context.number(node, "stiffness", 0);
-      force.damping = context.number(node, "dissipation", 0);
-      force.pcsa_force = context.number(node, "pcsa_force", 0);
-      force.curve = ligament_curve();
-      if (const pugi::xml_node holder = node.child("force_length_curve"))
-        if (const pugi::xml_node curve = function_below(holder))
-          force.curve = read_function(context, curve, 1, reading.model.unsupported);
+    case PassiveForce::Kind::toe_ligament:
+      read_path_force(reading, node, force);
       break;
     case PassiveForce::Kind::point_spring:
-      read_point_spring(reading, node, force);
+      read_two_points(reading, node, force);
+      force.stiffness = context.number(node, "stiffness", 1);
+      force.rest_length = context.number(node, "rest_length", 0);
+      break;
+    case PassiveForce::Kind::formula_points:
+      read_two_points(reading, node, force);
+      force.formulas = {formula(context, node, "expression", {{"d", 0.1}, {"ddot", 0.1}})};
       break;
     case PassiveForce::Kind::bushing:
+    case PassiveForce::Kind::formula_bushing:
       read_bushing(reading, node, force);
       break;
   }

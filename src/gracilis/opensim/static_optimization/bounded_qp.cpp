@@ -59,12 +59,14 @@ BoundedQpSolution solve(const BoundedQp& problem, Real tolerance) {
   const Vector scales = row_scales(problem);
   p.a = scales.asDiagonal() * problem.a;
   p.b = scales.cwiseProduct(problem.b);
-  const Real proximity =
+  Real proximity =
       1e-3 * std::max((p.a * p.weights.cwiseInverse().asDiagonal() * p.a.transpose()).trace() / p.b.size(), 1e-12);
   Vector l = Vector::Zero(p.b.size()), before = Vector::Zero(p.b.size());
   BoundedQpSolution solution;
+  const Real least = 1e-6 * proximity;
   for (int step = 0; step < 200; ++step) {
     l = minimize_dual(p, l, proximity, 1e-3 * tolerance);
+    proximity = std::max(proximity / 2, least);  // rows that say nearly the same need steps that go far
     solution.x = primal(p, l);
     const Vector missing = p.b - p.a * solution.x;
     solution.feasible = missing.lpNorm<Eigen::Infinity>() < tolerance;

@@ -1,18 +1,15 @@
 #pragma once
 
-#include <gracilis/opensim/reader/model.hpp>
+#include <gracilis/opensim/static_optimization/muscle_curves.hpp>
 
 namespace gracilis::opensim {
 
-/// The force (N) along its tendon of a fully active muscle whose tendon keeps its slack length: maximum isometric
-/// force, times the factors of fiber length and of fiber velocity, times the cosine of the pennation angle, without
-/// passive force. The fibers' distance from the tendon's line stays what it is at the optimal length. Curves: Thelen
-/// (2003) for Thelen2003Muscle, De Groote et al. (2016) for all others. `length` (m) and `speed` (m/s, longer is
-/// positive) are the path's. Zero where the path is shorter than the slack tendon, or the fibers stand too steep.
+/// The force (N) that OpenSim's static optimization takes a fully active muscle to pull with: on a tendon that keeps
+/// its slack length, maximum isometric force times the factors of fiber length and of fiber velocity, times the cosine
+/// of the pennation angle, without passive force (Muscle::calcInextensibleTendonActiveFiberForce). Two cosines are not
+/// what they should be there, and are followed: DeGrooteFregly2016Muscle has none, and Millard2012EquilibriumMuscle
+/// that of the angle at a fiber of the normalized length, in metres. `length` (m) and `speed` (m/s, longer is positive)
+/// are the path's. Zero where the path is shorter than the slack tendon, or the fibers stand too steep.
 Real rigid_tendon_force(const Muscle& muscle, Real length, Real speed);
-
-/// The factors alone: of the fiber's length over its optimal length, and of its speed over the maximum one.
-Real force_length_factor(const Muscle& muscle, Real length);
-Real force_velocity_factor(const Muscle& muscle, Real speed);
 
 }  // namespace gracilis::opensim
