@@ -57,6 +57,7 @@ LiveSimulation::LiveSimulation(const Scene& scene, ShapeHistory& history,
   }
   maker_.emplace(std::move(muscles), std::move(bones), shapes_);
   for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
+    maker_->paint(m, muscle_look(scene.muscles[m]), shapes_);
     shapes_.held[m] = maker_->shown_of(m, held_vertices(scene.muscles[m]));
     const std::vector<Real> belly =
         maker_->shown_of(m, belly_shares(scene.muscles[m], tendon_length_of(scene, scene.muscles[m])));

@@ -167,6 +167,7 @@ void Viewer::draw(bool smooth) {
   const Real begin = now();
   is_smooth_ = smooth;
   scene_renderer_->SetUseFXAA(smooth);
+  keep_in_view();
   if (relaid_) lay_out();
   const std::shared_ptr<const ShownFrame> frame = history_.at(player_.frame);
   depth_is_shown_ = !frame->contact_depth.empty();

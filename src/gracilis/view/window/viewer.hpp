@@ -58,6 +58,8 @@ class Viewer {
   // viewer_layout.cpp: what stands over the picture
   void lay_out();
   void look(const std::string& view);
+  void keep_in_view();
+  Rectangle room() const;
   void lay_out_left();
   void lay_out_right();
   void lay_out_track();

@@ -12,6 +12,7 @@ enum class MuscleState { solid, transparent, hidden };
 enum class SurfaceStyle { solid, edges, wireframe };
 /// What the colors of muscles tell.
 enum class WindowColor {
+  natural,  ///< what muscles look like
   muscle,
   tissue,
   activation,
@@ -28,13 +29,13 @@ enum class Arrows { none, frame, iteration };
 /// A plane through the bones' distance fields.
 enum class Slice { none, sagittal, coronal, transverse };
 
-inline constexpr int window_color_count = 9;
+inline constexpr int window_color_count = 10;
 inline constexpr std::array trail_steps = {10, 20, 30};  ///< frames back
 
 /// What of the shapes is seen, and how.
 struct WindowState {
   std::vector<MuscleState> muscles;
-  WindowColor color_by = WindowColor::muscle;
+  WindowColor color_by = WindowColor::natural;
   SurfaceStyle style = SurfaceStyle::solid;
   bool bones = true, fibers = false, attachments = false;
   Ghost ghost = Ghost::none;
