@@ -49,8 +49,8 @@ Viewer::Viewer(const ShownShapes& shapes, ShapeHistory& history, const WindowOpt
   window_->AddRenderer(flat_renderer_);
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(make_window_style(
-      {[this](int x, int y) { return overlay_.press(x, y); }, [this](int x) { return overlay_.drag(x); },
-       [this] { overlay_.release(); }, [this](const std::string& key) { press(key); },
+      {[this](int x, int y) { return press_mouse(x, y); }, [this](int x, int y) { return drag_mouse(x, y); },
+       [this](int x, int y) { release_mouse(x, y); }, [this](const std::string& key) { press(key); },
        [this] { view_.clear(), changed_ = relaid_ = true; }}));
   scene_.emplace(shapes, history, *scene_renderer_);
 }

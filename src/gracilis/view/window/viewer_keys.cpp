@@ -71,6 +71,8 @@ std::vector<KeyBinding> Viewer::bindings() {
   table.push_back({{"Escape"}, "", "", [this] { help_ = false; }});
   table.push_back({{"q"}, "q", "close", [this] { interactor_->TerminateApp(); }});
   table.push_back({{}, "mouse", "turn; with shift: move; wheel: zoom", {}});
+  if (options_.live) table.push_back({{}, "mouse on a bone", "moves its joint", {}});
+  table.push_back({{}, "click a muscle", "numbers of its vertex there", {}});
   table.push_back({{}, "click a name", "solid, see-through, hidden", {}});
   return table;
 }

@@ -1,5 +1,6 @@
 #include <gracilis/view/window/arrows.hpp>
 #include <gracilis/view/window/bone_slice.hpp>
+#include <gracilis/view/window/picking.hpp>
 #include <gracilis/view/window/viewer.hpp>
 
 #include <fmt/format.h>
@@ -27,6 +28,10 @@ void Viewer::lay_out() {
   lay_out_left();
   lay_out_right();
   lay_out_track();
+  if (state_.picked)
+    picked_ = overlay_.add_text_centered(width_ / 2, track_height + 30, "", 15, ink);
+  else
+    picked_ = nullptr;
   if (!help_) return;
   overlay_.begin_layer();
   add_help(width_, height_, help_rows(bindings_), overlay_);
@@ -47,7 +52,8 @@ Rectangle Viewer::room() const {
 
 /// Until somebody turns the camera, what moves out of its room, as a femur under the sliders, gets more of it.
 void Viewer::keep_in_view() {
-  if (view_.empty() || is_within(shapes_, *history_.at(player_.frame), state_, room(), *scene_renderer_)) return;
+  if (view_.empty() || grabbed_ || is_within(shapes_, *history_.at(player_.frame), state_, room(), *scene_renderer_))
+    return;
   look(view_);
   relaid_ = true;
 }
@@ -259,6 +265,7 @@ void Viewer::write_status() {
   status_->SetInput(fmt::format("frame {} of {}    {}{}{}", player_.frame, total_frames() - 1, words_of(frame->caption),
                                 hint_text.empty() ? "" : "    ", hint_text)
                         .c_str());
+  if (picked_) picked_->SetInput(numbers_of(*state_.picked, shapes_, *frame).c_str());
   std::string speed = fmt::format("drawn in {:.0f} ms", 1000 * draw_seconds_);
   if (player_.playing)
     speed += fmt::format(", {:.0f} frames per second, {:g} × as fast", pictures_per_second_, player_.speed);

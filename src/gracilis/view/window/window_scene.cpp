@@ -3,6 +3,7 @@
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/window/arrows.hpp>
+#include <gracilis/view/window/picking.hpp>
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -47,6 +48,7 @@ WindowScene::WindowScene(const ShownShapes& shapes, const ShapeHistory& history,
   }
   slice_ = add_empty(false, renderer);
   arrows_ = add_empty(true, renderer);
+  picked_ = add_empty(false, renderer);
 }
 
 static bool colors_fibers(const WindowState& state) {
@@ -197,6 +199,15 @@ void WindowScene::show_arrows(const ShownFrame& frame, const WindowState& state)
   set_shape(arrow_mesh(displacements, arrow_scale_), arrows_);
 }
 
+void WindowScene::show_picked(const ShownFrame& frame, const WindowState& state) {
+  picked_.actor->SetVisibility(state.picked.has_value());
+  if (!state.picked) return;
+  ColoredMesh dot;
+  append_dot(frame.muscles[state.picked->muscle].col(state.picked->vertex), 2 * attachment_radius,
+             Color(0.05, 0.35, 0.75), dot);
+  set_shape(dot, picked_);
+}
+
 void WindowScene::show(int number, const WindowState& state, const ColoredMesh& slice, bool fast) {
   const std::shared_ptr<const ShownFrame> frame = history_.at(number);
   show_bones(*frame, state);
@@ -207,6 +218,7 @@ void WindowScene::show(int number, const WindowState& state, const ColoredMesh& 
     show_ghosts(m, number, state);
   }
   show_arrows(*frame, state);
+  show_picked(*frame, state);
   slice_.actor->SetVisibility(state.slice != Slice::none && !slice.faces.empty());
   if (slice_.actor->GetVisibility() != 0) set_shape(slice, slice_);
   bool translucent = state.ghost != Ghost::none || state.slice != Slice::none;
@@ -231,21 +243,11 @@ static Eigen::AlignedBox3d box_along(const Eigen::Matrix3d& axes, const ShownSha
 
 bool is_within(const ShownShapes& shapes, const ShownFrame& frame, const WindowState& state, const Rectangle& part,
                vtkRenderer& renderer) {
-  vtkCamera* camera = renderer.GetActiveCamera();
-  const Vec3 back = -Vec3(camera->GetDirectionOfProjection()),
-             right = Vec3(camera->GetViewUp()).cross(back).normalized();
-  Eigen::Matrix3d axes;
-  axes << right, back.cross(right), back;
-  const Eigen::AlignedBox3d box = box_along(axes, shapes, frame, state);
+  const WindowProjection projection = projection_of(renderer);
+  const Eigen::AlignedBox3d box = box_along(projection.axes, shapes, frame, state);
   if (box.isEmpty()) return true;
-  const int* window = renderer.GetSize();
-  const Real pixels_per_metre = window[1] / (2 * camera->GetParallelScale());
-  const Vec3 middle = axes.transpose() * Vec3(camera->GetFocalPoint());
-  const auto pixel = [&](const Vec3& corner) {
-    const Vec3 from_middle = pixels_per_metre * (corner - middle);
-    return Vec3(from_middle.x() + window[0] / 2.0, from_middle.y() + window[1] / 2.0, 0);
-  };
-  const Vec3 low = pixel(box.min()), high = pixel(box.max());
+  const Vec3 low = projection.in_window(projection.axes * box.min());
+  const Vec3 high = projection.in_window(projection.axes * box.max());
   return low.x() >= part.x && low.y() >= part.y && high.x() <= part.x + part.width && high.y() <= part.y + part.height;
 }
 

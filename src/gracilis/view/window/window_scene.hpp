@@ -34,6 +34,7 @@ class WindowScene {
   void show_fibers(std::size_t muscle, const ShownFrame& frame, const WindowState& state);
   void show_attachments(std::size_t muscle, const ShownFrame& frame, const WindowState& state);
   void show_ghosts(std::size_t muscle, int frame, const WindowState& state);
+  void show_picked(const ShownFrame& frame, const WindowState& state);
   void show_arrows(const ShownFrame& frame, const WindowState& state);
 
   const ShownShapes& shapes_;
@@ -41,7 +42,7 @@ class WindowScene {
   vtkRenderer& renderer_;
   std::vector<MuscleActors> muscles_;
   std::vector<SurfaceActor> bones_;
-  SurfaceActor slice_, arrows_;
+  SurfaceActor slice_, arrows_, picked_;
   const vtkSmartPointer<vtkTexture> stripe_texture_ = stripe_texture();
   Real arrow_scale_ = 1;
 };

@@ -3,6 +3,7 @@
 #include <gracilis/view/pictures/color_scale.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,12 @@ enum class Slice { none, sagittal, coronal, transverse };
 inline constexpr int window_color_count = 10;
 inline constexpr std::array trail_steps = {10, 20, 30};  ///< frames back
 
+/// A vertex of what is drawn of a muscle.
+struct PickedVertex {
+  std::size_t muscle = 0;
+  Index vertex = 0;
+};
+
 /// What of the shapes is seen, and how.
 struct WindowState {
   std::vector<MuscleState> muscles;
@@ -44,6 +51,7 @@ struct WindowState {
   std::vector<bool> arrow_kinds;  ///< per ConstraintKind
   Slice slice = Slice::none;
   Real slice_at = 0.5;  ///< 0 to 1 through what is shown
+  std::optional<PickedVertex> picked = {};
 };
 
 /// The scale of a coloring; without colors where muscles have their own.
