@@ -267,6 +267,9 @@ TEST_F(ReportInBrowser, gates_link_to_their_worst_frame_and_warnings_stand_there
   EXPECT_THAT(js("document.querySelector('#gates tbody tr').textContent").get<std::string>(), HasSubstr("and 19 more"));
   click("#gates tbody tr button");
   EXPECT_EQ(js("page.state.frame"), 20);
+  EXPECT_EQ(js("document.getElementById('color-by').value"), "volume");
+  click("#gates tbody tr td:nth-child(5) button");  // behind the name: volume, edges away from and at attachments
+  EXPECT_EQ(js("document.getElementById('color-by').value"), "shape") << "of spikes, where they are";
   EXPECT_EQ(js("document.querySelector('.warning').textContent"), "gluteus_medius_r looks <b>suspicious</b>");
   expect_peace();
 }
