@@ -18,7 +18,7 @@ struct QualityGates {
   Real free_edge_ratio = 3;
   Real near_edge_ratio = 5;      ///< within 15 mm of attachments, where tendons are drawn around bones
   Real spike = 2;                ///< edge lengths, see SurfaceFlaws
-  Real thickening = 2.5;         ///< × rest
+  Real thickening = 3;           ///< × rest
   Real thinning = 5;             ///< rest over now
   Real belly_off_place = 0.018;  ///< m
   Real wrong_side = 0;           ///< share of lines
