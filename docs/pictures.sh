@@ -14,22 +14,33 @@ cp out/demo_thesis_2024/preview.png $pictures/demo_thesis_2024.png
 $gracilis demo elbow --out out/elbow --force
 $gracilis render out/elbow --out $pictures/elbow.png --size 1200x640 --frames 0,33,65
 
-$gracilis render out/demo --out $pictures/flexion.gif --size 420x480 --step 2 --rate 20 --view posterolateral
+$gracilis render out/demo --out $pictures/flexion.gif --size 364x416 --step 2 --rate 20 --view posterolateral
 $gracilis render out/demo --out $pictures/fibers.png --size 1200x560 --view posterolateral --color-by fiber-strain
 $gracilis render out/demo --compare out/demo_thesis_2024 --out $pictures/stretch.png --size 1000x560 --frames 90 \
   --view posterolateral --color-by edge-stretch
 
 $gracilis report out/demo out/demo_thesis_2024 --out out/report.html
-chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader \
-  --hide-scrollbars --window-size=1400,860 --virtual-time-budget=4000 --screenshot=$pictures/report.png \
-  "file://$PWD/out/report.html#frame=70&color=stretch" 2>/dev/null
+report_picture() { # NAME WIDTH HEIGHT
+  chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader \
+    --hide-scrollbars "--window-size=$2,$3" --virtual-time-budget=4000 "--screenshot=$pictures/$1.png" \
+    "file://$PWD/out/report.html#frame=70&color=stretch" 2>/dev/null
+}
+report_picture report 1400 860
+report_picture report_tablet 820 1180
+report_picture report_narrow 500 900 # the narrowest that this Chromium opens; the page is made for 390, too
 
-# The window presses its keys by itself: the scene's motion, color by edge stretch, a picture; then arrows from the
-# motion's last steps, and another.
+# The window presses its keys by itself. As it opens, in three sizes, at the end of the run:
 rm -rf out/window
 mkdir -p out/window
+for size in 800x600 1280x720 1920x1080; do
+  xvfb-run -a -s '-screen 0 1920x1080x24' $gracilis view out/demo --size $size --pictures out/window --keys 'End p q'
+done
+mv out/window/gracilis_0001.png $pictures/window_small.png
+mv out/window/gracilis_0002.png $pictures/window_natural.png
+mv out/window/gracilis_0003.png $pictures/window_large.png
+# The scene's motion, color by edge stretch, a picture; then arrows from the motion's last steps, and another.
 xvfb-run -a -s '-screen 0 1280x800x24' $gracilis view demo --view posterolateral --pictures out/window \
-  --keys 'v m v v c c c c p c c c v p q'
+  --keys 'v m v v c c c c c p c c c c c c b w v p q'
 mv out/window/gracilis_0001.png $pictures/window.png
 mv out/window/gracilis_0002.png $pictures/window_arrows.png
 

@@ -18,6 +18,7 @@
 #include <gracilis/opensim/reader/model_reader.hpp>
 #include <gracilis/view/comparison/arm_page.hpp>
 #include <gracilis/view/export/export_gltf.hpp>
+#include <gracilis/view/export/export_surfaces.hpp>
 #include <gracilis/view/export/export_tables.hpp>
 #include <gracilis/view/export/export_tetrahedra.hpp>
 
@@ -182,6 +183,10 @@ const std::vector<ExportFormat>& formats() {
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
          export_obj(run, out, frames_or_all(run, options.frames));
        }},
+      {"surfaces", "surfaces", "a folder with one .vtp per muscle, bone and frame, as compact runs do not have them",
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+         export_surfaces(run, out, frames_or_all(run, options.frames));
+       }},
       {"tetrahedra", "tetrahedra",
        "a folder with the volumes of muscles made of sections: .vtu with compartments and masses, and tables, in "
        "--frames",
@@ -235,7 +240,7 @@ void add_export_command(CLI::App& program, Command& chosen) {
   command->add_option("RUN", options->run, "Run folder")->required();
   command->add_option("--to", options->to, help)->required()->check(CLI::IsMember(names));
   command->add_option("--out", options->out, "File or folder to write (default: within the run's folder)");
-  command->add_option("--frames", options->frames, "These only, as in 0,45,90 (csv, obj, tetrahedra)")
+  command->add_option("--frames", options->frames, "These only, as in 0,45,90 (csv, obj, surfaces, tetrahedra)")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--vertices", options->gltf.muscle_vertices, "About so many at most for each muscle (gltf; 4000)")

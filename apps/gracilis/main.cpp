@@ -10,6 +10,7 @@
 #include "import_command.hpp"
 #include "inspect_command.hpp"
 #include "motions_command.hpp"
+#include "new_command.hpp"
 #include "paths_command.hpp"
 #include "prepare_command.hpp"
 #include "print_config_command.hpp"
@@ -57,6 +58,7 @@ int main(int count, char** arguments) {
   add_verify_command(program, chosen);
   add_view_command(program, chosen);
   add_prepare_command(program, chosen);
+  add_new_command(program, chosen);
   add_scene_command(program, chosen);
   add_import_command(program, chosen);
   add_motions_command(program, chosen);

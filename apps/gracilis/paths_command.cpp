@@ -7,6 +7,7 @@
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/opensim/paths/path_tables.hpp>
 #include <gracilis/scene/names.hpp>
+#include <gracilis/view/charts/run_charts.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -29,6 +30,42 @@ struct PathsOptions {
 std::vector<std::string> names_of(const std::vector<opensim::Coordinate>& coordinates) {
   std::vector<std::string> names;
   for (const opensim::Coordinate& coordinate : coordinates) names.push_back(coordinate.name);
+  return names;
+}
+
+/// What tables and plots are over: the swept coordinate, in degrees or m, or else the time.
+struct PathsAxis {
+  std::string name = "time", label = "time (s)";
+  Real plot_factor = 1;
+  Eigen::VectorXd values;
+};
+
+PathsAxis axis_of(const opensim::Model& model, const opensim::CoordinateMotion& motion, const std::string& swept) {
+  const auto rows = static_cast<Eigen::Index>(motion.times.size());
+  if (swept.empty()) return {.values = Eigen::VectorXd::Map(motion.times.data(), rows)};
+  const Index number = opensim::index_of(model.coordinates, swept);
+  const bool rotation = model.coordinates[static_cast<std::size_t>(number)].rotation;
+  return {swept, swept + (rotation ? " (degrees)" : " (mm)"), rotation ? 1.0 : 1000.0,
+          motion.values.col(number) / (rotation ? radians(1) : 1)};
+}
+
+/// The table with the axis as its first column.
+Table with_first_column(const Table& table, const PathsAxis& axis) {
+  Table all = table;
+  all.columns.insert(all.columns.begin(), axis.name);
+  all.values.resize(table.values.rows(), table.values.cols() + 1);
+  all.values << axis.values, table.values;
+  all.in_degrees = true;
+  return all;
+}
+
+/// The muscles whose values change.
+std::vector<std::string> changing_muscles(const Table& table) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    const Eigen::VectorXd column = table.values.col(static_cast<Eigen::Index>(i));
+    if (column.maxCoeff() - column.minCoeff() > 1e-6) names.push_back(table.columns[i]);
+  }
   return names;
 }
 
@@ -80,19 +117,38 @@ int write_paths(const PathsOptions& options) {
   }
   for (const std::string& note : motion.notes) spdlog::warn("{}", note);
   const opensim::PathTables tables = opensim::path_tables(model, motion);
-  fs::create_directories(options.out);
+  fs::create_directories(options.out / "plots");
+  const bool sweeps = options.motion.empty(), ways = options.lengths == "way";
+  const PathsAxis axis =
+      axis_of(model, motion, sweeps ? options.sweep.substr(0, options.sweep.find('=')) : std::string());
   const std::string start = file_name_of(options.prefix.empty() ? model.name : options.prefix);
-  std::set<std::string> taken;
+  std::set<std::string> taken, plots_taken;
   const auto write = [&](const std::string& what, const Table& table) {
     const fs::path path = options.out / (start + "_" + file_name_of(what, taken) + ".sto");
     write_sto(path, table);
     fmt::print("{}\n", path.string());
   };
-  const bool ways = options.lengths == "way";
+  const auto write_and_plot = [&](const std::string& what, const Table& table, const std::string& title,
+                                  const std::string& y_label) {
+    const Table all = with_first_column(table, axis);
+    write(what, sweeps ? all : table);
+    const std::vector<std::string> muscles = changing_muscles(table);
+    if (muscles.empty()) return;
+    const fs::path path = options.out / "plots" / (start + "_" + file_name_of(title, plots_taken) + ".svg");
+    write_chart(path, muscles_chart(all, {axis.name, axis.plot_factor, axis.label}, muscles, model.name + ": " + title,
+                                    y_label));
+    fmt::print("{}\n", path.string());
+  };
   warn_of_other_ways(tables, ways);
-  write("MuscleAnalysis_Length", ways ? tables.way_lengths : tables.lengths);
-  for (const auto& [coordinate, table] : tables.moment_arms) write("MuscleAnalysis_MomentArm_" + coordinate, table);
-  if (options.motion.empty()) write("coordinates", opensim::coordinate_table(model, motion));
+  write_and_plot("MuscleAnalysis_Length", ways ? tables.way_lengths : tables.lengths, "lengths", "length (mm)");
+  for (const auto& [coordinate, table] : tables.moment_arms) {
+    const bool rotation =
+        model.coordinates[static_cast<std::size_t>(opensim::index_of(model.coordinates, coordinate))].rotation;
+    write_and_plot("MuscleAnalysis_MomentArm_" + coordinate, table,
+                   (rotation ? "moment arms about " : "shortening along ") + coordinate,
+                   rotation ? "moment arm (mm)" : "shortening (mm per m)");
+  }
+  if (sweeps) write("coordinates", opensim::coordinate_table(model, motion));
   return static_cast<int>(ExitCode::done);
 }
 
@@ -104,7 +160,7 @@ void add_paths_command(CLI::App& program, Command& chosen) {
   command->add_option("MODEL", options->model, "OpenSim model (.osim)")->required();
   command->add_option("--motion", options->motion, "Coordinates over time (.mot, .sto)");
   command->add_option("--coord", options->sweep, "Or one coordinate, NAME=FROM:TO:STEP in degrees or m");
-  command->add_option("--out", options->out, "Folder for the tables")->required();
+  command->add_option("--out", options->out, "Folder for the tables, and plots/ of them")->required();
   command->add_option("--prefix", options->prefix, "Start of the tables' names (default: the model's name)");
   command
       ->add_option("--lengths", options->lengths,

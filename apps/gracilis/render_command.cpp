@@ -24,7 +24,7 @@ struct RenderOptions {
   std::filesystem::path run, out;
   std::vector<std::filesystem::path> compare;
   std::vector<int> frames;
-  std::string color_by = "muscle", size, title;
+  std::string color_by = "tissue", size, title;
   bool transparent = false, gif = false, mp4 = false;
   int rate = 25, step = 1;
   bool without_ramp = false;
@@ -143,7 +143,10 @@ void add_render_command(CLI::App& program, Command& chosen) {
   command->add_option("--size", options->size, "WIDTHxHEIGHT of the whole picture, pixels (default: 720 per panel)");
   std::vector<std::string> names;
   for (const ColorScale& scale : color_scales()) names.push_back(scale.name);
-  command->add_option("--color-by", options->color_by, "What colors tell (muscle)")->check(CLI::IsMember(names));
+  command
+      ->add_option("--color-by", options->color_by,
+                   "What colors tell (tissue: nothing, muscles look like muscles; muscle: which one it is)")
+      ->check(CLI::IsMember(names));
   command->add_option("--frames", options->frames, "Frames side by side, as in 0,45,90 (capture, half way, farthest)")
       ->delimiter(',')
       ->allow_extra_args(false);

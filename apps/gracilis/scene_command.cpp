@@ -1,18 +1,15 @@
 #include "scene_command.hpp"
 
+#include "draft_output.hpp"
+
 #include <gracilis/core/errors.hpp>
-#include <gracilis/draft/draft_text.hpp>
-#include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/io/scene/scene_reader.hpp>
-#include <gracilis/view/pictures/scene_picture.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <memory>
-#include <set>
 
 namespace gracilis {
 
@@ -44,66 +41,17 @@ void add_joint_landmarks(const std::string& text, DraftOptions& draft) {
   draft.joint_landmarks[text.substr(0, equals)] = names;
 }
 
-void check_out(const SceneCommandOptions& options) {
-  if (options.out.extension() != ".toml")
-    throw ConfigurationError(
-        {"--out", "", "'" + options.out.string() + "' is no name of a scene file", "name a .toml file"});
-  if (is_there(options.out) && !options.force)
-    throw ConfigurationError(
-        {options.out.string(), "", "is there already", "give another name, or --force to replace it"});
-}
-
-/// What was found and what was guessed, doubtful things first.
-void tell(const SceneDraft& draft) {
-  fmt::print("{} bones, {} joints, {} muscles\n", draft.found.bones.size(), draft.skeleton.joints.size(),
-             draft.muscles.size());
-  std::vector<Guess> guesses = draft.guesses;
-  for (const DraftMuscle& muscle : draft.muscles)
-    for (const DraftAttachment& each : muscle.attachments) {
-      guesses.push_back(each.guess);
-      guesses.back().how += fmt::format(" ({} vertices on {})", each.vertices.size(), each.body);
-    }
-  std::stable_sort(guesses.begin(), guesses.end(),
-                   [](const Guess& a, const Guess& b) { return (a.certainty < doubtful) > (b.certainty < doubtful); });
-  for (const Guess& guess : guesses)
-    fmt::print("{} {}: {}\n", guess.certainty < doubtful ? "look at" : "guessed", guess.subject, to_string(guess));
-  for (const std::string& line : draft.left_out) fmt::print("left out {}\n", line);
-}
-
-std::set<std::string> doubtful_ends(const SceneDraft& draft) {
-  std::set<std::string> ends;
-  for (const DraftMuscle& muscle : draft.muscles)
-    for (const DraftAttachment& each : muscle.attachments)
-      if (each.guess.certainty < doubtful) ends.insert(muscle.found->name + " " + each.name);
-  return ends;
-}
-
-/// The scene is of use without its picture, too.
-void draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
-  try {
-    render_picture(scene_picture(scene, doubtful_ends(draft)), path);
-    fmt::print("{}\n", path.string());
-  } catch (const Error& error) {
-    spdlog::warn("no picture: {}", error.what());
-  }
-}
-
 int make_scene(const SceneCommandOptions& options) {
   if (is_there(options.folder / "run.json"))
     throw ConfigurationError({options.folder.string(), "", "is the folder of a run, not of bones and muscles",
                               run_folder_advice(options.folder)});
-  check_out(options);
+  require_new_scene(options.out, options.force);
   DraftOptions draft_options;
   draft_options.mirror = options.mirror;
   for (const std::string& joint : options.joints) add_joint_landmarks(joint, draft_options);
   const SceneDraft draft = draft_scene(options.folder, draft_options);
 
-  const std::string clouds = draft_landmarks(draft);
-  const fs::path table =
-      clouds.empty() ? fs::path() : options.out.parent_path() / (options.out.stem().string() + "_landmarks.csv");
-  if (!clouds.empty()) write_text_atomically(table, clouds);
-  write_text_atomically(options.out, draft_text(draft, options.out, table));
-  const LoadedScene loaded = read_scene(options.out);
+  const LoadedScene loaded = write_draft(draft, options.out);
   tell(draft);
   for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
   draw(draft, loaded.scene,

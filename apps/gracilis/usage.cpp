@@ -31,6 +31,7 @@ constexpr Example examples[] = {
     {"verify", "gracilis verify leg"},
     {"view", "gracilis view leg.toml"},
     {"prepare", "gracilis prepare biceps.stl triceps.stl --bone humerus.stl --unit mm --out prepared"},
+    {"new", "gracilis new hip_bone_r.ply femur_r.ply gluteus_maximus_r.ply --out hip.toml"},
     {"scene", "gracilis scene scans --out leg.toml"},
     {"import", "gracilis import model.osim --motion walk.mot --out walk"},
     {"motions", "gracilis motions model.osim --joint hip_r --out motions"},
@@ -66,7 +67,7 @@ std::string first_steps() {
   return "Gracilis: bones, muscle surfaces and a motion become deforming, contracting muscles.\n"
          "\n"
          "  gracilis demo                      a hip flexes; needs no file, and shows where its picture is\n"
-         "  gracilis print-config > my.toml    a commented scene to fill in with your own surfaces\n"
+         "  gracilis new *.ply --out my.toml   a commented scene of your own surfaces, to correct and fill in\n"
          "  gracilis inspect my.toml           what a run would refuse, and what mends it\n"
          "  gracilis run my.toml --out my      the whole motion\n"
          "  gracilis report my                 a page about it for the browser\n"

@@ -116,6 +116,9 @@ LiveControls controls_of(const Scene& scene, LiveSimulation& simulation) {
   controls.play_motion = [&simulation] { simulation.play_motion(); };
   controls.reset = [&simulation] { simulation.reset(); };
   controls.look_again = [&simulation] { simulation.look_again(); };
+  controls.pull = [&simulation](std::size_t bone, const Vec3& point, const Vec3& target, const Vec3& looking) {
+    return simulation.pull(bone, point, target, looking);
+  };
   controls.status = [&simulation] { return simulation.status(); };
   return controls;
 }

@@ -1,6 +1,7 @@
 #include "app/program.hpp"
 #include "opensim/model_texts.hpp"
 
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/tables/table.hpp>
 
 #include <gmock/gmock.h>
@@ -27,8 +28,16 @@ TEST(PathsCommand, a_sweep_writes_lengths_moment_arms_and_the_coordinate) {
   const Table coordinates = read_table(folder.path() / "out/tiny_coordinates.sto");
   ASSERT_EQ(lengths.times.size(), 7u);
   EXPECT_NEAR(coordinates.values(6, 0), 20, 1e-12);
-  EXPECT_NEAR(lengths.values(2, 0), 0.5, 1e-14);
-  EXPECT_NEAR(arms.values(2, 0), 0.3 * 0.4 / 0.5, 1e-14);
+  for (const Table* table : {&lengths, &arms}) {
+    ASSERT_EQ(table->columns, (std::vector<std::string>{"swing", "m"}));
+    EXPECT_NEAR(table->values(6, 0), 20, 1e-12) << "degrees";
+  }
+  EXPECT_NEAR(lengths.values(2, 1), 0.5, 1e-14);
+  EXPECT_NEAR(arms.values(2, 1), 0.3 * 0.4 / 0.5, 1e-14);
+  const std::string plot = read_text(folder.path() / "out/plots/tiny_moment_arms_about_swing.svg");
+  EXPECT_THAT(plot, testing::HasSubstr("swing (degrees)"));
+  EXPECT_THAT(plot, testing::HasSubstr("<polyline"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/plots/tiny_lengths.svg"));
 }
 
 TEST(PathsCommand, lengths_are_those_of_the_arms_or_opensims_own) {
@@ -45,7 +54,7 @@ TEST(PathsCommand, lengths_are_those_of_the_arms_or_opensims_own) {
         run_program("paths " + model.string() + " --coord swing=-80:-80:1 --out " + folder.path().string() + more);
     EXPECT_EQ(result.exit_code, 0) << result.err;
     err = result.err;
-    return read_table(folder.path() / "tiny_MuscleAnalysis_Length.sto").values(0, 0);
+    return read_table(folder.path() / "tiny_MuscleAnalysis_Length.sto").values(0, 1);
   };
   std::string of_opensim, of_way;
   const Real longer = length(" --lengths opensim", of_opensim) - length("", of_way);

@@ -8,6 +8,8 @@
 
 #include <gmock/gmock.h>
 
+#include <sstream>
+
 /// The program itself, from a folder to a run.
 namespace gracilis {
 
@@ -44,6 +46,53 @@ TEST(SceneCommand, a_folder_becomes_a_scene_with_a_picture_that_runs_and_tells_i
       << "the scene's own table is none of the folder's landmarks";
   std::filesystem::create_directories(folder.path() / "empty");
   EXPECT_EQ(run_program("scene " + (folder.path() / "empty").string() + " --out " + scene + " --force").exit_code, 3);
+}
+
+TEST(NewCommand, surfaces_become_a_commented_scene_that_runs) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", builtin_hip(),
+             {{"hip_bone_r", "hip_bone_r.vtp"}, {"femur_r", "femur_r.vtp"}, {"adductor_longus_r", "add_long_r.vtp"}});
+  const std::string scene = (folder.path() / "hip.toml").string();
+  const ProgramResult made = run_program("new " + (folder.path() / "hip").string() + "/*.vtp --out " + scene);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("2 bones, 1 joints, 1 muscles"));
+  EXPECT_THAT(made.out, HasSubstr("next: gracilis run " + scene));
+  const std::string text = read_text(scene);
+  for (const char* table : {"[[bones]] # ", "[[joints]] # ", "[[joints.axes]] # ", "[[muscles]] # ",
+                            "[[muscles.attachments]] # ", "[motion] # "})
+    EXPECT_THAT(text, HasSubstr(table));
+  EXPECT_EQ(run_program("inspect " + scene).exit_code, 0);
+}
+
+TEST(NewCommand, surfaces_of_unknown_names_become_a_scene_to_fill_in) {
+  const TestFolder folder;
+  write_body(folder.path() / "x", builtin_hip(),
+             {{"hip_bone_r", "one.vtp"}, {"femur_r", "two.vtp"}, {"adductor_longus_r", "three.vtp"}});
+  const std::string in = (folder.path() / "x").string(), scene = (folder.path() / "x.toml").string();
+  const ProgramResult made =
+      run_program("new " + in + "/three.vtp --bone " + in + "/one.vtp " + in + "/two.vtp --out " + scene);
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("2 bones, 0 joints, 1 muscles"));
+  EXPECT_THAT(made.out, HasSubstr("missing: joints"));
+  EXPECT_NE(run_program("inspect " + scene).exit_code, 0) << "a second bone that nothing moves";
+
+  // What stands behind "# missing:", without its '# ', is a scene.
+  std::istringstream lines(read_text(scene));
+  std::string filled;
+  bool missing = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty()) missing = false;
+    filled += (missing && line.starts_with("# ") && !line.starts_with("# missing:") ? line.substr(2) : line) + "\n";
+    if (line.starts_with("# missing:")) missing = true;
+  }
+  const std::string center = "center = [0, 0, 0]";
+  ASSERT_NE(filled.find(center), std::string::npos);
+  folder.write("x.toml", filled);
+  const ProgramResult inspected = run_program("inspect " + scene);
+  EXPECT_EQ(inspected.exit_code, 0) << inspected.out << inspected.err << filled;
+
+  EXPECT_EQ(run_program("new " + in + " --out " + scene + " --force").exit_code, 3) << "a folder";
+  EXPECT_EQ(run_program("new " + in + "/none.vtp --out " + scene + " --force").exit_code, 3);
 }
 
 }  // namespace gracilis

@@ -83,6 +83,21 @@ std::uintmax_t bytes_in(const fs::path& folder) {
 
 }  // namespace
 
+TEST(CompactFrames, are_read_from_the_disk_once) {
+  const BothLayouts runs{TubeRun()};
+  const auto read_all = [&](const CompactShapes& shapes) {
+    for (const std::string& name : {runs.surfaces.muscles[0], runs.surfaces.bones[0], runs.surfaces.bones[1]})
+      for (int frame = 0; frame < 4; ++frame)
+        name == runs.surfaces.muscles[0] ? shapes.muscle(name, frame) : shapes.bone(name, frame);
+  };
+  const CompactShapes shapes(runs.compact.folder);
+  read_all(shapes), read_all(shapes);
+  EXPECT_EQ(shapes.files_read(), 4);
+  const CompactShapes small(runs.compact.folder, 1);  // keeps the last file only
+  read_all(small);
+  EXPECT_EQ(small.files_read(), 4 + 3 + 3) << "bones stay where they are in frame 0";
+}
+
 TEST(CompactFrames, hold_the_same_bits) {
   const BothLayouts runs{TubeRun()};
   ASSERT_EQ(runs.compact.frame_count, 4);

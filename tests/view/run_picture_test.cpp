@@ -127,12 +127,32 @@ TEST_F(RunPicture, muscles_can_be_chosen_by_name) {
   }
 }
 
+TEST_F(RunPicture, from_medial_the_other_side_is_left_out) {
+  FlexingLeg(21).written(folder.path() / "run");
+  for (int frame = 0; frame < 21; ++frame)
+    std::filesystem::copy_file(frame_file(folder.path() / "run", "femur_r", frame),
+                               frame_file(folder.path() / "run", "femur_l", frame));
+  const RecordedRun run = open_recorded_run(folder.path() / "run");
+  ASSERT_EQ(run.bones.size(), 2u);
+  const auto surfaces = [&](const std::string& view, const std::vector<std::string>& bones = {}) {
+    RunPictureOptions options;
+    options.view = view;
+    options.bones = bones;
+    return RunPainter(run, options).panel(0).surfaces.size();
+  };
+  EXPECT_EQ(surfaces("lateral"), 4u);
+  EXPECT_EQ(surfaces("medial"), 3u);
+  EXPECT_EQ(surfaces("posteromedial"), 3u);
+  EXPECT_EQ(surfaces("medial", {"femur_l"}), 3u) << "what is asked for is shown";
+}
+
 TEST_F(RunPicture, muscles_and_bones_can_be_hidden_and_one_can_fill_the_picture) {
   RunPictureOptions options;
   options.hidden = {"gluteus_medius_r"};
   options.without_bones = true;
   EXPECT_EQ(picture(options, {0}).panels[0].surfaces.size(), 1u);
   options = {};
+  options.color_by = ColorBy::muscle;  // names stand in legends of these only
   options.focus = "gluteus_medius_r";
   const Picture focused = picture(options, {0});
   for (const PaintedSurface& surface : focused.panels[0].surfaces)

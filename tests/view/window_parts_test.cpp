@@ -1,7 +1,11 @@
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/view/window/arrows.hpp>
+#include <gracilis/view/window/bone_pull.hpp>
 #include <gracilis/view/window/bone_slice.hpp>
 #include <gracilis/view/window/contact_depth.hpp>
 #include <gracilis/view/window/frame_maker.hpp>
+#include <gracilis/view/window/picking.hpp>
 #include <gracilis/view/window/player.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 
@@ -263,4 +267,63 @@ TEST(BoneSlice, is_dark_at_the_surface_red_inside_and_ends_where_bones_are_far) 
   EXPECT_GT(red, 200);
   EXPECT_TRUE(bone_slice(shapes, frame, fields, Slice::none, 0.5).faces.empty());
   EXPECT_TRUE(bone_slice(shapes, frame, {}, Slice::transverse, 0.5).faces.empty());
+}
+
+TEST(BonePull, turns_the_joint_so_that_the_grabbed_point_follows_the_mouse) {
+  const Scene scene = builtin_hip();
+  const std::vector<std::string> names = coordinate_names(scene);
+  const auto flexion = static_cast<std::size_t>(std::find(names.begin(), names.end(), "hip_flexion_r") - names.begin());
+  const auto femur = static_cast<std::size_t>(
+      std::find_if(scene.bones.begin(), scene.bones.end(), [](const Bone& bone) { return bone.name == "femur_r"; }) -
+      scene.bones.begin());
+  const auto body = static_cast<std::size_t>(scene.bones[femur].body);
+  std::vector<Real> aimed = capture_coordinates(scene);
+  const Vec3 point = scene.bones[femur].surface.vertices.rowwise().mean();
+  const auto place = [&](const std::vector<Real>& values) -> Vec3 {
+    return pose_at(scene, values).bodies[body] * point;
+  };
+  std::vector<Real> wanted = aimed;
+  wanted[flexion] += radians(35);
+  const Vec3 looking = scene.axes.right();
+  EXPECT_TRUE(pull_bone(scene, femur, point, place(wanted) + 0.3 * looking, looking, aimed));
+  EXPECT_NEAR(degrees(aimed[flexion] - wanted[flexion]), 0, 0.5);
+  const Vec3 off = place(aimed) - place(wanted);
+  EXPECT_LT((off - off.dot(looking) * looking).norm(), 0.002) << "as seen";
+  EXPECT_TRUE(pull_bone(scene, femur, point, point + Vec3(0, 5, 0), looking, aimed)) << "far beyond what it reaches";
+  std::size_t number = 0;
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes) {
+      EXPECT_GE(aimed[number], axis.range_min);
+      EXPECT_LE(aimed[number++], axis.range_max);
+    }
+  EXPECT_FALSE(pull_bone(scene, 0, point, point, looking, aimed)) << "nothing moves the pelvis";
+}
+
+TEST(Picking, finds_what_is_seen_and_tells_its_numbers) {
+  const TriangleMesh ball = shapes::sphere({0, 0, 0}, 0.02, 2), before = shapes::sphere({0.01, 0, 0.1}, 0.02, 2);
+  ShownShapes shapes;
+  shapes.muscles = {"behind_r", "before_r"};
+  shapes.muscle_faces = {ball.faces, before.faces};
+  shapes.vertex_numbers.resize(2);
+  for (Index v = 0; v < before.vertex_count(); ++v)
+    for (std::vector<Index>& numbers : shapes.vertex_numbers) numbers.push_back(10 * v);
+  ShownFrame frame;
+  frame.muscles = {ball.vertices.cast<float>(), before.vertices.cast<float>()};
+  frame.stretch.assign(2, std::vector<float>(static_cast<std::size_t>(ball.vertex_count()), 1.5f));
+  WindowState state;
+  state.muscles.assign(2, MuscleState::solid);
+  WindowProjection projection{Eigen::Matrix3d::Identity(), Vec3::Zero(), 1000, 200, 100};  // a pixel is 1 mm
+  EXPECT_LT((projection.in_world(projection.in_window(Vec3(0.01, 0.02, 0.03))) - Vec3(0.01, 0.02, 0.03)).norm(), 1e-12);
+
+  std::optional<SurfaceHit> hit = surface_at(100, 50, shapes, frame, state, projection);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->number, 1u);
+  EXPECT_NEAR(hit->place.z(), 0.1 + std::sqrt(0.02 * 0.02 - 0.01 * 0.01), 0.001);
+  const std::string told = numbers_of({hit->number, hit->vertex}, shapes, frame);
+  EXPECT_EQ(told.find("before r, vertex " + std::to_string(10 * hit->vertex) + ": "), 0u) << told;
+  EXPECT_NE(told.find("edges 1.50 × rest"), std::string::npos) << told;
+  EXPECT_EQ(surface_at(85, 50, shapes, frame, state, projection)->number, 0u) << "beside the one before";
+  state.muscles[1] = MuscleState::hidden;
+  EXPECT_EQ(surface_at(100, 50, shapes, frame, state, projection)->number, 0u);
+  EXPECT_FALSE(surface_at(150, 50, shapes, frame, state, projection));
 }

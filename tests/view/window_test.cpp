@@ -125,7 +125,7 @@ TEST_F(ViewCommand, plays_and_pauses_and_tells_how_fast) {
 
 TEST_F(ViewCommand, a_click_on_a_name_makes_a_muscle_transparent_and_then_hides_it) {
   FlexingLeg(3).written(folder.path() / "run");
-  drive(run(), "key p; at 60 60; xdotool click 1; sleep 0.3; key p; xdotool click 1; sleep 0.3; key p");
+  drive(run(), "key c p; at 60 60; xdotool click 1; sleep 0.3; key p; xdotool click 1; sleep 0.3; key p");
   const int solid = shot(1).count(240, 780, 70, 560, is_dark_red),
             hidden = shot(3).count(240, 780, 70, 560, is_dark_red);
   EXPECT_GT(solid, 2000);
@@ -195,7 +195,8 @@ TEST_F(ViewCommand, presses_the_keys_of_a_script) {
 TEST_F(ViewCommand, a_scene_follows_its_sliders_and_tells_what_constraints_moved) {
   // The first slider is hip_flexion_r: x from 574 to 784, 68 pixels below the upper edge.
   const std::string log = drive("demo",
-                                "for i in $(seq 90); do grep -q 'pull the sliders' log && break; sleep 1; done; key p; "
+                                "for i in $(seq 90); do grep -q 'pull the sliders' log && break; sleep 1; done; "
+                                "key b w p; "  // the muscles alone, as large as can be
                                 "at 720 68; xdotool click 1; sleep 10; key p; key space p; sleep 2; key p; "
                                 "key v p space; at 620 68; xdotool click 1; sleep 8; key space p v p");
   EXPECT_NE(log.find("pull the sliders"), std::string::npos);
@@ -206,6 +207,18 @@ TEST_F(ViewCommand, a_scene_follows_its_sliders_and_tells_what_constraints_moved
   EXPECT_LT(shot(5).count(200, 570, 90, 560, cold), 20);  // no arrows yet: nobody had asked for them
   EXPECT_GT(shot(6).count(200, 570, 90, 560, cold), 200);
   EXPECT_GT(difference(shot(6), shot(7)), 500);  // the whole frame, and its first iteration
+}
+
+TEST_F(ViewCommand, a_bone_is_dragged_and_a_click_on_a_muscle_tells_its_numbers) {
+  // The femur's shaft is at 415, 440, gluteus maximus before and after at 360, 230.
+  drive("demo",
+        "for i in $(seq 90); do grep -q 'pull the sliders' log && break; sleep 1; done; key p; "
+        "at 360 230; xdotool click 1; sleep 0.3; key p; at 100 480; xdotool click 1; sleep 0.3; key p; "
+        "at 415 440; xdotool mousedown 1; at 430 440; at 470 430; sleep 0.5; xdotool mouseup 1; sleep 6; key p");
+  EXPECT_GT(difference(shot(1), shot(2)), 100) << "the dot and the numbers";
+  EXPECT_LT(difference(shot(1), shot(2)), 5000);
+  EXPECT_LT(difference(shot(1), shot(3)), 300) << "a click beside it lets go";
+  EXPECT_GT(difference(shot(3), shot(4)), 3000) << "the femur has followed";
 }
 
 TEST(ViewCommandWithoutDisplay, says_what_to_do_instead) {

@@ -51,6 +51,7 @@ struct Writing {
   fs::path folder;
   std::string text = {};
 
+  bool is_whole() const { return !draft.skeleton.joints.empty(); }
   void line(const std::string& words) { text += words + "\n"; }
   /// What a surface's file needs to be said beside its name.
   std::string unit() const {
@@ -59,12 +60,27 @@ struct Writing {
   }
 
   void head(const std::string& name, const fs::path& landmarks) {
-    line(
-        "# Made by 'gracilis scene' from a folder of surfaces. What follows '# guessed:' nobody said: look at the "
-        "picture");
-    line("# beside this file, correct what is wrong, and take what you have checked off the list 'guessed'.");
+    if (is_whole()) {
+      line(
+          "# Made by gracilis from surfaces. What follows '# guessed:' nobody said: look at the picture beside this "
+          "file,");
+      line("# correct what is wrong, and take what you have checked off the list 'guessed'. 'gracilis print-config'");
+      line("# explains every key.");
+    } else {
+      line(
+          "# Made by gracilis from surfaces. Where it says '# missing:', take the '# ' off the lines that follow, and");
+      line(
+          "# change what they say. 'gracilis inspect FILE' tells what is wrong still, 'gracilis print-config' "
+          "explains");
+      line("# every key.");
+    }
     line("schema = 1");
-    line("name = " + quoted(name));
+    line("name = " + quoted(name) + " # of runs");
+    if (!is_whole()) {
+      line("anterior = [1, 0, 0] # where the body looks, in the files' frame; change it with 'superior'");
+      line("superior = [0, 1, 0]");
+      return;
+    }
     const BodyFrame& frame = draft.skeleton.frame;
     text += guessed_line({"", frame.how, frame.certainty});
     line("anterior = " + vector_text(frame.anterior, 6));
@@ -81,7 +97,7 @@ struct Writing {
   void bones() {
     for (std::size_t b = 0; b < draft.found.bones.size(); ++b) {
       const FoundBone& bone = draft.found.bones[b];
-      line("\n[[bones]]");
+      line("\n[[bones]] # rigid; 'body' is what it moves with (without: by itself)");
       line("name = " + quoted(bone.name));
       if (draft.skeleton.bodies[b] != bone.name) line("body = " + quoted(draft.skeleton.bodies[b]));
       text += "file = " + path_text(bone.file, folder) + "\n" + unit();
@@ -92,13 +108,13 @@ struct Writing {
     for (const DraftJoint& joint : draft.skeleton.joints) {
       text += "\n" + guessed_line(joint.guess) +
               guessed_line({"", "capture pose: " + joint.capture_guess.how, joint.capture_guess.certainty});
-      line("[[joints]]");
+      line("[[joints]] # change 'center' (m, in the files' frame) where it lies elsewhere");
       line("name = " + quoted(joint.name));
       line("parent = " + quoted(joint.parent));
       line("child = " + quoted(joint.child));
       line("center = " + vector_text(joint.center, 5));
       for (const DraftAxis& axis : joint.axes) {
-        line("[[joints.axes]]");
+        line("[[joints.axes]] # 'capture_deg' is its value as the files have it; outside of 'range_deg' runs warn");
         line("coordinate = " + quoted(axis.coordinate));
         line("axis = " + vector_text(axis.direction, 5));
         if (axis.capture != 0) line("capture_deg = " + number(degrees(axis.capture), 2));
@@ -110,7 +126,8 @@ struct Writing {
 
   void attachment(const DraftAttachment& each) {
     text += "\n" + guessed_line(each.guess);
-    line(fmt::format("[[muscles.attachments]] # {} vertices", each.vertices.size()));
+    line(fmt::format("[[muscles.attachments]] # {} vertices; smaller distances hold fewer, larger ones more",
+                     each.vertices.size()));
     line("name = " + quoted(each.name));
     line(each.end == AttachmentEnd::origin ? "end = \"origin\"" : "end = \"insertion\"");
     if (each.bones.empty())
@@ -128,11 +145,49 @@ struct Writing {
 
   void muscles() {
     for (const DraftMuscle& muscle : draft.muscles) {
-      line("\n[[muscles]]");
+      line("\n[[muscles]] # a closed surface, held at one origin and one insertion or more");
       line("name = " + quoted(muscle.found->name));
       text += "file = " + path_text(muscle.found->file, folder) + "\n" + unit();
       for (const DraftAttachment& each : muscle.attachments) attachment(each);
+      if (muscle.attachments.empty()) missing_attachments();
     }
+  }
+
+  /// A bone by its place in the folder, or an example's name.
+  std::string bone_name(std::size_t b) const {
+    return b < draft.found.bones.size() ? draft.found.bones[b].name : b == 0 ? "resting_bone" : "moving_bone";
+  }
+
+  void missing_attachments() {
+    for (const std::size_t end : {0u, 1u}) {
+      line(end == 0 ? "# missing: where it is held; here, where it lies within 3 mm of a bone" : "#");
+      line("# [[muscles.attachments]]");
+      line("# name = " + quoted(bone_name(end)));
+      line(end == 0 ? "# end = \"origin\"" : "# end = \"insertion\"");
+      line("# bone = " + quoted(bone_name(end)));
+      line("# bone_distance_mm = 3");
+    }
+  }
+
+  void missing_joints() {
+    line("\n# missing: joints. All bones but one need a joint that moves them, or the 'body' of another bone.");
+    for (std::size_t b = 1; b < std::max<std::size_t>(2, draft.found.bones.size()); ++b) {
+      const std::string name = bone_name(b);
+      line("# [[joints]]");
+      line("# name = " + quoted(name + "_joint"));
+      line("# parent = " + quoted(bone_name(0)) + " # the body that rests");
+      line("# child = " + quoted(name));
+      line("# center = [0, 0, 0] # m, in the files' frame");
+      line("# [[joints.axes]]");
+      line("# coordinate = " + quoted(name + "_flexion"));
+      line("# axis = [0, 0, 1] # a right-handed turn about it is positive");
+      line("# range_deg = [0, 90]\n#");
+    }
+    line("# missing: a motion. Without, a run has one frame, as the files are.");
+    line("# [motion]");
+    line("# coordinates = [" + quoted(bone_name(1) + "_flexion") + "]");
+    line("# key_poses_deg = [[0], [60]] # a row per pose");
+    line("# step_deg = 2");
   }
 
   void motion() {
@@ -145,7 +200,7 @@ struct Writing {
       to += comma + number(degrees(each.to), 1);
     }
     line("\n# A motion to look at: the first coordinate of each joint that a muscle crosses.");
-    line("[motion]");
+    line("[motion] # change the poses (a row each), or name a table instead: file = \"walk.mot\"");
     line("coordinates = [" + names + "]");
     line("key_poses_deg = [[" + from + "], [" + to + "]]");
     line("step_deg = 2");
@@ -167,7 +222,10 @@ std::string draft_text(const SceneDraft& draft, const fs::path& out, const fs::p
   Writing writing{draft, out.has_parent_path() ? out.parent_path() : fs::path(".")};
   writing.head(out.stem().string(), landmarks);
   writing.bones();
-  writing.joints();
+  if (writing.is_whole())
+    writing.joints();
+  else
+    writing.missing_joints();
   writing.muscles();
   writing.motion();
   writing.left_out();

@@ -105,4 +105,17 @@ FolderFiles list_folder(const fs::path& folder) {
   return files;
 }
 
+FolderFiles list_files(const std::vector<fs::path>& files, const std::vector<fs::path>& bones) {
+  FolderFiles all;
+  const auto add = [&](const fs::path& file) -> NamedSurfaceFile& {
+    const fs::path whole = fs::absolute(file).lexically_normal();
+    all.surfaces.push_back(named(whole, whole.parent_path().parent_path()));
+    all.surfaces.back().file = file;
+    return all.surfaces.back();
+  };
+  for (const fs::path& file : files) add(file);
+  for (const fs::path& file : bones) add(file).kind = NamedKind::bone;
+  return all;
+}
+
 }  // namespace gracilis

@@ -29,4 +29,9 @@ struct FolderFiles {
 /// Throws InputError where the folder cannot be read.
 FolderFiles list_folder(const std::filesystem::path& folder);
 
+/// The same of single files, told apart by their names and the folder that each lies in; `bones` are bones whatever
+/// they are called.
+FolderFiles list_files(const std::vector<std::filesystem::path>& files,
+                       const std::vector<std::filesystem::path>& bones = {});
+
 }  // namespace gracilis

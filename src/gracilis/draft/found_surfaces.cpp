@@ -3,7 +3,6 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/median.hpp>
 #include <gracilis/core/shell_word.hpp>
-#include <gracilis/draft/folder_names.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
@@ -74,6 +73,14 @@ void choose_unit(const FolderFiles& files, const fs::path& folder, FoundFolder& 
                    "and mm as large as bones are",
                    found.size, best.name),
        "scale the surfaces to one of these units"});
+}
+
+/// The unit as given.
+void take_unit(const FolderFiles& files, const std::string& name, FoundFolder& found) {
+  for (const Unit& unit : units)
+    if (unit.name == name) found.unit_length = unit.length;
+  found.unit = name;
+  if (const Real size = median_size(files); size > 0) found.size = size * found.unit_length;
 }
 
 /// What both sides of one name are told apart by.
@@ -216,11 +223,15 @@ void mirror_body(FoundFolder& found, const Vec3& right) {
   found.is_mirrored = !found.is_mirrored;
 }
 
-FoundFolder find_surfaces(const fs::path& folder) {
-  const FolderFiles files = list_folder(folder);
+FoundFolder find_surfaces(const fs::path& folder) { return find_surfaces(list_folder(folder), folder); }
+
+FoundFolder find_surfaces(const FolderFiles& files, const fs::path& subject, const std::string& unit) {
   FoundFolder found;
   found.tables = files.tables;
-  choose_unit(files, folder, found);
+  if (unit.empty())
+    choose_unit(files, subject, found);
+  else
+    take_unit(files, unit, found);
   found.side = usual_side(files, found.side_is_guessed);
   Taking taking{found, files};
   for (const NamedSurfaceFile& each : files.surfaces) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/draft/name_search.hpp>
+#include <gracilis/draft/folder_names.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
 #include <filesystem>
@@ -56,6 +56,10 @@ struct FoundFolder {
 /// person's. What a run would refuse is left out. Throws InputError where the folder cannot be read, holds no bone
 /// whose name is known, or bones of no possible size.
 FoundFolder find_surfaces(const std::filesystem::path& folder);
+
+/// The same of files listed; `subject` names them in messages. With a `unit` ("m", "cm" or "mm") sizes are not asked,
+/// and no bone need be known.
+FoundFolder find_surfaces(const FolderFiles& files, const std::filesystem::path& subject, const std::string& unit = "");
 
 /// Makes a left half of a right one, or the other way: surfaces, sides and names. `right` is the body's.
 void mirror_body(FoundFolder& found, const Vec3& right);

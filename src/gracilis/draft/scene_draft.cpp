@@ -133,9 +133,22 @@ void collect_guesses(SceneDraft& draft) {
 
 }  // namespace
 
-SceneDraft draft_scene(const fs::path& folder, const DraftOptions& options) {
+SceneDraft draft_without_joints(const FolderFiles& files, const DraftOptions& options) {
   SceneDraft draft;
-  draft.found = find_surfaces(folder);
+  draft.found = find_surfaces(files, "", options.unit);
+  draft.left_out = draft.found.left_out;
+  for (const FoundBone& bone : draft.found.bones) draft.skeleton.bodies.push_back(bone.name);
+  for (const FoundMuscle& muscle : draft.found.muscles) draft.muscles.push_back({&muscle, {}});
+  return draft;
+}
+
+SceneDraft draft_scene(const fs::path& folder, const DraftOptions& options) {
+  return draft_scene(list_folder(folder), folder, options);
+}
+
+SceneDraft draft_scene(const FolderFiles& files, const fs::path& folder, const DraftOptions& options) {
+  SceneDraft draft;
+  draft.found = find_surfaces(files, folder, options.unit);
   draft.left_out = draft.found.left_out;
   Landmarks landmarks = read_tables(draft.found);
   if (options.mirror) {
@@ -143,6 +156,8 @@ SceneDraft draft_scene(const fs::path& folder, const DraftOptions& options) {
     mirror_body(draft.found, right);
     for (LandmarkCloud& cloud : landmarks) cloud.points = mirrored(cloud.points, right);
   }
+  if (std::none_of(draft.found.bones.begin(), draft.found.bones.end(), [](const FoundBone& b) { return b.known; }))
+    refuse(folder, draft, "holds no bone whose name is known", "name bones as in femur_r.ply or 'left scapula.stl'");
   draft.skeleton = find_skeleton(draft.found, overrides_of(options, landmarks));
   if (draft.found.muscles.empty())
     refuse(folder, draft, "holds no muscle that could be used", "name muscles as in gluteus_maximus_r.ply");

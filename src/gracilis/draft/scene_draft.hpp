@@ -11,8 +11,9 @@
 namespace gracilis {
 
 struct DraftOptions {
-  std::map<std::string, std::vector<std::string>> joint_landmarks;  ///< names of one or two landmarks, by joint
-  bool mirror = false;                                              ///< make the other half of the body
+  std::map<std::string, std::vector<std::string>> joint_landmarks = {};  ///< names of one or two landmarks, by joint
+  bool mirror = false;                                                   ///< make the other half of the body
+  std::string unit = {};  ///< of all files; empty: found by the bones' sizes
 };
 
 /// One coordinate of the default motion.
@@ -34,5 +35,13 @@ struct SceneDraft {
 /// Throws InputError where the folder holds no bones, no muscle that a scene could have, or nothing that moves, and
 /// ConfigurationError where options name what is not there.
 SceneDraft draft_scene(const std::filesystem::path& folder, const DraftOptions& options = {});
+
+/// The same of files listed; `subject` names them in messages.
+SceneDraft draft_scene(const FolderFiles& files, const std::filesystem::path& subject,
+                       const DraftOptions& options = {});
+
+/// Only what the files' names tell: bones that each are a body of their own, and muscles that are attached to nothing.
+/// In `options.unit`, which must be given.
+SceneDraft draft_without_joints(const FolderFiles& files, const DraftOptions& options);
 
 }  // namespace gracilis

@@ -49,6 +49,21 @@ std::vector<MissedGate> gates_missed_by(const MuscleMeasures& measures, const Qu
                               measures.edge_ratio_max_free, gates.free_edge_ratio),
                       "the surface is drawn out there, and its shape says nothing",
                       measures.edge_ratio_max_free / gates.free_edge_ratio});
+  if (measures.edge_ratio_max_near > gates.near_edge_ratio)
+    missed.push_back({text_of("an edge near an attachment stretched %.1f times (limit %.1f)",
+                              measures.edge_ratio_max_near, gates.near_edge_ratio),
+                      "the surface is drawn out to a fin there", measures.edge_ratio_max_near / gates.near_edge_ratio});
+  if (measures.spike > gates.spike)
+    missed.push_back({text_of("a vertex stands out by %.1f edges (limit %.1f)", measures.spike, gates.spike),
+                      "the surface has a spike or a tangle there", measures.spike / gates.spike});
+  if (measures.thickening > gates.thickening)
+    missed.push_back(
+        {text_of("%.1f times as thick as at rest somewhere (limit %.1f)", measures.thickening, gates.thickening),
+         "it bulges to a knob or a rim there", measures.thickening / gates.thickening});
+  if (measures.thinning > gates.thinning)
+    missed.push_back(
+        {text_of("%.1f times as thin as at rest somewhere (limit %.1f)", measures.thinning, gates.thinning),
+         "it is pressed to a sheet there", measures.thinning / gates.thinning});
   if (measures.belly_off_place > gates.belly_off_place)
     missed.push_back({text_of("the belly is %.1f mm off its place (limit %.0f mm)", measures.belly_off_place * 1e3,
                               gates.belly_off_place * 1e3),

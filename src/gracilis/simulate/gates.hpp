@@ -16,6 +16,10 @@ struct QualityGates {
   Real vertex_depth = 1e-4;    ///< m beyond rest
   Real midpoint_depth = 5e-4;  ///< m beyond rest
   Real free_edge_ratio = 3;
+  Real near_edge_ratio = 5;      ///< within 15 mm of attachments, where tendons are drawn around bones
+  Real spike = 2;                ///< edge lengths, see SurfaceFlaws
+  Real thickening = 3;           ///< × rest
+  Real thinning = 5;             ///< rest over now
   Real belly_off_place = 0.018;  ///< m
   Real wrong_side = 0;           ///< share of lines
   Real slack = 0.15;             ///< share of what the length must be

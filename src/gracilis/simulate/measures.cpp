@@ -66,6 +66,7 @@ Measurer::Measurer(const Scene& scene, const FiberTracker* tracker, MeasureLevel
 Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
   const Points& x = muscle.surface.vertices;
   MuscleRest rest;
+  rest.flaws = SurfaceFlaws(muscle.surface);
   rest.edges = build_topology(muscle.surface.faces, muscle.surface.vertex_count()).edges;
   rest.volume = enclosed_volume(x, muscle.surface.faces);
   std::vector<char> fixed(static_cast<std::size_t>(x.cols()), 0);
@@ -144,10 +145,15 @@ MuscleMeasures Measurer::measure_shape(std::size_t muscle, const Points& x, cons
   Real ratio_sum = 0, change_sum = 0;
   for (std::size_t e = 0; e < rest.edges.size(); ++e) {
     const MeshEdge& edge = rest.edges[e];
-    const Real ratio = rest.lengths[e] > 0 ? (x.col(edge.a) - x.col(edge.b)).norm() / rest.lengths[e] : 1;
+    const Real length = (x.col(edge.a) - x.col(edge.b)).norm();
+    const Real ratio = rest.lengths[e] > 0 ? length / rest.lengths[e] : 1;
     ratio_sum += ratio;
     measures.edge_ratio_max = std::max(measures.edge_ratio_max, ratio);
-    if (rest.far_edge[e]) measures.edge_ratio_max_free = std::max(measures.edge_ratio_max_free, ratio);
+    if (rest.far_edge[e])
+      measures.edge_ratio_max_free = std::max(measures.edge_ratio_max_free, ratio);
+    else
+      measures.edge_ratio_max_near =
+          std::max(measures.edge_ratio_max_near, rest.flaws.edge_ratio(length, rest.lengths[e]));
     const Real angle = dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex));
     const Real change = std::abs(std::remainder(angle - rest.angles[e], 2 * pi));
     change_sum += change;
@@ -156,6 +162,8 @@ MuscleMeasures Measurer::measure_shape(std::size_t muscle, const Points& x, cons
   }
   measures.edge_ratio_mean = ratio_sum / static_cast<Real>(rest.edges.size());
   measures.dihedral_change_mean = change_sum / static_cast<Real>(rest.edges.size());
+  const SurfaceFlaws::Worst worst = rest.flaws.worst(x);
+  measures.spike = worst.spike, measures.thickening = worst.thickening, measures.thinning = worst.thinning;
   measure_depths(rest, x, pose, last_[muscle], measures);
   return measures;
 }

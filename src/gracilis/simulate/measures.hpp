@@ -6,6 +6,7 @@
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/simulate/belly_place.hpp>
 #include <gracilis/simulate/gates.hpp>
+#include <gracilis/simulate/surface_flaws.hpp>
 #include <gracilis/simulate/way_measures.hpp>
 
 #include <optional>
@@ -20,8 +21,10 @@ struct MuscleMeasures {
   Real volume_ratio = 1;
   Real edge_ratio_mean = 1;  ///< mean of length over length at rest
   Real edge_ratio_max = 1;
-  Real edge_ratio_max_free = 1;   ///< over edges farther from attachments than 15 mm at rest
-  Real dihedral_change_mean = 0;  ///< rad, mean of |θ - θ_rest|
+  Real edge_ratio_max_free = 1;                  ///< over edges farther from attachments than 15 mm at rest
+  Real edge_ratio_max_near = 1;                  ///< over the others, see SurfaceFlaws::edge_ratio
+  Real spike = 0, thickening = 1, thinning = 1;  ///< see SurfaceFlaws
+  Real dihedral_change_mean = 0;                 ///< rad, mean of |θ - θ_rest|
   Real dihedral_change_max = 0;
   Index hinges_over_90 = 0;             ///< hinges turned by more than 90 degrees
   Real vertex_depth = 0;                ///< m, deepest free vertex in a bone
@@ -62,6 +65,7 @@ class Measurer {
     std::vector<Index> free_vertices;                 ///< that are not attached
     std::vector<std::pair<Index, Index>> free_edges;  ///< the ends of those that are not attached with both
     Real volume = 0;
+    SurfaceFlaws flaws;
     Eigen::MatrixXd vertex_depth, midpoint_depth;  ///< free vertices (edges) × bones, m, 0 outside
   };
 

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -20,34 +21,82 @@ namespace gracilis {
 
 namespace {
 
-class VtpReader {
- public:
-  explicit VtpReader(const std::filesystem::path& path) : text_(read_text(path)), budget_(text_.size()) {
-    storage_.path = path;
+[[noreturn]] void fail_in(const std::filesystem::path& path, const std::string& what, const std::string& where = "") {
+  throw InputError({path.string(), where, what, "export the surface again"});
+}
+
+}  // namespace
+
+/// The file's text and its XML, which any number of readers share.
+struct VtpFile::Text {
+  explicit Text(const std::filesystem::path& path) : text(read_text(path)) {
+    storage.path = path;
+    parse();
   }
 
+  /// Appended data may hold any bytes, so the XML is what stands before it.
+  void parse() {
+    const std::size_t begin = text.find("<AppendedData");
+    std::string xml = text.substr(0, begin);
+    if (begin != std::string::npos) {
+      xml += "</VTKFile>";
+      const std::size_t tag_end = std::min(text.find('>', begin), text.size());
+      appended_base64 = text.substr(begin, tag_end - begin).find("base64") != std::string::npos;
+      const std::size_t underscore = text.find('_', tag_end);
+      if (underscore == std::string::npos) fail_in(storage.path, "has no appended data");
+      appended = std::string_view(text).substr(underscore + 1);
+    }
+    const pugi::xml_parse_result result = document.load_buffer(xml.data(), xml.size());
+    if (!result) {
+      const auto line = 1 + std::count(xml.begin(), xml.begin() + result.offset, '\n');
+      fail_in(storage.path, std::string("is damaged or no .vtp file: ") + result.description(), std::to_string(line));
+    }
+    root = document.child("VTKFile");
+    if (std::strcmp(root.attribute("type").value(), "PolyData") != 0)
+      fail_in(storage.path, "holds no surface: its type is not PolyData");
+    storage.byte_order = std::strcmp(root.attribute("byte_order").value(), "BigEndian") == 0 ? Encoding::big_endian
+                                                                                             : Encoding::little_endian;
+    storage.header_type =
+        std::strcmp(root.attribute("header_type").value(), "UInt64") == 0 ? ScalarType::uint64 : ScalarType::uint32;
+    storage.compressor = root.attribute("compressor").value();
+  }
+
+  std::string text;
+  VtpStorage storage;
+  pugi::xml_document document;
+  pugi::xml_node root;
+  std::string_view appended;
+  bool appended_base64 = false;
+};
+
+namespace {
+
+/// Reads once.
+class VtpReader {
+ public:
+  explicit VtpReader(const VtpFile::Text& file)
+      : budget_(file.text.size()),
+        storage_(file.storage),
+        root_(file.root),
+        appended_(file.appended),
+        appended_base64_(file.appended_base64) {}
+
   PolygonMesh read() {
-    parse();
     for (const pugi::xml_node& piece : root_.child("PolyData").children("Piece")) read_piece(piece);
     return std::move(mesh_);
   }
 
   PolygonMesh read(const std::string& piece) {
-    parse();
     const pugi::xml_node found = named(piece);
     if (!found) fail("has no piece '" + piece + "'");
     read_piece(found);
     return std::move(mesh_);
   }
 
-  bool has(const std::string& piece) {
-    parse();
-    return named(piece);
-  }
+  bool has(const std::string& piece) const { return named(piece); }
 
   /// Of the first piece, where none is named. Empty when there is no such array.
   std::vector<double> read_point_data(const std::string& name, const std::string& piece) {
-    parse();
     const pugi::xml_node array = (piece.empty() ? root_.child("PolyData").child("Piece") : named(piece))
                                      .child("PointData")
                                      .find_child_by_attribute("DataArray", "Name", name.c_str());
@@ -61,7 +110,6 @@ class VtpReader {
   }
 
   std::vector<double> read_field(const std::string& name) {
-    parse();
     const pugi::xml_node array =
         root_.child("PolyData").child("FieldData").find_child_by_attribute("DataArray", "Name", name.c_str());
     return array ? numbers(array, name) : std::vector<double>();
@@ -69,39 +117,11 @@ class VtpReader {
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& where = "") const {
-    throw InputError({storage_.path.string(), where, what, "export the surface again"});
+    fail_in(storage_.path, what, where);
   }
 
   pugi::xml_node named(const std::string& piece) const {
     return root_.child("PolyData").find_child_by_attribute("Piece", "Name", piece.c_str());
-  }
-
-  /// Appended data may hold any bytes, so the XML is what stands before it.
-  void parse() {
-    const std::size_t appended = text_.find("<AppendedData");
-    std::string xml = text_.substr(0, appended);
-    if (appended != std::string::npos) {
-      xml += "</VTKFile>";
-      const std::size_t tag_end = std::min(text_.find('>', appended), text_.size());
-      appended_base64_ = text_.substr(appended, tag_end - appended).find("base64") != std::string::npos;
-      const std::size_t underscore = text_.find('_', tag_end);
-      if (underscore == std::string::npos) fail("has no appended data");
-      appended_ = std::string_view(text_).substr(underscore + 1);
-    }
-    const pugi::xml_parse_result result = document_.load_buffer(xml.data(), xml.size());
-    if (!result) {
-      const auto line = 1 + std::count(xml.begin(), xml.begin() + result.offset, '\n');
-      fail(std::string("is damaged or no .vtp file: ") + result.description(), std::to_string(line));
-    }
-    root_ = document_.child("VTKFile");
-    if (std::strcmp(root_.attribute("type").value(), "PolyData") != 0)
-      fail("holds no surface: its type is not PolyData");
-    storage_.byte_order = std::strcmp(root_.attribute("byte_order").value(), "BigEndian") == 0
-                              ? Encoding::big_endian
-                              : Encoding::little_endian;
-    storage_.header_type =
-        std::strcmp(root_.attribute("header_type").value(), "UInt64") == 0 ? ScalarType::uint64 : ScalarType::uint32;
-    storage_.compressor = root_.attribute("compressor").value();
   }
 
   ScalarType type_of(const pugi::xml_node& array, const std::string& name) const {
@@ -196,37 +216,51 @@ class VtpReader {
                [&](const std::vector<std::int64_t>& cell) { mesh_.lines.push_back(cell); });
   }
 
-  std::string text_;
   NumberBudget budget_;
-  VtpStorage storage_;
-  pugi::xml_document document_;
-  pugi::xml_node root_;
-  std::string_view appended_;
-  bool appended_base64_ = false;
+  const VtpStorage& storage_;
+  const pugi::xml_node root_;
+  const std::string_view appended_;
+  const bool appended_base64_;
   PolygonMesh mesh_;
 };
 
 }  // namespace
 
-PolygonMesh read_vtp(const std::filesystem::path& path) { return VtpReader(path).read(); }
+VtpFile::VtpFile(const std::filesystem::path& path) : text_(std::make_unique<const Text>(path)) {}
+VtpFile::~VtpFile() = default;
 
-PolygonMesh read_vtp(const std::filesystem::path& path, const std::string& piece) {
-  return VtpReader(path).read(piece);
+std::size_t VtpFile::size() const { return text_->text.size(); }
+const std::filesystem::path& VtpFile::path() const { return text_->storage.path; }
+bool VtpFile::has(const std::string& piece) const { return VtpReader(*text_).has(piece); }
+PolygonMesh VtpFile::read() const { return VtpReader(*text_).read(); }
+PolygonMesh VtpFile::read(const std::string& piece) const { return VtpReader(*text_).read(piece); }
+std::vector<double> VtpFile::field(const std::string& name) const { return VtpReader(*text_).read_field(name); }
+
+Points VtpFile::vectors(const std::string& name, const std::string& piece) const {
+  return VtpReader(*text_).read_vectors(name, piece);
 }
 
-bool has_vtp_piece(const std::filesystem::path& path, const std::string& piece) { return VtpReader(path).has(piece); }
+Eigen::VectorXd VtpFile::scalars(const std::string& name, const std::string& piece) const {
+  const std::vector<double> values = VtpReader(*text_).read_point_data(name, piece);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
+}
+
+PolygonMesh read_vtp(const std::filesystem::path& path) { return VtpFile(path).read(); }
+
+PolygonMesh read_vtp(const std::filesystem::path& path, const std::string& piece) { return VtpFile(path).read(piece); }
+
+bool has_vtp_piece(const std::filesystem::path& path, const std::string& piece) { return VtpFile(path).has(piece); }
 
 Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name, const std::string& piece) {
-  return VtpReader(path).read_vectors(name, piece);
+  return VtpFile(path).vectors(name, piece);
 }
 
 std::vector<double> read_vtp_field(const std::filesystem::path& path, const std::string& name) {
-  return VtpReader(path).read_field(name);
+  return VtpFile(path).field(name);
 }
 
 Eigen::VectorXd read_vtp_scalars(const std::filesystem::path& path, const std::string& name, const std::string& piece) {
-  const std::vector<double> values = VtpReader(path).read_point_data(name, piece);
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
+  return VtpFile(path).scalars(name, piece);
 }
 
 }  // namespace gracilis

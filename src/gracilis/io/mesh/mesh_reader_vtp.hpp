@@ -2,10 +2,34 @@
 
 #include <gracilis/io/mesh/polygon_mesh.hpp>
 
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace gracilis {
+
+/// A .vtp in memory, of which several pieces are asked one after the other or by several threads: read from the disk
+/// once. The functions below do the same with a file each time, and say what is read and which errors there are.
+class VtpFile {
+ public:
+  explicit VtpFile(const std::filesystem::path& path);
+  ~VtpFile();
+
+  const std::filesystem::path& path() const;
+  std::size_t size() const;  ///< bytes, as on the disk
+  bool has(const std::string& piece) const;
+  PolygonMesh read() const;
+  PolygonMesh read(const std::string& piece) const;
+  Points vectors(const std::string& name, const std::string& piece = "") const;
+  Eigen::VectorXd scalars(const std::string& name, const std::string& piece = "") const;
+  std::vector<double> field(const std::string& name) const;
+
+  struct Text;
+
+ private:
+  std::unique_ptr<const Text> text_;
+};
 
 /// Reads the polygons and strips of a .vtp: ascii, binary and appended arrays of any type, compressed or not, in any
 /// number of pieces. VTK's own reader crashes on damaged block sizes, hence this one.

@@ -122,12 +122,17 @@ void write_vtp_pieces(const std::filesystem::path& path, const std::vector<VtpPi
 }
 
 TriangleMesh read_vtp_piece(const std::filesystem::path& path, const std::string& piece) {
-  return triangulated(read_vtp(path, piece), 1, path);
+  return read_vtp_piece(VtpFile(path), piece);
+}
+
+TriangleMesh read_vtp_piece(const VtpFile& file, const std::string& piece) {
+  return triangulated(file.read(piece), 1, file.path());
 }
 
 Polylines read_vtp_lines(const std::filesystem::path& path, const std::string& piece) {
-  if (!has_vtp_piece(path, piece)) return {};
-  const PolygonMesh mesh = read_vtp(path, piece);
+  const VtpFile file(path);
+  if (!file.has(piece)) return {};
+  const PolygonMesh mesh = file.read(piece);
   const Eigen::Map<const Points> points(mesh.coordinates.data(), 3, static_cast<Index>(mesh.coordinates.size() / 3));
   Polylines lines;
   lines.points = points;

@@ -6,13 +6,15 @@
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
-#include <gracilis/io/mesh/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh/vtp_pieces.hpp>
 #include <gracilis/io/run/paraview_script.hpp>
 #include <gracilis/io/run/run_layout.hpp>
 
+#include <algorithm>
+#include <list>
 #include <map>
 #include <mutex>
+#include <utility>
 
 namespace gracilis {
 
@@ -64,17 +66,72 @@ void write_compact_fibers(const fs::path& folder, const Scene& scene, const Fram
   write_vtp_pieces(fibers_file(folder, record.frame.number), pieces);
 }
 
-TriangleMesh read_compact_muscle(const fs::path& folder, const std::string& muscle, int frame) {
-  return read_vtp_piece(shapes_file(folder, frame), muscle);
+struct CompactShapes::Kept {
+  struct Bone {
+    std::once_flag once;
+    TriangleMesh rest;
+  };
+  std::mutex mutex;
+  std::size_t most_bytes = 0, bytes = 0;
+  int files_read = 0;
+  std::list<std::pair<int, std::shared_ptr<const VtpFile>>> frames;  ///< last asked for first
+  std::map<std::string, Bone> bones;
+
+  std::shared_ptr<const VtpFile> find(int frame) {
+    const auto found =
+        std::find_if(frames.begin(), frames.end(), [&](const auto& each) { return each.first == frame; });
+    if (found == frames.end()) return nullptr;
+    frames.splice(frames.begin(), frames, found);
+    return frames.front().second;
+  }
+  void keep(int frame, const std::shared_ptr<const VtpFile>& file) {
+    frames.emplace_front(frame, file);
+    bytes += file->size();
+    while (bytes > most_bytes && frames.size() > 1) {
+      bytes -= frames.back().second->size();
+      frames.pop_back();
+    }
+  }
+};
+
+CompactShapes::CompactShapes(fs::path folder, std::size_t most_bytes)
+    : folder_(std::move(folder)), kept_(std::make_unique<Kept>()) {
+  kept_->most_bytes = most_bytes;
+}
+CompactShapes::~CompactShapes() = default;
+
+int CompactShapes::files_read() const {
+  const std::lock_guard lock(kept_->mutex);
+  return kept_->files_read;
 }
 
-TriangleMesh read_compact_bone(const fs::path& folder, const std::string& bone, int frame) {
-  TriangleMesh surface = read_mesh(bone_file(folder, bone), 1);
+std::shared_ptr<const VtpFile> CompactShapes::file(int frame) const {
+  // Behind the lock: of several threads that ask for a frame the first one reads it.
+  const std::lock_guard lock(kept_->mutex);
+  if (std::shared_ptr<const VtpFile> known = kept_->find(frame)) return known;
+  const auto file = std::make_shared<const VtpFile>(shapes_file(folder_, frame));
+  ++kept_->files_read;
+  kept_->keep(frame, file);
+  return file;
+}
+
+TriangleMesh CompactShapes::muscle(const std::string& name, int frame) const {
+  return read_vtp_piece(*file(frame), name);
+}
+
+TriangleMesh CompactShapes::bone(const std::string& name, int frame) const {
+  Kept::Bone* bone = nullptr;
+  {
+    const std::lock_guard lock(kept_->mutex);
+    bone = &kept_->bones[name];
+  }
+  std::call_once(bone->once, [&] { bone->rest = read_mesh(bone_file(folder_, name), 1); });
+  TriangleMesh surface = bone->rest;
   if (frame == 0) return surface;  // the input itself; arithmetic with the identity could turn a -0 into a 0
-  const fs::path path = shapes_file(folder, frame);
-  const std::vector<double> values = read_vtp_field(path, motion_name(bone));
+  const std::vector<double> values = file(frame)->field(motion_name(name));
   if (values.size() != 12)
-    throw InputError({path.string(), motion_name(bone), "does not hold the bone's motion", "run the scene again"});
+    throw InputError({shapes_file(folder_, frame).string(), motion_name(name), "does not hold the bone's motion",
+                      "run the scene again"});
   RigidTransform motion;
   motion.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix<Real, 3, 4>>(values.data());
   surface.vertices = motion * surface.vertices;
@@ -92,26 +149,28 @@ struct CompactFibers::Bindings {
   std::map<std::string, Bound> of_muscles;
 };
 
-CompactFibers::CompactFibers(fs::path folder) : folder_(std::move(folder)), bindings_(std::make_unique<Bindings>()) {}
+CompactFibers::CompactFibers(std::shared_ptr<const CompactShapes> shapes)
+    : shapes_(std::move(shapes)), bindings_(std::make_unique<Bindings>()) {}
 CompactFibers::~CompactFibers() = default;
 
 Polylines CompactFibers::read(const std::string& muscle, int frame) const {
-  const fs::path known = fibers_file(folder_, frame);
+  const fs::path& folder = shapes_->folder();
+  const fs::path known = fibers_file(folder, frame);
   if (is_there(known))
     if (Polylines fibers = read_vtp_lines(known, muscle); fibers.count() > 0 || frame == 0) return fibers;
-  if (frame == 0 || !is_there(fibers_file(folder_, 0))) return {};
+  if (frame == 0 || !is_there(fibers_file(folder, 0))) return {};
   Bindings::Bound* bound = nullptr;
   {
     const std::lock_guard lock(bindings_->mutex);
     bound = &bindings_->of_muscles[muscle];
   }
   std::call_once(bound->once, [&] {
-    bound->rest = read_vtp_lines(fibers_file(folder_, 0), muscle);
+    bound->rest = read_vtp_lines(fibers_file(folder, 0), muscle);
     if (bound->rest.count() == 0) return;
-    bound->binding = std::make_unique<SurfaceBinding>(read_compact_muscle(folder_, muscle, 0), bound->rest.points);
+    bound->binding = std::make_unique<SurfaceBinding>(shapes_->muscle(muscle, 0), bound->rest.points);
   });
   Polylines fibers = bound->rest;
-  if (bound->binding) fibers.points = bound->binding->evaluate(read_compact_muscle(folder_, muscle, frame).vertices);
+  if (bound->binding) fibers.points = bound->binding->evaluate(shapes_->muscle(muscle, frame).vertices);
   return fibers;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/io/mesh/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/simulate/run.hpp>
@@ -23,15 +24,31 @@ void write_compact_shapes(const std::filesystem::path& folder, const Scene& scen
 /// All fibers of frame 0; in others only those that the method itself knows: the rest follows from the surfaces.
 void write_compact_fibers(const std::filesystem::path& folder, const Scene& scene, const FrameRecord& record);
 
-TriangleMesh read_compact_muscle(const std::filesystem::path& folder, const std::string& muscle, int frame);
+/// Surfaces of a run's frames. Each frame's file is read from the disk once, as long as those last asked for take no
+/// more than `most_bytes` together. May be asked by several threads.
+class CompactShapes {
+ public:
+  explicit CompactShapes(std::filesystem::path folder, std::size_t most_bytes = 256 << 20);
+  ~CompactShapes();
 
-/// A bone where its motion has taken it.
-TriangleMesh read_compact_bone(const std::filesystem::path& folder, const std::string& bone, int frame);
+  const std::filesystem::path& folder() const { return folder_; }
+  TriangleMesh muscle(const std::string& name, int frame) const;
+  /// Where its motion has taken it.
+  TriangleMesh bone(const std::string& name, int frame) const;
+  std::shared_ptr<const VtpFile> file(int frame) const;
+  /// How many files of frames were read so far.
+  int files_read() const;
+
+ private:
+  struct Kept;
+  std::filesystem::path folder_;
+  std::unique_ptr<Kept> kept_;
+};
 
 /// Fibers of a run's frames, bound to their surfaces when they are first asked for. May be asked by several threads.
 class CompactFibers {
  public:
-  explicit CompactFibers(std::filesystem::path folder);
+  explicit CompactFibers(std::shared_ptr<const CompactShapes> shapes);
   ~CompactFibers();
 
   /// None where the muscle has none.
@@ -39,7 +56,7 @@ class CompactFibers {
 
  private:
   struct Bindings;
-  std::filesystem::path folder_;
+  std::shared_ptr<const CompactShapes> shapes_;
   std::unique_ptr<Bindings> bindings_;
 };
 

@@ -46,8 +46,15 @@ static Json worst_measures(const fs::path& path) {
     worst.push_back({name, column_of(name), reference});
   }
   // Runs made before these were measured do not have them.
-  for (const char* name : {"belly_off_place_mm", "wrong_side_share", "slack"})
-    if (std::find(columns.begin(), columns.end(), name) != columns.end()) worst.push_back({name, column_of(name), 0.0});
+  for (const auto& [name, reference] : {std::pair{"edge_ratio_max_near", 1.0},
+                                        {"spike", 0.0},
+                                        {"thickening", 1.0},
+                                        {"thinning", 1.0},
+                                        {"belly_off_place_mm", 0.0},
+                                        {"wrong_side_share", 0.0},
+                                        {"slack", 0.0}})
+    if (std::find(columns.begin(), columns.end(), name) != columns.end())
+      worst.push_back({name, column_of(name), reference});
   std::vector<std::string> names;
   std::map<std::string, std::vector<Real>> found;
   while (!reader.at_end()) {

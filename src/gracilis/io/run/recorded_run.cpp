@@ -195,9 +195,9 @@ static void require_vertices(const RecordedRun& run, const std::string& name, in
 }
 
 static TriangleMesh read_surface(const RecordedRun& run, const std::string& name, int frame) {
-  if (run.layout == RunLayout::surfaces) return read_mesh(frame_file(run.folder, name, frame), 1);
+  if (!run.compact_shapes) return read_mesh(frame_file(run.folder, name, frame), 1);
   const bool is_bone = std::find(run.bones.begin(), run.bones.end(), name) != run.bones.end();
-  return is_bone ? read_compact_bone(run.folder, name, frame) : read_compact_muscle(run.folder, name, frame);
+  return is_bone ? run.compact_shapes->bone(name, frame) : run.compact_shapes->muscle(name, frame);
 }
 
 TriangleMesh recorded_surface(const RecordedRun& run, const std::string& name, int frame) {
@@ -220,7 +220,10 @@ RecordedRun open_recorded_run(const fs::path& folder) {
   run.folder = folder;
   run.manifest = read_manifest(folder);
   run.layout = layout_of(folder);
-  if (run.layout == RunLayout::compact) run.compact_fibers = std::make_shared<CompactFibers>(folder);
+  if (run.layout == RunLayout::compact) {
+    run.compact_shapes = std::make_shared<CompactShapes>(folder);
+    run.compact_fibers = std::make_shared<CompactFibers>(run.compact_shapes);
+  }
   run.axes = axes_of(run.manifest);
   run.preview_looking = vector_of(run.manifest, "preview", "looking", Vec3::Zero());
   run.preview_up = vector_of(run.manifest, "preview", "up", Vec3::Zero());
@@ -251,17 +254,21 @@ Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int f
   return fibers;
 }
 
+static std::shared_ptr<const VtpFile> file_of_muscle(const RecordedRun& run, const std::string& muscle, int frame) {
+  if (run.compact_shapes) return run.compact_shapes->file(frame);
+  return std::make_shared<const VtpFile>(frame_file(run.folder, muscle, frame));
+}
+
 Points recorded_tissue(const RecordedRun& run, const std::string& muscle) {
-  const Points tissue = read_vtp_vectors(file_of_surface(run.folder, run.layout, muscle, 0), tissue_name,
-                                         piece_of_muscle(run.layout, muscle));
+  const Points tissue = file_of_muscle(run, muscle, 0)->vectors(tissue_name, piece_of_muscle(run.layout, muscle));
   if (tissue.cols() > 0) require_vertices(run, muscle, 0, tissue.cols());
   return tissue;
 }
 
 Eigen::VectorXd recorded_fiber_stresses(const RecordedRun& run, const std::string& muscle, int frame) {
   if (!fs::exists(run.folder / force_file)) return {};  // the method knows none: no need to read every frame for that
-  Eigen::VectorXd stresses = read_vtp_scalars(file_of_surface(run.folder, run.layout, muscle, frame), fiber_stress_name,
-                                              piece_of_muscle(run.layout, muscle));
+  Eigen::VectorXd stresses =
+      file_of_muscle(run, muscle, frame)->scalars(fiber_stress_name, piece_of_muscle(run.layout, muscle));
   if (stresses.size() > 0) require_vertices(run, muscle, frame, static_cast<Index>(stresses.size()));
   return stresses;
 }

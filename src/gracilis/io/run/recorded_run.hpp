@@ -20,6 +20,7 @@ namespace gracilis {
 struct RecordedRun {
   std::filesystem::path folder;
   RunLayout layout = RunLayout::surfaces;
+  std::shared_ptr<const CompactShapes> compact_shapes;             ///< null: a file per surface has them
   std::shared_ptr<const CompactFibers> compact_fibers;             ///< null: files have them
   nlohmann::ordered_json manifest;                                 ///< run.json
   AnatomicalAxes axes;                                             ///< how the subject stands in the frames

@@ -8,6 +8,7 @@
 #include <gracilis/io/mesh/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/mesh/polyline_file.hpp>
+#include <gracilis/io/mesh/vtp_pieces.hpp>
 #include <gracilis/io/run/compact_frames.hpp>
 #include <gracilis/io/run/measures_table.hpp>
 #include <gracilis/io/run/output_hashes.hpp>
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
+#include <optional>
 
 namespace gracilis {
 
@@ -41,18 +43,19 @@ Frame read_frame(const fs::path& folder, const Scene& scene, int number, const P
   frame.number = number;
   frame.pose = pose;
   const RunLayout layout = layout_of(folder);
+  std::optional<VtpFile> file;  // of a compact run all muscles are in one
   for (const Muscle& muscle : scene.muscles) {
     const fs::path path = file_of_surface(folder, layout, muscle.name, number);
-    const TriangleMesh mesh =
-        layout == RunLayout::compact ? read_compact_muscle(folder, muscle.name, number) : read_mesh(path, 1);
+    const bool own_file = layout == RunLayout::surfaces;
+    if (own_file || !file) file.emplace(path);
+    const TriangleMesh mesh = own_file ? read_mesh(path, 1) : read_vtp_piece(*file, muscle.name);
     if (mesh.vertex_count() != muscle.surface.vertex_count()) {
       throw InputError({path.string(), "",
                         fmt::format("has {} vertices, but {} has {}", mesh.vertex_count(), muscle.name,
                                     muscle.surface.vertex_count()),
                         "resume with the scene that the run was started with"});
     }
-    frame.muscles.push_back(
-        {mesh.vertices, read_vtp_vectors(path, velocity_name, piece_of_muscle(layout, muscle.name))});
+    frame.muscles.push_back({mesh.vertices, file->vectors(velocity_name, piece_of_muscle(layout, muscle.name))});
   }
   return frame;
 }

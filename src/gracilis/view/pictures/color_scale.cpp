@@ -22,6 +22,7 @@ const std::vector<ColorScale>& color_scales() {
   static const std::vector<Color> lines_rising = bytes({{70, 120, 170}, {170, 110, 120}, {205, 70, 60}, {110, 10, 60}});
   static const Real fiber_end = std::log2(1.5);
   static const std::vector<ColorScale> scales = {
+      {"tissue", "", {}, 0, 1, {}},
       {"muscle", "", {}, 0, 1, {}},
       {"activation", "activation", rising, 0, 1, {"0", "0.5", "1"}},
       {"fiber-strain", "fiber length, × rest", lines, -fiber_end, fiber_end, {"0.67", "1", "1.5"}},

@@ -7,8 +7,8 @@
 
 namespace gracilis {
 
-/// What pictures of runs tell by color.
-enum class ColorBy { muscle, activation, fiber_strain, edge_stretch, bone_gap, volume, stress, tension };
+/// What pictures of runs tell by color: nothing but what muscles look like, or which muscle it is, or a value.
+enum class ColorBy { tissue, muscle, activation, fiber_strain, edge_stretch, bone_gap, volume, stress, tension };
 
 /// Values to colors, with what stands beside the bar. Colors run from the lowest value to the highest.
 struct ColorScale {

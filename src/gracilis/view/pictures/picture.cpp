@@ -7,16 +7,21 @@
 #include <gracilis/view/pictures/offscreen_window.hpp>
 #include <gracilis/view/pictures/picture_layout.hpp>
 #include <gracilis/view/pictures/picture_renderer.hpp>
+#include <gracilis/view/pictures/soft_shadows.hpp>
 
+#include <vtkCamera.h>
 #include <vtkErrorCode.h>
+#include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
+#include <vtkRenderer.h>
 #include <vtkRendererCollection.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace gracilis {
 
@@ -77,13 +82,34 @@ static PixelImage without_background(const PixelImage& on_white, const PixelImag
   return image;
 }
 
+/// Of one of `oversampling`² pixels each.
+static DepthImage depths_of(const Rectangle& part, vtkRenderer& renderer, vtkGenericOpenGLRenderWindow& window) {
+  DepthImage image{part.width, part.height, {}};
+  const int width = part.width * oversampling, height = part.height * oversampling;
+  vtkNew<vtkFloatArray> all;
+  const int x = part.x * oversampling, y = part.y * oversampling;
+  window.GetZbufferData(x, y, x + width - 1, y + height - 1, all);
+  const double* range = renderer.GetActiveCamera()->GetClippingRange();
+  for (int row = 0; row < height; row += oversampling)
+    for (int column = 0; column < width; column += oversampling) {
+      const float z = all->GetValue(static_cast<vtkIdType>(row) * width + column);
+      image.depths.push_back(z < 1 ? static_cast<float>(range[0] + z * (range[1] - range[0]))
+                                   : std::numeric_limits<float>::infinity());
+    }
+  return image;
+}
+
 static PixelImage drawn(const Picture& picture, const PictureLayout& layout, vtkGenericOpenGLRenderWindow& window) {
   while (window.GetRenderers()->GetFirstRenderer()) window.RemoveRenderer(window.GetRenderers()->GetFirstRenderer());
-  add_renderers(picture, layout, oversampling, window);
+  const std::vector<vtkRenderer*> of_panels = add_renderers(picture, layout, oversampling, window);
   window.Render();
   vtkNew<vtkUnsignedCharArray> pixels;
   window.GetPixelData(0, 0, layout.width * oversampling - 1, layout.height * oversampling - 1, 0, pixels, 0);
-  return averaged_down(*pixels, layout.width, layout.height);
+  PixelImage image = averaged_down(*pixels, layout.width, layout.height);
+  for (std::size_t i = 0; i < picture.panels.size(); ++i)
+    if (!is_seen_through(picture.panels[i]))
+      add_soft_shadows(depths_of(layout.panels[i], *of_panels[i], window), layout.panels[i], layout.half_height, image);
+  return image;
 }
 
 PixelImage PictureDrawer::draw(const Picture& picture, bool transparent) {

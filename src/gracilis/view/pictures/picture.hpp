@@ -19,8 +19,9 @@ struct PaintedSurface {
   TriangleMesh mesh;
   Color color = bone_color();
   Real opacity = 1;
-  bool framed = true;            ///< false: the picture makes no room for it and may cut it off
-  Points colors = Points(3, 0);  ///< one per vertex, instead of `color`; empty: none
+  bool framed = true;              ///< false: the picture makes no room for it and may cut it off
+  Points colors = Points(3, 0);    ///< one per vertex, instead of `color`; empty: none
+  std::vector<Real> stripes = {};  ///< m, one per vertex: where it lies across the fibers, see MuscleLook; empty: none
 };
 
 /// Lines of a picture, such as fibers; never in the legend.

@@ -1,6 +1,8 @@
 #include <gracilis/view/pictures/picture_renderer.hpp>
 
 #include <gracilis/io/mesh/vtk_mesh.hpp>
+#include <gracilis/view/pictures/smooth_lines.hpp>
+#include <gracilis/view/pictures/stripes.hpp>
 
 #include <vtkActor.h>
 #include <vtkActor2D.h>
@@ -20,6 +22,7 @@
 #include <vtkRenderer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
+#include <vtkTexture.h>
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -68,6 +71,10 @@ static void add_surface(const PaintedSurface& surface, vtkRenderer& renderer) {
   }
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
+  if (!surface.stripes.empty()) {
+    mesh->GetPointData()->SetTCoords(stripe_places(surface.stripes));
+    actor->SetTexture(stripe_texture());
+  }
   vtkProperty* property = actor->GetProperty();
   property->SetColor(surface.color.x(), surface.color.y(), surface.color.z());
   property->SetOpacity(surface.opacity);
@@ -80,7 +87,7 @@ static void add_surface(const PaintedSurface& surface, vtkRenderer& renderer) {
 
 static void add_lines(const PaintedLines& lines, int scale, vtkRenderer& renderer) {
   if (lines.lines.count() == 0) return;
-  const vtkSmartPointer<vtkPolyData> data = to_vtk(lines.lines);
+  const vtkSmartPointer<vtkPolyData> data = to_vtk(lines.radius > 0 ? smooth_lines(lines.lines) : lines.lines);
   vtkNew<vtkPolyDataMapper> mapper;
   if (static_cast<Index>(lines.colors.size()) == lines.lines.count()) {
     Points colors(3, lines.lines.count());
@@ -252,12 +259,19 @@ static int add_scale_bar(const PictureLayout& layout, int scale, vtkRenderer& re
   return 20 + width;
 }
 
-void add_renderers(const Picture& picture, const PictureLayout& layout, int scale, vtkRenderWindow& window) {
+bool is_seen_through(const Panel& panel) {
+  return std::any_of(panel.surfaces.begin(), panel.surfaces.end(), [](const auto& s) { return s.opacity < 1; });
+}
+
+std::vector<vtkRenderer*> add_renderers(const Picture& picture, const PictureLayout& layout, int scale,
+                                        vtkRenderWindow& window) {
   renderer_in({0, 0, layout.width, layout.height}, picture, layout, window);  // the background of what stays empty
+  std::vector<vtkRenderer*> of_panels;
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     const Panel& panel = picture.panels[i];
     const vtkSmartPointer<vtkRenderer> renderer = renderer_in(layout.panels[i], picture, layout, window);
-    if (std::any_of(panel.surfaces.begin(), panel.surfaces.end(), [](const auto& s) { return s.opacity < 1; })) {
+    of_panels.push_back(renderer);
+    if (is_seen_through(panel)) {
       renderer->SetUseDepthPeeling(true);
       renderer->SetMaximumNumberOfPeels(8);
     }
@@ -280,6 +294,7 @@ void add_renderers(const Picture& picture, const PictureLayout& layout, int scal
   }
   if (layout.legend.height > 0 && layout.legend.width > 0)
     add_legend(layout, scale, *renderer_in(layout.legend, picture, layout, window));
+  return of_panels;
 }
 
 }  // namespace gracilis

@@ -2,7 +2,7 @@
 
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/io/run/run_folder.hpp>
-#include <gracilis/view/pictures/muscle_colors.hpp>
+#include <gracilis/view/pictures/muscle_look.hpp>
 
 #include <fmt/format.h>
 
@@ -150,6 +150,8 @@ Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames) {
   Panel aimed;
   aimed.looking = camera.looking;
   aimed.up = camera.up;
+  std::vector<MuscleLook> looks;
+  for (const Muscle& muscle : scene.muscles) looks.push_back(muscle_look(muscle));
   for (const Frame& frame : frames) {
     Panel panel = aimed;
     panel.caption = caption_of(scene, frame);
@@ -159,8 +161,10 @@ Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames) {
     }
     for (std::size_t i = 0; i < scene.muscles.size(); ++i) {
       const Muscle& muscle = scene.muscles[i];
-      panel.surfaces.push_back(
-          {words_of_name(muscle.name), {frame.muscles[i].points, muscle.surface.faces}, muscle_color(muscle.name)});
+      PaintedSurface surface{"", {frame.muscles[i].points, muscle.surface.faces}};
+      surface.colors = painted_tissue(looks[i], muscle.name);
+      surface.stripes = looks[i].stripes;
+      panel.surfaces.push_back(std::move(surface));
     }
     picture.panels.push_back(panel);
   }

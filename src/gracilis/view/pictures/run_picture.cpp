@@ -22,11 +22,15 @@ const std::vector<std::string>& view_names() {
   return names;
 }
 
-Vec3 view_direction(const RecordedRun& run, const std::string& view) {
+/// Whether most muscles are named for the left.
+static bool is_left_sided(const RecordedRun& run) {
   const auto left = std::count_if(run.muscles.begin(), run.muscles.end(),
                                   [](const std::string& name) { return name.ends_with("_l"); });
-  const bool left_side = 2 * left > static_cast<std::ptrdiff_t>(run.muscles.size());
-  const Vec3 lateral = left_side ? Vec3(-run.axes.right()) : run.axes.right();
+  return 2 * left > static_cast<std::ptrdiff_t>(run.muscles.size());
+}
+
+Vec3 view_direction(const RecordedRun& run, const std::string& view) {
+  const Vec3 lateral = is_left_sided(run) ? Vec3(-run.axes.right()) : run.axes.right();
   Vec3 direction = Vec3::Zero();
   // Longer names begin with "antero" and "postero".
   if (view.starts_with("anter")) direction += run.axes.anterior;
@@ -86,6 +90,7 @@ RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options) : run_
     for (const TriangleMesh& bone : bones_) distances_.emplace_back(bone);
   if (options_.color_by == ColorBy::tension) tensions_ = recorded_tensions(run);
   for (const std::string& muscle : run.muscles) {
+    if (options_.color_by == ColorBy::tissue) looks_.push_back(recorded_look(run, muscle));
     if (options_.color_by == ColorBy::edge_stretch) stretches_.emplace_back(recorded_surface(run, muscle, 0));
     if (options_.fibers) lengths_.push_back(polyline_lengths(recorded_fibers(run, muscle, 0)));
   }
@@ -114,6 +119,9 @@ bool RunPainter::shown(const std::string& name) const {
   const bool is_bone = contains(run_.bones, name);
   if (is_bone && options_.without_bones) return false;
   const std::vector<std::string>& chosen = is_bone ? options_.bones : options_.muscles;
+  // Seen from the middle, the body's other half would stand before all that is looked at.
+  const bool other_side = name.ends_with(is_left_sided(run_) ? "_r" : "_l");
+  if (chosen.empty() && other_side && options_.view.ends_with("medial")) return false;
   return chosen.empty() || contains(chosen, name);
 }
 
@@ -134,6 +142,8 @@ Points RunPainter::vertex_colors(std::size_t muscle, const TriangleMesh& mesh, i
   Points colors(3, mesh.vertex_count());
   const auto all = [&](Real value) { colors.colwise() = color_of(value); };
   switch (options_.color_by) {
+    case ColorBy::tissue:
+      return painted_tissue(looks_[muscle], run_.muscles[muscle]);
     case ColorBy::muscle:
       return Points(3, 0);
     case ColorBy::activation:
@@ -178,7 +188,8 @@ Points RunPainter::vertex_colors(std::size_t muscle, const TriangleMesh& mesh, i
 PaintedLines RunPainter::fibers(std::size_t muscle, int frame) const {
   PaintedLines painted;
   painted.lines = recorded_fibers(run_, run_.muscles[muscle], frame);
-  painted.color = muscle_color(run_.muscles[muscle]);
+  painted.color =
+      options_.color_by == ColorBy::tissue ? fiber_paint(run_.muscles[muscle]) : muscle_color(run_.muscles[muscle]);
   painted.radius = 0.0006;
   if (options_.color_by == ColorBy::tension && frame < tensions_[muscle].rows())
     for (const Real tension : tensions_[muscle].row(frame))
@@ -197,7 +208,8 @@ Panel RunPainter::panel(int frame) const {
   panel.up = camera.up;
   panel.caption = pose_caption(run_, frame);
   // Beside colors that mean something bones step back.
-  const Color bone = options_.color_by == ColorBy::muscle ? bone_color() : Color(0.72, 0.74, 0.75);
+  const bool shows_values = options_.color_by != ColorBy::muscle && options_.color_by != ColorBy::tissue;
+  const Color bone = !shows_values ? bone_color() : Color(0.72, 0.74, 0.75);
   for (const std::string& name : run_.bones)
     if (shown(name)) panel.surfaces.push_back({"", recorded_surface(run_, name, frame), bone, 1, framed(name)});
   for (std::size_t m = 0; m < run_.muscles.size(); ++m) {
@@ -208,6 +220,7 @@ Panel RunPainter::panel(int frame) const {
     surface.opacity = options_.fibers ? std::min(options_.opacity, 0.3) : options_.opacity;
     if (!surface.framed) surface.opacity = std::min(surface.opacity, 0.25);  // the one in focus is seen through them
     surface.colors = vertex_colors(m, surface.mesh, frame);
+    if (options_.color_by == ColorBy::tissue) surface.stripes = looks_[m].stripes;
     panel.surfaces.push_back(std::move(surface));
     if (options_.fibers) panel.lines.push_back(fibers(m, frame));
     if (options_.fibers) panel.lines.back().framed = framed(run_.muscles[m]);

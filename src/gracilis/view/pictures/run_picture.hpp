@@ -3,6 +3,7 @@
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/view/pictures/color_scale.hpp>
+#include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/picture.hpp>
 #include <gracilis/view/pictures/vertex_stretch.hpp>
 
@@ -15,7 +16,7 @@ namespace gracilis {
 
 struct RunPictureOptions {
   std::string view;  ///< empty: as the run's preview looks, or lateral where that is not known
-  ColorBy color_by = ColorBy::muscle;
+  ColorBy color_by = ColorBy::tissue;
   bool fibers = false;               ///< with muscles that one sees through; fiber_strain and tension show them anyway
   Real opacity = 1;                  ///< of muscles
   std::vector<std::string> muscles;  ///< to show; empty: all
@@ -66,6 +67,7 @@ class RunPainter {
   mutable std::pair<Real, Real> seen_{std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
   std::vector<TriangleMesh> bones_;         ///< at rest
   std::vector<SignedDistance> distances_;   ///< per bone, where colors need them
+  std::vector<MuscleLook> looks_;           ///< per muscle, where colors need them
   std::vector<VertexStretch> stretches_;    ///< per muscle, where colors need them
   std::vector<std::vector<Real>> lengths_;  ///< per muscle and fiber at rest, m
   std::vector<Eigen::MatrixXd> tensions_;   ///< per muscle: frames × fibers, N, where colors need them

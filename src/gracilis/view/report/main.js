@@ -98,7 +98,13 @@ const matches = runs.map(run => runs[0].times.map((_, frame) => {
 }));
 
 writeHead(runs);
-writeGates(runs, (frame, index) => page.goTo(frame, index));
+// What a gate says is seen in colors, where it is about shape.
+const GATE_COLORS = {edge_ratio_max_near: 'shape', spike: 'shape', thickening: 'shape', thinning: 'shape',
+                     edge_ratio_max_free: 'stretch', volume_ratio: 'volume'};
+writeGates(runs, (frame, index, measure) => {
+  if (GATE_COLORS[measure]) chooseColor(GATE_COLORS[measure]);
+  page.goTo(frame, index);
+});
 writeWarnings(runs);
 writeProvenance(runs);
 writeSettings(runs);
@@ -156,6 +162,11 @@ for (const [id, checked] of [['all', true], ['none', false]]) {
     page.state.visible = new Set(checked ? muscles.map(muscle => muscle.name) : []);
     page.redraw();
   });
+}
+
+function chooseColor(key) {
+  element('color-by').value = key;
+  element('color-by').dispatchEvent(new Event('change'));
 }
 
 const has = key => {
@@ -227,9 +238,6 @@ const side = muscles.filter(muscle => muscle.name.endsWith('_l')).length > muscl
 stage.lookFrom(stage.axes.right.clone().multiplyScalar(side).addScaledVector(stage.axes.anterior, 0.45));
 // The address may say what to show at first: report.html#frame=45&color=stretch
 const wanted = new URLSearchParams(location.hash.slice(1));
-if (SHAPE_COLORS[wanted.get('color')]) {
-  element('color-by').value = wanted.get('color');
-  element('color-by').dispatchEvent(new Event('change'));
-}
+if (SHAPE_COLORS[wanted.get('color')]) chooseColor(wanted.get('color'));
 page.state.frame = Math.min(Math.max(Number(wanted.get('frame')) || 0, 0), runs[0].frame_count - 1);
 page.redraw();

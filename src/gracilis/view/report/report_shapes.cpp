@@ -3,6 +3,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/decimation.hpp>
 #include <gracilis/geometry/rotations.hpp>
+#include <gracilis/simulate/surface_flaws.hpp>
 #include <gracilis/view/pictures/vertex_stretch.hpp>
 
 #include <algorithm>
@@ -32,6 +33,11 @@ static Json components(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 static std::uint8_t log_ratio_byte(Real ratio) {
   if (!(ratio > 0)) return 128;
   return static_cast<std::uint8_t>(std::clamp(std::lround(128 + 127 * std::log2(ratio)), 0L, 255L));
+}
+
+/// 200 is at the bar.
+static std::uint8_t share_byte(Real share) {
+  return static_cast<std::uint8_t>(std::clamp(std::lround(200 * std::max(share, Real{0})), 0L, 255L));
 }
 
 /// Points of all frames as 16 bits per coordinate within their common box, which goes into `description`.
@@ -67,21 +73,26 @@ static Json muscle_surface(const RecordedRun& run, const std::string& name, cons
   const CoarseSurface coarse = decimate(rest, most_vertices);
   const VertexStretch stretch_around(rest);
   std::vector<Points> points(frames.size());
-  std::vector<std::uint8_t> stretch(frames.size() * coarse.vertices.size());
+  const SurfaceFlaws flaws(rest);
+  std::vector<std::uint8_t> stretch(frames.size() * coarse.vertices.size()), shape(stretch.size());
   parallel_for(static_cast<Index>(frames.size()), 1, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const auto k = static_cast<std::size_t>(i);
       const Points now = placed_surface(run, name, frames[k]).vertices;
       points[k] = picked(now, coarse.vertices);
-      const std::vector<Real> all = stretch_around.of(now);
-      for (std::size_t v = 0; v < coarse.vertices.size(); ++v)
-        stretch[k * coarse.vertices.size() + v] = log_ratio_byte(all[static_cast<std::size_t>(coarse.vertices[v])]);
+      const std::vector<Real> all = stretch_around.of(now), shares = flaws.shares_of_gates(now, {});
+      for (std::size_t v = 0; v < coarse.vertices.size(); ++v) {
+        const std::size_t at = k * coarse.vertices.size() + v;
+        stretch[at] = log_ratio_byte(all[static_cast<std::size_t>(coarse.vertices[v])]);
+        shape[at] = share_byte(shares[static_cast<std::size_t>(coarse.vertices[v])]);
+      }
     }
   });
   Json surface = {{"name", name}, {"kind", "muscle"}, {"vertices", coarse.vertices.size()}};
   append_faces(coarse.faces, surface, bytes);
   append_points(points, surface, bytes);
   surface["stretch_at"] = append(bytes, stretch);
+  surface["shape_at"] = append(bytes, shape);
   return surface;
 }
 
@@ -141,9 +152,9 @@ ReportShapes report_shapes(const RecordedRun& run, std::size_t budget) {
     const Json lines = muscle_fibers(run, muscle, frames, shapes.bytes);
     if (!lines.is_null()) fibers.push_back(lines);
   }
-  // What is left is for the muscles: per vertex 7 bytes in each frame, and two faces.
+  // What is left is for the muscles: per vertex 8 bytes in each frame, and two faces.
   const std::size_t left = budget > shapes.bytes.size() ? budget - shapes.bytes.size() : 0;
-  const std::size_t per_vertex = run.muscles.size() * (7 * frames.size() + 12);
+  const std::size_t per_vertex = run.muscles.size() * (8 * frames.size() + 12);
   const Index muscle_vertices = std::clamp<Index>(static_cast<Index>(left / per_vertex), 200, most_muscle_vertices);
   for (const std::string& muscle : run.muscles)
     surfaces.push_back(muscle_surface(run, muscle, frames, muscle_vertices, shapes.bytes));

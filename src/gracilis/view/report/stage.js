@@ -6,6 +6,8 @@ const SHAPE_COLORS = {
   muscle: {label: 'by muscle'},
   stretch: {label: 'by edge stretch', title: 'edge length, × rest', colors: DIVERGING, low: -1, high: 1,
             ticks: ['0.5', '1', '2']},
+  shape: {label: 'by gates of shape', title: 'spikes, thickness, edges: share of their bars', colors: RISING, low: 0, high: 1,
+          ticks: ['0', '0.5', '≥ 1']},
   volume: {label: 'by volume', title: 'change of volume, %', colors: DIVERGING, low: -1, high: 1,
            ticks: ['−1', '0', '+1'], chart: 'volume_ratio'},
   activation: {label: 'by activation', title: 'activation', colors: RISING, low: 0, high: 1, ticks: ['0', '0.5', '1'],
@@ -83,7 +85,9 @@ class RunShapes {
       material.vertexColors = THREE.VertexColors;
       const color = new THREE.Color(this.run.muscles.find(each => each.name === surface.name).color);
       result.color = [color.r, color.g, color.b];
-      result.stretch = new Uint8Array(this.buffer, surface.stretch_at, surface.vertices * this.run.shapes.frames.length);
+      const bytes = at => new Uint8Array(this.buffer, at, surface.vertices * this.run.shapes.frames.length);
+      result.stretch = bytes(surface.stretch_at);
+      result.shape = bytes(surface.shape_at);
     } else {
       result.motion = new Float32Array(this.buffer, surface.motion_at, 7 * this.run.shapes.frames.length);
     }
@@ -144,12 +148,11 @@ class RunShapes {
     const values = chart && chart.series.find(each => each.muscle === muscle.name).values;
     const whole = values ? colorAt(scale, values[frame]) : scale.fibers ? [0.8, 0.8, 0.8] : muscle.color;
     for (let v = 0; v < muscle.vertices; ++v) {
+      const [a, b, share] = at;
+      const blended = bytes => (1 - share) * bytes[a * muscle.vertices + v] + share * bytes[b * muscle.vertices + v];
       let color = whole;
-      if (state.colorBy === 'stretch') {
-        const [a, b, share] = at;
-        const byte = (1 - share) * muscle.stretch[a * muscle.vertices + v] + share * muscle.stretch[b * muscle.vertices + v];
-        color = colorAt(scale, (byte - 128) / 127);
-      }
+      if (state.colorBy === 'stretch') color = colorAt(scale, (blended(muscle.stretch) - 128) / 127);
+      if (state.colorBy === 'shape') color = colorAt(scale, blended(muscle.shape) / 200);
       colors.set(color, 3 * v);
     }
     geometry.attributes.color.needsUpdate = true;

@@ -71,7 +71,7 @@ function gateCell(gate, index, goTo) {
   const link = make('button', `frame ${gate.frame}`, {type: 'button', class: 'link',
                     'aria-label': `Show frame ${gate.frame}, the worst of ${spoken(gate.muscle)}: ${gate.title} ${value}, ` +
                                   (gate.met ? 'met' : 'missed')});
-  link.addEventListener('click', () => goTo(gate.frame, index));
+  link.addEventListener('click', () => goTo(gate.frame, index, gate.measure));
   cell.append(value, make('br'), link, gate.met ? '' : ` and ${gate.missed - 1} more`);
   return cell;
 }

@@ -46,6 +46,7 @@ FrameMaker::FrameMaker(std::vector<TriangleMesh> muscles, std::vector<TriangleMe
   shown_.resize(count), arrow_vertices_.resize(count), volumes_.resize(count);
   shapes.muscle_faces.resize(count), shapes.arrow_roots.resize(count);
   shapes.held.resize(count), shapes.belly.resize(count);
+  shapes.natural.resize(count), shapes.stripes.resize(count), shapes.vertex_numbers.resize(count);
   shapes.bone_faces.resize(bones_.size()), shapes.bone_points.resize(bones_.size());
   const std::vector<Index> muscle_shares = vertex_shares(muscles_, muscle_vertices);
   const std::vector<Index> bone_shares = vertex_shares(bones_, bone_vertices);
@@ -59,7 +60,7 @@ FrameMaker::FrameMaker(std::vector<TriangleMesh> muscles, std::vector<TriangleMe
     }
     const CoarseSurface coarse = decimate(muscles_[i], muscle_shares[i]);
     shapes.muscle_faces[i] = coarse.faces;
-    shown_[i] = coarse.vertices;
+    shown_[i] = shapes.vertex_numbers[i] = coarse.vertices;
     shapes.arrow_roots[i] = spread_points(picked(muscles_[i].vertices, coarse.vertices), arrows_shown);
     for (const Index root : shapes.arrow_roots[i])
       arrow_vertices_[i].push_back(coarse.vertices[static_cast<std::size_t>(root)]);
@@ -109,6 +110,12 @@ void FrameMaker::fill_tension(const std::vector<Eigen::VectorXd>& tensions, Show
   for (std::size_t m = 0; m < tensions.size(); ++m)
     for (const Index i : spread_numbers(static_cast<Index>(tensions[m].size()), fibers_shown))
       frame.tension[m].push_back(tensions[m][i]);
+}
+
+void FrameMaker::paint(std::size_t muscle, const MuscleLook& look, ShownShapes& shapes) const {
+  const Points colors = painted_tissue(look, shapes.muscles[muscle]);
+  for (const Index v : shown_[muscle]) shapes.natural[muscle].push_back(colors.col(v));
+  shapes.stripes[muscle] = shown_of(muscle, look.stripes);
 }
 
 }  // namespace gracilis

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/geometry/decimation.hpp>
+#include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/vertex_stretch.hpp>
 #include <gracilis/view/window/contact_depth.hpp>
 #include <gracilis/view/window/shape_history.hpp>
@@ -33,6 +34,8 @@ class FrameMaker {
     for (const Index v : shown_[muscle]) result.push_back(values[static_cast<std::size_t>(v)]);
     return result;
   }
+  /// What a muscle looks like, at the vertices that are shown.
+  void paint(std::size_t muscle, const MuscleLook& look, ShownShapes& shapes) const;
   /// The vertices of a muscle's whole surface at which arrows begin.
   const std::vector<Index>& arrow_vertices(std::size_t muscle) const { return arrow_vertices_[muscle]; }
   const std::vector<TriangleMesh>& bones() const { return bones_; }

@@ -27,6 +27,9 @@ struct LiveControls {
   std::function<void(bool)> pause;
   std::function<bool()> is_paused;
   std::function<void()> step, play_motion, reset, look_again;
+  /// Moves the joint of a bone so that a point of it (at rest) comes, as seen along `looking`, to `target`; false where
+  /// no joint moves the bone.
+  std::function<bool(std::size_t bone, const Vec3& point, const Vec3& target, const Vec3& looking)> pull;
   std::function<std::string()> status;
 };
 

@@ -8,6 +8,7 @@
 #include <gracilis/methods/pass_tracing.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/run.hpp>
+#include <gracilis/view/window/bone_pull.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -57,6 +58,7 @@ LiveSimulation::LiveSimulation(const Scene& scene, ShapeHistory& history,
   }
   maker_.emplace(std::move(muscles), std::move(bones), shapes_);
   for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
+    maker_->paint(m, muscle_look(scene.muscles[m]), shapes_);
     shapes_.held[m] = maker_->shown_of(m, held_vertices(scene.muscles[m]));
     const std::vector<Real> belly =
         maker_->shown_of(m, belly_shares(scene.muscles[m], tendon_length_of(scene, scene.muscles[m])));
@@ -88,6 +90,15 @@ void LiveSimulation::aim(std::size_t coordinate, Real value) {
   motion_at_ = motion_.size();
   expect_motion();
   changed_.notify_all();
+}
+
+bool LiveSimulation::pull(std::size_t bone, const Vec3& point, const Vec3& target, const Vec3& looking) {
+  const std::lock_guard lock(mutex_);
+  if (!pull_bone(scene_, bone, point, target, looking, wanted_.coordinates)) return false;
+  motion_at_ = motion_.size();
+  expect_motion();
+  changed_.notify_all();
+  return true;
 }
 
 Real LiveSimulation::aim_of(std::size_t coordinate) const {

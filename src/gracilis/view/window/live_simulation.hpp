@@ -35,6 +35,8 @@ class LiveSimulation {
   /// Where a coordinate shall go (rad, m), in the order of coordinate_names().
   void aim(std::size_t coordinate, Real value);
   Real aim_of(std::size_t coordinate) const;
+  /// Aims at coordinates as pull_bone does (bone_pull.hpp).
+  bool pull(std::size_t bone, const Vec3& point, const Vec3& target, const Vec3& looking);
   /// How active a muscle shall be, 0 to 1.
   void activate(std::size_t muscle, Real activation);
   Real activation_of(std::size_t muscle) const;

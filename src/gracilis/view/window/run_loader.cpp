@@ -33,7 +33,10 @@ RunLoader::RunLoader(const RecordedRun& run, ShapeHistory& history)
   shapes_.muscles = run.muscles;
   shapes_.bones = run.bones;
   maker_.emplace(read_surfaces(run, run.muscles, 0), read_surfaces(run, run.bones, 0), shapes_);
-  for (std::size_t m = 0; m < run.muscles.size(); ++m) take_tissue(m);
+  for (std::size_t m = 0; m < run.muscles.size(); ++m) {
+    take_tissue(m);
+    maker_->paint(m, recorded_look(run, run.muscles[m]), shapes_);
+  }
   tensions_ = recorded_tensions(run);
   history_.append(read(0));
   thread_ = std::thread([this] { work(); });

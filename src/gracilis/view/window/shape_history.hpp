@@ -3,6 +3,7 @@
 #include <gracilis/core/types.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/scene/scene.hpp>
+#include <gracilis/view/pictures/palette.hpp>
 
 #include <atomic>
 #include <cstdint>
@@ -29,10 +30,13 @@ struct ShownShapes {
   bool left_side = false;  ///< lateral is the subject's left
   std::vector<std::string> muscles, bones;
   std::vector<Eigen::Matrix3Xi> muscle_faces, bone_faces;
-  std::vector<ShownPoints> bone_points;         ///< at rest
-  std::vector<std::vector<HeldAt>> held;        ///< of muscles; an empty entry: nobody knows
-  std::vector<std::vector<float>> belly;        ///< of muscles: 0 tendon to 1 belly; an empty entry: nobody knows
-  std::vector<std::vector<Index>> arrow_roots;  ///< of muscles: evenly spread vertices
+  std::vector<ShownPoints> bone_points;            ///< at rest
+  std::vector<std::vector<HeldAt>> held;           ///< of muscles; an empty entry: nobody knows
+  std::vector<std::vector<float>> belly;           ///< of muscles: 0 tendon to 1 belly; an empty entry: nobody knows
+  std::vector<std::vector<Color>> natural;         ///< of muscles: what they look like, see MuscleLook
+  std::vector<std::vector<Real>> stripes;          ///< of muscles: m across the fibers
+  std::vector<std::vector<Index>> vertex_numbers;  ///< of muscles: which vertices of the whole surface are shown
+  std::vector<std::vector<Index>> arrow_roots;     ///< of muscles: evenly spread vertices
 };
 
 /// What one kind of constraint moved in one pass of the solver, at a muscle's arrow roots.

@@ -1,6 +1,8 @@
 #include <gracilis/view/window/surface_actor.hpp>
 
 #include <gracilis/io/mesh/vtk_mesh.hpp>
+#include <gracilis/view/pictures/smooth_lines.hpp>
+#include <gracilis/view/pictures/stripes.hpp>
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
@@ -13,6 +15,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkTexture.h>
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -102,8 +105,13 @@ void set_point_colors(const std::vector<Color>& colors, SurfaceActor& surface) {
   surface.actor->GetMapper()->SetScalarVisibility(!colors.empty());
 }
 
+void set_stripes(const std::vector<Real>& stripes, vtkTexture& texture, SurfaceActor& surface) {
+  surface.actor->SetTexture(stripes.empty() ? nullptr : &texture);
+  surface.data->GetPointData()->SetTCoords(stripes.empty() ? nullptr : stripe_places(stripes).Get());
+}
+
 void set_tubes(const Polylines& lines, Real radius, const std::vector<Color>& colors, SurfaceActor& surface) {
-  const vtkSmartPointer<vtkPolyData> input = to_vtk(lines);
+  const vtkSmartPointer<vtkPolyData> input = to_vtk(smooth_lines(lines));
   if (!colors.empty()) input->GetCellData()->SetScalars(color_array(colors));
   vtkNew<vtkTubeFilter> tubes;
   tubes->SetInputData(input);

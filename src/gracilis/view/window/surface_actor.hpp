@@ -11,6 +11,7 @@
 class vtkActor;
 class vtkPolyData;
 class vtkRenderer;
+class vtkTexture;
 
 namespace gracilis {
 
@@ -35,6 +36,9 @@ void set_shape(const ColoredMesh& mesh, SurfaceActor& surface);
 
 /// One color per point; none: the actor's own.
 void set_point_colors(const std::vector<Color>& colors, SurfaceActor& surface);
+
+/// Stripes along fibers, by where each point lies across them (m); none: without. `texture`: of stripes.
+void set_stripes(const std::vector<Real>& stripes, vtkTexture& texture, SurfaceActor& surface);
 
 /// Lines as tubes of a radius (m), with a color per line where there are any.
 void set_tubes(const Polylines& lines, Real radius, const std::vector<Color>& colors, SurfaceActor& surface);

@@ -49,8 +49,8 @@ Viewer::Viewer(const ShownShapes& shapes, ShapeHistory& history, const WindowOpt
   window_->AddRenderer(flat_renderer_);
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(make_window_style(
-      {[this](int x, int y) { return overlay_.press(x, y); }, [this](int x) { return overlay_.drag(x); },
-       [this] { overlay_.release(); }, [this](const std::string& key) { press(key); },
+      {[this](int x, int y) { return press_mouse(x, y); }, [this](int x, int y) { return drag_mouse(x, y); },
+       [this](int x, int y) { release_mouse(x, y); }, [this](const std::string& key) { press(key); },
        [this] { view_.clear(), changed_ = relaid_ = true; }}));
   scene_.emplace(shapes, history, *scene_renderer_);
 }
@@ -167,6 +167,7 @@ void Viewer::draw(bool smooth) {
   const Real begin = now();
   is_smooth_ = smooth;
   scene_renderer_->SetUseFXAA(smooth);
+  keep_in_view();
   if (relaid_) lay_out();
   const std::shared_ptr<const ShownFrame> frame = history_.at(player_.frame);
   depth_is_shown_ = !frame->contact_depth.empty();

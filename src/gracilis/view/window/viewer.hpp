@@ -43,6 +43,12 @@ class Viewer {
   int total_frames() const;
   void take_picture();
 
+  // viewer_mouse.cpp: what the mouse does to shapes
+  bool press_mouse(int x, int y);
+  bool drag_mouse(int x, int y);
+  void release_mouse(int x, int y);
+  bool pull_bone(int x, int y);
+
   // viewer_keys.cpp: what keys do
   std::vector<KeyBinding> bindings();
   void press(const std::string& key);
@@ -58,6 +64,8 @@ class Viewer {
   // viewer_layout.cpp: what stands over the picture
   void lay_out();
   void look(const std::string& view);
+  void keep_in_view();
+  Rectangle room() const;
   void lay_out_left();
   void lay_out_right();
   void lay_out_track();
@@ -88,6 +96,14 @@ class Viewer {
   std::string known_status_;
   std::size_t slider_page_ = 0;
 
+  struct Grabbed {
+    std::size_t bone = 0;
+    Vec3 point = Vec3::Zero();  ///< at rest, m
+  };
+  std::optional<Grabbed> grabbed_;
+  Eigen::Vector2i pressed_at_ = Eigen::Vector2i::Zero();
+  bool overlay_pressed_ = false;
+
   std::future<std::vector<DistanceField>> fields_to_come_;
   std::vector<DistanceField> fields_;
   ColoredMesh slice_;
@@ -95,7 +111,7 @@ class Viewer {
   std::size_t next_key_ = 0;
   Real keys_wait_until_ = 0, benchmark_from_ = -1, draw_seconds_ = 0, last_drawn_ = 0, pictures_per_second_ = 0;
 
-  vtkSmartPointer<vtkTextActor> status_, speed_;
+  vtkSmartPointer<vtkTextActor> status_, speed_, picked_;
   vtkSmartPointer<vtkActor2D> cursor_;
   Rectangle track_;
 };

@@ -38,6 +38,11 @@ std::vector<KeyBinding> Viewer::bindings() {
       {{"4"}, "", "", look_at(3)},
       {{"5"}, "5  6", "from superior, anteromedial", look_at(4)},
       {{"6"}, "", "", look_at(5)},
+      {{"w"},
+       "w",
+       "fit the whole into the window",
+       [this] { fit_all(shapes_, history_, state_, room(), *scene_renderer_); }},
+      {{"0"}, "0", "the first view again", [this] { look(options_.view); }},
       {{"c"},
        "c",
        "color by the next quantity",
@@ -66,6 +71,8 @@ std::vector<KeyBinding> Viewer::bindings() {
   table.push_back({{"Escape"}, "", "", [this] { help_ = false; }});
   table.push_back({{"q"}, "q", "close", [this] { interactor_->TerminateApp(); }});
   table.push_back({{}, "mouse", "turn; with shift: move; wheel: zoom", {}});
+  if (options_.live) table.push_back({{}, "mouse on a bone", "moves its joint", {}});
+  table.push_back({{}, "click a muscle", "numbers of its vertex there", {}});
   table.push_back({{}, "click a name", "solid, see-through, hidden", {}});
   return table;
 }

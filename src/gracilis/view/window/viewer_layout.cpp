@@ -1,5 +1,6 @@
 #include <gracilis/view/window/arrows.hpp>
 #include <gracilis/view/window/bone_slice.hpp>
+#include <gracilis/view/window/picking.hpp>
 #include <gracilis/view/window/viewer.hpp>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include <vtkPolyData.h>
 #include <vtkTextActor.h>
 #include <gracilis/view/pictures/muscle_colors.hpp>
+#include <gracilis/view/pictures/muscle_look.hpp>
 
 #include <algorithm>
 #include <array>
@@ -26,6 +28,10 @@ void Viewer::lay_out() {
   lay_out_left();
   lay_out_right();
   lay_out_track();
+  if (state_.picked)
+    picked_ = overlay_.add_text_centered(width_ / 2, track_height + 30, "", 15, ink);
+  else
+    picked_ = nullptr;
   if (!help_) return;
   overlay_.begin_layer();
   add_help(width_, height_, help_rows(bindings_), overlay_);
@@ -34,16 +40,27 @@ void Viewer::lay_out() {
 /// From a standard direction, into the room that the texts leave.
 void Viewer::look(const std::string& view) {
   view_ = view;
+  look_from(view, shapes_, history_, state_, room(), *scene_renderer_);
+}
+
+/// Between the texts.
+Rectangle Viewer::room() const {
   const int* size = window_->GetSize();
   const int side = margin + right_width + 10;
-  const Rectangle room{side, track_height + 10, std::max(100, size[0] - 2 * side),
-                       std::max(100, size[1] - track_height - 56)};
-  look_from(view, shapes_, history_, room, *scene_renderer_);
+  return {side, track_height + 10, std::max(100, size[0] - 2 * side), std::max(100, size[1] - track_height - 56)};
+}
+
+/// Until somebody turns the camera, what moves out of its room, as a femur under the sliders, gets more of it.
+void Viewer::keep_in_view() {
+  if (view_.empty() || grabbed_ || is_within(shapes_, *history_.at(player_.frame), state_, room(), *scene_renderer_))
+    return;
+  look(view_);
+  relaid_ = true;
 }
 
 static const char* name_of(WindowColor color) {
-  static constexpr std::array names = {"muscle",        "tissue", "activation", "fiber strain", "edge stretch",
-                                       "contact depth", "volume", "stress",     "tension"};
+  static constexpr std::array names = {"natural",      "muscle",        "tissue", "activation", "fiber strain",
+                                       "edge stretch", "contact depth", "volume", "stress",     "tension"};
   return names[static_cast<std::size_t>(color)];
 }
 
@@ -78,8 +95,9 @@ void Viewer::lay_out_left() {
   for (std::size_t m = 0; m < shapes_.muscles.size(); ++m) {
     const MuscleState shown = state_.muscles[m];
     // Where colors mean something else, the muscles' own would only confuse.
-    const Color color =
-        state_.color_by == WindowColor::muscle ? muscle_color(shapes_.muscles[m]) : Color(Color::Constant(0.6));
+    const Color color = state_.color_by == WindowColor::natural  ? fiber_paint(shapes_.muscles[m])
+                        : state_.color_by == WindowColor::muscle ? muscle_color(shapes_.muscles[m])
+                                                                 : Color(Color::Constant(0.6));
     muscles.push_back({words_of(shapes_.muscles[m]), color,
                        shown == MuscleState::solid         ? 1
                        : shown == MuscleState::transparent ? 0.35
@@ -102,8 +120,8 @@ int Viewer::lay_out_scale(const ColorScale& scale, int bottom) {
 void Viewer::lay_out_right() {
   const int left = width_ - margin - right_width;
   // What lies behind the panel steps back; it costs time, so only where there is a panel.
-  const bool has_panel =
-      options_.live || state_.color_by != WindowColor::muscle || state_.attachments || state_.slice != Slice::none;
+  const bool explains = state_.color_by != WindowColor::natural && state_.color_by != WindowColor::muscle;
+  const bool has_panel = options_.live || explains || state_.attachments || state_.slice != Slice::none;
   if (has_panel)
     overlay_.add_rectangle({left - 10, track_height, right_width + margin + 10, height_ - track_height}, background,
                            0.7);
@@ -247,6 +265,7 @@ void Viewer::write_status() {
   status_->SetInput(fmt::format("frame {} of {}    {}{}{}", player_.frame, total_frames() - 1, words_of(frame->caption),
                                 hint_text.empty() ? "" : "    ", hint_text)
                         .c_str());
+  if (picked_) picked_->SetInput(numbers_of(*state_.picked, shapes_, *frame).c_str());
   std::string speed = fmt::format("drawn in {:.0f} ms", 1000 * draw_seconds_);
   if (player_.playing)
     speed += fmt::format(", {:.0f} frames per second, {:g} × as fast", pictures_per_second_, player_.speed);

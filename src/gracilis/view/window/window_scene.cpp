@@ -3,6 +3,7 @@
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/window/arrows.hpp>
+#include <gracilis/view/window/picking.hpp>
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -47,6 +48,7 @@ WindowScene::WindowScene(const ShownShapes& shapes, const ShapeHistory& history,
   }
   slice_ = add_empty(false, renderer);
   arrows_ = add_empty(true, renderer);
+  picked_ = add_empty(false, renderer);
 }
 
 static bool colors_fibers(const WindowState& state) {
@@ -84,6 +86,8 @@ static std::vector<Color> vertex_colors(std::size_t muscle, const ShownShapes& s
     return colors;
   };
   switch (by) {
+    case WindowColor::natural:
+      return shapes.natural[muscle];
     case WindowColor::muscle:
       return {};
     case WindowColor::tissue:
@@ -107,13 +111,16 @@ static std::vector<Color> vertex_colors(std::size_t muscle, const ShownShapes& s
   return {};
 }
 
-void WindowScene::show_muscle(std::size_t muscle, const ShownFrame& frame, const WindowState& state) {
+void WindowScene::show_muscle(std::size_t muscle, const ShownFrame& frame, const WindowState& state, bool fast) {
   SurfaceActor& surface = muscles_[muscle].surface;
   const bool visible = state.muscles[muscle] != MuscleState::hidden;
   surface.actor->SetVisibility(visible);
   if (!visible) return;
   move_points(frame.muscles[muscle], shapes_.muscle_faces[muscle], surface);
   set_point_colors(vertex_colors(muscle, shapes_, frame, state.color_by), surface);
+  // They cost as much as half of all the rest.
+  set_stripes(state.color_by == WindowColor::natural && !fast ? shapes_.stripes[muscle] : std::vector<Real>(),
+              *stripe_texture_, surface);
   vtkProperty* property = surface.actor->GetProperty();
   property->SetOpacity(is_seen_through(muscle, state) ? opacity_seen_through : 1);
   // The far side of a closed surface is never seen, unless one looks through it.
@@ -168,7 +175,8 @@ void WindowScene::show_ghosts(std::size_t muscle, int frame, const WindowState& 
 
 void WindowScene::show_bones(const ShownFrame& frame, const WindowState& state) {
   // Beside colors that mean something bones step back.
-  const Color color = state.color_by == WindowColor::muscle || state.color_by == WindowColor::tissue
+  const Color color = state.color_by == WindowColor::natural || state.color_by == WindowColor::muscle ||
+                              state.color_by == WindowColor::tissue
                           ? bone_color()
                           : Color(0.72, 0.74, 0.75);
   for (std::size_t b = 0; b < bones_.size(); ++b) {
@@ -191,16 +199,26 @@ void WindowScene::show_arrows(const ShownFrame& frame, const WindowState& state)
   set_shape(arrow_mesh(displacements, arrow_scale_), arrows_);
 }
 
+void WindowScene::show_picked(const ShownFrame& frame, const WindowState& state) {
+  picked_.actor->SetVisibility(state.picked.has_value());
+  if (!state.picked) return;
+  ColoredMesh dot;
+  append_dot(frame.muscles[state.picked->muscle].col(state.picked->vertex), 2 * attachment_radius,
+             Color(0.05, 0.35, 0.75), dot);
+  set_shape(dot, picked_);
+}
+
 void WindowScene::show(int number, const WindowState& state, const ColoredMesh& slice, bool fast) {
   const std::shared_ptr<const ShownFrame> frame = history_.at(number);
   show_bones(*frame, state);
   for (std::size_t m = 0; m < muscles_.size(); ++m) {
-    show_muscle(m, *frame, state);
+    show_muscle(m, *frame, state, fast);
     show_fibers(m, *frame, state);
     show_attachments(m, *frame, state);
     show_ghosts(m, number, state);
   }
   show_arrows(*frame, state);
+  show_picked(*frame, state);
   slice_.actor->SetVisibility(state.slice != Slice::none && !slice.faces.empty());
   if (slice_.actor->GetVisibility() != 0) set_shape(slice, slice_);
   bool translucent = state.ghost != Ghost::none || state.slice != Slice::none;
@@ -210,20 +228,41 @@ void WindowScene::show(int number, const WindowState& state, const ColoredMesh& 
   renderer_.SetMaximumNumberOfPeels(fast ? 1 : 4);
 }
 
-void look_from(const std::string& view, const ShownShapes& shapes, const ShapeHistory& history, const Rectangle& part,
+/// The box, along three axes, of all muscles and bones that are shown.
+static Eigen::AlignedBox3d box_along(const Eigen::Matrix3d& axes, const ShownShapes& shapes, const ShownFrame& frame,
+                                     const WindowState& state) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t m = 0; m < frame.muscles.size(); ++m)
+    if (state.muscles[m] != MuscleState::hidden)
+      for (const Eigen::Vector3f& point : frame.muscles[m].colwise()) box.extend(axes.transpose() * point.cast<Real>());
+  for (std::size_t b = 0; state.bones && b < frame.bones.size(); ++b)
+    for (const Eigen::Vector3f& point : shapes.bone_points[b].colwise())
+      box.extend(axes.transpose() * (frame.bones[b] * point.cast<Real>()));
+  return box;
+}
+
+bool is_within(const ShownShapes& shapes, const ShownFrame& frame, const WindowState& state, const Rectangle& part,
                vtkRenderer& renderer) {
-  RecordedRun sides;
-  sides.axes = shapes.axes;
-  sides.muscles = {shapes.left_side ? "_l" : "_r"};
-  const Vec3 direction = view_direction(sides, view);
-  const Vec3 right = shapes.axes.superior.cross(direction).normalized(), up = direction.cross(right);
+  const WindowProjection projection = projection_of(renderer);
+  const Eigen::AlignedBox3d box = box_along(projection.axes, shapes, frame, state);
+  if (box.isEmpty()) return true;
+  const Vec3 low = projection.in_window(projection.axes * box.min());
+  const Vec3 high = projection.in_window(projection.axes * box.max());
+  return low.x() >= part.x && low.y() >= part.y && high.x() <= part.x + part.width && high.y() <= part.y + part.height;
+}
+
+static void look_from(const Vec3& direction, const Vec3& superior, const ShownShapes& shapes,
+                      const ShapeHistory& history, const WindowState& state, const Rectangle& part,
+                      vtkRenderer& renderer) {
+  const Vec3 right = superior.cross(direction).normalized(), up = direction.cross(right);
   Eigen::Matrix3d axes;
   axes << right, up, direction;
   Eigen::AlignedBox3d box;
   const int step = std::max(1, (history.end() - history.begin()) / 12);
   for (int frame = history.begin(); frame < history.end(); frame += step)
-    for (const ShownPoints& muscle : history.at(frame)->muscles)
-      for (const Eigen::Vector3f& point : muscle.colwise()) box.extend(axes.transpose() * point.cast<Real>());
+    box.extend(box_along(axes, shapes, *history.at(frame), state));
+  box.extend(box_along(axes, shapes, *history.at(history.end() - 1), state));
+  if (box.isEmpty()) return;
   const int* window = renderer.GetSize();
   const Real metres_per_pixel = 1.08 * std::max(box.sizes().x() / part.width, box.sizes().y() / part.height);
   Vec3 center = box.center();
@@ -237,6 +276,21 @@ void look_from(const std::string& view, const ShownShapes& shapes, const ShapeHi
   camera->SetViewUp(up.x(), up.y(), up.z());
   camera->SetParallelScale(metres_per_pixel * window[1] / 2);
   renderer.ResetCameraClippingRange();
+}
+
+void look_from(const std::string& view, const ShownShapes& shapes, const ShapeHistory& history,
+               const WindowState& state, const Rectangle& part, vtkRenderer& renderer) {
+  RecordedRun sides;
+  sides.axes = shapes.axes;
+  sides.muscles = {shapes.left_side ? "_l" : "_r"};
+  look_from(view_direction(sides, view), shapes.axes.superior, shapes, history, state, part, renderer);
+}
+
+void fit_all(const ShownShapes& shapes, const ShapeHistory& history, const WindowState& state, const Rectangle& part,
+             vtkRenderer& renderer) {
+  vtkCamera* camera = renderer.GetActiveCamera();
+  look_from(-Vec3(camera->GetDirectionOfProjection()), Vec3(camera->GetViewUp()), shapes, history, state, part,
+            renderer);
 }
 
 }  // namespace gracilis

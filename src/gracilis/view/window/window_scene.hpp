@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/view/pictures/picture_layout.hpp>
+#include <gracilis/view/pictures/stripes.hpp>
 #include <gracilis/view/window/glyphs.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 #include <gracilis/view/window/surface_actor.hpp>
@@ -18,7 +19,7 @@ class WindowScene {
   /// Both must outlive this.
   WindowScene(const ShownShapes& shapes, const ShapeHistory& history, vtkRenderer& renderer);
 
-  /// Everything as it is in a frame; `fast`: of what one sees through, the nearest layer only.
+  /// Everything as it is in a frame; `fast`: of what one sees through, the nearest layer only, and no stripes.
   void show(int frame, const WindowState& state, const ColoredMesh& slice, bool fast);
   /// How many times longer than the displacements the arrows are.
   Real arrow_scale() const { return arrow_scale_; }
@@ -29,10 +30,11 @@ class WindowScene {
     std::array<SurfaceActor, trail_steps.size()> ghosts;
   };
   void show_bones(const ShownFrame& frame, const WindowState& state);
-  void show_muscle(std::size_t muscle, const ShownFrame& frame, const WindowState& state);
+  void show_muscle(std::size_t muscle, const ShownFrame& frame, const WindowState& state, bool fast);
   void show_fibers(std::size_t muscle, const ShownFrame& frame, const WindowState& state);
   void show_attachments(std::size_t muscle, const ShownFrame& frame, const WindowState& state);
   void show_ghosts(std::size_t muscle, int frame, const WindowState& state);
+  void show_picked(const ShownFrame& frame, const WindowState& state);
   void show_arrows(const ShownFrame& frame, const WindowState& state);
 
   const ShownShapes& shapes_;
@@ -40,16 +42,25 @@ class WindowScene {
   vtkRenderer& renderer_;
   std::vector<MuscleActors> muscles_;
   std::vector<SurfaceActor> bones_;
-  SurfaceActor slice_, arrows_;
+  SurfaceActor slice_, arrows_, picked_;
+  const vtkSmartPointer<vtkTexture> stripe_texture_ = stripe_texture();
   Real arrow_scale_ = 1;
 };
 
 /// True when a muscle is shown so that one sees through it.
 bool is_seen_through(std::size_t muscle, const WindowState& state);
 
-/// Camera from a direction of view_names(); the muscles, wherever they go in the frames that are known, fill a part of
-/// the window.
-void look_from(const std::string& view, const ShownShapes& shapes, const ShapeHistory& history, const Rectangle& part,
+/// Camera from a direction of view_names(); all that is shown, wherever it goes in the frames that are known, fills a
+/// part of the window.
+void look_from(const std::string& view, const ShownShapes& shapes, const ShapeHistory& history,
+               const WindowState& state, const Rectangle& part, vtkRenderer& renderer);
+
+/// The same from where the camera looks now.
+void fit_all(const ShownShapes& shapes, const ShapeHistory& history, const WindowState& state, const Rectangle& part,
+             vtkRenderer& renderer);
+
+/// Whether all that is shown of a frame lies within a part of the window.
+bool is_within(const ShownShapes& shapes, const ShownFrame& frame, const WindowState& state, const Rectangle& part,
                vtkRenderer& renderer);
 
 }  // namespace gracilis

@@ -30,6 +30,7 @@ const ColorScale& window_scale(WindowColor color) {
       return color_scale(ColorBy::tension);
     case WindowColor::contact_depth:
       return depth;
+    case WindowColor::natural:
     case WindowColor::muscle:
     case WindowColor::tissue:
       break;

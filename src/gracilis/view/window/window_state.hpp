@@ -3,6 +3,7 @@
 #include <gracilis/view/pictures/color_scale.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ enum class MuscleState { solid, transparent, hidden };
 enum class SurfaceStyle { solid, edges, wireframe };
 /// What the colors of muscles tell.
 enum class WindowColor {
+  natural,  ///< what muscles look like
   muscle,
   tissue,
   activation,
@@ -28,13 +30,19 @@ enum class Arrows { none, frame, iteration };
 /// A plane through the bones' distance fields.
 enum class Slice { none, sagittal, coronal, transverse };
 
-inline constexpr int window_color_count = 9;
+inline constexpr int window_color_count = 10;
 inline constexpr std::array trail_steps = {10, 20, 30};  ///< frames back
+
+/// A vertex of what is drawn of a muscle.
+struct PickedVertex {
+  std::size_t muscle = 0;
+  Index vertex = 0;
+};
 
 /// What of the shapes is seen, and how.
 struct WindowState {
   std::vector<MuscleState> muscles;
-  WindowColor color_by = WindowColor::muscle;
+  WindowColor color_by = WindowColor::natural;
   SurfaceStyle style = SurfaceStyle::solid;
   bool bones = true, fibers = false, attachments = false;
   Ghost ghost = Ghost::none;
@@ -43,6 +51,7 @@ struct WindowState {
   std::vector<bool> arrow_kinds;  ///< per ConstraintKind
   Slice slice = Slice::none;
   Real slice_at = 0.5;  ///< 0 to 1 through what is shown
+  std::optional<PickedVertex> picked = {};
 };
 
 /// The scale of a coloring; without colors where muscles have their own.

@@ -20,12 +20,12 @@ class WindowStyle : public vtkInteractorStyleTrackballCamera {
       Superclass::OnLeftButtonDown();
   }
   void OnMouseMove() override {
-    if (events.drag(Interactor->GetEventPosition()[0])) return;
+    if (events.drag(Interactor->GetEventPosition()[0], Interactor->GetEventPosition()[1])) return;
     Superclass::OnMouseMove();
     if (State != VTKIS_NONE) events.turned();
   }
   void OnLeftButtonUp() override {
-    events.release();
+    events.release(Interactor->GetEventPosition()[0], Interactor->GetEventPosition()[1]);
     Superclass::OnLeftButtonUp();
   }
   void OnMouseWheelForward() override {

@@ -12,8 +12,8 @@ namespace gracilis {
 /// What a window is asked before the mouse turns anything. Positions in pixels from the lower left corner.
 struct WindowEvents {
   std::function<bool(int x, int y)> press;  ///< of the left button; true: taken
-  std::function<bool(int x)> drag;          ///< true: taken
-  std::function<void()> release;
+  std::function<bool(int x, int y)> drag;   ///< true: taken
+  std::function<void(int x, int y)> release;
   std::function<void(const std::string& key)> key;  ///< X's name of the key, such as "space" or "c"
   std::function<void()> turned;                     ///< the camera may have moved
 };

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <gracilis/draft/scene_draft.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
+
+#include <filesystem>
+
+/// What 'gracilis scene' and 'gracilis new' do with a drafted scene.
+namespace gracilis {
+
+/// Throws ConfigurationError where `out` is no name of a scene file, or is there already and not to be replaced.
+void require_new_scene(const std::filesystem::path& out, bool force);
+
+/// Writes the scene file, and its landmarks beside it.
+void write_draft_files(const SceneDraft& draft, const std::filesystem::path& out);
+
+/// The same, and reads it again as a run would.
+LoadedScene write_draft(const SceneDraft& draft, const std::filesystem::path& out);
+
+/// Prints what was found and what was guessed, doubtful things first.
+void tell(const SceneDraft& draft);
+
+/// The scene is of use without its picture, too: then there is a warning.
+void draw(const SceneDraft& draft, const Scene& scene, const std::filesystem::path& path);
+
+}  // namespace gracilis

@@ -1,0 +1,120 @@
+#include "new_command.hpp"
+
+#include "draft_output.hpp"
+
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/shell_word.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/io/input_file.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+namespace gracilis {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewOptions {
+  std::vector<fs::path> files, bones;
+  fs::path out = "scene.toml";
+  std::string unit;
+  bool force = false;
+};
+
+void require_surfaces(const NewOptions& options) {
+  std::vector<Problem> problems;
+  for (const std::vector<fs::path>* files : {&options.files, &options.bones})
+    for (const fs::path& file : *files) {
+      std::error_code ignored;
+      if (fs::is_directory(file, ignored))
+        problems.push_back(
+            {file.string(), "", "is a folder",
+             "name its surfaces, or: gracilis scene " + shell_word(file.string()) + " --out scene.toml"});
+      else if (!is_there(file))
+        problems.push_back({file.string(), "", "is not there", ""});
+    }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+/// Of surfaces of unknown things: a body part is at most 2 m long, and the longest one at least 2 cm.
+std::string likely_unit(const FolderFiles& files) {
+  Real longest = 0;
+  for (const NamedSurfaceFile& each : files.surfaces) {
+    const Points points = read_mesh(each.file, 1).vertices;
+    if (points.cols() > 0) longest = std::max(longest, bounding_box(points).sizes().maxCoeff());
+  }
+  return longest <= 2 ? "m" : "mm";
+}
+
+/// What keeps the files from being drafted as a whole; nothing where they were.
+std::vector<Problem> drafted(const FolderFiles& files, const NewOptions& options, std::optional<SceneDraft>& draft) {
+  try {
+    draft = draft_scene(files, "these surfaces", {.unit = options.unit});
+    return {};
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+}
+
+void write_whole(const SceneDraft& draft, const fs::path& out) {
+  const LoadedScene loaded = write_draft(draft, out);
+  tell(draft);
+  for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
+  draw(draft, loaded.scene, fs::path(out).replace_extension(".png"));
+  fmt::print("{}\nnext: gracilis run {} --out {}\n", out.string(), shell_word(out.string()),
+             shell_word(fs::path(out).replace_extension("").string()));
+}
+
+void write_with_gaps(const FolderFiles& files, const NewOptions& options, const std::vector<Problem>& why) {
+  const std::string unit = options.unit.empty() ? likely_unit(files) : options.unit;
+  if (options.unit.empty()) spdlog::warn("the files are taken to be in {}; --unit says another one", unit);
+  const SceneDraft draft = draft_without_joints(files, {.unit = unit});
+  if (draft.found.bones.empty() && draft.found.muscles.empty()) {
+    std::vector<Problem> problems;
+    for (const std::string& line : draft.left_out) problems.push_back({"", "", line, ""});
+    throw InputError(problems);
+  }
+  write_draft_files(draft, options.out);
+  tell(draft);
+  for (const Problem& problem : why) spdlog::warn("{}", to_string(problem));
+  fmt::print("missing: joints, where muscles are held, a motion; fill them in where {} says '# missing:'\n{}\n",
+             options.out.string(), options.out.string());
+  fmt::print("next: gracilis inspect {}\n", shell_word(options.out.string()));
+}
+
+int write_new_scene(const NewOptions& options) {
+  require_new_scene(options.out, options.force);
+  require_surfaces(options);
+  const FolderFiles files = list_files(options.files, options.bones);
+  std::optional<SceneDraft> draft;
+  const std::vector<Problem> why = drafted(files, options, draft);
+  if (draft)
+    write_whole(*draft, options.out);
+  else
+    write_with_gaps(files, options, why);
+  return static_cast<int>(ExitCode::done);
+}
+
+}  // namespace
+
+void add_new_command(CLI::App& program, Command& chosen) {
+  const auto options = std::make_shared<NewOptions>();
+  CLI::App* command = program.add_subcommand(
+      "new", "Write a commented scene of surfaces, told apart by their names, which runs or says what is missing");
+  command->add_option("FILES", options->files, "Surfaces of bones and muscles (.ply .stl .obj .vtk .vtp)")->required();
+  command->add_option("--bone", options->bones, "Surfaces of bones, whatever they are called");
+  command->add_option("--unit", options->unit, "Unit of the files: m, cm or mm (default: by the bones' sizes)")
+      ->check(CLI::IsMember({"m", "cm", "mm"}));
+  command->add_option("--out", options->out, "Scene file to write (default: scene.toml)");
+  command->add_flag("--force", options->force, "Replace the scene file");
+  command->callback([&chosen, options] { chosen = [options] { return write_new_scene(*options); }; });
+}
+
+}  // namespace gracilis
