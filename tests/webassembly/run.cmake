@@ -22,7 +22,8 @@ endfunction()
 set(source ${SOURCE_FOLDER}/src/gracilis)
 file(GLOB_RECURSE solver ${source}/dynamics/*.cpp)
 set(below ${source}/core/parallel_serial.cpp ${source}/geometry/field_path.cpp ${source}/geometry/half_edges.cpp
-          ${source}/geometry/measures.cpp ${source}/geometry/point_triangle.cpp ${source}/geometry/topology.cpp)
+          ${source}/geometry/measures.cpp ${source}/geometry/point_triangle.cpp ${source}/geometry/rotations.cpp
+          ${source}/geometry/topology.cpp)
 # Compiled as one file, so that what all include is read once; but not what Highway includes again.
 set(together "")
 set(alone "")

@@ -159,7 +159,7 @@ struct AffineMap {
   Eigen::Vector3f operator()(const Eigen::Vector3f& rest) const { return to + linear * (rest - from); }
 };
 
-Eigen::Matrix3f nearest_rotation(const Eigen::Matrix3f& matrix) {
+Eigen::Matrix3f nearest_turn(const Eigen::Matrix3f& matrix) {
   const Eigen::JacobiSVD<Eigen::Matrix3f> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3f u = svd.matrixU();
   if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) = -u.col(2);
@@ -179,7 +179,7 @@ AffineMap fit(const std::vector<Index>& listed, const Eigen::Matrix3Xf& rest, co
     of_rest += away * away.transpose();
   }
   const float weight = turn_weight * of_rest.trace() / 3;
-  map.linear = (mixed + weight * nearest_rotation(mixed)) * (of_rest + weight * Eigen::Matrix3f::Identity()).inverse();
+  map.linear = (mixed + weight * nearest_turn(mixed)) * (of_rest + weight * Eigen::Matrix3f::Identity()).inverse();
   return map;
 }
 
