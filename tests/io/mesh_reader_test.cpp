@@ -201,7 +201,7 @@ TEST(MeshReader, a_file_that_is_not_there_or_not_a_file_is_named) {
   EXPECT_THAT(mesh_message(folder.path() / "no.ply"), HasSubstr("no.ply: does not exist"));
   EXPECT_THAT(mesh_message(folder.path()), HasSubstr("is a folder"));
   EXPECT_THAT(mesh_message(folder.write("empty.ply", "")), HasSubstr("empty.ply: is empty"));
-  EXPECT_THAT(mesh_message(folder.write("a.blend", "x")), HasSubstr("use .ply, .stl, .obj, .vtk or .vtp"));
+  EXPECT_THAT(mesh_message(folder.write("a.blend", "x")), HasSubstr("use .ply, .stl, .obj, .vtk, .vtp or .glb"));
 }
 
 TEST(MeshReader, damaged_files_are_refused_with_the_place) {
