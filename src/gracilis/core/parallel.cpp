@@ -1,5 +1,6 @@
 #include <gracilis/core/parallel.hpp>
 
+#include <gracilis/core/first_failure.hpp>
 #include <gracilis/core/stop.hpp>
 
 #include <oneapi/tbb/blocked_range.h>
@@ -17,14 +18,18 @@ void parallel_for(Index count, Index grain, const std::function<void(Index, Inde
   if (chunks == 1) return body(0, count);
   // One task per fixed chunk: the cuts are a property of the work, not of the machine.
   const std::atomic<bool>* const flag = stop_flag();
+  FirstFailure failure;
   tbb::parallel_for(
       Index{0}, chunks,
       [&](Index chunk) {
-        const StopScope scope(flag);
-        throw_if_stopped();
-        body(chunk * grain, std::min(count, (chunk + 1) * grain));
+        failure.run(chunk, [&] {
+          const StopScope scope(flag);
+          throw_if_stopped();
+          body(chunk * grain, std::min(count, (chunk + 1) * grain));
+        });
       },
       tbb::simple_partitioner());
+  failure.rethrow();
 }
 
 ThreadLimit::ThreadLimit(int threads)

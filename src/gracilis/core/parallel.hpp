@@ -11,7 +11,8 @@ namespace gracilis {
 
 /// Calls body(begin, end) on disjoint ranges that cover [0, count), possibly at the same time. How the work is cut
 /// never depends on the number of threads, so a body that writes only to its own range gives the same bits with any
-/// number. `grain` is the size of a range; a count up to `grain` runs on the calling thread.
+/// number. `grain` is the size of a range; a count up to `grain` runs on the calling thread. Where bodies throw, the
+/// caller gets what the first of the failing ranges threw, also with any number of threads; later ones may be left out.
 void parallel_for(Index count, Index grain, const std::function<void(Index begin, Index end)>& body);
 
 /// Calls act(i) for every number below `count`, each a task of its own: for a few pieces of work of different size.

@@ -2,12 +2,11 @@
 // same cuts by threads that live as long as the call, so that it sees every race of a body with itself.
 #include <gracilis/core/parallel.hpp>
 
+#include <gracilis/core/first_failure.hpp>
 #include <gracilis/core/stop.hpp>
 
 #include <atomic>
 #include <cstdint>
-#include <exception>
-#include <mutex>
 #include <thread>
 #include <utility>
 
@@ -27,30 +26,25 @@ void parallel_for(Index count, Index grain, const std::function<void(Index, Inde
   if (chunks == 1) return body(0, count);
   const std::atomic<bool>* const flag = stop_flag();
   std::atomic<Index> next = 0;
-  std::mutex failing;
-  std::exception_ptr failure;
+  FirstFailure failure;
   const auto work = [&] {
     const StopScope scope(flag);
     const bool was_inside = std::exchange(is_inside, true);
-    try {
-      // Relaxed: otherwise a chunk would seem to wait for those before it.
-      for (Index chunk = next.fetch_add(1, std::memory_order_relaxed); chunk < chunks;
-           chunk = next.fetch_add(1, std::memory_order_relaxed)) {
+    // Relaxed: otherwise a chunk would seem to wait for those before it.
+    for (Index chunk = next.fetch_add(1, std::memory_order_relaxed); chunk < chunks;
+         chunk = next.fetch_add(1, std::memory_order_relaxed))
+      failure.run(chunk, [&] {
         throw_if_stopped();
         body(chunk * grain, std::min(count, (chunk + 1) * grain));
-      }
-    } catch (...) {
-      const std::lock_guard lock(failing);
-      if (!failure) failure = std::current_exception();
-      next.store(chunks, std::memory_order_relaxed);
-    }
+      });
     is_inside = was_inside;
   };
   std::vector<std::thread> others;
-  for (int i = 1; !is_inside && i < std::min(chunks, static_cast<Index>(thread_count())); ++i) others.emplace_back(work);
+  for (int i = 1; !is_inside && i < std::min(chunks, static_cast<Index>(thread_count())); ++i)
+    others.emplace_back(work);
   work();
   for (std::thread& other : others) other.join();
-  if (failure) std::rethrow_exception(failure);
+  failure.rethrow();
 }
 
 ThreadLimit::ThreadLimit(int threads) : control_(nullptr) {
