@@ -18,6 +18,16 @@
 /// A small joint that solves in milliseconds.
 namespace gracilis {
 
+/// Attaches the vertices above a height (m) by one attachment and those below another by the other.
+inline void attach_by_height(Muscle& muscle, Attachment origin, Real above, Attachment insertion, Real below) {
+  for (Index v = 0; v < muscle.surface.vertex_count(); ++v) {
+    const Real z = muscle.surface.vertices(2, v);
+    if (z > above) origin.vertices.push_back(v);
+    if (z < below) insertion.vertices.push_back(v);
+  }
+  muscle.attachments = {origin, insertion};
+}
+
 /// Two box bones in line, a hinge between them, and a tube of muscle along their front that is attached to both:
 ///
 ///            ┌────┐▒
@@ -43,14 +53,8 @@ inline Scene tube_scene(const XpbdSettings& settings = {}) {
   muscle.name = "tube";
   muscle.surface = shapes::cylinder(0.01, 0.16, 20, 40);
   muscle.surface.vertices.colwise() += Vec3(0.0255, 0, -0.08);
-  Attachment origin{"upper end", AttachmentEnd::origin, 0, {}, false};
-  Attachment insertion{"lower end", AttachmentEnd::insertion, 1, {}, false};
-  for (Index v = 0; v < muscle.surface.vertex_count(); ++v) {
-    const Real z = muscle.surface.vertices(2, v);
-    if (z > 0.07) origin.vertices.push_back(v);
-    if (z < -0.07) insertion.vertices.push_back(v);
-  }
-  muscle.attachments = {origin, insertion};
+  attach_by_height(muscle, {"upper end", AttachmentEnd::origin, 0, {}, false}, 0.07,
+                   {"lower end", AttachmentEnd::insertion, 1, {}, false}, -0.07);
   scene.method.settings = changed_values(settings);
   scene.muscles = {muscle};
   return scene;
@@ -63,15 +67,10 @@ inline Scene end_on_muscle_scene(const XpbdSettings& settings = {}) {
   rider.name = "rider";
   rider.surface = shapes::cylinder(0.006, 0.1, 14, 30);
   rider.surface.vertices.colwise() += Vec3(0.0422, 0, -0.03);
-  Attachment origin{"bone", AttachmentEnd::origin, 0, {}, false};
-  Attachment insertion{"tube", AttachmentEnd::insertion, 0, {}, false};
-  for (Index v = 0; v < rider.surface.vertex_count(); ++v) {
-    const Real z = rider.surface.vertices(2, v);
-    if (z > 0.06) origin.vertices.push_back(v);
-    if (z < -0.02) insertion.vertices.push_back(v);
-  }
-  insertion.body = add_muscle_body(scene, "rider_on_tube", 0, rider.surface.vertices(Eigen::all, insertion.vertices));
-  rider.attachments = {origin, insertion};
+  attach_by_height(rider, {"bone", AttachmentEnd::origin, 0, {}, false}, 0.06,
+                   {"tube", AttachmentEnd::insertion, 0, {}, false}, -0.02);
+  Attachment& end = rider.attachments[1];
+  end.body = add_muscle_body(scene, "rider_on_tube", 0, rider.surface.vertices(Eigen::all, end.vertices));
   scene.muscles.push_back(rider);
   return scene;
 }

@@ -4,6 +4,7 @@
 #include <gracilis/draft/draft_text.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/view/pictures/scene_picture.hpp>
 
 #include <fmt/format.h>
@@ -38,11 +39,6 @@ void write_draft_files(const SceneDraft& draft, const fs::path& out) {
   write_text_atomically(out, draft_text(draft, out, table));
 }
 
-LoadedScene write_draft(const SceneDraft& draft, const fs::path& out) {
-  write_draft_files(draft, out);
-  return read_scene(out);
-}
-
 void tell(const SceneDraft& draft) {
   fmt::print("{} bones, {} joints, {} muscles\n", draft.found.bones.size(), draft.skeleton.joints.size(),
              draft.muscles.size());
@@ -59,13 +55,22 @@ void tell(const SceneDraft& draft) {
   for (const std::string& line : draft.left_out) fmt::print("left out {}\n", line);
 }
 
-void draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
+static void draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
   try {
     render_picture(scene_picture(scene, doubtful_ends(draft)), path);
     fmt::print("{}\n", path.string());
   } catch (const Error& error) {
     spdlog::warn("no picture: {}", error.what());
   }
+}
+
+void write_and_show(const SceneDraft& draft, const fs::path& out, const fs::path& picture) {
+  write_draft_files(draft, out);
+  const LoadedScene loaded = read_scene(out);
+  tell(draft);
+  for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
+  draw(draft, loaded.scene, picture);
+  fmt::print("{}\n", out.string());
 }
 
 }  // namespace gracilis

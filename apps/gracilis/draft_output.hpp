@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gracilis/draft/scene_draft.hpp>
-#include <gracilis/io/scene/scene_reader.hpp>
 
 #include <filesystem>
 
@@ -14,13 +13,11 @@ void require_new_scene(const std::filesystem::path& out, bool force);
 /// Writes the scene file, and its landmarks beside it.
 void write_draft_files(const SceneDraft& draft, const std::filesystem::path& out);
 
-/// The same, and reads it again as a run would.
-LoadedScene write_draft(const SceneDraft& draft, const std::filesystem::path& out);
-
 /// Prints what was found and what was guessed, doubtful things first.
 void tell(const SceneDraft& draft);
 
-/// The scene is of use without its picture, too: then there is a warning.
-void draw(const SceneDraft& draft, const Scene& scene, const std::filesystem::path& path);
+/// Writes the scene, reads it again as a run would, tells what stands in it and what the reader says of it, and draws
+/// it. It is of use without its picture, too: then there is a warning. Prints the scene's name last.
+void write_and_show(const SceneDraft& draft, const std::filesystem::path& out, const std::filesystem::path& picture);
 
 }  // namespace gracilis

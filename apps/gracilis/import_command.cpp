@@ -55,12 +55,9 @@ void set_pose(opensim::Model& model, const std::vector<std::string>& pose) {
       throw ConfigurationError({"--pose", "", fmt::format("'{}' is not of the form NAME=VALUE", setting), ""});
     const std::string name = setting.substr(0, equals);
     const Index index = opensim::index_of(model.coordinates, name);
-    if (index < 0) {
-      std::vector<std::string> names;
-      for (const opensim::Coordinate& coordinate : model.coordinates) names.push_back(coordinate.name);
-      throw ConfigurationError(
-          {"--pose", "", fmt::format("the model has no coordinate '{}'", name), suggestion(name, names)});
-    }
+    if (index < 0)
+      throw ConfigurationError({"--pose", "", fmt::format("the model has no coordinate '{}'", name),
+                                suggestion(name, opensim::names_of(model.coordinates))});
     opensim::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
     coordinate.default_value = number * (coordinate.rotation ? radians(1) : 1);
     held[static_cast<std::size_t>(index)] = true;

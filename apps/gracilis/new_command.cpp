@@ -64,11 +64,8 @@ std::vector<Problem> drafted(const FolderFiles& files, const NewOptions& options
 }
 
 void write_whole(const SceneDraft& draft, const fs::path& out) {
-  const LoadedScene loaded = write_draft(draft, out);
-  tell(draft);
-  for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
-  draw(draft, loaded.scene, fs::path(out).replace_extension(".png"));
-  fmt::print("{}\nnext: gracilis run {} --out {}\n", out.string(), shell_word(out.string()),
+  write_and_show(draft, out, fs::path(out).replace_extension(".png"));
+  fmt::print("next: gracilis run {} --out {}\n", shell_word(out.string()),
              shell_word(fs::path(out).replace_extension("").string()));
 }
 

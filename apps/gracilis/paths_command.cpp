@@ -27,12 +27,6 @@ struct PathsOptions {
   bool strict = false;
 };
 
-std::vector<std::string> names_of(const std::vector<opensim::Coordinate>& coordinates) {
-  std::vector<std::string> names;
-  for (const opensim::Coordinate& coordinate : coordinates) names.push_back(coordinate.name);
-  return names;
-}
-
 /// What tables and plots are over: the swept coordinate, in degrees or m, or else the time.
 struct PathsAxis {
   std::string name = "time", label = "time (s)";

@@ -51,12 +51,8 @@ int make_scene(const SceneCommandOptions& options) {
   for (const std::string& joint : options.joints) add_joint_landmarks(joint, draft_options);
   const SceneDraft draft = draft_scene(options.folder, draft_options);
 
-  const LoadedScene loaded = write_draft(draft, options.out);
-  tell(draft);
-  for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
-  draw(draft, loaded.scene,
-       options.picture.empty() ? fs::path(options.out).replace_extension(".png") : options.picture);
-  fmt::print("{}\n", options.out.string());
+  const fs::path beside = fs::path(options.out).replace_extension(".png");
+  write_and_show(draft, options.out, options.picture.empty() ? beside : options.picture);
   return static_cast<int>(ExitCode::done);
 }
 

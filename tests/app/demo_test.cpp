@@ -30,8 +30,8 @@ TEST(DemoCommand, takes_the_settings_that_run_takes) {
       folder.string());
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(std::filesystem::exists(shapes_file(folder, 5))) << "three degrees and two frames more";
-  EXPECT_TRUE(has_vtp_piece(shapes_file(folder, 5), "iliacus_r"));
-  EXPECT_FALSE(has_vtp_piece(shapes_file(folder, 5), "gluteus_maximus_r"));
+  EXPECT_TRUE(VtpFile(shapes_file(folder, 5)).has("iliacus_r"));
+  EXPECT_FALSE(VtpFile(shapes_file(folder, 5)).has("gluteus_maximus_r"));
   const std::string manifest = read_text(folder / "run.json");
   EXPECT_THAT(manifest, testing::HasSubstr("method = \\\"skinning\\\""));
   EXPECT_THAT(manifest, testing::HasSubstr("tendon_length = 0.01"));

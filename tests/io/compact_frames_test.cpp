@@ -147,11 +147,11 @@ TEST(CompactFrames, of_several_muscles_are_one_data_set_with_a_number_per_muscle
   const TriangleMesh one = tetrahedron(Vec3::Zero()), other = tetrahedron(Vec3(1, 2, 3));
   write_vtp_pieces(path, {{"one", one.vertices, one.faces}, {"other", other.vertices, other.faces}},
                    {{"numbers", Eigen::VectorXd(Eigen::Vector3d(1, 2, 3))}});
-  EXPECT_EQ(read_vtp_piece(path, "other").vertices, other.vertices);
-  EXPECT_EQ(read_vtp_field(path, "numbers"), (std::vector<double>{1, 2, 3}));
+  EXPECT_EQ(read_vtp_piece(VtpFile(path), "other").vertices, other.vertices);
+  EXPECT_EQ(VtpFile(path).field("numbers"), (std::vector<double>{1, 2, 3}));
   EXPECT_EQ(read_mesh(path, 1).vertex_count(), 8);
-  EXPECT_FALSE(has_vtp_piece(path, "third"));
-  EXPECT_THROW(read_vtp_piece(path, "third"), InputError);
+  EXPECT_FALSE(VtpFile(path).has("third"));
+  EXPECT_THROW(read_vtp_piece(VtpFile(path), "third"), InputError);
 }
 
 TEST(CompactFrames, a_run_of_them_is_found_unchanged_and_every_change_is_found) {

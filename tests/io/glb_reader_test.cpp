@@ -124,13 +124,17 @@ class GlbReader : public testing::Test {
 
 TriangleMesh ball() { return shapes::sphere({0, 0, 0}, 0.02, 3); }
 
+/// `tolerance` in m³.
+void expect_the_ball(const TriangleMesh& mesh, Real tolerance) {
+  EXPECT_EQ(mesh.vertex_count(), ball().vertex_count());
+  EXPECT_EQ(mesh.face_count(), ball().face_count());
+  EXPECT_NEAR(enclosed_volume(mesh.vertices, mesh.faces), enclosed_volume(ball().vertices, ball().faces), tolerance);
+}
+
 TEST_F(GlbReader, corners_at_one_place_become_one_vertex) {
   Glb glb;
   glb.add("muscle", ball());
-  const TriangleMesh mesh = read_mesh(glb.written(folder, "ball.glb"), 1);
-  EXPECT_EQ(mesh.vertex_count(), ball().vertex_count());
-  EXPECT_EQ(mesh.face_count(), ball().face_count());
-  EXPECT_NEAR(enclosed_volume(mesh.vertices, mesh.faces), enclosed_volume(ball().vertices, ball().faces), 1e-10);
+  expect_the_ball(read_mesh(glb.written(folder, "ball.glb"), 1), 1e-10);
 }
 
 TEST_F(GlbReader, a_node_places_its_mesh_and_a_mirror_keeps_it_turned_outwards) {
@@ -163,10 +167,7 @@ TEST_F(GlbReader, a_part_is_chosen_by_its_name) {
 TEST_F(GlbReader, what_draco_compressed_is_read_to_its_own_precision) {
   Glb glb;
   glb.add_draco("muscle", ball());
-  const TriangleMesh mesh = read_mesh(glb.written(folder, "draco.glb"), 1);
-  EXPECT_EQ(mesh.vertex_count(), ball().vertex_count());
-  EXPECT_EQ(mesh.face_count(), ball().face_count());
-  EXPECT_NEAR(enclosed_volume(mesh.vertices, mesh.faces), enclosed_volume(ball().vertices, ball().faces), 1e-8);
+  expect_the_ball(read_mesh(glb.written(folder, "draco.glb"), 1), 1e-8);
 }
 
 TEST_F(GlbReader, a_file_cut_short_or_changed_anywhere_is_refused_or_read_but_never_more) {

@@ -96,7 +96,7 @@ TEST(RunFolder, frame_0_tells_origins_insertions_and_bellies) {
   EXPECT_EQ(tissue.row(1), Eigen::RowVector4d(0, 0, 1, 0));
   EXPECT_EQ(tissue(2, 0), 0);
   EXPECT_EQ(tissue(2, 3), 1);  // farther away than a tendon is long
-  EXPECT_EQ(read_vtp_vectors(frame_file(folder.path(), "gluteus_maximus_r", 1), tissue_name).cols(), 0);
+  EXPECT_EQ(VtpFile(frame_file(folder.path(), "gluteus_maximus_r", 1)).vectors(tissue_name).cols(), 0);
 }
 
 TEST(RunFolder, measures_have_a_row_per_frame_and_muscle_under_named_columns) {

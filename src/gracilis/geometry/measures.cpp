@@ -18,6 +18,12 @@ Real area_at(const MeshEdge& edge, const Points& vertices, const Eigen::Matrix3X
   return area;
 }
 
+Real mean_edge_length(const std::vector<MeshEdge>& edges, const Points& vertices) {
+  Real sum = 0;
+  for (const MeshEdge& edge : edges) sum += (vertices.col(edge.a) - vertices.col(edge.b)).norm();
+  return edges.empty() ? 0 : sum / static_cast<Real>(edges.size());
+}
+
 Real enclosed_volume(const Points& vertices, const Eigen::Matrix3Xi& faces) {
   if (vertices.cols() == 0) return 0;
   const Vec3 origin = vertices.col(0);

@@ -4,6 +4,8 @@
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
+#include <vector>
+
 namespace gracilis {
 
 /// The smallest box along the axes that holds all points. Precondition: there are some.
@@ -14,6 +16,9 @@ Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners);
 
 /// Area of the triangles at an edge, m².
 Real area_at(const MeshEdge& edge, const Points& vertices, const Eigen::Matrix3Xi& faces);
+
+/// The mean length of edges, m; 0 where there are none.
+Real mean_edge_length(const std::vector<MeshEdge>& edges, const Points& vertices);
 
 /// Signed volume enclosed by a closed surface, m³, positive when oriented outwards: the sum of a·(b × c) / 6 over all
 /// faces (divergence theorem), taken about the first vertex to keep digits.

@@ -102,4 +102,11 @@ void remove_left_temporaries(const fs::path& folder, LeftBy left_by) {
   }
 }
 
+void create_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw InputError({folder.string(), "", "cannot be created: " + error.message(), "choose another place with --out"});
+}
+
 }  // namespace gracilis

@@ -16,6 +16,9 @@ void write_file_atomically(const std::filesystem::path& path,
 /// The same for a text already in memory.
 void write_text_atomically(const std::filesystem::path& path, const std::string& text);
 
+/// Makes a folder, and those above it, where they are not there. Throws InputError.
+void create_folder(const std::filesystem::path& folder);
+
 /// Throws InputError: `what` is why the file at `path` could not be written.
 [[noreturn]] void throw_write_error(const std::filesystem::path& path, const std::string& what);
 

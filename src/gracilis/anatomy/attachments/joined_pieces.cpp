@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/attachments/joined_pieces.hpp>
 
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 
@@ -12,12 +13,6 @@ namespace gracilis {
 namespace {
 
 using Bridge = std::pair<Index, Index>;
-
-Real mean_edge(const Points& x, const std::vector<MeshEdge>& edges) {
-  Real sum = 0;
-  for (const MeshEdge& edge : edges) sum += (x.col(edge.a) - x.col(edge.b)).norm();
-  return edges.empty() ? 0 : sum / static_cast<Real>(edges.size());
-}
 
 /// From each vertex of the piece to the nearest of the others, where that is about as near as any.
 std::vector<Bridge> bridges_to(const Points& x, const std::vector<Index>& piece, const std::vector<Index>& others,
@@ -70,7 +65,7 @@ MeshTopology joined_pieces(const TriangleMesh& surface, const MeshTopology& topo
     all_bodies.insert(fixed_body[v]);
   }
   if (all_bodies.empty()) return topology;
-  const Real slack = mean_edge(surface.vertices, topology.edges);
+  const Real slack = mean_edge_length(topology.edges, surface.vertices);
   std::vector<Bridge> bridges;
   for (std::size_t piece = 0; piece < vertices.size(); ++piece) {
     if (bodies[piece] == all_bodies) continue;

@@ -1,8 +1,8 @@
 #include <gracilis/anatomy/attachments/muscle_bodies.hpp>
 
 #include <gracilis/anatomy/attachments/body_carriers.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
-#include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/rotations.hpp>
 
 #include <algorithm>
@@ -15,13 +15,6 @@ namespace {
 
 /// What lies on a muscle moves with the vertices within so many mean edges of it: enough to tell how they turn.
 constexpr Real patch_edges = 3;
-
-Real mean_edge(const TriangleMesh& surface, const MeshTopology& topology) {
-  Real sum = 0;
-  for (const MeshEdge& edge : topology.edges)
-    sum += (surface.vertices.col(edge.a) - surface.vertices.col(edge.b)).norm();
-  return sum / static_cast<Real>(std::max<std::size_t>(topology.edges.size(), 1));
-}
 
 /// Vertices within `reach` of the surface's nearest points to `points`; the corners of the triangles there always.
 std::vector<Index> patch_under(const TriangleMesh& surface, const Points& points, Real reach) {
@@ -56,7 +49,8 @@ Index add_muscle_body(Scene& scene, const std::string& name, Index muscle, const
   MuscleBody result;
   result.body = static_cast<Index>(scene.bodies.size());
   result.muscle = muscle;
-  result.patch = patch_under(host.surface, points, patch_edges * mean_edge(host.surface, topology));
+  result.patch =
+      patch_under(host.surface, points, patch_edges * mean_edge_length(topology.edges, host.surface.vertices));
   const BodyCarriers carriers = body_carriers(host, topology, 0);
   result.center = host.surface.vertices(Eigen::all, result.patch).rowwise().mean();
   Eigen::VectorXd shares = carriers.weights(Eigen::all, result.patch).cast<Real>().rowwise().mean();
@@ -68,6 +62,12 @@ Index add_muscle_body(Scene& scene, const std::string& name, Index muscle, const
   scene.bodies.push_back(name);
   scene.muscle_bodies.push_back(std::move(result));
   return scene.muscle_bodies.back().body;
+}
+
+HostPlace host_place(const NearestTriangle& host, const Eigen::Matrix3Xi& faces, const Vec3& point) {
+  const NearestPoint below = host.query(point);
+  const auto corners = faces.col(below.face);
+  return {{corners[0], corners[1], corners[2]}, below.barycentric, point - below.point};
 }
 
 std::vector<std::vector<std::size_t>> hosts_first(const Scene& scene) {
@@ -95,13 +95,16 @@ std::vector<CarriedBody> carried_bodies(const Scene& scene) {
   return bodies;
 }
 
+RigidTransform motion_of(const CarriedBody& body, const Points& vertices) {
+  return rigid_motion(body.rest, vertices(Eigen::all, body.patch));
+}
+
 void place_carried_bodies(const std::vector<CarriedBody>& bodies, const std::vector<std::size_t>& muscles,
                           const std::function<const Points*(std::size_t muscle)>& shape, Pose& pose) {
   for (const CarriedBody& each : bodies) {
     const auto host = static_cast<std::size_t>(each.muscle);
     if (std::find(muscles.begin(), muscles.end(), host) == muscles.end()) continue;
-    if (const Points* now = shape(host))
-      pose.bodies[static_cast<std::size_t>(each.body)] = rigid_motion(each.rest, (*now)(Eigen::all, each.patch));
+    if (const Points* now = shape(host)) pose.bodies[static_cast<std::size_t>(each.body)] = motion_of(each, *now);
   }
 }
 

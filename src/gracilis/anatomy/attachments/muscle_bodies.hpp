@@ -1,8 +1,10 @@
 #pragma once
 
+#include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/scene/pose.hpp>
 #include <gracilis/scene/scene.hpp>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -15,6 +17,14 @@ namespace gracilis {
 /// triangles and all its attachments, and they lie on no muscle that hangs on this body.
 Index add_muscle_body(Scene& scene, const std::string& name, Index muscle, const Points& points);
 
+/// Where a point lies on a muscle or beside it.
+struct HostPlace {
+  std::array<Index, 3> corners = {};  ///< of the nearest triangle
+  Vec3 weights = Vec3::Zero();        ///< of the corners, sum 1
+  Vec3 offset = Vec3::Zero();         ///< m, from there to the point; turns with the patch
+};
+HostPlace host_place(const NearestTriangle& host, const Eigen::Matrix3Xi& faces, const Vec3& point);
+
 /// The muscles in groups: whose ends lie on no other first, then those that lie on these, and so on.
 std::vector<std::vector<std::size_t>> hosts_first(const Scene& scene);
 
@@ -26,10 +36,13 @@ struct CarriedBody {
   Points rest;  ///< of the patch
 };
 
-/// All of a scene, in the scene's numbering.
+/// All of a scene, in the scene's order and numbering: those that a muscle carries before those that its guests do.
 std::vector<CarriedBody> carried_bodies(const Scene& scene);
 
-/// Puts what these muscles carry where they are: each body by the rigid motion nearest to that of its patch. `shape`
+/// How a body has moved since rest, by the muscle's vertices: the rigid motion nearest to that of its patch.
+RigidTransform motion_of(const CarriedBody& body, const Points& vertices);
+
+/// Puts what these muscles carry where they are. `shape`
 /// gives a muscle's vertices, or null: what it carries stays where the pose says.
 void place_carried_bodies(const std::vector<CarriedBody>& bodies, const std::vector<std::size_t>& muscles,
                           const std::function<const Points*(std::size_t muscle)>& shape, Pose& pose);

@@ -247,20 +247,4 @@ Eigen::VectorXd VtpFile::scalars(const std::string& name, const std::string& pie
 
 PolygonMesh read_vtp(const std::filesystem::path& path) { return VtpFile(path).read(); }
 
-PolygonMesh read_vtp(const std::filesystem::path& path, const std::string& piece) { return VtpFile(path).read(piece); }
-
-bool has_vtp_piece(const std::filesystem::path& path, const std::string& piece) { return VtpFile(path).has(piece); }
-
-Points read_vtp_vectors(const std::filesystem::path& path, const std::string& name, const std::string& piece) {
-  return VtpFile(path).vectors(name, piece);
-}
-
-std::vector<double> read_vtp_field(const std::filesystem::path& path, const std::string& name) {
-  return VtpFile(path).field(name);
-}
-
-Eigen::VectorXd read_vtp_scalars(const std::filesystem::path& path, const std::string& name, const std::string& piece) {
-  return VtpFile(path).scalars(name, piece);
-}
-
 }  // namespace gracilis

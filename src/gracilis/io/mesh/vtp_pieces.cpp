@@ -121,10 +121,6 @@ void write_vtp_pieces(const std::filesystem::path& path, const std::vector<VtpPi
   write_text_atomically(path, text);
 }
 
-TriangleMesh read_vtp_piece(const std::filesystem::path& path, const std::string& piece) {
-  return read_vtp_piece(VtpFile(path), piece);
-}
-
 TriangleMesh read_vtp_piece(const VtpFile& file, const std::string& piece) {
   return triangulated(file.read(piece), 1, file.path());
 }

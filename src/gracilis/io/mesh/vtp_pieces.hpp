@@ -33,7 +33,6 @@ void write_vtp_pieces(const std::filesystem::path& path, const std::vector<VtpPi
 
 /// The surface of one piece with the bits that were written. Throws InputError where the file or the piece is missing
 /// or damaged.
-TriangleMesh read_vtp_piece(const std::filesystem::path& path, const std::string& piece);
 TriangleMesh read_vtp_piece(const VtpFile& file, const std::string& piece);
 /// Its lines; none where the file has no such piece.
 Polylines read_vtp_lines(const std::filesystem::path& path, const std::string& piece);

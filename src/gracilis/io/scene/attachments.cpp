@@ -240,11 +240,10 @@ Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDe
     progress_.add_problem(description.place,
                           "attachment '" + attachment.name + "' of " + muscle.name + " holds no vertex",
                           "give larger distances, or check the units and that the muscle reaches there");
-  } else if (!description.muscle.empty()) {
-    attachment.body = body_on_muscle(muscle, attachment, description);
     return attachment;
   }
-  if (description.muscle.empty()) attachment.body = body_index(progress_.loaded.scene, body_of(description));
+  attachment.body = description.muscle.empty() ? body_index(progress_.loaded.scene, body_of(description))
+                                               : body_on_muscle(muscle, attachment, description);
   return attachment;
 }
 

@@ -76,7 +76,8 @@ class StringsMethod final : public DeformationMethod {
   StepReport advance(const Pose& pose, Real) override {
     StepReport report;
     report.muscles.resize(muscles_.size());
-    std::vector<StrungState> next = states_;
+    std::vector<StrungState> next(states_.size());  // shapes follow from strings
+    for (std::size_t m = 0; m < next.size(); ++m) next[m].strings = states_[m].strings;
     follow_all(pose, next, &report);
     for (std::size_t m = 0; m < muscles_.size(); ++m)
       if (!next[m].shape.allFinite())

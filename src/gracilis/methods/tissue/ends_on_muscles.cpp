@@ -1,8 +1,5 @@
 #include <gracilis/methods/tissue/ends_on_muscles.hpp>
 
-#include <gracilis/geometry/nearest_triangle.hpp>
-#include <gracilis/geometry/rotations.hpp>
-
 #include <algorithm>
 #include <map>
 #include <numeric>
@@ -17,10 +14,7 @@ std::vector<JoinedPoint> joined_points(const PreparedTissue& guest, Index body, 
   for (std::size_t p = 0; p < guest.points.size(); ++p) {
     const SurfacePoint& point = guest.points[p];
     if (point.held_by != body) continue;
-    const NearestPoint below = host_tree.query(point.rest);
-    const auto corners = host.faces.col(below.face);
-    joined.push_back(
-        {static_cast<Index>(p), {corners[0], corners[1], corners[2]}, below.barycentric, point.rest - below.point});
+    joined.push_back({static_cast<Index>(p), host_place(host_tree, host.faces, point.rest)});
   }
   return joined;
 }
@@ -44,18 +38,15 @@ void draw(Index vertex, const Vec3& to, Real stiffness, Index by, Surroundings& 
 
 std::vector<EndOnMuscle> ends_on_muscles(const Scene& scene, const std::vector<PreparedTissue>& muscles) {
   std::vector<EndOnMuscle> ends;
-  const std::vector<CarriedBody> bodies = carried_bodies(scene);
-  for (const std::vector<std::size_t>& group : hosts_first(scene))
-    for (const CarriedBody& body : bodies) {
-      const auto host = static_cast<std::size_t>(body.muscle);
-      if (std::find(group.begin(), group.end(), host) == group.end()) continue;
-      const TriangleMesh& surface = scene.muscles[host].surface;
-      const NearestTriangle tree(surface);
-      for (std::size_t guest = 0; guest < muscles.size(); ++guest) {
-        EndOnMuscle end{guest, host, body, joined_points(muscles[guest], body.body, surface, tree)};
-        if (!end.points.empty()) ends.push_back(std::move(end));
-      }
+  for (const CarriedBody& body : carried_bodies(scene)) {
+    const auto host = static_cast<std::size_t>(body.muscle);
+    const TriangleMesh& surface = scene.muscles[host].surface;
+    const NearestTriangle tree(surface);
+    for (std::size_t guest = 0; guest < muscles.size(); ++guest) {
+      EndOnMuscle end{guest, host, body, joined_points(muscles[guest], body.body, surface, tree)};
+      if (!end.points.empty()) ends.push_back(std::move(end));
     }
+  }
   return ends;
 }
 
@@ -67,8 +58,8 @@ void prepare_joints(const std::vector<EndOnMuscle>& ends, std::vector<PreparedTi
   for (const EndOnMuscle& end : ends)
     for (const JoinedPoint& each : end.points)
       for (std::size_t k = 0; k < 3; ++k)
-        muscles[end.host].points[static_cast<std::size_t>(each.corners[k])].joined_stiffness +=
-            each.weights[static_cast<Index>(k)] * joint_stiffness(muscles[end.guest], each);
+        muscles[end.host].points[static_cast<std::size_t>(each.place.corners[k])].joined_stiffness +=
+            each.place.weights[static_cast<Index>(k)] * joint_stiffness(muscles[end.guest], each);
 }
 
 std::vector<std::vector<std::size_t>> joined_groups(const std::vector<EndOnMuscle>& ends, std::size_t muscles) {
@@ -86,13 +77,14 @@ std::vector<std::vector<std::size_t>> joined_groups(const std::vector<EndOnMuscl
 }
 
 Matrix3 turn_of_patch(const EndOnMuscle& end, const Points& host_surface) {
-  return rigid_motion(end.body.rest, host_surface(Eigen::all, end.body.patch)).linear();
+  return motion_of(end.body, host_surface).linear();
 }
 
 void hold_on_host(const EndOnMuscle& end, const Matrix3& turn, const Points& host_surface, Surroundings& of_guest) {
   for (const JoinedPoint& each : end.points) {
-    Vec3 place = turn * each.offset;
-    for (int k = 0; k < 3; ++k) place += each.weights[k] * host_surface.col(each.corners[static_cast<std::size_t>(k)]);
+    Vec3 place = turn * each.place.offset;
+    for (int k = 0; k < 3; ++k)
+      place += each.place.weights[k] * host_surface.col(each.place.corners[static_cast<std::size_t>(k)]);
     of_guest.held.col(each.point) = place;
   }
 }
@@ -102,8 +94,8 @@ void draw_host(const EndOnMuscle& end, const PreparedTissue& guest, const Points
   for (const JoinedPoint& each : end.points) {
     const Vec3 apart = guest_points.col(each.point) - of_guest.held.col(each.point);
     for (int k = 0; k < 3; ++k) {
-      const Index corner = each.corners[static_cast<std::size_t>(k)];
-      draw(corner, host_surface.col(corner) + apart, each.weights[k] * joint_stiffness(guest, each),
+      const Index corner = each.place.corners[static_cast<std::size_t>(k)];
+      draw(corner, host_surface.col(corner) + apart, each.place.weights[k] * joint_stiffness(guest, each),
            static_cast<Index>(end.guest), of_host);
     }
   }

@@ -3,7 +3,6 @@
 #include <gracilis/anatomy/attachments/muscle_bodies.hpp>
 #include <gracilis/methods/tissue/total_energy.hpp>
 
-#include <array>
 #include <vector>
 
 /// Ends of muscles that lie on other muscles, which springs join them to.
@@ -11,10 +10,8 @@ namespace gracilis::tissue {
 
 /// A point of the guest that it is held by, and its place at rest on the host.
 struct JoinedPoint {
-  Index point = 0;                    ///< of PreparedTissue::points
-  std::array<Index, 3> corners = {};  ///< of the host's triangle
-  Vec3 weights = Vec3::Zero();        ///< of the corners, sum 1
-  Vec3 offset = Vec3::Zero();         ///< m, from there to the point; turns with the host's patch
+  Index point = 0;  ///< of PreparedTissue::points
+  HostPlace place;
 };
 
 /// An end that lies on a muscle.

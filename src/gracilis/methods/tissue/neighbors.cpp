@@ -3,6 +3,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
 #include <gracilis/dynamics/contact/surface/touch_search.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 #include <algorithm>
@@ -80,13 +81,6 @@ std::vector<Real> gaps_at_rest(const std::vector<SeenVertex>& seen, Index count,
   return gaps;
 }
 
-Real mean_edge_of(const TriangleMesh& surface) {
-  Real sum = 0;
-  const std::vector<MeshEdge> edges = build_topology(surface.faces, surface.vertex_count()).edges;
-  for (const MeshEdge& edge : edges) sum += (surface.vertices.col(edge.a) - surface.vertices.col(edge.b)).norm();
-  return sum / static_cast<Real>(edges.size());
-}
-
 SelfMeeting meeting_of(const TriangleMesh& surface, Index muscle, const PlacedSurfaces& placed) {
   const auto m = static_cast<std::size_t>(muscle);
   SelfMeeting self;
@@ -95,7 +89,8 @@ SelfMeeting meeting_of(const TriangleMesh& surface, Index muscle, const PlacedSu
   self.rest_points.resize(3, self.rest.count());
   for (Index v = 0; v < self.rest.count(); ++v) self.rest_points.col(v) = self.rest.position(v);
   self.rest_normals = placed.normals[m];
-  self.neighborhood = static_cast<float>(neighborhood_edges * mean_edge_of(surface));
+  const std::vector<MeshEdge> edges = build_topology(surface.faces, surface.vertex_count()).edges;
+  self.neighborhood = static_cast<float>(neighborhood_edges * mean_edge_length(edges, surface.vertices));
   return self;
 }
 

@@ -42,9 +42,10 @@ void add_host_gradient(const Joint& joint, const JoinedTissue& guest, const Join
     const Vec3 pull =
         joint_stiffness(*guest.muscle, each) * (guest_points.col(each.point) - guest.around->held.col(each.point));
     for (std::size_t k = 0; k < 3; ++k) {
-      const EmbeddedPoint& at = host.muscle->points[static_cast<std::size_t>(each.corners[k])].at;
+      const EmbeddedPoint& at = host.muscle->points[static_cast<std::size_t>(each.place.corners[k])].at;
       for (std::size_t n = 0; n < 4; ++n)
-        gradient.col(at.nodes[n]) -= each.weights[static_cast<Index>(k)] * at.weights[static_cast<Index>(n)] * pull;
+        gradient.col(at.nodes[n]) -=
+            each.place.weights[static_cast<Index>(k)] * at.weights[static_cast<Index>(n)] * pull;
     }
   }
 }

@@ -179,9 +179,8 @@ class TissueMethod final : public DeformationMethod {
   void carry_ends(const std::vector<std::size_t>& muscles, const std::vector<MovingMuscle>& moving, Pose& pose) const {
     for (const EndOnMuscle& end : ends_) {
       if (std::find(muscles.begin(), muscles.end(), end.host) == muscles.end()) continue;
-      const Points surface = surface_at(muscles_[end.host], moving[end.host].nodes);
-      place_carried_bodies(
-          {end.body}, {end.host}, [&](std::size_t) { return &surface; }, pose);
+      pose.bodies[static_cast<std::size_t>(end.body.body)] =
+          motion_of(end.body, surface_at(muscles_[end.host], moving[end.host].nodes));
     }
   }
 

@@ -26,12 +26,8 @@ TiedSurfaces tied_surfaces(const CarriedBody& body, Index guest_number, const Pr
   tied.patch_rest = (body.rest.colwise() - Vec3(body.rest.rowwise().mean())).cast<float>();
   for (Index p = 0; p < guest.particle_count(); ++p) {
     if (guest.fixed_body[static_cast<std::size_t>(p)] != body.body) continue;
-    const NearestPoint below = host_tree.query(guest.rest.col(p));
-    const auto corners = host.faces.col(below.face);
-    tied.ties.push_back({p,
-                         {corners[0], corners[1], corners[2]},
-                         below.barycentric.cast<float>(),
-                         (guest.rest.col(p) - below.point).cast<float>()});
+    const HostPlace place = host_place(host_tree, host.faces, guest.rest.col(p));
+    tied.ties.push_back({p, place.corners, place.weights.cast<float>(), place.offset.cast<float>()});
   }
   return tied;
 }
@@ -42,18 +38,15 @@ MuscleTies prepare_ties(const Scene& scene, const std::vector<PreparedMuscle>& m
   MuscleTies ties;
   if (scene.muscle_bodies.empty()) return ties;
   ties.groups = hosts_first(scene);
-  for (const std::vector<std::size_t>& group : ties.groups)
-    for (const MuscleBody& each : scene.muscle_bodies) {
-      const auto host = static_cast<std::size_t>(each.muscle);
-      if (std::find(group.begin(), group.end(), host) == group.end()) continue;
-      ties.bodies.push_back(carried_body(each, muscles[host]));
-      const NearestTriangle tree({muscles[host].rest, muscles[host].faces});
-      for (std::size_t guest = 0; guest < muscles.size(); ++guest) {
-        TiedSurfaces tied =
-            tied_surfaces(ties.bodies.back(), static_cast<Index>(guest), muscles[guest], muscles[host], tree);
-        if (!tied.ties.empty()) ties.surfaces.push_back(std::move(tied));
-      }
+  for (const MuscleBody& each : scene.muscle_bodies) {
+    const PreparedMuscle& host = muscles[static_cast<std::size_t>(each.muscle)];
+    ties.bodies.push_back(carried_body(each, host));
+    const NearestTriangle tree({host.rest, host.faces});
+    for (std::size_t guest = 0; guest < muscles.size(); ++guest) {
+      TiedSurfaces tied = tied_surfaces(ties.bodies.back(), static_cast<Index>(guest), muscles[guest], host, tree);
+      if (!tied.ties.empty()) ties.surfaces.push_back(std::move(tied));
     }
+  }
   return ties;
 }
 

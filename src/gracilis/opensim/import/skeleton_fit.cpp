@@ -51,11 +51,7 @@ class SkeletonFit {
     throw InputError({model_.name, body, what, remedy});
   }
 
-  std::string similar(const std::string& body) const {
-    std::vector<std::string> names;
-    for (const Body& each : model_.bodies) names.push_back(each.name);
-    return suggestion(body, names);
-  }
+  std::string similar(const std::string& body) const { return suggestion(body, names_of(model_.bodies)); }
 
   FittedBody& at(Index body) { return bodies_[static_cast<std::size_t>(body)]; }
 

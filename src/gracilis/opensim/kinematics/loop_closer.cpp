@@ -13,10 +13,10 @@ LoopCloser::LoopCloser(const Model& model) : model_(model) {
   if (!model.loops.empty()) skeleton_.emplace(model);
 }
 
-std::vector<Eigen::Index> LoopCloser::free_coordinates(const std::vector<bool>& held) const {
+std::vector<Eigen::Index> free_coordinates(const Model& model, const std::vector<bool>& held) {
   std::vector<Eigen::Index> free;
-  for (std::size_t i = 0; i < model_.coordinates.size(); ++i)
-    if (!(i < held.size() && held[i]) && !model_.coordinates[i].locked && !is_dependent(model_, static_cast<Index>(i)))
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i)
+    if (!(i < held.size() && held[i]) && !model.coordinates[i].locked && !is_dependent(model, static_cast<Index>(i)))
       free.push_back(static_cast<Eigen::Index>(i));
   return free;
 }
@@ -26,6 +26,14 @@ Eigen::MatrixXd independent_loop_slopes(const Skeleton& skeleton, const Eigen::V
   for (Eigen::Index row = 0; row < slopes.rows(); ++row)
     slopes.row(row) = onto_independent(skeleton.model(), coordinates, slopes.row(row));
   return slopes;
+}
+
+/// Loops may say the same twice.
+static Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposed(const Eigen::MatrixXd& slopes) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(1e-9);
+  solver.compute(slopes);
+  return solver;
 }
 
 /// The nearest closed pose: of all steps that close the linearized loops the one that ends nearest to the start.
@@ -40,9 +48,7 @@ Real LoopCloser::close_with(Eigen::VectorXd& coordinates, const std::vector<Eige
     open = errors.lpNorm<Eigen::Infinity>();
     if (free.empty()) break;
     const Eigen::MatrixXd slopes = independent_loop_slopes(*skeleton_, coordinates)(Eigen::all, free);
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(1e-9);
-    solver.compute(slopes);
+    const auto solver = decomposed(slopes);
     const Eigen::VectorXd here = coordinates(free);
     Eigen::VectorXd step = start + solver.solve(slopes * (here - start) - errors) - here;
     const Real size = step.lpNorm<Eigen::Infinity>();
@@ -58,10 +64,10 @@ LoopClosure LoopCloser::close(Eigen::VectorXd& coordinates, const std::vector<bo
   if (!skeleton_) return {};
   const Eigen::VectorXd wished = coordinates;
   LoopClosure closure;
-  closure.open = close_with(coordinates, free_coordinates(held));
+  closure.open = close_with(coordinates, free_coordinates(model_, held));
   if (closure.open < 1e-7) return closure;
   coordinates = wished;
-  closure.open = close_with(coordinates, free_coordinates({}));
+  closure.open = close_with(coordinates, free_coordinates(model_));
   for (std::size_t i = 0; i < held.size(); ++i) {
     const Real moved = std::abs(coordinates[static_cast<Eigen::Index>(i)] - wished[static_cast<Eigen::Index>(i)]);
     if (!held[i] || moved <= closure.moved) continue;
@@ -73,16 +79,11 @@ LoopClosure LoopCloser::close(Eigen::VectorXd& coordinates, const std::vector<bo
 
 Eigen::MatrixXd free_motions(const Skeleton& skeleton, const Eigen::VectorXd& coordinates) {
   const Model& model = skeleton.model();
-  std::vector<Eigen::Index> free;
-  for (std::size_t i = 0; i < model.coordinates.size(); ++i)
-    if (!model.coordinates[i].locked && !is_dependent(model, static_cast<Index>(i)))
-      free.push_back(static_cast<Eigen::Index>(i));
+  const std::vector<Eigen::Index> free = free_coordinates(model);
   const auto count = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd motions = Eigen::MatrixXd::Identity(count, count);
   if (!model.loops.empty()) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-    solver.setThreshold(1e-9);
-    solver.compute(independent_loop_slopes(skeleton, coordinates)(Eigen::all, free));
+    const auto solver = decomposed(independent_loop_slopes(skeleton, coordinates)(Eigen::all, free));
     const Eigen::MatrixXd turned = solver.matrixZ().transpose();
     motions = solver.colsPermutation() * turned.rightCols(count - solver.rank());
   }

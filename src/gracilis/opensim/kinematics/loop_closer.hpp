@@ -6,6 +6,9 @@
 
 namespace gracilis::opensim {
 
+/// The coordinates that neither couplers nor locks set, nor those that are `held`.
+std::vector<Eigen::Index> free_coordinates(const Model& model, const std::vector<bool>& held = {});
+
 /// What became of a pose whose loops were to be closed.
 struct LoopClosure {
   Real open = 0;          ///< m or rad, the largest that stays open
@@ -27,7 +30,6 @@ class LoopCloser {
 
  private:
   Real close_with(Eigen::VectorXd& coordinates, const std::vector<Eigen::Index>& free);
-  std::vector<Eigen::Index> free_coordinates(const std::vector<bool>& held) const;
 
   const Model& model_;
   std::optional<Skeleton> skeleton_;

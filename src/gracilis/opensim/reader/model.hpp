@@ -200,6 +200,14 @@ Index index_of(const std::vector<T>& things, const std::string& name) {
   return -1;
 }
 
+/// What things are called, in their order.
+template <class T>
+std::vector<std::string> names_of(const std::vector<T>& things) {
+  std::vector<std::string> names;
+  for (const T& thing : things) names.push_back(thing.name);
+  return names;
+}
+
 /// The coordinates' default values, with dependent ones set from the couplers; loops may be open (assembled_defaults).
 Eigen::VectorXd default_coordinates(const Model& model);
 

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/text_cells.hpp>
 #include <gracilis/opensim/kinematics/loop_closer.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 #include <gracilis/opensim/static_optimization/active_forces.hpp>
@@ -24,29 +25,19 @@ struct AskedReaction {
 
 }  // namespace
 
-static std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 static Index frame_of(const Model& model, const Joint& joint, const std::string& named) {
   if (lower_case(named) == "child") return joint.child_body;
   if (lower_case(named) == "parent") return joint.parent_body;
   const std::string name = named.substr(named.rfind('/') + 1);
   const Index body = index_of(model.bodies, name);
   if (body >= 0) return body;
-  std::vector<std::string> names;
-  for (const Body& each : model.bodies) names.push_back(each.name);
   throw InputError({model.name, joint.name, fmt::format("'{}' is no body to express reactions in", named),
-                    "give child, parent, or a body's name: " + suggestion(name, names)});
+                    "give child, parent, or a body's name: " + suggestion(name, names_of(model.bodies))});
 }
 
 static std::vector<AskedReaction> asked_reactions(const Model& model, const ReactionSettings& settings) {
   std::vector<std::string> joints = settings.joints;
-  if (joints.empty() || lower_case(joints[0]) == "all") {
-    joints.clear();
-    for (const Joint& joint : model.joints) joints.push_back(joint.name);
-  }
+  if (joints.empty() || lower_case(joints[0]) == "all") joints = names_of(model.joints);
   const auto entry = [&](const std::vector<std::string>& list, std::size_t i, const char* otherwise) {
     if (list.size() == joints.size()) return list[i];
     return list.size() == 1 ? list[0] : std::string(otherwise);
@@ -54,11 +45,9 @@ static std::vector<AskedReaction> asked_reactions(const Model& model, const Reac
   std::vector<AskedReaction> asked;
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Index index = index_of(model.joints, joints[i]);
-    if (index < 0) {
-      std::vector<std::string> names;
-      for (const Joint& joint : model.joints) names.push_back(joint.name);
-      throw InputError({model.name, "", fmt::format("has no joint '{}'", joints[i]), suggestion(joints[i], names)});
-    }
+    if (index < 0)
+      throw InputError(
+          {model.name, "", fmt::format("has no joint '{}'", joints[i]), suggestion(joints[i], names_of(model.joints))});
     const Joint& joint = model.joints[static_cast<std::size_t>(index)];
     asked.push_back({&joint, lower_case(entry(settings.on, i, "child")) != "parent",
                      frame_of(model, joint, entry(settings.in, i, "ground"))});
@@ -103,9 +92,7 @@ static AppliedForces active_pulls(const Skeleton& skeleton, const ActiveForces& 
 static BodyForces loop_pulls(const Skeleton& skeleton, const Eigen::VectorXd& coordinates,
                              const Eigen::VectorXd& undone) {
   const Eigen::MatrixXd slopes = independent_loop_slopes(skeleton, coordinates);
-  std::vector<Eigen::Index> free;
-  for (std::size_t i = 0; i < skeleton.model().coordinates.size(); ++i)
-    if (!skeleton.model().coordinates[i].locked) free.push_back(static_cast<Eigen::Index>(i));
+  const std::vector<Eigen::Index> free = free_coordinates(skeleton.model());
   const Eigen::MatrixXd work = slopes(Eigen::all, free).transpose();
   return skeleton.loop_forces(work.completeOrthogonalDecomposition().solve(undone(free)));
 }

@@ -1,7 +1,7 @@
 #include <gracilis/view/export/export_surfaces.hpp>
 
-#include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 
 namespace gracilis {
@@ -9,11 +9,7 @@ namespace gracilis {
 namespace fs = std::filesystem;
 
 void export_surfaces(const RecordedRun& run, const fs::path& folder, const std::vector<int>& frames) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed)
-    throw InputError(
-        {folder.string(), "", "cannot be created: " + failed.message(), "choose another place with --out"});
+  create_folder(folder);
   std::vector<std::string> names = run.muscles;
   names.insert(names.end(), run.bones.begin(), run.bones.end());
   for (const int frame : frames)

@@ -16,13 +16,6 @@ namespace gracilis {
 
 namespace fs = std::filesystem;
 
-static void create_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw InputError({folder.string(), "", "cannot be created: " + error.message(), "choose another place with --out"});
-}
-
 static void append_object(std::string& text, const std::string& name, const TriangleMesh& mesh, Index before) {
   auto out = std::back_inserter(text);
   fmt::format_to(out, "o {0}\nusemtl {0}\n", name);
