@@ -66,7 +66,7 @@ void print(const std::string& variant, const Outcome& outcome, const Outcome& re
                outcome.names[m], outcome.triangles, outcome.milliseconds, away.mean(),
                away[static_cast<Index>(0.99 * static_cast<Real>(away.size() - 1))], away[away.size() - 1],
                measures.volume_ratio, 1000 * measures.vertex_depth_beyond_rest,
-               1000 * measures.midpoint_depth_beyond_rest, measures.hinges_over_90, measures.edge_ratio_max_free,
+               1000 * measures.midpoint_depth_beyond_rest, measures.dihedrals_over_90, measures.edge_ratio_max_free,
                hash_of(outcome.shapes[m]));
   }
   std::fflush(stdout);

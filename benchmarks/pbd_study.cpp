@@ -111,7 +111,7 @@ void costs(const Scene& scene) {
 /// The worst of all muscles in all frames looked at.
 struct Worst {
   Real volume = 0, edges = 0, free_edge = 0, angles = 0, vertex = 0, midpoint = 0;
-  Index hinges = 0, cuts = 0;
+  Index dihedrals = 0, cuts = 0;
 };
 
 void look(const Scene& scene, Measurer& measurer, const Frame& frame, Worst& worst) {
@@ -122,10 +122,10 @@ void look(const Scene& scene, Measurer& measurer, const Frame& frame, Worst& wor
     worst.edges = std::max(worst.edges, std::abs(now.edge_ratio_mean - 1));
     worst.free_edge = std::max(worst.free_edge, now.edge_ratio_max_free);
     worst.angles = std::max(worst.angles, now.dihedral_change_mean);
-    worst.hinges = std::max(worst.hinges, now.hinges_over_90);
+    worst.dihedrals = std::max(worst.dihedrals, now.dihedrals_over_90);
     worst.vertex = std::max(worst.vertex, now.vertex_depth_beyond_rest);
     worst.midpoint = std::max(worst.midpoint, now.midpoint_depth_beyond_rest);
-    worst.cuts = std::max(worst.cuts, new_self_cuts(scene.muscles[m].surface, frame.muscles[m].points));
+    worst.cuts = std::max(worst.cuts, new_self_intersections(scene.muscles[m].surface, frame.muscles[m].points));
   }
 }
 
@@ -159,14 +159,15 @@ void row(Scene scene, const std::string& name, const std::string& method, const 
   }
   fmt::print("| {} | {:.0f} ms | {:.2f} % | {:.1f} % | {:.1f} | {:.1f}° | {} | {:.2f} mm, {:.2f} mm | {} |\n", name,
              milliseconds / frames, 100 * worst.volume, 100 * worst.edges, worst.free_edge, degrees(worst.angles),
-             worst.hinges, 1000 * worst.vertex, 1000 * worst.midpoint, worst.cuts);
+             worst.dihedrals, 1000 * worst.vertex, 1000 * worst.midpoint, worst.cuts);
   std::fflush(stdout);
 }
 
 void head() {
   fmt::print(
       "\n| | time per frame, all muscles | error of volume | mean change of edges | longest free edge over rest | mean "
-      "change of angles | hinges turned by more than 90° | vertex, edge midpoint in a bone | pairs of triangles that "
+      "change of angles | dihedrals turned by more than 90° | vertex, edge midpoint in a bone | pairs of triangles "
+      "that "
       "cut each other |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
 }
 

@@ -1,7 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
 #include <gracilis/dynamics/solver/constraint_table.hpp>
-#include <gracilis/methods/xpbd/under_way.hpp>
+#include <gracilis/methods/xpbd/mid_solve_snapshot.hpp>
 
 #include "benchmark_hip.hpp"
 
@@ -37,11 +37,11 @@ struct Sweep {
   }
 };
 
-xpbd::UnderWay half_way(const Muscle& muscle) {
+xpbd::MidSolveSnapshot half_way(const Muscle& muscle) {
   constexpr int frames = 45;
   std::vector<Pose> poses;
   for (int frame = 0; frame <= frames; ++frame) poses.push_back(benchmark_hip().flexed(radians(frame)));
-  return xpbd::under_way(benchmark_hip().scene, muscle, benchmark_hip().fields, poses);
+  return xpbd::mid_solve_snapshot(benchmark_hip().scene, muscle, benchmark_hip().fields, poses);
 }
 
 /// Edges of the muscle: particles and target lengths.
@@ -50,7 +50,7 @@ struct Edges {
   std::vector<float> lengths;
 };
 
-Edges edges_of(const xpbd::UnderWay& begin) {
+Edges edges_of(const xpbd::MidSolveSnapshot& begin) {
   Edges edges;
   const DistanceSet& set = begin.muscle.system.distances;
   for (const Index slot : set.slot) {
@@ -81,11 +81,11 @@ double time_of(const Work& work) {
 
 btVector3 to_bullet(const Eigen::Vector3f& x) { return {x[0], x[1], x[2]}; }
 
-void put_back(const xpbd::UnderWay& begin, btSoftBody& body) {
+void put_back(const xpbd::MidSolveSnapshot& begin, btSoftBody& body) {
   for (int p = 0; p < body.m_nodes.size(); ++p) body.m_nodes[p].m_x = to_bullet(begin.state.particles.position(p));
 }
 
-void fill(const xpbd::UnderWay& begin, const Edges& edges, btSoftBody& body) {
+void fill(const xpbd::MidSolveSnapshot& begin, const Edges& edges, btSoftBody& body) {
   for (const auto& [a, b] : edges.ends) body.appendLink(a, b);
   body.updateConstants();
   for (int e = 0; e < body.m_links.size(); ++e) {
@@ -98,7 +98,7 @@ void fill(const xpbd::UnderWay& begin, const Edges& edges, btSoftBody& body) {
 }
 
 void compare(const Muscle& muscle) {
-  const xpbd::UnderWay begin = half_way(muscle);
+  const xpbd::MidSolveSnapshot begin = half_way(muscle);
   const Edges edges = edges_of(begin);
   const Index count = begin.state.particles.count();
   std::vector<btVector3> positions;

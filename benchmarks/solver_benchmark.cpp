@@ -1,7 +1,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/solver/bone_contact.hpp>
 #include <gracilis/dynamics/solver/constraint_table.hpp>
-#include <gracilis/methods/xpbd/under_way.hpp>
+#include <gracilis/methods/xpbd/mid_solve_snapshot.hpp>
 
 #include <gracilis/core/state_hash.hpp>
 
@@ -19,19 +19,19 @@ namespace {
 
 constexpr Real middle = radians(45);
 
-using xpbd::UnderWay;
+using xpbd::MidSolveSnapshot;
 
 /// A muscle half way through flexion.
-UnderWay half_way(const Muscle& muscle) {
+MidSolveSnapshot half_way(const Muscle& muscle) {
   constexpr int frames = 45;
   std::vector<Pose> poses;
   for (int frame = 0; frame <= frames; ++frame) poses.push_back(benchmark_hip().flexed(middle * frame / frames));
-  return xpbd::under_way(benchmark_hip().scene, muscle, benchmark_hip().fields, poses);
+  return xpbd::mid_solve_snapshot(benchmark_hip().scene, muscle, benchmark_hip().fields, poses);
 }
 
-const UnderWay& prepared(std::size_t muscle) {
-  static std::vector<std::unique_ptr<UnderWay>> all(benchmark_hip().scene.muscles.size());
-  if (!all[muscle]) all[muscle] = std::make_unique<UnderWay>(half_way(benchmark_hip().scene.muscles[muscle]));
+const MidSolveSnapshot& prepared(std::size_t muscle) {
+  static std::vector<std::unique_ptr<MidSolveSnapshot>> all(benchmark_hip().scene.muscles.size());
+  if (!all[muscle]) all[muscle] = std::make_unique<MidSolveSnapshot>(half_way(benchmark_hip().scene.muscles[muscle]));
   return *all[muscle];
 }
 
@@ -39,7 +39,7 @@ const UnderWay& prepared(std::size_t muscle) {
 constexpr int repeats = 10;
 
 void iterate(benchmark::State& timer, std::size_t index, std::optional<ConstraintKind> kind, int threads) {
-  const UnderWay& begin = prepared(index);
+  const MidSolveSnapshot& begin = prepared(index);
   const ThreadLimit limit(threads);
   SurfaceState state = begin.state;
   SurfaceSolve surface{&begin.muscle.system, &begin.placements, begin.settings, &state, {}};
@@ -66,7 +66,7 @@ void iterate(benchmark::State& timer, std::size_t index, std::optional<Constrain
 
 /// What happens once every few iterations beside them: listing what is near the bones.
 void refresh(benchmark::State& timer, std::size_t index, int threads) {
-  const UnderWay& begin = prepared(index);
+  const MidSolveSnapshot& begin = prepared(index);
   const ThreadLimit limit(threads);
   SurfaceState state = begin.state;
   for (auto _ : timer) {

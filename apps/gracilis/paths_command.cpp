@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 struct PathsOptions {
   fs::path model, motion, out;
-  std::string sweep, prefix, lengths = "way";
+  std::string sweep, prefix, lengths = "geodesic";
   bool strict = false;
 };
 
@@ -87,12 +87,13 @@ void warn_of_other_ways(const opensim::PathTables& tables, bool ways) {
   for (std::size_t i = 0; i < tables.lengths.columns.size(); ++i) {
     const Real most = apart[static_cast<Eigen::Index>(i)];
     if (most > 1e-4)
-      spdlog::warn("{}: {}, up to {:.1f} mm off {}", tables.lengths.columns[i],
-                   ways ? "lengths are those of the way around its wraps, of which the moment arms are"
-                        : "lengths are as OpenSim computes them (--lengths opensim)",
-                   1000 * most,
-                   ways ? "what OpenSim computes; --lengths opensim gives that"
-                        : "those of the way around its wraps, of which the moment arms are; --lengths way gives these");
+      spdlog::warn(
+          "{}: {}, up to {:.1f} mm off {}", tables.lengths.columns[i],
+          ways ? "lengths are those of the way around its wraps, of which the moment arms are"
+               : "lengths are as OpenSim computes them (--lengths opensim)",
+          1000 * most,
+          ways ? "what OpenSim computes; --lengths opensim gives that"
+               : "those of the way around its wraps, of which the moment arms are; --lengths geodesic gives these");
   }
 }
 
@@ -112,7 +113,7 @@ int write_paths(const PathsOptions& options) {
   for (const std::string& note : motion.notes) spdlog::warn("{}", note);
   const opensim::PathTables tables = opensim::path_tables(model, motion);
   fs::create_directories(options.out / "plots");
-  const bool sweeps = options.motion.empty(), ways = options.lengths == "way";
+  const bool sweeps = options.motion.empty(), ways = options.lengths == "geodesic";
   const PathsAxis axis =
       axis_of(model, motion, sweeps ? options.sweep.substr(0, options.sweep.find('=')) : std::string());
   const std::string start = file_name_of(options.prefix.empty() ? model.name : options.prefix);
@@ -157,9 +158,11 @@ void add_paths_command(CLI::App& program, Command& chosen) {
   command->add_option("--out", options->out, "Folder for the tables, and plots/ of them")->required();
   command->add_option("--prefix", options->prefix, "Start of the tables' names (default: the model's name)");
   command
-      ->add_option("--lengths", options->lengths,
-                   "Of the 'way' that moment arms are of, or as 'opensim' computes them (default: way)")
-      ->check(CLI::IsMember({"opensim", "way"}));
+      ->add_option(
+          "--lengths", options->lengths,
+          "'geodesic': of the way around the wraps that moment arms are of; 'opensim': as OpenSim computes them "
+          "(default: geodesic)")
+      ->check(CLI::IsMember({"geodesic", "opensim"}));
   command->add_flag("--strict", options->strict, "Fail where the model holds what is not supported (exit code 4)");
   command->callback([&chosen, options] { chosen = [options] { return write_paths(*options); }; });
 }

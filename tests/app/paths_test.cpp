@@ -61,7 +61,7 @@ TEST(PathsCommand, lengths_are_those_of_the_arms_or_opensims_own) {
   EXPECT_GT(longer, 1e-4);
   EXPECT_LT(longer, 5e-3);
   EXPECT_THAT(of_opensim, testing::HasSubstr("m: lengths are as OpenSim computes them"));
-  EXPECT_THAT(of_opensim, testing::HasSubstr("--lengths way gives these"));
+  EXPECT_THAT(of_opensim, testing::HasSubstr("--lengths geodesic gives these"));
   EXPECT_THAT(of_way,
               testing::HasSubstr("m: lengths are those of the way around its wraps, of which the moment arms are"));
   EXPECT_THAT(of_way, testing::HasSubstr("--lengths opensim gives that"));

@@ -89,7 +89,7 @@ static int check(int argc, char** argv) {
   program.add_option("--max-growth-mm", growth, "Growth of the depth of two muscles that overlap at rest");
   program.add_option("--max-bone-edges", options.gates.bone_edges, "Edges that cross a bone, beyond rest");
   program.add_option("--max-folded-share", options.gates.folded_share,
-                     "Share of hinges turned over 90 degrees; 0: none");
+                     "Share of dihedrals turned over 90 degrees; 0: none");
   program.add_option("--max-volume", options.gates.volume, "|volume ratio - 1|");
   CLI11_PARSE(program, argc, argv);
   options.gates.depth = depth / 1000, options.gates.growth = growth / 1000;

@@ -144,7 +144,7 @@ TEST(Containment, a_surface_turned_inside_out_has_the_same_inside) {
   EXPECT_NEAR(depths_inside(Vec3(0.5, 0.5, 0.9), box)[0], 0.1, 1e-12);
 }
 
-TEST(Folding, a_hinge_that_opens_and_closes_turns_by_the_angle_it_was_given) {
+TEST(Folding, a_dihedral_that_opens_and_closes_turns_by_the_angle_it_was_given) {
   for (const Real from : {-170.0, -90.0, 0.0, 100.0, 179.0}) {
     for (const Real to : {-179.0, -45.0, 0.0, 90.0, 180.0}) {
       const auto at = [](Real angle) {
@@ -152,21 +152,22 @@ TEST(Folding, a_hinge_that_opens_and_closes_turns_by_the_angle_it_was_given) {
         return shapes::mesh_of({{0, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {std::cos(a), 0.3, -std::sin(a)}},
                                {{0, 1, 2}, {1, 0, 3}});
       };
-      const std::vector<Hinge> hinges = hinges_of(at(from));
-      ASSERT_EQ(hinges.size(), 1u);
-      const Real turned = turned_by(hinge_angle(hinges[0], at(to).vertices), hinge_angle(hinges[0], at(from).vertices));
+      const std::vector<Dihedral> dihedrals = dihedrals_of(at(from));
+      ASSERT_EQ(dihedrals.size(), 1u);
+      const Real turned = turned_by(dihedral_angle_of(dihedrals[0], at(to).vertices),
+                                    dihedral_angle_of(dihedrals[0], at(from).vertices));
       const Real difference = std::abs(to - from);
       EXPECT_NEAR(degrees(turned), std::min(difference, 360 - difference), 1e-9) << from << " to " << to;
     }
   }
 }
 
-TEST(Folding, convex_hinges_are_positive) {
+TEST(Folding, convex_dihedrals_are_positive) {
   const TriangleMesh box = unit_box();
   Real sum = 0;
-  for (const Hinge& hinge : hinges_of(box)) {
-    EXPECT_GE(hinge_angle(hinge, box.vertices), -1e-12);
-    sum += hinge_angle(hinge, box.vertices);
+  for (const Dihedral& dihedral : dihedrals_of(box)) {
+    EXPECT_GE(dihedral_angle_of(dihedral, box.vertices), -1e-12);
+    sum += dihedral_angle_of(dihedral, box.vertices);
   }
   EXPECT_NEAR(sum, 12 * pi / 2, 1e-9);
 }

@@ -7,10 +7,10 @@
 namespace gracilis::contact_check {
 
 const std::vector<std::string>& measure_names() {
-  static const std::vector<std::string> names = {"face pairs beyond rest",        "self pairs beyond rest",
-                                                 "share of vertices 0.2 mm deep", "depth beyond rest, mm",
-                                                 "growth of overlap at rest, mm", "bone edges beyond rest",
-                                                 "share of hinges over 90 deg",   "volume error"};
+  static const std::vector<std::string> names = {"face pairs beyond rest",         "self pairs beyond rest",
+                                                 "share of vertices 0.2 mm deep",  "depth beyond rest, mm",
+                                                 "growth of overlap at rest, mm",  "bone edges beyond rest",
+                                                 "share of dihedrals over 90 deg", "volume error"};
   return names;
 }
 
@@ -25,7 +25,7 @@ Verdict hold_against(const Gates& gates, const Judge& judge, const FrameVerdict&
   const auto keep = [&](std::size_t measure, Real value, const std::string& where) {
     if (value > worst[measure].value) worst[measure].value = value, worst[measure].where = where;
   };
-  Index deep_vertices = 0, folded_hinges = 0;
+  Index deep_vertices = 0, folded_dihedrals = 0;
   std::string deep_where, folded_where;
   Index deep_most = 0, folded_most = 0;
   for (const PairVerdict& pair : frame.pairs) {
@@ -42,18 +42,18 @@ Verdict hold_against(const Gates& gates, const Judge& judge, const FrameVerdict&
     keep(self_pairs, muscle.self_excess(), where);
     keep(bone_edges, muscle.bone_edges, where + " + " + muscle.bone);
     keep(volume_error, std::abs(muscle.volume_ratio - 1), where);
-    folded_hinges += muscle.folded_hinges;
-    if (muscle.folded_hinges > folded_most) folded_most = muscle.folded_hinges, folded_where = where;
+    folded_dihedrals += muscle.folded_dihedrals;
+    if (muscle.folded_dihedrals > folded_most) folded_most = muscle.folded_dihedrals, folded_where = where;
   }
   keep(deep_share, static_cast<Real>(deep_vertices) / judge.vertex_count(), deep_where);
-  keep(folded_share, static_cast<Real>(folded_hinges) / judge.hinge_count(), folded_where);
+  keep(folded_share, static_cast<Real>(folded_dihedrals) / judge.dihedral_count(), folded_where);
   worst[face_pairs].missed = worst[face_pairs].value > gates.face_pairs;
   worst[self_pairs].missed = worst[self_pairs].value > gates.self_pairs;
   worst[deep_share].missed = worst[deep_share].value >= gates.deep_share && deep_vertices > 0;
   worst[depth].missed = worst[depth].value > 1000 * gates.depth;
   worst[growth].missed = worst[growth].value > 1000 * gates.growth;
   worst[bone_edges].missed = worst[bone_edges].value > gates.bone_edges;
-  worst[folded_share].missed = worst[folded_share].value >= gates.folded_share && folded_hinges > 0;
+  worst[folded_share].missed = worst[folded_share].value >= gates.folded_share && folded_dihedrals > 0;
   worst[volume_error].missed = worst[volume_error].value > gates.volume;
   return worst;
 }

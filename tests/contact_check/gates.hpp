@@ -15,7 +15,7 @@ struct Gates {
   Real depth = 1e-3;          ///< m beyond rest
   Real growth = 1e-6;         ///< m, depth of a pair of muscles beyond that pair's depth at rest, if they overlap there
   Index bone_edges = 0;       ///< with a free end, that did not cross at rest
-  Real folded_share = 0.001;  ///< of all hinges (below); 0: none at all
+  Real folded_share = 0.001;  ///< of all dihedrals (below); 0: none at all
   Real volume = 0.005;        ///< |volume ratio - 1|
 };
 

@@ -29,8 +29,8 @@ Judge::Judge(std::vector<JudgedMuscle> muscles, std::vector<JudgedBone> bones)
     const TriangleMesh& mesh = muscles_[m].rest;
     MuscleRest& rest = rest_[m];
     rest.edges = edges_of(mesh);
-    rest.hinges = hinges_of(mesh);
-    for (const Hinge& hinge : rest.hinges) rest.angles.push_back(hinge_angle(hinge, mesh.vertices));
+    rest.dihedrals = dihedrals_of(mesh);
+    for (const Dihedral& dihedral : rest.dihedrals) rest.angles.push_back(dihedral_angle_of(dihedral, mesh.vertices));
     rest.volume = enclosed_volume(mesh.vertices, mesh.faces);
     rest.self_pairs = static_cast<Index>(self_intersecting_faces(mesh).size());
     for (const JudgedBone& bone : bones_) {
@@ -57,9 +57,9 @@ Index Judge::vertex_count() const {
   return count;
 }
 
-Index Judge::hinge_count() const {
+Index Judge::dihedral_count() const {
   std::size_t count = 0;
-  for (const MuscleRest& rest : rest_) count += rest.hinges.size();
+  for (const MuscleRest& rest : rest_) count += rest.dihedrals.size();
   return static_cast<Index>(count);
 }
 
@@ -108,13 +108,14 @@ MuscleVerdict Judge::judge_muscle(std::size_t muscle, const TriangleMesh& now,
   for (const IndexPair& faces : self)
     verdict.self_at += face_center(rest_mesh, faces[0]) / static_cast<Real>(self.size());
 
-  for (std::size_t h = 0; h < rest.hinges.size(); ++h) {
-    const Hinge& hinge = rest.hinges[h];
-    if (turned_by(hinge_angle(hinge, now.vertices), rest.angles[h]) <= pi / 2 || std::isnan(rest.angles[h])) continue;
-    ++verdict.folded_hinges;
-    verdict.folded_at += (rest_mesh.vertices.col(hinge.start) + rest_mesh.vertices.col(hinge.end)) / 2;
+  for (std::size_t h = 0; h < rest.dihedrals.size(); ++h) {
+    const Dihedral& dihedral = rest.dihedrals[h];
+    if (turned_by(dihedral_angle_of(dihedral, now.vertices), rest.angles[h]) <= pi / 2 || std::isnan(rest.angles[h]))
+      continue;
+    ++verdict.folded_dihedrals;
+    verdict.folded_at += (rest_mesh.vertices.col(dihedral.start) + rest_mesh.vertices.col(dihedral.end)) / 2;
   }
-  if (verdict.folded_hinges > 0) verdict.folded_at /= static_cast<Real>(verdict.folded_hinges);
+  if (verdict.folded_dihedrals > 0) verdict.folded_at /= static_cast<Real>(verdict.folded_dihedrals);
 
   const auto free_ends = [&](Index edge) {
     const IndexPair& ends = rest.edges[static_cast<std::size_t>(edge)];

@@ -43,7 +43,7 @@ struct MuscleVerdict {
   Index bone_edges_all = 0, bone_edges_all_rest = 0;  ///< with a free end, whether they crossed at rest or not
   std::string bone;                                   ///< the bone with most of bone_edges
   Vec3 bone_at = Vec3::Zero();                        ///< mean of bone_edges' middles
-  Index folded_hinges = 0;                            ///< turned by more than 90 degrees, or without an angle
+  Index folded_dihedrals = 0;                         ///< turned by more than 90 degrees, or without an angle
   Vec3 folded_at = Vec3::Zero();
   Real volume_ratio = 1;
   Index self_excess() const { return self_pairs - self_pairs_rest; }
@@ -66,13 +66,13 @@ class Judge {
 
   const std::vector<JudgedMuscle>& muscles() const { return muscles_; }
   const std::vector<JudgedBone>& bones() const { return bones_; }
-  Index vertex_count() const;  ///< of all muscles
-  Index hinge_count() const;   ///< of all muscles
+  Index vertex_count() const;    ///< of all muscles
+  Index dihedral_count() const;  ///< of all muscles
 
  private:
   struct MuscleRest {
     Edges edges;
-    std::vector<Hinge> hinges;
+    std::vector<Dihedral> dihedrals;
     std::vector<Real> angles;
     Real volume = 0;
     Index self_pairs = 0;

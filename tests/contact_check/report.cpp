@@ -35,8 +35,9 @@ static void print_muscle(const JudgedMuscle& judged, const MuscleVerdict& muscle
         "{}, at {}\n",
         judged.name, muscle.bone_edges, muscle.bone_edges_unattached, muscle.bone_edges_all, muscle.bone_edges_all_rest,
         muscle.bone, place(muscle.bone_at));
-  if (muscle.folded_hinges != 0)
-    fmt::print("        {}: {} hinges over 90 deg at {}\n", judged.name, muscle.folded_hinges, place(muscle.folded_at));
+  if (muscle.folded_dihedrals != 0)
+    fmt::print("        {}: {} dihedrals over 90 deg at {}\n", judged.name, muscle.folded_dihedrals,
+               place(muscle.folded_at));
 }
 
 void print_rest(const Judge& judge) {
@@ -46,8 +47,8 @@ void print_rest(const Judge& judge) {
   const FrameVerdict rest = judge.judge(0, muscles, bones);
   Index faces = 0;
   for (const JudgedMuscle& muscle : judge.muscles()) faces += muscle.rest.face_count();
-  fmt::print("{} muscles, {} vertices, {} faces, {} hinges; {} bones. At rest:\n", judge.muscles().size(),
-             judge.vertex_count(), faces, judge.hinge_count(), judge.bones().size());
+  fmt::print("{} muscles, {} vertices, {} faces, {} dihedrals; {} bones. At rest:\n", judge.muscles().size(),
+             judge.vertex_count(), faces, judge.dihedral_count(), judge.bones().size());
   for (const PairVerdict& pair : rest.pairs) print_pair(judge, pair);
   for (std::size_t m = 0; m < rest.muscles.size(); ++m) {
     const JudgedMuscle& judged = judge.muscles()[m];

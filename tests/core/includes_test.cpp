@@ -178,7 +178,9 @@ TEST(Includes, upward_and_sideways_ones_would_be_found) {
   EXPECT_NE(objection("methods/xpbd/motion.cpp", "gracilis/methods/rbf/kernel.hpp"), "");
   EXPECT_NE(objection("methods/method.hpp", "gracilis/methods/xpbd/motion.hpp"), "");
   EXPECT_NE(objection("dynamics/particles.cpp", "gracilis/dynamics/solver/solver.hpp"), "");
-  EXPECT_NE(objection("dynamics/contact/self/self_cuts.cpp", "gracilis/dynamics/contact/field/field_contact.hpp"), "");
+  EXPECT_NE(
+      objection("dynamics/contact/self/self_intersections.cpp", "gracilis/dynamics/contact/field/field_contact.hpp"),
+      "");
   EXPECT_NE(objection("opensim/reader/model.hpp", "gracilis/opensim/import/scene_folder.hpp"), "");
   EXPECT_NE(objection("geometry/measures.cpp", "vtkPolyData.h"), "");
   EXPECT_NE(objection("geometry/measures.cpp", "CGAL/Surface_mesh.h"), "");

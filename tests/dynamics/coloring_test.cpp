@@ -19,7 +19,7 @@ ConstraintGraph edges_of(const TriangleMesh& mesh) {
   return graph;
 }
 
-ConstraintGraph hinges_of(const TriangleMesh& mesh) {
+ConstraintGraph dihedrals_of(const TriangleMesh& mesh) {
   ConstraintGraph graph{4, mesh.vertex_count(), {}};
   for (const MeshEdge& e : build_topology(mesh.faces, mesh.vertex_count()).edges)
     graph.particles.insert(graph.particles.end(), {e.a, e.b, e.left_apex, e.right_apex});
@@ -67,7 +67,8 @@ std::size_t degeneracy(std::vector<std::set<Index>> conflicts) {
 
 std::vector<ConstraintGraph> graphs() {
   const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 1, 2);
-  return {edges_of(ball), hinges_of(ball), edges_of(shapes::cylinder(1, 3, 12, 6)), random_graph(1), random_graph(2)};
+  return {edges_of(ball), dihedrals_of(ball), edges_of(shapes::cylinder(1, 3, 12, 6)), random_graph(1),
+          random_graph(2)};
 }
 
 }  // namespace

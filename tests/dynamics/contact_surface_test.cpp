@@ -73,18 +73,18 @@ TEST(ContactSurface, a_cube_s_corner_points_along_its_diagonal) {
   }
 }
 
-TEST(ContactSurface, a_fan_s_faces_go_around_the_particle_and_its_spokes_are_its_edges) {
+TEST(ContactSurface, the_faces_of_a_vertex_go_around_it_and_its_edges_are_listed) {
   const ContactSurface& surface = cube().surface;
   std::vector<int> seen(surface.edges.size(), 0);
   for (Index p = 0; p < 8; ++p) {
     const auto at = static_cast<std::size_t>(p);
-    for (Index i = surface.fans.offsets[at]; i < surface.fans.offsets[at + 1]; ++i) {
-      const Eigen::Vector3i corners = surface.faces.col(surface.fans.faces[static_cast<std::size_t>(i)]);
-      const Eigen::Vector3i around(p, surface.fans.ends(0, i), surface.fans.ends(1, i));
+    for (Index i = surface.vertex_faces.offsets[at]; i < surface.vertex_faces.offsets[at + 1]; ++i) {
+      const Eigen::Vector3i corners = surface.faces.col(surface.vertex_faces.faces[static_cast<std::size_t>(i)]);
+      const Eigen::Vector3i around(p, surface.vertex_faces.ends(0, i), surface.vertex_faces.ends(1, i));
       EXPECT_TRUE(around == corners || around == corners({1, 2, 0}) || around == corners({2, 0, 1}));
     }
-    for (Index i = surface.spoke_offsets[at]; i < surface.spoke_offsets[at + 1]; ++i) {
-      const Index edge = surface.spokes[static_cast<std::size_t>(i)];
+    for (Index i = surface.particle_edge_offsets[at]; i < surface.particle_edge_offsets[at + 1]; ++i) {
+      const Index edge = surface.particle_edges[static_cast<std::size_t>(i)];
       const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
       EXPECT_TRUE(ends[0] == p || ends[1] == p);
       ++seen[static_cast<std::size_t>(edge)];

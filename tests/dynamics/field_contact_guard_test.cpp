@@ -1,7 +1,7 @@
 #include <gracilis/dynamics/contact/field/field_contact.hpp>
 #include <gracilis/dynamics/contact/field/field_contact_guard.hpp>
 #include <gracilis/dynamics/contact/field/field_contact_near.hpp>
-#include <gracilis/dynamics/contact/field/field_contact_squeeze.hpp>
+#include <gracilis/dynamics/contact/field/two_obstacle_contact.hpp>
 
 #include "systems_for_tests.hpp"
 
@@ -176,7 +176,7 @@ TEST(Squeeze, a_particle_between_approaching_obstacles_moves_out_of_the_wedge) {
   for (std::size_t i = 0; i < 2; ++i) find_near(sets[i], {}, {}, placements[i], 0.006f, particles, near[i]);
   for (int iteration = 0; iteration < 12; ++iteration) {
     for (std::size_t i = 0; i < 2; ++i) project_particle_contacts(sets[i], placements[i], near[i], particles);
-    project_squeezed(sets, placements, near, particles);
+    project_two_obstacle_contact(sets, placements, near, particles);
   }
   for (std::size_t i = 0; i < 2; ++i)
     EXPECT_GE(sample(plate(), placements[i].to_obstacle(particles.position(0))).distance, gap - 2e-5f);
@@ -197,7 +197,7 @@ TEST(Squeeze, between_parallel_obstacles_a_particle_goes_to_the_middle) {
   for (std::size_t i = 0; i < 2; ++i) find_near(sets[i], {}, {}, placements[i], 0.006f, particles, near[i]);
   for (int iteration = 0; iteration < 10; ++iteration) {
     for (std::size_t i = 0; i < 2; ++i) project_particle_contacts(sets[i], placements[i], near[i], particles);
-    project_squeezed(sets, placements, near, particles);
+    project_two_obstacle_contact(sets, placements, near, particles);
   }
   EXPECT_NEAR(particles.position(0).z(), 0.0003, 5e-5);
   EXPECT_NEAR(particles.position(0).x(), 0.01, 1e-4);

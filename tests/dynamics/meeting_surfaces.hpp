@@ -1,10 +1,10 @@
 #pragma once
 
 #include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
+#include <gracilis/dynamics/contact/surface/broad_phase.hpp>
+#include <gracilis/dynamics/contact/surface/narrow_phase.hpp>
 #include <gracilis/dynamics/contact/surface/surface_contact.hpp>
-#include <gracilis/dynamics/contact/surface/surface_follow.hpp>
-#include <gracilis/dynamics/contact/surface/surface_mending.hpp>
-#include <gracilis/dynamics/contact/surface/surface_search.hpp>
+#include <gracilis/dynamics/contact/surface/untangling.hpp>
 
 #include <shapes.hpp>
 
@@ -16,17 +16,17 @@ namespace gracilis {
 
 /// Surfaces that meet, with nothing else that acts on them.
 struct Meeting {
-  SurfaceCrowd crowd;
+  ContactWorld world;
   std::vector<Particles> particles, start;
-  CrowdState state;
+  ContactWorldState state;
 
   void add(const TriangleMesh& mesh, const Eigen::VectorXd& inverse_masses) {
-    crowd.surfaces.push_back(build_contact_surface(mesh.faces, mesh.vertex_count()));
+    world.surfaces.push_back(build_contact_surface(mesh.faces, mesh.vertex_count()));
     particles.push_back(make_particles(mesh.vertices, inverse_masses));
-    crowd.rest.push_back(mesh.vertices.cast<float>());
-    crowd.rest_normals.emplace_back();
-    particle_normals(crowd.surfaces.back(), particles.back(), crowd.rest_normals.back());
-    crowd.neighborhood.push_back(0.004f);
+    world.rest.push_back(mesh.vertices.cast<float>());
+    world.rest_normals.emplace_back();
+    particle_normals(world.surfaces.back(), particles.back(), world.rest_normals.back());
+    world.neighborhood.push_back(0.004f);
   }
   void add(const TriangleMesh& mesh, Real inverse_mass = 1) {
     add(mesh, Eigen::VectorXd::Constant(mesh.vertex_count(), inverse_mass));
@@ -39,8 +39,8 @@ struct Meeting {
     pair.first = first, pair.second = second;
     pair.first_gap.assign(a, gap), pair.second_gap.assign(b, gap);
     pair.first_touches.assign(a, 0), pair.second_touches.assign(b, 0);
-    crowd.pairs.push_back(std::move(pair));
-    return crowd.pairs.back();
+    world.pairs.push_back(std::move(pair));
+    return world.pairs.back();
   }
 
   template <class Pointer>
@@ -51,11 +51,11 @@ struct Meeting {
   }
 
   void prepare() {
-    arrange_rounds(crowd);
-    state = make_crowd_state(crowd);
+    arrange_rounds(world);
+    state = make_contact_state(world);
   }
-  void find() { find_touches(crowd, pointers<const Particles*>(particles), state); }
-  void follow() { follow_touches(crowd, pointers<const Particles*>(particles), state); }
+  void find() { update_broad_phase(world, pointers<const Particles*>(particles), state); }
+  void follow() { update_narrow_phase(world, pointers<const Particles*>(particles), state); }
   void move(std::size_t surface, const Eigen::Vector3f& by) {
     for (Index p = 0; p < particles[surface].count(); ++p) particles[surface].position(p) += by;
   }
@@ -68,7 +68,7 @@ struct Meeting {
     Index pushes = 0;
     for (int i = 0; i < rounds; ++i) {
       follow();
-      pushes = project_touches(crowd, state, pointers<const Particles*>(start), pointers<Particles*>(particles));
+      pushes = project_candidates(world, state, pointers<const Particles*>(start), pointers<Particles*>(particles));
     }
     return pushes;
   }

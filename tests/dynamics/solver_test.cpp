@@ -126,7 +126,7 @@ TEST(Solver, knows_a_coordinate_that_is_not_finite) {
   EXPECT_FALSE(is_finite(state.particles));
 }
 
-TEST(Solver, limits_the_stretch_of_what_mending_moved_though_no_edge_came_near_the_limit_before) {
+TEST(Solver, limits_the_stretch_of_what_untangling_moved_though_no_edge_came_near_the_limit_before) {
   const SurfaceSystem system = system_of(shapes::sphere(Vec3::Zero(), 0.03, 3));
   const auto longest = [&](const Particles& particles) {
     float ratio = 0;
@@ -146,9 +146,9 @@ TEST(Solver, limits_the_stretch_of_what_mending_moved_though_no_edge_came_near_t
   Coupling coupling;
   coupling.refresh = [](const Movers&) {};
   coupling.project = [](const Movers&) { return Index{0}; };
-  bool is_mended = false;
-  coupling.mend = [&](Movers&) {
-    if (std::exchange(is_mended, true)) return false;
+  bool is_untangled = false;
+  coupling.untangle = [&](Movers&) {
+    if (std::exchange(is_untangled, true)) return false;
     state.particles.position(7) *= 1.5f;
     EXPECT_GT(longest(state.particles), 2);
     return true;
@@ -157,7 +157,7 @@ TEST(Solver, limits_the_stretch_of_what_mending_moved_though_no_edge_came_near_t
   EXPECT_LT(longest(state.particles), 1.01f * settings.strain_limit);
 }
 
-TEST(Solver, all_settle_with_what_was_mended_and_what_is_mended_again_settles_alone) {
+TEST(Solver, all_settle_with_what_was_untangled_and_what_is_untangled_again_settles_alone) {
   const SurfaceSystem system = system_of(shapes::sphere(Vec3::Zero(), 0.03, 3));
   std::vector<SurfaceState> states(2, make_state(system));
   const std::vector<FieldPlacement> nowhere;
@@ -165,22 +165,22 @@ TEST(Solver, all_settle_with_what_was_mended_and_what_is_mended_again_settles_al
   settings.settling_rounds = 4;
   std::vector<SurfaceSolve> both;
   for (SurfaceState& state : states) both.push_back({&system, &nowhere, settings, &state, {}});
-  int mended = 0;
+  int untangled = 0;
   Coupling coupling;
   coupling.refresh = [](const Movers&) {};
   coupling.project = [](const Movers&) { return Index{0}; };
-  coupling.mend = [&](Movers& movers) {
+  coupling.untangle = [&](Movers& movers) {
     movers.listed = {0, 1};
-    ++mended;
+    ++untangled;
     return true;
   };
   int settled[2] = {0, 0};
   solve_together(both, coupling, [&](std::size_t surface, ConstraintKind kind) {
-    if (mended > 0 && kind == ConstraintKind::volume) ++settled[surface];
+    if (untangled > 0 && kind == ConstraintKind::volume) ++settled[surface];
   });
   EXPECT_EQ(settled[0], settings.settling_rounds);
   EXPECT_EQ(settled[1], 2 * settings.settling_rounds);
-  EXPECT_EQ(mended, 2) << "what still cuts itself is left";
+  EXPECT_EQ(untangled, 2) << "what still cuts itself is left";
 }
 
 }  // namespace gracilis

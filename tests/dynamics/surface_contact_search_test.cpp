@@ -14,16 +14,16 @@ TEST(SurfaceContact, what_was_found_is_trusted_until_something_has_drifted_by_tw
   Meeting meeting = pressed_balls(-0.001);
   meeting.prepare();
   meeting.find();
-  const PairTouches& touches = meeting.state.touches[0];
-  const std::size_t found = touches.near_second.size();
+  const PairCandidates& candidates = meeting.state.candidates[0];
+  const std::size_t found = candidates.near_second.size();
   EXPECT_GT(found, 10u);
   meeting.move(1, {-0.0023f, 0, 0});
   meeting.find();
-  EXPECT_EQ(touches.near_second.size(), found);
+  EXPECT_EQ(candidates.near_second.size(), found);
   meeting.move(1, {-0.0002f, 0, 0});
   meeting.find();
-  EXPECT_GT(touches.near_second.size(), found) << "what came near is found";
-  EXPECT_EQ(touches.drift, 0);
+  EXPECT_GT(candidates.near_second.size(), found) << "what came near is found";
+  EXPECT_EQ(candidates.drift, 0);
 }
 
 TEST(SurfaceContact, drifts_there_and_back_add_up) {
@@ -34,19 +34,19 @@ TEST(SurfaceContact, drifts_there_and_back_add_up) {
     meeting.move(1, {0, way, 0});
     meeting.follow();
   }
-  EXPECT_NEAR(meeting.state.touches[0].drift, 0.0026, 1e-6);
+  EXPECT_NEAR(meeting.state.candidates[0].drift, 0.0026, 1e-6);
   meeting.find();
-  EXPECT_EQ(meeting.state.touches[0].drift, 0) << "it was searched again";
+  EXPECT_EQ(meeting.state.candidates[0].drift, 0) << "it was searched again";
 }
 
 TEST(SurfaceContact, every_update_period_th_frame_searches_everything) {
   Meeting meeting = pressed_balls(-0.001);
-  meeting.crowd.settings.update_period = 2;
+  meeting.world.settings.update_period = 2;
   meeting.prepare();
   const auto found = [&] {
-    begin_touch_frame(meeting.crowd, meeting.state);
+    begin_contact_frame(meeting.world, meeting.state);
     meeting.find();
-    return meeting.state.touches[0].near_second.size();
+    return meeting.state.candidates[0].near_second.size();
   };
   const std::size_t first = found();
   meeting.move(1, {-0.001f, 0, 0});
@@ -59,10 +59,10 @@ TEST(SurfaceContact, within_a_step_lists_stay_where_hardly_anything_moves) {
   meeting.prepare();
   meeting.find();
   meeting.follow();
-  const std::vector<PointTouch>& listed = meeting.state.touches[0].on_second;
+  const std::vector<VertexFaceCandidate>& listed = meeting.state.candidates[0].on_second;
   const auto nearest = [&] {
     float least = 1;
-    for (const PointTouch& touch : listed) least = std::min(least, touch.distance);
+    for (const VertexFaceCandidate& candidate : listed) least = std::min(least, candidate.distance);
     return least;
   };
   EXPECT_NEAR(nearest(), 0.001, 1e-4);
@@ -83,12 +83,12 @@ TEST(SurfaceContact, rounds_hold_no_surface_twice) {
   for (int i = 0; i < 4; ++i) meeting.add(shapes::sphere({0.1 * i, 0, 0}, 0.01, 2));
   for (Index a = 0; a < 4; ++a)
     for (Index b = a; b < 4; ++b) meeting.pair(a, b, 0);
-  arrange_rounds(meeting.crowd);
+  arrange_rounds(meeting.world);
   std::size_t listed = 0;
-  for (const std::vector<Index>& round : meeting.crowd.rounds) {
+  for (const std::vector<Index>& round : meeting.world.rounds) {
     std::vector<int> used(4, 0);
     for (Index i : round) {
-      const SurfacePair& pair = meeting.crowd.pairs[static_cast<std::size_t>(i)];
+      const SurfacePair& pair = meeting.world.pairs[static_cast<std::size_t>(i)];
       ++used[static_cast<std::size_t>(pair.first)];
       if (!pair.is_self()) ++used[static_cast<std::size_t>(pair.second)];
       ++listed;

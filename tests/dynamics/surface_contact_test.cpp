@@ -78,8 +78,8 @@ TEST(SurfaceContact, a_mover_gives_way_alone_to_what_stays) {
   meeting.start = meeting.particles;
   meeting.find();
   meeting.follow();
-  EXPECT_GT(project_touches(meeting.crowd, meeting.state, meeting.pointers<const Particles*>(meeting.start),
-                            meeting.pointers<Particles*>(meeting.particles), {{1, 0}}),
+  EXPECT_GT(project_candidates(meeting.world, meeting.state, meeting.pointers<const Particles*>(meeting.start),
+                               meeting.pointers<Particles*>(meeting.particles), {{1, 0}}),
             0);
   EXPECT_GT(largest_motion(meeting.start[0], meeting.particles[0]), 0);
   EXPECT_EQ(largest_motion(meeting.start[1], meeting.particles[1]), 0);
@@ -141,8 +141,8 @@ TEST(SurfaceContact, lets_go_of_what_is_torn_from_its_neighbors_until_the_step_e
 
 TEST(SurfaceContact, an_overlap_that_is_allowed_stays) {
   Meeting meeting = pressed_balls(0.001);
-  meeting.crowd.pairs[0].first_gap.assign(meeting.crowd.pairs[0].first_gap.size(), -0.0011f);
-  meeting.crowd.pairs[0].second_gap.assign(meeting.crowd.pairs[0].second_gap.size(), -0.0011f);
+  meeting.world.pairs[0].first_gap.assign(meeting.world.pairs[0].first_gap.size(), -0.0011f);
+  meeting.world.pairs[0].second_gap.assign(meeting.world.pairs[0].second_gap.size(), -0.0011f);
   EXPECT_EQ(meeting.solve(3), 0);
 }
 
@@ -152,7 +152,7 @@ TEST(SurfaceContact, friction_holds_back_what_slides_and_nothing_else_does) {
     meeting.add(shapes::box({-0.02, -0.02, -0.02}, {0.02, 0.02, 0}), 0);
     meeting.add(shapes::sphere({0, 0, 0.0099}, 0.01, 4));
     meeting.pair(0, 1, 0.0002f);
-    meeting.crowd.settings.friction = friction;
+    meeting.world.settings.friction = friction;
     meeting.start = meeting.particles;
     for (Index p = 0; p < meeting.start[1].count(); ++p) meeting.start[1].position(p).x() -= 0.0001f;
     Index lowest = 0;
@@ -179,7 +179,7 @@ TEST(SurfaceContact, cohesion_holds_together_what_touched_and_lets_it_slide) {
     for (Index p = 0; p < meeting.particles[1].count(); ++p)
       if (meeting.particles[1].position(p).z() < meeting.particles[1].position(lowest).z()) lowest = p;
     pair.second_touches[static_cast<std::size_t>(lowest)] = touched;
-    meeting.crowd.settings.cohesion = cohesion;
+    meeting.world.settings.cohesion = cohesion;
     meeting.solve(30);
     EXPECT_NEAR(meeting.particles[1].position(lowest).x(), 0.003f, 1e-6f);
     return meeting.particles[1].position(lowest).z();

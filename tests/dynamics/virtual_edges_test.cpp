@@ -23,12 +23,12 @@ using Eigen::Vector3f;
 
 /// Surfaces that keep out of each other by virtual edges, with nothing else that acts on them.
 struct EdgeMeeting {
-  VirtualEdgeCrowd crowd;
+  VirtualEdgeWorld world;
   VirtualEdgeState state;
   std::vector<Particles> particles;
 
   void add(const TriangleMesh& mesh, const Eigen::VectorXd& inverse_masses) {
-    crowd.stars.push_back(build_topology(mesh.faces, mesh.vertex_count()).stars);
+    world.stars.push_back(build_topology(mesh.faces, mesh.vertex_count()).stars);
     particles.push_back(make_particles(mesh.vertices, inverse_masses));
   }
   void add(const TriangleMesh& mesh) { add(mesh, Eigen::VectorXd::Ones(mesh.vertex_count())); }
@@ -38,11 +38,11 @@ struct EdgeMeeting {
     std::vector<std::array<Index, 2>> pairs;
     for (Index first = 0; first < static_cast<Index>(particles.size()); ++first)
       for (Index second = first + 1; second < static_cast<Index>(particles.size()); ++second) {
-        crowd.pairs.push_back({first, second});
+        world.pairs.push_back({first, second});
         pairs.push_back({first, second});
       }
-    crowd.rounds = rounds_of(pairs);
-    state = make_virtual_edge_state(crowd);
+    world.rounds = rounds_of(pairs);
+    state = make_virtual_edge_state(world);
   }
 
   template <class Pointer>
@@ -54,13 +54,13 @@ struct EdgeMeeting {
 
   /// Moves a surface as one, as a prediction does, and projects so many times.
   Index frame(std::size_t moved, const Vector3f& by, int iterations) {
-    begin_edge_frame(crowd, pointers<const Particles*>(), state);
+    begin_edge_frame(world, pointers<const Particles*>(), state);
     remember_positions(pointers<const Particles*>(), state);
     for (Index p = 0; p < particles[moved].count(); ++p) particles[moved].position(p) += by;
-    adapt_distances(crowd, pointers<const Particles*>(), state);
+    adapt_distances(world, pointers<const Particles*>(), state);
     Index pushes = 0;
-    for (int i = 0; i < iterations; ++i) pushes = project_virtual_edges(crowd, pointers<Particles*>(), state);
-    end_edge_frame(crowd, state);
+    for (int i = 0; i < iterations; ++i) pushes = project_virtual_edges(world, pointers<Particles*>(), state);
+    end_edge_frame(world, state);
     return pushes;
   }
 };
@@ -90,11 +90,11 @@ Real nearest_vertices(const Particles& first, const Particles& second) {
 /// Seven edges, of which three end on (1, 1) and two on (2, 2).
 EdgeMeeting with_coinciding_edges(CoincidingEdgeRule rule) {
   EdgeMeeting meeting = two_balls();
-  meeting.crowd.settings.coinciding = rule;
+  meeting.world.settings.coinciding = rule;
   PairEdges& pair = meeting.state.pairs[0];
   const Index ends[] = {1, 2, 1, 3, 2, 1, 4};
   for (Index i = 0; i < 7; ++i) pair.edges.push_back({{10 + i, 20 + i}, {ends[i], ends[i]}, 0});
-  end_edge_frame(meeting.crowd, meeting.state);
+  end_edge_frame(meeting.world, meeting.state);
   return meeting;
 }
 
@@ -102,7 +102,7 @@ EdgeMeeting with_coinciding_edges(CoincidingEdgeRule rule) {
 
 TEST(VirtualEdgeSeeds, lead_from_every_particle_within_reach_to_the_nearest_of_the_other_surface) {
   EdgeMeeting meeting = two_balls();
-  meeting.crowd.settings.reach = 0.005f;
+  meeting.world.settings.reach = 0.005f;
   meeting.frame(0, Vector3f::Zero(), 0);
   const Particles &first = meeting.particles[0], &second = meeting.particles[1];
   std::set<Index> seeded;
@@ -133,10 +133,10 @@ TEST(VirtualEdgeSeeds, are_taken_anew_after_the_period_and_not_before) {
   EXPECT_EQ(meeting.state.pairs[0].edges.size(), all);
 }
 
-TEST(VirtualEdgeCrowd, two_balls_that_move_into_each_other_are_parted_to_the_contact_distance) {
+TEST(VirtualEdgeWorld, two_balls_that_move_into_each_other_are_parted_to_the_contact_distance) {
   for (const auto resolution : {EdgeResolution::push, EdgeResolution::unit_sum, EdgeResolution::vector_sum}) {
     EdgeMeeting meeting = two_balls();
-    meeting.crowd.settings.resolution = resolution;
+    meeting.world.settings.resolution = resolution;
     Vec3 momentum = Vec3::Zero();
     const auto add_momentum = [&](Real sign) {
       for (const Particles& each : meeting.particles)
@@ -154,18 +154,18 @@ TEST(VirtualEdgeCrowd, two_balls_that_move_into_each_other_are_parted_to_the_con
   }
 }
 
-TEST(VirtualEdgeCrowd, balls_farther_than_the_contact_distance_are_left_alone) {
+TEST(VirtualEdgeWorld, balls_farther_than_the_contact_distance_are_left_alone) {
   EdgeMeeting meeting = two_balls();
-  meeting.crowd.settings.distance = 0.9f * mm;
+  meeting.world.settings.distance = 0.9f * mm;
   const std::vector<Particles> before = meeting.particles;
   EXPECT_EQ(meeting.frame(0, Vector3f::Zero(), 5), 0);
   EXPECT_EQ(meeting.particles[0].xyzw, before[0].xyzw);
 }
 
-TEST(VirtualEdgeCrowd, an_adaptive_contact_distance_is_what_the_ends_came_nearer) {
+TEST(VirtualEdgeWorld, an_adaptive_contact_distance_is_what_the_ends_came_nearer) {
   EdgeMeeting meeting = two_balls();
-  meeting.crowd.settings.adaptive = true;
-  meeting.crowd.settings.distance = 0.1f * mm;
+  meeting.world.settings.adaptive = true;
+  meeting.world.settings.distance = 0.1f * mm;
   meeting.frame(0, {0.5f * mm, 0, 0}, 0);
   for (const PairEdges::Edge& edge : meeting.state.pairs[0].edges) {
     EXPECT_GE(edge.distance, 0.1f * mm);
@@ -178,22 +178,22 @@ TEST(VirtualEdgeCrowd, an_adaptive_contact_distance_is_what_the_ends_came_nearer
   for (const PairEdges::Edge& edge : meeting.state.pairs[0].edges) EXPECT_FLOAT_EQ(edge.distance, 0.1f * mm);
 }
 
-TEST(VirtualEdgeCrowd, edges_stay_where_they_ended_or_begin_at_their_seeds_in_every_iteration) {
+TEST(VirtualEdgeWorld, edges_stay_where_they_ended_or_begin_at_their_seeds_in_every_iteration) {
   for (const bool reset : {false, true}) {
     EdgeMeeting meeting;
     meeting.add(straight_strip(31)), meeting.add(tetrahedron({0.03, 0, 0.001}));
     meeting.start();
-    meeting.crowd.settings.reset = reset;
-    meeting.crowd.settings.walk_steps = 5;
-    meeting.crowd.settings.distance = 0.5f * mm;
-    meeting.crowd.settings.reach = 0.1f;
+    meeting.world.settings.reset = reset;
+    meeting.world.settings.walk_steps = 5;
+    meeting.world.settings.distance = 0.5f * mm;
+    meeting.world.settings.reach = 0.1f;
     meeting.frame(0, Vector3f::Zero(), 3);
     ASSERT_EQ(meeting.state.pairs[0].edges.front().seed, (VirtualEdge{0, 0}));
     EXPECT_EQ(meeting.state.pairs[0].edges.front().now.a, reset ? 10 : 30) << "columns 5 and 15";
   }
 }
 
-TEST(VirtualEdgeCrowd, has_the_same_bits_for_any_number_of_threads) {
+TEST(VirtualEdgeWorld, has_the_same_bits_for_any_number_of_threads) {
   for (const auto rule : {CoincidingEdgeRule::keep, CoincidingEdgeRule::reseed}) {
     std::set<std::uint64_t> hashes;
     for (const int threads : {1, 2, 2}) {
@@ -202,7 +202,7 @@ TEST(VirtualEdgeCrowd, has_the_same_bits_for_any_number_of_threads) {
       for (const Real x : {0.0, 0.0195})
         for (const Real y : {0.0, 0.0195}) meeting.add(shapes::sphere({x, y, 0.1 * x + 0.05 * y}, 0.01, 3));
       meeting.start();
-      meeting.crowd.settings.coinciding = rule;
+      meeting.world.settings.coinciding = rule;
       Index pushes = 0;
       for (int frame = 0; frame < 7; ++frame) pushes += meeting.frame(0, {0.3f * mm, 0.3f * mm, 0}, 5);
       EXPECT_GT(pushes, 20);

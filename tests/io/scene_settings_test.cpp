@@ -95,7 +95,7 @@ name = "variant"
 iterations = 6
 [[muscles]]
 name = "muscle"
-settings.hinge_limit = 0.1
+settings.dihedral_limit = 0.1
 [motion]
 coordinates = ["flexion"]
 key_poses_deg = [[1]]
@@ -104,7 +104,7 @@ key_poses_deg = [[1]]
   ASSERT_EQ(loaded.scene.muscles.size(), 1u);
   EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).iterations, 6);
   EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).density, 1000);
-  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).hinge_limit, 0.1);
+  EXPECT_EQ(xpbd_settings(loaded.scene, loaded.scene.muscles[0]).dihedral_limit, 0.1);
   EXPECT_EQ(loaded.scene.motion.times.size(), 1u);
   EXPECT_EQ(loaded.inputs[1].filename(), "base.toml");
 }

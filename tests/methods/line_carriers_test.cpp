@@ -44,7 +44,7 @@ TEST(LineCarriers, sections_carry_the_surface_along_the_line) {
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], {});
   ASSERT_TRUE(prepared.line);
   const Pose pose = pose_at(scene, std::vector<Real>{1.2});
-  const Points carried = xpbd::carried_rest(prepared, pose, {}).colwise() + prepared.origin;
+  const Points carried = xpbd::skinned_rest(prepared, pose, {}).colwise() + prepared.origin;
   const PlacedSections sections = sections_at(*prepared.line, pose);
   Points middles = Points::Zero(3, 17);
   for (Index p = 0; p < carried.cols(); ++p)
@@ -60,7 +60,7 @@ TEST(LineCarriers, finer_and_coarser_copies_follow_the_nearest_sections) {
   for (const Muscle& copy : {finer_muscle(scene.muscles[0]), coarser_muscle(scene.muscles[0], 0.02).muscle}) {
     ASSERT_NE(copy.surface.vertex_count(), scene.muscles[0].surface.vertex_count());
     const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, copy, {});
-    const Points carried = xpbd::carried_rest(prepared, pose, {}).colwise() + prepared.origin;
+    const Points carried = xpbd::skinned_rest(prepared, pose, {}).colwise() + prepared.origin;
     for (Index p = 0; p < carried.cols(); ++p) {
       const Vec3 off = carried.col(p) - from;
       EXPECT_LT((off - off.dot(along) * along).norm(), 0.02) << p;  // the radius is 0.01

@@ -262,8 +262,8 @@ TEST(MassSpring, a_muscle_without_both_ends_follows_its_bodies_and_one_without_a
 }
 
 TEST(MassSpring, only_a_limit_of_time_watches_the_clock) {
-  EXPECT_FALSE(method_of_scene(mass_spring_scene())->watches_clock());
-  EXPECT_TRUE(method_of_scene(mass_spring_scene({{"stop_milliseconds", 5.0}}))->watches_clock());
+  EXPECT_FALSE(method_of_scene(mass_spring_scene())->depends_on_clock());
+  EXPECT_TRUE(method_of_scene(mass_spring_scene({{"stop_milliseconds", 5.0}}))->depends_on_clock());
 }
 
 TEST(MassSpring, a_least_step_above_the_largest_is_a_problem) {

@@ -13,9 +13,9 @@ using namespace gracilis;
 /// Everything that one frame, half a degree further, tells.
 static std::vector<SolverPass> passes_of_a_frame(DeformationMethod& method, const Scene& scene, StepReport& report) {
   std::vector<SolverPass> passes;
-  method.pass_tracing()->watch_passes([&](const SolverPass& pass) { passes.push_back(pass); });
+  method.pass_tracing()->trace_passes([&](const SolverPass& pass) { passes.push_back(pass); });
   report = method.advance(flexed(scene, radians(0.5)), usual_time_step);
-  method.pass_tracing()->watch_passes({});
+  method.pass_tracing()->trace_passes({});
   return passes;
 }
 
@@ -53,7 +53,7 @@ TEST(SolverPasses, are_watched_without_changing_anything) {
   const Scene scene = tube_scene();
   const auto watched = xpbd_on_tube(scene), alone = xpbd_on_tube(scene);
   int told = 0;
-  watched->pass_tracing()->watch_passes([&](const SolverPass&) { ++told; });
+  watched->pass_tracing()->trace_passes([&](const SolverPass&) { ++told; });
   for (int degree = 1; degree <= 10; ++degree) {
     const Pose pose = flexed(scene, radians(degree));
     watched->advance(pose, usual_time_step);
@@ -67,8 +67,8 @@ TEST(SolverPasses, are_told_to_nobody_who_has_stopped_watching) {
   const Scene scene = tube_scene();
   const auto method = xpbd_on_tube(scene);
   int told = 0;
-  method->pass_tracing()->watch_passes([&](const SolverPass&) { ++told; });
-  method->pass_tracing()->watch_passes({});
+  method->pass_tracing()->trace_passes([&](const SolverPass&) { ++told; });
+  method->pass_tracing()->trace_passes({});
   method->advance(flexed(scene, radians(1)), usual_time_step);
   EXPECT_EQ(told, 0);
 }

@@ -87,7 +87,7 @@ TEST(Pbd, the_gradient_of_volume_is_that_of_finite_differences) {
     }
 }
 
-TEST(Pbd, a_flat_and_a_folded_hinge_have_an_angle_and_no_gradient) {
+TEST(Pbd, a_flat_and_a_folded_dihedral_have_an_angle_and_no_gradient) {
   const Vec3 a(0, 0, 0), b(1, 0, 0), c(0.5, 1, 0), across(0.5, -1, 0), onto(0.5, 1, 0);
   EXPECT_NEAR(arccos_angle(a, b, c, across), pi, 1e-12);
   EXPECT_NEAR(arccos_angle(a, b, c, onto), 0, 1e-12);

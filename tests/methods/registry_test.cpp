@@ -118,7 +118,7 @@ TEST(Presets, the_published_preset_switches_off_what_this_project_added) {
   EXPECT_TRUE(settings.unit_masses);
   EXPECT_EQ(settings.predictor, Predictor::none);
   EXPECT_FALSE(settings.edge_contact || settings.slack_uptake);
-  EXPECT_EQ(settings.hinge_limit, 0);
+  EXPECT_EQ(settings.dihedral_limit, 0);
   EXPECT_EQ(preset->distance_fields.resolution, 128);
   EXPECT_EQ(with_values(ContactSettings{}, preset->method.contact).muscle, MuscleContact::virtual_edges);
   const VirtualEdgeSettings edges = with_values(VirtualEdgeSettings{}, preset->method.contact);

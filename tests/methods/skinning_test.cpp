@@ -22,7 +22,7 @@ TEST(Skinning, is_where_the_predictor_of_xpbd_puts_a_muscle_that_bodies_carry) {
   const Scene scene = tube_scene(settings);
   const Pose pose = flexed(scene, radians(60));
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
-  const Points carried = xpbd::carried_rest(prepared, pose, xpbd::make_muscle_state(prepared, scene.bodies.size()));
+  const Points carried = xpbd::skinned_rest(prepared, pose, xpbd::make_muscle_state(prepared, scene.bodies.size()));
   const Points points = skinned(scene, pose);
   EXPECT_GT((points - scene.muscles[0].surface.vertices).colwise().norm().maxCoeff(), 0.05) << "nothing moved";
   for (Index p = 0; p < static_cast<Index>(carried.cols()); ++p)

@@ -92,7 +92,7 @@ TEST(XpbdMotion, a_stretched_muscle_aims_at_a_longer_and_thinner_shape_of_its_ow
   Pose farther = flexed(scene, 0);
   farther.bodies[1].translation().z() -= 0.5 * 0.144;
   const Points& rest = prepared.rest;
-  const Real volume = enclosed_volume(xpbd::carried_rest(prepared, farther, {}), prepared.faces) /
+  const Real volume = enclosed_volume(xpbd::skinned_rest(prepared, farther, {}), prepared.faces) /
                       enclosed_volume(rest, prepared.faces);
   EXPECT_NEAR(volume, 1 + 0.5 * 0.144 / 0.16, 1e-6);
   Index along = 0, across = 0;
@@ -118,7 +118,7 @@ TEST(XpbdMotion,
   const Real kept = 1 - prepared.settings.shape_recovery, displacement = 0.004;
   const auto left = [&](Real from, Real to, bool active) {
     const auto carried = [&](Real angle) -> Points {
-      return xpbd::carried_rest(prepared, flexed(scene, radians(angle)), {});
+      return xpbd::skinned_rest(prepared, flexed(scene, radians(angle)), {});
     };
     xpbd::MuscleState state = xpbd::make_muscle_state(prepared, scene.bodies.size());
     Particles& particles = state.particles;
@@ -126,7 +126,7 @@ TEST(XpbdMotion,
     for (Index p = 0; p < particles.count(); ++p)
       if (prepared.fixed_body[static_cast<std::size_t>(p)] < 0)
         particles.position(p) = (before.col(p) + Vec3(displacement, 0, 0)).cast<float>();
-    xpbd::carry_free(prepared, flexed(scene, radians(from)), flexed(scene, radians(to)), active, state);
+    xpbd::skin_free(prepared, flexed(scene, radians(from)), flexed(scene, radians(to)), active, state);
     Real largest = 0;
     for (Index p = 0; p < particles.count(); ++p)
       if (prepared.fixed_body[static_cast<std::size_t>(p)] < 0)

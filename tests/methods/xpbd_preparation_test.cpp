@@ -32,11 +32,11 @@ TEST(XpbdPreparation, carrier_shares_sum_to_one_and_are_whole_at_attachments) {
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
   ASSERT_EQ(prepared.carriers, (std::vector<Index>{0, 1}));
   for (Index p = 0; p < prepared.rest.cols(); ++p) {
-    EXPECT_NEAR(prepared.carrier_shares.col(p).sum(), 1, 1e-5);
-    EXPECT_GE(prepared.carrier_shares.col(p).minCoeff(), -1e-5);
+    EXPECT_NEAR(prepared.skinning_weights.col(p).sum(), 1, 1e-5);
+    EXPECT_GE(prepared.skinning_weights.col(p).minCoeff(), -1e-5);
     const Index body = prepared.fixed_body[static_cast<std::size_t>(p)];
     if (body >= 0) {
-      EXPECT_NEAR(prepared.carrier_shares(body, p), 1, 1e-6);
+      EXPECT_NEAR(prepared.skinning_weights(body, p), 1, 1e-6);
     }
   }
 }

@@ -22,7 +22,7 @@ struct HipMotion {
   Vec3 end = Vec3::Zero();          ///< where the built-in hip goes to: flexion, adduction, rotation in degrees
   int judge_every = 1;              ///< frames
   std::vector<Real> steps = {1};    ///< degrees per frame, a run for each
-  bool may_fold = true;             ///< fewer than a thousandth of all hinges; otherwise none
+  bool may_fold = true;             ///< fewer than a thousandth of all dihedrals; otherwise none
   Index own_cuts = 0;   ///< pairs of faces of one muscle, for needles in the data and crumples at the limits
   Index bone_cuts = 0;  ///< edges in a bone, for the same
 };
@@ -101,7 +101,7 @@ TEST_P(HipInMotion, overlap_at_rest_does_not_deepen) { expect_held(contact_check
 
 TEST_P(HipInMotion, no_edge_crosses_a_bone) { expect_held(contact_check::bone_edges); }
 
-TEST_P(HipInMotion, hinges_do_not_fold) { expect_held(contact_check::folded_share); }
+TEST_P(HipInMotion, dihedrals_do_not_fold) { expect_held(contact_check::folded_share); }
 
 TEST_P(HipInMotion, volume_is_kept) { expect_held(contact_check::volume_error); }
 

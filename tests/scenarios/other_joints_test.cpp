@@ -1,6 +1,6 @@
 // Joints unlike the hip and the elbow that the default method was made for: tendons that turn around an ankle, muscles
-// around a radius that turns beside its ulna, a sheet over the head of a humerus. Shapes are rough, made of swept
-// balls.
+// around a radius that turns beside its ulna, a sheet over the head of a humerus, straps along a spine of six joints.
+// Shapes are rough, made of swept balls.
 #include "scenario_runs.hpp"
 
 #include <gracilis/anatomy/builtin/builtin_parts.hpp>
@@ -188,6 +188,59 @@ Scene shoulder(Real last) {
   return scene_of("shoulder", std::move(bones), muscles, {-2, 1402, 174}, -x, last);
 }
 
+/// A trunk: five vertebrae between a pelvis and a thorax that stand on each other, each bent by its share of the same
+/// motion. x forward, y up. `side` 1 bends it backward, -1 forward.
+Scene trunk(Real side, Real last) {
+  Skeleton bones;
+  add_bone(bones, "sacrum", 0, thick_curve({thick(-30, -60, 0, 14), thick(-18, -20, 0, 20), thick(-6, 8, 0, 20)}));
+  add_bone(bones, "pubis", 0, thick_curve({thick(40, -88, 12, 9), thick(55, -95, 0, 10), thick(40, -88, -12, 9)}));
+  constexpr int vertebrae = 5;
+  constexpr Real height = 34, lowest = 38;
+  Scene scene;
+  scene.bodies = {"pelvis"};
+  for (int i = 0; i <= vertebrae; ++i) {
+    const Real middle = lowest + i * height;
+    const std::string body = i < vertebrae ? "l" + std::to_string(vertebrae - i) : "thorax";
+    scene.bodies.push_back(body);
+    Joint joint{body, i, i + 1, RigidTransform(Eigen::Translation3d(-0.004, 1e-3 * (middle - height / 2), 0)), {}};
+    joint.axes = {{"bend_" + body, side * Vec3::UnitZ(), 0, 0, last}};
+    scene.joints.push_back(joint);
+    if (i == vertebrae) break;
+    add_bone(bones, body, i + 1, thick_curve({thick(0, middle - 4, 0, 20), thick(0, middle + 4, 0, 20)}));
+    add_bone(bones, body + "_spine", i + 1, thick_curve({thick(-20, middle, 0, 8), thick(-50, middle - 6, 0, 6)}));
+  }
+  const Index thorax = vertebrae + 1;
+  add_bone(bones, "spine", thorax, thick_curve({thick(0, 212, 0, 20), thick(-14, 300, 0, 20), thick(-16, 360, 0, 20)}));
+  add_bone(bones, "ribs", thorax,
+           thick_curve({thick(-45, 300, 0, 10), thick(-60, 292, 45, 6), thick(-30, 262, 110, 6), thick(60, 215, 105, 6),
+                        thick(104, 230, 30, 7), thick(108, 240, 0, 9)}));
+  const Vec3 z = Vec3::UnitZ();
+  const std::vector<MusclePlan> muscles = {muscle("erector_spinae", z,
+                                                  {{-42, -34, 10, 9, 6},
+                                                   {-50, 10, 22, 14, 11},
+                                                   {-50, 80, 24, 16, 13},
+                                                   {-50, 150, 26, 16, 13},
+                                                   {-56, 220, 28, 15, 9},
+                                                   {-64, 268, 33, 13, 6},
+                                                   {-66, 297, 38, 9, 4}},
+                                                  {0, 0.12}, {thorax, 0.1}),
+                                           muscle("rectus_abdominis", z,
+                                                  {{112, 222, 16, 16, 4},
+                                                   {126, 170, 22, 24, 6},
+                                                   {128, 90, 20, 24, 7},
+                                                   {115, 20, 16, 20, 7},
+                                                   {90, -50, 12, 12, 6},
+                                                   {63, -92, 8, 7, 4}},
+                                                  {thorax, 0.06}, {0, 0.06})};
+  scene.name = "trunk";
+  scene.muscles = make_muscles(muscles, bones, {});
+  scene.bones = std::move(bones.bones);
+  const Motion of_one = builtin_shapes::ramp_from_zero("trunk", "", last, last / 10, 1.0 / 60);
+  scene.motion = {"trunk", {}, of_one.times, of_one.values.replicate(1, vertebrae + 1)};
+  for (const Joint& joint : scene.joints) scene.motion.coordinates.push_back(joint.axes.front().coordinate);
+  return scene;
+}
+
 void expect_gates_of(const Scene& scene) {
   for (const Muscle& each : scene.muscles)
     for (const Attachment& attachment : each.attachments)
@@ -205,6 +258,11 @@ TEST(OtherJoints, tendons_turn_around_an_ankle_bent_either_way) {
 TEST(OtherJoints, muscles_wind_around_a_radius_that_turns_either_way) {
   expect_gates_of(forearm(1, radians(60)));
   expect_gates_of(forearm(-1, radians(60)));
+}
+
+TEST(OtherJoints, straps_along_a_spine_of_six_joints_bend_with_it_either_way) {
+  expect_gates_of(trunk(-1, radians(8)));
+  expect_gates_of(trunk(1, radians(4)));
 }
 
 TEST(OtherJoints, muscles_over_a_humeral_head_follow_an_arm_that_is_lifted) { expect_gates_of(shoulder(radians(90))); }

@@ -46,7 +46,7 @@ bool equal(const MuscleMeasures& a, const MuscleMeasures& b) {
   return a.volume_ratio == b.volume_ratio && a.edge_ratio_mean == b.edge_ratio_mean &&
          a.edge_ratio_max == b.edge_ratio_max && a.edge_ratio_max_free == b.edge_ratio_max_free &&
          a.dihedral_change_mean == b.dihedral_change_mean && a.dihedral_change_max == b.dihedral_change_max &&
-         a.hinges_over_90 == b.hinges_over_90 && a.vertex_depth == b.vertex_depth &&
+         a.dihedrals_over_90 == b.dihedrals_over_90 && a.vertex_depth == b.vertex_depth &&
          a.vertex_depth_beyond_rest == b.vertex_depth_beyond_rest &&
          a.midpoint_depth_beyond_rest == b.midpoint_depth_beyond_rest && a.belly_off_place == b.belly_off_place &&
          a.wrong_side == b.wrong_side && a.slack == b.slack && a.finite == b.finite;
@@ -132,12 +132,12 @@ TEST(Measurer, edges_within_15_millimetres_of_an_attachment_do_not_count_as_free
   EXPECT_EQ(measures.edge_ratio_max_free, measures.edge_ratio_max);
 }
 
-TEST(Measurer, counts_hinges_turned_by_more_than_a_right_angle) {
+TEST(Measurer, counts_dihedrals_turned_by_more_than_a_right_angle) {
   const Scene scene = ball_beside_a_box();
   Points points = scene.muscles[0].surface.vertices;
   points.col(1).x() += 0.025;  // pushed through the ball: a deep, steep dent
   const MuscleMeasures measures = measure(scene, frame_with(points));
-  EXPECT_GT(measures.hinges_over_90, 0);
+  EXPECT_GT(measures.dihedrals_over_90, 0);
   EXPECT_GT(measures.dihedral_change_max, pi / 2);
   EXPECT_LT(measures.dihedral_change_mean, measures.dihedral_change_max);
 }

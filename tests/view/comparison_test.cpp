@@ -60,11 +60,11 @@ TEST(Comparison, moment_arms_are_those_of_the_recorded_lengths) {
 
 TEST(Comparison, a_surface_that_runs_through_itself_is_counted) {
   const TriangleMesh ball = shapes::sphere(Vec3(0, 0, 0), 0.05, 4);
-  EXPECT_EQ(new_self_cuts(ball, ball.vertices), 0);
+  EXPECT_EQ(new_self_intersections(ball, ball.vertices), 0);
   Points pushed = ball.vertices;
   for (Index v = 0; v < ball.vertex_count(); ++v)  // out at the bottom, and aside, so that nothing meets exactly
     if (pushed.col(v).z() > 0.03 && pushed.col(v).head<2>().norm() < 0.03) pushed.col(v) += Vec3(0.0013, 0.0007, -0.11);
-  EXPECT_GT(new_self_cuts(ball, pushed), 10);
+  EXPECT_GT(new_self_intersections(ball, pushed), 10);
 }
 
 TEST(Comparison, the_table_has_a_line_per_row_and_empty_cells_for_what_is_not_known) {

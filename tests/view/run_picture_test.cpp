@@ -3,6 +3,7 @@
 
 #include "view/recorded_runs.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <io/test_files.hpp>
 
@@ -59,6 +60,15 @@ TEST_F(RunPicture, captions_tell_the_angle) {
   const RecordedRun run = FlexingLeg(21).written(folder.path());
   EXPECT_EQ(pose_caption(run, 0), "hip_flexion_r 0°");
   EXPECT_EQ(pose_caption(run, 20), "hip_flexion_r 60°");
+}
+
+TEST_F(RunPicture, captions_tell_the_time_in_every_frame_where_many_coordinates_move) {
+  RecordedRun run = FlexingLeg(21).written(folder.path());
+  const Eigen::MatrixXd flexion = run.coordinate_values.col(0);
+  run.coordinates = {"a_deg", "b_deg", "c_deg", "d_deg"};
+  run.coordinate_values = flexion.replicate(1, 4);
+  for (const int frame : {0, 20})
+    EXPECT_THAT(pose_caption(run, frame), testing::StartsWith("frame " + std::to_string(frame) + ", ")) << frame;
 }
 
 TEST_F(RunPicture, frames_stand_side_by_side_and_runs_below_each_other) {

@@ -4,7 +4,7 @@
 
 namespace gracilis {
 
-/// Which of a crowd's surfaces move while others stay where they are; an empty list: all.
+/// Which of all surfaces move while others stay where they are; an empty list: all.
 struct Movers {
   std::vector<char> listed;
 

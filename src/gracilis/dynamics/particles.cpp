@@ -1,5 +1,7 @@
 #include <gracilis/dynamics/particles.hpp>
 
+#include <gracilis/dynamics/particle_order.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +9,8 @@ namespace gracilis {
 
 Particles make_particles(const Points& positions, const Eigen::VectorXd& inverse_masses) {
   Particles particles;
-  particles.xyzw.assign(4 * (static_cast<std::size_t>(positions.cols()) + 1), 0);
+  particles.idle_count = cluster_count_of(static_cast<Index>(positions.cols()));
+  particles.xyzw.assign(4 * static_cast<std::size_t>(static_cast<Index>(positions.cols()) + particles.idle_count), 0);
   for (Index i = 0; i < positions.cols(); ++i) {
     particles.position(i) = positions.col(i).cast<float>();
     particles.at(i)[3] = static_cast<float>(inverse_masses[i]);

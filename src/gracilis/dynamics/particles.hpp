@@ -8,11 +8,13 @@
 namespace gracilis {
 
 /// Particles as the solver sees them: x, y, z (m, relative to a nearby origin so that float keeps its digits) and the
-/// inverse mass (1/kg, 0 for fixed ones) side by side. One idle particle more than counted pads the constraint tables.
+/// inverse mass (1/kg, 0 for fixed ones) side by side. Idle particles after those that count pad the constraint tables:
+/// one for each cluster (particle_order.hpp), so that no two threads ever write to the same one.
 struct Particles {
-  AlignedVector<float> xyzw;  ///< 4 (n + 1)
+  AlignedVector<float> xyzw;  ///< 4 (n + idle_count)
+  Index idle_count = 1;
 
-  Index count() const { return static_cast<Index>(xyzw.size() / 4) - 1; }
+  Index count() const { return static_cast<Index>(xyzw.size() / 4) - idle_count; }
   float* at(Index i) { return xyzw.data() + 4 * static_cast<std::size_t>(i); }
   const float* at(Index i) const { return xyzw.data() + 4 * static_cast<std::size_t>(i); }
   Eigen::Map<Eigen::Vector3f> position(Index i) { return Eigen::Map<Eigen::Vector3f>(at(i)); }

@@ -114,7 +114,8 @@ static void inspect_vertices(const TriangleMesh& mesh, MeshReport& report) {
 }
 
 /// Corners of faces around a vertex hang together through the edges they share; two groups at one vertex are a pinch.
-static void inspect_fans(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges, MeshReport& report) {
+static void inspect_vertex_faces(const TriangleMesh& mesh, const std::vector<HalfEdge>& half_edges,
+                                 MeshReport& report) {
   DisjointSets corners(3 * mesh.face_count());
   const auto corner_at = [&](Index face, Index vertex) {
     Index k = 0;
@@ -165,7 +166,7 @@ MeshReport inspect_mesh(const TriangleMesh& mesh) {
   const std::vector<HalfEdge> half_edges = sorted_half_edges(mesh.faces);
   Index edge_count = 0;
   inspect_edges(half_edges, report, edge_count);
-  inspect_fans(mesh, half_edges, report);
+  inspect_vertex_faces(mesh, half_edges, report);
   report.area = surface_area(mesh.vertices, mesh.faces);
   report.volume = enclosed_volume(mesh.vertices, mesh.faces);
   if (report.is_closed() && report.is_manifold()) {

@@ -16,8 +16,8 @@ using SquareCorners = std::array<Real, 4>;
 /// are as long as those of the rectangle of the same area and circumference. `aspect` gets long over short side.
 SquareCorners square_corners(const Points& loop, Real& aspect);
 
-/// A smooth one-to-one map from the unit square onto the film that a closed line spans. The line is laid into its mean
-/// plane, its inside triangulated, and each inner vertex mapped into the square by a harmonic map with positive
+/// A smooth one-to-one map from the unit square onto the spanning surface of a closed line. The line is laid into its
+/// mean plane, its inside triangulated, and each inner vertex mapped into the square by a harmonic map with positive
 /// weights, whose boundary goes around the square with the line's length; onto a convex boundary such a map is one to
 /// one (Tutte 1963, Floater 1997), whatever the shape of the cross-section. Heights above the plane are harmonic, too.
 class SectionMap {
@@ -25,10 +25,10 @@ class SectionMap {
   /// Empty when the line has no area or crosses itself in its mean plane. Shape of `loop`: 3 × n, m.
   static std::optional<SectionMap> build(const Points& loop, const SquareCorners& corners);
 
-  /// The point of the film at (a, b) in the unit square, m.
+  /// The point of the spanning surface at (a, b) in the unit square, m.
   Vec3 at(Real a, Real b) const;
 
-  /// Where in the unit square the point of the film lies that is nearest to p (its nearest vertex).
+  /// Where in the unit square the point of the spanning surface lies that is nearest to p (its nearest vertex).
   Eigen::Vector2d nearest(const Vec3& p) const;
 
  private:

@@ -47,7 +47,7 @@ class EditableMesh {
 
  private:
   /// The two faces beside an edge and the vertices opposite to it; faces[0] runs from a to b.
-  struct Hinge {
+  struct Dihedral {
     std::array<Index, 2> faces{-1, -1};
     std::array<Index, 2> opposite{-1, -1};
   };
@@ -58,8 +58,8 @@ class EditableMesh {
       for (Index v : faces_[f]) stars_[v].push_back(static_cast<Index>(f));
   }
 
-  Hinge hinge(Index a, Index b) const {
-    Hinge result;
+  Dihedral dihedral(Index a, Index b) const {
+    Dihedral result;
     for (Index f : stars_[a])
       for (int c = 0; c < 3; ++c) {
         const Index from = faces_[f][c], to = faces_[f][(c + 1) % 3];
@@ -110,7 +110,7 @@ class EditableMesh {
 };
 
 void EditableMesh::split(Index a, Index b) {
-  const Hinge at = hinge(a, b);
+  const Dihedral at = dihedral(a, b);
   const Index middle = static_cast<Index>(points_.size());
   points_.emplace_back((points_[a] + points_[b]) / 2);
   stars_.emplace_back();
@@ -144,7 +144,7 @@ bool EditableMesh::can_collapse(Index a, Index b, Real longest) const {
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());
   if (std::count_if(around.begin(), around.end(), [&](Index v) { return adjacent(b, v); }) != 2) return false;
-  const Hinge at = hinge(a, b);
+  const Dihedral at = dihedral(a, b);
   if (stars_[at.opposite[0]].size() < 4 || stars_[at.opposite[1]].size() < 4) return false;
 
   const Vec3 middle = (points_[a] + points_[b]) / 2;
@@ -168,7 +168,7 @@ bool EditableMesh::can_collapse(Index a, Index b, Real longest) const {
 }
 
 void EditableMesh::collapse(Index a, Index b) {
-  const Hinge at = hinge(a, b);
+  const Dihedral at = dihedral(a, b);
   points_[a] = (points_[a] + points_[b]) / 2;
   for (int side = 0; side < 2; ++side) {
     const Index f = at.faces[side];
@@ -189,14 +189,14 @@ void EditableMesh::collapse_short_edges(Real shortest, Real longest) {
 }
 
 void EditableMesh::flip_if_better(Index a, Index b) {
-  const Hinge at = hinge(a, b);
+  const Dihedral at = dihedral(a, b);
   const Index c = at.opposite[0], d = at.opposite[1];
   if (c == d || adjacent(c, d)) return;
   const auto off = [&](Index v, int change) { return std::abs(static_cast<int>(stars_[v].size()) + change - 6); };
   const int before = off(a, 0) + off(b, 0) + off(c, 0) + off(d, 0);
   const int after = off(a, -1) + off(b, -1) + off(c, 1) + off(d, 1);
   if (after >= before || stars_[a].size() <= 3 || stars_[b].size() <= 3) return;
-  // Only where the hinge is about flat: the new faces must look the same way as the old ones.
+  // Only where the dihedral is about flat: the new faces must look the same way as the old ones.
   const Face first = {c, a, d}, second = {d, b, c};
   const Vec3 old = area_normal(faces_[at.faces[0]]) + area_normal(faces_[at.faces[1]]);
   for (const Face& face : {first, second}) {

@@ -30,7 +30,8 @@ static std::pair<std::size_t, std::size_t> range_of(const PlacedWrap& wrap, cons
 }
 
 /// Takes a wrap's two points out of the path and puts them in anew where the path needs them.
-static Wrap::Kind lay_around(const PlacedWrap& placed, int index, std::vector<PathStop>& points, const Laying& laying) {
+static Wrap::Kind solve_path(const PlacedWrap& placed, int index, std::vector<PathStop>& points,
+                             const PathSolver& solver) {
   std::erase_if(points, [&](const PathStop& point) { return point.wrap == index; });
   const RigidTransform into = placed.frame.inverse();
   const auto [begin, end] = range_of(placed, points);
@@ -41,7 +42,7 @@ static Wrap::Kind lay_around(const PlacedWrap& placed, int index, std::vector<Pa
   for (std::size_t i = begin; i < end; ++i) {
     if (is_arc(points, i + 1)) continue;
     const Vec3 a = into * points[i].place, b = into * points[i + 1].place;
-    const Wrap wrap = laying.wrap(placed, a, b);
+    const Wrap wrap = solver.wrap(placed, a, b);
     last = wrap.kind;
     if (!wrap.touches()) continue;
     const Real change = (wrap.first() - a).norm() + wrap.length + (b - wrap.last()).norm() - (b - a).norm();
@@ -63,7 +64,7 @@ static Wrap::Kind lay_around(const PlacedWrap& placed, int index, std::vector<Pa
   return last;
 }
 
-void lay_around(const std::vector<PlacedWrap>& wraps, std::vector<PathStop>& points, const Laying& laying) {
+void solve_path(const std::vector<PlacedWrap>& wraps, std::vector<PathStop>& points, const PathSolver& solver) {
   const std::size_t count = wraps.size();
   std::vector<std::size_t> order(count);
   for (std::size_t i = 0; i < count; ++i) order[i] = i;
@@ -71,8 +72,8 @@ void lay_around(const std::vector<PlacedWrap>& wraps, std::vector<PathStop>& poi
   Real before = std::numeric_limits<Real>::infinity();
   for (int pass = 0; pass < (count < 2 ? 1 : 8) && count > 0; ++pass) {
     for (std::size_t i = 0; i < count; ++i)
-      kinds[i] = lay_around(wraps[order[i]], static_cast<int>(order[i]), points, laying);
-    const Real length = laying.length(points);
+      kinds[i] = solve_path(wraps[order[i]], static_cast<int>(order[i]), points, solver);
+    const Real length = solver.length(points);
     if (std::abs(length - before) < 0.0005) break;
     before = length;
     // A point in the second surface, the first not met: try them the other way round.

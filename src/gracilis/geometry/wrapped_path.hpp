@@ -27,9 +27,9 @@ struct PlacedWrap {
 
 Real length_of(const std::vector<PathStop>& points);
 
-/// How a path is laid: around one surface from a to b, in the surface's frame, and what is its length, by which the
+/// How a path is found: around one surface from a to b, in the surface's frame, and what is its length, by which the
 /// rounds end.
-struct Laying {
+struct PathSolver {
   std::function<Wrap(const PlacedWrap& wrap, const Vec3& a, const Vec3& b)> wrap = [](const PlacedWrap& placed,
                                                                                       const Vec3& a, const Vec3& b) {
     return wrap_around(placed.surface, a, b, placed.plane);
@@ -37,10 +37,10 @@ struct Laying {
   std::function<Real(const std::vector<PathStop>& points)> length = length_of;
 };
 
-/// Lays a path that runs straight through its own points around the surfaces. These are tried in order, up to eight
+/// Takes a path that runs straight through its own points around the surfaces. These are tried in order, up to eight
 /// times where there are several, as OpenSim does; each takes the first part that cuts it, or the one that it lengthens
 /// least. `points` are those that are there now.
-void lay_around(const std::vector<PlacedWrap>& wraps, std::vector<PathStop>& points, const Laying& laying = {});
+void solve_path(const std::vector<PlacedWrap>& wraps, std::vector<PathStop>& points, const PathSolver& solver = {});
 
 /// The path as points on a line, those on surfaces at most `largest_turn` (rad) apart; neighbors less than 1e-9 m apart
 /// become one. `bodies` of the points, where asked for.

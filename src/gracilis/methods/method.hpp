@@ -61,7 +61,7 @@ class DeformationMethod {
   virtual void restore(const std::vector<Pose>& poses, const Frame& before, const Frame& last) = 0;
 
   /// Whether what it computes depends on how fast the machine is; nothing should run beside it then.
-  virtual bool watches_clock() const { return false; }
+  virtual bool depends_on_clock() const { return false; }
   /// What has to be known about all frames since the capture pose together; empty: nothing.
   virtual std::string remark() const { return {}; }
   /// What the fibers do to the bodies in the present pose, per muscle in the scene's order. `coordinates`: per

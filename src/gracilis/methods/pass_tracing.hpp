@@ -15,7 +15,7 @@ struct SolverPass {
   int iteration = 0;      ///< of the frame, all its steps counted on; after the last one volume and contact settle
   Points moved = Points(3, 0);  ///< m, one per vertex of the muscle's surface
 };
-using PassWatch = std::function<void(const SolverPass&)>;
+using PassTrace = std::function<void(const SolverPass&)>;
 
 /// Of a method whose solver makes passes over its constraints.
 class PassTracing {
@@ -24,7 +24,7 @@ class PassTracing {
   /// Tells what happens inside of the steps to come, for pictures that explain a solver. Calls may come from several
   /// threads at once, each muscle's in their order. An empty function costs nothing. Coarser copies that are simulated
   /// in the muscles' place have nothing to tell.
-  virtual void watch_passes(PassWatch watch) = 0;
+  virtual void trace_passes(PassTrace trace) = 0;
 };
 
 }  // namespace gracilis

@@ -35,7 +35,7 @@ class PlacedMethod final : public DeformationMethod {
   StepReport advance(const Pose& pose, Real time_step) override {
     return method_->advance(shifted(pose, -place_), time_step);
   }
-  bool watches_clock() const override { return method_->watches_clock(); }
+  bool depends_on_clock() const override { return method_->depends_on_clock(); }
   std::string remark() const override { return method_->remark(); }
 
   std::vector<FiberActions> fiber_actions(const std::vector<std::vector<Twist>>& coordinates) const override {

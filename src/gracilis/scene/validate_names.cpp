@@ -34,7 +34,7 @@ static void check_files(const std::string& kind, const std::string& name, std::m
 
 static void check_coordinate(const JointAxis& axis, std::vector<Problem>& problems) {
   const std::string& name = axis.coordinate;
-  if (name.empty()) return;  // told of with its joint
+  if (name.empty()) return;  // reported with its joint
   if (name.size() > longest_name)
     problems.push_back({"", bearer("coordinate", name), "the name is too long", length_remedy});
   else if (!fits_column(name))

@@ -21,7 +21,7 @@ static std::string rounded(Real value) {
 static Real field_nodes(const Bone& bone, const DistanceFieldSettings& settings) {
   if (settings.resolution > 0) return std::pow(settings.resolution + 1, 3);
   const Points& vertices = bone.surface.vertices;
-  if (vertices.cols() == 0 || !vertices.allFinite()) return 0;  // told of with the surface
+  if (vertices.cols() == 0 || !vertices.allFinite()) return 0;  // reported with the surface
   const Vec3 extent = vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff();
   return ((extent.array() + 2 * settings.domain_margin) / settings.cell_size + 1).prod();
 }
@@ -29,7 +29,7 @@ static Real field_nodes(const Bone& bone, const DistanceFieldSettings& settings)
 static void check_fields(const Scene& scene, std::vector<Problem>& problems) {
   const DistanceFieldSettings& settings = scene.distance_fields;
   const bool by_resolution = settings.resolution > 0;
-  if (!by_resolution && !(settings.cell_size > 0)) return;  // told of with the settings
+  if (!by_resolution && !(settings.cell_size > 0)) return;  // reported with the settings
   Real nodes = 0;
   for (const Bone& bone : scene.bones) nodes += field_nodes(bone, settings);
   if (nodes <= most_nodes) return;

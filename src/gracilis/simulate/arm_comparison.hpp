@@ -9,10 +9,10 @@ namespace gracilis {
 
 /// Moment arms of one muscle about one coordinate as somebody else measured or computed them.
 struct ArmCurve {
-  std::string muscle, coordinate, source;  ///< empty: not told
+  std::string muscle, coordinate, source;  ///< empty: unknown
   std::vector<Real> angles = {};           ///< rad, ascending
   std::vector<Real> arms = {};             ///< m, -dL/dq
-  std::vector<Real> low = {}, high = {};   ///< m, of what the arms are the mean of, per angle; empty: not told
+  std::vector<Real> low = {}, high = {};   ///< m, of what the arms are the mean of, per angle; empty: unknown
 };
 
 /// How moment arms lie beside a reference, over the angles that both have.

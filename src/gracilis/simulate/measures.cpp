@@ -78,9 +78,9 @@ Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
   const std::vector<Real> to_attachment = distance_to_attachments(x, attached);
   for (const MeshEdge& edge : rest.edges) {
     rest.lengths.push_back((x.col(edge.a) - x.col(edge.b)).norm());
-    const bool hinge = edge.left >= 0 && edge.right >= 0;
+    const bool dihedral = edge.left >= 0 && edge.right >= 0;
     rest.angles.push_back(
-        hinge ? dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex)) : 0);
+        dihedral ? dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex)) : 0);
     rest.far_edge.push_back(std::min(to_attachment[static_cast<std::size_t>(edge.a)],
                                      to_attachment[static_cast<std::size_t>(edge.b)]) > attachment_zone);
     if (!is_fixed(edge.a) || !is_fixed(edge.b)) rest.free_edges.emplace_back(edge.a, edge.b);
@@ -158,7 +158,7 @@ MuscleMeasures Measurer::measure_shape(std::size_t muscle, const Points& x, cons
     const Real change = std::abs(std::remainder(angle - rest.angles[e], 2 * pi));
     change_sum += change;
     measures.dihedral_change_max = std::max(measures.dihedral_change_max, change);
-    measures.hinges_over_90 += change > pi / 2;
+    measures.dihedrals_over_90 += change > pi / 2;
   }
   measures.edge_ratio_mean = ratio_sum / static_cast<Real>(rest.edges.size());
   measures.dihedral_change_mean = change_sum / static_cast<Real>(rest.edges.size());

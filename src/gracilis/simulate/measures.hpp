@@ -26,7 +26,7 @@ struct MuscleMeasures {
   Real spike = 0, thickening = 1, thinning = 1;  ///< see SurfaceFlaws
   Real dihedral_change_mean = 0;                 ///< rad, mean of |θ - θ_rest|
   Real dihedral_change_max = 0;
-  Index hinges_over_90 = 0;             ///< hinges turned by more than 90 degrees
+  Index dihedrals_over_90 = 0;          ///< dihedrals turned by more than 90 degrees
   Real vertex_depth = 0;                ///< m, deepest free vertex in a bone
   Real vertex_depth_beyond_rest = 0;    ///< m, deepest beyond that vertex's depth in that bone at rest
   Real midpoint_depth_beyond_rest = 0;  ///< m, the same for midpoints of edges with a free end

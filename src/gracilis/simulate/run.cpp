@@ -81,7 +81,7 @@ class FrameRecorder {
 };
 
 /// Whether frames may be recorded beside the solver: not on a single thread, nor where the solver watches the clock.
-bool may_record_beside(const DeformationMethod& method) { return thread_count() > 1 && !method.watches_clock(); }
+bool may_record_beside(const DeformationMethod& method) { return thread_count() > 1 && !method.depends_on_clock(); }
 
 }  // namespace
 

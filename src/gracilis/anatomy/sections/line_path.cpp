@@ -49,7 +49,7 @@ Points line_at(const ActionLine& line, const Pose& pose) {
   }
   std::vector<PlacedWrap> wraps = line.path.wraps;
   for (PlacedWrap& wrap : wraps) wrap.frame = motion_of(pose, wrap.body) * wrap.frame;
-  lay_around(wraps, stops);
+  solve_path(wraps, stops);
   const Points points = line_through(stops, wraps, radians(5));
   return points.cols() < 2 ? own_points(line, pose) : points;
 }

@@ -25,8 +25,9 @@ std::vector<Index> clusters_of(const ConstraintGraph& graph, Index cluster_count
 }
 
 /// Lays out some of a graph's constraints: those of one color side by side, in an order that follows memory, each color
-/// padded to whole groups.
-void lay_out(const ConstraintGraph& graph, const std::vector<Index>& constraints, ConstraintLayout& layout) {
+/// padded to whole groups with this idle particle.
+void lay_out(const ConstraintGraph& graph, const std::vector<Index>& constraints, Index idle,
+             ConstraintLayout& layout) {
   ConstraintGraph part{graph.arity, graph.particle_count, {}};
   for (const Index c : constraints)
     part.particles.insert(part.particles.end(), graph.particles.begin() + static_cast<std::ptrdiff_t>(c) * graph.arity,
@@ -41,11 +42,12 @@ void lay_out(const ConstraintGraph& graph, const std::vector<Index>& constraints
       return graph.particles[static_cast<std::size_t>(l * graph.arity)] <
              graph.particles[static_cast<std::size_t>(r * graph.arity)];
     });
-    const Index begin = layout.size;
+    const auto begin = static_cast<Index>(layout.idle.size());
     for (std::size_t i = 0; i < color.size(); ++i)
       layout.slot[static_cast<std::size_t>(color[i])] = begin + static_cast<Index>(i);
-    layout.size = begin + (static_cast<Index>(color.size()) + group_width - 1) / group_width * group_width;
-    layout.order.colors.push_back({begin, layout.size});
+    const Index end = begin + (static_cast<Index>(color.size()) + group_width - 1) / group_width * group_width;
+    layout.idle.resize(static_cast<std::size_t>(end), idle);
+    layout.order.colors.push_back({begin, end});
   }
 }
 
@@ -62,10 +64,10 @@ ConstraintLayout lay_out(const ConstraintGraph& graph) {
   ConstraintLayout layout;
   layout.slot.resize(static_cast<std::size_t>(count));
   for (Index cluster = 0; cluster < cluster_count; ++cluster) {
-    lay_out(graph, members[static_cast<std::size_t>(cluster)], layout);
+    lay_out(graph, members[static_cast<std::size_t>(cluster)], graph.particle_count + cluster, layout);
     layout.order.clusters.push_back(static_cast<Index>(layout.order.colors.size()));
   }
-  lay_out(graph, members.back(), layout);
+  lay_out(graph, members.back(), graph.particle_count, layout);
   return layout;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/core/aligned.hpp>
 #include <gracilis/dynamics/coloring.hpp>
 #include <gracilis/dynamics/simd/group_width.hpp>
 
@@ -8,7 +9,7 @@
 namespace gracilis {
 
 /// Slots of one color: [begin, end), multiples of group_width: every color is padded to whole groups with constraints
-/// between copies of the idle particle, which has no mass to move.
+/// between copies of an idle particle, which has no mass to move.
 struct ColorRange {
   Index begin = 0, end = 0;
 };
@@ -27,8 +28,8 @@ struct ColorOrder {
 /// Where constraints stand in the tables of their kind.
 struct ConstraintLayout {
   ColorOrder order;
-  std::vector<Index> slot;  ///< of each constraint
-  Index size = 0;           ///< of the tables, padding included
+  std::vector<Index> slot;    ///< of each constraint
+  AlignedVector<Index> idle;  ///< per slot of the tables, padding included: the idle particle that may stand there
 };
 
 /// Clusters, colors, groups and pads constraints. Neighbors should have near numbers (particle_order.hpp): clusters are

@@ -94,8 +94,8 @@ DihedralSet build_dihedral_set(const std::vector<DihedralConstraint>& constraint
     graph.particles.insert(graph.particles.end(), c.particles.begin(), c.particles.end());
   ConstraintLayout layout = lay_out(graph);
   DihedralSet set;
-  const auto size = static_cast<std::size_t>(layout.size);
-  for (auto& column : set.particles) column.assign(size, particle_count);
+  const std::size_t size = layout.idle.size();
+  set.particles.fill(layout.idle);
   set.rest_angle.assign(size, 0);
   set.compliance.assign(size, 0);
   set.edge_length.assign(size, 0);

@@ -36,8 +36,7 @@ struct DihedralConstraint {
   Real rest_angle = 0, compliance = 0, edge_length = 0;
 };
 
-/// Lays out constraints over `particle_count` particles (color_order.hpp); particle number `particle_count` is the idle
-/// one.
+/// Lays out constraints over `particle_count` particles, which the idle ones follow (color_order.hpp).
 DihedralSet build_dihedral_set(const std::vector<DihedralConstraint>& constraints, Index particle_count);
 
 /// Projects dihedrals of slots [begin, end), which belong to one color; `lambda` in N·m s² has one entry per slot,

@@ -68,9 +68,8 @@ DistanceSet build_distance_set(const std::vector<DistanceConstraint>& constraint
   for (const DistanceConstraint& c : constraints) graph.particles.insert(graph.particles.end(), {c.a, c.b});
   ConstraintLayout layout = lay_out(graph);
   DistanceSet set;
-  const auto size = static_cast<std::size_t>(layout.size);
-  set.a.assign(size, particle_count);
-  set.b.assign(size, particle_count);
+  const std::size_t size = layout.idle.size();
+  set.a = set.b = layout.idle;
   set.rest_length.assign(size, 0);
   set.compliance.assign(size, 0);
   for (std::size_t i = 0; i < constraints.size(); ++i) {

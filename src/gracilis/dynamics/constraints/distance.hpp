@@ -27,8 +27,7 @@ struct DistanceConstraint {
   Real rest_length = 0, compliance = 0;
 };
 
-/// Lays out constraints over `particle_count` particles (color_order.hpp); particle number `particle_count` is the idle
-/// one.
+/// Lays out constraints over `particle_count` particles, which the idle ones follow (color_order.hpp).
 DistanceSet build_distance_set(const std::vector<DistanceConstraint>& constraints, Index particle_count);
 
 /// Projects distance constraints of slots [begin, end), which belong to one color. `target_length` (m) and `lambda` (N

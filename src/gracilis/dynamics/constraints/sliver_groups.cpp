@@ -33,10 +33,12 @@ std::vector<Index> turns_of(const SliverSet& set, const Particles& rest) {
 using Fan = std::vector<std::array<Index, 2>>;
 
 /// The other two corners of the faces around one end of a tip's side that are not its own.
-Fan fan_around(const FaceFans& fans, Index end, Index tip) {
+Fan fan_around(const VertexFaces& vertex_faces, Index end, Index tip) {
   Fan fan;
-  for (Index i = fans.offsets[static_cast<std::size_t>(end)]; i < fans.offsets[static_cast<std::size_t>(end) + 1]; ++i)
-    if ((fans.ends.col(i).array() != tip).all()) fan.push_back({fans.ends(0, i), fans.ends(1, i)});
+  for (Index i = vertex_faces.offsets[static_cast<std::size_t>(end)];
+       i < vertex_faces.offsets[static_cast<std::size_t>(end) + 1]; ++i)
+    if ((vertex_faces.ends.col(i).array() != tip).all())
+      fan.push_back({vertex_faces.ends(0, i), vertex_faces.ends(1, i)});
   return fan;
 }
 
@@ -52,7 +54,7 @@ AlignedVector<Index> side_by_side(const std::vector<Fan>& fans, const std::array
   return corners;
 }
 
-SliverGroup make_group(const SliverSet& set, const FaceFans& fans, std::vector<Index> members) {
+SliverGroup make_group(const SliverSet& set, const VertexFaces& vertex_faces, std::vector<Index> members) {
   SliverGroup group;
   std::vector<Fan> around_a, around_b;
   for (std::size_t lane = 0; lane < group.tip.size(); ++lane) {
@@ -62,8 +64,8 @@ SliverGroup make_group(const SliverSet& set, const FaceFans& fans, std::vector<I
     group.share[lane] = tip.share;
     const Eigen::Vector2f offset = tip.offset.tail<2>(), toward = offset.stableNormalized();
     group.across[lane] = toward.x(), group.out[lane] = toward.y(), group.least[lane] = least_ahead(tip);
-    around_a.push_back(fan_around(fans, tip.a, tip.particle));
-    around_b.push_back(fan_around(fans, tip.b, tip.particle));
+    around_a.push_back(fan_around(vertex_faces, tip.a, tip.particle));
+    around_b.push_back(fan_around(vertex_faces, tip.b, tip.particle));
   }
   group.around_a = side_by_side(around_a, group.a), group.around_b = side_by_side(around_b, group.b);
   group.members = std::move(members);
@@ -72,7 +74,7 @@ SliverGroup make_group(const SliverSet& set, const FaceFans& fans, std::vector<I
 
 }  // namespace
 
-std::vector<SliverGroup> group_slivers(const SliverSet& set, const FaceFans& fans, const Particles& rest) {
+std::vector<SliverGroup> group_slivers(const SliverSet& set, const VertexFaces& vertex_faces, const Particles& rest) {
   const std::vector<Index> turns = turns_of(set, rest);
   std::vector<std::vector<Index>> of_turn;
   for (std::size_t i = 0; i < turns.size(); ++i) {
@@ -91,7 +93,7 @@ std::vector<SliverGroup> group_slivers(const SliverSet& set, const FaceFans& fan
     for (std::size_t begin = 0; begin < members.size(); begin += group_width) {
       const std::size_t end = std::min(begin + group_width, members.size());
       groups.push_back(make_group(
-          set, fans,
+          set, vertex_faces,
           {members.begin() + static_cast<std::ptrdiff_t>(begin), members.begin() + static_cast<std::ptrdiff_t>(end)}));
     }
   }

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <gracilis/core/aligned.hpp>
-#include <gracilis/dynamics/face_fans.hpp>
 #include <gracilis/dynamics/particles.hpp>
 #include <gracilis/dynamics/simd/group_width.hpp>
+#include <gracilis/dynamics/vertex_faces.hpp>
 
 #include <array>
 #include <vector>
@@ -23,7 +23,8 @@ struct SliverGroup {
   AlignedVector<Index> around_a, around_b;  ///< per face, first all lanes' next corners, then all lanes' last ones
 };
 
-/// Tips in groups, which give the same in their order as the tips do one after the other. `fans` are the surface's.
-std::vector<SliverGroup> group_slivers(const SliverSet& set, const FaceFans& fans, const Particles& rest);
+/// Tips in groups, which give the same in their order as the tips do one after the other. `vertex_faces` are the
+/// surface's.
+std::vector<SliverGroup> group_slivers(const SliverSet& set, const VertexFaces& vertex_faces, const Particles& rest);
 
 }  // namespace gracilis

@@ -1,7 +1,7 @@
 #include <gracilis/dynamics/constraints/slivers.hpp>
 
 #include <gracilis/dynamics/constraints/lost_slivers.hpp>
-#include <gracilis/dynamics/face_fans.hpp>
+#include <gracilis/dynamics/vertex_faces.hpp>
 
 #include <Eigen/Geometry>
 
@@ -83,14 +83,14 @@ SliverSet build_sliver_set(const Eigen::Matrix3Xi& faces, const Particles& rest,
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& l, const Candidate& r) { return l.height > r.height; });
-  const FaceFans fans = build_face_fans(faces, rest.count());
+  const VertexFaces vertex_faces = build_vertex_faces(faces, rest.count());
 
   SliverSet set;
   for (const Candidate& candidate : candidates) {
     SliverTip tip{candidate.tip, candidate.a, candidate.b};
     tip.begin = static_cast<Index>(set.faces.size());
     for (const Index end : {tip.a, tip.b})
-      for (const Index f : fans.around(end))
+      for (const Index f : vertex_faces.around(end))
         if ((faces.col(f).array() != tip.particle).all()) set.faces.push_back(faces.col(f));
     tip.end = static_cast<Index>(set.faces.size());
     Eigen::Matrix3f frame;
@@ -101,7 +101,7 @@ SliverSet build_sliver_set(const Eigen::Matrix3Xi& faces, const Particles& rest,
     tip.offset = frame.transpose() * (from_a - tip.share * side);
     set.tips.push_back(tip);
   }
-  set.groups = group_slivers(set, fans, rest);
+  set.groups = group_slivers(set, vertex_faces, rest);
   return set;
 }
 

@@ -1,7 +1,7 @@
 #include <gracilis/dynamics/constraints/volume.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/face_fans.hpp>
+#include <gracilis/dynamics/vertex_faces.hpp>
 
 #include <algorithm>
 #include <array>
@@ -80,19 +80,19 @@ namespace {
 constexpr std::ptrdiff_t sorting_window = 16 * group_width;
 
 /// The neighbors of a particle in turn, the first once more at the end; none where it has no faces.
-void chain(const FaceFans& fans, Index particle, std::vector<Index>& ring) {
+void chain(const VertexFaces& vertex_faces, Index particle, std::vector<Index>& ring) {
   ring.clear();
-  const Index begin = fans.offsets[static_cast<std::size_t>(particle)];
-  const auto count = static_cast<Index>(fans.around(particle).size());
+  const Index begin = vertex_faces.offsets[static_cast<std::size_t>(particle)];
+  const auto count = static_cast<Index>(vertex_faces.around(particle).size());
   if (count == 0) return;
   // Each face says: after its first end comes its second.
   const auto after = [&](Index neighbor) {
     Index i = begin;
-    while (i < begin + count && fans.ends(0, i) != neighbor) ++i;
+    while (i < begin + count && vertex_faces.ends(0, i) != neighbor) ++i;
     assert(i < begin + count && "the surface is not closed");
-    return fans.ends(1, i);
+    return vertex_faces.ends(1, i);
   };
-  Index next = fans.ends(0, begin);
+  Index next = vertex_faces.ends(0, begin);
   for (Index i = 0; i < count; ++i, next = after(next)) ring.push_back(next);
   ring.push_back(ring.front());
 }
@@ -100,8 +100,8 @@ void chain(const FaceFans& fans, Index particle, std::vector<Index>& ring) {
 }  // namespace
 
 VolumeSet build_volume_set(const Eigen::Matrix3Xi& faces, Index particle_count, Real target, Real compliance) {
-  const FaceFans fans = build_face_fans(faces, particle_count);
-  const auto face_count = [&](Index p) { return fans.around(p).size(); };
+  const VertexFaces vertex_faces = build_vertex_faces(faces, particle_count);
+  const auto face_count = [&](Index p) { return vertex_faces.around(p).size(); };
   std::vector<Index> order;
   for (Index p = 0; p < particle_count; ++p)
     if (face_count(p) > 0) order.push_back(p);
@@ -135,7 +135,7 @@ VolumeSet build_volume_set(const Eigen::Matrix3Xi& faces, Index particle_count, 
       if (p == particle_count)
         rings[lane] = {p};  // idle
       else
-        chain(fans, p, rings[lane]);
+        chain(vertex_faces, p, rings[lane]);
     }
     for (std::size_t step = 0; step < steps; ++step)
       for (const std::vector<Index>& ring : rings) set.ring.push_back(ring[std::min(step, ring.size() - 1)]);

@@ -13,7 +13,7 @@ namespace gracilis {
 /// are sums over rings, so no two vertices ever write to the same place. Vertices with rings of nearly equal length
 /// stand in groups; shorter rings repeat their last neighbor, which adds nothing.
 struct VolumeSet {
-  AlignedVector<Index> particles;   ///< group_width per group, padded with the idle particle
+  AlignedVector<Index> particles;   ///< group_width per group, padded with an idle particle
   std::vector<Index> ring_offsets;  ///< of each group, and the end: steps in `ring`
   AlignedVector<Index> ring;        ///< group_width neighbors per step
   double target = 0;                ///< m³

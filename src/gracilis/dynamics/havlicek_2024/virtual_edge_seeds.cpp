@@ -91,32 +91,32 @@ void reseed(const std::vector<char>& repeated, PairEdges& pair) {
 
 }  // namespace
 
-VirtualEdgeState make_virtual_edge_state(const VirtualEdgeCrowd& crowd) {
+VirtualEdgeState make_virtual_edge_state(const VirtualEdgeWorld& world) {
   VirtualEdgeState state;
-  state.pairs.resize(crowd.pairs.size());
+  state.pairs.resize(world.pairs.size());
   for (std::size_t i = 0; i < state.pairs.size(); ++i)
     state.pairs[i].random.seed(static_cast<std::minstd_rand::result_type>(i + 1));
   return state;
 }
 
-void begin_edge_frame(const VirtualEdgeCrowd& crowd, const std::vector<const Particles*>& particles,
+void begin_edge_frame(const VirtualEdgeWorld& world, const std::vector<const Particles*>& particles,
                       VirtualEdgeState& state) {
-  if (crowd.pairs.empty() || state.frames++ % crowd.settings.update_period != 0) return;
+  if (world.pairs.empty() || state.frames++ % world.settings.update_period != 0) return;
   std::deque<Cloud> clouds;
   for (const Particles* each : particles) clouds.emplace_back(*each);
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
-    const VirtualEdgePair& pair = crowd.pairs[i];
-    seed_pair(pair, crowd.settings.reach, *particles[static_cast<std::size_t>(pair.first)],
+  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
+    const VirtualEdgePair& pair = world.pairs[i];
+    seed_pair(pair, world.settings.reach, *particles[static_cast<std::size_t>(pair.first)],
               clouds[static_cast<std::size_t>(pair.second)], state.pairs[i].edges);
   }
 }
 
-void end_edge_frame(const VirtualEdgeCrowd& crowd, VirtualEdgeState& state) {
+void end_edge_frame(const VirtualEdgeWorld& world, VirtualEdgeState& state) {
   for (PairEdges& pair : state.pairs) {
     const std::vector<char> repeated = coinciding(pair.edges);
     pair.coinciding = static_cast<Index>(std::count(repeated.begin(), repeated.end(), 1));
-    if (crowd.settings.coinciding == CoincidingEdgeRule::drop) drop(repeated, pair.edges);
-    if (crowd.settings.coinciding == CoincidingEdgeRule::reseed) reseed(repeated, pair);
+    if (world.settings.coinciding == CoincidingEdgeRule::drop) drop(repeated, pair.edges);
+    if (world.settings.coinciding == CoincidingEdgeRule::reseed) reseed(repeated, pair);
   }
 }
 

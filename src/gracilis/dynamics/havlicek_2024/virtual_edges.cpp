@@ -32,14 +32,14 @@ Eigen::Vector3f unit(const Eigen::Vector3f& v) {
   return length > no_way ? Eigen::Vector3f(v / length) : Eigen::Vector3f(Eigen::Vector3f::Zero());
 }
 
-Index project_pair(const VirtualEdgeCrowd& crowd, const VirtualEdgePair& pair, const std::vector<Particles>& previous,
+Index project_pair(const VirtualEdgeWorld& world, const VirtualEdgePair& pair, const std::vector<Particles>& previous,
                    const std::vector<Particles*>& particles, PairEdges& edges) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-  const VirtualEdgeSettings& settings = crowd.settings;
+  const VirtualEdgeSettings& settings = world.settings;
   Index pushes = 0;
   for (PairEdges::Edge& edge : edges.edges) {
     const EdgeWalk walk =
-        walk_virtual_edge(settings.reset ? edge.seed : edge.now, crowd.stars[a], *particles[a], crowd.stars[b],
+        walk_virtual_edge(settings.reset ? edge.seed : edge.now, world.stars[a], *particles[a], world.stars[b],
                           *particles[b], pair.shift, edge.distance, settings.walk_steps);
     edge.now = walk.end;
     if (!walk.near) continue;
@@ -97,11 +97,11 @@ void remember_positions(const std::vector<const Particles*>& particles, VirtualE
   for (std::size_t s = 0; s < particles.size(); ++s) state.previous[s] = *particles[s];
 }
 
-void adapt_distances(const VirtualEdgeCrowd& crowd, const std::vector<const Particles*>& particles,
+void adapt_distances(const VirtualEdgeWorld& world, const std::vector<const Particles*>& particles,
                      VirtualEdgeState& state) {
-  const VirtualEdgeSettings& settings = crowd.settings;
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
-    const VirtualEdgePair& pair = crowd.pairs[i];
+  const VirtualEdgeSettings& settings = world.settings;
+  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
+    const VirtualEdgePair& pair = world.pairs[i];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     const auto length = [&](VirtualEdge edge, const Particles& first, const Particles& second) {
       return (first.position(edge.a) + pair.shift - second.position(edge.b)).norm();
@@ -116,13 +116,13 @@ void adapt_distances(const VirtualEdgeCrowd& crowd, const std::vector<const Part
   }
 }
 
-Index project_virtual_edges(const VirtualEdgeCrowd& crowd, const std::vector<Particles*>& particles,
+Index project_virtual_edges(const VirtualEdgeWorld& world, const std::vector<Particles*>& particles,
                             VirtualEdgeState& state) {
-  for (const std::vector<Index>& round : crowd.rounds)
+  for (const std::vector<Index>& round : world.rounds)
     parallel_for_each(round.size(), [&](std::size_t i) {
       const auto number = static_cast<std::size_t>(round[i]);
       PairEdges& edges = state.pairs[number];
-      edges.pushes = project_pair(crowd, crowd.pairs[number], state.previous, particles, edges);
+      edges.pushes = project_pair(world, world.pairs[number], state.previous, particles, edges);
     });
   Index pushes = 0;
   for (const PairEdges& edges : state.pairs) pushes += edges.pushes;

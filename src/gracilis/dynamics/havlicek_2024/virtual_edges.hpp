@@ -39,8 +39,8 @@ struct VirtualEdgePair {
   Eigen::Vector3f shift = Eigen::Vector3f::Zero();  ///< from the first's coordinates to the second's, m
 };
 
-/// The whole crowd; constant.
-struct VirtualEdgeCrowd {
+/// All surfaces that virtual edges keep apart, and their pairs; constant.
+struct VirtualEdgeWorld {
   std::vector<VertexStars> stars;  ///< neighbors of the particles, per surface
   std::vector<VirtualEdgePair> pairs;
   std::vector<std::vector<Index>> rounds;  ///< pairs without a surface in common, which may be processed together
@@ -97,12 +97,12 @@ bool part_ends(VirtualEdge edge, EdgeResolution resolution, float distance, cons
 void remember_positions(const std::vector<const Particles*>& particles, VirtualEdgeState& state);
 
 /// After the prediction: the contact distance of each edge in this step.
-void adapt_distances(const VirtualEdgeCrowd& crowd, const std::vector<const Particles*>& particles,
+void adapt_distances(const VirtualEdgeWorld& world, const std::vector<const Particles*>& particles,
                      VirtualEdgeState& state);
 
 /// One iteration: each edge in turn walks, and pushes its ends apart at once where it came too near. Returns how many
 /// pushed.
-Index project_virtual_edges(const VirtualEdgeCrowd& crowd, const std::vector<Particles*>& particles,
+Index project_virtual_edges(const VirtualEdgeWorld& world, const std::vector<Particles*>& particles,
                             VirtualEdgeState& state);
 
 }  // namespace gracilis

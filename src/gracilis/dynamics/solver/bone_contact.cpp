@@ -5,7 +5,7 @@
 #include <gracilis/dynamics/contact/field/field_contact_guard.hpp>
 #include <gracilis/dynamics/contact/field/field_contact_listing.hpp>
 #include <gracilis/dynamics/contact/field/field_contact_near.hpp>
-#include <gracilis/dynamics/contact/field/field_contact_squeeze.hpp>
+#include <gracilis/dynamics/contact/field/two_obstacle_contact.hpp>
 
 namespace gracilis {
 
@@ -56,7 +56,7 @@ Index project_bone_contact(const SurfaceSystem& system, const std::vector<FieldP
         project_face_contacts(system.contacts[i], system.large_faces, placements[i], state.near[i], state.particles);
   for (std::size_t i = 0; i < system.contacts.size(); ++i)
     touching += project_particle_contacts(system.contacts[i], placements[i], state.near[i], state.particles);
-  project_squeezed(system.contacts, placements, state.near, state.particles);
+  project_two_obstacle_contact(system.contacts, placements, state.near, state.particles);
   return touching;
 }
 

@@ -12,7 +12,7 @@ enum class ConstraintKind {
   strain_limit,
   muscle_contact,
   slivers,
-  tight_places,
+  rest_proximities,
   bone_contact
 };
 

@@ -79,8 +79,8 @@ void strain_limit_pass(SurfaceSolve& surface) {
 
 void sliver_pass(SurfaceSolve& surface) { project_slivers(surface.system->slivers, surface.state->particles); }
 
-void tight_place_pass(SurfaceSolve& surface) {
-  project_tight_places(surface.system->tight_places, surface.state->particles);
+void rest_proximity_pass(SurfaceSolve& surface) {
+  project_rest_proximities(surface.system->rest_proximities, surface.state->particles);
 }
 
 void bone_contact_pass(SurfaceSolve& surface) {
@@ -97,7 +97,7 @@ constexpr ConstraintRow rows[] = {
     {ConstraintKind::strain_limit, "stretch limit", before_contact, strain_limit_pass},
     {ConstraintKind::muscle_contact, "muscle contact", contact, nullptr},  // Coupling::project
     {ConstraintKind::slivers, "sliver", after_contact, sliver_pass},
-    {ConstraintKind::tight_places, "tight place", after_contact, tight_place_pass},
+    {ConstraintKind::rest_proximities, "rest proximity", after_contact, rest_proximity_pass},
     {ConstraintKind::bone_contact, "bone contact", after_contact, bone_contact_pass},
 };
 

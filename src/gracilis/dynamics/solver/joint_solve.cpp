@@ -2,8 +2,8 @@
 
 namespace gracilis {
 
-JointSolve::JointSolve(std::vector<SurfaceSolve>& surfaces_, const Coupling& coupling_, const SolveWatch& watch)
-    : surfaces(surfaces_), coupling(coupling_), watch_(watch) {
+JointSolve::JointSolve(std::vector<SurfaceSolve>& surfaces_, const Coupling& coupling_, const SolveTrace& trace)
+    : surfaces(surfaces_), coupling(coupling_), trace_(trace) {
   for (SurfaceSolve& surface : surfaces) {
     reset_multipliers(*surface.state);
     surface.report = {};

@@ -12,7 +12,7 @@ namespace gracilis {
 class JointSolve {
  public:
   /// Resets multipliers and reports. What it is given must outlive it.
-  JointSolve(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch);
+  JointSolve(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveTrace& trace);
 
   std::vector<SurfaceSolve>& surfaces;
   const Coupling& coupling;
@@ -34,7 +34,7 @@ class JointSolve {
 
   /// Says that a kind was projected on a surface.
   void tell(std::size_t i, ConstraintKind kind) const {
-    if (watch_) watch_(i, kind);
+    if (trace_) trace_(i, kind);
   }
 
   /// Projects contact between the surfaces once; its time is shared out among all reports.
@@ -47,7 +47,7 @@ class JointSolve {
   }
 
   const Clock::time_point begin_ = Clock::now();
-  const SolveWatch& watch_;
+  const SolveTrace& trace_;
 };
 
 }  // namespace gracilis

@@ -1,7 +1,7 @@
 #include <gracilis/dynamics/solver/solver.hpp>
 
 #include <gracilis/dynamics/solver/iteration.hpp>
-#include <gracilis/dynamics/solver/settling.hpp>
+#include <gracilis/dynamics/solver/post_stabilization.hpp>
 
 #include <algorithm>
 
@@ -9,24 +9,24 @@ namespace gracilis {
 
 namespace {
 
-/// Most attempts at mending what cannot stay; what is crushed may resist them all, and each takes it away from its
+/// Most attempts at untangling what cannot stay; what is crushed may resist them all, and each takes it away from its
 /// shape, so that with more of them it cuts itself the more in the steps that follow.
-constexpr int mending_attempts = 2;
+constexpr int untangling_attempts = 2;
 
 bool settles(const SurfaceSolve& surface) { return surface.settings.settling_rounds > 0; }
 
-/// Whether anything was mended and has to settle again.
-bool mend(JointSolve& solve) { return solve.coupling.mend && solve.coupling.mend(solve.movers); }
+/// Whether anything was untangled and has to settle again.
+bool untangle(JointSolve& solve) { return solve.coupling.untangle && solve.coupling.untangle(solve.movers); }
 
 }  // namespace
 
-void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveWatch& watch) {
-  JointSolve solve(surfaces, coupling, watch);
+void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& coupling, const SolveTrace& trace) {
+  JointSolve solve(surfaces, coupling, trace);
   iterate(solve);
   if (std::none_of(surfaces.begin(), surfaces.end(), settles)) return;
   settle(solve);
-  for (int attempt = 0; attempt < mending_attempts && mend(solve); ++attempt) {
-    if (attempt == 0) solve.movers = {};  // at first all give way to what was mended
+  for (int attempt = 0; attempt < untangling_attempts && untangle(solve); ++attempt) {
+    if (attempt == 0) solve.movers = {};  // at first all give way to what was untangled
     settle(solve);
   }
   recover(solve);

@@ -46,11 +46,12 @@ struct SurfaceSolve {
 struct Coupling {
   std::function<void(const Movers&)> refresh;   ///< looks again at what is near what
   std::function<Index(const Movers&)> project;  ///< returns how many contacts pushed
-  /// Mends those of the movers that settled but cannot stay, and leaves none else among them; whether there was any.
-  std::function<bool(Movers&)> mend = {};
+  /// Untangles those of the movers that settled but cannot stay, and leaves none else among them; whether there was
+  /// any.
+  std::function<bool(Movers&)> untangle = {};
 };
 
-/// Told after each projection of a kind on a surface.
-using SolveWatch = std::function<void(std::size_t surface, ConstraintKind kind)>;
+/// Called after each projection of a kind on a surface.
+using SolveTrace = std::function<void(std::size_t surface, ConstraintKind kind)>;
 
 }  // namespace gracilis

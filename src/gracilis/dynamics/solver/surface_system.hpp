@@ -3,9 +3,9 @@
 #include <gracilis/core/aligned.hpp>
 #include <gracilis/dynamics/constraints/dihedral.hpp>
 #include <gracilis/dynamics/constraints/distance.hpp>
+#include <gracilis/dynamics/constraints/rest_proximity.hpp>
 #include <gracilis/dynamics/constraints/slivers.hpp>
 #include <gracilis/dynamics/constraints/strain_limit.hpp>
-#include <gracilis/dynamics/constraints/tight_places.hpp>
 #include <gracilis/dynamics/constraints/volume.hpp>
 #include <gracilis/dynamics/contact/field/face_set.hpp>
 #include <gracilis/dynamics/contact/field/near_field.hpp>
@@ -23,7 +23,7 @@ struct SurfaceSystem {
   DihedralSet dihedrals;
   VolumeSet volume;
   SliverSet slivers;  ///< what a surface does where its data are too poor for contact with itself
-  std::vector<TightPlace> tight_places;
+  std::vector<RestProximity> rest_proximities;
   FaceSet large_faces;  ///< those that contact tests between their edges, too
   std::vector<FieldContactSet> contacts;
 };

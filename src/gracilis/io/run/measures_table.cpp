@@ -40,7 +40,7 @@ static std::string measure_cells(const MuscleMeasures& m) {
   const std::string shape = fmt::format(
       ",{:.6f},{:.6f},{:.4f},{:.4f},{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{}", m.volume_ratio, m.edge_ratio_mean,
       m.edge_ratio_max, m.edge_ratio_max_free, m.edge_ratio_max_near, m.spike, m.thickening, m.thinning,
-      degrees(m.dihedral_change_mean), degrees(m.dihedral_change_max), m.hinges_over_90);
+      degrees(m.dihedral_change_mean), degrees(m.dihedral_change_max), m.dihedrals_over_90);
   if (m.level == MeasureLevel::light) return shape + ",,,,,,";
   return shape + fmt::format(",{:.4f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f}", 1000 * m.vertex_depth,
                              1000 * m.vertex_depth_beyond_rest, 1000 * m.midpoint_depth_beyond_rest,

@@ -99,7 +99,7 @@ class MassSpringMethod final : public DeformationMethod {
     for (std::size_t m = 0; m < shapes_.size(); ++m) shapes_[m] = last.muscles[m].points;
   }
 
-  bool watches_clock() const override { return shared_.stop_milliseconds > 0; }
+  bool depends_on_clock() const override { return shared_.stop_milliseconds > 0; }
 
  private:
   void require_finite(const Points& points, std::size_t m) const {

@@ -9,7 +9,7 @@ namespace {
 
 /// Shorter edges, m, and smaller triangles, m², have no direction.
 constexpr Real shortest = 1e-12, smallest = 1e-18;
-/// Sine of an angle below which nothing tells which way a hinge bends.
+/// Sine of an angle below which nothing tells which way a dihedral bends.
 constexpr Real flattest = 1e-6;
 
 }  // namespace

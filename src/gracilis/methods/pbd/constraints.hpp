@@ -25,8 +25,8 @@ Evaluated<2> distance_constraint(const Vec3& a, const Vec3& b, Real length);
 /// where the triangles (a, b, c) and (a, d, b) are flat, 0 where they are folded together. π for degenerate triangles.
 Real arccos_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// Eq. 4: C = angle - rest_angle. Which way a hinge bends is not in its angle, so there is no gradient where it is flat
-/// or folded together.
+/// Eq. 4: C = angle - rest_angle. Which way a dihedral bends is not in its angle, so there is no gradient where it is
+/// flat or folded together.
 Evaluated<4> angle_constraint(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, Real rest_angle);
 
 /// Eq. 5, with the absolute value that a direction without sense needs: 1 - |u·v|; both unit. 1 where v is zero.

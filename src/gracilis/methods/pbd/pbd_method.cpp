@@ -81,7 +81,7 @@ ShapeStep step(const PbdMuscle& muscle, const Pose& last, const Pose& now, const
   const pbd::Stiffness stiffness = {per_iteration(muscle.settings.edge_stiffness, iterations),
                                     per_iteration(muscle.settings.angle_stiffness, iterations),
                                     per_iteration(muscle.settings.volume_stiffness, iterations),
-                                    muscle.settings.hinge_limit};
+                                    muscle.settings.dihedral_limit};
   const auto restore_and_push = [&] {
     pbd::project_volume(muscle.surface, stiffness.volume, points);
     contacts = std::visit(

@@ -14,7 +14,7 @@ std::span<const Setting<PbdSettings>> setting_table() {
        "Share of an edge's error that the iterations of a frame correct when nothing else pulls at it."},
       {"angle_stiffness", &S::angle_stiffness, "", 0, 1,
        "The same for the angle between two triangles, which is measured by arccos as published."},
-      {"hinge_limit", &S::hinge_limit, "", 0, 10,
+      {"hinge_limit", &S::dihedral_limit, "", 0, 10,
        "Largest motion by one projection of an angle, as a share of its edge's length; 0 is none, and lets vertices "
        "beside attachments fly."},
       {"volume_stiffness", &S::volume_stiffness, "", 0, 1, "The same share of the volume's error."},

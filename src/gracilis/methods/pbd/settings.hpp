@@ -24,7 +24,7 @@ struct PbdSettings {
   int iterations = 3;            ///< per frame
   Real edge_stiffness = 1;       ///< 0 to 1, share of an error that the iterations of a frame correct
   Real angle_stiffness = 1;      ///< the same
-  Real hinge_limit = 0.05;       ///< largest motion by one projection of an angle, as a share of its edge; 0: off
+  Real dihedral_limit = 0.05;    ///< largest motion by one projection of an angle, as a share of its edge; 0: off
   Real volume_stiffness = 1;     ///< the same as edge_stiffness
   bool fiber_anisotropy = true;  ///< eq. 5
   Predictor predictor = Predictor::carried;  ///< published: none

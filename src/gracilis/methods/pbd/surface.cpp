@@ -106,8 +106,8 @@ Surface build_surface(const TriangleMesh& mesh, const MeshTopology& topology, co
   Surface surface;
   for (const Index body : fixed_body) surface.weight.push_back(body < 0 ? 1 : 0);
   std::vector<EdgeConstraint> edges;
-  std::vector<HingeConstraint> hinges;
-  ConstraintGraph edge_graph{2, mesh.vertex_count(), {}}, hinge_graph{4, mesh.vertex_count(), {}};
+  std::vector<DihedralConstraint> dihedrals;
+  ConstraintGraph edge_graph{2, mesh.vertex_count(), {}}, dihedral_graph{4, mesh.vertex_count(), {}};
   for (const MeshEdge& edge : topology.edges) {
     const Vec3 a = rest.col(edge.a), b = rest.col(edge.b);
     const bool is_held =
@@ -121,12 +121,12 @@ Surface build_surface(const TriangleMesh& mesh, const MeshTopology& topology, co
     if (std::none_of(vertices.begin(), vertices.end(),
                      [&](Index v) { return fixed_body[static_cast<std::size_t>(v)] < 0; }))
       continue;
-    hinges.push_back(
+    dihedrals.push_back(
         {vertices, arccos_angle(a, b, rest.col(edge.left_apex), rest.col(edge.right_apex)), (b - a).norm()});
-    hinge_graph.particles.insert(hinge_graph.particles.end(), vertices.begin(), vertices.end());
+    dihedral_graph.particles.insert(dihedral_graph.particles.end(), vertices.begin(), vertices.end());
   }
   surface.edges = color(edges, edge_graph);
-  surface.hinges = color(hinges, hinge_graph);
+  surface.dihedrals = color(dihedrals, dihedral_graph);
   surface.faces = mesh.faces;
   surface.corners = group_by_key({mesh.faces.data(), static_cast<std::size_t>(mesh.faces.size())}, mesh.vertex_count());
   surface.volume = enclosed_volume(rest, mesh.faces);
@@ -139,11 +139,12 @@ Index project_edges_and_angles(const Surface& surface, const Stiffness& stiffnes
     move<2>(surface, {edge.a, edge.b}, evaluated, stiffness.edges * edge.anisotropy, points);
   });
   std::atomic<Index> skipped = 0;
-  for_each_by_color(surface.hinges, [&](const HingeConstraint& hinge) {
-    const auto [a, b, c, d] = places(hinge.vertices, points);
-    const Real limit =
-        stiffness.hinge_limit > 0 ? stiffness.hinge_limit * hinge.edge_length : std::numeric_limits<Real>::infinity();
-    if (!move<4>(surface, hinge.vertices, angle_constraint(a, b, c, d, hinge.angle), stiffness.angles, points, limit))
+  for_each_by_color(surface.dihedrals, [&](const DihedralConstraint& dihedral) {
+    const auto [a, b, c, d] = places(dihedral.vertices, points);
+    const Real limit = stiffness.dihedral_limit > 0 ? stiffness.dihedral_limit * dihedral.edge_length
+                                                    : std::numeric_limits<Real>::infinity();
+    if (!move<4>(surface, dihedral.vertices, angle_constraint(a, b, c, d, dihedral.angle), stiffness.angles, points,
+                 limit))
       skipped.fetch_add(1, std::memory_order_relaxed);
   });
   return skipped;

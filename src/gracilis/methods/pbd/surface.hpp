@@ -18,7 +18,7 @@ struct EdgeConstraint {
 };
 
 /// Two triangles keep their angle; the edge first, then the apexes.
-struct HingeConstraint {
+struct DihedralConstraint {
   std::array<Index, 4> vertices{};
   Real angle = 0;        ///< rad, at rest
   Real edge_length = 0;  ///< m, at rest
@@ -34,7 +34,7 @@ struct Colored {
 /// The constraints of one muscle's surface; never changes.
 struct Surface {
   Colored<EdgeConstraint> edges;
-  Colored<HingeConstraint> hinges;
+  Colored<DihedralConstraint> dihedrals;
   Eigen::Matrix3Xi faces;
   GroupedByKey corners;      ///< by vertex: where in `faces` it stands, as 3 × face + row
   Real volume = 0;           ///< m³, at rest
@@ -49,7 +49,7 @@ Surface build_surface(const TriangleMesh& mesh, const MeshTopology& topology, co
 /// What stiffnesses (0 to 1) one iteration has, and how far one angle may move a vertex, as a share of its edge's
 /// length; 0: any way.
 struct Stiffness {
-  Real edges = 1, angles = 1, volume = 1, hinge_limit = 0;
+  Real edges = 1, angles = 1, volume = 1, dihedral_limit = 0;
 };
 
 /// One projection of all edges, then all angles, color after color. Returns how many angles had no gradient.

@@ -157,10 +157,10 @@ ShapeStep step(const RbfMuscle& muscle, const Pose& now) {
       along.col(i) += rbf::correction_at(model, model.fit_vertex[static_cast<std::size_t>(i)], corrections);
     basis.weights = rbf::refitted_weights(model, basis, along);
   }
-  rbf::FollowWishes wishes;
-  wishes.keeps_volume = muscle.settings.volume == RbfVolume::offset;
-  if (muscle.settings.bones) wishes.push_out = [&](Points& points) { return muscle.bones.push_out(now, points); };
-  rbf::Followed followed = rbf::follow(muscle.surface, model, motions, corrections, basis, wishes);
+  rbf::FollowRequests requests;
+  requests.keeps_volume = muscle.settings.volume == RbfVolume::offset;
+  if (muscle.settings.bones) requests.push_out = [&](Points& points) { return muscle.bones.push_out(now, points); };
+  rbf::Followed followed = rbf::follow(muscle.surface, model, motions, corrections, basis, requests);
   return {std::move(followed.points),
           {{"contacts", static_cast<Real>(contacts + followed.contacts)},
            {"descent_steps", static_cast<Real>(done.steps)},

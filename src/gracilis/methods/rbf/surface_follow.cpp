@@ -72,12 +72,12 @@ void move_to_levels(const FollowedSurface& surface, const RadialBasis& basis, co
 }
 
 /// Pushes out of bones so that neighbors go along: what was pushed is spread over the surface, then pushed again.
-Index push_out_smoothly(const FollowedSurface& surface, const FollowWishes& wishes, Points& points) {
-  if (!wishes.push_out) return 0;
+Index push_out_smoothly(const FollowedSurface& surface, const FollowRequests& requests, Points& points) {
+  if (!requests.push_out) return 0;
   constexpr int rounds = 6, spreads = 10;
   for (int round = 0; round < rounds; ++round) {
     Points pushed = points;
-    if (wishes.push_out(pushed) == 0) return 0;
+    if (requests.push_out(pushed) == 0) return 0;
     Points way = pushed - points;
     for (int spread = 0; spread < spreads; ++spread) {
       const Points before = way;
@@ -95,7 +95,7 @@ Index push_out_smoothly(const FollowedSurface& surface, const FollowWishes& wish
     for (Index v = 0; v < static_cast<Index>(way.cols()); ++v)
       if (!surface.held[static_cast<std::size_t>(v)]) points.col(v) += way.col(v);
   }
-  return wishes.push_out(points);
+  return requests.push_out(points);
 }
 
 }  // namespace
@@ -123,7 +123,7 @@ FollowedSurface followed_surface(const TriangleMesh& mesh, const MeshTopology& t
 }
 
 Followed follow(const FollowedSurface& surface, const MuscleModel& model, const std::vector<RigidTransform>& motions,
-                const Points& corrections, const RadialBasis& basis, const FollowWishes& wishes) {
+                const Points& corrections, const RadialBasis& basis, const FollowRequests& requests) {
   Points start(3, surface.rest.vertex_count());
   for (Index v = 0; v < surface.rest.vertex_count(); ++v) {
     start.col(v) = motions[static_cast<std::size_t>(v)] * Vec3(surface.rest.vertices.col(v));
@@ -138,9 +138,9 @@ Followed follow(const FollowedSurface& surface, const MuscleModel& model, const 
     result.points = start;
     const Eigen::VectorXd levels = model.levels + result.offset * model.offset_shares;
     move_to_levels(surface, basis, near, levels, model.spacing, result.points);
-    result.contacts = push_out_smoothly(surface, wishes, result.points);
+    result.contacts = push_out_smoothly(surface, requests, result.points);
     const Real off = enclosed_volume(result.points, surface.rest.faces) - surface.volume;
-    if (!wishes.keeps_volume || std::abs(off) <= accuracy * surface.volume || !std::isfinite(off)) break;
+    if (!requests.keeps_volume || std::abs(off) <= accuracy * surface.volume || !std::isfinite(off)) break;
     // The surface's area is the slope at first, then the secant.
     Real slope = surface_area(result.points, surface.rest.faces);
     if (round > 0 && result.offset != last_offset) {

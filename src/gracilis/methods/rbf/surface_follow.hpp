@@ -21,7 +21,7 @@ struct FollowedSurface {
 FollowedSurface followed_surface(const TriangleMesh& mesh, const MeshTopology& topology, const BodyCarriers& carriers);
 
 /// What the surface is asked for beside its level.
-struct FollowWishes {
+struct FollowRequests {
   bool keeps_volume = true;
   std::function<Index(Points&)> push_out;  ///< out of bones; says how many it pushed; none: it is not asked
 };
@@ -38,6 +38,6 @@ Vec3 correction_at(const MuscleModel& model, Index vertex, const Points& correct
 /// Where the vertices are: carried, moved as the centers are by `corrections` (to where they are in `basis`), then
 /// along the gradient to their level (plus the offset that restores the volume), and out of bones.
 Followed follow(const FollowedSurface& surface, const MuscleModel& model, const std::vector<RigidTransform>& motions,
-                const Points& corrections, const RadialBasis& basis, const FollowWishes& wishes);
+                const Points& corrections, const RadialBasis& basis, const FollowRequests& requests);
 
 }  // namespace gracilis::rbf

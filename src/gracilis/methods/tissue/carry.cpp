@@ -38,7 +38,7 @@ Points carried(const PreparedTissue& muscle, const std::vector<RigidTransform>& 
     Vec3 sum = Vec3::Zero();
     Real shares = 0;
     for (std::size_t b = 0; b < motions.size(); ++b) {
-      const Real share = muscle.carrier_shares(n, static_cast<Index>(b));
+      const Real share = muscle.skinning_weights(n, static_cast<Index>(b));
       sum += share * (motions[b] * Vec3(nodes.col(n)));
       shares += share;
     }

@@ -86,7 +86,7 @@ Real carried_work(const PreparedTissue& muscle, const Points& gradient, const Po
   for (Index n = 0; n < static_cast<Index>(nodes.cols()); ++n)
     for (std::size_t b = 0; b < muscle.carriers.size(); ++b) {
       const Twist& twist = bodies[static_cast<std::size_t>(muscle.carriers[b])];
-      sum += muscle.carrier_shares(n, static_cast<Index>(b)) * gradient.col(n).dot(twist.velocity_at(nodes.col(n)));
+      sum += muscle.skinning_weights(n, static_cast<Index>(b)) * gradient.col(n).dot(twist.velocity_at(nodes.col(n)));
     }
   return sum;
 }

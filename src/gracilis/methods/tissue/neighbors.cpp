@@ -2,7 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
-#include <gracilis/dynamics/contact/surface/touch_search.hpp>
+#include <gracilis/dynamics/contact/surface/vertex_face_search.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 
@@ -45,12 +45,12 @@ struct SeenVertex {
 
 std::vector<SeenVertex> see(const Neighbors& neighbors, const PlacedSurfaces& placed, Index from, Index to) {
   const auto probe = static_cast<std::size_t>(from), target = static_cast<std::size_t>(to);
-  std::vector<PointTouch> touches;
+  std::vector<VertexFaceCandidate> touches;
   find_near({neighbors.surfaces[probe], placed.particles[probe], neighbors.trees[probe]}, Eigen::Vector3f::Zero(),
             {neighbors.surfaces[target], placed.particles[target], neighbors.trees[target]},
             static_cast<float>(neighbor_reach), touches);
   std::vector<SeenVertex> seen;
-  for (const PointTouch& touch : touches)
+  for (const VertexFaceCandidate& touch : touches)
     seen.push_back({touch.particle, point_gap(placed.particles[probe].position(touch.particle),
                                               neighbors.surfaces[target], NearestFace{touch.face, touch.barycentric},
                                               placed.particles[target], placed.normals[target])});
@@ -63,10 +63,10 @@ std::vector<SeenVertex> see_itself(const Neighbors& neighbors, const PlacedSurfa
   const ContactSurface& surface = neighbors.surfaces[m];
   const SelfRule rule = {surface,   self.rest_points,    self.rest_normals,
                          self.rest, placed.particles[m], self.neighborhood};
-  std::vector<PointTouch> touches;
+  std::vector<VertexFaceCandidate> touches;
   find_self({surface, placed.particles[m], neighbors.trees[m]}, rule, static_cast<float>(self_reach), touches);
   std::vector<SeenVertex> seen;
-  for (const PointTouch& touch : touches)
+  for (const VertexFaceCandidate& touch : touches)
     if (touch.side > 0)
       seen.push_back({touch.particle,
                       point_gap(placed.particles[m].position(touch.particle), surface,

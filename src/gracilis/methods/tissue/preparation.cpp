@@ -231,12 +231,12 @@ void share_carriers(PreparedTissue& prepared) {
       grips.push_back({point.at, tie_scale * tie.stiffness, column_of(tie.body)});
     }
   }
-  prepared.carrier_shares =
+  prepared.skinning_weights =
       harmonic_lattice_fields(prepared.lattice, grips, static_cast<Index>(prepared.carriers.size()))
           .cwiseMax(0)
           .cwiseMin(1);
-  for (Index n = 0; n < prepared.carrier_shares.rows(); ++n)
-    if (const Real sum = prepared.carrier_shares.row(n).sum(); sum > 0) prepared.carrier_shares.row(n) /= sum;
+  for (Index n = 0; n < prepared.skinning_weights.rows(); ++n)
+    if (const Real sum = prepared.skinning_weights.row(n).sum(); sum > 0) prepared.skinning_weights.row(n) /= sum;
 }
 
 Real cell_size_of(const TissueSettings& settings, const TriangleMesh& surface) {

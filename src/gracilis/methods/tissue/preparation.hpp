@@ -55,11 +55,11 @@ struct PreparedTissue {
   Real volume = 0;        ///< m³, that the surface encloses at rest
   std::vector<Tie> ties;  ///< of points, one after the other
   std::vector<BoneGap> bones;
-  GroupedByKey points_of_nodes;    ///< point * 4 + corner, by their nodes
-  CellLanes cells;                 ///< of the lattice, for the vector kernel
-  GroupedByKey corners_of_nodes;   ///< where corners stand in `cells`, by their nodes
-  std::vector<Index> carriers;     ///< bodies that carry the muscle
-  Eigen::MatrixXd carrier_shares;  ///< nodes × carriers; rows sum to 1, or are 0
+  GroupedByKey points_of_nodes;      ///< point * 4 + corner, by their nodes
+  CellLanes cells;                   ///< of the lattice, for the vector kernel
+  GroupedByKey corners_of_nodes;     ///< where corners stand in `cells`, by their nodes
+  std::vector<Index> carriers;       ///< bodies that carry the muscle
+  Eigen::MatrixXd skinning_weights;  ///< nodes × carriers; rows sum to 1, or are 0
 };
 
 /// Lattice, fibers, attachments, fascia and gaps of a muscle. `fields` and `distances` have one entry per bone; fields

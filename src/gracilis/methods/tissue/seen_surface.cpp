@@ -103,11 +103,11 @@ std::vector<std::size_t> places_near(const PreparedTissue& muscle, const Surroun
   for (const LargeFace& large : muscle.large_faces.faces) {
     // Where the bone was seen from a corner tells of most triangles that they are far.
     const Index v = large.free_corner;
-    if (b < around.sights.size()) {
-      const BoneSight& sight = around.sights[b];
-      const Real moved = (inverse * x.col(v) - sight.places.col(v)).norm();
+    if (b < around.queries.size()) {
+      const CachedBoneQuery& query = around.queries[b];
+      const Real moved = (inverse * x.col(v) - query.places.col(v)).norm();
       const Real size = longest_edge(x, muscle.faces.col(large.face));
-      if (sight.distances[v] - largest_slope * (moved + size) > seen_clearance + candidates_within) continue;
+      if (query.distances[v] - largest_slope * (moved + size) > seen_clearance + candidates_within) continue;
     }
     for (Index i = large.kept_begin; i < large.kept_end; ++i) {
       const auto at = static_cast<std::size_t>(i);

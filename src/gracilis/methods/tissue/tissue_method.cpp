@@ -199,7 +199,7 @@ class TissueMethod final : public DeformationMethod {
     moving.metric = &metric(m, activation);
     moving.equilibrium.laws = cell_laws(muscles_[m], activation, tension);
     // They hold at any instant, so nothing is lost where this pose fails.
-    moving.equilibrium.around.sights = std::move(equilibria_[m].around.sights);
+    moving.equilibrium.around.queries = std::move(equilibria_[m].around.queries);
     return moving;
   }
 
@@ -211,9 +211,9 @@ class TissueMethod final : public DeformationMethod {
         now[body] = pose.bodies[body];  // where the muscle below has come by this step
       }
     carry(muscles_[m], moving.bodies, now, moving.nodes);
-    std::vector<BoneSight> sights = std::move(moving.equilibrium.around.sights);
+    std::vector<CachedBoneQuery> queries = std::move(moving.equilibrium.around.queries);
     moving.equilibrium.around = surroundings(muscles_[m], now, moving.equilibrium.laws);
-    moving.equilibrium.around.sights = std::move(sights);
+    moving.equilibrium.around.queries = std::move(queries);
     moving.equilibrium.around.others = others_of(m);
     moving.equilibrium.around.laws.least_volume_ratio =
         std::min(least_settled_ratio, least_volume_ratio(muscles_[m].lattice, moving.nodes) / 2);

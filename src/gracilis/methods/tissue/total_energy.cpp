@@ -118,9 +118,9 @@ void set_planes(const PreparedTissue& muscle, std::vector<ContactPlane> planes, 
 void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surroundings& around) {
   around.seen = points_at(muscle, nodes);
   const auto count = static_cast<Index>(muscle.points.size());
-  if (around.sights.empty()) {
+  if (around.queries.empty()) {
     const Real never = -std::numeric_limits<Real>::infinity();
-    around.sights.assign(muscle.bones.size(), {Points::Zero(3, count), Eigen::VectorXd::Constant(count, never)});
+    around.queries.assign(muscle.bones.size(), {Points::Zero(3, count), Eigen::VectorXd::Constant(count, never)});
   }
   around.near.clear();
   for (Index v = 0; v < count; ++v) {
@@ -129,13 +129,13 @@ void find_near_bones(const PreparedTissue& muscle, const Points& nodes, Surround
     if (muscle.points[point].held_by >= 0) continue;
     for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
       const BoneGap& bone = muscle.bones[b];
-      BoneSight& sight = around.sights[b];
+      CachedBoneQuery& query = around.queries[b];
       const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * around.seen.col(v);
       const Real reach = bone.gaps[point] + near_bones;
-      if (sight.distances[v] - largest_slope * (there - sight.places.col(v)).norm() >= reach) continue;
-      sight.places.col(v) = there;
-      sight.distances[v] = distance_at_least(bone.field, there);
-      const Real beyond = sight.distances[v] - bone.gaps[point];
+      if (query.distances[v] - largest_slope * (there - query.places.col(v)).norm() >= reach) continue;
+      query.places.col(v) = there;
+      query.distances[v] = distance_at_least(bone.field, there);
+      const Real beyond = query.distances[v] - bone.gaps[point];
       if (beyond < near_bones) around.near.push_back({static_cast<Index>(b), std::max(0.0, beyond / largest_slope)});
     }
   }

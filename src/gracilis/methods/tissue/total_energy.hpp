@@ -15,7 +15,7 @@ struct NearBone {
 };
 
 /// How far points were from a bone when its field was last asked: most are far from most bones, and stay so.
-struct BoneSight {
+struct CachedBoneQuery {
   Points places;              ///< as the bone in its capture pose saw them, 3 × points
   Eigen::VectorXd distances;  ///< m, then
 };
@@ -30,8 +30,8 @@ struct Surroundings {
   Points seen;                    ///< where it was looked for bones, 3 × points
   std::vector<Index> near_begin;  ///< per point and one more: where its bones begin in `near`
   std::vector<NearBone> near;
-  std::vector<BoneSight> sights;    ///< of the bones; may come from another instant
-  std::vector<Index> planes_begin;  ///< per point and one more: where its planes begin in `planes`
+  std::vector<CachedBoneQuery> queries;  ///< of the bones; may come from another instant
+  std::vector<Index> planes_begin;       ///< per point and one more: where its planes begin in `planes`
   std::vector<ContactPlane> planes;
   std::vector<Index> others;  ///< muscles that it may ever touch, in their order
   /// Springs on the surface's vertices to ends of muscles that lie on it: to where, how stiff (N/m; 0: none) and by

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/dynamics/solver/surface_solve.hpp>
-#include <gracilis/methods/xpbd/crowd.hpp>
+#include <gracilis/methods/xpbd/contact_world.hpp>
 #include <gracilis/methods/xpbd/step.hpp>
 
 #include <vector>
@@ -16,8 +16,8 @@ std::vector<Pointer> particles_of(const std::vector<MuscleStep>& steps) {
   return particles;
 }
 
-/// What acts between the muscles of a crowd, from where they are predicted. The crowd, its state and the steps' states
+/// What acts between muscles, from where they are predicted. The contact world, its state and the steps' states
 /// must outlive it.
-Coupling couple(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& state);
+Coupling couple(const std::vector<MuscleStep>& steps, const MuscleContactWorld& world, MuscleContactState& state);
 
 }  // namespace gracilis::xpbd

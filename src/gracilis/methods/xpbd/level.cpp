@@ -15,7 +15,7 @@ std::vector<MuscleStep> steps_of(const Level& level, const std::vector<Real>& ac
                                  std::vector<MuscleState>& next, std::vector<StepCounts>& reports) {
   std::vector<MuscleStep> steps;
   for (std::size_t m = 0; m < level.muscles.size(); ++m)
-    steps.push_back({&level.muscles[m], &next[m], &reports[m], activations[m], m, &level.watch});
+    steps.push_back({&level.muscles[m], &next[m], &reports[m], activations[m], m, &level.trace});
   return steps;
 }
 
@@ -24,8 +24,8 @@ void advance_each(const Level& level, const std::vector<MuscleStep>& steps, cons
   std::vector<std::exception_ptr> failures(steps.size());
   parallel_for_each(steps.size(), [&](std::size_t m) {
     try {
-      MuscleCrowdState nobody;
-      advance_together({steps[m]}, level.crowd, nobody, before, now);
+      MuscleContactState nobody;
+      advance_together({steps[m]}, level.world, nobody, before, now);
     } catch (const QualityError&) {
       failures[m] = std::current_exception();
     }
@@ -71,15 +71,15 @@ Level make_level(const Scene& scene, const std::vector<DistanceField>& fields,
     level.muscles[m] = prepare_muscle(scene, scene.muscles[m], fields, carrying[m]);
     level.states[m] = make_muscle_state(level.muscles[m], level.bodies);
   });
-  level.crowd = prepare_crowd(scene, level.muscles, meet);
-  level.crowd_state = make_crowd_state(level.crowd);
+  level.world = prepare_contact_world(scene, level.muscles, meet);
+  level.contact_state = make_contact_state(level.world);
   return level;
 }
 
 void reset(Level& level) {
   for (std::size_t m = 0; m < level.muscles.size(); ++m)
     level.states[m] = make_muscle_state(level.muscles[m], level.bodies);
-  forget_contact(level.crowd, level.crowd_state);
+  forget_contact(level.world, level.contact_state);
 }
 
 void advance(Level& level, const Pose& before, const Pose& now, const std::vector<Real>& activations,
@@ -87,12 +87,12 @@ void advance(Level& level, const Pose& before, const Pose& now, const std::vecto
   const std::vector<MuscleStep> steps = steps_of(level, activations, next, reports);
   for (std::size_t m = 0; m < reports.size(); ++m)
     reports[m].triangles = static_cast<Index>(level.muscles[m].faces.cols());
-  if (!level.crowd.meets()) return advance_each(level, steps, before, now);
-  const VirtualEdgeState edges = level.crowd_state.edges;
+  if (!level.world.meets()) return advance_each(level, steps, before, now);
+  const VirtualEdgeState edges = level.contact_state.edges;
   try {
-    advance_together(steps, level.crowd, level.crowd_state, before, now);
+    advance_together(steps, level.world, level.contact_state, before, now);
   } catch (const QualityError&) {
-    level.crowd_state.edges = edges;
+    level.contact_state.edges = edges;
     throw;
   }
 }
@@ -100,7 +100,7 @@ void advance(Level& level, const Pose& before, const Pose& now, const std::vecto
 /// Where muscles lie on others, those below come first in every step.
 static void replay_tied_strings(const Level& level, const std::vector<const PreparedMuscle*>& muscles,
                                 const std::vector<Pose>& poses, std::vector<MuscleState>& states) {
-  const MuscleTies& ties = level.crowd.ties;
+  const MuscleTies& ties = level.world.ties;
   for (std::size_t m = 0; m < states.size(); ++m)
     if (const CarryingStrings& carrying = level.muscles[m].carrying; carrying.strings) {
       states[m].strings = strings::capture_state(*carrying.strings, level.bodies);
@@ -119,13 +119,13 @@ static void replay_tied_strings(const Level& level, const std::vector<const Prep
 void replay_strings(const Level& level, const std::vector<Pose>& poses, std::vector<MuscleState>& states) {
   std::vector<const PreparedMuscle*> all;
   for (const PreparedMuscle& muscle : level.muscles) all.push_back(&muscle);
-  if (level.crowd.ties.any()) return replay_tied_strings(level, all, poses, states);
+  if (level.world.ties.any()) return replay_tied_strings(level, all, poses, states);
   parallel_for_each(states.size(), [&](std::size_t m) {
     const CarryingStrings& carrying = level.muscles[m].carrying;
     if (!carrying.strings) return;
     states[m].strings = strings::capture_state(*carrying.strings, level.bodies);
     std::vector<const PreparedMuscle*> in_step = {&level.muscles[m]};
-    if (level.crowd.meets()) in_step = all;
+    if (level.world.meets()) in_step = all;
     for (std::size_t frame = 1; frame < poses.size(); ++frame)
       for (const Pose& pose : substep_poses(in_step, poses[frame - 1], poses[frame]))
         strings::follow(*carrying.strings, *carrying.bones, pose, states[m].strings);
@@ -165,7 +165,7 @@ void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const 
             placed[m]);
   });
   std::vector<StepCounts> refined(reports.size());
-  refine_together(steps_of(full, activations, next_full, refined), full.crowd, full.crowd_state, before, now, placed);
+  refine_together(steps_of(full, activations, next_full, refined), full.world, full.contact_state, before, now, placed);
   for (std::size_t m = 0; m < reports.size(); ++m) {
     reports[m].contacts = refined[m].contacts;
     reports[m].milliseconds += refined[m].milliseconds;

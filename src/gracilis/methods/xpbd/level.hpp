@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/methods/xpbd/crowd.hpp>
+#include <gracilis/methods/xpbd/contact_world.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 #include <gracilis/methods/xpbd/prolongation.hpp>
 #include <gracilis/methods/xpbd/step.hpp>
@@ -14,17 +14,17 @@ namespace gracilis::xpbd {
 struct Level {
   std::vector<PreparedMuscle> muscles;
   std::vector<MuscleState> states;
-  MuscleCrowd crowd;
-  MuscleCrowdState crowd_state;
+  MuscleContactWorld world;
+  MuscleContactState contact_state;
   std::size_t bodies = 0;  ///< of the scene
-  PassWatch watch = {};    ///< told of every pass of the solver
+  PassTrace trace = {};    ///< called after every pass of the solver
 };
 
 /// The strings that carry each muscle of a scene (carrying_strings).
 std::vector<CarryingStrings> carrying_strings(const Scene& scene, const strings::BoneDistances& bones);
 
 /// Prepares a level, at rest. `fields` as in prepare_muscle, `carrying` one per muscle; muscles that do not `meet` have
-/// no crowd.
+/// no contact.
 Level make_level(const Scene& scene, const std::vector<DistanceField>& fields,
                  const std::vector<CarryingStrings>& carrying, bool meet = true);
 

@@ -47,7 +47,7 @@ static RigidBlend carrier_transforms(const PreparedMuscle& muscle, const Pose& p
 static bool shares_of(const PreparedMuscle& muscle, Index particle, std::vector<Real>& shares) {
   Real sum = 0;
   for (std::size_t i = 0; i < shares.size(); ++i)
-    sum += shares[i] = static_cast<Real>(muscle.carrier_shares(static_cast<Index>(i), particle));
+    sum += shares[i] = static_cast<Real>(muscle.skinning_weights(static_cast<Index>(i), particle));
   if (!(sum > 0)) return false;
   for (Real& share : shares) share /= sum;
   return true;
@@ -63,11 +63,11 @@ MuscleState make_muscle_state(const PreparedMuscle& muscle, std::size_t bodies) 
 
 void skin_by_strings(const PreparedMuscle& muscle, MuscleState& state) {
   if (!muscle.carrying.strings) return;
-  const CarriedSurface& carried = *muscle.carried;
+  const StringSkinnedSurface& carried = *muscle.carried;
   strings::SkinnedSurface skinned =
       skinned_by_strings(*muscle.carrying.strings, carried.skin, carried.rest, carried.faces, state.strings);
-  if (!muscle.carried_vertex.empty())
-    skinned = {skinned.vertices(Eigen::all, muscle.carried_vertex), skinned.turns(Eigen::all, muscle.carried_vertex)};
+  if (!muscle.skinned_vertex.empty())
+    skinned = {skinned.vertices(Eigen::all, muscle.skinned_vertex), skinned.turns(Eigen::all, muscle.skinned_vertex)};
   state.skinned = std::make_shared<const strings::SkinnedSurface>(std::move(skinned));
 }
 
@@ -159,7 +159,7 @@ static Real kept_share(const PreparedMuscle& muscle, const Pose& before, const P
   return (1 - recovery) * std::min(nearer * nearer, Real{1});
 }
 
-void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, MuscleState& state) {
+void skin_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, MuscleState& state) {
   if (muscle.carriers.empty()) return;
   const CarryingFrames from(muscle, before, state.skinned);
   follow_strings(muscle, now, state);
@@ -180,7 +180,7 @@ void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& no
   });
 }
 
-Points carried_rest(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state) {
+Points skinned_rest(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state) {
   if (state.skinned) return state.skinned->vertices.colwise() - muscle.origin;
   Points carried = muscle.rest.colwise() - muscle.origin;
   if (muscle.carriers.empty()) return carried;
@@ -209,7 +209,7 @@ Points displacements(const PreparedMuscle& muscle, const Pose& pose, const Muscl
   return displaced;
 }
 
-void displace_carried(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state,
+void displace_skinned(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state,
                       const Points& displacements, Particles& particles) {
   const CarryingFrames frames(muscle, pose, state.skinned);
   parallel_for(particles.count(), 512, [&](Index begin, Index end) {
@@ -258,7 +258,7 @@ void set_target_lengths(const PreparedMuscle& muscle, const Pose& pose, MuscleSt
     std::copy(edges.rest_length.begin(), edges.rest_length.end(), target_length.begin());
     return;
   }
-  Points carried = carried_rest(muscle, pose, state);
+  Points carried = skinned_rest(muscle, pose, state);
   const Real swollen = enclosed_volume(carried, muscle.faces) / muscle.system.volume.target;
   if (swollen > 1) carried /= std::cbrt(swollen);
   const Real longest =

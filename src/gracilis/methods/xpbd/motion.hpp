@@ -43,25 +43,25 @@ Real turn_between(const PreparedMuscle& muscle, const Pose& before, const Pose& 
 /// knows nothing of that.
 ///
 /// The frames of a muscle made of sections across a line are its sections'; a tendon keeps no displacement.
-void carry_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, MuscleState& state);
+void skin_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now, bool active, MuscleState& state);
 
 /// Places each obstacle's field where its bone is now.
 std::vector<FieldPlacement> place_fields(const PreparedMuscle& muscle, const Pose& pose);
 
-/// The carried surface: where the strings, or the harmonic shares, alone would put every particle, about the particles'
+/// The skinned surface: where the strings, or the harmonic shares, alone would put every particle, about the particles'
 /// origin, m. It knows no contact but is as smooth as the surface at rest.
-Points carried_rest(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state);
+Points skinned_rest(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state);
 
-/// Every particle's displacement from where the bodies carry it, in its own frame at rest, m: what carry_free keeps.
+/// Every particle's displacement from where the bodies carry it, in its own frame at rest, m: what skin_free keeps.
 /// The motion of the bodies is taken out, so it varies little from one particle to its neighbors.
 Points displacements(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state);
 
 /// The inverse: carries the rest and displaces it, into `particles`. Attached ones go where their bodies are.
-void displace_carried(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state,
+void displace_skinned(const PreparedMuscle& muscle, const Pose& pose, const MuscleState& state,
                       const Points& displacements, Particles& particles);
 
-/// Slack uptake: every edge aims at the length it has on the carried surface, between 0.4 and `stretch_limit` times its
-/// rest, so that a muscle may shorten in front and lengthen behind and nothing is left over to fold. Where the carried
+/// Slack uptake: every edge aims at the length it has on the skinned surface, between 0.4 and `stretch_limit` times its
+/// rest, so that a muscle may shorten in front and lengthen behind and nothing is left over to fold. Where the skinned
 /// surface encloses more than the muscle's volume it is first shrunk to that, which leaves a stretched muscle taut.
 /// Without slack uptake, and where a single body carries the muscle, the targets are the lengths at rest.
 void set_target_lengths(const PreparedMuscle& muscle, const Pose& pose, MuscleState& state);

@@ -7,9 +7,9 @@
 
 namespace gracilis::xpbd {
 
-SolveWatch record_passes(const std::vector<MuscleStep>& steps, const std::vector<SurfaceSolve>& solves) {
-  const auto is_watched = [](const MuscleStep& step) { return step.watch && *step.watch; };
-  if (!std::all_of(steps.begin(), steps.end(), is_watched)) return {};
+SolveTrace record_passes(const std::vector<MuscleStep>& steps, const std::vector<SurfaceSolve>& solves) {
+  const auto is_traced = [](const MuscleStep& step) { return step.trace && *step.trace; };
+  if (!std::all_of(steps.begin(), steps.end(), is_traced)) return {};
   const auto before = std::make_shared<std::vector<Particles>>();
   for (const MuscleStep& step : steps) before->push_back(step.state->particles);
   return [&steps, &solves, before](std::size_t i, ConstraintKind kind) {
@@ -21,7 +21,7 @@ SolveWatch record_passes(const std::vector<MuscleStep>& steps, const std::vector
       pass.moved.col(step.muscle->order[static_cast<std::size_t>(p)]) =
           (now.position(p) - (*before)[i].position(p)).cast<Real>();
     (*before)[i] = now;
-    (*step.watch)(pass);
+    (*step.trace)(pass);
   };
 }
 

@@ -13,7 +13,7 @@ SolveSettings solve_settings(const XpbdSettings& settings, int substeps) {
   solve.projection.time_step =
       static_cast<float>(settings.constraint_time_step > 0 ? settings.constraint_time_step : solve.time_step);
   solve.projection.rayleigh_beta = static_cast<float>(settings.rayleigh_beta);
-  solve.projection.dihedral_limit = static_cast<float>(settings.hinge_limit);
+  solve.projection.dihedral_limit = static_cast<float>(settings.dihedral_limit);
   solve.projection.arccos_dihedrals = settings.dihedral_formula == DihedralFormula::arccos;
   solve.pressure = settings.pressure;
   solve.strain_limit = static_cast<float>(settings.stretch_limit);
@@ -23,7 +23,7 @@ SolveSettings solve_settings(const XpbdSettings& settings, int substeps) {
 }
 
 /// x += dt v + dt² g, v the damped velocity (dynamic mode).
-static void coast(const SolverSettings& settings, float time_step, SurfaceState& state) {
+static void predict_inertially(const SolverSettings& settings, float time_step, SurfaceState& state) {
   for (Index p = 0; p < state.particles.count(); ++p) {
     if (!(state.particles.inverse_mass(p) > 0)) continue;
     Eigen::Map<Eigen::Vector3f> velocity = velocity_of(state, p);
@@ -33,7 +33,7 @@ static void coast(const SolverSettings& settings, float time_step, SurfaceState&
 }
 
 void carry(const PreparedMuscle& muscle, bool active, const Pose& before, const Pose& pose, MuscleState& state) {
-  carry_free(muscle, before, pose, active, state);
+  skin_free(muscle, before, pose, active, state);
   if (!muscle.predicted) return;
   move_attached(muscle, pose, state.particles);
   Points points(3, state.particles.count());
@@ -61,7 +61,7 @@ void predict(const PreparedMuscle& muscle, Real activation, const Pose& before, 
     follow_strings(muscle, pose, state);
   // Velocities are relative to the carried motion, so the predictor adds no momentum of its own.
   if (is_carried) state.start = state.particles;
-  if (settings.time_mode == TimeMode::dynamic) coast(settings, time_step, state);
+  if (settings.time_mode == TimeMode::dynamic) predict_inertially(settings, time_step, state);
   move_attached(muscle, pose, state.particles);
   move_attached(muscle, pose, state.start);
   set_target_lengths(muscle, pose, state);

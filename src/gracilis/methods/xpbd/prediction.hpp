@@ -12,7 +12,7 @@ namespace gracilis::xpbd {
 /// a step takes its settings from here.
 SolveSettings solve_settings(const XpbdSettings& settings, int substeps);
 
-/// What the predictor does: carries the particles (carry_free, for muscles that are `active` or not) and, where it is
+/// What the predictor does: carries the particles (skin_free, for muscles that are `active` or not) and, where it is
 /// asked for, brings them nearer to an as-rigid-as-possible surface.
 void carry(const PreparedMuscle& muscle, bool active, const Pose& before, const Pose& pose, MuscleState& state);
 

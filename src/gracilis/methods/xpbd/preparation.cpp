@@ -180,13 +180,13 @@ void build_predictor(const Scene& scene, const MeshTopology& topology, const std
     if (body >= 0 && std::find(prepared.carriers.begin(), prepared.carriers.end(), body) == prepared.carriers.end())
       prepared.carriers.push_back(body);
   std::sort(prepared.carriers.begin(), prepared.carriers.end());
-  prepared.carrier_shares = skinning_weights({prepared.rest, prepared.faces}, topology, prepared.fixed_body,
-                                             prepared.carriers, prepared.settings.tendon_length);
+  prepared.skinning_weights = skinning_weights({prepared.rest, prepared.faces}, topology, prepared.fixed_body,
+                                               prepared.carriers, prepared.settings.tendon_length);
   if (prepared.settings.predictor != Predictor::arap || prepared.carriers.empty()) return;
   std::vector<char> held;
   for (Index p = 0; p < prepared.particle_count(); ++p)
     held.push_back(prepared.fixed_body[static_cast<std::size_t>(p)] >= 0 ||
-                   !(prepared.carrier_shares.col(p).sum() > 0));
+                   !(prepared.skinning_weights.col(p).sum() > 0));
   prepared.predicted =
       std::make_shared<const ArapPredictor>(TriangleMesh{prepared.rest, prepared.faces}, topology, std::move(held));
   const std::vector<Real> margins(prepared.fixed_body.size(), prepared.settings.bone_margin);
@@ -268,16 +268,17 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
   prepared.carrying = carrying;
   if (carrying.strings)
-    prepared.carried = std::make_shared<const CarriedSurface>(
-        CarriedSurface{prepared.rest, prepared.faces,
-                       strings::bind_skin(*carrying.strings, {prepared.rest, prepared.faces}, prepared.fixed_body)});
+    prepared.carried = std::make_shared<const StringSkinnedSurface>(StringSkinnedSurface{
+        prepared.rest, prepared.faces,
+        strings::bind_skin(*carrying.strings, {prepared.rest, prepared.faces}, prepared.fixed_body)});
   prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(scene, prepared));
   // What takes the most memory while it is built comes first.
   const ContactSettings contact = contact_settings(scene);
   prepared.keeps_out_of_itself = contact.self && contact.muscle == MuscleContact::surface && prepared.belly.empty();
   if (prepared.keeps_out_of_itself) {
     prepared.system.slivers = build_sliver_set(prepared.faces, prepared.system.rest, flattest);
-    prepared.system.tight_places = find_tight_places(prepared.rest, prepared.faces, tight, prepared.system.rest);
+    prepared.system.rest_proximities =
+        find_rest_proximities(prepared.rest, prepared.faces, tight, prepared.system.rest);
   }
   const MeshTopology topology = build_topology(prepared.faces, prepared.particle_count());
   build_predictor(scene, topology, fields, prepared);

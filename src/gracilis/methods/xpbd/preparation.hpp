@@ -28,7 +28,7 @@ struct CarryingStrings {
 };
 
 /// The surface that strings carry, and how it is bound to them.
-struct CarriedSurface {
+struct StringSkinnedSurface {
   Points rest;
   Eigen::Matrix3Xi faces;
   strings::StringSkin skin;
@@ -42,14 +42,15 @@ struct PreparedMuscle {
   SurfaceSystem system;
   Vec3 origin = Vec3::Zero();  ///< world position of the particles' coordinate origin, m
   std::vector<Index> order;
-  Points rest;                     ///< world, in particle order, m
-  Eigen::Matrix3Xi faces;          ///< of particles
-  std::vector<Index> fixed_body;   ///< per particle: the body it is attached to, or -1
-  std::vector<Index> carriers;     ///< bodies with attachments on this muscle
-  Eigen::MatrixXf carrier_shares;  ///< carriers × particles: harmonic shares of their motion, columns sum to 1
-  CarryingStrings carrying;        ///< coarser copies share theirs with the whole surface
-  std::shared_ptr<const CarriedSurface> carried;   ///< where there are strings: its own, or that of which it is a copy
-  std::vector<Index> carried_vertex;               ///< per particle, on that surface; empty: each its own
+  Points rest;                       ///< world, in particle order, m
+  Eigen::Matrix3Xi faces;            ///< of particles
+  std::vector<Index> fixed_body;     ///< per particle: the body it is attached to, or -1
+  std::vector<Index> carriers;       ///< bodies with attachments on this muscle
+  Eigen::MatrixXf skinning_weights;  ///< carriers × particles: harmonic shares of their motion, columns sum to 1
+  CarryingStrings carrying;          ///< coarser copies share theirs with the whole surface
+  std::shared_ptr<const StringSkinnedSurface>
+      carried;                                     ///< where there are strings: its own, or that of which it is a copy
+  std::vector<Index> skinned_vertex;               ///< per particle, on that surface; empty: each its own
   std::shared_ptr<const ArapPredictor> predicted;  ///< where the predictor asks for it
   BoneProjection predicted_bones;                  ///< that it keeps out of
   std::optional<LineSections> line;         ///< where its surface is made of sections, whose frames carry it then

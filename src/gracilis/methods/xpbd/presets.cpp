@@ -37,7 +37,7 @@ static Preset thesis_2024() {
   xpbd.step_turn = 0;
   xpbd.settling_rounds = 0;
   xpbd.shape_recovery = 0;
-  xpbd.hinge_limit = 0;
+  xpbd.dihedral_limit = 0;
   xpbd.stretch_limit = 0;
   xpbd.slack_uptake = false;
   preset.distance_fields.resolution = 128;

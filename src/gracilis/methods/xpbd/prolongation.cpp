@@ -57,8 +57,8 @@ Prolongation prepare_prolongation(const CoarserMuscle& copy, const PreparedMuscl
   const std::vector<Index> full_particle = inverse_of(full.order), coarse_particle = inverse_of(coarse.order);
   for (const Index vertex : coarse.order)
     result.picked.push_back(full_particle[static_cast<std::size_t>(copy.vertices[static_cast<std::size_t>(vertex)])]);
-  coarse.carried = full.carried, coarse.carried_vertex = result.picked;
-  coarse.carrier_shares = full.carrier_shares(Eigen::all, result.picked).eval();
+  coarse.carried = full.carried, coarse.skinned_vertex = result.picked;
+  coarse.skinning_weights = full.skinning_weights(Eigen::all, result.picked).eval();
 
   const std::vector<std::vector<Index>> near = faces_near(coarse);
   result.corners.assign(full.order.size(), {0, 0, 0});
@@ -89,7 +89,7 @@ void prolong(const Prolongation& prolongation, const PreparedMuscle& coarse, con
     displaced.col(p) =
         weights[0] * known.col(corners[0]) + weights[1] * known.col(corners[1]) + weights[2] * known.col(corners[2]);
   }
-  displace_carried(full, pose, full_state, displaced, particles);
+  displace_skinned(full, pose, full_state, displaced, particles);
 }
 
 void restrict_to_copy(const Prolongation& prolongation, const PreparedMuscle& full, const Particles& particles,

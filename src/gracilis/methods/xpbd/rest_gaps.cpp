@@ -43,47 +43,47 @@ struct RestSide {
   const std::vector<char>&probe_tied, &target_tied;  ///< particles that are tied to the other
 
   /// Whether the two belong where they are.
-  bool grown_together(const PointTouch& touch) const {
-    if (probe_tied[static_cast<std::size_t>(touch.particle)]) return true;
-    const auto corners = target_surface.faces.col(touch.face);
+  bool grown_together(const VertexFaceCandidate& candidate) const {
+    if (probe_tied[static_cast<std::size_t>(candidate.particle)]) return true;
+    const auto corners = target_surface.faces.col(candidate.face);
     if (std::all_of(corners.begin(), corners.end(), [&](Index p) { return target_tied[static_cast<std::size_t>(p)]; }))
       return true;
-    return !(probe.inverse_mass(touch.particle) > 0) && is_held(target_surface, touch.face, target);
+    return !(probe.inverse_mass(candidate.particle) > 0) && is_held(target_surface, candidate.face, target);
   }
 
-  float distance(const PointTouch& touch) const {
-    return touch.side *
-           point_gap(probe.position(touch.particle) + shift, target_surface, touch.face, target, target_normals)
+  float distance(const VertexFaceCandidate& candidate) const {
+    return candidate.side *
+           point_gap(probe.position(candidate.particle) + shift, target_surface, candidate.face, target, target_normals)
                .distance;
   }
 };
 
-void measure_side(const std::vector<PointTouch>& near, const RestSide& side, bool is_self, std::vector<float>& gaps,
-                  std::vector<char>& touches) {
-  for (const PointTouch& touch : near) {
-    const auto p = static_cast<std::size_t>(touch.particle);
-    const float rest = side.distance(touch);
-    touches[p] = rest < touching;
+void measure_side(const std::vector<VertexFaceCandidate>& near, const RestSide& side, bool is_self,
+                  std::vector<float>& gaps, std::vector<char>& candidates) {
+  for (const VertexFaceCandidate& candidate : near) {
+    const auto p = static_cast<std::size_t>(candidate.particle);
+    const float rest = side.distance(candidate);
+    candidates[p] = rest < touching;
     // What overlaps is released; a wrong sign at a fold is not an overlap.
     if (!side.overlaps.empty() && side.overlaps[p]) continue;
-    const float kept = rest < 0 && is_self ? rest * static_cast<float>(1 - overlap_given_back)
-                       : touch.side < 0    ? rest * thinnest_sheet
-                                           : rest;
+    const float kept = rest < 0 && is_self  ? rest * static_cast<float>(1 - overlap_given_back)
+                       : candidate.side < 0 ? rest * thinnest_sheet
+                                            : rest;
     gaps[p] = std::min(gaps[p], kept);
   }
 }
 
 /// The depth at which attachments lie in attachments of the other surface, or what is tied to it lies in it, on both;
 /// +infinity elsewhere.
-void gather_grown_together(const std::vector<PointTouch>& near, const RestSide& side, std::vector<float>& of_probe,
-                           std::vector<float>& of_target) {
-  for (const PointTouch& touch : near) {
-    if (!side.grown_together(touch)) continue;
-    const float rest = side.distance(touch);
+void gather_grown_together(const std::vector<VertexFaceCandidate>& near, const RestSide& side,
+                           std::vector<float>& of_probe, std::vector<float>& of_target) {
+  for (const VertexFaceCandidate& candidate : near) {
+    if (!side.grown_together(candidate)) continue;
+    const float rest = side.distance(candidate);
     if (!(rest < 0)) continue;
     const auto lower = [rest](float& depth) { depth = std::min(depth, rest); };
-    lower(of_probe[static_cast<std::size_t>(touch.particle)]);
-    for (const Index corner : side.target_surface.faces.col(touch.face))
+    lower(of_probe[static_cast<std::size_t>(candidate.particle)]);
+    for (const Index corner : side.target_surface.faces.col(candidate.face))
       lower(of_target[static_cast<std::size_t>(corner)]);
   }
 }
@@ -161,31 +161,31 @@ void OverlapTable::mark(SurfacePair& pair) const {
   mark_side(entry->overlap.of_second, entry->sides.second_astray, pair.second_gap, pair.second_overlaps);
 }
 
-void measure_rest_gaps(const CrowdState& state, const std::vector<const Particles*>& rest, std::size_t number,
-                       const std::vector<TiedSurfaces>& ties, SurfaceCrowd& crowd) {
-  SurfacePair& pair = crowd.pairs[number];
-  const PairTouches& touches = state.touches[number];
+void measure_rest_gaps(const ContactWorldState& state, const std::vector<const Particles*>& rest, std::size_t number,
+                       const std::vector<TiedSurfaces>& ties, ContactWorld& world) {
+  SurfacePair& pair = world.pairs[number];
+  const PairCandidates& candidates = state.candidates[number];
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   const std::vector<char> first_tied = tied_to(pair.first, pair.second, rest[a]->count(), ties),
                           second_tied = tied_to(pair.second, pair.first, rest[b]->count(), ties);
-  const RestSide first{*rest[a],         *rest[b],   crowd.surfaces[a],   crowd.surfaces[b],
+  const RestSide first{*rest[a],         *rest[b],   world.surfaces[a],   world.surfaces[b],
                        state.normals[b], pair.shift, pair.first_overlaps, first_tied,
                        second_tied},
-      second{*rest[b],         *rest[a],    crowd.surfaces[b],    crowd.surfaces[a],
+      second{*rest[b],         *rest[a],    world.surfaces[b],    world.surfaces[a],
              state.normals[a], -pair.shift, pair.second_overlaps, second_tied,
              first_tied};
-  measure_side(touches.near_second, first, pair.is_self(), pair.first_gap, pair.first_touches);
-  measure_side(touches.near_first, second, pair.is_self(), pair.second_gap, pair.second_touches);
+  measure_side(candidates.near_second, first, pair.is_self(), pair.first_gap, pair.first_touches);
+  measure_side(candidates.near_first, second, pair.is_self(), pair.second_gap, pair.second_touches);
   if (pair.is_self()) {
     pair.second_gap = pair.first_gap;
     return;
   }
   const float none = std::numeric_limits<float>::infinity();
   std::vector<float> depth_first(pair.first_gap.size(), none), depth_second(pair.second_gap.size(), none);
-  gather_grown_together(touches.near_second, first, depth_first, depth_second);
-  gather_grown_together(touches.near_first, second, depth_second, depth_first);
-  fade_release(crowd.surfaces[a], *rest[a], std::move(depth_first), pair.first_gap);
-  fade_release(crowd.surfaces[b], *rest[b], std::move(depth_second), pair.second_gap);
+  gather_grown_together(candidates.near_second, first, depth_first, depth_second);
+  gather_grown_together(candidates.near_first, second, depth_second, depth_first);
+  fade_release(world.surfaces[a], *rest[a], std::move(depth_first), pair.first_gap);
+  fade_release(world.surfaces[b], *rest[b], std::move(depth_second), pair.second_gap);
 }
 
 }  // namespace gracilis::xpbd

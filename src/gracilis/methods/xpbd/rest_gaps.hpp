@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/anatomy/overlap/overlap_sides.hpp>
-#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
+#include <gracilis/dynamics/contact/surface/contact_world.hpp>
 #include <gracilis/dynamics/contact/surface/surface_ties.hpp>
 
 #include <map>
@@ -36,7 +36,7 @@ class OverlapTable {
 /// Lowers the gaps of a pair, which are the margin, to what there is at rest, but for what overlaps there: that is
 /// released. Around attachments that overlap attachments of the other, and around ends that are tied to it, the release
 /// fades, for those stay. `state` has what was found at `rest`.
-void measure_rest_gaps(const CrowdState& state, const std::vector<const Particles*>& rest, std::size_t pair,
-                       const std::vector<TiedSurfaces>& ties, SurfaceCrowd& crowd);
+void measure_rest_gaps(const ContactWorldState& state, const std::vector<const Particles*>& rest, std::size_t pair,
+                       const std::vector<TiedSurfaces>& ties, ContactWorld& world);
 
 }  // namespace gracilis::xpbd

@@ -47,12 +47,13 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "Scales each edge's stiffness by 1 - |u·v|, u along the edge and v along the fibers."},
       {"anisotropy_floor", &S::anisotropy_floor, "", 0, 1, "Smallest factor that the anisotropy may reach."},
       {"dihedral_stiffness", &S::dihedral_stiffness, "N·m", 0, 1e18,
-       "Stiffness of the surface's hinges against bending."},
+       "Stiffness of the surface's dihedrals against bending."},
       {"dihedral_shape_scaling", &S::dihedral_shape_scaling, "", 0, 0,
-       "Scales each hinge's stiffness by 3 l²/A (l its edge, A its two triangles), which makes it independent of the "
+       "Scales each dihedral's stiffness by 3 l²/A (l its edge, A its two triangles), which makes it independent of "
+       "the "
        "mesh."},
       {"dihedral_formula", &S::dihedral_formula, "", 0, 0,
-       "Measure of the hinge's angle: 'atan2' is stable everywhere, 'arccos' is the published one."},
+       "Measure of the dihedral's angle: 'atan2' is stable everywhere, 'arccos' is the published one."},
       {"volume_compliance", &S::volume_compliance, "m⁶/J", 0, 1e6,
        "Compliance of the enclosed volume; 0 keeps it exactly."},
       {"pressure", &S::pressure, "", 0.01, 100, "Volume aimed at, as a multiple of the volume at rest."},
@@ -84,13 +85,13 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"settling_rounds", &S::settling_rounds, "", 0, 1000,
        "Rounds of volume and contact alone after the last iteration, so that neither undoes the other.", true},
       {"shape_recovery", &S::shape_recovery, "", 0, 1,
-       "Share of its displacement from the carried rest shape that the predictor takes back in each step."},
-      {"hinge_limit", &S::hinge_limit, "", 0, 10,
-       "Largest motion that one projection of a hinge may cause, as a share of its edge; 0 sets no limit."},
+       "Share of its displacement from the skinned rest shape that the predictor takes back in each step."},
+      {"hinge_limit", &S::dihedral_limit, "", 0, 10,
+       "Largest motion that one projection of a dihedral may cause, as a share of its edge; 0 sets no limit."},
       {"stretch_limit", &S::stretch_limit, "", 0, 1000,
        "Longest an edge may become as a multiple of its length at rest; 0 sets no limit."},
       {"slack_uptake", &S::slack_uptake, "", 0, 0,
-       "Edges aim at the lengths they have on the surface carried with the bones, so that a muscle shortens and "
+       "Edges aim at the lengths they have on the surface skinned to the bones, so that a muscle shortens and "
        "lengthens where the motion asks for it instead of folding."},
   };
   return table;
@@ -123,7 +124,7 @@ std::span<const Setting<SurfaceContactSettings>> setting_table() {
   static const Setting<S> table[] = {
       {"friction", &S::friction, "", 0, 10, "Coulomb's coefficient of friction between muscles."},
       {"cohesion", &S::cohesion, "m", 0, 0.1,
-       "Farthest that parts of muscles which touch in the capture pose may part; 0 lets them."},
+       "Farthest that parts of muscles which candidate in the capture pose may part; 0 lets them."},
       {"update_period", &S::update_period, "", 1, 100000, update_period_meaning},
   };
   return table;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/dynamics/contact/field/field_contact_set.hpp>
-#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
+#include <gracilis/dynamics/contact/surface/contact_world.hpp>
 #include <gracilis/dynamics/havlicek_2024/virtual_edges.hpp>
 #include <gracilis/methods/predictor.hpp>
 #include <gracilis/scene/scene.hpp>
@@ -41,7 +41,7 @@ struct SolverSettings {
   Real stop_milliseconds = 0;   ///< ms; stop a frame early after this time; 0: never
   Real step_turn = radians(2);  ///< rad; a frame that turns bones further is taken in several steps; 0: in one
   int settling_rounds = 4;      ///< of volume and contact alone, after the last iteration
-  Real hinge_limit = 0.05;      ///< largest motion by one hinge projection, as a share of its edge; 0: off
+  Real dihedral_limit = 0.05;   ///< largest motion by one dihedral projection, as a share of its edge; 0: off
   Real stretch_limit = 2.5;     ///< longest an edge may become, over its length at rest; 0: no limit
 };
 
@@ -61,7 +61,7 @@ struct MaterialSettings {
   bool fiber_anisotropy = true;        ///< scale the distance stiffness by 1 - |u·v|
   Real anisotropy_floor = 0.1;         ///< smallest factor the anisotropy may reach
   Real dihedral_stiffness = 1e-6;      ///< N·m
-  bool dihedral_shape_scaling = true;  ///< scale per hinge by 3 l²/A
+  bool dihedral_shape_scaling = true;  ///< scale per dihedral by 3 l²/A
   DihedralFormula dihedral_formula = DihedralFormula::atan2;
   Real volume_compliance = 0;  ///< m³·m³/J
   Real pressure = 1;           ///< target volume as a multiple of the volume at rest
@@ -83,7 +83,7 @@ struct PredictorSettings {
   Skinning skinning = Skinning::strings;  ///< what the predictor follows
   Real tendon_length = 0.03;              ///< m from attachments, graded from tendon to belly; 0: no tendons
   Real shape_recovery = 0.03;             ///< share of its displacement that a vertex gives up per step
-  bool slack_uptake = true;               ///< edges aim at their lengths on the carried surface, so that nothing folds
+  bool slack_uptake = true;               ///< edges aim at their lengths on the skinned surface, so that nothing folds
 };
 
 /// All of one muscle.

@@ -65,10 +65,11 @@ struct Failure {
 
 /// Solves again from the prediction and watches.
 Failure find_failure(std::vector<SurfaceSolve>& solves, const std::vector<Particles>& predicted,
-                     const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state) {
+                     const std::vector<MuscleStep>& steps, const MuscleContactWorld& world,
+                     MuscleContactState& contact_state) {
   for (std::size_t i = 0; i < steps.size(); ++i) steps[i].state->particles = predicted[i];
   std::vector<std::optional<ConstraintKind>> first(steps.size());
-  solve_together(solves, couple(steps, crowd, crowd_state), [&](std::size_t i, ConstraintKind kind) {
+  solve_together(solves, couple(steps, world, contact_state), [&](std::size_t i, ConstraintKind kind) {
     if (!first[i] && !is_finite(steps[i].state->particles)) first[i] = kind;
   });
   for (std::size_t i = 0; i < first.size(); ++i)
@@ -85,7 +86,7 @@ Failure find_failure(std::vector<SurfaceSolve>& solves, const std::vector<Partic
 void add_to(StepCounts& report, const SolveReport& solved, Real correction) {
   report.iterations += solved.iterations;
   report.contacts = solved.contacts;
-  report.limited_hinges += solved.limited_dihedrals;
+  report.limited_dihedrals += solved.limited_dihedrals;
   report.limited_edges += solved.limited_edges;
   report.skipped_constraints += solved.skipped_constraints;
   report.largest_correction = std::max(report.largest_correction, correction);
@@ -101,12 +102,13 @@ struct Substep {
 };
 
 /// Before anything moves: contact remembers where everything is.
-Substep begin_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state) {
-  if (!crowd.edges.pairs.empty()) remember_positions(particles_of<const Particles*>(steps), crowd_state.edges);
-  if (!crowd.surfaces.pairs.empty()) remember_places(particles_of<const Particles*>(steps), crowd_state.surfaces);
+Substep begin_substep(const std::vector<MuscleStep>& steps, const MuscleContactWorld& world,
+                      MuscleContactState& contact_state) {
+  if (!world.edges.pairs.empty()) remember_positions(particles_of<const Particles*>(steps), contact_state.edges);
+  if (!world.surfaces.pairs.empty()) remember_places(particles_of<const Particles*>(steps), contact_state.surfaces);
   const std::size_t count = steps.size();
   return {std::vector<SurfaceSolve>(count), std::vector<std::vector<FieldPlacement>>(count),
-          std::vector<Particles>(count), crowd_state.edges};
+          std::vector<Particles>(count), contact_state.edges};
 }
 
 /// Moves the bones of one muscle, which remembers on which side of each it is.
@@ -126,21 +128,21 @@ void hold_ends(const MuscleTies& ties, const std::vector<MuscleStep>& steps, Par
                   steps[static_cast<std::size_t>(tied.guest)].state->*places);
 }
 
-/// Solves from the prediction and adds to the reports. On failure the crowd is as it was.
-void solve_predicted(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
-                     Substep& substep) {
+/// Solves from the prediction and adds to the reports. On failure the world is as it was.
+void solve_predicted(const std::vector<MuscleStep>& steps, const MuscleContactWorld& world,
+                     MuscleContactState& contact_state, Substep& substep) {
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (!is_finite(substep.predicted[i]))
       throw QualityError("muscle " + steps[i].muscle->name +
                          ": a vertex position is not finite before the solver; check the pose and the velocities");
-  solve_together(substep.solves, couple(steps, crowd, crowd_state), record_passes(steps, substep.solves));
+  solve_together(substep.solves, couple(steps, world, contact_state), record_passes(steps, substep.solves));
   const auto is_lost = [](const MuscleStep& step) { return !is_finite(step.state->particles); };
   if (std::any_of(steps.begin(), steps.end(), is_lost)) {
-    crowd_state.edges = substep.edges_before;
-    forget_touches(crowd_state.surfaces);
-    throw_failure(steps, find_failure(substep.solves, substep.predicted, steps, crowd, crowd_state));
+    contact_state.edges = substep.edges_before;
+    forget_candidates(contact_state.surfaces);
+    throw_failure(steps, find_failure(substep.solves, substep.predicted, steps, world, contact_state));
   }
-  hold_ends(crowd.ties, steps, &SurfaceState::particles);
+  hold_ends(world.ties, steps, &SurfaceState::particles);
   parallel_for_each(steps.size(), [&](std::size_t i) {
     const float correction = largest_motion(substep.predicted[i], steps[i].state->particles);
     add_to(*steps[i].report, substep.solves[i].report, static_cast<Real>(correction));
@@ -167,27 +169,27 @@ void for_each_group(const MuscleTies& ties, const std::vector<MuscleStep>& steps
 
 /// One of `substeps` steps of a frame: bones and inertia predict, the solver corrects. The bodies that muscles carry
 /// are put into `now` where they are.
-void advance_substep(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
-                     int substeps, const Pose& before, Pose& now) {
-  Substep substep = begin_substep(steps, crowd, crowd_state);
+void advance_substep(const std::vector<MuscleStep>& steps, const MuscleContactWorld& world,
+                     MuscleContactState& contact_state, int substeps, const Pose& before, Pose& now) {
+  Substep substep = begin_substep(steps, world, contact_state);
   const auto time_step = [&](std::size_t i) { return static_cast<float>(substep.solves[i].settings.time_step); };
-  for_each_group(crowd.ties, steps, now, [&](std::size_t i) {
+  for_each_group(world.ties, steps, now, [&](std::size_t i) {
     const MuscleStep& step = steps[i];
     move_bones(step, substeps, before, now, substep.placements[i], substep.solves[i]);
     predict(*step.muscle, step.activation, before, now, time_step(i), *step.state);
   });
-  for (const auto places : {&SurfaceState::particles, &SurfaceState::start}) hold_ends(crowd.ties, steps, places);
+  for (const auto places : {&SurfaceState::particles, &SurfaceState::start}) hold_ends(world.ties, steps, places);
   for (std::size_t i = 0; i < steps.size(); ++i) substep.predicted[i] = steps[i].state->particles;
-  solve_predicted(steps, crowd, crowd_state, substep);
+  solve_predicted(steps, world, contact_state, substep);
   parallel_for_each(steps.size(), [&](std::size_t i) {
     if (steps[i].muscle->settings.time_mode == TimeMode::dynamic) take_velocities(time_step(i), *steps[i].state);
   });
 }
 
 /// Adds each pair's counts to both of its muscles.
-void report_edges(const VirtualEdgeCrowd& crowd, const VirtualEdgeState& state, const std::vector<MuscleStep>& steps) {
-  for (std::size_t i = 0; i < crowd.pairs.size(); ++i)
-    for (const Index surface : {crowd.pairs[i].first, crowd.pairs[i].second}) {
+void report_edges(const VirtualEdgeWorld& world, const VirtualEdgeState& state, const std::vector<MuscleStep>& steps) {
+  for (std::size_t i = 0; i < world.pairs.size(); ++i)
+    for (const Index surface : {world.pairs[i].first, world.pairs[i].second}) {
       StepCounts& report = *steps[static_cast<std::size_t>(surface)].report;
       report.virtual_edges += static_cast<Index>(state.pairs[i].edges.size());
       report.virtual_pushes += state.pairs[i].pushes;
@@ -207,26 +209,27 @@ std::vector<Pose> substep_poses(const std::vector<const PreparedMuscle*>& muscle
   return poses;
 }
 
-void advance_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
-                      const Pose& before, const Pose& now) {
+void advance_together(const std::vector<MuscleStep>& steps, const MuscleContactWorld& world,
+                      MuscleContactState& contact_state, const Pose& before, const Pose& now) {
   std::vector<const PreparedMuscle*> muscles;
   for (const MuscleStep& step : steps) muscles.push_back(step.muscle);
   const std::vector<Pose> poses = substep_poses(muscles, before, now);
-  begin_touch_frame(crowd.surfaces, crowd_state.surfaces);
-  begin_edge_frame(crowd.edges, particles_of<const Particles*>(steps), crowd_state.edges);
+  begin_contact_frame(world.surfaces, contact_state.surfaces);
+  begin_edge_frame(world.edges, particles_of<const Particles*>(steps), contact_state.edges);
   Pose reached = before;
-  for (const std::vector<std::size_t>& group : crowd.ties.groups) see_carried_bodies(crowd.ties, steps, group, reached);
+  for (const std::vector<std::size_t>& group : world.ties.groups) see_carried_bodies(world.ties, steps, group, reached);
   for (Pose pose : poses) {
-    advance_substep(steps, crowd, crowd_state, static_cast<int>(poses.size()), reached, pose);
+    advance_substep(steps, world, contact_state, static_cast<int>(poses.size()), reached, pose);
     reached = std::move(pose);
   }
-  end_edge_frame(crowd.edges, crowd_state.edges);
-  report_edges(crowd.edges, crowd_state.edges, steps);
+  end_edge_frame(world.edges, contact_state.edges);
+  report_edges(world.edges, contact_state.edges, steps);
 }
 
-void refine_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& crowd, MuscleCrowdState& crowd_state,
-                     const Pose& before, const Pose& now, const std::vector<Particles>& placed) {
-  Substep substep = begin_substep(steps, crowd, crowd_state);
+void refine_together(const std::vector<MuscleStep>& steps, const MuscleContactWorld& world,
+                     MuscleContactState& contact_state, const Pose& before, const Pose& now,
+                     const std::vector<Particles>& placed) {
+  Substep substep = begin_substep(steps, world, contact_state);
   parallel_for_each(steps.size(), [&](std::size_t i) {
     const MuscleStep& step = steps[i];
     SurfaceSolve& solve = substep.solves[i];
@@ -235,9 +238,9 @@ void refine_together(const std::vector<MuscleStep>& steps, const MuscleCrowd& cr
     place(*step.muscle, step.activation, now, placed[i], *step.state);
     if (solve.settings.iterations == 0) refresh_contacts(step.muscle->system, substep.placements[i], *step.state);
   });
-  hold_ends(crowd.ties, steps, &SurfaceState::particles);
+  hold_ends(world.ties, steps, &SurfaceState::particles);
   for (std::size_t i = 0; i < steps.size(); ++i) substep.predicted[i] = steps[i].state->particles;
-  solve_predicted(steps, crowd, crowd_state, substep);
+  solve_predicted(steps, world, contact_state, substep);
 }
 
 }  // namespace gracilis::xpbd

@@ -12,7 +12,7 @@ struct StepCounts {
   Index triangles = 0;            ///< of the surface that was simulated
   Real largest_correction = 0;    ///< m, farthest that the solver moved a vertex from where it was predicted
   Index contacts = 0;             ///< points touching a bone at the end
-  Index limited_hinges = 0;       ///< hinge projections held back, over all iterations
+  Index limited_dihedrals = 0;    ///< dihedral projections held back, over all iterations
   Index limited_edges = 0;        ///< edges held at the stretch limit, over all iterations
   Index skipped_constraints = 0;  ///< projections without a usable gradient, over all iterations
   Index virtual_edges = 0;        ///< between this muscle and others; 0 where contact is not by virtual edges

@@ -1,7 +1,7 @@
+#include <gracilis/methods/xpbd/mid_solve_snapshot.hpp>
 #include <gracilis/methods/xpbd/presets.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
 #include <gracilis/methods/xpbd/step_counts.hpp>
-#include <gracilis/methods/xpbd/under_way.hpp>
 #include <gracilis/methods/xpbd/xpbd_method.hpp>
 #include <gracilis/strings/bone_distances.hpp>
 

@@ -4,9 +4,9 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/methods/pass_tracing.hpp>
 #include <gracilis/methods/placed_method.hpp>
+#include <gracilis/methods/xpbd/frame_budget.hpp>
 #include <gracilis/methods/xpbd/level.hpp>
 #include <gracilis/methods/xpbd/motion.hpp>
-#include <gracilis/methods/xpbd/pace.hpp>
 #include <gracilis/methods/xpbd/prediction.hpp>
 #include <gracilis/methods/xpbd/settings.hpp>
 #include <gracilis/methods/xpbd/step_counts.hpp>
@@ -47,20 +47,20 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
       const XpbdSettings settings = xpbd_settings(scene, muscle);
       is_coarser |= settings.simulated_edge > 0;
       asked_.push_back(settings);
-      if (settings.target_fps > 0) pace_.budget = 1000 / settings.target_fps;
+      if (settings.target_fps > 0) budget_.budget = 1000 / settings.target_fps;
     }
     // Copies meet in the surfaces' place, at a fraction of the time.
     full_ = make_level(scene, fields_, carrying_strings(scene, bones_), !is_coarser);
     if (is_coarser) coarser_ = make_coarser_level(scene, full_, fields_);
     asked_triangles_ = triangle_count(simulated());
-    if (pace_.budget > 0) choose_level(scene);
+    if (budget_.budget > 0) choose_level(scene);
   }
 
   void reset() override {
     xpbd::reset(full_);
     if (coarser_) xpbd::reset(coarser_->level);
     pose_ = capture_pose(pose_.bodies.size());
-    paces_.clear();
+    budgets_.clear();
   }
 
   StepReport advance(const Pose& pose, Real time_step) override {
@@ -69,7 +69,7 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
     std::vector<Real> activations;
     for (std::size_t m = 0; m < full_.muscles.size(); ++m) activations.push_back(activation_of(m, pose));
     for (std::size_t m = 0; m < full_.muscles.size(); ++m) {
-      simulated().muscles[m].settings.iterations = paced_iterations(pace_, asked_[m].iterations);
+      simulated().muscles[m].settings.iterations = budgeted_iterations(budget_, asked_[m].iterations);
       for (Level* level : {&full_, &simulated()}) level->muscles[m].settings.time_step = time_step_of(m, time_step);
     }
     std::vector<MuscleState> next = simulated().states;
@@ -84,14 +84,14 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - started;
     StepReport report;
     for (const StepCounts& each : counts) report.muscles.push_back(report_of(each));
-    if (pace_.budget > 0) report.metrics = follow_pace(elapsed.count());
+    if (budget_.budget > 0) report.metrics = follow_budget(elapsed.count());
     return report;
   }
 
-  void watch_passes(PassWatch watch) override { full_.watch = std::move(watch); }
+  void trace_passes(PassTrace trace) override { full_.trace = std::move(trace); }
   PassTracing* pass_tracing() override { return this; }
-  bool watches_clock() const override { return pace_.budget > 0; }
-  std::string remark() const override { return remark_on(paces_); }
+  bool depends_on_clock() const override { return budget_.budget > 0; }
+  std::string remark() const override { return remark_on(budgets_); }
 
   void write(Frame& frame) const override {
     frame.muscles.resize(full_.muscles.size());
@@ -131,7 +131,7 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
       }
       full_.states[m] = std::move(state);
     }
-    forget_contact(full_.crowd, full_.crowd_state);
+    forget_contact(full_.world, full_.contact_state);
     if (coarser_) follow_full(full_, *coarser_);
     pose_ = last.pose;
   }
@@ -169,12 +169,12 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
     const auto is_in_time = [&] {
       Real milliseconds = 0;
       for (int trial = 0; trial < 3; ++trial) {
-        pace_.share = wanted_share;
+        budget_.share = wanted_share;
         milliseconds = metric(advance(rest, usual_time_step).metrics, "frame_milliseconds");
       }
       reset();
-      pace_.share = wanted_share;
-      return milliseconds < pace_.budget;
+      budget_.share = wanted_share;
+      return milliseconds < budget_.budget;
     };
     if (is_in_time()) return;
     // One iteration on the whole surface keeps its edges within the stretch limit.
@@ -184,20 +184,20 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
       Scene tried = scene;
       for (Muscle& muscle : tried.muscles)
         muscle.settings["simulated_edge"] = std::max(xpbd_settings(scene, muscle).simulated_edge, edge);
-      full_.crowd = {}, full_.crowd_state = {};
+      full_.world = {}, full_.contact_state = {};
       coarser_ = make_coarser_level(tried, full_, fields_);
       if (is_in_time()) return;
     }
   }
 
-  Metrics follow_pace(Real milliseconds) {
-    FramePace frame{1000 / pace_.budget, milliseconds, 0, 0, triangle_count(simulated()), asked_triangles_};
+  Metrics follow_budget(Real milliseconds) {
+    FrameBudgetReport frame{1000 / budget_.budget, milliseconds, 0, 0, triangle_count(simulated()), asked_triangles_};
     for (const SolverSettings& asked : asked_) {
       frame.asked_iterations = std::max(frame.asked_iterations, asked.iterations);
-      frame.iterations = std::max(frame.iterations, paced_iterations(pace_, asked.iterations));
+      frame.iterations = std::max(frame.iterations, budgeted_iterations(budget_, asked.iterations));
     }
-    see_frame(pace_, milliseconds);
-    paces_.push_back(frame);
+    see_frame(budget_, milliseconds);
+    budgets_.push_back(frame);
     return metrics_of(frame);
   }
 
@@ -208,8 +208,8 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
   Pose pose_;
   std::vector<XpbdSettings> asked_;  ///< per muscle, as the scene has them
   Index asked_triangles_ = 0;
-  Pace pace_;
-  std::vector<FramePace> paces_;  ///< since the capture pose, where a rate is to be held
+  FrameBudget budget_;
+  std::vector<FrameBudgetReport> budgets_;  ///< since the capture pose, where a rate is to be held
 };
 
 }  // namespace xpbd

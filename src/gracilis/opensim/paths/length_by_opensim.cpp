@@ -76,13 +76,13 @@ Real length_by_opensim(const Skeleton& skeleton, const Path& path, const Eigen::
   const std::vector<PlacedWrap> wraps = placed_wraps(skeleton.model(), path, skeleton.poses());
   std::vector<PathStop> points = own_points(path, skeleton.poses(), coordinates);
   SumOfRounds sum;
-  Laying laying;
+  PathSolver solver;
   if (std::none_of(wraps.begin(), wraps.end(), is_obstacle)) {
-    if (wraps.size() == 1) laying.wrap = lone_wrap;
-    laying.length = [&sum](const std::vector<PathStop>& now) { return sum(now); };
+    if (wraps.size() == 1) solver.wrap = lone_wrap;
+    solver.length = [&sum](const std::vector<PathStop>& now) { return sum(now); };
   }
-  lay_around(wraps, points, laying);
-  return laying.length(points);
+  solve_path(wraps, points, solver);
+  return solver.length(points);
 }
 
 }  // namespace gracilis::opensim

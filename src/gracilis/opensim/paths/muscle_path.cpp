@@ -56,7 +56,7 @@ std::vector<PathStop> own_points(const Path& path, const Poses& poses, const Eig
 std::vector<PathStop> current_points(const Model& model, const Path& path, const Poses& poses,
                                      const Eigen::VectorXd& coordinates) {
   std::vector<PathStop> points = own_points(path, poses, coordinates);
-  lay_around(placed_wraps(model, path, poses), points);
+  solve_path(placed_wraps(model, path, poses), points);
   return points;
 }
 

@@ -1,6 +1,6 @@
 #include <gracilis/view/comparison/comparison_rows.hpp>
 
-#include <gracilis/dynamics/contact/self/self_cuts.hpp>
+#include <gracilis/dynamics/contact/self/self_intersections.hpp>
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/simulate/moment_arms.hpp>
 
@@ -48,7 +48,7 @@ Real cuts_in(const RecordedRun& run, const std::string& muscle, const std::vecto
   const TriangleMesh rest = recorded_surface(run, muscle, 0);
   Index most = 0;
   for (const int frame : frames)
-    most = std::max(most, new_self_cuts(rest, recorded_surface(run, muscle, frame).vertices));
+    most = std::max(most, new_self_intersections(rest, recorded_surface(run, muscle, frame).vertices));
   return most;
 }
 
@@ -62,7 +62,7 @@ const std::vector<ComparisonColumn>& comparison_columns() {
       {"edge_change_percent", "Largest mean change of edges, %", 2, true},
       {"longest_free_edge", "Longest edge away from attachments, × rest", 2, true},
       {"dihedral_change_deg", "Largest mean change of dihedral angles, °", 2, true},
-      {"hinges_over_90", "Most hinges turned by more than 90°", 0, true},
+      {"hinges_over_90", "Most dihedrals turned by more than 90°", 0, true},
       {"vertex_depth_mm", "Deepest vertex in a bone, beyond rest, mm", 3, true},
       {"midpoint_depth_mm", "Deepest edge midpoint in a bone, beyond rest, mm", 3, true},
       {"self_cuts", "Pairs of triangles that cut each other, in the frames shown", 0, true},
@@ -72,7 +72,7 @@ const std::vector<ComparisonColumn>& comparison_columns() {
   return columns;
 }
 
-Index new_self_cuts(const TriangleMesh& rest, const Points& now) {
+Index new_self_intersections(const TriangleMesh& rest, const Points& now) {
   const Vec3 middle = now.rowwise().mean();
   const Eigen::VectorXd weights = Eigen::VectorXd::Ones(now.cols());
   const Points near = rest.vertices.colwise() - rest.vertices.rowwise().mean();
@@ -82,7 +82,7 @@ Index new_self_cuts(const TriangleMesh& rest, const Points& now) {
   std::iota(faces.begin(), faces.end(), Index{0});
   const ContactSurface surface = build_contact_surface(rest.faces, rest.vertex_count());
   const Eigen::Matrix3Xf rest_points = near.cast<float>();
-  return static_cast<Index>(find_self_cuts(surface, rest_points, at_rest, particles, std::move(faces)).size());
+  return static_cast<Index>(find_self_intersections(surface, rest_points, at_rest, particles, std::move(faces)).size());
 }
 
 FiberCourse fiber_course(const RecordedRun& run, const std::string& muscle) {

@@ -39,7 +39,7 @@ std::vector<ComparisonRow> comparison_rows(const std::vector<ComparedRun>& runs,
 std::string comparison_csv(const std::vector<ComparisonRow>& rows);
 
 /// How many pairs of a closed surface's triangles cut each other that did not at `rest`.
-Index new_self_cuts(const TriangleMesh& rest, const Points& now);
+Index new_self_intersections(const TriangleMesh& rest, const Points& now);
 
 /// A muscle's fibers over a run's frames up to the farthest pose.
 struct FiberCourse {

@@ -58,15 +58,24 @@ static std::string frame_caption(const RecordedRun& run, int frame) {
   return fmt::format("frame {}, {:.2f} s", frame, time);
 }
 
+/// How many coordinates a caption has room for.
+constexpr Index most_captioned = 3;
+
+/// How many coordinates move in a run, by half a degree or mm at least.
+static Index moving_coordinates(const RecordedRun& run) {
+  const Eigen::RowVectorXd ranges =
+      run.coordinate_values.colwise().maxCoeff() - run.coordinate_values.colwise().minCoeff();
+  return (ranges.array() >= 0.5).count();
+}
+
 std::string pose_caption(const RecordedRun& run, int frame) {
+  // All frames of a run are named alike.
+  if (moving_coordinates(run) > most_captioned) return frame_caption(run, frame);
   std::string caption;
-  int shown = 0;
   for (Index i = 0; i < run.coordinate_values.cols(); ++i) {
     const Real value = run.coordinate_values(frame, i);
     const bool changed = std::abs(value - run.coordinate_values(0, i)) >= 0.5 && std::abs(value) >= 0.5;
     if (!changed && i != main_coordinate(run)) continue;
-    // A whole body has more coordinates than a caption has room.
-    if (++shown > 3) return frame_caption(run, frame);
     const CoordinateLabel label = coordinate_label(run.coordinates[static_cast<std::size_t>(i)]);
     caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", label.name, value + 0.0, label.unit);
   }

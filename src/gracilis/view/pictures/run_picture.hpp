@@ -34,7 +34,8 @@ const std::vector<std::string>& view_names();
 /// (_r or _l). Precondition: `view` is one of view_names().
 Vec3 view_direction(const RecordedRun& run, const std::string& view);
 
-/// "hip_flexion_r 45°", and other coordinates that have left the capture pose.
+/// "hip_flexion_r 45°", and other coordinates that have left the capture pose; "frame 9, 0.15 s" in runs in which more
+/// move than a caption has room for.
 std::string pose_caption(const RecordedRun& run, int frame);
 
 /// The first of the frames from `first` on, half way, and the farthest pose, as in a run's preview.

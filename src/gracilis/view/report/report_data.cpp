@@ -37,7 +37,7 @@ std::vector<ShownMeasure> shown_measures() {
       {"thickening", "Thickest place", "× rest", 0, 1, {gates.thickening}},
       {"thinning", "Thinnest place, rest over now", "×", 0, 1, {gates.thinning}},
       {"dihedral_change_mean_deg", "Mean change of dihedral angles", "°", 0, 1, {}},
-      {"hinges_over_90", "Hinges turned by more than 90°", "", 0, 1, {}},
+      {"hinges_over_90", "Dihedrals turned by more than 90°", "", 0, 1, {}},
       {"vertex_depth_beyond_rest_mm", "Deepest vertex in a bone, beyond rest", "mm", 0, 1, {1000 * gates.vertex_depth}},
       {"midpoint_depth_beyond_rest_mm",
        "Deepest edge midpoint in a bone, beyond rest",

@@ -23,7 +23,7 @@ Color arrow_color(ConstraintKind kind) {
       return Color(0.00, 0.45, 0.70);
     case ConstraintKind::slivers:
       return Color(0.94, 0.89, 0.26);
-    case ConstraintKind::tight_places:
+    case ConstraintKind::rest_proximities:
       return Color(0.55, 0.55, 0.55);
     case ConstraintKind::bone_contact:
     case ConstraintKind::none:

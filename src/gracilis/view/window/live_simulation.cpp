@@ -220,15 +220,15 @@ Frame LiveSimulation::prepare() {
 }
 
 /// Collects what the next step moves, where somebody wants to see it.
-void LiveSimulation::watch_passes() {
+void LiveSimulation::trace_passes() {
   passes_.clear();
   PassTracing* tracing = method_->pass_tracing();
   if (!tracing) return;
-  if (!history_.wishes.passes) {
-    tracing->watch_passes({});
+  if (!history_.requests.passes) {
+    tracing->trace_passes({});
     return;
   }
-  tracing->watch_passes([this](const SolverPass& pass) {
+  tracing->trace_passes([this](const SolverPass& pass) {
     ShownPass shown{pass.muscle, pass.kind, pass.iteration,
                     picked(pass.moved, maker_->arrow_vertices(pass.muscle)).cast<float>()};
     if (shown.moved.isZero(0)) return;
@@ -244,7 +244,7 @@ Frame LiveSimulation::next_frame(int number) {
   frame.pose.activations = reached_.activations;
   frame.pose.time = number / 60.0;
   const auto begin = std::chrono::steady_clock::now();
-  watch_passes();
+  trace_passes();
   method_->advance(frame.pose, usual_time_step);
   milliseconds_ = std::chrono::duration<Real, std::milli>(std::chrono::steady_clock::now() - begin).count();
   method_->write(frame);
@@ -300,7 +300,7 @@ void LiveSimulation::fill_forces(const Frame& frame, ShownFrame& result) const {
   std::vector<Eigen::VectorXd> stresses, tensions(frame.muscles.size());
   for (const MuscleShape& shape : frame.muscles) stresses.push_back(shape.fiber_stresses);
   maker_->fill_stress(stresses, result);
-  if (history_.wishes.tension && method_) {
+  if (history_.requests.tension && method_) {
     const std::vector<MuscleForces> forces = method_->muscle_forces({});
     for (std::size_t m = 0; m < forces.size(); ++m)
       tensions[m] = Eigen::Map<const Eigen::VectorXd>(forces[m].fiber_tensions.data(),
@@ -326,7 +326,7 @@ ShownFrame LiveSimulation::shown(const Frame& frame) {
   for (const MuscleShape& shape : frame.muscles) muscles.push_back(shape.points);
   std::vector<RigidTransform> bones;
   for (const Bone& bone : scene_.bones) bones.push_back(frame.pose.bodies[static_cast<std::size_t>(bone.body)]);
-  maker_->fill(muscles, std::move(bones), history_.wishes.contact_depth, result);
+  maker_->fill(muscles, std::move(bones), history_.requests.contact_depth, result);
   std::vector<Polylines> fibers(scene_.muscles.size());
   if (tracker_) {
     const std::vector<MuscleFibers> followed = tracker_->follow(frame);

@@ -64,7 +64,7 @@ class LiveSimulation {
   bool approach();
   bool may_step();
   void expect_motion();
-  void watch_passes();
+  void trace_passes();
   Frame next_frame(int number);
   ShownFrame shown(const Frame& frame);
   void fill_forces(const Frame& frame, ShownFrame& result) const;

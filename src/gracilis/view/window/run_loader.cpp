@@ -64,7 +64,7 @@ void RunLoader::work() {
   try {
     for (int frame = 1; frame < run_.frame_count && !stop_; ++frame) history_.append(read(frame));
     while (!stop_) {
-      const int frame = history_.wishes.contact_depth ? frame_without_depth() : -1;
+      const int frame = history_.requests.contact_depth ? frame_without_depth() : -1;
       if (frame >= 0)
         history_.replace(frame, read(frame));
       else
@@ -77,7 +77,7 @@ void RunLoader::work() {
 
 /// The first one from where somebody looks; -1: all have it.
 int RunLoader::frame_without_depth() const {
-  const int count = history_.end(), from = history_.wishes.frame;
+  const int count = history_.end(), from = history_.requests.frame;
   for (int i = 0; i < count; ++i)
     if (!has_depth_[static_cast<std::size_t>((from + i) % count)]) return (from + i) % count;
   return -1;
@@ -103,7 +103,7 @@ ShownFrame RunLoader::read(int number) {
   const std::vector<TriangleMesh> moved = read_surfaces(run_, run_.bones, number);
   for (std::size_t b = 0; b < moved.size(); ++b)
     bones.push_back(rigid_motion(maker_->bones()[b].vertices, moved[b].vertices));
-  const bool with_depth = history_.wishes.contact_depth;
+  const bool with_depth = history_.requests.contact_depth;
   maker_->fill(muscles, std::move(bones), with_depth, frame);
   has_depth_[static_cast<std::size_t>(number)] = with_depth;
   std::vector<Polylines> fibers;

@@ -12,7 +12,7 @@
 namespace gracilis {
 
 /// Reads a run's frames for a window: the first at once, the others one after the other on a thread of its own, and
-/// then what the window wishes to know beside.
+/// then what the window asks for beside.
 class RunLoader {
  public:
   /// Throws InputError when the first frame is damaged. The run and the history must outlive this.

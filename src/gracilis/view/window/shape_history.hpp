@@ -64,7 +64,7 @@ struct ShownFrame {
 };
 
 /// What costs time and is made only while somebody looks at it.
-struct ShownWishes {
+struct ViewRequests {
   std::atomic<bool> contact_depth = false, passes = false, tension = false;
   std::atomic<int> frame = 0;  ///< the one that is looked at
 };
@@ -87,7 +87,7 @@ class ShapeHistory {
   /// That frame, or the nearest that is kept. Precondition: there is one.
   std::shared_ptr<const ShownFrame> at(int number) const;
 
-  ShownWishes wishes;
+  ViewRequests requests;
 
  private:
   const int capacity_;

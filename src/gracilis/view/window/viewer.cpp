@@ -116,7 +116,7 @@ void Viewer::follow_history() {
   // What was wished for arrives later.
   const bool waits_for_depth = state_.color_by == WindowColor::contact_depth && !depth_is_shown_;
   if (waits_for_depth && !history_.at(player_.frame)->contact_depth.empty()) changed_ = true;
-  history_.wishes.frame = player_.frame;
+  history_.requests.frame = player_.frame;
 }
 
 /// True while something that was asked for is still to come.

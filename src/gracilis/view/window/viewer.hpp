@@ -58,7 +58,7 @@ class Viewer {
   void jump(int frame);
   void next_arrows();
   void step_iteration(int by);
-  void update_wishes();
+  void update_requests();
   void cycle_muscle(std::size_t muscle);
 
   // viewer_layout.cpp: what stands over the picture

@@ -46,7 +46,7 @@ std::vector<KeyBinding> Viewer::bindings() {
       {{"c"},
        "c",
        "color by the next quantity",
-       [this] { turn_to_next(state_.color_by, window_color_count), update_wishes(); }},
+       [this] { turn_to_next(state_.color_by, window_color_count), update_requests(); }},
       {{"s"}, "s", "surfaces solid, with edges, wireframe", [this] { turn_to_next(state_.style, 3); }},
       {{"b"}, "b", "bones on, off", [this] { state_.bones = !state_.bones; }},
       {{"f"}, "f", "fibers on, off", [this] { state_.fibers = !state_.fibers; }},
@@ -126,7 +126,7 @@ void Viewer::jump(int frame) {
 
 void Viewer::next_arrows() {
   turn_to_next(state_.arrows, 3);
-  update_wishes();
+  update_requests();
 }
 
 void Viewer::step_iteration(int by) {
@@ -134,11 +134,11 @@ void Viewer::step_iteration(int by) {
   state_.iteration = std::clamp(state_.iteration + by, 0, std::max(count - 1, 0));
 }
 
-void Viewer::update_wishes() {
-  history_.wishes.tension = state_.color_by == WindowColor::tension;
-  history_.wishes.contact_depth = state_.color_by == WindowColor::contact_depth;
-  history_.wishes.passes = state_.arrows != Arrows::none;
-  if (options_.live && (history_.wishes.contact_depth || history_.wishes.tension)) options_.live->look_again();
+void Viewer::update_requests() {
+  history_.requests.tension = state_.color_by == WindowColor::tension;
+  history_.requests.contact_depth = state_.color_by == WindowColor::contact_depth;
+  history_.requests.passes = state_.arrows != Arrows::none;
+  if (options_.live && (history_.requests.contact_depth || history_.requests.tension)) options_.live->look_again();
 }
 
 void Viewer::cycle_muscle(std::size_t muscle) {

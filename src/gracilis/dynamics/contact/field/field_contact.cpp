@@ -63,7 +63,7 @@ Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, co
         const auto slot = static_cast<std::size_t>(near.faces.slots[static_cast<std::size_t>(i)]);
         const Eigen::Vector3f where = near.faces.where[static_cast<std::size_t>(i)];
         const float gap = near.faces.gap[static_cast<std::size_t>(i)];
-        Sighting& seen = near.faces.seen[static_cast<std::size_t>(i)];
+        CachedQuery& seen = near.faces.seen[static_cast<std::size_t>(i)];
         Eigen::Vector3f x = Eigen::Vector3f::Zero();
         float sum = 0;
         for (int k = 0; k < 3; ++k) {

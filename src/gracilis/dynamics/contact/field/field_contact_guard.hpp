@@ -7,7 +7,7 @@ namespace gracilis {
 
 /// Where a particle may be that wants to be at `q` (obstacle's frame) and was at `last`, by the set's guard; `gap` is
 /// its gap now.
-Eigen::Vector3f guarded(const FieldContactSet& set, const Sighting& last, const Eigen::Vector3f& q, float gap);
+Eigen::Vector3f guarded(const FieldContactSet& set, const CachedQuery& last, const Eigen::Vector3f& q, float gap);
 
 /// What is known to be farther away than this need not be seen before every step, m.
 inline constexpr float far_away = 0.02f;

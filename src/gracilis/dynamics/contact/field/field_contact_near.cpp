@@ -17,11 +17,12 @@ namespace {
 /// have used up what it was away when last seen.
 void see_particles(const FieldContactSet& set, const FieldPlacement& placement, float reach, Particles& particles,
                    NearField& near, std::vector<char>& is_near) {
-  const auto count = static_cast<std::size_t>(particles.count());
+  const auto count = static_cast<std::size_t>(particles.count()),
+             all = count + static_cast<std::size_t>(particles.idle_count);
   const bool known = near.last.size() == count;
   near.last.resize(count);
-  near.gap.resize(count + 1, 0);
-  near.clearance.resize(count + 1, std::numeric_limits<float>::infinity());
+  near.gap.resize(all, 0);
+  near.clearance.resize(all, std::numeric_limits<float>::infinity());
   const auto cell = static_cast<float>(set.field.field->cell_size.maxCoeff());
   parallel_for(particles.count(), contacts_per_task, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {

@@ -10,7 +10,7 @@
 namespace gracilis {
 
 /// A particle in the obstacle's frame, and a lower bound of the distance there.
-struct Sighting {
+struct CachedQuery {
   Eigen::Vector3f place = Eigen::Vector3f::Zero();
   float distance = 0;
 };
@@ -22,7 +22,7 @@ inline constexpr Index contacts_per_task = 512;
 inline constexpr float steepest = 1.1f;
 
 /// Whether what was `seen` may have come down to `level` on its way to `q`.
-inline bool may_reach(const Sighting& seen, const Eigen::Vector3f& q, float level) {
+inline bool may_reach(const CachedQuery& seen, const Eigen::Vector3f& q, float level) {
   const float left = seen.distance - level;
   return left <= 0 || steepest * steepest * (q - seen.place).squaredNorm() >= left * left;
 }
@@ -58,7 +58,7 @@ struct NearFaces {
   std::vector<Index> slots;            ///< in the face set, grouped by color
   std::vector<Eigen::Vector3f> where;  ///< the deepest point, barycentric
   std::vector<float> gap;              ///< m, that it keeps, the face's sag included
-  std::vector<Sighting> seen;          ///< that point when the obstacle was last asked, and how far above its gap
+  std::vector<CachedQuery> seen;       ///< that point when the obstacle was last asked, and how far above its gap
   std::vector<ColorRange> colors;
 
   Index count() const { return static_cast<Index>(slots.size()); }
@@ -77,11 +77,11 @@ struct NearField {
   std::vector<Index> particles;
   NearEdges edges;
   NearFaces faces;
-  std::vector<float> gap;         ///< m, per particle: the gap now; one more for the idle particle
-  std::vector<float> clearance;   ///< m, per particle: least that its distance is above its gap; idle: infinite
-  std::vector<Sighting> last;     ///< per particle: where it last was on the right side; empty: nothing is known yet
-  std::vector<Sighting> middles;  ///< each when the obstacle was last asked, and how far above its gap
-  Away away;                      ///< when all particles were last seen, less what they moved since
+  std::vector<float> gap;            ///< m, per particle: the gap now; idle ones, too
+  std::vector<float> clearance;      ///< m, per particle: least that its distance is above its gap; idle: infinite
+  std::vector<CachedQuery> last;     ///< per particle: where it last was on the right side; empty: nothing is known yet
+  std::vector<CachedQuery> middles;  ///< each when the obstacle was last asked, and how far above its gap
+  Away away;                         ///< when all particles were last seen, less what they moved since
 };
 
 }  // namespace gracilis

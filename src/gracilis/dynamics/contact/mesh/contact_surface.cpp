@@ -27,12 +27,12 @@ Corners corners_of(const ContactSurface& surface, Index face, const Particles& p
 }
 
 /// The edges at a particle, each by the first of its faces.
-void add_spokes(Index particle, ContactSurface& surface) {
-  for (const Index face : surface.fans.around(particle)) {
+void add_edges_around(Index particle, ContactSurface& surface) {
+  for (const Index face : surface.vertex_faces.around(particle)) {
     for (const Index side : surface.sides.col(face)) {
       const auto& [ends, faces] = surface.edges[static_cast<std::size_t>(side)];
       const Index first = faces[0] >= 0 ? faces[0] : faces[1];
-      if (face == first && (ends[0] == particle || ends[1] == particle)) surface.spokes.push_back(side);
+      if (face == first && (ends[0] == particle || ends[1] == particle)) surface.particle_edges.push_back(side);
     }
   }
 }
@@ -58,17 +58,17 @@ ContactSurface build_contact_surface(const Eigen::Matrix3Xi& faces, Index partic
     enter(edge.left, edge.right);
     enter(edge.right, edge.left);
   }
-  surface.fans = build_face_fans(faces, particle_count);
-  surface.spoke_offsets.push_back(0);
+  surface.vertex_faces = build_vertex_faces(faces, particle_count);
+  surface.particle_edge_offsets.push_back(0);
   for (Index p = 0; p < particle_count; ++p) {
-    add_spokes(p, surface);
-    surface.spoke_offsets.push_back(static_cast<Index>(surface.spokes.size()));
+    add_edges_around(p, surface);
+    surface.particle_edge_offsets.push_back(static_cast<Index>(surface.particle_edges.size()));
   }
   return surface;
 }
 
 Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces) {
-  const auto count = static_cast<Index>(surface.fans.offsets.size()) - 1;
+  const auto count = static_cast<Index>(surface.vertex_faces.offsets.size()) - 1;
   Eigen::Matrix3Xf sums(3, count);
   parallel_for(count, particles_per_task, [&](Index begin, Index end) {
     for (Index p = begin; p < end; ++p)
@@ -158,7 +158,7 @@ NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surf
     } else if (zeros == 2) {
       Index corner;
       barycentric.maxCoeff(&corner);
-      for (const Index around : surface.fans.around(surface.faces(corner, face))) consider(around);
+      for (const Index around : surface.vertex_faces.around(surface.faces(corner, face))) consider(around);
     }
     if (next == face) break;
     face = next;

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
-#include <gracilis/dynamics/face_fans.hpp>
 #include <gracilis/dynamics/particles.hpp>
+#include <gracilis/dynamics/vertex_faces.hpp>
 
 #include <array>
 #include <span>
@@ -21,12 +21,12 @@ struct ContactSurface {
   Eigen::Matrix3Xi across;  ///< face behind the side opposite to each corner; -1: none
   Eigen::Matrix3Xi sides;   ///< edge opposite to each corner
   std::vector<Edge> edges;
-  FaceFans fans;
-  std::vector<Index> spoke_offsets, spokes;  ///< edges at each particle
+  VertexFaces vertex_faces;
+  std::vector<Index> particle_edge_offsets, particle_edges;  ///< edges at each particle
 
   std::span<const Index> edges_at(Index particle) const {
     const auto at = static_cast<std::size_t>(particle);
-    return {spokes.begin() + spoke_offsets[at], spokes.begin() + spoke_offsets[at + 1]};
+    return {particle_edges.begin() + particle_edge_offsets[at], particle_edges.begin() + particle_edge_offsets[at + 1]};
   }
 };
 
@@ -43,7 +43,7 @@ inline Eigen::Vector3f face_area(const ContactSurface& surface, Index face, cons
 template <class OfFace>
 Eigen::Vector3f sum_around(const ContactSurface& surface, Index particle, const OfFace& of_face) {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (const Index face : surface.fans.around(particle)) sum += of_face(face);
+  for (const Index face : surface.vertex_faces.around(particle)) sum += of_face(face);
   return sum;
 }
 /// At each particle the sum over its faces of what they have, one column each.

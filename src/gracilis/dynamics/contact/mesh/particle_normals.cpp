@@ -31,8 +31,8 @@ HWY_INLINE Point normals_of(const ContactSurface& surface, const Particles& part
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     const auto at = static_cast<std::size_t>(listed[lane]);
     const bool is_idle = listed[lane] >= particles.count();
-    begin[lane] = is_idle ? 0 : surface.fans.offsets[at];
-    end[lane] = is_idle ? 0 : surface.fans.offsets[at + 1];
+    begin[lane] = is_idle ? 0 : surface.vertex_faces.offsets[at];
+    end[lane] = is_idle ? 0 : surface.vertex_faces.offsets[at + 1];
     most = std::max(most, end[lane] - begin[lane]);
   }
   Point sum = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
@@ -40,8 +40,8 @@ HWY_INLINE Point normals_of(const ContactSurface& surface, const Particles& part
     Index next[lanes], last[lanes];
     for (std::size_t lane = 0; lane < lanes; ++lane) {
       const bool has_face = begin[lane] + k < end[lane];
-      next[lane] = has_face ? surface.fans.ends(0, begin[lane] + k) : listed[lane];
-      last[lane] = has_face ? surface.fans.ends(1, begin[lane] + k) : listed[lane];
+      next[lane] = has_face ? surface.vertex_faces.ends(0, begin[lane] + k) : listed[lane];
+      last[lane] = has_face ? surface.vertex_faces.ends(1, begin[lane] + k) : listed[lane];
     }
     const Point along = load_particles(xyzw, next).x - own, back = load_particles(xyzw, last).x - own;
     const Point normal = cross(along, back);

@@ -66,7 +66,7 @@ class Builder {
   Eigen::Vector3f center(Index face) const { return centers_.col(face); }
 
   void deal_out_particles(const ContactSurface& surface) {
-    std::vector<char> dealt(surface.fans.offsets.size(), 0);
+    std::vector<char> dealt(surface.vertex_faces.offsets.size(), 0);
     tree_.particle_offsets.push_back(0);
     for (const Index node : bundles_) {
       for (Index i = tree_.nodes[static_cast<std::size_t>(node)].begin;

@@ -7,12 +7,12 @@ namespace gracilis {
 
 float released(float before, float gap, float speed) { return std::min(gap, before + speed); }
 
-float OverlapRelease::most_gap(const PointTouch& touch, float gap) const {
-  const bool overlapped = overlapped_at_rest(touch.particle);
-  if (!overlapped && gap - touch.distance <= asked_at_once) return std::numeric_limits<float>::infinity();
-  const Eigen::Vector3f p = probe.position(touch.particle) + shift;
-  const NearestFace nearest = walk_to_nearest(p, surface, touch.face, target);
-  return released(touch.side * point_gap(p, surface, nearest, target, normals).distance, gap,
+float OverlapRelease::most_gap(const VertexFaceCandidate& candidate, float gap) const {
+  const bool overlapped = overlapped_at_rest(candidate.particle);
+  if (!overlapped && gap - candidate.distance <= asked_at_once) return std::numeric_limits<float>::infinity();
+  const Eigen::Vector3f p = probe.position(candidate.particle) + shift;
+  const NearestFace nearest = walk_to_nearest(p, surface, candidate.face, target);
+  return released(candidate.side * point_gap(p, surface, nearest, target, normals).distance, gap,
                   overlapped ? speed : asked_at_once);
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
+#include <gracilis/dynamics/contact/surface/contact_world.hpp>
 
 namespace gracilis {
 
@@ -17,9 +17,9 @@ struct OverlapRelease {
   bool overlapped_at_rest(Index particle) const {
     return !overlaps.empty() && overlaps[static_cast<std::size_t>(particle)];
   }
-  /// The most that the touch may be asked to keep, m, where `gap` is what it shall keep in the end; infinite where that
-  /// is near enough.
-  float most_gap(const PointTouch& touch, float gap) const;
+  /// The most that the candidate may be asked to keep, m, where `gap` is what it shall keep in the end; infinite where
+  /// that is near enough.
+  float most_gap(const VertexFaceCandidate& candidate, float gap) const;
 };
 
 /// How far a distance may grow towards `gap` within a step that began with `before`, m: by `speed` at most.

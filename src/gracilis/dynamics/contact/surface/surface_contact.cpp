@@ -1,7 +1,7 @@
 #include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/contact/surface/pressing_touches.hpp>
+#include <gracilis/dynamics/contact/surface/pressing_candidates.hpp>
 
 #include <algorithm>
 #include <array>
@@ -39,36 +39,37 @@ struct Sides {
   bool is_self = false;
 };
 
-Sides toward_second(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state) {
+Sides toward_second(const ContactWorld& world, const SurfacePair& pair, const ContactWorldState& state) {
   const auto second = static_cast<std::size_t>(pair.second);
-  return {crowd.surfaces[second], state.normals[second], pair.first_touches, pair.second_touches, pair.shift,
+  return {world.surfaces[second], state.normals[second], pair.first_touches, pair.second_touches, pair.shift,
           pair.is_self()};
 }
 
-Sides toward_first(const SurfaceCrowd& crowd, const SurfacePair& pair, const CrowdState& state) {
+Sides toward_first(const ContactWorld& world, const SurfacePair& pair, const ContactWorldState& state) {
   const auto first = static_cast<std::size_t>(pair.first);
-  return {crowd.surfaces[first], state.normals[first], pair.second_touches,
+  return {world.surfaces[first], state.normals[first], pair.second_touches,
           pair.first_touches,    -pair.shift,          pair.is_self()};
 }
 
-Contact contact_of(const PointTouch& touch, const Sides& sides, const Particles& probe, const Particles& target) {
-  const auto p = static_cast<std::size_t>(touch.particle);
-  const PointGap gap = point_gap(probe.position(touch.particle) + sides.shift, sides.target_surface, touch.face, target,
-                                 sides.target_normals);
+Contact contact_of(const VertexFaceCandidate& candidate, const Sides& sides, const Particles& probe,
+                   const Particles& target) {
+  const auto p = static_cast<std::size_t>(candidate.particle);
+  const PointGap gap = point_gap(probe.position(candidate.particle) + sides.shift, sides.target_surface, candidate.face,
+                                 target, sides.target_normals);
   Contact contact;
-  contact.probe[0] = touch.particle;
+  contact.probe[0] = candidate.particle;
   contact.probe_weight[0] = 1;
   contact.bound = sides.probe_touches[p];
   for (std::size_t corner = 0; corner < 3; ++corner) {
-    const Index particle = sides.target_surface.faces(static_cast<Index>(corner), touch.face);
+    const Index particle = sides.target_surface.faces(static_cast<Index>(corner), candidate.face);
     const auto at = static_cast<std::size_t>(particle);
     contact.target[corner] = particle;
     contact.target_weight[corner] = gap.barycentric[static_cast<Index>(corner)];
     contact.bound = contact.bound && sides.target_touches[at];
   }
-  contact.normal = touch.side * gap.normal;
-  contact.distance = touch.side * gap.distance;
-  contact.gap = touch.most_gap;
+  contact.normal = candidate.side * gap.normal;
+  contact.distance = candidate.side * gap.distance;
+  contact.gap = candidate.most_gap;
   return contact;
 }
 
@@ -136,38 +137,39 @@ bool project(const Contact& contact, const SurfaceContactSettings& settings, Mov
   return true;
 }
 
-/// Calls act(touch) for those that press. A block is looked at when its turn comes, after the pushes of those before.
-template <class Touch, class Look, class Act>
-Index for_each_pressing(const std::vector<Touch>& touches, const Look& look, const Act& act) {
+/// Calls act(candidate) for those that press. A block is looked at when its turn comes, after the pushes of those
+/// before.
+template <class Candidate, class Look, class Act>
+Index for_each_pressing(const std::vector<Candidate>& candidates, const Look& look, const Act& act) {
   Index count = 0;
-  for (std::size_t begin = 0; begin < touches.size(); begin += touches_per_block) {
-    const auto block = std::span(touches).subspan(begin, std::min(touches_per_block, touches.size() - begin));
+  for (std::size_t begin = 0; begin < candidates.size(); begin += candidates_per_block) {
+    const auto block = std::span(candidates).subspan(begin, std::min(candidates_per_block, candidates.size() - begin));
     for (PressingBits bits = look(block); bits != 0; bits &= bits - 1)
       count += act(block[static_cast<std::size_t>(std::countr_zero(bits))]);
   }
   return count;
 }
 
-Index project_points(const std::vector<PointTouch>& touches, const Sides& sides, const SurfaceContactSettings& settings,
-                     Moved probe, Moved target) {
-  const auto look = [&](std::span<const PointTouch> block) {
+Index project_points(const std::vector<VertexFaceCandidate>& candidates, const Sides& sides,
+                     const SurfaceContactSettings& settings, Moved probe, Moved target) {
+  const auto look = [&](std::span<const VertexFaceCandidate> block) {
     // Cohesion also draws what has parted.
     if (settings.cohesion > 0) return ~PressingBits{0} >> (32 - block.size());
     return pressing_points(block, sides.target_surface, sides.shift, probe.particles, target.particles);
   };
-  return for_each_pressing(touches, look, [&](const PointTouch& touch) {
-    return project(contact_of(touch, sides, probe.particles, target.particles), settings, probe, target);
+  return for_each_pressing(candidates, look, [&](const VertexFaceCandidate& candidate) {
+    return project(contact_of(candidate, sides, probe.particles, target.particles), settings, probe, target);
   });
 }
 
 /// Where two edges cross; nothing where they do not.
-std::optional<Contact> contact_of(const SurfaceCrowd& crowd, const SurfacePair& pair, const EdgeTouch& touch,
-                                  const Particles& probe, const Particles& target) {
+std::optional<Contact> contact_of(const ContactWorld& world, const SurfacePair& pair,
+                                  const EdgeEdgeCandidate& candidate, const Particles& probe, const Particles& target) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-  const auto& first = crowd.surfaces[a].edges[static_cast<std::size_t>(touch.first)].ends;
-  const auto& second = crowd.surfaces[b].edges[static_cast<std::size_t>(touch.second)].ends;
+  const auto& first = world.surfaces[a].edges[static_cast<std::size_t>(candidate.first)].ends;
+  const auto& second = world.surfaces[b].edges[static_cast<std::size_t>(candidate.second)].ends;
   const EdgeGap gap = edge_gap(probe.position(first[0]) + pair.shift, probe.position(first[1]) + pair.shift,
-                               target.position(second[0]), target.position(second[1]), touch.outward);
+                               target.position(second[0]), target.position(second[1]), candidate.outward);
   if (!gap.crossing) return {};
   const auto between = [](const std::vector<float>& gaps, const std::array<Index, 2>& ends, float t) {
     return (1 - t) * gaps[static_cast<std::size_t>(ends[0])] + t * gaps[static_cast<std::size_t>(ends[1])];
@@ -180,43 +182,44 @@ std::optional<Contact> contact_of(const SurfaceCrowd& crowd, const SurfacePair& 
   contact.normal = gap.normal;
   contact.distance = gap.distance;
   contact.gap =
-      std::min({between(pair.first_gap, first, gap.s), between(pair.second_gap, second, gap.t), touch.most_gap});
+      std::min({between(pair.first_gap, first, gap.s), between(pair.second_gap, second, gap.t), candidate.most_gap});
   return contact;
 }
 
-Index project_edges(const SurfaceCrowd& crowd, const SurfacePair& pair, const std::vector<EdgeTouch>& touches,
-                    Moved probe, Moved target) {
+Index project_edges(const ContactWorld& world, const SurfacePair& pair,
+                    const std::vector<EdgeEdgeCandidate>& candidates, Moved probe, Moved target) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-  const auto look = [&](std::span<const EdgeTouch> block) {
-    return pressing_edges(block, crowd.surfaces[a], crowd.surfaces[b], pair.shift, probe.particles, target.particles);
+  const auto look = [&](std::span<const EdgeEdgeCandidate> block) {
+    return pressing_edges(block, world.surfaces[a], world.surfaces[b], pair.shift, probe.particles, target.particles);
   };
-  return for_each_pressing(touches, look, [&](const EdgeTouch& touch) {
-    const std::optional<Contact> contact = contact_of(crowd, pair, touch, probe.particles, target.particles);
-    return contact && project(*contact, crowd.settings, probe, target);
+  return for_each_pressing(candidates, look, [&](const EdgeEdgeCandidate& candidate) {
+    const std::optional<Contact> contact = contact_of(world, pair, candidate, probe.particles, target.particles);
+    return contact && project(*contact, world.settings, probe, target);
   });
 }
 
 }  // namespace
 
-Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
-                      const std::vector<Particles*>& particles, const Movers& movers) {
+Index project_candidates(const ContactWorld& world, const ContactWorldState& state,
+                         const std::vector<const Particles*>& start, const std::vector<Particles*>& particles,
+                         const Movers& movers) {
   std::atomic<Index> count = 0;
   const auto project_pair = [&](Index number) {
-    const SurfacePair& pair = crowd.pairs[static_cast<std::size_t>(number)];
-    const PairTouches& touches = state.touches[static_cast<std::size_t>(number)];
+    const SurfacePair& pair = world.pairs[static_cast<std::size_t>(number)];
+    const PairCandidates& candidates = state.candidates[static_cast<std::size_t>(number)];
     const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
     const Moved first{*start[a], *particles[a], movers.move(a)}, second{*start[b], *particles[b], movers.move(b)};
-    Index pushed = project_edges(crowd, pair, touches.edges, first, second);
-    pushed += project_points(touches.on_second, toward_second(crowd, pair, state), crowd.settings, first, second);
-    pushed += project_points(touches.on_first, toward_first(crowd, pair, state), crowd.settings, second, first);
+    Index pushed = project_edges(world, pair, candidates.edges, first, second);
+    pushed += project_points(candidates.on_second, toward_second(world, pair, state), world.settings, first, second);
+    pushed += project_points(candidates.on_first, toward_first(world, pair, state), world.settings, second, first);
     count += pushed;
   };
   std::vector<Index> touching;
-  for (const std::vector<Index>& round : crowd.rounds) {
+  for (const std::vector<Index>& round : world.rounds) {
     touching.clear();
     for (const Index number : round) {
       const auto at = static_cast<std::size_t>(number);
-      if (any_moves(crowd.pairs[at], movers) && !state.touches[at].none_listed()) touching.push_back(number);
+      if (any_moves(world.pairs[at], movers) && !state.candidates[at].none_listed()) touching.push_back(number);
     }
     parallel_for_each(touching.size(), [&](std::size_t i) { project_pair(touching[i]); });
   }

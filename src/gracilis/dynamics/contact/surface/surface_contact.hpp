@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/surface/surface_crowd.hpp>
+#include <gracilis/dynamics/contact/surface/contact_world.hpp>
 
 #include <vector>
 
@@ -10,7 +10,8 @@ namespace gracilis {
 /// by its inverse masses so that momentum is kept. No particle goes further at once than twice what is missing from the
 /// gap, nor further than `most_motion` from `start`, where the step began; momentum is lost where that holds one back.
 /// Only movers move; to them the others are as immovable as bones. Returns how many pushed.
-Index project_touches(const SurfaceCrowd& crowd, const CrowdState& state, const std::vector<const Particles*>& start,
-                      const std::vector<Particles*>& particles, const Movers& movers = {});
+Index project_candidates(const ContactWorld& world, const ContactWorldState& state,
+                         const std::vector<const Particles*>& start, const std::vector<Particles*>& particles,
+                         const Movers& movers = {});
 
 }  // namespace gracilis

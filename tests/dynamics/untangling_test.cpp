@@ -1,0 +1,103 @@
+#include <gracilis/dynamics/contact/self/self_intersections.hpp>
+#include <gracilis/dynamics/contact/surface/surface_contact.hpp>
+
+#include <shapes.hpp>
+
+#include "meeting_surfaces.hpp"
+#include "systems_for_tests.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace gracilis {
+namespace {
+
+using Eigen::Vector3f;
+
+/// A ball of which a particle lies over its neighbors, so that faces have folded.
+Meeting folded_ball(bool lies_in_another) {
+  Meeting meeting;
+  for (const Real x : {0.0, 0.1}) meeting.add(shapes::sphere({x, 0, 0}, 0.01, 4));
+  meeting.pair(0, 0, 0.0003f).reach = 0.001f;
+  if (lies_in_another) meeting.pair(0, 1, 0.0003f).first_overlaps.assign(meeting.world.rest[0].cols(), 1);
+  meeting.prepare();
+  const Vector3f place = meeting.particles[0].position(7);
+  meeting.particles[0].position(7) = 1.03f * place + Vector3f(-place.y(), place.x(), 0).normalized() * 0.0022f;
+  return meeting;
+}
+
+bool untangle_once(Meeting& meeting) {
+  meeting.find();
+  meeting.follow();
+  Movers movers;
+  return untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), movers);
+}
+
+}  // namespace
+
+TEST(SurfaceContact, a_surface_that_cuts_itself_is_untangled_and_says_so) {
+  Meeting meeting;
+  meeting.add(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  meeting.pair(0, 0, 0.0003f).reach = 0.001f;
+  meeting.prepare();
+  const Particles whole = meeting.particles[0];
+  EXPECT_FALSE(untangle_once(meeting));
+  EXPECT_EQ(largest_motion(whole, meeting.particles[0]), 0);
+  // Over and under its neighbors.
+  const Vector3f place = whole.position(7);
+  meeting.particles[0].position(7) = 0.95f * place + Vector3f(-place.y(), place.x(), 0).normalized() * 0.004f;
+  EXPECT_TRUE(untangle_once(meeting));
+  EXPECT_FALSE(untangle_once(meeting)) << "all is untangled";
+  EXPECT_LT(largest_motion(whole, meeting.particles[0]), 0.003f);
+}
+
+TEST(SurfaceContact, a_surface_that_has_folded_is_untangled_though_it_cuts_nothing) {
+  Meeting meeting = folded_ball(false);
+  const auto is_folded = [&] {
+    return !find_folds(meeting.world.surfaces[0], meeting.world.rest[0], meeting.state.before[0], meeting.particles[0])
+                .empty();
+  };
+  std::vector<Index> faces(static_cast<std::size_t>(meeting.world.surfaces[0].faces.cols()));
+  std::iota(faces.begin(), faces.end(), 0);
+  EXPECT_TRUE(find_self_intersections(meeting.world.surfaces[0], meeting.world.rest[0], meeting.state.before[0],
+                                      meeting.particles[0], faces)
+                  .empty());
+  EXPECT_TRUE(is_folded());
+  EXPECT_TRUE(untangle_once(meeting));
+  EXPECT_FALSE(is_folded());
+  EXPECT_FALSE(meeting.state.torn[0][7]) << "it lay in nothing";
+}
+
+TEST(SurfaceContact, lets_go_of_what_folded_on_its_way_out_of_a_surface_that_it_lies_in_at_rest) {
+  Meeting meeting = folded_ball(true);
+  ASSERT_TRUE(untangle_once(meeting));
+  EXPECT_TRUE(meeting.state.torn[0][7]);
+  EXPECT_FALSE(meeting.state.torn[0][100]) << "not folded";
+  remember_places(meeting.pointers<const Particles*>(meeting.particles), meeting.state);
+  EXPECT_FALSE(meeting.state.torn[0][7]) << "in the next step";
+}
+
+TEST(SurfaceContact, untangling_leaves_only_what_was_untangled_among_the_movers) {
+  Meeting meeting;
+  for (int i = 0; i < 3; ++i) {
+    meeting.add(shapes::sphere({0.1 * i, 0, 0}, 0.01, 4));
+    meeting.pair(i, i, 0.0003f).reach = 0.001f;
+  }
+  meeting.prepare();
+  const auto cut = [&](std::size_t surface) {
+    const Vector3f place = meeting.particles[surface].position(7);
+    meeting.particles[surface].position(7) =
+        place + Vector3f(-place.y(), place.x(), 0).normalized() * 0.004f - 0.0005f * Vector3f::UnitZ();
+  };
+  cut(0), cut(1);
+  meeting.find();
+  meeting.follow();
+  Movers movers{{1, 0, 1}};
+  const Particles left_alone = meeting.particles[1];
+  EXPECT_TRUE(untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), movers));
+  EXPECT_EQ(movers.listed, std::vector<char>({1, 0, 0}));
+  EXPECT_EQ(largest_motion(left_alone, meeting.particles[1]), 0);
+}
+
+}  // namespace gracilis
