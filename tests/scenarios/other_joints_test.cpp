@@ -230,8 +230,8 @@ Scene trunk(Real side, Real last) {
                                                    {128, 90, 20, 24, 7},
                                                    {115, 20, 16, 20, 7},
                                                    {90, -50, 12, 12, 6},
-                                                   {63, -92, 8, 7, 4}},
-                                                  {thorax, 0.06}, {0, 0.06})};
+                                                   {60, -93, 8, 9, 4}},
+                                                  {thorax, 0.12}, {0, 0.15})};
   scene.name = "trunk";
   scene.muscles = make_muscles(muscles, bones, {});
   scene.bones = std::move(bones.bones);
