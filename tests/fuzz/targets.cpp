@@ -93,7 +93,7 @@ void read_field_cache(std::string_view bytes) {
   DistanceFieldSettings settings;
   settings.cell_size = 0.02;
   cached_bone_field(bone, settings, cache);
-  reseal(cache, ".field", "gracilis field 5", bytes);
+  reseal(cache, ".field", "gracilis field 6", bytes);
   cached_bone_field(bone, settings, cache);
 }
 

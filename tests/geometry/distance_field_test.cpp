@@ -74,6 +74,76 @@ TEST(SignedDistance, of_a_sphere_that_is_folded_over_itself_still_tells_inside_f
   }
 }
 
+/// Discs of 40 mm across an arc of 20 mm, so that the tube passes through itself on the inner side, closed at its ends.
+TriangleMesh tube_that_turns_within_its_width(Points& path) {
+  constexpr int rings = 25, corners = 32;
+  constexpr Real radius = 0.04, turn = 0.02;
+  path.resize(3, rings);
+  TriangleMesh tube;
+  tube.vertices.resize(3, rings * corners + 2);
+  for (int i = 0; i < rings; ++i) {
+    const Real angle = 2.5 * i / (rings - 1);
+    const Vec3 outward(std::cos(angle), std::sin(angle), 0);
+    path.col(i) = turn * outward;
+    for (int j = 0; j < corners; ++j) {
+      const Real around = 2 * pi * j / corners;
+      tube.vertices.col(i * corners + j) =
+          Vec3(path.col(i)) + radius * (std::cos(around) * outward + std::sin(around) * Vec3::UnitZ());
+    }
+  }
+  const int first = rings * corners, last = first + 1;
+  tube.vertices.col(first) = path.col(0), tube.vertices.col(last) = path.col(rings - 1);
+  std::vector<std::array<int, 3>> faces;
+  for (int j = 0; j < corners; ++j) {
+    const int k = (j + 1) % corners, top = (rings - 1) * corners;
+    faces.push_back({first, j, k});
+    faces.push_back({last, top + k, top + j});
+    for (int i = 0; i + 1 < rings; ++i) {
+      const int a = i * corners + j, b = i * corners + k;
+      faces.push_back({a, a + corners, b});
+      faces.push_back({b, a + corners, b + corners});
+    }
+  }
+  tube.faces.resize(3, static_cast<Index>(faces.size()));
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    tube.faces.col(static_cast<Index>(f)) << faces[f][0], faces[f][1], faces[f][2];
+  return tube;
+}
+
+TEST(SignedDistance, of_a_tube_that_passes_through_itself_tells_what_is_outside_of_it) {
+  Points path;
+  const TriangleMesh tube = tube_that_turns_within_its_width(path);
+  ASSERT_GT(enclosed_volume(tube.vertices, tube.faces), 0);
+  const SignedDistance surface(tube);
+  ASSERT_TRUE(surface.closed());
+  const Points points = random_points(20000, 0.1);
+  int outside = 0;
+  for (Index i = 0; i < points.cols(); ++i) {
+    const Vec3 p = points.col(i);
+    if ((path.colwise() - p).colwise().norm().minCoeff() < 0.042) continue;
+    ++outside;
+    EXPECT_GT(surface.query(p).distance, 0) << p.transpose();
+  }
+  EXPECT_GT(outside, 5000);
+}
+
+TEST(SignedDistance, of_two_balls_that_pass_through_each_other_is_negative_within_either) {
+  const TriangleMesh left = shapes::sphere({-0.02, 0, 0}, 0.05, 3), right = shapes::sphere({0.02, 0, 0}, 0.05, 3);
+  TriangleMesh both;
+  both.vertices.resize(3, left.vertex_count() + right.vertex_count());
+  both.vertices << left.vertices, right.vertices;
+  both.faces.resize(3, left.face_count() + right.face_count());
+  both.faces << left.faces, right.faces.array() + left.vertex_count();
+  const SignedDistance surface(both);
+  const Points points = random_points(20000, 0.1);
+  for (Index i = 0; i < points.cols(); ++i) {
+    const Vec3 p = points.col(i);
+    const Real nearest = std::min((p - Vec3(-0.02, 0, 0)).norm(), (p - Vec3(0.02, 0, 0)).norm());
+    if (std::abs(nearest - 0.05) < 0.002) continue;
+    EXPECT_EQ(surface.query(p).distance < 0, nearest < 0.05) << p.transpose();
+  }
+}
+
 TEST(DistanceField, of_a_sphere_and_its_gradient_agree_with_the_closed_form) {
   const TriangleMesh mesh = shapes::sphere({0.01, -0.02, 0.03}, 0.04, 5);
   const DistanceField field = build_distance_field(mesh, domain_by_cell_size(mesh, 0.002, 0.02));

@@ -96,7 +96,7 @@ TEST_F(FieldCache, no_bit_of_a_file_can_change_unseen) {
 TEST_F(FieldCache, what_is_sealed_and_still_senseless_is_built_anew) {
   const DistanceField built = field();
   const fs::path file = files()[0];
-  const std::string content = *read_cache_file(file, "gracilis field 5", {});
+  const std::string content = *read_cache_file(file, "gracilis field 6", {});
   const auto with = [&](std::size_t at, auto value) {
     std::string changed = content;
     std::memcpy(changed.data() + at, &value, sizeof value);
@@ -106,7 +106,7 @@ TEST_F(FieldCache, what_is_sealed_and_still_senseless_is_built_anew) {
   for (const std::string& changed :
        {with(24, 0.0), with(24, -1.0), with(32, nan), with(0, nan), with(48, 1 << 30), with(48, -5),
         with(content.size() - 4, static_cast<float>(nan)), content + "x", content.substr(0, 20), std::string()}) {
-    write_cache_file(file, "gracilis field 5", changed);
+    write_cache_file(file, "gracilis field 6", changed);
     int warnings = 0;
     expect_same(cached_bone_field(bone, settings, folder, [&](const std::string&) { ++warnings; }), built);
     EXPECT_EQ(warnings, 1);

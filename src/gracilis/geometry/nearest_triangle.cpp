@@ -1,9 +1,7 @@
 #include <gracilis/geometry/nearest_triangle.hpp>
 
-#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/embree_scene.hpp>
 #include <gracilis/geometry/point_triangle.hpp>
-
-#include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,14 +41,7 @@ bool is_farther(const EnclosingDisk& disk, const Vec3& p, Real distance) {
 struct NearestTriangle::Tree {
   TriangleMesh mesh;
   std::vector<EnclosingDisk> disks;  ///< around the faces
-  Vec3 place = Vec3::Zero();         ///< of Embree's origin: what is single precision is about here
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
-
-  ~Tree() {
-    if (scene) rtcReleaseScene(scene);
-    if (device) rtcReleaseDevice(device);
-  }
+  EmbreeScene embree;
 };
 
 namespace {
@@ -104,31 +95,15 @@ void search(RTCScene scene, const Vec3& place, Query& query) {
 
 }  // namespace
 
-NearestTriangle::NearestTriangle(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>()) {
-  tree_->mesh = mesh;
-  tree_->place = bounding_box(mesh.vertices).center();
+static std::vector<EnclosingDisk> disks_around(const TriangleMesh& mesh) {
+  std::vector<EnclosingDisk> disks;
   for (const auto face : mesh.faces.colwise())
-    tree_->disks.push_back(
-        disk_around(mesh.vertices.col(face[0]), mesh.vertices.col(face[1]), mesh.vertices.col(face[2])));
-  tree_->device = rtcNewDevice(nullptr);  // any number of threads asked for here would hold for the whole program
-  tree_->scene = rtcNewScene(tree_->device);
-  rtcSetSceneFlags(tree_->scene, RTC_SCENE_FLAG_ROBUST);
-  const RTCGeometry geometry = rtcNewGeometry(tree_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertices =
-      static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                  3 * sizeof(float), static_cast<std::size_t>(mesh.vertex_count())));
-  Eigen::Map<Eigen::Matrix3Xf>(vertices, 3, mesh.vertex_count()) =
-      (mesh.vertices.colwise() - tree_->place).cast<float>();
-  auto* faces = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                               3 * sizeof(unsigned),
-                                                               static_cast<std::size_t>(mesh.face_count())));
-  Eigen::Map<Eigen::Matrix<unsigned, 3, Eigen::Dynamic>>(faces, 3, mesh.face_count()) = mesh.faces.cast<unsigned>();
-  rtcSetGeometryPointQueryFunction(geometry, consider_triangle);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(tree_->scene, geometry);
-  rtcReleaseGeometry(geometry);  // the scene keeps it
-  rtcCommitScene(tree_->scene);
+    disks.push_back(disk_around(mesh.vertices.col(face[0]), mesh.vertices.col(face[1]), mesh.vertices.col(face[2])));
+  return disks;
 }
+
+NearestTriangle::NearestTriangle(const TriangleMesh& mesh)
+    : tree_(new Tree{mesh, disks_around(mesh), EmbreeScene(mesh, consider_triangle)}) {}
 
 NearestTriangle::~NearestTriangle() = default;
 NearestTriangle::NearestTriangle(NearestTriangle&&) noexcept = default;
@@ -138,7 +113,7 @@ NearestPoint NearestTriangle::query(const Vec3& p, Real reach) const {
   Query query{tree_->mesh, tree_->disks, p, {}};
   query.best.distance = reach;
   query.best.face = std::numeric_limits<Index>::max();
-  search(tree_->scene, tree_->place, query);
+  search(tree_->embree.get(), tree_->embree.place(), query);
   if (query.best.face == std::numeric_limits<Index>::max()) return {};
   return query.best;
 }
@@ -146,7 +121,7 @@ NearestPoint NearestTriangle::query(const Vec3& p, Real reach) const {
 NearestPoint NearestTriangle::query_from(Index guess, const Vec3& p) const {
   Query query{tree_->mesh, tree_->disks, p, {}};
   consider(guess, query);
-  search(tree_->scene, tree_->place, query);
+  search(tree_->embree.get(), tree_->embree.place(), query);
   return query.best;
 }
 

@@ -1,9 +1,11 @@
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/self_crossings.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gracilis {
 
@@ -23,27 +25,76 @@ static int edge_in_face(const Eigen::Matrix3Xi& faces, Index face, Index a, Inde
 
 /// Triangles whose normals differ by more than this lie over each other, or nearly so; the cosine.
 static constexpr Real folded = -0.5;
-/// Rings of triangles around a fold that are part of it.
-static constexpr int fold_rings = 2;
+/// Rings of triangles around a fold, or around where a surface crosses itself, that are part of it.
+static constexpr int doubtful_rings = 2;
 
-/// Where a triangle lies over others the wrong way up, points beyond it seem inside at any distance.
-void SignedDistance::find_folds(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges) {
+/// Faces at folds and crossings: where a triangle lies over others the wrong way up, points beyond it seem inside at
+/// any distance.
+static std::vector<char> faces_at_folds(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges,
+                                        const Points& face_normals) {
   std::vector<char> reached(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  const auto reach = [&](Index v) { reached[static_cast<std::size_t>(v)] = 1; };
   for (const MeshEdge& edge : edges)
-    if (face_normals_.col(edge.left).dot(face_normals_.col(edge.right)) < folded)
-      reached[static_cast<std::size_t>(edge.a)] = reached[static_cast<std::size_t>(edge.b)] = 1;
+    if (face_normals.col(edge.left).dot(face_normals.col(edge.right)) < folded) reach(edge.a), reach(edge.b);
+  std::vector<char> found = crossing_faces(mesh, edges);
+  for (Index face = 0; face < mesh.face_count(); ++face)
+    if (found[static_cast<std::size_t>(face)])
+      for (const Index v : mesh.faces.col(face)) reach(v);
+  if (std::none_of(reached.begin(), reached.end(), [](char each) { return each != 0; })) return found;
   const auto is_reached = [&](Index v) { return reached[static_cast<std::size_t>(v)] != 0; };
-  folded_.assign(static_cast<std::size_t>(mesh.face_count()), 0);
-  if (std::none_of(reached.begin(), reached.end(), [](char each) { return each != 0; })) return;
-  for (int ring = 0; ring < fold_rings; ++ring) {
+  for (int ring = 0; ring < doubtful_rings; ++ring) {
     for (Index face = 0; face < mesh.face_count(); ++face)
-      folded_[static_cast<std::size_t>(face)] =
+      found[static_cast<std::size_t>(face)] =
           std::any_of(mesh.faces.col(face).begin(), mesh.faces.col(face).end(), is_reached);
     for (Index face = 0; face < mesh.face_count(); ++face)
-      if (folded_[static_cast<std::size_t>(face)])
-        for (const Index v : mesh.faces.col(face)) reached[static_cast<std::size_t>(v)] = 1;
+      if (found[static_cast<std::size_t>(face)])
+        for (const Index v : mesh.faces.col(face)) reach(v);
   }
+  return found;
+}
+
+/// The faces that hang together across edges without passing one that is left out, group by group.
+static std::vector<std::vector<Index>> groups_between(const std::vector<char>& left_out,
+                                                      const std::vector<MeshEdge>& edges) {
+  std::vector<std::vector<Index>> beside(left_out.size());
+  for (const MeshEdge& edge : edges) {
+    const auto left = static_cast<std::size_t>(edge.left), right = static_cast<std::size_t>(edge.right);
+    if (!left_out[left] && !left_out[right]) beside[left].push_back(edge.right), beside[right].push_back(edge.left);
+  }
+  std::vector<char> seen = left_out;
+  std::vector<std::vector<Index>> groups;
+  for (std::size_t first = 0; first < seen.size(); ++first) {
+    if (std::exchange(seen[first], 1)) continue;
+    std::vector<Index> group = {static_cast<Index>(first)};
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (const Index next : beside[static_cast<std::size_t>(group[i])])
+        if (!std::exchange(seen[static_cast<std::size_t>(next)], 1)) group.push_back(next);
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+/// Whether a face lies between the inside and the outside, its normal towards the outside.
+static bool tells_the_side(const TriangleMesh& mesh, const WindingNumber& winding, Index face) {
+  constexpr Real beside = 1e-3;  // of its size
+  const Vec3 area = area_vector(mesh.vertices, mesh.faces.col(face));
+  const Vec3 center = mesh.vertices(Eigen::all, mesh.faces.col(face)).rowwise().mean();
+  const Vec3 step = beside * std::sqrt(area.norm()) * area.stableNormalized();
+  return winding.query(center + step) < 0.5 && winding.query(center - step) > 0.5;
+}
+
+/// Where a surface passes through itself whole parts of it may lie inside of others, or inside out.
+void SignedDistance::find_doubtful(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges) {
+  doubtful_ = faces_at_folds(mesh, edges, face_normals_);
+  if (std::none_of(doubtful_.begin(), doubtful_.end(), [](char each) { return each != 0; })) return;
   winding_.emplace(mesh);
+  for (const std::vector<Index>& group : groups_between(doubtful_, edges)) {
+    const auto size = [&](Index face) { return area_vector(mesh.vertices, mesh.faces.col(face)).norm(); };
+    const Index largest =
+        *std::max_element(group.begin(), group.end(), [&](Index l, Index r) { return size(l) < size(r); });
+    if (tells_the_side(mesh, *winding_, largest)) continue;
+    for (const Index face : group) doubtful_[static_cast<std::size_t>(face)] = 1;
+  }
 }
 
 SignedDistance::SignedDistance(const TriangleMesh& mesh)
@@ -69,7 +120,7 @@ SignedDistance::SignedDistance(const TriangleMesh& mesh)
     edge_normals_.col(3 * edge.left + edge_in_face(faces_, edge.left, edge.a, edge.b)) = normal;
     edge_normals_.col(3 * edge.right + edge_in_face(faces_, edge.right, edge.a, edge.b)) = normal;
   }
-  find_folds(mesh, edges);
+  find_doubtful(mesh, edges);
 }
 
 Vec3 SignedDistance::pseudonormal(const NearestPoint& nearest) const {
@@ -83,7 +134,7 @@ Vec3 SignedDistance::pseudonormal(const NearestPoint& nearest) const {
 
 SignedDistance::Answer SignedDistance::with_sign(const NearestPoint& nearest, const Vec3& p) const {
   if (nearest.face < 0) return {std::numeric_limits<Real>::infinity(), nearest};
-  const bool normals_tell = closed_ && !folded_[static_cast<std::size_t>(nearest.face)];
+  const bool normals_tell = closed_ && !doubtful_[static_cast<std::size_t>(nearest.face)];
   const bool inside = normals_tell ? (p - nearest.point).dot(pseudonormal(nearest)) < 0 : winding_->query(p) > 0.5;
   return {inside ? -nearest.distance : nearest.distance, nearest};
 }

@@ -11,9 +11,9 @@
 namespace gracilis {
 
 /// Exact distance to a surface, negative inside. On closed, consistently oriented surfaces the sign is that of the
-/// angle-weighted pseudonormal at the nearest point (Bærentzen and Aanæs 2005); on others, which have holes, and near
-/// places where the surface is folded over itself, the point is inside where the generalized winding number exceeds
-/// 1/2.
+/// angle-weighted pseudonormal at the nearest point (Bærentzen and Aanæs 2005); on others, which have holes, and where
+/// the surface is folded over itself or passes through itself, the point is inside where the generalized winding number
+/// exceeds 1/2.
 class SignedDistance {
  public:
   /// Precondition: at least one face, finite coordinates, oriented outwards.
@@ -36,13 +36,13 @@ class SignedDistance {
   Vec3 pseudonormal(const NearestPoint& nearest) const;
   Answer with_sign(const NearestPoint& nearest, const Vec3& p) const;
 
-  void find_folds(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges);
+  void find_doubtful(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges);
 
   Eigen::Matrix3Xi faces_;
   bool closed_ = false;
   NearestTriangle nearest_triangle_;
   std::optional<WindingNumber> winding_;  ///< only where normals do not tell
-  std::vector<char> folded_;              ///< of a closed surface's faces: near a fold, whose normals do not tell
+  std::vector<char> doubtful_;            ///< of a closed surface's faces: those whose normals do not tell
   Points face_normals_;                   ///< unit
   Points vertex_normals_;                 ///< angle-weighted
   Points edge_normals_;                   ///< column 3 f + k: edge k → k+1 of face f

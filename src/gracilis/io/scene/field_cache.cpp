@@ -18,7 +18,7 @@ namespace gracilis {
 namespace fs = std::filesystem;
 
 // Stands first in every file and in what is hashed: change it when fields are built or stored in another way.
-static constexpr std::string_view field_format = "gracilis field 5";
+static constexpr std::string_view field_format = "gracilis field 6";
 
 static fs::path file_of(const Bone& bone, const DistanceFieldSettings& settings, const fs::path& folder) {
   const TriangleMesh& surface = bone.surface;
