@@ -99,6 +99,36 @@ TEST(OverlapSides, a_tube_through_a_sheet_has_none) {
   EXPECT_TRUE(sides_of(tube({0.005, 0, 0}, Vec3::UnitZ(), 0.006), moved(sheet, flat)).is_through);
 }
 
+TEST(OverlapReport, warns_of_free_vertices_in_bones_and_lets_attached_ones_be) {
+  Scene scene;
+  scene.muscles.emplace_back();
+  scene.muscles[0].name = "tube";
+  scene.muscles[0].surface = tube(Vec3::Zero(), Vec3::UnitZ());
+  const auto ball = [](Real radius) {
+    Bone bone;
+    bone.name = "ball";
+    bone.surface = shapes::sphere({0, 0, 0.1}, radius, 4);
+    return bone;
+  };
+  const auto warnings = [&] { return overlap_warnings(report_overlaps(scene), true); };
+  Index top = 0;
+  scene.muscles[0].surface.vertices.row(2).maxCoeff(&top);
+  const Real height = scene.muscles[0].surface.vertices(2, top);
+  scene.bones = {ball(0.1 - height - 0.001)};
+  EXPECT_TRUE(warnings().empty()) << "beside each other";
+  scene.bones = {ball(0.1 - height + 0.02)};
+  const OverlapReport report = report_overlaps(scene);
+  ASSERT_EQ(report.in_bones.size(), 1u);
+  EXPECT_NEAR(report.in_bones[0].deepest, 0.02, 2e-3);
+  ASSERT_EQ(warnings().size(), 1u);
+  EXPECT_THAT(warnings()[0], HasSubstr("tube in ball"));
+  EXPECT_THAT(warnings()[0], HasSubstr("check places and units"));
+  Attachment end;
+  for (Index v = 0; v < scene.muscles[0].surface.vertex_count(); ++v) end.vertices.push_back(v);
+  scene.muscles[0].attachments = {end};
+  EXPECT_TRUE(warnings().empty());
+}
+
 TEST(OverlapReport, warns_with_counts_and_names_the_deepest_first) {
   Scene scene;
   const auto add = [&](const char* name, const TriangleMesh& mesh) {

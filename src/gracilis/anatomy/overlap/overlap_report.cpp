@@ -13,6 +13,10 @@ namespace {
 
 /// Pairs that a warning names.
 constexpr std::size_t most_named = 3;
+/// What scans of touching surfaces leave is less, and no word is lost about it, m.
+constexpr Real deeper_than_scans = 0.001;
+/// What lies deeper in a bone is more likely misplaced than drawn roughly, m.
+constexpr Real misplaced = 0.01;
 
 /// With one digit after the point.
 std::string millimeters(Real length) {
@@ -46,13 +50,37 @@ OverlapReport report_overlaps(const Scene& scene) {
                        overlap.of_second.deepest(),
                        overlap_sides(overlap, first.surface, second.surface).is_through};
   });
+  for (const BoneOverlap& overlap : rest_overlaps_with_bones(scene))
+    report.in_bones.push_back({scene.muscles[static_cast<std::size_t>(overlap.muscle)].name,
+                               scene.bones[static_cast<std::size_t>(overlap.bone)].name,
+                               static_cast<Index>(overlap.inside.vertices.size()), overlap.inside.deepest()});
+  std::stable_sort(report.in_bones.begin(), report.in_bones.end(),
+                   [](const MuscleInBone& l, const MuscleInBone& r) { return l.deepest > r.deepest; });
   std::stable_sort(report.pairs.begin(), report.pairs.end(),
                    [](const MuscleOverlap& l, const MuscleOverlap& r) { return l.deepest() > r.deepest(); });
   return report;
 }
 
+/// What lies in bones, in one line; empty where nothing lies deep.
+static std::string bone_warning(const std::vector<MuscleInBone>& in_bones) {
+  std::string worst;
+  std::size_t deep = 0;
+  for (const MuscleInBone& each : in_bones) {
+    if (each.deepest <= deeper_than_scans) break;
+    if (deep < most_named)
+      worst += (deep > 0 ? ", " : "") + each.muscle + " in " + each.bone + " (" + millimeters(each.deepest) + ")";
+    ++deep;
+  }
+  if (deep == 0) return {};
+  return "muscles lie in bones in the capture pose, in " + std::to_string(deep) + (deep == 1 ? " pair" : " pairs") +
+         "; deepest " + worst + "; they stay as deep as they are" +
+         (in_bones.front().deepest > misplaced ? ", and what moves there tears: check places and units of both surfaces"
+                                               : "");
+}
+
 std::vector<std::string> overlap_warnings(const OverlapReport& report, bool has_contact) {
   std::vector<std::string> warnings;
+  if (const std::string in_bones = bone_warning(report.in_bones); !in_bones.empty()) warnings.push_back(in_bones);
   if (report.pairs.empty()) return warnings;
   std::string worst;
   for (std::size_t i = 0; i < std::min(most_named, report.pairs.size()); ++i)

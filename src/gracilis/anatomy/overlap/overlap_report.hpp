@@ -17,18 +17,27 @@ struct MuscleOverlap {
   Real deepest() const { return first_deepest > second_deepest ? first_deepest : second_deepest; }
 };
 
-/// What a scene's muscles do to each other in the capture pose.
+/// A muscle of which free vertices lie inside a bone in the capture pose.
+struct MuscleInBone {
+  std::string muscle, bone;
+  Index vertices = 0;
+  Real deepest = 0;  ///< m
+};
+
+/// How a scene's muscles lie in each other and in bones in the capture pose.
 struct OverlapReport {
-  std::vector<MuscleOverlap> pairs;  ///< the deepest first
-  Index vertices = 0;                ///< that lie in at least one other muscle
-  Index of_vertices = 0;             ///< of all muscles
+  std::vector<MuscleOverlap> pairs;    ///< the deepest first
+  Index vertices = 0;                  ///< that lie in at least one other muscle
+  Index of_vertices = 0;               ///< of all muscles
+  std::vector<MuscleInBone> in_bones;  ///< the deepest first
 };
 
 /// By exact distances (rest_overlap.hpp); takes about a second for 40,000 vertices. Precondition: the scene is valid.
 OverlapReport report_overlaps(const Scene& scene);
 
 /// What a user should know about it, one line each: how much overlaps and where most, and, where surfaces keep out of
-/// each other (`has_contact`), which pairs that leaves out. Empty where nothing overlaps.
+/// each other (`has_contact`), which pairs that leaves out; and what lies more than 1 mm deep in bones. Empty where
+/// nothing does.
 std::vector<std::string> overlap_warnings(const OverlapReport& report, bool has_contact);
 
 }  // namespace gracilis

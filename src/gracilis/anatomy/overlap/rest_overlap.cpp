@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <iterator>
 #include <optional>
 #include <set>
 #include <utility>
@@ -29,13 +30,14 @@ struct Solid {
   Eigen::AlignedBox3d box;
 };
 
-InsideVertices vertices_inside(const TriangleMesh& mesh, const Solid& other) {
+/// `left_out`: per vertex; empty: none is.
+InsideVertices vertices_inside(const TriangleMesh& mesh, const Solid& other, const std::vector<char>& left_out = {}) {
   InsideVertices inside;
   std::vector<Vec3> outward;
   Index face = -1;
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Vec3 p = mesh.vertices.col(v);
-    if (!other.box.contains(p)) continue;
+    if (!other.box.contains(p) || (!left_out.empty() && left_out[static_cast<std::size_t>(v)])) continue;
     const SignedDistance::Answer answer = face < 0 ? other.distance.query(p) : other.distance.query_from(face, p);
     face = answer.nearest.face;
     // Where a surface passes through itself, its nearest part may face the wrong way.
@@ -77,6 +79,28 @@ std::vector<RestOverlap> rest_overlaps(const Scene& scene) {
   std::vector<TriangleMesh> surfaces;
   for (const Muscle& muscle : scene.muscles) surfaces.push_back(muscle.surface);
   return rest_overlaps(surfaces);
+}
+
+std::vector<BoneOverlap> rest_overlaps_with_bones(const Scene& scene) {
+  std::vector<std::optional<Solid>> bones(scene.bones.size());
+  parallel_for_each(bones.size(), [&](std::size_t b) { bones[b].emplace(scene.bones[b].surface); });
+  std::vector<std::vector<BoneOverlap>> of_muscles(scene.muscles.size());
+  parallel_for_each(of_muscles.size(), [&](std::size_t m) {
+    const Muscle& muscle = scene.muscles[m];
+    std::vector<char> attached(static_cast<std::size_t>(muscle.surface.vertex_count()), 0);
+    for (const Attachment& attachment : muscle.attachments)
+      for (const Index v : attachment.vertices) attached[static_cast<std::size_t>(v)] = 1;
+    const Eigen::AlignedBox3d box = box_of(muscle.surface);
+    for (std::size_t b = 0; b < bones.size(); ++b) {
+      if (!bones[b]->box.intersects(box)) continue;
+      BoneOverlap overlap{static_cast<Index>(m), static_cast<Index>(b),
+                          vertices_inside(muscle.surface, *bones[b], attached)};
+      if (!overlap.inside.vertices.empty()) of_muscles[m].push_back(std::move(overlap));
+    }
+  });
+  std::vector<BoneOverlap> overlaps;
+  for (std::vector<BoneOverlap>& each : of_muscles) std::move(each.begin(), each.end(), std::back_inserter(overlaps));
+  return overlaps;
 }
 
 Index count_inside(const std::vector<RestOverlap>& overlaps) {

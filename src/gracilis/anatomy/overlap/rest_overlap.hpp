@@ -33,6 +33,15 @@ std::vector<RestOverlap> rest_overlaps(const std::vector<TriangleMesh>& surfaces
 /// The same of a scene's muscles in the capture pose.
 std::vector<RestOverlap> rest_overlaps(const Scene& scene);
 
+/// Free vertices of a muscle that lie inside a bone.
+struct BoneOverlap {
+  Index muscle = 0, bone = 0;
+  InsideVertices inside;
+};
+
+/// Which muscles of a scene lie in bones in the capture pose, likewise; attached vertices may.
+std::vector<BoneOverlap> rest_overlaps_with_bones(const Scene& scene);
+
 /// Of all surfaces together how many vertices lie in at least one other.
 Index count_inside(const std::vector<RestOverlap>& overlaps);
 

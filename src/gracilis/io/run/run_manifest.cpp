@@ -75,7 +75,15 @@ nlohmann::ordered_json overlaps_json(const OverlapReport& report) {
                      {"first_deepest_mm", 1e3 * pair.first_deepest},
                      {"second_deepest_mm", 1e3 * pair.second_deepest},
                      {"left_out_of_contact", pair.is_left_out}});
-  return {{"vertices_inside", report.vertices}, {"of_vertices", report.of_vertices}, {"pairs", pairs}};
+  nlohmann::ordered_json in_bones = nlohmann::json::array();
+  for (const MuscleInBone& each : report.in_bones)
+    in_bones.push_back({{"pair", each.muscle + ", " + each.bone},
+                        {"vertices_inside", each.vertices},
+                        {"deepest_mm", 1e3 * each.deepest}});
+  return {{"vertices_inside", report.vertices},
+          {"of_vertices", report.of_vertices},
+          {"pairs", pairs},
+          {"in_bones", in_bones}};
 }
 
 nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
