@@ -95,7 +95,7 @@ name = "variant"
 iterations = 6
 [[muscles]]
 name = "muscle"
-settings.dihedral_limit = 0.1
+settings.hinge_limit = 0.1
 [motion]
 coordinates = ["flexion"]
 key_poses_deg = [[1]]
