@@ -1,0 +1,31 @@
+#include "errors.hpp"
+#include "moment_arms.hpp"
+#include "run_handle.hpp"
+#include "scene_handle.hpp"
+#include "simulation_handle.hpp"
+#include "tables.hpp"
+
+#include <pybind11/pybind11.h>
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+/// Warnings of the library go to stderr; what it only mentions is not said.
+static void set_up_logging() {
+  const auto logger = spdlog::stderr_color_mt("gracilis");
+  logger->set_pattern("gracilis: %v");
+  logger->set_level(spdlog::level::warn);
+  spdlog::set_default_logger(logger);
+}
+
+PYBIND11_MODULE(_core, module) {
+  using namespace gracilis::python;
+  module.attr("__version__") = GRACILIS_VERSION;
+  set_up_logging();
+  translate_errors();
+  bind_scene(module);
+  bind_simulation(module);
+  bind_moment_arms(module);
+  bind_tables(module);
+  bind_run(module);
+}
