@@ -23,16 +23,23 @@ from ._core import (
     Simulation,
     __version__,
     demo,
+    import_model,
+    limit_threads,
     load,
     moment_arms,
+    paths,
+    prepare,
     read_sto,
+    static_optimization,
     write_sto,
 )
 
-for _each in (Activations, Bone, Checkpoint, Muscle, Pose, Run, Scene, Simulation, demo, load, moment_arms, read_sto, write_sto):
+for _each in (Activations, Bone, Checkpoint, Muscle, Pose, Run, Scene, Simulation, demo, import_model, limit_threads, load,
+              moment_arms, paths, prepare, read_sto, static_optimization, write_sto):  # fmt: skip
     _each.__module__ = "gracilis"
 del _each
 
+from .sweeps import Sweep, sweep
 from .notebooks import run_as_html as _run_as_html
 
 Run._repr_html_ = _run_as_html

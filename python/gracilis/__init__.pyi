@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Iterator, Mapping, NamedTuple, Optional, Sequence, Union, overload
+from typing import Any, Callable, Iterator, Mapping, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -46,6 +46,7 @@ class Scene:
     def poses(self) -> list[Pose]: ...
     def settings_text(self) -> str: ...
 
+def limit_threads(threads: int) -> None: ...
 def load(
     path: _Path, *, data: _Path = ..., only: Sequence[str] = ..., set: Sequence[str] = ..., **settings: Any
 ) -> Scene: ...
@@ -146,6 +147,50 @@ def read_sto(path: _Path) -> Table: ...
 def write_sto(
     path: _Path, table: Mapping[str, ArrayLike], name: Optional[str] = ..., in_degrees: Optional[bool] = ...
 ) -> None: ...
+
+def import_model(
+    model: _Path,
+    out: _Path,
+    *,
+    geometry: Sequence[_Path] = ...,
+    motions: Sequence[_Path] = ...,
+    muscles: Sequence[str] = ...,
+    apart: bool = ...,
+) -> list[PathLike[str]]: ...
+def paths(model: _Path, motion: Union[_Path, Mapping[str, ArrayLike]]) -> tuple[Table, dict[str, Table]]: ...
+def static_optimization(
+    model: _Path,
+    motion: Union[_Path, Mapping[str, ArrayLike]],
+    *,
+    loads: _Path = ...,
+    forces: Sequence[_Path] = ...,
+    replace: bool = ...,
+    exponent: float = ...,
+    cutoff: float = ...,
+    progress: Optional[Callable[[int, int], object]] = ...,
+) -> tuple[Table, Table]: ...
+def prepare(
+    muscles: Mapping[str, tuple[ArrayLike, ArrayLike]],
+    bones: Mapping[str, tuple[ArrayLike, ArrayLike]] = ...,
+    **settings: float,
+) -> dict[str, _Surface]: ...
+
+class Sweep(NamedTuple):
+    muscles: list[str]
+    vertices: dict[str, _Floats]
+    volumes: _Floats
+    fiber_lengths: _Floats
+
+def sweep(
+    scene: Scene,
+    poses: Sequence[Mapping[str, float]],
+    *,
+    settings: Union[None, Mapping[str, Any], Sequence[Mapping[str, Any]]] = ...,
+    method: str = ...,
+    settle: int = ...,
+    fibers: bool = ...,
+    processes: Optional[int] = ...,
+) -> Sweep: ...
 
 class Run:
     def __init__(self, folder: _Path) -> None: ...

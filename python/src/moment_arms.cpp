@@ -67,8 +67,7 @@ static py::object curves(const SceneHandle& given, const std::string& coordinate
     arms[py::str(result.muscles[m])] = copied_column(arm);
     lengths[py::str(result.muscles[m])] = copied_column(length);
   }
-  return py::module_::import("gracilis.arms")
-      .attr("MomentArms")(coordinate, copied_column(shown), arms, lengths);
+  return py::module_::import("gracilis.arms").attr("MomentArms")(coordinate, copied_column(shown), arms, lengths);
 }
 
 void bind_moment_arms(py::module_& module) {

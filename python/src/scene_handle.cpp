@@ -58,7 +58,7 @@ SceneHandle scene_by(const Make& make, py::object recipe) {
 template <class... Arguments>
 py::object partial(const char* function, const py::dict& keywords, Arguments&&... arguments) {
   return py::module_::import("functools")
-      .attr("partial")(py::module_::import("gracilis").attr(function), std::forward<Arguments>(arguments)...,
+      .attr("partial")(py::module_::import("gracilis.recipes").attr(function), std::forward<Arguments>(arguments)...,
                        **keywords);
 }
 
@@ -67,7 +67,7 @@ SceneHandle load(const std::filesystem::path& path, const std::filesystem::path&
                  const py::kwargs& settings) {
   const SceneOptions options = options_of(data, only, set, settings);
   py::dict again = settings.attr("copy")();
-  again["data"] = data;
+  again["data"] = data.string();  // an empty pathlib.Path would be the working folder
   again["only"] = only;
   again["set"] = set;
   return scene_by([&] { return read_scene(path, options); },
@@ -100,7 +100,7 @@ SceneHandle from_arrays(const py::kwargs& keywords) {
   SceneTables given = scene_tables(keywords);
   const SceneOptions options = options_of({}, {}, {}, {});
   return scene_by([&] { return make_scene(given.tables, std::move(given.surfaces), options); },
-                  partial("Scene", keywords));
+                  partial("scene", keywords));
 }
 
 /// Surfaces in the capture pose by their names, as pairs (vertices, faces).

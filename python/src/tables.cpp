@@ -17,8 +17,7 @@ namespace py = pybind11;
 
 namespace gracilis::python {
 
-/// A gracilis.Table (tables.py): a dict of columns, "time" first.
-static py::object as_python(const Table& table) {
+py::object as_python(const Table& table) {
   const py::object result = py::module_::import("gracilis.tables").attr("Table")();
   result["time"] = copied(table.times);
   for (std::size_t c = 0; c < table.columns.size(); ++c) {
@@ -31,7 +30,7 @@ static py::object as_python(const Table& table) {
   return result;
 }
 
-static Table as_table(const py::dict& columns, const std::string& name, bool in_degrees) {
+Table as_table(const py::dict& columns, const std::string& name, bool in_degrees) {
   if (!columns.contains("time")) refuse("table", "has no column 'time'", "in s, increasing");
   Table table;
   table.name = name;

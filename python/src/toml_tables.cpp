@@ -109,7 +109,8 @@ std::vector<std::string> settings_of(const py::dict& keywords) {
 
 SceneTables scene_tables(const py::dict& keywords) {
   py::dict top, settings;
-  for (const auto& [key, value] : keywords) (is_setting(text_of(key)) && !holds_tables(value) ? settings : top)[key] = value;
+  for (const auto& [key, value] : keywords)
+    (is_setting(text_of(key)) && !holds_tables(value) ? settings : top)[key] = value;
   if (!settings.empty()) {
     if (top.contains("settings")) settings.attr("update")(top["settings"]);
     top["settings"] = settings;

@@ -1,3 +1,4 @@
+import pickle
 import subprocess
 import tempfile
 import unittest
@@ -52,7 +53,8 @@ class MomentArms(unittest.TestCase):
             subprocess.run([program, "rom", str(file), "--coord", "bend=-20:20:5", "--out", str(out), "--metrics", "none"],
                            check=True, capture_output=True)  # fmt: skip
             table = gracilis.read_sto(out / "moment_arms.sto")
-            arms = gracilis.moment_arms(gracilis.load(file), "bend", range(-20, 21, 5))
+            scene = pickle.loads(pickle.dumps(gracilis.load(file)))  # made again from its file
+            arms = gracilis.moment_arms(scene, "bend", range(-20, 21, 5))
         np.testing.assert_array_equal(arms.degrees, np.arange(-20, 21, 5))
         np.testing.assert_allclose(table["bend"], arms.degrees, atol=1e-4)
         # The program goes by lengths that it wrote with a micrometre's digits, 5 degrees apart.

@@ -1,8 +1,10 @@
 import pickle
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
-from scenes import bar, box, demo, sources
+from scenes import bar, box, demo, small_demo, sources
 
 import gracilis
 
@@ -34,13 +36,15 @@ class Scenes(unittest.TestCase):
         scene = gracilis.Scene(**bar(iterations=7, contact={"muscle": "none"}))
         self.assertIn("iterations = 7", scene.settings_text())
         self.assertIn('muscle = "none"', scene.settings_text())
-        self.assertIn("iterations = 9", gracilis.demo(iterations=9).settings_text())
+        self.assertIn("iterations = 5", small_demo().settings_text())
 
     def test_a_scene_is_made_again_elsewhere(self):
-        scene = gracilis.Scene(**bar(iterations=7))
-        again = pickle.loads(pickle.dumps(scene))
-        np.testing.assert_array_equal(again.muscles["muscle"][0], scene.muscles["muscle"][0])
-        self.assertEqual(again.settings_text(), scene.settings_text())
+        for scene in (gracilis.Scene(**bar(iterations=7)), small_demo()):
+            again = pickle.loads(pickle.dumps(scene))
+            for name, (vertices, _) in scene.muscles.items():
+                np.testing.assert_array_equal(again.muscles[name][0], vertices)
+            self.assertEqual(again.settings_text(), scene.settings_text())
+            self.assertEqual(len(again.poses), len(scene.poses))
 
     def test_what_is_worth_knowing_is_a_warning(self):
         muscle = bar()["muscles"][0]
@@ -59,6 +63,14 @@ class Scenes(unittest.TestCase):
             gracilis.load(file, iterations=3)
         self.assertEqual(raised.exception.exit_code, 3)
         self.assertEqual(raised.exception.problems[0]["file"], str(file))
+
+
+    def test_a_file_has_no_arrays(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "scene.toml"
+            file.write_text('schema = 1\n[[bones]]\nname = "femur"\ngiven = 0\n')
+            with self.assertRaisesRegex(gracilis.ConfigurationError, "scene.toml:2.*no program gives surface 0 of 'femur'"):
+                gracilis.load(file)
 
 
 class Refusals(unittest.TestCase):

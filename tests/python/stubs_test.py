@@ -5,7 +5,7 @@ from pathlib import Path
 import gracilis
 
 tree = ast.parse((Path(gracilis.__file__).parent / "__init__.pyi").read_text())
-public = {name for name in vars(gracilis) if not name.startswith("_")} - {"arms", "errors", "notebooks", "sweeps", "tables"}
+public = {name for name in vars(gracilis) if not name.startswith("_")} - {"arms", "errors", "notebooks", "recipes", "sweeps", "tables"}
 
 
 def names_in(body):
