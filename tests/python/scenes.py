@@ -1,7 +1,9 @@
 """Scenes that tests share; each is made once."""
 
+import atexit
 import functools
 import os
+import shutil
 import subprocess
 import tempfile
 from pathlib import Path
@@ -29,7 +31,9 @@ def small_demo():
 @functools.cache
 def demo_run():
     """Folder of the program's run of the same as demo()."""
-    folder = Path(tempfile.mkdtemp(prefix="gracilis_python_")) / "run"
+    outer = tempfile.mkdtemp(prefix="gracilis_python_")
+    atexit.register(shutil.rmtree, outer)
+    folder = Path(outer) / "run"
     subprocess.run([program, "demo", "--flexion", "10", "--no-fibers", "--metrics", "none", "--out", str(folder)],
                    check=True, capture_output=True)  # fmt: skip
     return folder
