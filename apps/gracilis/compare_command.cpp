@@ -1,6 +1,5 @@
 #include "compare_command.hpp"
 
-#include "demo_command.hpp"
 #include "prepare_command.hpp"
 #include "scene_options.hpp"
 #include "session.hpp"
@@ -8,6 +7,7 @@
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/methods/registry.hpp>

@@ -11,6 +11,7 @@
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/names.hpp>
+#include <gracilis/simulate/moment_arm_curves.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -85,12 +86,7 @@ CoordinateRange set_motion(const std::vector<std::string>& texts, int max_frames
   }
   if (!moving.moves())
     throw ConfigurationError({"--coord", "", "no coordinate moves", "write one as NAME=FROM:TO:STEP"});
-  scene.motion = motion_through(names, keys, moving.step * moving.unit(), 1.0 / 60, max_frames);
-  scene.motion.name = scene.name;
-  // Muscles settle first: what they do when they become active is no moment arm.
-  if (scene.sequence.settle_frames == 0) scene.sequence.settle_frames = 30;
-  scene.sequence.hold_frames = 0;
-  scene.sequence.return_to_capture = false;
+  set_range(scene, motion_through(names, keys, moving.step * moving.unit(), 1.0 / 60, max_frames));
   return moving;
 }
 

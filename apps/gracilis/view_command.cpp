@@ -1,15 +1,16 @@
 #include "view_command.hpp"
 
 #include "console.hpp"
-#include "demo_command.hpp"
 #include "prepare_command.hpp"
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/scene_place.hpp>
+#include <gracilis/simulate/simulation.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/window/interactive_window.hpp>
 #include <gracilis/view/window/live_simulation.hpp>
@@ -121,12 +122,6 @@ LiveControls controls_of(const Scene& scene, LiveSimulation& simulation) {
   };
   controls.status = [&simulation] { return simulation.status(); };
   return controls;
-}
-
-/// Lets every muscle contract, also those that the scene's own plan leaves relaxed.
-void drive_all(Scene& scene) {
-  for (const Muscle& muscle : scene.muscles)
-    if (!drives(scene.activation, muscle.name)) scene.activation.signals.push_back({muscle.name, {0}, {0}});
 }
 
 void view_scene(Scene scene, const ViewOptions& options, std::chrono::steady_clock::time_point begin) {

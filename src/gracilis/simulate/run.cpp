@@ -10,14 +10,13 @@
 
 namespace gracilis {
 
-namespace {
-
-/// s, that pass before a pose; the usual time where poses say nothing of theirs.
 Real time_before(const std::vector<Pose>& poses, int number) {
   const auto at = static_cast<std::size_t>(number);
   const Real passed = poses[at].time - poses[at - 1].time;
   return passed > 0 ? passed : usual_time_step;
 }
+
+namespace {
 
 /// The frame of a pose, not measured yet; where it is not `wanted`, the method takes the step and that is all. Throws
 /// Interrupted where it shall stop.

@@ -50,6 +50,9 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
                  const std::function<void(const FrameRecord&)>& record, const FiberTracker* tracker = nullptr,
                  const RunChoices& choices = {});
 
+/// s, that pass before pose `number` (above 0); the usual time where poses say nothing of theirs.
+Real time_before(const std::vector<Pose>& poses, int number);
+
 /// Frame 0: the input surfaces at the capture pose.
 Frame capture_frame(const Scene& scene, const Pose& pose);
 /// The same, with the fibers that the method knows. Precondition: it stands at the capture pose.

@@ -147,6 +147,18 @@ void check_references(const SceneDescription& scene, std::vector<Problem>& probl
   reject_duplicates(scene.muscles, "muscle", problems);
 }
 
+void check_given(const SceneDescription& scene, Index surfaces, std::vector<Problem>& problems) {
+  const auto check = [&](const std::string& name, const SurfaceDescription& surface, const Problem& place) {
+    if (!surface.given || *surface.given < surfaces) return;
+    Problem problem = place;
+    problem.what = "no program gives surface " + std::to_string(*surface.given) + " of '" + name + "'";
+    problem.remedy = "name a 'file'";
+    problems.push_back(problem);
+  };
+  for (const BoneDescription& bone : scene.bones) check(bone.name, bone.surface, bone.place);
+  for (const MuscleDescription& muscle : scene.muscles) check(muscle.muscle.name, muscle.surface, muscle.place);
+}
+
 void keep_only(std::vector<MuscleDescription>& muscles, const std::vector<std::string>& only, const Problem& place,
                std::vector<Problem>& problems) {
   if (only.empty()) return;

@@ -13,6 +13,9 @@ namespace gracilis::sections {
 /// twice, and for key poses in the unit of another kind of coordinate.
 void check_references(const SceneDescription& scene, std::vector<Problem>& problems);
 
+/// Adds problems for surfaces that are given by numbers of which there are not so many.
+void check_given(const SceneDescription& scene, Index surfaces, std::vector<Problem>& problems);
+
 /// Keeps the muscles with these names, or all where there are none. Adds a problem at `place` for a name that is not
 /// there.
 void keep_only(std::vector<MuscleDescription>& muscles, const std::vector<std::string>& only, const Problem& place,

@@ -54,9 +54,8 @@ static void keep_only(TomlReader& top, const std::vector<std::string>& only, Sce
   sections::keep_only(description.muscles, only, {"--only", "", "", ""}, problems);
 }
 
-SceneDescription read_scene_description(const std::filesystem::path& path, const std::vector<std::string>& set,
-                                        const std::vector<std::string>& only) {
-  const SceneLayers layers = load_scene_layers(path, set);
+static SceneDescription describe(const SceneLayers& layers, const std::filesystem::path& path,
+                                 const std::vector<std::string>& only, Index surfaces) {
   std::vector<Problem> problems;
   TomlReader top(layers.table, "the scene file", problems);
   SceneDescription description;
@@ -78,10 +77,22 @@ SceneDescription read_scene_description(const std::filesystem::path& path, const
   read_list(top, "joint_control_units", sections::read_control_unit, description.control_units);
   read_list(top, "transversals", sections::read_transversal, description.transversals);
   sections::check_references(description, problems);
+  sections::check_given(description, surfaces, problems);
   keep_only(top, only, description, problems);
   top.reject_unknown_keys();
   sort_by_place(problems);
   if (!problems.empty()) throw ConfigurationError(problems);
+  return description;
+}
+
+SceneDescription read_scene_description(const std::filesystem::path& path, const std::vector<std::string>& set,
+                                        const std::vector<std::string>& only) {
+  return describe(load_scene_layers(path, set), path, only, 0);
+}
+
+SceneDescription read_given_description(const toml::table& tables, Index surfaces) {
+  SceneDescription description = describe({tables, {}, {}}, "", {}, surfaces);
+  if (description.scene.name.empty()) description.scene.name = "scene";
   return description;
 }
 

@@ -7,6 +7,8 @@
 #include <gracilis/scene/motion.hpp>
 #include <gracilis/scene/scene.hpp>
 
+#include <toml++/toml.h>
+
 #include <array>
 #include <filesystem>
 #include <limits>
@@ -33,10 +35,11 @@ struct BoxDescription {
   std::array<int, 3> cells{1, 1, 1};
 };
 
-/// Where the surface of an element comes from: a file, or a box of its own making.
+/// Where the surface of an element comes from: a file, a box of its own making, or a program that made the scene.
 struct SurfaceDescription {
   NamedFile file;
   std::optional<BoxDescription> box;
+  std::optional<Index> given;  ///< number among the surfaces that came with the description
   bool largest_piece = false;  ///< of a muscle's closed pieces only that which encloses most
 };
 
@@ -143,5 +146,9 @@ struct SceneDescription {
 /// types, values out of range, duplicates, references to bones and bodies that are not there.
 SceneDescription read_scene_description(const std::filesystem::path& path, const std::vector<std::string>& set,
                                         const std::vector<std::string>& only);
+
+/// The same of tables that a program made, with the keys of a scene file; bones and muscles may have the key `given`,
+/// one of `surfaces` by its number, in the place of `file`.
+SceneDescription read_given_description(const toml::table& tables, Index surfaces);
 
 }  // namespace gracilis

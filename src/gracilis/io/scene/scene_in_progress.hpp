@@ -18,7 +18,8 @@ struct SceneInProgress {
   const SceneOptions& options;
   std::filesystem::path data_root;  ///< empty: there is none
   LoadedScene loaded = {};
-  std::vector<Problem> problems = {};  ///< of the stage under way
+  std::vector<TriangleMesh> surfaces = {};  ///< that came with the description, m
+  std::vector<Problem> problems = {};       ///< of the stage under way
 
   void add_problem(Problem place, const std::string& what, const std::string& remedy = "") {
     place.what = what;

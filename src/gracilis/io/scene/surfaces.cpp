@@ -2,11 +2,13 @@
 
 #include <gracilis/geometry/box_mesh.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/mesh_pieces.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/files.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace gracilis::sections {
 
@@ -35,6 +37,10 @@ SurfaceDescription read_surface(TomlReader& table) {
   if (std::optional<TomlReader> box = table.table("box")) {
     if (table.has("file")) table.add_problem("file", "the surface is given twice, by 'file' and by 'box'");
     surface.box = read_box(std::move(*box));
+  } else if (table.has("given")) {
+    surface.given = table.integer("given", 0, std::numeric_limits<Index>::max()).value_or(0);
+    surface.file.path = table.text("name").value_or("");  // stands for the file in messages
+    surface.file.place = table.place();
   } else {
     surface.file = surface_file(table, table.required_text("file"));
   }
@@ -64,7 +70,7 @@ SurfaceLoader::SurfaceLoader(SceneInProgress& progress, bool muscles_stay_raw)
   std::vector<const SurfaceDescription*> surfaces;
   std::vector<SurfaceFile> files;
   const auto add = [&](const SurfaceDescription& surface, SurfaceRole role) {
-    if (surface.box || stays_raw(surface, role)) return;
+    if (surface.box || surface.given || stays_raw(surface, role)) return;
     const fs::path path = located(progress, surface.file);
     if (path.empty()) return;
     surfaces.push_back(&surface);
@@ -80,11 +86,28 @@ bool SurfaceLoader::stays_raw(const SurfaceDescription& surface, SurfaceRole rol
   return role == SurfaceRole::muscle && muscles_stay_raw_ && !surface.box;
 }
 
+bool SurfaceLoader::take_given(const SurfaceDescription& surface, SurfaceRole role, TriangleMesh& mesh) {
+  mesh = progress_.surfaces[static_cast<std::size_t>(*surface.given)];
+  if (stays_raw(surface, role)) return false;
+  try {
+    LoadedMesh loaded =
+        check_surface(surface.largest_piece ? largest_piece(mesh) : mesh, surface.file.unit, role, surface.file.path);
+    mesh = std::move(loaded.mesh);
+    progress_.add_warnings(loaded.repairs);
+    progress_.add_warnings(loaded.warnings);
+    return !loaded.repairs.empty();
+  } catch (const InputError& error) {
+    progress_.problems.insert(progress_.problems.end(), error.problems().begin(), error.problems().end());
+    return false;
+  }
+}
+
 bool SurfaceLoader::take(const SurfaceDescription& surface, SurfaceRole role, TriangleMesh& mesh) {
   if (surface.box) {
     mesh = box_mesh(surface.box->low, surface.box->high, surface.box->cells);
     return false;
   }
+  if (surface.given) return take_given(surface, role, mesh);
   bool repaired = false;
   read_file(progress_, surface.file, [&](const fs::path& path) {
     if (stays_raw(surface, role)) {

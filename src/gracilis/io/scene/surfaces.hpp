@@ -9,7 +9,7 @@
 
 namespace gracilis::sections {
 
-/// The surface of an element: its key `file`, or its table `box`.
+/// The surface of an element: its key `file`, its table `box` or, of scenes that a program makes, its key `given`.
 SurfaceDescription read_surface(TomlReader& table);
 
 /// A surface's file under the key, with its keys `unit` and `mirror`.
@@ -34,6 +34,7 @@ class SurfaceLoader {
   bool take(const SurfaceDescription& surface, SurfaceRole role, TriangleMesh& mesh);
 
  private:
+  bool take_given(const SurfaceDescription& surface, SurfaceRole role, TriangleMesh& mesh);
   bool stays_raw(const SurfaceDescription& surface, SurfaceRole role) const;
 
   SceneInProgress& progress_;

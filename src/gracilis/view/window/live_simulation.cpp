@@ -208,21 +208,18 @@ bool LiveSimulation::may_step() {
   return true;
 }
 
-Frame LiveSimulation::prepare() {
-  method_ = make_method_();
-  method_->reset();
-  const Frame capture = capture_frame(scene_, pose_at(scene_, reached_.coordinates), *method_);
-  tracker_.emplace(scene_, &capture);
-  history_.replace(0, shown(capture));
+void LiveSimulation::prepare() {
+  simulation_.emplace(scene_, make_method_(), Simulation::Keeps::last_frame);
+  simulation_->tracker();
+  history_.replace(0, shown(*simulation_->frame()));
   tell("ready");
   spdlog::info("ready: pull the sliders");
-  return capture;
 }
 
 /// Collects what the next step moves, where somebody wants to see it.
 void LiveSimulation::trace_passes() {
   passes_.clear();
-  PassTracing* tracing = method_->pass_tracing();
+  PassTracing* tracing = simulation_->method().pass_tracing();
   if (!tracing) return;
   if (!history_.requests.passes) {
     tracing->trace_passes({});
@@ -237,18 +234,14 @@ void LiveSimulation::trace_passes() {
   });
 }
 
-Frame LiveSimulation::next_frame(int number) {
-  Frame frame;
-  frame.number = number;
-  frame.pose = pose_at(scene_, reached_.coordinates);
-  frame.pose.activations = reached_.activations;
-  frame.pose.time = number / 60.0;
+void LiveSimulation::step(int number) {
+  Pose pose = pose_at(scene_, reached_.coordinates);
+  pose.activations = reached_.activations;
+  pose.time = number / 60.0;
   const auto begin = std::chrono::steady_clock::now();
   trace_passes();
-  method_->advance(frame.pose, usual_time_step);
+  simulation_->advance(pose, usual_time_step);
   milliseconds_ = std::chrono::duration<Real, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  method_->write(frame);
-  return frame;
 }
 
 /// What is to be done next; waits until there is something.
@@ -272,25 +265,26 @@ LiveSimulation::Task LiveSimulation::next_task() {
 
 void LiveSimulation::work() {
   const StopScope scope(&stop_);
-  Frame last = capture_frame(scene_, pose_at(scene_, reached_.coordinates));
+  int last = 0;  // of all steps, also those before a reset
   for (Task task = Task::step; task != Task::stop;) {
     try {
-      if (!method_) last = prepare();
+      if (!simulation_) prepare();
       task = next_task();
-      if (task == Task::reset) method_->reset();
+      if (task == Task::reset) simulation_->reset();
       if (task == Task::step || task == Task::reset) {
-        last = next_frame(last.number + 1);
-        history_.append(shown(last));
-        history_.forget_passes(last.number - kept_passes);
+        step(last + 1);
+        ++last;
+        history_.append(shown(*simulation_->frame()));
+        history_.forget_passes(last - kept_passes);
       }
-      if (task == Task::look_again) history_.replace(last.number, shown(last));
+      if (task == Task::look_again) history_.replace(last, shown(*simulation_->frame()));
     } catch (const Interrupted&) {
       return;
     } catch (const Error& error) {
       spdlog::error("the simulation has stopped: {}", error.what());
       std::unique_lock lock(mutex_);
       status_ = std::string("stopped: ") + error.what();
-      changed_.wait(lock, [this] { return stop_ || (reset_ && method_); });
+      changed_.wait(lock, [this] { return stop_ || (reset_ && simulation_); });
     }
   }
 }
@@ -300,8 +294,8 @@ void LiveSimulation::fill_forces(const Frame& frame, ShownFrame& result) const {
   std::vector<Eigen::VectorXd> stresses, tensions(frame.muscles.size());
   for (const MuscleShape& shape : frame.muscles) stresses.push_back(shape.fiber_stresses);
   maker_->fill_stress(stresses, result);
-  if (history_.requests.tension && method_) {
-    const std::vector<MuscleForces> forces = method_->muscle_forces({});
+  if (history_.requests.tension && simulation_) {
+    const std::vector<MuscleForces> forces = simulation_->method().muscle_forces({});
     for (std::size_t m = 0; m < forces.size(); ++m)
       tensions[m] = Eigen::Map<const Eigen::VectorXd>(forces[m].fiber_tensions.data(),
                                                       static_cast<Index>(forces[m].fiber_tensions.size()));
@@ -328,8 +322,8 @@ ShownFrame LiveSimulation::shown(const Frame& frame) {
   for (const Bone& bone : scene_.bones) bones.push_back(frame.pose.bodies[static_cast<std::size_t>(bone.body)]);
   maker_->fill(muscles, std::move(bones), history_.requests.contact_depth, result);
   std::vector<Polylines> fibers(scene_.muscles.size());
-  if (tracker_) {
-    const std::vector<MuscleFibers> followed = tracker_->follow(frame);
+  if (simulation_) {
+    const std::vector<MuscleFibers> followed = simulation_->tracker().follow(frame);
     for (std::size_t m = 0; m < fibers.size(); ++m) fibers[m] = followed[m].lines;
     maker_->fill_fibers(fibers, result);
   } else {

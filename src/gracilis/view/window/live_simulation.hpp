@@ -2,7 +2,7 @@
 
 #include <gracilis/methods/method.hpp>
 #include <gracilis/scene/scene.hpp>
-#include <gracilis/simulate/fiber_tracker.hpp>
+#include <gracilis/simulate/simulation.hpp>
 #include <gracilis/view/window/frame_maker.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 
@@ -59,13 +59,13 @@ class LiveSimulation {
   };
   enum class Task { step, reset, look_again, stop };
   void work();
-  Frame prepare();
+  void prepare();
   Task next_task();
   bool approach();
   bool may_step();
   void expect_motion();
   void trace_passes();
-  Frame next_frame(int number);
+  void step(int number);
   ShownFrame shown(const Frame& frame);
   void fill_forces(const Frame& frame, ShownFrame& result) const;
   void tell(const std::string& status);
@@ -77,8 +77,7 @@ class LiveSimulation {
   std::optional<FrameMaker> maker_;
   const std::vector<Pose> motion_;
   // Of the simulation's thread.
-  std::unique_ptr<DeformationMethod> method_;
-  std::optional<FiberTracker> tracker_;
+  std::optional<Simulation> simulation_;
   Wanted reached_;
   Real milliseconds_ = 0;  ///< of the last step
   std::mutex passes_mutex_;

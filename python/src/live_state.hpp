@@ -1,0 +1,59 @@
+#pragma once
+
+#include <gracilis/io/scene/scene_reader.hpp>
+#include <gracilis/simulate/simulation.hpp>
+#include <gracilis/view/window/contact_depth.hpp>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace gracilis::python {
+
+/// What is known about the present frame, made when it is asked for.
+struct FrameFacts {
+  std::shared_ptr<const Frame> frame;
+  std::vector<pybind11::object> vertices;  ///< views, per muscle; null: not asked for yet
+  std::shared_ptr<const std::vector<MuscleFibers>> fibers;
+  std::shared_ptr<const std::vector<std::vector<float>>> depths;
+};
+
+/// A simulation with all that views of it need. What changes is touched with the interpreter's lock held only, but for
+/// `simulation`, which whoever holds `working` moves without it.
+class LiveState {
+ public:
+  explicit LiveState(std::shared_ptr<const LoadedScene> loaded);
+
+  const Scene& scene() const { return loaded_->scene; }
+  const Frame& frame() const { return *facts_.frame; }
+
+  void advance(Pose pose, Real time_step);
+  void reset();
+  Checkpoint checkpoint();
+  void restore(const Checkpoint& checkpoint);
+
+  pybind11::object vertices(std::size_t muscle);
+  std::shared_ptr<const std::vector<MuscleFibers>> fibers();
+  std::shared_ptr<const std::vector<std::vector<float>>> depths();
+
+  std::vector<Real> coordinates;  ///< rad (m), where the next step begins to ask from
+  std::vector<Real> activations;
+
+ private:
+  /// Has the simulation do something without the interpreter's lock.
+  template <class Work>
+  auto work(const Work& act);
+  void look_at(std::shared_ptr<const Frame> frame);
+
+  std::shared_ptr<const LoadedScene> loaded_;
+  std::mutex working_;
+  std::unique_ptr<Simulation> simulation_;
+  std::optional<ContactDepth> contact_;  ///< made when it is asked for
+  FrameFacts facts_;
+};
+
+}  // namespace gracilis::python

@@ -1,0 +1,329 @@
+#include "simulation_handle.hpp"
+
+#include "arrays.hpp"
+#include "errors.hpp"
+#include "live_state.hpp"
+#include "scene_handle.hpp"
+
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/core/errors.hpp>
+#include <gracilis/core/state_hash.hpp>
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/io/suggestions.hpp>
+
+#include <pybind11/stl.h>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace py = pybind11;
+
+namespace gracilis::python {
+
+namespace {
+
+using State = std::shared_ptr<LiveState>;
+
+/// gracilis.Muscle: one muscle of a simulation, in its present frame.
+struct LiveMuscle {
+  State state;
+  std::size_t number = 0;
+
+  const Muscle& muscle() const { return state->scene().muscles[number]; }
+  const Points& points() const { return state->frame().muscles[number].points; }
+};
+
+/// gracilis.Bone, likewise.
+struct LiveBone {
+  State state;
+  std::size_t number = 0;
+
+  const Bone& bone() const { return state->scene().bones[number]; }
+  const RigidTransform& moved() const { return state->frame().pose.bodies[static_cast<std::size_t>(bone().body)]; }
+};
+
+struct Activations {
+  State state;
+};
+
+struct SimulationHandle {
+  State state;
+  py::object muscles, bones;  ///< by name; they hold the state, not this
+};
+
+struct CheckpointHandle {
+  State of;
+  Checkpoint checkpoint;
+};
+
+struct CoordinateAxis {
+  std::size_t number;
+  const JointAxis* axis;
+};
+
+CoordinateAxis axis_named(const Scene& scene, const std::string& name) {
+  std::size_t number = 0;
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes) {
+      if (axis.coordinate == name) return {number, &axis};
+      ++number;
+    }
+  throw ConfigurationError(
+      {"", "", "there is no coordinate '" + name + "'", suggestion(name, coordinate_names(scene))});
+}
+
+std::size_t muscle_named(const Scene& scene, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Muscle& muscle : scene.muscles) names.push_back(muscle.name);
+  for (std::size_t m = 0; m < names.size(); ++m)
+    if (names[m] == name) return m;
+  throw ConfigurationError({"", "", "there is no muscle '" + name + "'", suggestion(name, names)});
+}
+
+Real number_of(const py::handle& value, const std::string& name) {
+  const double number = PyFloat_AsDouble(value.ptr());
+  if (PyErr_Occurred()) {
+    PyErr_Clear();
+    refuse(name, "must be a number");
+  }
+  if (!std::isfinite(number)) refuse(name, "must be finite");
+  return number;
+}
+
+/// Puts what a dict says of coordinates into `coordinates`, in degrees and mm or else in rad and m.
+void ask(const Scene& scene, const py::dict& values, bool in_degrees, std::vector<Real>& coordinates) {
+  for (const auto& [key, value] : values) {
+    const std::string name = py::str(key).cast<std::string>();
+    const CoordinateAxis found = axis_named(scene, name);
+    const Real unit = !in_degrees ? 1 : found.axis->translation ? 0.001 : radians(1);
+    coordinates[found.number] = number_of(value, name) * unit;
+  }
+}
+
+void advance(const SimulationHandle& self, const py::object& degrees, const py::dict& radians_, Real time_step) {
+  LiveState& state = *self.state;
+  if (!(time_step > 0) || !std::isfinite(time_step)) refuse("time_step", "must be above 0 s");
+  if (py::isinstance<MotionPose>(degrees)) {
+    const auto& asked = degrees.cast<const MotionPose&>();
+    if (asked.pose.coordinates.size() != state.coordinates.size() ||
+        asked.pose.bodies.size() != state.scene().bodies.size())
+      refuse("pose", "is of another scene");
+    state.advance(asked.pose, asked.time_step);
+    state.coordinates = asked.pose.coordinates;
+    if (!asked.pose.activations.empty()) state.activations = asked.pose.activations;
+    return;
+  }
+  if (!degrees.is_none() && !py::isinstance<py::dict>(degrees))
+    refuse("pose", "must be a dict of degrees (mm for translations) by coordinates' names, or one of Scene.poses");
+  Pose pose;
+  pose.coordinates = state.coordinates;
+  if (!degrees.is_none()) ask(state.scene(), py::reinterpret_borrow<py::dict>(degrees), true, pose.coordinates);
+  ask(state.scene(), radians_, false, pose.coordinates);
+  pose.activations = state.activations;
+  pose.time = state.frame().pose.time + time_step;
+  state.advance(pose, time_step);
+  state.coordinates = pose.coordinates;
+}
+
+/// What the present frame's coordinates are, in degrees and mm or else in rad and m.
+py::dict coordinates_of(const SimulationHandle& self, bool in_degrees) {
+  const std::vector<Real>& values = self.state->frame().pose.coordinates;
+  py::dict result;
+  std::size_t number = 0;
+  for (const Joint& joint : self.state->scene().joints)
+    for (const JointAxis& axis : joint.axes) {
+      result[py::str(axis.coordinate)] = in_degrees ? shown_value(axis, values[number]) : values[number];
+      ++number;
+    }
+  return result;
+}
+
+template <class Part, class Live>
+py::object by_name(const State& state, const std::vector<Part>& parts, Live) {
+  py::dict named;
+  for (std::size_t i = 0; i < parts.size(); ++i) named[py::str(parts[i].name)] = Live{state, i};
+  return py::module_::import("types").attr("MappingProxyType")(named);
+}
+
+SimulationHandle simulation_of(const SceneHandle& scene, const std::string& method, const py::kwargs& settings) {
+  auto loaded = std::make_shared<LoadedScene>(*changed(scene, method, settings));
+  drive_all(loaded->scene);
+  const auto state = std::make_shared<LiveState>(std::move(loaded));
+  return {state, by_name(state, state->scene().muscles, LiveMuscle{}),
+          by_name(state, state->scene().bones, LiveBone{})};
+}
+
+std::uint64_t hash_of_state(const SimulationHandle& self) {
+  std::uint64_t hash = hash_seed;
+  for (const MuscleShape& shape : self.state->frame().muscles) hash = hash_of(shape.points, hash);
+  return hash;
+}
+
+py::list fibers_of(const LiveMuscle& self) {
+  const auto all = self.state->fibers();
+  const Polylines& lines = (*all)[self.number].lines;
+  const py::capsule owner = keeper(all);
+  py::list fibers;
+  for (Index i = 0; i < lines.count(); ++i)
+    fibers.append(
+        view(lines.points.data() + 3 * static_cast<std::ptrdiff_t>(lines.begin(i)), {lines.size(i), 3}, owner));
+  return fibers;
+}
+
+py::array fiber_lengths_of(const LiveMuscle& self) {
+  const auto all = self.state->fibers();
+  const std::vector<Real>& lengths = (*all)[self.number].lengths;
+  return view(lengths.data(), {static_cast<py::ssize_t>(lengths.size())}, keeper(all));
+}
+
+py::array depths_of(const LiveMuscle& self) {
+  const auto all = self.state->depths();
+  const std::vector<float>& depths = (*all)[self.number];
+  return view(depths.data(), {static_cast<py::ssize_t>(depths.size())}, keeper(all));
+}
+
+py::array moved_vertices(const LiveBone& self) {
+  const auto moved = std::make_shared<const Points>(self.moved() * self.bone().surface.vertices);
+  return rows_view(*moved, keeper(moved));
+}
+
+void bind_muscle(py::module_& module) {
+  py::class_<LiveMuscle>(module, "Muscle", R"(One muscle of a simulation, in the simulation's present frame.
+
+Arrays are read-only views without a copy. One that is held keeps showing the frame it was asked for in, also when the
+simulation goes on or is gone.)")
+      .def_property_readonly("name", [](const LiveMuscle& self) { return self.muscle().name; })
+      .def_property_readonly(
+          "vertices", [](const LiveMuscle& self) { return self.state->vertices(self.number); }, "(n, 3) float64, m")
+      .def_property_readonly(
+          "faces", [](const LiveMuscle& self) { return rows_view(self.muscle().surface.faces, py::cast(self)); },
+          "(m, 3) int32, counter-clockwise seen from outside")
+      .def_property_readonly("fibers", &fibers_of, R"(List of (k, 3) float64, m, from origin to insertion.
+
+Where the method does not know fibers itself they follow the surface; making them takes seconds the first time.)")
+      .def_property_readonly("fiber_lengths", &fiber_lengths_of, "(f,) float64, m")
+      .def_property_readonly(
+          "mean_fiber_length", [](const LiveMuscle& self) { return (*self.state->fibers())[self.number].mean_length; },
+          "m; 0 without fibers")
+      .def_property_readonly(
+          "volume", [](const LiveMuscle& self) { return enclosed_volume(self.points(), self.muscle().surface.faces); },
+          "m³")
+      .def_property_readonly(
+          "contact_depth", &depths_of,
+          R"((n,) float32, m: how deep each vertex is in whatever bone or other muscle it is deepest in.
+
+Negative where it is apart from all, down to -3 mm.)")
+      .def("__repr__", [](const LiveMuscle& self) {
+        return fmt::format("<gracilis.Muscle '{}': {} vertices>", self.muscle().name, self.points().cols());
+      });
+  py::class_<LiveBone>(module, "Bone", "One bone of a simulation, in the simulation's present frame.")
+      .def_property_readonly("name", [](const LiveBone& self) { return self.bone().name; })
+      .def_property_readonly("vertices", &moved_vertices, "(n, 3) float64, m; moved when it is asked for")
+      .def_property_readonly(
+          "faces", [](const LiveBone& self) { return rows_view(self.bone().surface.faces, py::cast(self)); },
+          "(m, 3) int32")
+      .def_property_readonly(
+          "transform", [](const LiveBone& self) { return copied(Eigen::MatrixXd(self.moved().matrix())); },
+          "(4, 4) float64, from its place in the capture pose to its place now");
+}
+
+void bind_activations(py::module_& module) {
+  const auto get = [](const Activations& self, const std::string& name) {
+    return self.state->activations[muscle_named(self.state->scene(), name)];
+  };
+  const auto set = [](const Activations& self, const std::string& name, const py::object& value) {
+    const std::size_t muscle = muscle_named(self.state->scene(), name);
+    const Real activation = number_of(value, name);
+    if (!(activation >= 0 && activation <= 1)) refuse(name, "an activation must be from 0 to 1");
+    self.state->activations[muscle] = activation;
+  };
+  py::class_<Activations>(module, "Activations", "How active each muscle shall be, 0 to 1, from the next step on.")
+      .def("__getitem__", get)
+      .def("__setitem__", set)
+      .def("__len__", [](const Activations& self) { return self.state->activations.size(); })
+      .def("__contains__",
+           [](const Activations& self, const std::string& name) {
+             const std::vector<Muscle>& muscles = self.state->scene().muscles;
+             return std::any_of(muscles.begin(), muscles.end(),
+                                [&](const Muscle& muscle) { return muscle.name == name; });
+           })
+      .def("keys",
+           [](const Activations& self) {
+             std::vector<std::string> names;
+             for (const Muscle& muscle : self.state->scene().muscles) names.push_back(muscle.name);
+             return names;
+           })
+      .def("__iter__", [](const py::object& self) { return py::iter(self.attr("keys")()); })
+      .def("update",
+           [set](const Activations& self, const py::dict& values) {
+             for (const auto& [key, value] : values)
+               set(self, py::str(key).cast<std::string>(), py::reinterpret_borrow<py::object>(value));
+           })
+      .def("__repr__", [](const py::object& self) { return py::repr(py::dict(self)); });
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& module) {
+  bind_muscle(module);
+  bind_activations(module);
+  py::class_<CheckpointHandle>(module, "Checkpoint", "Where a simulation can go on from; see Simulation.restore.");
+  py::class_<SimulationHandle>(module, "Simulation", R"(A scene that is moved step by step.
+
+method: how muscles deform ('xpbd', 'tissue', 'strings', ...; default: the scene's own). Keywords are settings, as of
+load(). Preparing takes a second or more. Several simulations may run in several threads at the same time.)")
+      .def(py::init(&simulation_of), py::arg("scene"), py::arg("method") = "")
+      .def("advance", &advance, py::arg("pose") = py::none(), py::kw_only(), py::arg("radians") = py::dict(),
+           py::arg("time_step") = usual_time_step, R"(One frame on, to where the coordinates shall be.
+
+pose: degrees (mm for translations) by coordinates' names; those not named stay. Or one of Scene.poses, which brings all
+coordinates, its time and, where the scene has a plan of them, activations: then frames have the same bits as those of a
+run of the scene. radians: rad (m) by names. time_step: s since the last frame.
+
+Raises QualityError where a shape stops being finite; the frame is then the last one. Ctrl-C stops it within the frame.)")
+      .def(
+          "reset", [](const SimulationHandle& self) { self.state->reset(); },
+          "Back to the capture pose, all muscles relaxed.")
+      .def(
+          "checkpoint",
+          [](const SimulationHandle& self) {
+            return CheckpointHandle{self.state, self.state->checkpoint()};
+          },
+          "What restore() goes on from.")
+      .def(
+          "restore",
+          [](const SimulationHandle& self, const CheckpointHandle& from) {
+            if (from.of != self.state) refuse("checkpoint", "is of another simulation");
+            self.state->restore(from.checkpoint);
+          },
+          py::arg("checkpoint"),
+          R"(Back to where checkpoint() was called; what follows has the same bits as it had then.
+
+Takes up to some frames' time (contact remembers more than a shape tells), with the methods tissue and mass-spring that of all
+frames since the capture pose.)")
+      .def_readonly("muscles", &SimulationHandle::muscles, "name -> Muscle")
+      .def_readonly("bones", &SimulationHandle::bones, "name -> Bone")
+      .def_property_readonly(
+          "activations", [](const SimulationHandle& self) { return Activations{self.state}; },
+          "name -> how active the muscle shall be from the next step on, 0 to 1; may be set")
+      .def_property_readonly(
+          "degrees", [](const SimulationHandle& self) { return coordinates_of(self, true); },
+          "name -> the coordinate in the present frame, degrees (mm for translations)")
+      .def_property_readonly(
+          "radians", [](const SimulationHandle& self) { return coordinates_of(self, false); },
+          "name -> the coordinate in the present frame, rad (m for translations)")
+      .def_property_readonly(
+          "frame", [](const SimulationHandle& self) { return self.state->frame().number; },
+          "Number of the present frame; 0 is the capture pose.")
+      .def_property_readonly(
+          "time", [](const SimulationHandle& self) { return self.state->frame().pose.time; }, "s")
+      .def_property_readonly("method", [](const SimulationHandle& self) { return self.state->scene().method.name; })
+      .def("state_hash", &hash_of_state, "A number that is the same where all vertices have the same bits (FNV-1a).")
+      .def("__repr__", [](const SimulationHandle& self) {
+        return fmt::format("<gracilis.Simulation of '{}', method {}, frame {}>", self.state->scene().name,
+                           self.state->scene().method.name, self.state->frame().number);
+      });
+}
+
+}  // namespace gracilis::python

@@ -1,0 +1,34 @@
+#include <gracilis/io/scene/demo_scene.hpp>
+
+#include <gracilis/anatomy/builtin/builtin_elbow.hpp>
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/scene_warnings.hpp>
+#include <gracilis/io/scene/scene_changes.hpp>
+#include <gracilis/methods/registry.hpp>
+
+namespace gracilis {
+
+Scene demo_scene(const std::string& name, std::optional<Real> flexion) {
+  if (name == "elbow") {
+    BuiltinElbowOptions elbow;
+    elbow.last_flexion = flexion.value_or(elbow.last_flexion);
+    return builtin_elbow(elbow);
+  }
+  BuiltinHipOptions hip;
+  hip.last_flexion = flexion.value_or(hip.last_flexion);
+  return builtin_hip(hip);
+}
+
+LoadedScene load_demo(const DemoOptions& options, const SceneOptions& changes) {
+  LoadedScene loaded;
+  const std::optional<Real>& flexion = options.flexion_deg;
+  loaded.scene = demo_scene(options.scene, flexion ? std::optional(radians(*flexion)) : std::nullopt);
+  loaded.preset = presets().front().name;
+  if (options.preset != loaded.preset) change_to_preset(*find_preset(options.preset), loaded);
+  if (!options.contact.empty()) loaded.scene.method.contact["muscle"] = options.contact;
+  change_scene(loaded, changes.set, changes.only);
+  for (std::string& warning : warnings_about(loaded.scene)) loaded.warnings.push_back(std::move(warning));
+  return loaded;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <gracilis/io/scene/scene_reader.hpp>
+#include <gracilis/scene/scene.hpp>
+
+#include <optional>
+#include <string>
+
+namespace gracilis {
+
+/// The built-in scene `name`, hip or elbow; its motion flexes from 0 to `flexion` (rad, at least 0) where it is given,
+/// as far as the scene says otherwise.
+Scene demo_scene(const std::string& name, std::optional<Real> flexion = {});
+
+/// What to make of a built-in scene.
+struct DemoOptions {
+  std::string scene = "hip", preset = "physical";
+  std::string contact;              ///< how muscles keep out of each other; empty: as the preset says
+  std::optional<Real> flexion_deg;  ///< as in demo_scene
+};
+
+/// A built-in scene, changed as `--set` and `--only` say, with what there is to warn about. Precondition: there is such
+/// a preset.
+LoadedScene load_demo(const DemoOptions& options, const SceneOptions& changes);
+
+}  // namespace gracilis
