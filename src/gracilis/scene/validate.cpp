@@ -274,6 +274,8 @@ struct Validation {
       if (!fits) add(where, "its samples do not fit its coordinates and muscles");
       if (!unit.angles.allFinite() || !unit.activations.allFinite()) add(where, "a sample is not finite");
       if (!(unit.falloff >= 0)) add(where, "its falloff is negative");
+      if (unit.neighbors < 1) add(where, "it asks no samples", "give 1 neighbor or more");
+      if (!(unit.hit_distance >= 0)) add(where, "its distance of a hit is negative");
     }
   }
 

@@ -241,6 +241,8 @@ value = 0.3
 # coordinates = ["hip_flexion_r"] # optional: that tell samples apart; default: all of the joint
 # muscles = ["iliacus_r"]         # optional: that it governs; default: all that the samples know
 # falloff = 0.02                  # optional: F in exp(-F d²), 1/deg²; default: from the samples' spacing
+# neighbors = 10                  # optional: K, how many of the nearest samples are asked
+# hit_deg = 1e-6                  # optional: a sample no farther than this is the answer
 
 # Optional: without a motion a run is frame 0, the capture pose, alone.
 [motion]
