@@ -70,6 +70,11 @@ std::vector<LoadedScene> scenes_of(const std::vector<std::string>& names, const 
   std::vector<Problem> problems;
   for (const std::string& name : names) {
     scenes.push_back(scene_by(name, loaded));
+    Scene& scene = scenes.back().scene;
+    if (!scene.transversals.empty() && !method_of(scene).takes_transversals) {
+      spdlog::warn("{}: the scene's transversals are left out, which it does not know", name);
+      scene.transversals.clear();
+    }
     for (Problem problem : validate_method(scenes.back().scene)) {
       problem.file = "--methods " + name;
       problems.push_back(std::move(problem));

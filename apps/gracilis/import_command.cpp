@@ -141,10 +141,16 @@ void add_import_command(CLI::App& program, Command& chosen) {
                       "TOML file as --map takes: \"muscle\" = its surface, { files, unit, like = \"bone's surface\" }; "
                       "sections are brought onto it");
   command
-      ->add_option("--more-rays", options->settings.volumes.more_rays,
+      ->add_option("--more-rays", options->settings.volumes.enhancement.more_rays,
                    "Times as many rays as corners look for the inside of such a surface")
       ->check(CLI::Range(1, 32))
       ->capture_default_str();
+  static const std::map<std::string, bool> centers = {{"mended", true}, {"published", false}};
+  command
+      ->add_option("--centers", options->settings.volumes.enhancement.mend,
+                   "Where sections of such a surface have their centers: inside, where there is an inside (mended, "
+                   "default), or where Laclé's heuristic puts them (published)")
+      ->transform(CLI::CheckedTransformer(centers));
   static const std::map<std::string, opensim::TendonPlace> tendons = {
       {"half", opensim::TendonPlace::half_at_insertion},
       {"whole", opensim::TendonPlace::whole_at_insertion},
@@ -163,6 +169,13 @@ void add_import_command(CLI::App& program, Command& chosen) {
           [options](double distance) { options->settings.volumes.section_distance = distance / 1000; },
           "Sections of a muscle are at most so far apart on average (12)")
       ->check(CLI::Range(0.5, 1000.0));
+  command
+      ->add_option("--scaling", options->settings.volumes.scaling,
+                   "Instead: how often each part between a line's points is halved, from 0")
+      ->check(CLI::Range(0, 16))
+      ->excludes("--section-distance-mm");
+  command->add_flag("--tendon-sections", options->settings.volumes.tendon_sections,
+                    "A section more where each tendon ends, between its neighbors in shape");
   command
       ->add_option("--specific-tension", options->settings.volumes.specific_tension,
                    "Force per physiological cross-section area, N/m²")

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/run/inspect.hpp>
+#include <gracilis/io/run/inspect_data.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -13,12 +14,17 @@
 namespace gracilis {
 
 /// Describes every file that can be read; throws at the end when there were others.
-static int inspect(const std::vector<std::filesystem::path>& files, bool json) {
+static int inspect(const std::vector<std::filesystem::path>& files, bool json, int slices) {
   nlohmann::ordered_json descriptions = nlohmann::json::array();
   std::vector<Problem> problems;
   for (const std::filesystem::path& file : files) {
     try {
       descriptions.push_back(inspect_file(file));
+      if (slices > 0 && descriptions.back().at("kind") == "surface") {
+        descriptions.back()["slices"] = inspect_slices(file, slices);
+        if (!json)
+          for (auto& slice : descriptions.back()["slices"]) slice.erase("outline_mm");
+      }
       if (!json) std::cout << to_text(descriptions.back());
     } catch (const InputError& error) {
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
@@ -34,12 +40,18 @@ void add_inspect_command(CLI::App& program, std::function<int()>& chosen) {
   struct Options {
     std::vector<std::filesystem::path> files;
     bool json = false;
+    int slices = 0;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("inspect", "Say what is in files and run folders");
   command->add_option("FILE", options->files, "Surfaces, .mot, .sto, .csv, .osim, .toml or run folders")->required();
   command->add_flag("--json", options->json, "A list with one object per file, for programs");
-  command->callback([&chosen, options] { chosen = [options] { return inspect(options->files, options->json); }; });
+  command
+      ->add_option("--slices", options->slices,
+                   "Of surfaces, also so many slices across the longest axis: area, perimeter, isoperimetric quotient")
+      ->check(CLI::Range(1, 1000));
+  command->callback(
+      [&chosen, options] { chosen = [options] { return inspect(options->files, options->json, options->slices); }; });
 }
 
 }  // namespace gracilis

@@ -4,12 +4,14 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/value_reader.hpp>
 #include <gracilis/opensim/kinematics/sample_motions.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -21,12 +23,33 @@ namespace fs = std::filesystem;
 
 struct MotionsOptions {
   fs::path model, out;
-  std::vector<std::string> joints;
-  int steps = 8;
+  std::vector<std::string> joints, ranges;
+  Real speed_deg = 30;
+  opensim::SampleSettings settings;
 };
+
+/// "hip_flexion_r=-10:60", in degrees.
+void read_range(const opensim::Model& model, const std::string& text, opensim::SampleSettings& settings) {
+  const std::size_t equals = text.find('='), colon = text.find(':', equals + 1);
+  double low = 0, high = 0;
+  if (equals == std::string::npos || colon == std::string::npos ||
+      !parse_number(text.substr(equals + 1, colon - equals - 1), low) || !parse_number(text.substr(colon + 1), high))
+    throw ConfigurationError({"--range", "", fmt::format("'{}' is not of the form NAME=FROM:TO", text), ""});
+  const std::string name = text.substr(0, equals);
+  const Index index = opensim::index_of(model.coordinates, name);
+  if (index < 0)
+    throw ConfigurationError({"--range", "", fmt::format("the model has no coordinate '{}'", name),
+                              suggestion(name, opensim::names_of(model.coordinates))});
+  if (!model.coordinates[static_cast<std::size_t>(index)].rotation)
+    throw ConfigurationError({"--range", "", fmt::format("'{}' is no angle", name), "only angles are sampled"});
+  settings.ranges[name] = {radians(low), radians(high)};
+}
 
 int write_motions(const MotionsOptions& options) {
   const opensim::Model model = read_opensim_model(options.model, false);
+  opensim::SampleSettings settings = options.settings;
+  settings.speed = radians(options.speed_deg);
+  for (const std::string& range : options.ranges) read_range(model, range, settings);
   std::vector<std::string> known;
   for (const opensim::Joint& joint : model.joints) known.push_back(joint.name);
   for (const std::string& name : options.joints)
@@ -38,7 +61,7 @@ int write_motions(const MotionsOptions& options) {
   for (const opensim::Joint& joint : model.joints) {
     const bool asked = std::find(options.joints.begin(), options.joints.end(), joint.name) != options.joints.end();
     if (!asked && !options.joints.empty()) continue;
-    for (const opensim::SampleMotion& sample : opensim::sample_motions(model, joint, options.steps)) {
+    for (const opensim::SampleMotion& sample : opensim::sample_motions(model, joint, settings)) {
       const fs::path path = options.out / (file_name_of(sample.name, taken) + ".mot");
       write_sto(path, opensim::coordinate_table(model, sample.motion));
       fmt::print("{}\n", path.string());
@@ -55,9 +78,34 @@ void add_motions_command(CLI::App& program, Command& chosen) {
   const auto options = std::make_shared<MotionsOptions>();
   command->add_option("MODEL", options->model, "OpenSim model (.osim)")->required();
   command->add_option("--joint", options->joints, "Joint; may be repeated (default: all)")->allow_extra_args(false);
-  command->add_option("--steps", options->steps, "Steps from one end of a coordinate's range to the other")
+  command->add_option("--steps", options->settings.steps, "Steps from one end of a coordinate's range to the other")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  command
+      ->add_option("--range", options->ranges,
+                   "NAME=FROM:TO in degrees: a coordinate's range (default: the model's); may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--time-step", options->settings.time_step, "Time between rows, s")
+      ->check(CLI::Range(1e-5, 10.0))
+      ->capture_default_str();
+  command
+      ->add_option("--speed", options->speed_deg,
+                   "Largest angular speed on the way from pose to pose, degrees/s; 0: each row is the next pose")
+      ->check(CLI::Range(0.0, 1e5))
+      ->capture_default_str();
+  static const std::map<std::string, opensim::CombinedPoses> combined = {{"none", opensim::CombinedPoses::none},
+                                                                         {"grid", opensim::CombinedPoses::grid},
+                                                                         {"halton", opensim::CombinedPoses::halton},
+                                                                         {"latin", opensim::CombinedPoses::latin}};
+  command
+      ->add_option("--combined", options->settings.combined,
+                   "Poses of all of a joint's angles together: grid (default; every combination of steps), halton, "
+                   "latin (a Latin hypercube), none")
+      ->transform(CLI::CheckedTransformer(combined));
+  command->add_option("--samples", options->settings.samples, "Poses of halton and latin")
+      ->check(CLI::Range(1, 20000))
+      ->capture_default_str();
+  command->add_option("--seed", options->settings.seed, "Of latin")->capture_default_str();
   command->add_option("--out", options->out, "Folder for the motions (.mot)")->required();
   command->callback([&chosen, options] { chosen = [options] { return write_motions(*options); }; });
 }

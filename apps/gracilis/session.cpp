@@ -205,6 +205,7 @@ class Session {
     manifest.metrics = name_of(options_.measures);
     for (const Muscle& muscle : loaded_.scene.muscles)
       if (muscle.action_line.rays > 0) manifest.lines.emplace_back(muscle.name, muscle.action_line);
+    manifest.transversals = named_transversals(loaded_.scene);
     manifest.joints = loaded_.scene.joints;
     manifest.overlaps = overlaps_;
     manifest.axes = loaded_.scene.axes;

@@ -1,34 +1,18 @@
 #!/usr/bin/env bash
 # What Cervenka and Kohout (2020) showed of position based dynamics: 1 rad of hip flexion in 100 frames, back in 100, 100 of rest, for
 # four muscles of the cadaver, and a box squeezed between two plates. Two minutes of processor time.
-#   reproductions/cervenka-kohout-2020/run.sh [--data FOLDER] [--out FOLDER] [--set KEY=VALUE ...]
-# Leaves OUT/curves/MUSCLE.csv (a row per frame), OUT/summary.csv (published beside ours) and the plots of both runs.
+#   reproductions/cervenka-kohout-2020/run.sh [--thin] [--data FOLDER] [--out FOLDER] [--set KEY=VALUE ...]
+# Leaves OUT/curves/MUSCLE.csv (a row per frame), OUT/summary.csv (published beside ours), the plots of both runs, and OUT/index.html.
+# --thin: the box alone.
 # Exit code 1: a muscle's volume was off by 1 % or more, or the box did not come back.
 set -euo pipefail
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-root=$(cd "$here/../.." && pwd)
-data=${GRACILIS_DATA:-$root/../shared/data}
-out=$root/out/cervenka-kohout-2020
-set=()
-while (($#)); do
-  case $1 in
-    --data) data=$2 ;;
-    --out) out=$2 ;;
-    --set) set+=(--set "$2") ;;
-    *)
-      echo "usage: run.sh [--data FOLDER] [--out FOLDER] [--set KEY=VALUE ...]" >&2
-      exit 2
-      ;;
-  esac
-  shift 2
-done
-gracilis=${GRACILIS:-$root/build/release/bin/gracilis}
+source "$(dirname "${BASH_SOURCE[0]}")/../family/options.sh" cervenka-kohout-2020 "$@"
 mkdir -p "$out/curves"
 
 # run NAME SCENE: a missed gate (exit code 5) is no reason to stop, the curves are there all the same.
 run() {
   [[ -f $out/$1/run.json && -f $out/$1/plots/angles.svg ]] && return
-  "$gracilis" run "$2" --data "$data" "${set[@]}" --out "$out/$1" --layout surfaces --force >"$out/$1.txt" 2>&1 ||
+  "$gracilis" run "$2" --data "$data" "${more[@]}" --out "$out/$1" --layout surfaces --force >"$out/$1.txt" 2>&1 ||
     [[ -f $out/$1/plots/angles.svg ]] || {
     echo "$1: failed, see $out/$1.txt" >&2
     exit 1
@@ -52,7 +36,9 @@ curves() {
 
 run box "$root/scenes/box_squeeze/cervenka_kohout_2020.toml"
 curves box
-if [[ -d $data/lhdl-hip ]]; then
+if [[ -n $thin ]]; then
+  echo "muscles skipped: --thin" >&2
+elif [[ -d $data/lhdl-hip ]]; then
   run hip "$root/scenes/lhdl_hip/cervenka_kohout_2020.toml"
   curves hip
 else
@@ -87,6 +73,9 @@ ours() {
   done
 } >"$out/summary.csv"
 column -s, -t "$out/summary.csv" 2>/dev/null || cat "$out/summary.csv"
+
+python3 -B "$here/make.py" "$out" "$here"
+echo "$out/index.html"
 
 # The bars: every muscle's volume within 1 % in every frame, the box's when it has come to rest.
 missed=0

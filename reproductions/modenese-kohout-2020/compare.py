@@ -70,7 +70,7 @@ def main(validation, sweeps, out, methods):
         writer.writeheader()
         writer.writerows(table)
     with open(f"{out}/index.html", "w") as file:
-        file.write(page.page(references, by_method, table))
+        file.write(page.page(out, references, by_method, table))
     told = {row["source"] + row["coordinate"] + row["muscle"] for row in table}
     for reference in references:
         if reference.source + reference.coordinate + reference.muscle not in told:

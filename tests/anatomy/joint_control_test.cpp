@@ -38,6 +38,26 @@ TEST(JointControl, returns_an_exact_hit_as_it_is) {
   EXPECT_EQ(at(control, 2), 0.5) << "although the others weigh as much";
 }
 
+TEST(JointControl, a_sample_is_hit_within_a_tolerance) {
+  JointControlUnit unit = unit_of({0, 2, 5}, {0.1, 0.5, 0.9}, 1e-6);
+  EXPECT_EQ(at(JointControl(unit), std::nextafter(2.0, 3.0)), 0.5) << "one bit beside";
+  EXPECT_EQ(at(JointControl(unit), 2 + 1e-8), 0.5);
+  EXPECT_NEAR(at(JointControl(unit), 2.01), 0.5, 1e-3);
+  EXPECT_NE(at(JointControl(unit), 2.01), 0.5);
+  unit.hit_distance = radians(0.1);
+  EXPECT_EQ(at(JointControl(unit), 2.01), 0.5);
+}
+
+TEST(JointControl, asks_as_many_samples_as_it_is_told) {
+  JointControlUnit unit = unit_of({0, 2, 5}, {0.1, 0.5, 0.9}, 1e-9);
+  unit.neighbors = 2;
+  EXPECT_NEAR(at(JointControl(unit), 1.2), 0.3, 1e-6);
+  unit.neighbors = 1;
+  EXPECT_EQ(at(JointControl(unit), 1.2), 0.5);
+  unit.neighbors = 50;
+  EXPECT_NEAR(at(JointControl(unit), 1.2), 0.5, 1e-6);
+}
+
 TEST(JointControl, returns_the_nearest_sample_where_all_weights_underflow) {
   const JointControl control(unit_of({0, 2, 5}, {0.1, 0.5, 0.9}, 10));
   EXPECT_EQ(at(control, 90), 0.9);

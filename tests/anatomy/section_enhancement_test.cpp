@@ -1,6 +1,7 @@
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
-#include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/enhancement.hpp>
+#include <gracilis/anatomy/sections/surface_slices.hpp>
+#include <gracilis/geometry/section_frames.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <shapes.hpp>
@@ -15,6 +16,14 @@ namespace gracilis {
 static Eigen::VectorXd even_angles(int rays) { return Eigen::VectorXd::LinSpaced(rays + 1, 0, 2 * pi).head(rays); }
 
 static SectionCut cut_at_origin(const TriangleMesh& mesh) { return {mesh, Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY()}; }
+
+/// A tube bent like a bow, away from the straight line between its ends.
+static TriangleMesh bow(Points& line) {
+  line.resize(3, 33);
+  for (int i = 0; i <= 32; ++i) line.col(i) = Vec3(0.03 * std::sin(pi * i / 32), 0, 0.2 * i / 32);
+  const SectionFrames frames = section_frames(line, Vec3::UnitY());
+  return {section_vertices(line, frames, Eigen::MatrixXd::Constant(24, 33, 0.01)), section_faces(33, 24)};
+}
 
 TEST(SectionCut, a_ray_enters_at_front_faces_and_leaves_at_back_faces) {
   const SectionCut cut = cut_at_origin(shapes::box({0.02, -0.01, -0.05}, {0.05, 0.01, 0.05}));
@@ -38,6 +47,34 @@ TEST(SectionCut, a_plane_through_vertices_is_met_as_often_from_the_front_as_from
     for (const RayHit& hit : hits) balance += hit.back ? 1 : -1;
     EXPECT_EQ(balance, 0) << i;
   }
+}
+
+TEST(SectionCut, outlines_close_and_run_counterclockwise) {
+  const SectionCut cut = cut_at_origin(shapes::box({0.02, -0.01, -0.05}, {0.05, 0.01, 0.05}));
+  ASSERT_EQ(cut.outlines().size(), 1u);
+  const Eigen::Matrix2Xd outline = cut.outlines()[0];
+  Real twice = 0;
+  for (Eigen::Index i = 0; i < outline.cols(); ++i) {
+    const Eigen::Vector2d a = outline.col(i), b = outline.col((i + 1) % outline.cols());
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  EXPECT_NEAR(twice / 2, 0.03 * 0.02, 1e-15);
+}
+
+TEST(SurfaceSlices, lie_across_the_longest_axis_and_know_their_shape) {
+  const std::vector<SurfaceSlice> box = surface_slices(shapes::box({-0.01, -0.1, -0.01}, {0.01, 0.1, 0.01}), 3);
+  ASSERT_EQ(box.size(), 3u);
+  EXPECT_NEAR(box[0].place, 0.05, 1e-12);
+  for (const SurfaceSlice& slice : box) {
+    EXPECT_EQ(slice.outlines, 1);
+    EXPECT_NEAR(slice.shape.area, 4e-4, 1e-12);
+    EXPECT_NEAR(slice.shape.quotient, pi / 4, 1e-9);
+    EXPECT_TRUE(slice.shape.convex);
+  }
+  Points middle;
+  const std::vector<SurfaceSlice> tube = surface_slices(bow(middle), 1);
+  EXPECT_NEAR(tube[0].shape.quotient, 0.994, 2e-3);  // 24 corners
+  EXPECT_NEAR(tube[0].outline.rowwise().mean().norm(), 0, 1e-3);
 }
 
 TEST(Enhancement, rays_prefer_far_backs_outwards_and_near_fronts_inwards) {
@@ -97,14 +134,6 @@ TEST(Enhancement, the_inner_point_is_the_middle_matchs_middle_or_a_quadrilateral
   EXPECT_TRUE(inner_point({{0, 3}, {1, 4}}, angles, radii).isApprox(expected, 1e-12));
 }
 
-/// A tube bent like a bow, away from the straight line between its ends.
-static TriangleMesh bow(Points& line) {
-  line.resize(3, 33);
-  for (int i = 0; i <= 32; ++i) line.col(i) = Vec3(0.03 * std::sin(pi * i / 32), 0, 0.2 * i / 32);
-  const SectionFrames frames = section_frames(line, Vec3::UnitY());
-  return {section_vertices(line, frames, Eigen::MatrixXd::Constant(24, 33, 0.01)), section_faces(33, 24)};
-}
-
 TEST(Enhancement, sections_move_into_the_surface_and_their_corners_onto_it) {
   Points middle;
   const TriangleMesh surface = bow(middle);
@@ -112,7 +141,7 @@ TEST(Enhancement, sections_move_into_the_surface_and_their_corners_onto_it) {
   ends << middle.col(0), middle.col(32);
   const Points line = subdivide_line(ends, 4);
   const EnhancedSections sections =
-      enhance(line, Vec3::UnitY(), Eigen::MatrixXd::Constant(8, line.cols(), 0.005), surface, 5);
+      enhance(line, Vec3::UnitY(), Eigen::MatrixXd::Constant(8, line.cols(), 0.005), surface, {.more_rays = 5});
   const SignedDistance distance(surface);
   for (Eigen::Index k = 1; k + 1 < line.cols(); ++k) {
     EXPECT_LT(distance.query(sections.centers.col(k)).distance, -0.003) << k;
@@ -123,6 +152,19 @@ TEST(Enhancement, sections_move_into_the_surface_and_their_corners_onto_it) {
   }
   EXPECT_EQ(sections.centers.col(0), line.col(0));
   EXPECT_EQ(sections.centers.col(16), line.col(16));
+}
+
+TEST(Enhancement, a_center_that_the_published_heuristic_does_not_find_is_mended_or_stays) {
+  // Beside the line and thinner than the angle between six rays.
+  const TriangleMesh surface = shapes::box({0.03, 0.01, -0.05}, {0.032, 0.012, 0.05});
+  Points line(3, 3);
+  line << 0, 0, 0, 0, 0, 0, -0.04, 0, 0.04;
+  const Eigen::MatrixXd radii = Eigen::MatrixXd::Constant(6, 3, 0.005);
+  const SignedDistance distance(surface);
+  const EnhancedSections published = enhance(line, Vec3::UnitX(), radii, surface, {.mend = false});
+  EXPECT_EQ(published.centers, line);
+  EXPECT_LT(distance.query(enhance(line, Vec3::UnitX(), radii, surface).centers.col(1)).distance, 0);
+  EXPECT_LT(distance.query(enhance(line, Vec3::UnitX(), radii, surface, {12, false}).centers.col(1)).distance, 0);
 }
 
 TEST(Enhancement, sections_beyond_the_surface_stay) {

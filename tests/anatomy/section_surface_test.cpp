@@ -1,9 +1,10 @@
-#include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/cylinder_surface.hpp>
 #include <gracilis/anatomy/sections/spindle.hpp>
+#include <gracilis/anatomy/sections/tendon_lengths.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/polylines.hpp>
+#include <gracilis/scene/section_line.hpp>
 
 #include <gtest/gtest.h>
 
@@ -46,15 +47,32 @@ TEST(CylinderGeometry, tibialis_anterior_has_the_published_lengths) {
   EXPECT_NEAR(lengths.scaled_tendon / 2, 0.107, 1e-3);
 }
 
-TEST(CylinderGeometry, the_tendons_end_is_found_by_walking_along_the_line) {
-  Points line(3, 4);
-  line << 0, 1, 1, 1, 0, 0, 1, 1.5, 0, 0, 0, 0;
-  Index after = -1;
-  EXPECT_TRUE(point_before_end(line, 0.75, after).isApprox(Vec3(1, 0.75, 0)));
-  EXPECT_EQ(after, 2);
-  EXPECT_TRUE(point_before_end(line, 2, after).isApprox(Vec3(0.5, 0, 0)));
-  EXPECT_EQ(after, 1);
-  EXPECT_EQ(point_before_end(line, 9, after), Vec3(0, 0, 0));
+TEST(CylinderGeometry, a_section_stands_where_a_tendon_ends_walked_along_the_line) {
+  ActionLine line;
+  line.points.resize(3, 4);
+  line.points << 0, 1, 1, 1, 0, 0, 1, 1.5, 0, 0, 0, 0;
+  line.tendon = 0.75;  // longer than the last part, which eqs. 3.12 and 3.13 would test by itself
+  EXPECT_EQ(section_line(line).centers.cols(), 4);
+  line.tendon_sections = true;
+  SectionLine sections = section_line(line);
+  ASSERT_EQ(sections.centers.cols(), 5);
+  EXPECT_EQ(sections.tendon_ends, std::vector<Index>{2});
+  EXPECT_TRUE(sections.centers.col(2).isApprox(Vec3(1, 0.75, 0)));
+  line.origin_tendon = 0.5;
+  sections = section_line(line);
+  EXPECT_EQ(sections.tendon_ends, (std::vector<Index>{1, 3}));
+  EXPECT_TRUE(sections.centers.col(1).isApprox(Vec3(0.5, 0, 0)));
+  line.tendon = 2;  // beyond the end of the other
+  line.origin_tendon = 1.2;
+  sections = section_line(line);
+  EXPECT_EQ(sections.tendon_ends, (std::vector<Index>{1, 3}));
+  EXPECT_TRUE(sections.centers.col(1).isApprox(Vec3(0.5, 0, 0)));
+  EXPECT_TRUE(sections.centers.col(3).isApprox(Vec3(1, 0.2, 0)));
+  line.tendon = 1.5;  // at a point that is there already
+  line.origin_tendon = 0;
+  EXPECT_EQ(section_line(line).centers.cols(), 4);
+  line.tendon = 9;
+  EXPECT_EQ(section_line(line).centers.cols(), 4);
 }
 
 TEST(CylinderGeometry, subdividing_keeps_the_given_points) {

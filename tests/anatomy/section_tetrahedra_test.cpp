@@ -1,8 +1,8 @@
-#include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/cylinder_surface.hpp>
 #include <gracilis/anatomy/sections/tetrahedra.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/polylines.hpp>
+#include <gracilis/geometry/section_frames.hpp>
 
 #include <gtest/gtest.h>
 

@@ -168,7 +168,13 @@ TEST_F(FiberCommands, activations_reach_the_measures_in_every_way) {
             0.4);
   EXPECT_EQ(first_activation("[[joint_control_units]]\nname = \"hip\"\njoint = \"hip\"\nsamples = \"samples.sto\"\n"),
             0.25);
+  const std::string full =
+      "[[joint_control_units]]\nname = \"hip\"\njoint = \"hip\"\nsamples = \"full.sto\"\nneighbors = 1\n";
   const std::string head = "x\nversion=1\nnRows=2\nnColumns=3\ninDegrees=yes\nendheader\n";
+  folder.write("full.sto", head + "time\tflexion\tmuscle\n0\t2\t1.5\n1\t90\t0.5\n");
+  EXPECT_EQ(first_activation(full), 1);
+  EXPECT_THAT(run("run", good_scene() + full, "--force --set fibers.count=1").err,
+              HasSubstr("muscle is above 1 in 1 of 2 samples, up to 1.500"));
   folder.write("walk.mot", head + "time\tflexion\tknee\n0\t2\t0\n1\t90\t0\n");
   folder.write("parts.sto", head + "time\tmuscle1\tmuscle2\n0\t0.125\t0.5\n1\t1\t1\n");
   folder.write("forces.sto", head + "time\tmuscle1\tmuscle2\n0\t150\t100\n1\t1\t1\n");

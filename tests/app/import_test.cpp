@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace gracilis {
 
@@ -44,7 +45,7 @@ static ProgramResult import_swing(const TestFolder& folder, const std::string& o
 
 TEST(ImportCommand, an_imported_model_runs_by_sections_and_goes_back_to_opensim) {
   const TestFolder folder;
-  ASSERT_EQ(import_swing(folder, "--tendon both-ends --rays 8").exit_code, 0);
+  ASSERT_EQ(import_swing(folder, "--tendon both-ends --rays 8 --tendon-sections").exit_code, 0);
   const std::string run = (folder.path() / "run").string();
   const ProgramResult ran =
       run_program("run " + (folder.path() / "scene/swing.toml").string() + " --set method=cylinder --out " + run);
@@ -152,6 +153,24 @@ TEST(ImportCommand, the_pose_of_bones_and_surfaces_may_be_given) {
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_THAT(wrong.err, testing::HasSubstr("did you mean 'swing'?"));
   EXPECT_EQ(import_swing(other, "--rays 7").exit_code, 2);
+}
+
+/// Vertices of the muscle of import_swing by these options.
+static int vertices_of_swing(const std::string& options) {
+  const TestFolder folder;
+  const ProgramResult imported = import_swing(folder, options);
+  EXPECT_EQ(imported.exit_code, 0) << imported.err;
+  const ProgramResult told = run_program("inspect --json " + (folder.path() / "scene/muscles/m.vtp").string());
+  return nlohmann::json::parse(told.out).at(0).at("vertices").get<int>();
+}
+
+TEST(ImportCommand, the_number_of_sections_may_be_chosen_down_to_the_lines_own_points) {
+  // Laclé 2014, eq. 3.19: 2^LSS (|V| + 1) + 1 sections of six corners, and two ends.
+  EXPECT_EQ(vertices_of_swing("--rays 6 --scaling 0"), 2 * 6 + 2);
+  EXPECT_EQ(vertices_of_swing("--rays 6 --scaling 2"), 5 * 6 + 2);
+  EXPECT_EQ(vertices_of_swing("--rays 6 --scaling 9"), 513 * 6 + 2);
+  EXPECT_EQ(vertices_of_swing("--rays 6 --scaling 2 --tendon-sections"), 6 * 6 + 2);
+  EXPECT_EQ(vertices_of_swing("--rays 6 --scaling 0 --tendon-sections --tendon both-ends"), 4 * 6 + 2);
 }
 
 TEST(ImportCommand, surfaces_of_muscles_and_another_skeleton_come_from_files) {

@@ -12,11 +12,12 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gracilis {
 
-/// A run of reproductions/modenese-kohout-2020 and what it left.
+/// A run of one of the reproductions and the table that it left.
 class Reproduction {
  public:
   class Row {
@@ -30,18 +31,20 @@ class Reproduction {
     std::map<std::string, std::string> cells_;
   };
 
-  static bool has_data() {
+  /// Whether the data have such a folder.
+  static bool has_data(const std::string& part = "validation") {
     const char* folder = std::getenv("GRACILIS_DATA");
-    return folder && std::filesystem::is_directory(std::filesystem::path(folder) / "validation");
+    return folder && std::filesystem::is_directory(std::filesystem::path(folder) / part);
   }
 
-  explicit Reproduction(const std::string& options) {
+  explicit Reproduction(const std::string& options, const std::string& name = "modenese-kohout-2020",
+                        const std::string& table = "table.csv") {
     std::filesystem::remove_all(folder_);
-    const std::string script = std::string(build_paths::source_folder) + "/reproductions/modenese-kohout-2020/run.sh";
+    const std::string script = std::string(build_paths::source_folder) + "/reproductions/" + name + "/run.sh";
     exit_code = std::system(("GRACILIS='" + std::string(build_paths::program) + "' '" + script + "' --out '" +
                              folder_.string() + "' " + options + " >/dev/null 2>&1")
                                 .c_str());
-    std::ifstream file(folder_ / "table.csv");
+    std::ifstream file(folder_ / table);
     std::string line;
     std::getline(file, line);
     const std::vector<std::string> columns = cells(line);
@@ -59,6 +62,19 @@ class Reproduction {
     for (const Row& row : rows_)
       if (row.text("method") == method) found.push_back(row);
     return found;
+  }
+
+  const std::vector<Row>& rows() const { return rows_; }
+
+  /// The points (x, y) of the curves with this name in figures/NAME.csv.
+  std::vector<std::pair<Real, Real>> curve(const std::string& figure, const std::string& name) const {
+    std::vector<std::pair<Real, Real>> points;
+    std::ifstream file(folder_ / "figures" / (figure + ".csv"));
+    for (std::string line; std::getline(file, line);) {
+      const std::vector<std::string> row = cells(line);
+      if (row.size() == 3 && row[0] == name) points.emplace_back(std::stod(row[1]), std::stod(row[2]));
+    }
+    return points;
   }
 
   std::string page() const {

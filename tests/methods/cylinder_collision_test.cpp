@@ -1,8 +1,9 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
-#include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/cylinder_surface.hpp>
+#include <gracilis/geometry/section_frames.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/methods/cylinder/section_collision.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/validate.hpp>
 
 #include <shapes.hpp>
@@ -123,6 +124,31 @@ TEST(CylinderMethod, a_tagged_section_gives_way_to_a_bone_and_keeps_its_area) {
   method->advance(pose_at(scene, std::vector<Real>{0}), usual_time_step);
   method->write(frame);
   EXPECT_LT((frame.muscles[0].points - scene.muscles[0].surface.vertices).norm(), 1e-12);
+}
+
+TEST(CylinderMethod, what_did_not_come_free_is_told_and_its_time_counted) {
+  const Scene scene = pressed_scene();
+  const auto method = make_cylinder_method(scene);
+  StepReport report = method->advance(pose_at(scene, std::vector<Real>{-0.014}), usual_time_step);
+  EXPECT_EQ(metric(report.muscles[0].metrics, "unresolved_transversals"), 0);
+  EXPECT_GT(metric(report.muscles[0].metrics, "collision_rounds"), 0);
+  EXPECT_GT(report.muscles[0].milliseconds, 0);
+  // The press in the middle of the rod, from side to side: the section cannot leave it within 20 rounds.
+  Scene wide = scene;
+  wide.bones[1].surface = shapes::box({-0.06, -0.05, 0.03}, {0.06, 0.05, 0.05});
+  const auto caught = make_cylinder_method(wide);
+  wide.transversals[0].bones = {1};
+  report = caught->advance(pose_at(wide, std::vector<Real>{0.055}), usual_time_step);
+  EXPECT_EQ(metric(report.muscles[0].metrics, "unresolved_transversals"), 1);
+  EXPECT_EQ(metric(report.muscles[0].metrics, "collision_rounds"), 20);
+}
+
+TEST(CylinderMethod, other_methods_refuse_transversals) {
+  Scene scene = pressed_scene();
+  EXPECT_THAT(validate_method(scene), testing::IsEmpty());
+  scene.method.name = "skinning";
+  ASSERT_EQ(validate_method(scene).size(), 1u);
+  EXPECT_THAT(validate_method(scene)[0].what, testing::HasSubstr("'skinning' lets no sections give way"));
 }
 
 TEST(CylinderMethod, a_transversal_at_a_section_that_is_not_there_is_refused) {

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/cylinder_surface.hpp>
+#include <gracilis/geometry/section_frames.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <shapes.hpp>

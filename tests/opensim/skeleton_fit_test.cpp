@@ -1,5 +1,7 @@
 #include "opensim/model_texts.hpp"
 
+#include <gracilis/geometry/polylines.hpp>
+#include <gracilis/opensim/import/muscle_volume.hpp>
 #include <gracilis/opensim/import/skeleton_fit.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 
@@ -85,6 +87,45 @@ TEST(SkeletonFit, a_joint_that_shifts_its_child_ends_the_body_where_the_child_is
   const auto poses = poses_at(fitted, 0, 0.5);
   EXPECT_TRUE(poses[2].translation().isApprox(Vec3(0, -0.6, 0), 1e-12));
   EXPECT_NEAR(value(fitted.joints[1].axes[4].function, {0}), -0.6, 1e-12);
+}
+
+/// A model with one muscle of tibialis anterior's lengths in the publication, along the upper rod.
+static Model tibialis_anterior() {
+  Model model = two_rods();
+  Muscle& muscle = model.muscles[0];
+  muscle.path.points[0].location = Vec3(0, -0.1, 0);
+  muscle.path.points[1].location = Vec3(0, -0.1 - 0.303, 0);
+  muscle.optimal_fiber_length = 0.098;
+  muscle.pennation_angle_at_optimal = 0.087;
+  muscle.tendon_slack_length = 0.223;
+  return model;
+}
+
+static ActionLine imported_line(const Model& model, const VolumeSettings& settings = {}) {
+  return muscle_volume(model, model.muscles[0], poses_at(model, 0, 0), Eigen::Vector2d::Zero(), settings).line;
+}
+
+TEST(SkeletonFit, a_half_tendon_is_as_long_as_published) {  // Laclé 2014, table 3.3
+  const Model model = tibialis_anterior();
+  EXPECT_NEAR(imported_line(model).tendon, 0.223 / 2, 1e-12);  // eqs. 3.9 and 3.10 change nothing without a fit
+  BodyFit fit;
+  fit.body = "upper";
+  fit.start = Vec3::Zero();
+  fit.end = Vec3(0, -0.5 * 0.292 / 0.303, 0);
+  const ActionLine line = imported_line(fit_to_skeleton(model, {fit}));
+  EXPECT_NEAR(polyline_length(line.points), 0.292, 1e-9);
+  EXPECT_NEAR(line.tendon, 0.107, 5e-4);
+  EXPECT_NEAR(line.tendon, 0.223 * 0.292 / 0.303 / 2, 1e-9);  // scaled once
+}
+
+TEST(SkeletonFit, a_tendon_leaves_a_fifth_of_the_line_to_the_belly) {
+  Model model = tibialis_anterior();
+  model.muscles[0].tendon_slack_length = 0.29;
+  VolumeSettings settings;
+  settings.tendon = TendonPlace::whole_at_insertion;
+  EXPECT_NEAR(imported_line(model, settings).tendon, 0.8 * 0.303, 1e-12);
+  settings.tendon = TendonPlace::both_ends;
+  EXPECT_NEAR(imported_line(model, settings).origin_tendon, 0.4 * 0.303, 1e-12);
 }
 
 TEST(SkeletonFit, corrections_by_hand_come_last) {

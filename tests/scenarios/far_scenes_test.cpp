@@ -1,9 +1,9 @@
 #include <gracilis/anatomy/builtin/builtin_elbow.hpp>
 #include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
-#include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/cylinder_surface.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/section_frames.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/run.hpp>
 

@@ -59,6 +59,7 @@ struct MethodEntry {
   std::vector<Problem> (*validate)(const Scene&) = nullptr;
   /// `fields` are asked for only where it looks at bones. Precondition: the scene is valid, for this method, too.
   std::unique_ptr<DeformationMethod> (*make)(const Scene&, const BoneFieldSource& fields) = nullptr;
+  bool takes_transversals = false;  ///< lets sections give way (Scene::transversals); others refuse such a scene
   /// After how many frames it remembers nothing but them; none: after each.
   int (*resume_period)(const Scene&) = nullptr;
   /// Whether surfaces keep out of each other in this scene; none: never.

@@ -16,9 +16,9 @@
 namespace gracilis {
 
 const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> all = {xpbd_entry(), cylinder_entry(), skinning_entry(), tissue_entry(),
-                                               pbd_entry(),  arap_entry(),     rbf_entry(),      strings_entry(),
-                                               mass_spring_entry()};
+  static const std::vector<MethodEntry> all = {xpbd_entry(),   cylinder_entry(), skinning_entry(),
+                                               tissue_entry(), pbd_entry(),      arap_entry(),
+                                               rbf_entry(),    strings_entry(),  mass_spring_entry()};
   return all;
 }
 
@@ -61,6 +61,9 @@ std::vector<Problem> validate_method(const Scene& scene) {
   check_values("contact", method->contact, scene.method.contact, nullptr, problems);
   for (const Muscle& muscle : scene.muscles)
     check_values("muscle '" + muscle.name + "'", method->settings, muscle.settings, &muscle, problems);
+  if (!scene.transversals.empty() && !method->takes_transversals)
+    problems.push_back({"", "[[transversals]]", "the method '" + scene.method.name + "' lets no sections give way",
+                        "run it by method = \"cylinder\", or leave them out"});
   if (!method->validate) return problems;
   const std::vector<Problem> own = method->validate(scene);
   problems.insert(problems.end(), own.begin(), own.end());

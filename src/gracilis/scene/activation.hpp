@@ -28,6 +28,8 @@ struct JointControlUnit {
   Eigen::MatrixXd angles;                ///< samples × coordinates, rad
   Eigen::MatrixXd activations;           ///< samples × muscles
   Real falloff = 0;                      ///< 1/deg², F in exp(-F d²); 0: from the spacing of the samples
+  int neighbors = 10;                    ///< K, how many samples are asked
+  Real hit_distance = radians(1e-6);     ///< rad, ε: a sample nearer than this is the answer
 };
 
 /// An activation that follows from the pose.

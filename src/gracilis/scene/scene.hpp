@@ -101,6 +101,7 @@ struct ActionLine {
   int scaling = 0;               ///< sections: the points, and each part between them halved so many times
   Real tendon = 0;               ///< m, at the insertion
   Real origin_tendon = 0;        ///< m
+  bool tendon_sections = false;  ///< there is a section, too, where each tendon ends (section_line.hpp)
   /// Of the sections in the capture pose, where they lie beside the line; none: on it.
   Points centers = Points(3, 0);
   Real optimal_fiber = 0;  ///< m; 0: not known

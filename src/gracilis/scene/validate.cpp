@@ -1,5 +1,6 @@
 #include <gracilis/scene/validate.hpp>
 
+#include <gracilis/scene/section_line.hpp>
 #include <gracilis/scene/setting_table.hpp>
 #include <gracilis/scene/validate_muscle_bodies.hpp>
 #include <gracilis/scene/validate_names.hpp>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <set>
 
@@ -182,8 +184,11 @@ struct Validation {
       add(where, "its action line needs two points or more with a body each", "correct [muscles.action_line]");
       return;
     }
-    const Index sections = ((static_cast<Index>(line.points.cols()) - 1) << line.scaling) + 1;
-    if (muscle.surface.vertex_count() != line.rays * sections + 2)
+    // Counted before they are made: the file may ask for more than there is room for.
+    std::int64_t sections = (static_cast<std::int64_t>(line.points.cols() - 1) << line.scaling) + 1;
+    const std::int64_t vertices = muscle.surface.vertex_count();
+    if (line.tendon_sections && line.rays * sections + 2 <= vertices) sections = section_line(line).centers.cols();
+    if (vertices != line.rays * sections + 2)
       add(where,
           "its surface has " + std::to_string(muscle.surface.vertex_count()) + " vertices; " +
               std::to_string(sections) + " sections and two ends have " + std::to_string(line.rays * sections + 2),
@@ -274,6 +279,8 @@ struct Validation {
       if (!fits) add(where, "its samples do not fit its coordinates and muscles");
       if (!unit.angles.allFinite() || !unit.activations.allFinite()) add(where, "a sample is not finite");
       if (!(unit.falloff >= 0)) add(where, "its falloff is negative");
+      if (unit.neighbors < 1) add(where, "it asks no samples", "give 1 neighbor or more");
+      if (!(unit.hit_distance >= 0)) add(where, "its distance of a hit is negative");
     }
   }
 

@@ -71,7 +71,10 @@ Real falloff_for(const Eigen::MatrixXd& samples_deg) {
   return 1 / (2 * squares[squares.size() / 2]);
 }
 
-JointControl::JointControl(const JointControlUnit& unit) : tree_(std::make_unique<Tree>()) {
+JointControl::JointControl(const JointControlUnit& unit)
+    : tree_(std::make_unique<Tree>()),
+      hit_deg_(degrees(unit.hit_distance)),
+      neighbors_(static_cast<std::size_t>(unit.neighbors)) {
   tree_->angles = unit.angles * degrees(1);
   tree_->activations = unit.activations;
   merge_repeated(tree_->angles, tree_->activations);
@@ -86,9 +89,9 @@ JointControl& JointControl::operator=(JointControl&&) noexcept = default;
 Index JointControl::sample_count() const { return static_cast<Index>(tree_->angles.rows()); }
 
 Eigen::VectorXd JointControl::at(const Eigen::VectorXd& angles) const {
-  const auto count = std::min(static_cast<std::size_t>(neighbors), static_cast<std::size_t>(tree_->angles.rows()));
+  const auto count = std::min(neighbors_, static_cast<std::size_t>(tree_->angles.rows()));
   const Neighbors found = nearest(*tree_->index, angles * degrees(1), count);
-  if (found.squares[0] == 0) return tree_->activations.row(found.rows[0]);
+  if (found.squares[0] <= hit_deg_ * hit_deg_) return tree_->activations.row(found.rows[0]);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(tree_->activations.cols());
   Real total = 0;
   for (std::size_t i = 0; i < found.rows.size(); ++i) {

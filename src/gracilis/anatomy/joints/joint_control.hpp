@@ -10,8 +10,9 @@
 namespace gracilis {
 
 /// A joint control unit ready for queries. The activations at joint angles q are the mean of those of the nearest
-/// samples (10, or all when there are fewer), with the weights exp(-F d²), d the distance of the angles in degrees,
-/// made to sum to 1. A sample exactly at q is returned as it is; where all weights underflow, the nearest sample is.
+/// samples (K, or all when there are fewer), with the weights exp(-F d²), d the distance of the angles in degrees,
+/// made to sum to 1. A sample no farther than ε from q is returned as it is; where all weights underflow, the nearest
+/// sample is.
 class JointControl {
  public:
   /// Precondition: the unit has samples and as many columns as names. Of samples with the same angles the mean counts.
@@ -27,12 +28,11 @@ class JointControl {
   Real falloff() const { return falloff_; }
   Index sample_count() const;
 
-  static constexpr int neighbors = 10;
-
  private:
   struct Tree;
   std::unique_ptr<Tree> tree_;
-  Real falloff_;
+  Real falloff_, hit_deg_;
+  std::size_t neighbors_;
 };
 
 /// The falloff that suits samples (rows, degrees): 1 / (2 s²) with s the median distance of a sample to its nearest

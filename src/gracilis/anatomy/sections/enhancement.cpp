@@ -98,22 +98,23 @@ static Vec2 middle_of_longest_way(const SectionCut& cut, Real angle) {
 }
 
 /// Where the center should be, in the section's plane. `radius` is that of the ring from which rays begin.
-static Vec2 better_center(const SectionCut& cut, const Eigen::VectorXd& radii, int more_rays) {
+static Vec2 better_center(const SectionCut& cut, const Eigen::VectorXd& radii, const EnhancementSettings& settings) {
   const auto count = static_cast<Index>(radii.size());
-  for (Index rays = count * more_rays; rays <= 1152; rays *= 2) {
+  for (Index rays = count * settings.more_rays;; rays *= 2) {
     const Eigen::VectorXd angles = even_angles(rays);
     Eigen::VectorXd begin(rays);
     for (Index i = 0; i < rays; ++i) begin[i] = radii[i * count / rays];
     const CastRadii cast = cast_radii(cut, angles, begin);
     const std::vector<RayMatch> matches = find_matches(cast);
-    if (matches.empty() && cut.contains(Vec2::Zero())) return Vec2::Zero();
-    if (matches.empty()) continue;
+    if (matches.empty()) {
+      if (!settings.mend || rays > 576 || cut.contains(Vec2::Zero())) return Vec2::Zero();
+      continue;
+    }
     const Vec2 point = inner_point(matches, angles, cast.radii);
-    if (cut.contains(point)) return point;
+    if (!settings.mend || cut.contains(point)) return point;
     // Between the two sides of a bent section: back onto one of them.
     return middle_of_longest_way(cut, angles[matches[matches.size() / 2].positive]);
   }
-  return Vec2::Zero();
 }
 
 static SectionCut cut_of(const TriangleMesh& surface, const Points& centers, const SectionFrames& frames,
@@ -139,16 +140,16 @@ static Eigen::VectorXd filled(const CastRadii& cast, const Eigen::VectorXd& befo
 }
 
 EnhancedSections enhance(const Points& line, const Vec3& first, const Eigen::MatrixXd& radii,
-                         const TriangleMesh& surface, int more_rays) {
+                         const TriangleMesh& surface, const EnhancementSettings& settings) {
   const Eigen::Index sections = line.cols();
-  assert(radii.cols() == sections && radii.rows() >= 6 && radii.rows() % 2 == 0 && more_rays >= 1);
-  EnhancedSections result{line, section_frames(line, first), radii,
-                          std::vector<bool>(static_cast<std::size_t>(sections))};
+  assert(radii.cols() == sections && radii.rows() >= 6 && radii.rows() % 2 == 0 && settings.more_rays >= 1);
+  const std::vector<bool> none(static_cast<std::size_t>(sections));
+  EnhancedSections result{line, section_frames(line, first), radii, none, none};
   const SectionFrames planes = result.frames;
   for (Eigen::Index k = 0; k < sections; ++k) {
     const SectionCut cut = cut_of(surface, line, planes, k);
     if (cut.empty()) continue;
-    const Vec2 inner = better_center(cut, radii.col(k), more_rays);
+    const Vec2 inner = better_center(cut, radii.col(k), settings);
     const Vec3 x = planes.first_rays.col(k), y = planes.normals.col(k).cross(x);
     result.centers.col(k) += inner.x() * x + inner.y() * y;
   }
@@ -157,6 +158,7 @@ EnhancedSections enhance(const Points& line, const Vec3& first, const Eigen::Mat
   for (Eigen::Index k = 0; k < sections; ++k) {
     const SectionCut cut = cut_of(surface, result.centers, result.frames, k);
     result.cut[static_cast<std::size_t>(k)] = !cut.empty();
+    result.inside[static_cast<std::size_t>(k)] = cut.contains(Vec2::Zero());
     if (!cut.empty()) result.radii.col(k) = filled(cast_radii(cut, angles, radii.col(k)), radii.col(k));
   }
   result.centers.col(0) = line.col(0);

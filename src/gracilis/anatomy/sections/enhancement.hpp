@@ -36,20 +36,27 @@ std::vector<RayMatch> find_matches(const CastRadii& cast);
 Eigen::Vector2d inner_point(const std::vector<RayMatch>& matches, const Eigen::VectorXd& angles,
                             const Eigen::VectorXd& radii);
 
+struct EnhancementSettings {
+  int more_rays = 1;  ///< times as many rays as radii look for inner points (the publication's CSS)
+  bool mend = true;   ///< where the published heuristic finds no point inside, another is looked for
+};
+
 struct EnhancedSections {
   Points centers;
   SectionFrames frames;
-  Eigen::MatrixXd radii;  ///< rays × sections, m, all positive
-  std::vector<bool> cut;  ///< the section's plane cuts the surface
+  Eigen::MatrixXd radii;     ///< rays × sections, m, all positive
+  std::vector<bool> cut;     ///< the section's plane cuts the surface
+  std::vector<bool> inside;  ///< its center lies inside, at the ends before they went back
 };
 
 /// Moves the line's points inside the surface and the sections' corners onto it: rays along `more_rays` times as many
 /// directions as there are radii find inner points, then the radii are cast from there. The ends go back to where they
 /// were at last. Sections whose plane misses the surface keep center and radii. `line` are the sections' centers,
-/// `first` the first ray (see section_frames), `radii` where they begin. Where a section finds no match, but its plane
-/// cuts the surface, rays are doubled until one meets it (up to 1152). Preconditions: closed surface, an even number
-/// of rays, 6 or more.
+/// `first` the first ray (see section_frames), `radii` where they begin. With `mend`, where a section finds no match,
+/// but its plane cuts the surface, rays are doubled until one meets it (up to 1152), and a point found outside goes to
+/// the middle of the longest way inside; without, the center stays where nothing is found. Preconditions: closed
+/// surface, an even number of rays, 6 or more.
 EnhancedSections enhance(const Points& line, const Vec3& first, const Eigen::MatrixXd& radii,
-                         const TriangleMesh& surface, int more_rays = 1);
+                         const TriangleMesh& surface, const EnhancementSettings& settings = {});
 
 }  // namespace gracilis

@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/sections/line_path.hpp>
 #include <gracilis/geometry/polylines.hpp>
+#include <gracilis/scene/section_line.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -20,7 +21,7 @@ static std::size_t body_count(const ActionLine& line) {
 LineSections line_sections(const Muscle& muscle) {
   LineSections result;
   result.line = muscle.action_line;
-  const Points centers = subdivide_line(muscle.action_line.points, muscle.action_line.scaling);
+  const Points centers = section_line(muscle.action_line).centers;
   result.places = distances_along(centers);
   // The line's points may cut the corners of its path.
   result.length = polyline_length(line_at(muscle.action_line, capture_pose(body_count(muscle.action_line))));

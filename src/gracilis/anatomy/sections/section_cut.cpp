@@ -1,6 +1,8 @@
 #include <gracilis/anatomy/sections/section_cut.hpp>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace gracilis {
 
@@ -44,6 +46,29 @@ std::vector<RayHit> SectionCut::hits(const Vec2& from, const Vec2& along) const 
   }
   std::sort(found.begin(), found.end(), [](const RayHit& a, const RayHit& b) { return a.distance < b.distance; });
   return found;
+}
+
+std::vector<Eigen::Matrix2Xd> SectionCut::outlines() const {
+  // Both triangles of an edge find the same point, bit by bit. Several segments may begin in one where the plane meets
+  // a vertex.
+  std::multimap<std::pair<Real, Real>, const Segment*> beginnings;
+  for (const Segment& segment : segments_)
+    if (segment.from != segment.to) beginnings.emplace(std::pair(segment.from.x(), segment.from.y()), &segment);
+  std::vector<Eigen::Matrix2Xd> curves;
+  while (!beginnings.empty()) {
+    std::vector<Vec2> points;
+    auto next = beginnings.begin();
+    while (next != beginnings.end()) {
+      points.push_back(next->second->from);
+      const Vec2 to = next->second->to;
+      beginnings.erase(next);
+      next = beginnings.find({to.x(), to.y()});
+    }
+    Eigen::Matrix2Xd curve(2, static_cast<Eigen::Index>(points.size()));
+    for (std::size_t i = 0; i < points.size(); ++i) curve.col(static_cast<Eigen::Index>(i)) = points[i];
+    if (curve.cols() > 2) curves.push_back(std::move(curve));
+  }
+  return curves;
 }
 
 bool SectionCut::contains(const Vec2& point) const {

@@ -25,6 +25,10 @@ class SectionCut {
   /// holes are met as often from the front as from the back by a ray that begins outside.
   std::vector<RayHit> hits(const Eigen::Vector2d& from, const Eigen::Vector2d& along) const;
 
+  /// The curves that the plane cuts, 2 × points each, the inside to the left; the first point is not repeated. Points
+  /// that coincide are one.
+  std::vector<Eigen::Matrix2Xd> outlines() const;
+
   /// Whether a point of the plane lies inside.
   bool contains(const Eigen::Vector2d& point) const;
 

@@ -1,5 +1,6 @@
 #include <gracilis/io/run/inspect_data.hpp>
 
+#include <gracilis/anatomy/sections/surface_slices.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
@@ -71,6 +72,25 @@ Json inspect_surface(const std::filesystem::path& path) {
           {"defects", defects_of(report)},
           {"as_muscle", verdict(mesh, millimetres ? 0.001 : 1, SurfaceRole::muscle, path.string())},
           {"as_bone", verdict(mesh, millimetres ? 0.001 : 1, SurfaceRole::bone, path.string())}};
+}
+
+Json inspect_slices(const std::filesystem::path& path, int count) {
+  TriangleMesh mesh = read_mesh(path, 1);
+  const MeshReport report = inspect_mesh(mesh);
+  const Real to_mm = report.diagonal() > 5 ? 1 : 1000;
+  Json slices = Json::array();
+  for (const SurfaceSlice& slice : surface_slices(mesh, count)) {
+    Json outline = Json::array();
+    for (const auto& point : slice.outline.colwise()) outline.push_back({to_mm * point.x(), to_mm * point.y()});
+    slices.push_back({{"place_mm", to_mm * slice.place},
+                      {"outlines", slice.outlines},
+                      {"area_mm2", to_mm * to_mm * slice.shape.area},
+                      {"perimeter_mm", to_mm * slice.shape.perimeter},
+                      {"isoperimetric_quotient", slice.shape.quotient},
+                      {"convex", slice.shape.convex},
+                      {"outline_mm", outline}});
+  }
+  return slices;
 }
 
 Json inspect_table(const std::filesystem::path& path) {

@@ -47,11 +47,38 @@ static nlohmann::ordered_json action_lines(const RunManifest& manifest) {
                      {"scaling", line.scaling},
                      {"tendon_m", line.tendon},
                      {"origin_tendon_m", line.origin_tendon},
+                     {"tendon_sections", line.tendon_sections},
                      {"optimal_fiber_m", line.optimal_fiber},
                      {"pennation_rad", line.pennation},
                      {"points_m", rows(line.points)},
                      {"centers_m", rows(line.centers)}};
   return lines;
+}
+
+std::vector<NamedTransversal> named_transversals(const Scene& scene) {
+  std::vector<NamedTransversal> named;
+  for (const Transversal& each : scene.transversals) {
+    const auto name = [&](Index muscle) {
+      return muscle < 0 ? std::string() : scene.muscles[static_cast<std::size_t>(muscle)].name;
+    };
+    named.push_back({name(each.moved.muscle), name(each.other.muscle), each.moved, each.other, {}});
+    for (const Index bone : each.bones) named.back().bones.push_back(scene.bones[static_cast<std::size_t>(bone)].name);
+  }
+  return named;
+}
+
+static nlohmann::ordered_json transversals_json(const std::vector<NamedTransversal>& transversals) {
+  nlohmann::ordered_json list = nlohmann::json::array();
+  for (const NamedTransversal& each : transversals) {
+    list.push_back({{"muscle", each.muscle}, {"section", each.at.section}, {"ray", each.at.ray}});
+    if (!each.other.empty()) {
+      list.back()["other_muscle"] = each.other;
+      list.back()["other_section"] = each.at_other.section;
+      list.back()["other_ray"] = each.at_other.ray;
+    }
+    if (!each.bones.empty()) list.back()["bones"] = each.bones;
+  }
+  return list;
 }
 
 /// What exports to OpenSim need (opensim/export/run_lengths).
@@ -147,6 +174,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"preview", {{"looking", components(manifest.preview_looking)}, {"up", components(manifest.preview_up)}}},
       {"joints", joints_json(manifest.joints)},
       {"action_lines", action_lines(manifest)},
+      {"transversals", transversals_json(manifest.transversals)},
       {"rest_overlaps", overlaps_json(manifest.overlaps)},
       {"guessed", manifest.guessed},
       {"warnings", manifest.warnings},

@@ -11,6 +11,15 @@
 
 namespace gracilis {
 
+/// A transversal of a scene, by names.
+struct NamedTransversal {
+  std::string muscle, other;  ///< other: empty where there is none
+  SectionCorner at, at_other;
+  std::vector<std::string> bones;
+};
+
+std::vector<NamedTransversal> named_transversals(const Scene& scene);
+
 /// What run.json says about a run, beside the versions of the libraries, the time and the machine.
 struct RunManifest {
   std::string version;                        ///< of Gracilis
@@ -28,6 +37,7 @@ struct RunManifest {
   int first_motion_frame = 0;    ///< of those recorded: those before it lead from the capture pose to the motion
   std::string metrics = "full";  ///< what is measured: none, light or full
   std::vector<std::pair<std::string, ActionLine>> lines;           ///< of muscles that have one, by their names
+  std::vector<NamedTransversal> transversals;                      ///< of the scene
   std::vector<Joint> joints;                                       ///< of the scene
   OverlapReport overlaps;                                          ///< in the capture pose
   AnatomicalAxes axes;                                             ///< how the subject stands

@@ -4,6 +4,8 @@
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/tables/table.hpp>
 
+#include <fmt/format.h>
+
 namespace gracilis::sections {
 
 namespace fs = std::filesystem;
@@ -45,6 +47,8 @@ ControlUnitDescription read_control_unit(TomlReader table) {
   unit.coordinates = table.texts("coordinates");
   unit.muscles = table.texts("muscles");
   unit.falloff = table.number("falloff", {0, 1e9, "1/deg²"}).value_or(0);
+  unit.neighbors = table.integer("neighbors", 1, 100'000).value_or(unit.neighbors);
+  if (const std::optional<Real> hit = table.number("hit_deg", {0, 360, "deg"})) unit.hit_distance = radians(*hit);
   table.reject_unknown_keys();
   return description;
 }
@@ -95,6 +99,18 @@ static std::vector<std::string> muscles_with_column(const Scene& scene, const Ta
   return muscles;
 }
 
+/// Sums of parts go beyond full activation, which a muscle cannot.
+static void warn_about_excess(SceneInProgress& progress, const JointControlUnit& unit) {
+  for (std::size_t i = 0; i < unit.muscles.size(); ++i) {
+    const Eigen::VectorXd values = unit.activations.col(static_cast<Index>(i));
+    const auto above = (values.array() > 1).count();
+    if (above > 0)
+      progress.loaded.warnings.push_back(fmt::format(
+          "joint control unit '{}': {} is above 1 in {} of {} samples, up to {:.3f}; what comes out is cut off at 1",
+          unit.name, unit.muscles[i], above, values.size(), values.maxCoeff()));
+  }
+}
+
 void add_control_unit(SceneInProgress& progress, const ControlUnitDescription& description) {
   Scene& scene = progress.loaded.scene;
   const bool joined = description.samples.path.empty();
@@ -105,6 +121,7 @@ void add_control_unit(SceneInProgress& progress, const ControlUnitDescription& d
     if (unit.muscles.empty()) unit.muscles = muscles_with_column(scene, table);
     unit.angles = (table.in_degrees ? radians(1) : 1) * columns_of(progress, table, path.string(), unit.coordinates);
     unit.activations = columns_of(progress, table, path.string(), unit.muscles);
+    warn_about_excess(progress, unit);
     scene.activation.units.push_back(std::move(unit));
   });
 }

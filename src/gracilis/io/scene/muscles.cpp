@@ -55,6 +55,7 @@ static void read_action_line(TomlReader table, MuscleDescription& description) {
   const auto length = [&](const char* key) { return table.number(key, {0, 10'000, "mm"}).value_or(0) / 1000; };
   line.tendon = length("tendon_mm");
   line.origin_tendon = length("origin_tendon_mm");
+  line.tendon_sections = table.flag("tendon_sections").value_or(false);
   line.optimal_fiber = length("optimal_fiber_mm");
   line.pennation = radians(table.number("pennation_deg", {0, 89}).value_or(0));
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("centers_mm", 3)) line.centers = rows->transpose() / 1000;

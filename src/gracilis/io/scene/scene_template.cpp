@@ -133,6 +133,7 @@ threshold = 0.02
 # points_mm = [[-100, 20, 60], [-70, -220, 130]] # origin first
 # bodies = ["pelvis", "femur_r"]                 # of each point
 # tendon_mm = 40                                 # optional: length at the insertion; origin_tendon_mm likewise
+# tendon_sections = true                         # optional: a section more where each tendon ends
 # optimal_fiber_mm = 110                         # optional, with pennation_deg: for forces of 'export --to tetrahedra'
 # centers_mm = [[...], ...]                      # optional: of all sections, where they lie beside the line
 # optional: how the line runs in other poses, where its points do not stay on their bodies. A point that is there within
@@ -241,6 +242,8 @@ value = 0.3
 # coordinates = ["hip_flexion_r"] # optional: that tell samples apart; default: all of the joint
 # muscles = ["iliacus_r"]         # optional: that it governs; default: all that the samples know
 # falloff = 0.02                  # optional: F in exp(-F d²), 1/deg²; default: from the samples' spacing
+# neighbors = 10                  # optional: K, how many of the nearest samples are asked
+# hit_deg = 1e-6                  # optional: a sample no farther than this is the answer
 
 # Optional: without a motion a run is frame 0, the capture pose, alone.
 [motion]

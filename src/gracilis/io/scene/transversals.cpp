@@ -5,9 +5,13 @@
 namespace gracilis::sections {
 
 static SectionCorner read_corner(TomlReader& table, const std::string& prefix) {
+  const auto required = [&](const std::string& key) {
+    if (!table.has(key)) table.required_number(key);
+    return table.integer(key, 0, 1'000'000).value_or(0);
+  };
   SectionCorner corner;
-  corner.section = table.integer(prefix + "section", 0, 1'000'000).value_or(0);
-  corner.ray = table.integer(prefix + "ray", 0, 1'000'000).value_or(0);
+  corner.section = required(prefix + "section");
+  corner.ray = required(prefix + "ray");
   return corner;
 }
 
@@ -17,8 +21,17 @@ TransversalDescription read_transversal(TomlReader table) {
   description.muscle = table.required_text("muscle");
   description.transversal.moved = read_corner(table, "");
   description.other = table.text("other_muscle").value_or("");
-  description.transversal.other = read_corner(table, "other_");
   description.bones = table.texts("bones");
+  if (!description.other.empty()) {
+    description.transversal.other = read_corner(table, "other_");
+  } else {
+    for (const char* key : {"other_section", "other_ray"})
+      if (table.has(key))
+        table.add_problem(key, "'" + std::string(key) + "' says where on a muscle that is not named",
+                          "give 'other_muscle'");
+    if (description.bones.empty())
+      table.add_problem("muscle", "a transversal that keeps out of nothing", "give 'other_muscle' or 'bones', or both");
+  }
   table.reject_unknown_keys();
   return description;
 }

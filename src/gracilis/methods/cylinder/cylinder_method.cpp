@@ -85,36 +85,79 @@ static CylinderMuscle prepare(const Pose& capture, const Muscle& muscle) {
   return result;
 }
 
-/// Lets tagged sections give way, at most 20 rounds; each frame anew, so that nothing is carried on.
-static void resolve(const std::vector<Transversal>& transversals, const std::vector<Bone>& bones,
-                    const std::vector<SegmentHits>& hits, const Pose& pose, std::vector<CylinderShape>& shapes) {
+namespace {
+
+/// Lets tagged sections give way in one pose; each frame anew, so that nothing is carried on.
+class Resolution {
+ public:
+  Resolution(const std::vector<Transversal>& transversals, const std::vector<Bone>& bones,
+             const std::vector<SegmentHits>& hits, const Pose& pose, std::vector<CylinderShape>& shapes)
+      : transversals_(transversals), bones_(bones), hits_(hits), pose_(pose), shapes_(shapes) {
+    for (const Transversal& each : transversals) {
+      const SectionRings& rings = rings_of(each.moved);
+      Held state{section_area(rings, each.moved.section), Eigen::VectorXd(rings.rays),
+                 std::vector<bool>(static_cast<std::size_t>(rings.rays))};
+      for (Index i = 0; i < rings.rays; ++i)
+        state.radii[i] = (rings.corner(each.moved.section, i) - rings.centers.col(each.moved.section)).norm();
+      held_.push_back(std::move(state));
+    }
+  }
+
+  /// At most 20 rounds. Adds time and what did not come free to the reports of the muscles that give way.
+  void run(std::vector<MuscleReport>& reports) {
+    std::vector<int> unresolved(shapes_.size(), 0), rounds(shapes_.size(), 0);
+    bool any = true;
+    for (int round = 0; round < most_rounds && any; ++round) {
+      any = false;
+      for (std::size_t i = 0; i < transversals_.size(); ++i) {
+        const auto muscle = static_cast<std::size_t>(transversals_[i].moved.muscle);
+        const auto start = std::chrono::steady_clock::now();
+        const bool moved = give_way(transversals_[i], held_[i]);
+        const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - start;
+        reports[muscle].milliseconds += taken.count();
+        if (moved) rounds[muscle] = round + 1;
+        any = any || moved;
+      }
+    }
+    // What the last round moved may be free now.
+    for (std::size_t i = 0; any && i < transversals_.size(); ++i) {
+      const SectionRings before = rings_of(transversals_[i].moved);
+      if (give_way(transversals_[i], held_[i])) ++unresolved[static_cast<std::size_t>(transversals_[i].moved.muscle)];
+      rings_of(transversals_[i].moved) = before;
+    }
+    for (const Transversal& each : transversals_) {
+      const auto muscle = static_cast<std::size_t>(each.moved.muscle);
+      reports[muscle].metrics = {{"collision_rounds", static_cast<Real>(rounds[muscle])},
+                                 {"unresolved_transversals", static_cast<Real>(unresolved[muscle])}};
+    }
+  }
+
+ private:
+  static constexpr int most_rounds = 20;
+
   struct Held {
     Real area = 0;
     Eigen::VectorXd radii;
     std::vector<bool> fixed;
   };
-  std::vector<Held> held;
-  for (const Transversal& each : transversals) {
-    const SectionRings& rings = shapes[static_cast<std::size_t>(each.moved.muscle)].rings;
-    Held state{section_area(rings, each.moved.section), Eigen::VectorXd(rings.rays),
-               std::vector<bool>(static_cast<std::size_t>(rings.rays))};
-    for (Index i = 0; i < rings.rays; ++i)
-      state.radii[i] = (rings.corner(each.moved.section, i) - rings.centers.col(each.moved.section)).norm();
-    held.push_back(std::move(state));
+
+  SectionRings& rings_of(const SectionCorner& corner) const {
+    return shapes_[static_cast<std::size_t>(corner.muscle)].rings;
   }
-  const auto give_way = [&](const Transversal& each, Held& state) {
-    SectionRings& rings = shapes[static_cast<std::size_t>(each.moved.muscle)].rings;
+
+  bool give_way(const Transversal& each, Held& state) const {
+    SectionRings& rings = rings_of(each.moved);
     bool moved = false;
     std::vector<Obstacle> obstacles;
     if (each.other.muscle >= 0) {
-      const SectionRings& other = shapes[static_cast<std::size_t>(each.other.muscle)].rings;
+      const SectionRings& other = rings_of(each.other);
       moved = yield_to_transversal(rings, each.moved, transversal_depth(rings, each.moved, other, each.other));
       obstacles.push_back(obstacle_of(other));
     }
     for (const Index bone : each.bones) {
-      const Bone& solid = bones[static_cast<std::size_t>(bone)];
-      const RigidTransform back = pose.bodies[static_cast<std::size_t>(solid.body)].inverse();
-      const SegmentHits& tree = hits[static_cast<std::size_t>(bone)];
+      const Bone& solid = bones_[static_cast<std::size_t>(bone)];
+      const RigidTransform back = pose_.bodies[static_cast<std::size_t>(solid.body)].inverse();
+      const SegmentHits& tree = hits_[static_cast<std::size_t>(bone)];
       obstacles.push_back([back, &tree](const Vec3& a, const Vec3& b) { return tree.cut(back * a, back * b); });
     }
     const Obstacle any = [&](const Vec3& a, const Vec3& b) {
@@ -123,15 +166,15 @@ static void resolve(const std::vector<Transversal>& transversals, const std::vec
     if (!yield_to_obstacle(rings, each.moved.section, any, state.radii, state.fixed)) return moved;
     inflate(rings, each.moved.section, state.area, state.fixed);
     return true;
-  };
-  for (int round = 0; round < 20; ++round) {
-    bool any = false;
-    for (std::size_t i = 0; i < transversals.size(); ++i) any = give_way(transversals[i], held[i]) || any;
-    if (!any) return;
   }
-}
 
-namespace {
+  const std::vector<Transversal>& transversals_;
+  const std::vector<Bone>& bones_;
+  const std::vector<SegmentHits>& hits_;
+  const Pose& pose_;
+  std::vector<CylinderShape>& shapes_;
+  std::vector<Held> held_;
+};
 
 class CylinderMethod final : public DeformationMethod {
  public:
@@ -170,7 +213,7 @@ class CylinderMethod final : public DeformationMethod {
         report.muscles[m].milliseconds = taken.count();
       }
     });
-    if (!transversals_.empty()) resolve(transversals_, bones_, hits_, pose, shapes);
+    if (!transversals_.empty()) Resolution(transversals_, bones_, hits_, pose, shapes).run(report.muscles);
     for (std::size_t m = 0; m < muscles_.size(); ++m) {
       if (!surfaces_[m]) next[m] = shapes[m].vertices();
       if (!next[m].allFinite()) throw QualityError("muscle " + lines_[m].name + ": a section is not finite");
@@ -203,7 +246,9 @@ class CylinderMethod final : public DeformationMethod {
 MethodEntry cylinder_entry() {
   return {.name = "cylinder",
           .meaning = "sections across an action line, or across the middle of a surface, without a solver",
-          .make = [](const Scene& scene, const BoneFieldSource&) { return make_cylinder_method(scene); }};
+          .metrics = {{"collision_rounds", 0}, {"unresolved_transversals", 0, "transversals that did not come free"}},
+          .make = [](const Scene& scene, const BoneFieldSource&) { return make_cylinder_method(scene); },
+          .takes_transversals = true};
 }
 
 std::unique_ptr<DeformationMethod> make_cylinder_method(const Scene& scene) {

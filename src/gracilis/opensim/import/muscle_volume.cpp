@@ -1,12 +1,12 @@
 #include <gracilis/opensim/import/muscle_volume.hpp>
 
-#include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/cylinder_surface.hpp>
 #include <gracilis/anatomy/sections/enhancement.hpp>
 #include <gracilis/anatomy/sections/spindle.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
+#include <gracilis/scene/section_line.hpp>
 
 #include <fmt/format.h>
 
@@ -45,20 +45,19 @@ static std::vector<Index> section(Index k, Index rays) {
   return vertices;
 }
 
-/// Origin's and insertion's tendon lengths on a line of this length, m: the slack length scaled as the line is.
-static std::pair<Real, Real> tendons_on(const Muscle& muscle, Real length, TendonPlace place) {
-  const Real rest =
-      muscle.tendon_slack_length + muscle.optimal_fiber_length * std::cos(muscle.pennation_angle_at_optimal);
-  const Real scaled = muscle.tendon_slack_length * length / rest;
+/// Origin's and insertion's tendon lengths, m: parts of the slack length, which is stiff and which fit_to_skeleton has
+/// scaled where the model was brought into another skeleton.
+static std::pair<Real, Real> tendons_of(const Muscle& muscle, TendonPlace place) {
+  const Real slack = muscle.tendon_slack_length;
   switch (place) {
     case TendonPlace::half_at_insertion:
-      return {0, scaled / 2};
+      return {0, slack / 2};
     case TendonPlace::whole_at_insertion:
-      return {0, scaled};
+      return {0, slack};
     case TendonPlace::both_ends:
-      return {scaled / 2, scaled / 2};
+      return {slack / 2, slack / 2};
   }
-  return {0, scaled / 2};
+  return {0, slack / 2};
 }
 
 /// What the others leave to a muscle.
@@ -85,9 +84,11 @@ static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const 
     if (clear.centers != fine) volume.line.centers = clear.centers;
     return;
   }
-  const EnhancedSections sections = enhance(fine, Vec3::UnitX(), round, known->second, settings.more_rays);
+  const EnhancedSections sections = enhance(fine, Vec3::UnitX(), round, known->second, settings.enhancement);
   volume.surface.vertices = section_vertices(sections.centers, sections.frames, sections.radii);
   volume.line.centers = sections.centers;
+  for (std::size_t k = 0; k < sections.cut.size(); ++k)
+    if (sections.cut[k] && !sections.inside[k]) ++volume.centers_outside;
   volume.sections_on_surface = static_cast<Index>(std::count(sections.cut.begin(), sections.cut.end(), true));
 }
 
@@ -96,7 +97,16 @@ struct Spindle {
   ActionLine line;
   Points fine;
   Eigen::VectorXd radii;  ///< m
+  Real tendon_share = 1;
 };
+
+/// How often each part is halved so that sections are no farther apart than this (m) on average; once at least.
+static int scaling_for(const Points& line, Real distance) {
+  int scaling = 1;
+  while (scaling < 16 && polyline_length(line) / std::ldexp(static_cast<Real>(line.cols() - 1), scaling) > distance)
+    ++scaling;
+  return scaling;
+}
 
 static Spindle spindle_of(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                           const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
@@ -109,9 +119,7 @@ static Spindle spindle_of(const Model& model, const Muscle& muscle, const std::v
                       "longer than any muscle: check the places of its points"});
   if (!(muscle.max_isometric_force > 0))
     throw InputError({model.name, muscle.name, "has no force, so it has no volume", "leave the muscle out"});
-  int scaling = 1;
-  while (scaling < 8 && length / static_cast<Real>((line.points.cols() - 1) << scaling) > settings.section_distance)
-    ++scaling;
+  const int scaling = settings.scaling.value_or(scaling_for(line.points, settings.section_distance));
   const Points fine = subdivide_line(line.points, scaling);
   const std::vector<Real> places = distances_along(fine);
   const Eigen::VectorXd positions = Eigen::VectorXd::Map(places.data(), fine.cols());
@@ -121,11 +129,16 @@ static Spindle spindle_of(const Model& model, const Muscle& muscle, const std::v
     throw InputError({model.name, muscle.name,
                       fmt::format("has a force of {:.3g} N on a line of {:.3g} m", muscle.max_isometric_force, length),
                       "its tendon would be thicker than long: check the force"});
-  const auto [origin_tendon, tendon] = tendons_on(muscle, length, settings.tendon);
+  auto [origin_tendon, tendon] = tendons_of(muscle, settings.tendon);
+  // A fifth of the line at least is belly.
+  const Real share = std::min(1.0, 0.8 * length / std::max(tendon + origin_tendon, 1e-9));
+  origin_tendon *= share;
+  tendon *= share;
 
-  Spindle spindle{{line.points, line.bodies, settings.rays, scaling, tendon, origin_tendon},
+  Spindle spindle{{line.points, line.bodies, settings.rays, scaling, tendon, origin_tendon, false},
                   fine,
                   spindle_radii(size, positions, tendon, origin_tendon)};
+  spindle.tendon_share = share;
   spindle.line.optimal_fiber = muscle.optimal_fiber_length;
   spindle.line.pennation = muscle.pennation_angle_at_optimal;
   return spindle;
@@ -138,14 +151,53 @@ RoundMuscle round_muscle(const Model& model, const Muscle& muscle, const std::ve
   return {clear_centers(spindle.fine, spindle.radii, *settings.bones), spindle.radii};
 }
 
+/// Columns with `more` put in before every block of `width` columns that `at` names; a new block lies between its
+/// neighbors, by their shares.
+static Points with_blocks(Points columns, Index width, const std::vector<Index>& at, const std::vector<Real>& shares) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Eigen::Index before = Eigen::Index{width} * at[i], after = columns.cols() - before;
+    Points longer(3, columns.cols() + width);
+    longer << columns.leftCols(before),
+        (1 - shares[i]) * columns.middleCols(before - width, width) + shares[i] * columns.middleCols(before, width),
+        columns.rightCols(after);
+    columns = std::move(longer);
+  }
+  return columns;
+}
+
+/// Sections where tendons end, interpolated between their neighbors as published (Laclé 2014, section 3.4.3).
+static void add_tendon_sections(MuscleVolume& volume) {
+  volume.line.tendon_sections = true;
+  const SectionLine sections = section_line(volume.line);
+  const std::vector<Real> places = distances_along(sections.centers);
+  std::vector<Real> shares;
+  for (const Index k : sections.tendon_ends) {
+    const auto at = static_cast<std::size_t>(k);
+    // The next one may be an end of a tendon, too, which is not there yet.
+    const bool twin =
+        std::find(sections.tendon_ends.begin(), sections.tendon_ends.end(), k + 1) != sections.tendon_ends.end();
+    shares.push_back((places[at] - places[at - 1]) / (places[at + (twin ? 2 : 1)] - places[at - 1]));
+  }
+  const Index rays = volume.line.rays;
+  const Eigen::Index corners = volume.surface.vertices.cols() - 2;
+  const Points rings = with_blocks(volume.surface.vertices.leftCols(corners), rays, sections.tendon_ends, shares);
+  Points vertices(3, rings.cols() + 2);
+  vertices << rings, volume.surface.vertices.rightCols(2);
+  volume.surface = {vertices, section_faces(static_cast<Index>(sections.centers.cols()), rays)};
+  if (volume.line.centers.cols() > 0)
+    volume.line.centers = with_blocks(volume.line.centers, 1, sections.tendon_ends, shares);
+}
+
 MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                            const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
   const Spindle spindle = spindle_of(model, muscle, poses, coordinates, settings);
   MuscleVolume volume;
   volume.line = spindle.line;
+  volume.tendon_share = spindle.tendon_share;
   add_surface(spindle.fine, spindle.radii, muscle, settings, volume);
+  if (settings.tendon_sections) add_tendon_sections(volume);
 
-  const Index rays = settings.rays, sections = static_cast<Index>(spindle.fine.cols()), last = sections - 1;
+  const Index rays = settings.rays, sections = (volume.surface.vertex_count() - 2) / rays, last = sections - 1;
   std::vector<Index> first_vertices = section(0, rays), last_vertices = section(last, rays);
   first_vertices.push_back(rays * sections);
   last_vertices.push_back(rays * sections + 1);

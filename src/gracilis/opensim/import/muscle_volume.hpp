@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/anatomy/sections/enhancement.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 #include <gracilis/opensim/import/neighbor_clearance.hpp>
 #include <gracilis/opensim/reader/model.hpp>
@@ -8,6 +9,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace gracilis::opensim {
@@ -23,14 +25,16 @@ enum class TendonPlace {
 struct VolumeSettings {
   int rays = 12;                  ///< corners of a section, even
   Real section_distance = 0.012;  ///< m, at most this far apart on average
+  std::optional<int> scaling;     ///< instead: how often each part of the line is halved (Laclé's LSS), 0 to 16
   Real specific_tension = 6.1e5;  ///< N/m²
   TendonPlace tendon = TendonPlace::half_at_insertion;
+  bool tendon_sections = false;  ///< a section more where each tendon ends, between its neighbors in shape
   /// Surfaces that are known, by the muscles' names, closed, in the ground frame: sections are brought onto them.
   std::map<std::string, TriangleMesh> surfaces;
   std::shared_ptr<const std::vector<SolidBone>> bones;  ///< that the others keep out of; none: they do not
   std::map<std::string, RoundMuscle>
-      beside;         ///< muscles by name that the others keep out of, too, where there are bones
-  int more_rays = 6;  ///< times as many rays as corners look for the surfaces' inside (Laclé's CSS)
+      beside;  ///< muscles by name that the others keep out of, too, where there are bones
+  EnhancementSettings enhancement = {.more_rays = 6};
 };
 
 /// Vertices of a muscle's surface that move with a body.
@@ -43,9 +47,11 @@ struct HeldVertices {
 struct MuscleVolume {
   TriangleMesh surface;
   Real volume_share = 1;             ///< of the volume asked for that bones and other muscles left room for
+  Real tendon_share = 1;             ///< of the tendon's length that the line left room for
   ActionLine line;                   ///< its bodies are the model's
   std::array<HeldVertices, 2> held;  ///< origin and insertion
   Index sections_on_surface = 0;     ///< of those brought onto a surface that is known
+  Index centers_outside = 0;         ///< of these, whose centers lie outside of it
 };
 
 /// A closed surface around a muscle's path for the bodies at `poses` (Laclé 2014, after the line's own points; radii by

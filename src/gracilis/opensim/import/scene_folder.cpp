@@ -53,10 +53,11 @@ static std::string muscle_text(const Model& model, const std::string& name, cons
     points.push_back(toml_vector(1000 * volume.line.points.col(i)));
   const ActionLine& line = volume.line;
   text += fmt::format(
-      "\n[muscles.action_line]\nrays = {}\nscaling = {}\ntendon_mm = {}\norigin_tendon_mm = {}\n"
+      "\n[muscles.action_line]\nrays = {}\nscaling = {}\ntendon_mm = {}\norigin_tendon_mm = {}\n{}"
       "optimal_fiber_mm = {}\npennation_deg = {}\nbodies = [{}]\npoints_mm = [{}]\n",
-      line.rays, line.scaling, 1000 * line.tendon, 1000 * line.origin_tendon, 1000 * line.optimal_fiber,
-      degrees(line.pennation), fmt::join(bodies, ", "), fmt::join(points, ", "));
+      line.rays, line.scaling, 1000 * line.tendon, 1000 * line.origin_tendon,
+      line.tendon_sections ? "tendon_sections = true\n" : "", 1000 * line.optimal_fiber, degrees(line.pennation),
+      fmt::join(bodies, ", "), fmt::join(points, ", "));
   if (line.centers.cols() > 0) {
     std::vector<std::string> centers;
     for (const Vec3 center : line.centers.colwise()) centers.push_back(toml_vector(1000 * center));
@@ -168,6 +169,7 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
   for (const ModelBone& bone : bones.bones) names.insert(bone.name);
   for (const Joint& joint : model.joints)
     for (const SceneAxis& axis : scene_axes(model, joint)) names.insert(axis.coordinate);
+  std::string on_surfaces = "muscle,sections,that_cut_the_surface,of_these_centers_outside\n";
   for (const Muscle* muscle : muscles) {
     try {
       const MuscleVolume volume = muscle_volume(model, *muscle, skeleton.poses(), coordinates, volumes);
@@ -177,6 +179,13 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
       if (settings.apart && volume.volume_share < told_share)
         left_out.push_back(fmt::format("muscle '{}': between the others there is room for {:.0f} % of its volume",
                                        muscle->name, 100 * volume.volume_share));
+      if (volume.tendon_share < 1)
+        left_out.push_back(fmt::format("muscle '{}': its line has room for {:.0f} % of the tendon", muscle->name,
+                                       100 * volume.tendon_share));
+      if (settings.volumes.surfaces.count(muscle->name) > 0)
+        on_surfaces +=
+            fmt::format("{},{},{},{}\n", muscle->name, (volume.surface.vertex_count() - 2) / volume.line.rays,
+                        volume.sections_on_surface, volume.centers_outside);
       write_surface(folder / "muscles" / (name + ".vtp"), volume.surface.vertices, volume.surface.faces);
       text += muscle_text(model, name, volume, line_path_text(model, *muscle, skeleton.poses(), coordinates, left_out));
     } catch (const InputError& error) {
@@ -184,6 +193,7 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
     }
   }
   write_text_atomically(folder / "model.toml", text);
+  if (!settings.volumes.surfaces.empty()) write_text_atomically(folder / "surfaces.csv", on_surfaces);
   for (const NamedMotion& motion : motions) write_motion(model, motion, folder);
   return left_out;
 }

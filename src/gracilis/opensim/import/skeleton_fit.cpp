@@ -1,5 +1,6 @@
 #include <gracilis/opensim/import/skeleton_fit.hpp>
 
+#include <gracilis/anatomy/sections/tendon_lengths.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/rotations.hpp>
 #include <gracilis/io/input_file.hpp>
@@ -138,8 +139,10 @@ class SkeletonFit {
       if (!muscle.path.function_coordinates.empty()) continue;
       const Real old_length = measure_path(before, model_.muscles[m].path, coordinates).length;
       const Real ratio = old_length > 0 ? measure_path(after, muscle.path, coordinates).length / old_length : 1;
+      const Real slack = muscle.tendon_slack_length;
+      muscle.tendon_slack_length =
+          tendon_lengths(muscle.optimal_fiber_length, muscle.pennation_angle_at_optimal, slack, 1, ratio).scaled_tendon;
       muscle.optimal_fiber_length *= ratio;
-      muscle.tendon_slack_length *= ratio;
     }
   }
 

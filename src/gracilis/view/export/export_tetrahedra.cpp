@@ -1,12 +1,12 @@
 #include <gracilis/view/export/export_tetrahedra.hpp>
 
-#include <gracilis/anatomy/sections/action_line.hpp>
 #include <gracilis/anatomy/sections/tetrahedra.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/whole_number.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/mesh/tetrahedra_writer.hpp>
+#include <gracilis/scene/section_line.hpp>
 
 #include <fmt/format.h>
 
@@ -41,6 +41,7 @@ static ActionLine recorded_line(const RecordedRun& run, const std::string& muscl
     line.scaling = count("scaling", 16);
     line.tendon = json.at("tendon_m").get<Real>();
     line.origin_tendon = json.at("origin_tendon_m").get<Real>();
+    line.tendon_sections = json.value("tendon_sections", false);
     line.optimal_fiber = json.at("optimal_fiber_m").get<Real>();
     line.pennation = json.at("pennation_rad").get<Real>();
     line.points = read_points(json.at("points_m"));
@@ -86,9 +87,9 @@ void export_tetrahedra(const RecordedRun& run, const std::filesystem::path& fold
     any = true;
     const Points rest = recorded_surface(run, muscle, 0).vertices;
     const std::int64_t section_count = (std::int64_t{line.points.cols()} - 1) * (std::int64_t{1} << line.scaling) + 1;
-    const bool fits = line.points.cols() >= 2 && rest.cols() == line.rays * section_count + 2;
-    const Points fine = fits ? subdivide_line(line.points, line.scaling) : Points(3, 0);
-    if (!fits || (line.centers.cols() > 0 && line.centers.cols() != fine.cols()))
+    const bool fits = line.points.cols() >= 2 && rest.cols() >= line.rays * section_count + 2;
+    const Points fine = fits ? section_line(line).centers : Points(3, 0);
+    if (rest.cols() != line.rays * fine.cols() + 2 || (line.centers.cols() > 0 && line.centers.cols() != fine.cols()))
       throw InputError({run.folder.string(), muscle, "is not made of its line's sections", "run the scene again"});
     const std::vector<Real> places = distances_along(fine);
     for (const int frame : frames) {

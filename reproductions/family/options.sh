@@ -1,0 +1,37 @@
+# What the reproductions' scripts share: sourced with their own name and options.
+#   source family/options.sh NAME "$@"
+# Sets root, here, data, out, thin (empty, or --thin), gracilis, and more (what is left of the options).
+name=$1
+shift
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../$name" && pwd)
+root=$(cd "$here/../.." && pwd)
+data=${GRACILIS_DATA:-$root/../shared/data}
+out=$root/out/$name
+gracilis=${GRACILIS:-$root/build/release/bin/gracilis}
+thin=
+more=()
+while (($#)); do
+  case $1 in
+    --data) data=$2; shift ;;
+    --out) out=$2; shift ;;
+    --thin) thin=--thin ;;
+    --set) more+=(--set "$2"); shift ;;
+    *)
+      echo "usage: reproductions/$name/run.sh [--thin] [--data FOLDER] [--out FOLDER] [--set KEY=VALUE ...]" >&2
+      exit 2
+      ;;
+  esac
+  shift
+done
+mkdir -p "$out"
+
+# quietly LOG COMMAND...: what it says goes to the log; an exit code but 0 and 5 (a missed gate) is told and ends the script.
+quietly() {
+  local log=$1 code=0
+  shift
+  "$@" >"$log" 2>&1 || code=$?
+  ((code == 0 || code == 5)) || {
+    echo "failed with exit code $code, see $log: $*" >&2
+    exit 1
+  }
+}

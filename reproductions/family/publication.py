@@ -1,0 +1,131 @@
+"""One self-contained page per publication: its figures and tables, published beside ours; and what cannot be made."""
+import base64
+import csv
+import html
+import json
+import os
+
+import charts
+
+STYLE = """body{font:15px/1.5 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}
+.figures{display:flex;flex-wrap:wrap;gap:18px}figure{margin:0;max-width:100%}figcaption{max-width:380px;font-size:13px}
+figcaption b{display:block;font-size:15px}svg,img{background:#fff;max-width:100%}
+figure img{max-width:380px;height:auto}table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;border-bottom:1px solid #ddd;text-align:right}
+td.word,th.word{text-align:left}code{background:#f4f4f4;padding:0 3px}.thumbs figure{width:210px}.thumbs svg,.thumbs img{width:210px;height:auto}
+.key{display:inline-block;width:22px;height:4px;margin:0 5px 3px 14px}"""
+COLUMNS = ["source", "quantity", "unit", "published", "ours", "ratio", "remark"]
+
+
+def number(text):
+    try:
+        return float(text)
+    except (TypeError, ValueError):
+        return None
+
+
+def shown(value):
+    return f"{value:.4g}" if isinstance(value, float) else "" if value is None else str(value)
+
+
+def read_published(path):
+    """Rows of a publication's values: key, quantity, unit, published, source (its table, figure or page)."""
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def beside(published, ours, remarks=None):
+    """Rows of results.csv. `ours` and `remarks` by the keys of the published rows."""
+    rows = []
+    for row in published:
+        value = ours.get(row["key"])
+        a, b = number(row["published"]), number(value)
+        ratio = f"{b / a:.3g}" if a and b is not None else ""
+        rows.append({"source": row["source"], "quantity": row["quantity"], "unit": row["unit"],
+                     "published": row["published"], "ours": shown(value), "ratio": ratio,
+                     "remark": (remarks or {}).get(row["key"], "" if value is not None else "not made")})
+    return rows
+
+
+def table(rows, columns=None):
+    columns = columns or (list(rows[0]) if rows else [])
+    word = {c: all(number(r.get(c)) is None for r in rows) for c in columns}
+    kind = {c: ' class="word"' if word[c] else "" for c in columns}
+    head = "".join(f"<th{kind[c]}>{html.escape(c.replace('_', ' '))}</th>" for c in columns)
+    body = "".join("<tr>" + "".join(f"<td{kind[c]}>{html.escape(str(r.get(c, '')))}</td>" for c in columns) + "</tr>"
+                   for r in rows)
+    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+
+
+def list_figures(out, title, command, drawn):
+    """OUT/figures/NUMBER.svg of SVGs by their titles, and OUT/figures.json, which the index page reads."""
+    os.makedirs(os.path.join(out, "figures"), exist_ok=True)
+    figures = []
+    for number, (name, svg) in enumerate(drawn.items(), 1):
+        figures.append({"name": f"{number:02}", "title": name})
+        with open(os.path.join(out, "figures", f"{number:02}.svg"), "w") as file:
+            file.write(svg)
+    with open(os.path.join(out, "figures.json"), "w") as file:
+        json.dump({"title": title, "command": command, "figures": figures}, file)
+
+
+class Page:
+    """Collects figures and writes OUT/index.html, OUT/results.csv and, of each figure, its picture and its curves."""
+
+    def __init__(self, out, title, about, command):
+        self.out, self.title, self.about, self.command = out, title, about, command
+        self.figures, self.rows, self.missing = [], [], []
+
+    def chart(self, name, title, remark, series, x_label, y_label, **more):
+        """A chart, OUT/figures/NAME.svg, and its points, NAME.csv."""
+        svg = charts.chart(title, series, x_label, y_label, **more)
+        if not svg:
+            return
+        self._write(f"{name}.svg", svg)
+        with open(self._path(f"{name}.csv"), "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(["curve", x_label, y_label])
+            for s in series:
+                writer.writerows([s.name, f"{x:.6g}", f"{y:.6g}"] for x, y in list(s.points) + list(s.band or []))
+        self.figures.append((name, title, remark, svg))
+
+    def picture(self, name, title, remark, path):
+        """A PNG, which the page holds."""
+        if not os.path.exists(path):
+            return
+        with open(path, "rb") as file:
+            data = file.read()
+        with open(self._path(f"{name}.png"), "wb") as file:
+            file.write(data)
+        encoded = base64.b64encode(data).decode()
+        self.figures.append((name, title, remark,
+                             f'<img alt="{html.escape(title)}" src="data:image/png;base64,{encoded}">'))
+
+    def cannot(self, what, why):
+        self.missing.append({"of the publication": what, "what it would need": why})
+
+    def write(self):
+        with open(os.path.join(self.out, "results.csv"), "w", newline="") as file:
+            writer = csv.DictWriter(file, COLUMNS)
+            writer.writeheader()
+            writer.writerows(self.rows)
+        figures = "".join(f'<figure id="{name}">{drawn}<figcaption><b>{html.escape(title)}</b>{html.escape(remark)}'
+                          f'</figcaption></figure>' for name, title, remark, drawn in self.figures)
+        missing = f"<h2>What is not made</h2>{table(self.missing)}" if self.missing else ""
+        with open(os.path.join(self.out, "index.html"), "w") as file:
+            file.write(f"""<!doctype html><html lang="en"><meta charset="utf-8"><title>{html.escape(self.title)}</title>
+<style>{STYLE}</style><h1>{html.escape(self.title)}</h1><p>{self.about}</p>
+<p>Made by <code>{html.escape(self.command)}</code>. Gray: published; in color: ours.</p>
+<h2>Figures</h2><div class="figures">{figures}</div>
+<h2>Published beside ours</h2>{table(self.rows, COLUMNS)}{missing}</html>
+""")
+        with open(os.path.join(self.out, "figures.json"), "w") as file:
+            json.dump({"title": self.title, "command": self.command,
+                       "figures": [{"name": n, "title": t} for n, t, _, _ in self.figures]}, file)
+
+    def _path(self, name):
+        os.makedirs(os.path.join(self.out, "figures"), exist_ok=True)
+        return os.path.join(self.out, "figures", name)
+
+    def _write(self, name, text):
+        with open(self._path(name), "w") as file:
+            file.write(text)

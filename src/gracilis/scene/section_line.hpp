@@ -1,0 +1,20 @@
+#pragma once
+
+#include <gracilis/scene/scene.hpp>
+
+#include <vector>
+
+namespace gracilis {
+
+/// Where the sections of a line lie in the capture pose, from origin to insertion.
+struct SectionLine {
+  Points centers;                  ///< m
+  std::vector<Index> tendon_ends;  ///< sections that are there for an end of a tendon alone, ascending
+};
+
+/// The line's points with every part between them halved `scaling` times (Laclé 2014, eq. 3.19), and, where it has
+/// `tendon_sections`, the points where its tendons end, walked along it (eqs. 3.11 to 3.15): none where one of the
+/// others lies within 0.1 mm. Precondition: two points or more, scaling 0 to 16.
+SectionLine section_line(const ActionLine& line);
+
+}  // namespace gracilis
