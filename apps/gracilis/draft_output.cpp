@@ -46,7 +46,8 @@ void tell(const SceneDraft& draft) {
   for (const DraftMuscle& muscle : draft.muscles)
     for (const DraftAttachment& each : muscle.attachments) {
       guesses.push_back(each.guess);
-      guesses.back().how += fmt::format(" ({} vertices on {})", each.vertices.size(), each.body);
+      guesses.back().how +=
+          fmt::format(" ({} vertices on {})", each.vertices.size(), each.muscle.empty() ? each.body : each.muscle);
     }
   std::stable_sort(guesses.begin(), guesses.end(),
                    [](const Guess& a, const Guess& b) { return (a.certainty < doubtful) > (b.certainty < doubtful); });

@@ -6,6 +6,7 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/view/pictures/gif.hpp>
 #include <gracilis/view/pictures/picture_layout.hpp>
+#include <gracilis/view/pictures/run_film.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/pictures/video.hpp>
 
@@ -100,29 +101,26 @@ int render(const RenderOptions& options) {
         {options.out.string(), "", "is no kind of picture that can be written", "name a .png, .gif or .mp4 file"});
   }
   const int first = options.without_ramp ? std::min(runs[0].first_motion_frame, runs[0].frame_count - 1) : 0;
-  PictureDrawer drawer;
-  const auto picture_of = [&](const std::vector<int>& frames) {
-    Picture picture = run_picture(runs, painters, frames, chosen);
-    picture.title = options.title;
-    return picture;
-  };
   if (!film) {
     check_frames(options.frames, runs[0]);
-    Picture picture = picture_of(options.frames.empty() ? telling_frames(runs[0], first) : options.frames);
+    Picture picture =
+        run_picture(runs, painters, options.frames.empty() ? telling_frames(runs[0], first) : options.frames, chosen);
+    picture.title = options.title;
     set_size(options.size, picture);
-    write_png(options.out, drawer.draw(picture, options.transparent));
+    write_png(options.out, PictureDrawer().draw(picture, options.transparent));
   } else {
-    const Points room = painters[0].room(first);
-    const int count = (runs[0].frame_count - first + options.step - 1) / options.step;
-    Progress progress(0, count - 1);
-    const auto image = [&](int i) {
-      Picture picture = picture_of({first + i * options.step});
-      for (Panel& panel : picture.panels) panel.room = room;
+    RunFilm frames(runs, painters, chosen, first, options.step, [&](Picture& picture) {
+      picture.title = options.title;
       set_size(options.size, picture);
-      progress.show(i);
-      return drawer.draw(picture);
+    });
+    Progress progress(0, frames.count() - 1);
+    int drawn = 0;
+    const auto image = [&](int i) {
+      progress.show(drawn++);
+      return frames.image(i);
     };
-    gif ? write_gif(options.out, count, options.rate, image) : write_video(options.out, count, options.rate, image);
+    gif ? write_gif(options.out, frames.count(), options.rate, image)
+        : write_video(options.out, frames.count(), options.rate, image);
   }
   fmt::print("{}\n", options.out.string());
   return static_cast<int>(ExitCode::done);

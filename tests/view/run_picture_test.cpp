@@ -1,4 +1,7 @@
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
+#include <gracilis/view/pictures/run_film.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 
 #include "view/recorded_runs.hpp"
@@ -191,6 +194,40 @@ TEST_F(RunPicture, looks_as_the_preview_does_unless_it_is_told_otherwise) {
   RunPictureOptions options;
   options.view = "anterior";
   EXPECT_TRUE(RunPainter(run, options).panel(0).looking.isApprox(-Vec3::UnitX()));
+}
+
+TEST_F(RunPicture, images_of_a_film_have_one_size_whatever_single_frames_need) {
+  FlexingLeg(60).written(folder.path() / "run");
+  // A frame in which the bone swings far out, which is none of those that are asked how much room they take.
+  const std::vector<int> asked = spread_frames(60, 36);
+  int far = 1;
+  while (std::find(asked.begin(), asked.end(), far) != asked.end()) ++far;
+  const std::filesystem::path file = frame_file(folder.path() / "run", "femur_r", far);
+  const TriangleMesh bone = read_mesh(file, 1);
+  write_surface(file, 2 * bone.vertices, bone.faces);
+  const std::vector<RecordedRun> runs = {open_recorded_run(folder.path() / "run")};
+  const RunPictureOptions options;
+  std::vector<RunPainter> painters;
+  painters.emplace_back(runs[0], options);
+  RunFilm film(runs, painters, options, 0, 1, [](Picture& picture) { picture.panel_width = 120; });
+  ASSERT_EQ(film.count(), 60);
+  const PixelImage first = film.image(0);
+  for (const int i : {far, far + 1, 59, 1}) {
+    const PixelImage image = film.image(i);
+    EXPECT_EQ(image.width, first.width) << i;
+    EXPECT_EQ(image.height, first.height) << i;
+    EXPECT_NE(image.rgba, first.rgba) << i;
+  }
+}
+
+TEST_F(RunPicture, what_is_not_closed_shows_its_inside) {
+  FlexingLeg(2).written(folder.path() / "run");
+  const std::filesystem::path file = frame_file(folder.path() / "run", "femur_r", 0);
+  const TriangleMesh bone = read_mesh(file, 1);
+  write_surface(file, bone.vertices, bone.faces.leftCols(bone.face_count() - 1));
+  const RecordedRun run = open_recorded_run(folder.path() / "run");
+  for (const PaintedSurface& surface : RunPainter(run, {}).panel(0).surfaces)
+    EXPECT_EQ(surface.solid, surface.mesh.face_count() != bone.face_count() - 1);
 }
 
 TEST(ColorScale, goes_from_its_first_color_to_its_last_and_no_further) {

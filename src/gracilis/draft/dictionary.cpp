@@ -10,7 +10,7 @@
 
 namespace gracilis::embedded {
 extern const std::string_view words_toml, bones_toml, joints_toml, muscles_lower_toml, muscles_upper_toml,
-    muscles_trunk_toml;
+    muscles_trunk_toml, tendons_toml;
 }
 
 namespace gracilis {
@@ -119,6 +119,14 @@ void add_muscles(const toml::table& table, Dictionary& known) {
   }
 }
 
+void add_tendons(const toml::table& table, Dictionary& known) {
+  for (const toml::node& node : *table["tendons"].as_array()) {
+    const toml::node_view<const toml::node> row(node);
+    known.tendons.push_back(
+        {row["name"].value_or(std::string()), row["end"].value_or(std::string()) == "origin", texts(row["muscles"])});
+  }
+}
+
 JointKind joint_kind(const std::string& name) {
   static const std::vector<std::string> names = {"ball", "condyles", "roller", "pivot", "saddle"};
   const auto found = std::find(names.begin(), names.end(), name);
@@ -171,10 +179,15 @@ Dictionary read_dictionary() {
   add_muscles(table(embedded::muscles_lower_toml, "muscles_lower.toml"), known);
   add_muscles(table(embedded::muscles_upper_toml, "muscles_upper.toml"), known);
   add_muscles(table(embedded::muscles_trunk_toml, "muscles_trunk.toml"), known);
+  add_tendons(table(embedded::tendons_toml, "tendons.toml"), known);
   return known;
 }
 
 }  // namespace
+
+bool KnownTendon::joins(const KnownMuscle& muscle) const {
+  return std::find(muscles.begin(), muscles.end(), muscle.name) != muscles.end();
+}
 
 const KnownSegment& Dictionary::segment(const std::string& name) const {
   const auto found =

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-/// What is known of human anatomy by names: read from bones.toml, joints.toml, muscles_*.toml and words.toml, which are
+/// What is known of human anatomy by names: read from bones.toml, joints.toml, muscles_*.toml, tendons.toml and words.toml, which are
 /// compiled in. Lengths in m, angles in rad.
 namespace gracilis {
 
@@ -40,6 +40,15 @@ struct KnownMuscle {
   std::vector<Site> origin, insertion;
 };
 
+/// A tendon of several muscles.
+struct KnownTendon {
+  std::string name;
+  bool at_origin = false;            ///< of each of them; else at the insertion
+  std::vector<std::string> muscles;  ///< names in the dictionary; the first is taken where several would do
+
+  bool joins(const KnownMuscle& muscle) const;
+};
+
 struct KnownSegment {
   std::string name, parent, body;
   bool paired = false;
@@ -67,6 +76,7 @@ struct Dictionary {
   WordTables words;
   std::vector<KnownBone> bones;
   std::vector<KnownMuscle> muscles;
+  std::vector<KnownTendon> tendons;
   std::vector<KnownSegment> segments;  ///< parents before children
   std::vector<KnownJoint> joints;
 

@@ -6,16 +6,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
 namespace gracilis {
 namespace {
 
-/// m; no vertex but the cloud's own lies so near to one of its points.
-constexpr Real own_vertices = 0.0002;
 /// m from its bone: an end so far would be carried about by it as on a rod, which a tendon is not.
 constexpr Real missing_tendon = 0.03;
+constexpr Real not_there = std::numeric_limits<Real>::infinity();
 
 Points positions(const TriangleMesh& mesh, const std::vector<Index>& vertices) {
   return mesh.vertices(Eigen::all, vertices);
@@ -46,7 +46,7 @@ struct EndsDraft {
     attachment.end = end;
     for (const std::size_t bone : held.bones) attachment.bones.push_back(bones.bone(bone).name);
     attachment.body = bones.body(held.bones.front());
-    attachment.bone_distance = held.distance;
+    attachment.bone_distance = attachment.from_bone = held.distance;
     attachment.vertices = held.vertices;
     return attachment;
   }
@@ -101,6 +101,7 @@ struct EndsDraft {
           far ? 0.2 : 0.35};
       attachment.bones.clear();
       attachment.bone_distance = 0;
+      attachment.from_bone = not_there;
       drafted.push_back(std::move(attachment));
     } else if (!wanted.bodies.empty() && !drafted.empty()) {
       const HeldVertices held = ends.farthest(all_held());
@@ -109,6 +110,7 @@ struct EndsDraft {
       attachment.end = end;
       attachment.body = wanted.bodies.front();
       attachment.vertices = held.vertices;
+      attachment.from_bone = not_there;
       attachment.guess = {
           "",
           fmt::format("{} is not here: the end farthest from the other, moved with {}", wanted.wanted, attachment.body),

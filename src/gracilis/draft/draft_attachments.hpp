@@ -18,11 +18,13 @@ struct DraftAttachment {
   AttachmentEnd end = AttachmentEnd::origin;
   std::string body;
   std::vector<std::string> bones;  ///< empty: `body` alone, whose bone is not here
+  std::string muscle;              ///< or on this muscle, which moves with `body` there
   std::filesystem::path patch;     ///< or
   std::string cloud;               ///< or neither: near the bones alone
   Points points = Points(3, 0);    ///< of the cloud
   LineKind line = LineKind::cloud;
-  Real bone_distance = 0, landmark_distance = 0;
+  Real bone_distance = 0, muscle_distance = 0, landmark_distance = 0;
+  Real from_bone = 0;           ///< m, how far from its bone contact found it; infinite: hardly there; 0: it was given
   std::vector<Index> vertices;  ///< that it holds
   bool trimmed = false;         ///< fewer than its patch or landmarks say
   Guess guess;
@@ -32,6 +34,9 @@ struct DraftMuscle {
   const FoundMuscle* found = nullptr;
   std::vector<DraftAttachment> attachments;
 };
+
+/// m; no vertex but the cloud's own lies so near to one of its points.
+inline constexpr Real own_vertices = 0.0002;
 
 /// Landmarks of the folder's tables.
 using Landmarks = std::vector<LandmarkCloud>;

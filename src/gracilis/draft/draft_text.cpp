@@ -130,7 +130,9 @@ struct Writing {
                      each.vertices.size()));
     line("name = " + quoted(each.name));
     line(each.end == AttachmentEnd::origin ? "end = \"origin\"" : "end = \"insertion\"");
-    if (each.bones.empty())
+    if (!each.muscle.empty())
+      line("muscle = " + quoted(each.muscle) + " # shares its tendon; or give 'bone', as other ends do");
+    else if (each.bones.empty())
       line("body = " + quoted(each.body));
     else
       line("bone = " + list(each.bones));
@@ -139,6 +141,7 @@ struct Writing {
     if (each.line == LineKind::open) line("line = \"open\"");
     if (each.line == LineKind::closed) line("line = \"closed\"");
     if (each.bone_distance > 0) line("bone_distance_mm = " + number(1000 * each.bone_distance, 2));
+    if (each.muscle_distance > 0) line("muscle_distance_mm = " + number(1000 * each.muscle_distance, 2));
     if (each.landmark_distance > 0) line("landmark_distance_mm = " + number(1000 * each.landmark_distance, 2));
     if (each.guess.certainty < 0.85) line("guessed = true");
   }

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/draft/tendon_ends.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/suggestions.hpp>
 
@@ -69,6 +70,7 @@ void draft_muscles(SceneDraft& draft, const Landmarks& landmarks) {
     else
       draft.muscles.push_back(std::move(drafted[m]));
   }
+  lay_on_muscles(draft.muscles, draft.found.size);
 }
 
 /// Whether a body hangs on the joint.

@@ -5,7 +5,9 @@
 #include <gif_lib.h>
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
+#include <map>
 #include <new>
 #include <utility>
 
@@ -28,32 +30,34 @@ static std::pair<int, std::size_t> widest_channel(const std::vector<Rgb>& colors
 }
 
 /// At most 255 colors that stand for those of the images: median cut (Heckbert 1982) over every few pixels.
-static std::vector<Rgb> gif_palette(const std::vector<PixelImage>& images) {
-  std::vector<std::vector<Rgb>> boxes(1);
-  for (const PixelImage& image : images)
-    for (std::size_t i = 0; i + 3 < image.rgba.size(); i += 4 * 7)
-      boxes[0].push_back({image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]});
+static std::vector<Rgb> gif_palette(const std::vector<const PixelImage*>& images) {
+  struct Box {
+    std::vector<Rgb> colors;
+    std::pair<int, std::size_t> widest = widest_channel(colors);
+  };
+  std::vector<Rgb> all;
+  for (const PixelImage* image : images)
+    for (std::size_t i = 0; i + 3 < image->rgba.size(); i += 4 * 7)
+      all.push_back({image->rgba[i], image->rgba[i + 1], image->rgba[i + 2]});
+  std::vector<Box> boxes = {{std::move(all)}};
   // A plain background must not take all the colors: what is cut is the widest box, not the fullest.
   while (boxes.size() < most_colors) {
-    const auto widest = std::max_element(boxes.begin(), boxes.end(), [](const auto& a, const auto& b) {
-      return widest_channel(a).first < widest_channel(b).first;
-    });
-    const auto [width, k] = widest_channel(*widest);
-    if (width == 0) break;
-    std::sort(widest->begin(), widest->end(), [k = k](const Rgb& a, const Rgb& b) { return a[k] < b[k]; });
+    Box& widest = *std::max_element(boxes.begin(), boxes.end(),
+                                    [](const Box& a, const Box& b) { return a.widest.first < b.widest.first; });
+    if (widest.widest.first == 0) break;
+    std::vector<Rgb>& colors = widest.colors;
+    const auto less = [k = widest.widest.second](const Rgb& a, const Rgb& b) { return a[k] < b[k]; };
+    std::sort(colors.begin(), colors.end(), less);
     // At a change of the value, so that neither half is empty and equal colors stay together.
-    auto cut = std::lower_bound(widest->begin(), widest->end(), (*widest)[widest->size() / 2],
-                                [k = k](const Rgb& a, const Rgb& b) { return a[k] < b[k]; });
-    if (cut == widest->begin()) {
-      cut = std::upper_bound(widest->begin(), widest->end(), widest->front(),
-                             [k = k](const Rgb& a, const Rgb& b) { return a[k] < b[k]; });
-    }
-    std::vector<Rgb> upper(cut, widest->end());
-    widest->erase(cut, widest->end());
+    auto cut = std::lower_bound(colors.begin(), colors.end(), colors[colors.size() / 2], less);
+    if (cut == colors.begin()) cut = std::upper_bound(colors.begin(), colors.end(), colors.front(), less);
+    Box upper{{cut, colors.end()}};
+    colors.erase(cut, colors.end());
+    widest = {std::move(colors)};
     boxes.push_back(std::move(upper));
   }
   std::vector<Rgb> palette;
-  for (const std::vector<Rgb>& box : boxes) {
+  for (const auto& [box, widest] : boxes) {
     std::array<std::size_t, 3> sum{};
     for (const Rgb& color : box)
       for (std::size_t k = 0; k < 3; ++k) sum[k] += color[k];
@@ -160,12 +164,18 @@ class GifText {
 
 void write_gif(const std::filesystem::path& path, int count, int frames_per_second,
                const std::function<PixelImage(int)>& image) {
-  const std::vector<Rgb> palette = gif_palette({image(0), image(count / 2), image(count - 1)});
+  std::map<int, PixelImage> telling;
+  std::vector<const PixelImage*> of_palette;
+  for (const int i : {0, count / 2, count - 1})
+    if (!telling.contains(i)) of_palette.push_back(&telling.emplace(i, image(i)).first->second);
+  const std::vector<Rgb> palette = gif_palette(of_palette);
   NearestColor nearest(palette);
   GifText gif;
   std::vector<unsigned char> last;
   for (int i = 0; i < count; ++i) {
-    const PixelImage now = image(i);
+    const auto known = telling.find(i);
+    const PixelImage now = known != telling.end() ? std::move(known->second) : image(i);
+    assert(last.empty() || now.rgba.size() == 4 * last.size());
     if (i == 0) gif.begin(now.width, now.height, palette);
     std::vector<unsigned char> pixels(now.rgba.size() / 4);
     for (std::size_t p = 0; p < pixels.size(); ++p) pixels[p] = nearest(&now.rgba[4 * p]);

@@ -1,6 +1,7 @@
 #include <gracilis/view/pictures/picture.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/mesh/vtk_messages.hpp>
 #include <gracilis/view/pictures/egl_context.hpp>
@@ -42,29 +43,27 @@ struct PictureDrawer::Window {
 PictureDrawer::PictureDrawer() : window_(std::make_unique<Window>()) {}
 PictureDrawer::~PictureDrawer() = default;
 
-/// Averages blocks of oversampling² pixels; `pixels` holds RGB rows of the larger image, bottom row first.
+/// Averages blocks of oversampling² pixels; `pixels` holds RGBA rows of the larger image, bottom row first.
 static PixelImage averaged_down(vtkUnsignedCharArray& pixels, int width, int height) {
-  PixelImage image{width, height,
-                   std::vector<unsigned char>(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
-  const unsigned char* from = pixels.GetPointer(0);
-  unsigned char* to = image.rgba.data();
-  for (int row = height - 1; row >= 0; --row) {
-    for (int column = 0; column < width; ++column) {
-      for (int channel = 0; channel < 3; ++channel) {
-        int sum = 0;
-        for (int j = 0; j < oversampling; ++j) {
-          for (int i = 0; i < oversampling; ++i) {
-            const std::size_t y = static_cast<std::size_t>(row * oversampling + j);
-            const std::size_t x = static_cast<std::size_t>(column * oversampling + i);
-            sum +=
-                from[(y * static_cast<std::size_t>(width * oversampling) + x) * 3 + static_cast<std::size_t>(channel)];
-          }
+  const std::size_t of_row = 4 * static_cast<std::size_t>(width);
+  PixelImage image{width, height, std::vector<unsigned char>(of_row * static_cast<std::size_t>(height))};
+  parallel_for(height, 16, [&](Index begin, Index end) {
+    for (Index row = begin; row < end; ++row) {
+      const unsigned char* from =
+          pixels.GetPointer(0) + static_cast<std::size_t>(row) * of_row * oversampling * oversampling;
+      unsigned char* to = image.rgba.data() + static_cast<std::size_t>(height - 1 - row) * of_row;
+      for (int column = 0; column < width; ++column, from += 4 * oversampling) {
+        for (int channel = 0; channel < 3; ++channel) {
+          int sum = 0;
+          for (std::size_t j = 0; j < oversampling; ++j)
+            for (std::size_t i = 0; i < oversampling; ++i)
+              sum += from[j * of_row * oversampling + 4 * i + static_cast<std::size_t>(channel)];
+          *to++ = static_cast<unsigned char>((sum + oversampling * oversampling / 2) / (oversampling * oversampling));
         }
-        *to++ = static_cast<unsigned char>((sum + oversampling * oversampling / 2) / (oversampling * oversampling));
+        *to++ = 255;
       }
-      *to++ = 255;
     }
-  }
+  });
   return image;
 }
 
@@ -103,8 +102,8 @@ static PixelImage drawn(const Picture& picture, const PictureLayout& layout, vtk
   while (window.GetRenderers()->GetFirstRenderer()) window.RemoveRenderer(window.GetRenderers()->GetFirstRenderer());
   const std::vector<vtkRenderer*> of_panels = add_renderers(picture, layout, oversampling, window);
   window.Render();
-  vtkNew<vtkUnsignedCharArray> pixels;
-  window.GetPixelData(0, 0, layout.width * oversampling - 1, layout.height * oversampling - 1, 0, pixels, 0);
+  vtkNew<vtkUnsignedCharArray> pixels;  // with opacity, which nobody needs: what the driver need not repack is faster
+  window.GetRGBACharPixelData(0, 0, layout.width * oversampling - 1, layout.height * oversampling - 1, 0, pixels, 0);
   PixelImage image = averaged_down(*pixels, layout.width, layout.height);
   for (std::size_t i = 0; i < picture.panels.size(); ++i)
     if (!is_seen_through(picture.panels[i]))

@@ -21,6 +21,7 @@ struct PaintedSurface {
   Real opacity = 1;
   bool framed = true;              ///< false: the picture makes no room for it and may cut it off
   Points colors = Points(3, 0);    ///< one per vertex, instead of `color`; empty: none
+  bool solid = false;              ///< closed, its triangles outward: those that look away need not be drawn
   std::vector<Real> stripes = {};  ///< m, one per vertex: where it lies across the fibers, see MuscleLook; empty: none
 };
 

@@ -82,6 +82,7 @@ static void add_surface(const PaintedSurface& surface, vtkRenderer& renderer) {
   property->SetDiffuse(0.85);
   property->SetSpecular(0.18);
   property->SetSpecularPower(18);
+  property->SetBackfaceCulling(surface.solid && surface.opacity == 1);
   renderer.AddActor(actor);
 }
 

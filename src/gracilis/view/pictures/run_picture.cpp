@@ -2,7 +2,9 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/rotations.hpp>
+#include <gracilis/geometry/topology.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
@@ -103,6 +105,12 @@ RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options) : run_
     if (options_.color_by == ColorBy::edge_stretch) stretches_.emplace_back(recorded_surface(run, muscle, 0));
     if (options_.fibers) lengths_.push_back(polyline_lengths(recorded_fibers(run, muscle, 0)));
   }
+  // Surfaces stay as closed as they were recorded first.
+  for (const std::vector<std::string>* all : {&run.bones, &run.muscles})
+    for (const std::string& name : *all)
+      if (const TriangleMesh mesh = recorded_surface(run, name, 0);
+          is_closed(mesh.faces) && enclosed_volume(mesh.vertices, mesh.faces) > 0)
+        solids_.insert(name);
 }
 
 static bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -220,12 +228,16 @@ Panel RunPainter::panel(int frame) const {
   const bool shows_values = options_.color_by != ColorBy::muscle && options_.color_by != ColorBy::tissue;
   const Color bone = !shows_values ? bone_color() : Color(0.72, 0.74, 0.75);
   for (const std::string& name : run_.bones)
-    if (shown(name)) panel.surfaces.push_back({"", recorded_surface(run_, name, frame), bone, 1, framed(name)});
+    if (shown(name)) {
+      panel.surfaces.push_back({"", recorded_surface(run_, name, frame), bone, 1, framed(name)});
+      panel.surfaces.back().solid = solids_.contains(name);
+    }
   for (std::size_t m = 0; m < run_.muscles.size(); ++m) {
     if (!shown(run_.muscles[m])) continue;
     const std::string name = options_.color_by == ColorBy::muscle ? words_of_name(run_.muscles[m]) : "";
     PaintedSurface surface{name, recorded_surface(run_, run_.muscles[m], frame), muscle_color(run_.muscles[m])};
     surface.framed = framed(run_.muscles[m]);
+    surface.solid = solids_.contains(run_.muscles[m]);
     surface.opacity = options_.fibers ? std::min(options_.opacity, 0.3) : options_.opacity;
     if (!surface.framed) surface.opacity = std::min(surface.opacity, 0.25);  // the one in focus is seen through them
     surface.colors = vertex_colors(m, surface.mesh, frame);
@@ -249,15 +261,30 @@ std::vector<int> telling_frames(const RecordedRun& run, int first) {
 }
 
 Points RunPainter::room(int first) const {
-  std::vector<Points> parts;
+  constexpr int most_frames = 36;
   std::vector<std::string> names;
   for (const std::vector<std::string>* all : {&run_.bones, &run_.muscles})
     for (const std::string& name : *all)
       if (shown(name) && framed(name)) names.push_back(name);
-  const int step = std::max(1, (run_.frame_count - first) / 12);
-  for (int frame = first; frame < run_.frame_count; frame += step)
-    for (const std::string& name : names) parts.push_back(recorded_surface(run_, name, frame).vertices);
-  return join(parts).points;
+  const std::vector<int> frames = spread_frames(run_.frame_count - first, most_frames);
+  const CameraDirection camera = camera_of(run_, options_.view);
+  const Vec3 right = camera.looking.cross(camera.up).normalized();
+  Eigen::Matrix3d axes;
+  axes << right, right.cross(camera.looking), camera.looking;
+  std::vector<Points> corners(frames.size());
+  parallel_for_each(frames.size(), [&](std::size_t i) {
+    corners[i].resize(3, 2 * static_cast<Index>(names.size()));
+    for (std::size_t n = 0; n < names.size(); ++n) {
+      const Points seen = axes.transpose() * recorded_surface(run_, names[n], first + frames[i]).vertices;
+      corners[i].col(2 * static_cast<Index>(n)) = seen.rowwise().minCoeff();
+      corners[i].col(2 * static_cast<Index>(n) + 1) = seen.rowwise().maxCoeff();
+    }
+  });
+  const Points all = join(corners).points;
+  if (all.cols() == 0) return all;
+  Points room(3, 2);
+  room << all.rowwise().minCoeff(), all.rowwise().maxCoeff();
+  return axes * room;
 }
 
 /// Ends of a scale that values go beyond say so.

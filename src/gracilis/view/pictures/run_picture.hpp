@@ -8,6 +8,7 @@
 #include <gracilis/view/pictures/vertex_stretch.hpp>
 
 #include <limits>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,7 +50,7 @@ class RunPainter {
   RunPainter(const RecordedRun& run, RunPictureOptions options);
 
   Panel panel(int frame) const;
-  /// Points that tell how much room the run takes from a frame on: some of every surface in some frames.
+  /// Two corners of the room that the run takes from a frame on, as the camera sees it: of some frames.
   Points room(int first = 0) const;
 
   /// The least and largest value that panels have shown by color so far.
@@ -67,6 +68,7 @@ class RunPainter {
   RunPictureOptions options_;
   mutable std::pair<Real, Real> seen_{std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
   std::vector<TriangleMesh> bones_;         ///< at rest
+  std::set<std::string> solids_;            ///< bones and muscles that are closed
   std::vector<SignedDistance> distances_;   ///< per bone, where colors need them
   std::vector<MuscleLook> looks_;           ///< per muscle, where colors need them
   std::vector<VertexStretch> stretches_;    ///< per muscle, where colors need them

@@ -9,7 +9,7 @@ namespace gracilis {
 namespace {
 
 const Color origin_color(0.84, 0.15, 0.12), insertion_color(0.1, 0.3, 0.85), doubtful_color(0.98, 0.75, 0.0),
-    axis_color(0.0, 0.55, 0.35);
+    on_muscle_color(0.55, 0.2, 0.7), axis_color(0.0, 0.55, 0.35);
 constexpr Real axis_reach = 0.08, axis_radius = 0.0015;  // m
 constexpr Real bone_opacity = 0.45;                      // where attachments are to be seen that lie in bones
 
@@ -35,12 +35,11 @@ void add_attachments(const Scene& scene, const std::set<std::string>& doubtful, 
       if (faces.face_count() == 0) continue;
       const bool doubt = doubtful.contains(muscle.name + " " + attachment.name);
       const bool origin = attachment.end == AttachmentEnd::origin;
-      std::string name = doubt ? "doubtful end" : origin ? "origin" : "insertion";
-      if (!named.insert(name).second) name.clear();
-      panel.surfaces.push_back({name, std::move(faces),
-                                doubt    ? doubtful_color
-                                : origin ? origin_color
-                                         : insertion_color});
+      auto [name, color] = muscle_body(scene, attachment.body) ? std::pair("end on a muscle", on_muscle_color)
+                           : origin                            ? std::pair("origin", origin_color)
+                                                               : std::pair("insertion", insertion_color);
+      if (doubt) name = "doubtful end", color = doubtful_color;
+      panel.surfaces.push_back({named.insert(name).second ? name : "", std::move(faces), color});
     }
 }
 
