@@ -1,10 +1,12 @@
 #pragma once
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/scene_description.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +21,7 @@ struct SceneInProgress {
   std::filesystem::path data_root;  ///< empty: there is none
   LoadedScene loaded = {};
   std::vector<Problem> problems = {};  ///< of the stage under way
+  std::unique_ptr<MeshFiles> files = std::make_unique<MeshFiles>();
 
   void add_problem(Problem place, const std::string& what, const std::string& remedy = "") {
     place.what = what;
