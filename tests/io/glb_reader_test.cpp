@@ -137,6 +137,18 @@ TEST_F(GlbReader, corners_at_one_place_become_one_vertex) {
   expect_the_ball(read_mesh(glb.written(folder, "ball.glb"), 1), 1e-10);
 }
 
+TEST_F(GlbReader, a_file_of_several_parts_is_read_from_the_disk_once) {
+  Glb glb;
+  glb.add("muscle", ball());
+  glb.add("bone", shapes::box(Vec3::Zero(), Vec3::Constant(0.01)));
+  const std::filesystem::path path = glb.written(folder, "body.glb");
+  MeshFiles files;
+  expect_the_ball(files.read(path, 1, "muscle"), 1e-10);
+  std::ofstream(path) << "something else";
+  EXPECT_EQ(files.read(path, 1, "bone").vertex_count(), 8);
+  EXPECT_THROW(read_mesh(path, 1, "bone"), InputError);
+}
+
 TEST_F(GlbReader, a_node_places_its_mesh_and_a_mirror_keeps_it_turned_outwards) {
   for (const std::vector<double>& scale : {std::vector<double>{2, 1, 1}, std::vector<double>{-2, 1, 1}}) {
     Glb glb;

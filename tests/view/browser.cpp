@@ -102,6 +102,11 @@ json Browser::call(const std::string& method, const json& parameters) {
   }
 }
 
+void Browser::set_size(int width, int height) {
+  call("Emulation.setDeviceMetricsOverride",
+       {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
+}
+
 void Browser::open(const std::filesystem::path& file) {
   address_ = "file://" + std::filesystem::absolute(file).string();
   loaded_ = false;

@@ -22,6 +22,8 @@ class Browser {
 
   /// Opens a file and waits until it has been loaded.
   void open(const std::filesystem::path& file);
+  /// Of the page, pixels, smaller than a window may be.
+  void set_size(int width, int height);
   /// The value of a JavaScript expression; fails with the exception's text where it throws. Waits for promises.
   nlohmann::json evaluate(const std::string& expression);
   void press(const std::string& key);

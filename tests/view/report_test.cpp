@@ -289,6 +289,25 @@ TEST_F(ReportInBrowser, several_runs_share_plots_and_meet_in_the_same_pose) {
   expect_peace();
 }
 
+TEST_F(ReportInBrowser, on_a_phone_nothing_is_wider_than_the_page_and_no_word_is_broken) {
+  browser->set_size(390, 844);
+  open({FlexingLeg().written(folder.path() / "run")});
+  ASSERT_EQ(js("innerWidth"), 390);
+  EXPECT_EQ(js("document.documentElement.scrollWidth"), 390);
+  EXPECT_EQ(js("[...document.querySelectorAll('main *')].filter(e => e.getClientRects().length && !e.closest('svg') && "
+               "e.getBoundingClientRect().right > 390).map(e => e.tagName + ' ' + e.className + ' ' + e.id).join()"),
+            "");
+  // A word is broken where its letters lie on more than one line.
+  EXPECT_EQ(
+      js("(() => { const broken = []; const range = document.createRange(); "
+         "const walk = document.createTreeWalker(document.querySelector('#gates'), NodeFilter.SHOW_TEXT); "
+         "while (walk.nextNode()) for (const word of walk.currentNode.data.matchAll(/\\p{L}+/gu)) { "
+         "range.setStart(walk.currentNode, word.index); range.setEnd(walk.currentNode, word.index + word[0].length); "
+         "if (new Set([...range.getClientRects()].map(r => r.top)).size > 1) broken.push(word[0]); } "
+         "return broken.join(); })()"),
+      "");
+}
+
 TEST_F(ReportInBrowser, can_be_read_aloud_and_on_paper) {
   open({FlexingLeg(3).written(folder.path() / "run")});
   EXPECT_EQ(js("[...document.querySelectorAll('button, input, select, [role=img]')].filter(e => !(e.ariaLabel || "

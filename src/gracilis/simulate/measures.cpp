@@ -66,8 +66,8 @@ Measurer::Measurer(const Scene& scene, const FiberTracker* tracker, MeasureLevel
 Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
   const Points& x = muscle.surface.vertices;
   MuscleRest rest;
-  rest.flaws = SurfaceFlaws(muscle.surface);
   rest.edges = build_topology(muscle.surface.faces, muscle.surface.vertex_count()).edges;
+  rest.flaws = SurfaceFlaws(muscle.surface, rest.edges);
   rest.volume = enclosed_volume(x, muscle.surface.faces);
   std::vector<char> fixed(static_cast<std::size_t>(x.cols()), 0);
   for (const Attachment& attachment : muscle.attachments)

@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace gracilis {
 
-SurfaceFlaws::SurfaceFlaws(const TriangleMesh& rest) : opposite_(opposite_vertices(rest)) {
+SurfaceFlaws::SurfaceFlaws(const TriangleMesh& rest)
+    : SurfaceFlaws(rest, build_topology(rest.faces, rest.vertex_count()).edges) {}
+
+SurfaceFlaws::SurfaceFlaws(const TriangleMesh& rest, std::vector<MeshEdge> edges)
+    : edges_(std::move(edges)), opposite_(opposite_vertices(rest)) {
   const Points& x = rest.vertices;
   const auto count = static_cast<std::size_t>(x.cols());
-  edges_ = build_topology(rest.faces, rest.vertex_count()).edges;
   std::vector<Real> sums(count);
   std::vector<Index> degrees(count);
   for (const MeshEdge& edge : edges_) {

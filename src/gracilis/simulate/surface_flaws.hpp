@@ -15,6 +15,8 @@ class SurfaceFlaws {
   SurfaceFlaws() = default;  ///< of nothing
   /// Precondition: at least one face, all coordinates finite.
   explicit SurfaceFlaws(const TriangleMesh& rest);
+  /// The same where the surface's edges are known.
+  SurfaceFlaws(const TriangleMesh& rest, std::vector<MeshEdge> edges);
 
   struct Worst {
     Real spike = 0;       ///< largest of spike_at

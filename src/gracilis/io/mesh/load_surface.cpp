@@ -4,7 +4,6 @@
 #include <gracilis/core/shell_word.hpp>
 #include <gracilis/geometry/mesh_pieces.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
-#include <gracilis/io/mesh/mesh_reader.hpp>
 
 #include <fmt/format.h>
 
@@ -94,12 +93,12 @@ LoadedMesh load_surface(const std::filesystem::path& path, Real unit, SurfaceRol
   return check_surface(read_mesh(path, unit), unit, role, path.string());
 }
 
-std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& files) {
-  std::vector<LoadOutcome> outcomes(files.size());
-  parallel_for_each(files.size(), [&](std::size_t i) {
+std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& surfaces, MeshFiles& files) {
+  std::vector<LoadOutcome> outcomes(surfaces.size());
+  parallel_for_each(surfaces.size(), [&](std::size_t i) {
     try {
-      const SurfaceFile& file = files[i];
-      const TriangleMesh mesh = read_mesh(file.path, file.unit, file.part);
+      const SurfaceFile& file = surfaces[i];
+      const TriangleMesh mesh = files.read(file.path, file.unit, file.part);
       const std::string name = file.path.string() + (file.part.empty() ? "" : " (" + file.part + ")");
       outcomes[i].loaded = check_surface(file.largest_piece ? largest_piece(mesh) : mesh, file.unit, file.role, name);
     } catch (const InputError& error) {

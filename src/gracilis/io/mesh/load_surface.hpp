@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 
 #include <filesystem>
 #include <optional>
@@ -46,7 +47,7 @@ struct LoadOutcome {
 };
 
 /// Loads several surfaces at the same time; answers in their order.
-std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& files);
+std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& surfaces, MeshFiles& files);
 
 /// What makes a surface useless in any role, mended or not: no faces, no area, coordinates that are not finite, or a
 /// size that shows that `unit` is wrong. `file` stands in messages.

@@ -17,6 +17,8 @@
 #include <vtkSTLReader.h>
 
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <new>
 #include <string>
 
@@ -68,9 +70,16 @@ static PolygonMesh read_stl(const fs::path& path) {
   return mesh;
 }
 
+struct MeshFiles::Kept {
+  std::mutex mutex;
+  std::map<fs::path, std::unique_ptr<const GlbFile>> glb;
+};
+
+MeshFiles::MeshFiles() : kept_(std::make_unique<Kept>()) {}
+MeshFiles::~MeshFiles() = default;
+
 static PolygonMesh read_polygons(const fs::path& path, const std::string& part) {
   const std::string extension = lower_case_extension(path);
-  if (extension == ".glb") return read_glb(path, part);
   if (!part.empty())
     throw_read_error(path, "has no parts that a name could choose", "leave 'part' out, or give a .glb");
   if (extension == ".ply") return read_ply(path);
@@ -82,15 +91,27 @@ static PolygonMesh read_polygons(const fs::path& path, const std::string& part) 
                    "use .ply, .stl, .obj, .vtk, .vtp or .glb");
 }
 
-TriangleMesh read_mesh(const fs::path& path, Real unit, const std::string& part) {
+TriangleMesh MeshFiles::read(const fs::path& path, Real unit, const std::string& part) {
   require_readable_file(path);
   try {
-    return triangulated(read_polygons(path, part), unit, path);
+    if (lower_case_extension(path) != ".glb") return triangulated(read_polygons(path, part), unit, path);
+    const GlbFile* file = nullptr;
+    {
+      const std::lock_guard lock(kept_->mutex);
+      std::unique_ptr<const GlbFile>& known = kept_->glb[path];
+      if (!known) known = std::make_unique<const GlbFile>(path);
+      file = known.get();
+    }
+    return triangulated(file->read(part), unit, path);
   } catch (const std::bad_alloc&) {
     throw_read_error(path, "announces more data than memory can hold: the file is damaged");
   } catch (const std::length_error&) {
     throw_read_error(path, "announces more data than memory can hold: the file is damaged");
   }
+}
+
+TriangleMesh read_mesh(const fs::path& path, Real unit, const std::string& part) {
+  return MeshFiles().read(path, unit, part);
 }
 
 }  // namespace gracilis

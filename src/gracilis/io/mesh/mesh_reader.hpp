@@ -3,6 +3,7 @@
 #include <gracilis/geometry/triangle_mesh.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace gracilis {
@@ -13,5 +14,20 @@ namespace gracilis {
 /// triangles, lines and single points are left out. Indices lie within the vertices; nothing else is checked. Throws
 /// InputError when the file cannot be read, is damaged or holds no triangle.
 TriangleMesh read_mesh(const std::filesystem::path& path, Real unit, const std::string& part = {});
+
+/// The same of several parts of files: a .glb is read from the disk once. Any thread may ask.
+class MeshFiles {
+ public:
+  MeshFiles();
+  ~MeshFiles();
+  MeshFiles(const MeshFiles&) = delete;
+  MeshFiles& operator=(const MeshFiles&) = delete;
+
+  TriangleMesh read(const std::filesystem::path& path, Real unit, const std::string& part = {});
+
+ private:
+  struct Kept;
+  std::unique_ptr<Kept> kept_;
+};
 
 }  // namespace gracilis

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstring>
 #include <map>
+#include <utility>
 
 namespace gracilis {
 
@@ -25,10 +26,37 @@ bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const
   return true;
 }
 
-/// Collects the triangles of a file.
+[[noreturn]] void fail_at(const std::filesystem::path& path, const std::string& what, const std::string& remedy) {
+  throw InputError({path.string(), "", what, remedy});
+}
+
+/// Everything is in the file: what a foreign file names elsewhere is not looked for.
+tinygltf::Model load_model(const std::filesystem::path& path) {
+  tinygltf::TinyGLTF reader;
+  reader.SetImageLoader(no_image, nullptr);
+  reader.SetFsCallbacks(
+      {[](const std::string&, void*) { return false; }, [](const std::string& name, void*) { return name; },
+       [](std::vector<unsigned char>*, std::string* error, const std::string& name, void*) {
+         *error += "'" + name + "' lies outside of the file";
+         return false;
+       },
+       [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }, nullptr});
+  const std::string bytes = with_views(path, read_text(path));
+  std::string error, warning;
+  tinygltf::Model model;
+  if (bytes.size() > std::numeric_limits<unsigned>::max())
+    fail_at(path, "is larger than a .glb file can be", "export the surface again");
+  if (!reader.LoadBinaryFromMemory(&model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
+                                   static_cast<unsigned>(bytes.size())))
+    fail_at(path, "is damaged or no .glb file: " + error.substr(0, error.find('\n')), "export the surface again");
+  return model;
+}
+
+/// Collects the triangles of a part.
 class GlbReader {
  public:
-  GlbReader(const std::filesystem::path& path, std::string part) : path_(path), part_(std::move(part)) { load(); }
+  GlbReader(const std::filesystem::path& path, const tinygltf::Model& model, std::string part)
+      : path_(path), part_(std::move(part)), model_(model) {}
 
   PolygonMesh read() {
     std::vector<int> roots;
@@ -45,26 +73,7 @@ class GlbReader {
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& remedy = "export the surface again") const {
-    throw InputError({path_.string(), "", what, remedy});
-  }
-
-  /// Everything is in the file: what a foreign file names elsewhere is not looked for.
-  void load() {
-    tinygltf::TinyGLTF reader;
-    reader.SetImageLoader(no_image, nullptr);
-    reader.SetFsCallbacks(
-        {[](const std::string&, void*) { return false; }, [](const std::string& name, void*) { return name; },
-         [](std::vector<unsigned char>*, std::string* error, const std::string& name, void*) {
-           *error += "'" + name + "' lies outside of the file";
-           return false;
-         },
-         [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }, nullptr});
-    const std::string bytes = with_views(path_, read_text(path_));
-    std::string error, warning;
-    if (bytes.size() > std::numeric_limits<unsigned>::max()) fail("is larger than a .glb file can be");
-    if (!reader.LoadBinaryFromMemory(&model_, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-                                     static_cast<unsigned>(bytes.size())))
-      fail("is damaged or no .glb file: " + error.substr(0, error.find('\n')));
+    fail_at(path_, what, remedy);
   }
 
   template <class Element>
@@ -235,9 +244,9 @@ class GlbReader {
     }
   }
 
-  std::filesystem::path path_;
+  const std::filesystem::path& path_;
   std::string part_;
-  tinygltf::Model model_;
+  const tinygltf::Model& model_;
   PolygonMesh mesh_;
   std::map<std::array<double, 3>, std::int64_t> vertex_at_;
   bool found_ = false;
@@ -245,8 +254,15 @@ class GlbReader {
 
 }  // namespace
 
-PolygonMesh read_glb(const std::filesystem::path& path, const std::string& part) {
-  return GlbReader(path, part).read();
+struct GlbFile::Model {
+  tinygltf::Model model;
+};
+
+GlbFile::GlbFile(const std::filesystem::path& path) : path_(path) {
+  model_ = std::make_unique<const Model>(Model{load_model(path)});
 }
+GlbFile::~GlbFile() = default;
+
+PolygonMesh GlbFile::read(const std::string& part) const { return GlbReader(path_, model_->model, part).read(); }
 
 }  // namespace gracilis

@@ -3,14 +3,29 @@
 #include <gracilis/io/mesh/polygon_mesh.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 
 namespace gracilis {
 
-/// The triangles of a .glb file (glTF 2.0, everything in the one file), placed by its nodes; those of the node or mesh
-/// of this name and of the nodes below it, or all where it is empty. Compressed by Draco, too. Corners at the same
-/// place become one vertex: glTF splits them where normals or textures break. Lines, points, skins and morphs are left
-/// out. Throws InputError.
-PolygonMesh read_glb(const std::filesystem::path& path, const std::string& part);
+/// A .glb file (glTF 2.0, everything in the one file) in memory, of which several parts are asked one after the other
+/// or by several threads. Everything throws InputError.
+class GlbFile {
+ public:
+  explicit GlbFile(const std::filesystem::path& path);
+  ~GlbFile();
+  GlbFile(const GlbFile&) = delete;
+  GlbFile& operator=(const GlbFile&) = delete;
+
+  /// The triangles, placed by the nodes; those of the node or mesh of this name and of the nodes below it, or all where
+  /// it is empty. Compressed by Draco, too. Corners at the same place become one vertex: glTF splits them where normals
+  /// or textures break. Lines, points, skins and morphs are left out.
+  PolygonMesh read(const std::string& part) const;
+
+ private:
+  struct Model;
+  std::filesystem::path path_;
+  std::unique_ptr<const Model> model_;
+};
 
 }  // namespace gracilis

@@ -4,7 +4,6 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/io/atomic_file.hpp>
-#include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/mesh/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/mesh/polyline_file.hpp>
@@ -48,7 +47,7 @@ Frame read_frame(const fs::path& folder, const Scene& scene, int number, const P
     const fs::path path = file_of_surface(folder, layout, muscle.name, number);
     const bool own_file = layout == RunLayout::surfaces;
     if (own_file || !file) file.emplace(path);
-    const TriangleMesh mesh = own_file ? read_mesh(path, 1) : read_vtp_piece(*file, muscle.name);
+    const TriangleMesh mesh = own_file ? triangulated(file->read(), 1, path) : read_vtp_piece(*file, muscle.name);
     if (mesh.vertex_count() != muscle.surface.vertex_count()) {
       throw InputError({path.string(), "",
                         fmt::format("has {} vertices, but {} has {}", mesh.vertex_count(), muscle.name,

@@ -178,7 +178,7 @@ std::string AttachmentSelector::body_of(const AttachmentDescription& description
 TriangleMesh AttachmentSelector::patch_of(const AttachmentDescription& description) {
   TriangleMesh patch;
   read_file(progress_, description.patch, [&](const std::filesystem::path& path) {
-    patch = read_mesh(path, description.patch.unit, description.patch.part);
+    patch = progress_.files->read(path, description.patch.unit, description.patch.part);
   });
   mirror_if_asked(progress_, description.patch, patch);
   if (!inspect_mesh(patch).is_finite()) {
@@ -256,7 +256,7 @@ void AttachmentSelector::add_aponeurosis(Muscle& muscle, const AttachmentDescrip
   Aponeurosis result{description.attachment.end, {}};
   bool is_read = false;
   read_file(progress_, file, [&](const std::filesystem::path& path) {
-    result.surface = read_mesh(path, file.unit, file.part);
+    result.surface = progress_.files->read(path, file.unit, file.part);
     is_read = true;
   });
   if (!is_read) return;

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/scene_description.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +22,7 @@ struct SceneInProgress {
   LoadedScene loaded = {};
   std::vector<TriangleMesh> surfaces = {};  ///< that came with the description, m
   std::vector<Problem> problems = {};       ///< of the stage under way
+  std::unique_ptr<MeshFiles> files = std::make_unique<MeshFiles>();
 
   void add_problem(Problem place, const std::string& what, const std::string& remedy = "") {
     place.what = what;

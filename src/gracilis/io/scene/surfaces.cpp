@@ -78,7 +78,7 @@ SurfaceLoader::SurfaceLoader(SceneInProgress& progress, bool muscles_stay_raw)
   };
   for (const BoneDescription& bone : progress.description.bones) add(bone.surface, SurfaceRole::bone);
   for (const MuscleDescription& muscle : progress.description.muscles) add(muscle.surface, SurfaceRole::muscle);
-  std::vector<LoadOutcome> outcomes = load_surfaces(files);
+  std::vector<LoadOutcome> outcomes = load_surfaces(files, *progress.files);
   for (std::size_t i = 0; i < files.size(); ++i) loaded_[surfaces[i]] = std::move(outcomes[i]);
 }
 
@@ -111,7 +111,7 @@ bool SurfaceLoader::take(const SurfaceDescription& surface, SurfaceRole role, Tr
   bool repaired = false;
   read_file(progress_, surface.file, [&](const fs::path& path) {
     if (stays_raw(surface, role)) {
-      mesh = read_mesh(path, surface.file.unit, surface.file.part);
+      mesh = progress_.files->read(path, surface.file.unit, surface.file.part);
       mirror_if_asked(progress_, surface.file, mesh);
       return;
     }

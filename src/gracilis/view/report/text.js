@@ -48,6 +48,7 @@ function writeGates(runs, goTo) {
     if (runs.length > 1) document.getElementById('gates').append(make('h3', run.label));
     const measures = run.gates.filter(gate => gate.muscle === run.gates[0].muscle);
     const table = tableOf(['Muscle']);
+    table.classList.add('gates');
     for (const gate of measures) {
       const head = make('th', gate.title, {scope: 'col'});
       head.append(make('small', ` limit ${gate.both_ways ? '±' : ''}${gate.limit} ${gate.unit}`));
@@ -56,8 +57,10 @@ function writeGates(runs, goTo) {
     for (const muscle of run.muscles) {
       const row = table.tBodies[0].insertRow();
       row.append(make('th', spoken(muscle.name), {scope: 'row'}));
-      for (const {measure} of measures)
+      for (const {measure, title} of measures) {
         row.append(gateCell(run.gates.find(gate => gate.muscle === muscle.name && gate.measure === measure), index, goTo));
+        row.lastChild.setAttribute('data-gate', title); // what a narrow page has instead of columns' heads
+      }
     }
     document.getElementById('gates').append(table);
   });

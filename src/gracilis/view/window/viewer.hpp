@@ -73,6 +73,7 @@ class Viewer {
   int lay_out_scale(const ColorScale& scale, int bottom);
   std::vector<OptionEntry> options_shown();
   void write_status();
+  void write_speed(const ShownFrame& frame);
   std::string hint() const;
 
   const ShownShapes& shapes_;

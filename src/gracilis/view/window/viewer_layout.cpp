@@ -10,7 +10,6 @@
 #include <vtkPolyData.h>
 #include <vtkTextActor.h>
 #include <gracilis/view/pictures/muscle_colors.hpp>
-#include <gracilis/view/pictures/muscle_look.hpp>
 
 #include <algorithm>
 #include <array>
@@ -94,10 +93,9 @@ void Viewer::lay_out_left() {
   std::vector<ListEntry> muscles;
   for (std::size_t m = 0; m < shapes_.muscles.size(); ++m) {
     const MuscleState shown = state_.muscles[m];
-    // Where colors mean something else, the muscles' own would only confuse.
-    const Color color = state_.color_by == WindowColor::natural  ? fiber_paint(shapes_.muscles[m])
-                        : state_.color_by == WindowColor::muscle ? muscle_color(shapes_.muscles[m])
-                                                                 : Color(Color::Constant(0.6));
+    // Where colors do not tell which muscle it is, those here would only confuse.
+    const Color color =
+        state_.color_by == WindowColor::muscle ? muscle_color(shapes_.muscles[m]) : Color(Color::Constant(0.6));
     muscles.push_back({words_of(shapes_.muscles[m]), color,
                        shown == MuscleState::solid         ? 1
                        : shown == MuscleState::transparent ? 0.35
@@ -259,6 +257,24 @@ std::string Viewer::hint() const {
   return options_.live ? options_.live->status() : "";
 }
 
+/// Says as much of the speed as there is room for beside the status.
+void Viewer::write_speed(const ShownFrame& frame) {
+  const auto width_of = [this](vtkTextActor& text) {
+    std::array<double, 2> size{};
+    text.GetSize(flat_renderer_, size.data());
+    return size[0];
+  };
+  std::string drawn = fmt::format("drawn in {:.0f} ms", 1000 * draw_seconds_);
+  if (player_.playing) drawn += fmt::format(", {:.0f} frames per second", pictures_per_second_);
+  std::string all = player_.playing ? fmt::format("{}, {:g} × as fast", drawn, player_.speed) : drawn;
+  if (frame.milliseconds > 0) all = fmt::format("solved in {:.0f} ms, ", frame.milliseconds) + all;
+  const double room = width_ - 3 * margin - width_of(*status_);
+  for (const std::string& text : {all, drawn, std::string()}) {
+    speed_->SetInput(text.c_str());
+    if (text.empty() || width_of(*speed_) <= room) return;
+  }
+}
+
 void Viewer::write_status() {
   const std::shared_ptr<const ShownFrame> frame = history_.at(player_.frame);
   const std::string hint_text = hint();
@@ -266,11 +282,7 @@ void Viewer::write_status() {
                                 hint_text.empty() ? "" : "    ", hint_text)
                         .c_str());
   if (picked_) picked_->SetInput(numbers_of(*state_.picked, shapes_, *frame).c_str());
-  std::string speed = fmt::format("drawn in {:.0f} ms", 1000 * draw_seconds_);
-  if (player_.playing)
-    speed += fmt::format(", {:.0f} frames per second, {:g} × as fast", pictures_per_second_, player_.speed);
-  if (frame->milliseconds > 0) speed = fmt::format("solved in {:.0f} ms, ", frame->milliseconds) + speed;
-  speed_->SetInput(speed.c_str());
+  write_speed(*frame);
   const int begin = history_.begin();
   const Real share = static_cast<Real>(player_.frame - begin) / std::max(1, total_frames() - 1 - begin);
   cursor_->SetPosition(track_.x + share * track_.width - 3, track_.y - 7);
