@@ -27,7 +27,7 @@ TEST(XpbdPreparation, masses_sum_to_density_times_volume_and_attached_ones_canno
             muscle.attachments[0].vertices.size() + muscle.attachments[1].vertices.size());
 }
 
-TEST(XpbdPreparation, carrier_shares_sum_to_one_and_are_whole_at_attachments) {
+TEST(XpbdPreparation, skinning_weights_sum_to_one_and_are_whole_at_attachments) {
   const Scene scene = tube_scene();
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
   ASSERT_EQ(prepared.carriers, (std::vector<Index>{0, 1}));
