@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include <unistd.h>
+
 namespace gracilis {
 
 /// A run of one of the reproductions and the table that it left.
@@ -98,7 +100,7 @@ class Reproduction {
     return found;
   }
 
-  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / "gracilis_reproduction_test";
+  std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("gracilis_reproduction_" + std::to_string(getpid()));
   std::vector<Row> rows_;
 };
 

@@ -9,6 +9,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 namespace gracilis {
 
 using opensim::coordinate_motion;
@@ -24,9 +26,12 @@ static Scene imported(const Model& model, const GeometryPlaces& places, const Na
                       const SceneFolderSettings& settings = {}, const SceneOptions& options = {}) {
   const TestFolder folder;
   const std::vector<std::string> left_out = write_scene_folder(model, places, {motion}, settings, folder.path());
-  // What there is no room for between others.
-  EXPECT_THAT(left_out, testing::Each(testing::HasSubstr("between the others there is room for")));
-  EXPECT_TRUE(settings.apart || left_out.empty());
+  // What there is no room for between others, and for tendons on a line: some models' slack lengths stand for none.
+  const auto between_others = testing::HasSubstr("between the others there is room for");
+  EXPECT_THAT(left_out, testing::Each(testing::AnyOf(between_others, testing::HasSubstr("% of the tendon"))));
+  EXPECT_TRUE(settings.apart || std::none_of(left_out.begin(), left_out.end(), [](const std::string& each) {
+                return each.find("between the others") != std::string::npos;
+              }));
   return read_scene(folder.path() / (motion.name + ".toml"), options).scene;
 }
 

@@ -308,6 +308,20 @@ TEST_F(ReportInBrowser, on_a_phone_nothing_is_wider_than_the_page_and_no_word_is
       "");
 }
 
+TEST_F(ReportInBrowser, a_view_fits_a_window_that_becomes_narrower_until_somebody_turns_it) {
+  open({FlexingLeg().written(folder.path() / "run")});
+  const std::string farthest =
+      "Math.max(...stage.shapes[0].corners().map(c => Math.abs(c.clone().project(stage.shapes[0].camera).x)))";
+  EXPECT_LE(js(farthest).get<Real>(), 1);
+  browser->set_size(390, 844);
+  EXPECT_EQ(js("new Promise(done => setTimeout(() => done(innerWidth), 300))"), 390);
+  EXPECT_LE(js(farthest).get<Real>(), 1);
+  js("stage.orbit.halfHeight /= 4; stage.orbit.changed()");
+  browser->set_size(420, 844);
+  EXPECT_EQ(js("new Promise(done => setTimeout(() => done(innerWidth), 300))"), 420);
+  EXPECT_GT(js(farthest).get<Real>(), 1) << "a view that somebody chose stays";
+}
+
 TEST_F(ReportInBrowser, can_be_read_aloud_and_on_paper) {
   open({FlexingLeg(3).written(folder.path() / "run")});
   EXPECT_EQ(js("[...document.querySelectorAll('button, input, select, [role=img]')].filter(e => !(e.ariaLabel || "

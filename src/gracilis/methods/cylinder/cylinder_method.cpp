@@ -103,7 +103,7 @@ class Resolution {
     }
   }
 
-  /// At most 20 rounds. Adds time and what did not come free to the reports of the muscles that give way.
+  /// At most 20 rounds. Adds the time to the reports of the muscles that give way, and to all what did not come free.
   void run(std::vector<MuscleReport>& reports) {
     std::vector<int> unresolved(shapes_.size(), 0), rounds(shapes_.size(), 0);
     bool any = true;
@@ -125,11 +125,9 @@ class Resolution {
       if (give_way(transversals_[i], held_[i])) ++unresolved[static_cast<std::size_t>(transversals_[i].moved.muscle)];
       rings_of(transversals_[i].moved) = before;
     }
-    for (const Transversal& each : transversals_) {
-      const auto muscle = static_cast<std::size_t>(each.moved.muscle);
+    for (std::size_t muscle = 0; muscle < reports.size(); ++muscle)
       reports[muscle].metrics = {{"collision_rounds", static_cast<Real>(rounds[muscle])},
                                  {"unresolved_transversals", static_cast<Real>(unresolved[muscle])}};
-    }
   }
 
  private:
@@ -213,7 +211,7 @@ class CylinderMethod final : public DeformationMethod {
         report.muscles[m].milliseconds = taken.count();
       }
     });
-    if (!transversals_.empty()) Resolution(transversals_, bones_, hits_, pose, shapes).run(report.muscles);
+    Resolution(transversals_, bones_, hits_, pose, shapes).run(report.muscles);
     for (std::size_t m = 0; m < muscles_.size(); ++m) {
       if (!surfaces_[m]) next[m] = shapes[m].vertices();
       if (!next[m].allFinite()) throw QualityError("muscle " + lines_[m].name + ": a section is not finite");

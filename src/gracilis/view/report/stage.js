@@ -203,8 +203,10 @@ class Stage {
     this.shapes = runs.map((run, i) => new RunShapes(run, i));
     const vector = name => new THREE.Vector3(...runs[0][name]);
     this.axes = {anterior: vector('anterior'), superior: vector('superior'), right: vector('right')};
-    this.orbit = new Orbit(canvas, this.axes.superior, () => this.draw());
-    new ResizeObserver(() => this.draw()).observe(canvas);
+    // What the view was fitted to; null once somebody has turned or moved it.
+    this.fitted = null;
+    this.orbit = new Orbit(canvas, this.axes.superior, () => { this.fitted = null; this.draw(); });
+    new ResizeObserver(() => this.fitted ? this.lookFrom(this.fitted) : this.draw()).observe(canvas);
   }
 
   // All that any frame shows, seen from `direction`, as large as the view allows.
@@ -223,6 +225,7 @@ class Stage {
     const aspect = this.canvas.clientWidth / this.shapes.length / this.canvas.clientHeight || 1;
     this.orbit.center.copy(center);
     this.orbit.halfHeight = 1.04 * Math.max(half[1], half[0] / aspect);
+    this.fitted = direction;
     this.draw();
   }
 
