@@ -1,11 +1,11 @@
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/self_crossings.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace gracilis {
 
@@ -53,27 +53,6 @@ static std::vector<char> faces_at_folds(const TriangleMesh& mesh, const std::vec
   return found;
 }
 
-/// The faces that hang together across edges without passing one that is left out, group by group.
-static std::vector<std::vector<Index>> groups_between(const std::vector<char>& left_out,
-                                                      const std::vector<MeshEdge>& edges) {
-  std::vector<std::vector<Index>> beside(left_out.size());
-  for (const MeshEdge& edge : edges) {
-    const auto left = static_cast<std::size_t>(edge.left), right = static_cast<std::size_t>(edge.right);
-    if (!left_out[left] && !left_out[right]) beside[left].push_back(edge.right), beside[right].push_back(edge.left);
-  }
-  std::vector<char> seen = left_out;
-  std::vector<std::vector<Index>> groups;
-  for (std::size_t first = 0; first < seen.size(); ++first) {
-    if (std::exchange(seen[first], 1)) continue;
-    std::vector<Index> group = {static_cast<Index>(first)};
-    for (std::size_t i = 0; i < group.size(); ++i)
-      for (const Index next : beside[static_cast<std::size_t>(group[i])])
-        if (!std::exchange(seen[static_cast<std::size_t>(next)], 1)) group.push_back(next);
-    groups.push_back(std::move(group));
-  }
-  return groups;
-}
-
 /// Whether a face lies between the inside and the outside, its normal towards the outside.
 static bool tells_the_side(const TriangleMesh& mesh, const WindingNumber& winding, Index face) {
   constexpr Real beside = 1e-3;  // of its size
@@ -88,13 +67,22 @@ void SignedDistance::find_doubtful(const TriangleMesh& mesh, const std::vector<M
   doubtful_ = faces_at_folds(mesh, edges, face_normals_);
   if (std::none_of(doubtful_.begin(), doubtful_.end(), [](char each) { return each != 0; })) return;
   winding_.emplace(mesh);
-  for (const std::vector<Index>& group : groups_between(doubtful_, edges)) {
-    const auto size = [&](Index face) { return area_vector(mesh.vertices, mesh.faces.col(face)).norm(); };
-    const Index largest =
-        *std::max_element(group.begin(), group.end(), [&](Index l, Index r) { return size(l) < size(r); });
-    if (tells_the_side(mesh, *winding_, largest)) continue;
-    for (const Index face : group) doubtful_[static_cast<std::size_t>(face)] = 1;
-  }
+  std::vector<Index> others;
+  for (Index face = 0; face < mesh.face_count(); ++face)
+    if (!doubtful_[static_cast<std::size_t>(face)]) others.push_back(face);
+  // What hangs together between them is all alike: one face tells for the others.
+  const std::vector<Index> component = component_of_vertices({mesh.vertices, mesh.faces(Eigen::all, others)});
+  const auto component_of = [&](Index face) {
+    return static_cast<std::size_t>(component[static_cast<std::size_t>(mesh.faces(0, face))]);
+  };
+  const auto size = [&](Index face) { return area_vector(mesh.vertices, mesh.faces.col(face)).norm(); };
+  std::vector<Index> largest(static_cast<std::size_t>(component_count(component)), -1);
+  for (const Index face : others)
+    if (Index& found = largest[component_of(face)]; found < 0 || size(face) > size(found)) found = face;
+  std::vector<char> tells;
+  for (const Index face : largest) tells.push_back(tells_the_side(mesh, *winding_, face));
+  for (const Index face : others)
+    if (!tells[component_of(face)]) doubtful_[static_cast<std::size_t>(face)] = 1;
 }
 
 SignedDistance::SignedDistance(const TriangleMesh& mesh)

@@ -2,7 +2,6 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
-#include <gracilis/geometry/winding_number.hpp>
 
 #include <Eigen/Geometry>
 
@@ -23,10 +22,9 @@ Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
 
 /// What a surface answers about points.
 struct Solid {
-  explicit Solid(const TriangleMesh& mesh) : distance(mesh), winding(mesh), box(box_of(mesh)) {}
+  explicit Solid(const TriangleMesh& mesh) : distance(mesh), box(box_of(mesh)) {}
 
   SignedDistance distance;
-  WindingNumber winding;
   Eigen::AlignedBox3d box;
 };
 
@@ -40,8 +38,7 @@ InsideVertices vertices_inside(const TriangleMesh& mesh, const Solid& other, con
     if (!other.box.contains(p) || (!left_out.empty() && left_out[static_cast<std::size_t>(v)])) continue;
     const SignedDistance::Answer answer = face < 0 ? other.distance.query(p) : other.distance.query_from(face, p);
     face = answer.nearest.face;
-    // Where a surface passes through itself, its nearest part may face the wrong way.
-    if (!(answer.distance < 0) || !(other.winding.query(p) > 0.5)) continue;
+    if (!(answer.distance < 0)) continue;
     inside.vertices.push_back(v);
     inside.depths.push_back(-answer.distance);
     outward.push_back((answer.nearest.point - p).stableNormalized());

@@ -26,8 +26,8 @@ struct RestOverlap {
   Real deepest() const { return std::max(of_first.deepest(), of_second.deepest()); }
 };
 
-/// Which surfaces overlap, by exact distances in double precision (SignedDistance) and winding numbers, in the order of
-/// pairs. Overlaps without a vertex inside are not seen. Precondition: closed surfaces, oriented outwards, finite.
+/// Which surfaces overlap, by exact distances in double precision (SignedDistance), in the order of pairs. Overlaps
+/// without a vertex inside are not seen. Precondition: closed surfaces, oriented outwards, finite.
 std::vector<RestOverlap> rest_overlaps(const std::vector<TriangleMesh>& surfaces);
 
 /// The same of a scene's muscles in the capture pose.
