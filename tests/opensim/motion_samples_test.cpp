@@ -1,5 +1,6 @@
 #include "opensim/model_texts.hpp"
 
+#include <gracilis/geometry/halton.hpp>
 #include <gracilis/opensim/kinematics/sample_motions.hpp>
 #include <gracilis/opensim/kinematics/spread_points.hpp>
 

@@ -1,5 +1,7 @@
 #include <gracilis/geometry/rbf_centers.hpp>
 
+#include <gracilis/geometry/halton.hpp>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -13,16 +15,6 @@ Points points_of(const std::vector<Vec3>& list) {
   Points points(3, static_cast<Eigen::Index>(list.size()));
   for (std::size_t i = 0; i < list.size(); ++i) points.col(static_cast<Index>(i)) = list[i];
   return points;
-}
-
-/// The digits of `number` in a base, mirrored at the point (Cervenka 2024, eq. 3.5).
-Real mirrored_digits(Index number, Index base) {
-  Real result = 0, digit = 1;
-  for (; number > 0; number /= base) {
-    digit /= base;
-    result += digit * (number % base);
-  }
-  return result;
 }
 
 /// Takes, one after the other, the candidate farthest from all taken so far.
@@ -73,11 +65,9 @@ Points grid_centers(const Eigen::AlignedBox3d& box, const Eigen::Vector3i& count
 }
 
 Points halton_centers(const Eigen::AlignedBox3d& box, Index count) {
+  const Points shares = halton_points(count, 3).transpose();
   Points centers(3, count);
-  for (Index i = 0; i < count; ++i) {
-    const Vec3 share(mirrored_digits(i + 1, 2), mirrored_digits(i + 1, 3), mirrored_digits(i + 1, 5));
-    centers.col(i) = box.min() + share.cwiseProduct(box.sizes());
-  }
+  for (Index i = 0; i < count; ++i) centers.col(i) = box.min() + shares.col(i).cwiseProduct(box.sizes());
   return centers;
 }
 

@@ -1,6 +1,7 @@
 #include <gracilis/opensim/kinematics/sample_motions.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/halton.hpp>
 #include <gracilis/opensim/kinematics/spread_points.hpp>
 
 #include <fmt/format.h>
