@@ -73,6 +73,22 @@ TEST(LaneRelaxation, the_capture_pose_is_at_rest) {
   EXPECT_LT((state.places - arm.muscle.taut).cwiseAbs().maxCoeff(), 1e-14);
 }
 
+TEST(LaneRelaxation, a_bundle_that_nothing_but_its_ends_holds_is_back_within_a_few_iterations) {
+  constexpr Real off_bones = -0.06, away = 0.005;
+  Scene scene = arm_scene();
+  scene.muscles[0].surface.vertices.row(0).array() += off_bones;
+  const Strung loose(std::move(scene));
+  ASSERT_EQ(loose.muscle.ties.maxCoeff(), 0);
+  Points moved = loose.muscle.taut;
+  for (Index s = 0; s < loose.muscle.strings; ++s)
+    for (Index i = 1; i + 1 < loose.muscle.nodes; ++i)
+      if (body_holding(loose.muscle, s, i) < 0) moved(1, loose.muscle.node(s, i)) += away;
+  LanePlaces places = lane_places(loose.muscle.lanes, moved);
+  relax_lanes(loose.muscle, loose.bones, capture_pose(2).bodies, {loose.muscle.settings.iterations, 1e-9}, places);
+  const Points back = places_of(loose.muscle.lanes, places);
+  EXPECT_LT((back - loose.muscle.taut).colwise().norm().mean(), 5e-5);
+}
+
 TEST(LaneRelaxation, nodes_survive_the_way_into_lanes_and_back) {
   const Strung arm(arm_scene());
   const Points back = places_of(arm.muscle.lanes, lane_places(arm.muscle.lanes, arm.muscle.taut));

@@ -7,8 +7,9 @@ namespace gracilis::strings {
 
 namespace {
 
-/// Relative residual that is left, and how many directions are tried for it.
-constexpr Real tolerance = 1e-5;
+/// Relative residual that is left: of motions, whose arms it moves by micrometres, and of weights, from which forces
+/// come that have to balance; and how many directions are tried for it.
+constexpr Real motion_tolerance = 1e-4, weight_tolerance = 1e-5;
 constexpr Index most_directions = 40;
 
 }  // namespace
@@ -70,7 +71,7 @@ Points CoupledSolver::own_transposed(Points weights) const {
 }
 
 template <class Operator>
-Points CoupledSolver::solved(const Operator& preconditioned, const Points& right) const {
+Points CoupledSolver::solved(const Operator& preconditioned, const Points& right, Real tolerance) const {
   const Eigen::VectorXd begin = right.reshaped();
   const Real length = begin.norm();
   if (!(length > 0) || !right.allFinite()) return Points::Zero(3, right.cols());
@@ -98,14 +99,14 @@ Points CoupledSolver::solved(const Operator& preconditioned, const Points& right
 
 Points CoupledSolver::moves(const Points& forces) const {
   const auto preconditioned = [&](const Points& rates) { return own_moves(rates_.by_places(rates)); };
-  return solved(preconditioned, own_moves(forces));
+  return solved(preconditioned, own_moves(forces), motion_tolerance);
 }
 
 Points CoupledSolver::transposed(const Points& weights) const {
   const auto preconditioned = [&](const Points& of_forces) {
     return own_transposed(free_part(rates_.by_places_transposed(of_forces)));
   };
-  return solved(preconditioned, own_transposed(free_part(weights)));
+  return solved(preconditioned, own_transposed(free_part(weights)), weight_tolerance);
 }
 
 }  // namespace gracilis::strings

@@ -30,7 +30,7 @@ class CoupledSolver {
   Points own_moves(Points forces) const;
   Points own_transposed(Points weights) const;
   template <class Operator>
-  Points solved(const Operator& preconditioned, const Points& right) const;
+  Points solved(const Operator& preconditioned, const Points& right, Real tolerance) const;
 
   const MuscleStrings& muscle_;
   const ForceRates& rates_;

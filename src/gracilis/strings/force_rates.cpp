@@ -75,6 +75,7 @@ ForceRates::ForceRates(const MuscleStrings& muscle, const BoneDistances& bones, 
   before_ = after_ = neighbor_pull_ = here_;
   by_body_.assign(count * bodies.size(), BodyRate::Zero());
   const Real segments = static_cast<Real>(muscle.nodes - 1);
+  find_bones_around(bones);
   Index searched = -1;
   for_each_free_node([&](Index s, Index i, Index p) {
     if (s != searched) find_near_bones(s, bones), searched = s;
@@ -201,11 +202,22 @@ void ForceRates::hold_among_neighbors(const Node& node) {
   turn_with_string(node, -k * node.across_rate(node.place - there - neighbor_arms_.col(node.p)));
 }
 
+/// Those that the ball around all nodes comes near.
+void ForceRates::find_bones_around(const BoneDistances& bones) {
+  const Vec3 center = places_.rowwise().mean();
+  const Real radius = (places_.colwise() - center).colwise().norm().maxCoeff();
+  for (std::size_t bone = 0; bone < bones.fields.size(); ++bone) {
+    const RigidTransform& body = poses_[static_cast<std::size_t>(bones.bodies[bone])];
+    if (trilinear_distance(bones.fields[bone], body, center) <= radius + muscle_.settings.bone_gap + margin)
+      bones_around_.push_back(bone);
+  }
+}
+
 /// No bone is nearer to a node, or to the middles beside it, than a few nodes of its string tell.
 void ForceRates::find_near_bones(Index string, const BoneDistances& bones) {
   constexpr Index stride = 4;
   near_bones_.clear();
-  for (std::size_t bone = 0; bone < bones.fields.size(); ++bone) {
+  for (const std::size_t bone : bones_around_) {
     const RigidTransform& body = poses_[static_cast<std::size_t>(bones.bodies[bone])];
     bool is_near = false;
     for (Index i = 0; i < muscle_.nodes && !is_near; i += stride) {
@@ -219,33 +231,55 @@ void ForceRates::find_near_bones(Index string, const BoneDistances& bones) {
   }
 }
 
+void ForceRates::press_out(Index p, Index body, const Pressure& pressure, Real share) {
+  const Eigen::Matrix3d pull = share * pressure.pull;
+  BodyRate& rate = body_rate(p, body);
+  rate.leftCols<3>() -= pull;
+  rate.rightCols<3>() += share * pressure.by_turn;
+}
+
+/// The middle of a segment is shared by its two nodes, each of which has half of its stiffness.
+void ForceRates::press_middle(Index p, Index body, const Pressure& pressure, bool is_first) {
+  constexpr Real half = 0.5;
+  const auto row = static_cast<std::size_t>(p);
+  const Eigen::Matrix3d by_node = half * half * pressure.pull;
+  here_[row] += by_node, (is_first ? after_ : before_)[row] += by_node;
+  press_out(p, body, pressure, half);
+}
+
 void ForceRates::keep_from_bones(const Node& node, const BoneDistances& bones) {
   const Real k = muscle_.settings.bone_stiffness * node.tension;
-  const auto row = static_cast<std::size_t>(node.p);
   for (const std::size_t bone : near_bones_) {
     const Index body = bones.bodies[bone];
-    const Real distance =
-        trilinear_distance(bones.fields[bone], poses_[static_cast<std::size_t>(body)], node.place);
-    BoneContact contact;
-    const auto press = [&](const Vec3& place, Real kept, Real stiffness, Eigen::Matrix3d& pull) {
-      if (!touches(bones.fields[bone], poses_[static_cast<std::size_t>(body)], place, kept, contact)) return false;
-      pull = stiffness *
-             (contact.slope * contact.normal * contact.normal.transpose() + contact.depth * contact.normal_rate);
-      go_with_body(node, body, pull, place);
-      turn_with_body(node, body, -stiffness * contact.depth * cross_matrix(contact.normal));
+    const RigidTransform& pose = poses_[static_cast<std::size_t>(body)];
+    const Real distance = trilinear_distance(bones.fields[bone], pose, node.place);
+    const auto pressure = [&](const Vec3& place, Real kept, Pressure& result) {
+      BoneContact contact;
+      if (!touches(bones.fields[bone], pose, place, kept, contact)) return false;
+      result.pull =
+          k * (contact.slope * contact.normal * contact.normal.transpose() + contact.depth * contact.normal_rate);
+      result.by_turn = result.pull * cross_matrix(place) - k * contact.depth * cross_matrix(contact.normal);
       return true;
     };
-    Eigen::Matrix3d pull;
-    if (press(node.place, kept_at_node(muscle_, bone, node.p), k, pull)) here_[row] += pull;
-    const auto middle = [&](Index other, Eigen::Matrix3d& by_other) {
+    Pressure found;
+    if (const Real kept = kept_at_node(muscle_, bone, node.p);
+        distance <= kept + margin && pressure(node.place, kept, found)) {
+      here_[static_cast<std::size_t>(node.p)] += found.pull;
+      press_out(node.p, body, found, 1);
+    }
+    const auto middle = [&](Index other) {
       const Real half = (places_.col(other) - node.place).norm() / 2;
-      if (distance - half > muscle_.settings.bone_gap + margin) return;
+      if (distance - half > muscle_.settings.bone_gap + margin) return false;
       const Vec3 place = (node.place + places_.col(other)) / 2;
-      if (!press(place, kept_at_middle(muscle_, bone, node.p, other), k / 2, pull)) return;
-      here_[row] += pull / 2, by_other += pull / 2;
+      return pressure(place, kept_at_middle(muscle_, bone, node.p, other), found);
     };
-    if (node.i + 2 < muscle_.nodes) middle(node.p + 1, after_[row]);
-    if (node.i > 1) middle(node.p - 1, before_[row]);
+    if (node.i + 2 < muscle_.nodes && middle(node.p + 1)) {
+      press_middle(node.p, body, found, true);
+      if (body_holding(muscle_, node.string, node.i + 1) < 0) press_middle(node.p + 1, body, found, false);
+    }
+    // Otherwise the node before has seen to it.
+    if (node.i > 1 && body_holding(muscle_, node.string, node.i - 1) >= 0 && middle(node.p - 1))
+      press_middle(node.p, body, found, false);
   }
 }
 

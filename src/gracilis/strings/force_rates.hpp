@@ -33,13 +33,20 @@ class ForceRates {
  private:
   struct Node;
   using BodyRate = Eigen::Matrix<Real, 3, 6>;
+  /// How the force of a bone on a point changes with the point and with the turn of the bone's body.
+  struct Pressure {
+    Eigen::Matrix3d pull, by_turn;
+  };
 
   void tie(const Node& node);
   void hold_among_neighbors(const Node& node);
   void support_by_plane(const Node& node, Real share);
   Real support_by_bones(const Node& node, const BoneDistances& bones);
+  void find_bones_around(const BoneDistances& bones);
   void find_near_bones(Index string, const BoneDistances& bones);
   void keep_from_bones(const Node& node, const BoneDistances& bones);
+  void press_out(Index p, Index body, const Pressure& pressure, Real share);
+  void press_middle(Index p, Index body, const Pressure& pressure, bool is_first);
 
   void turn_with_string(const Node& node, const Eigen::Matrix3d& by_difference);
   void go_with_body(const Node& node, Index body, const Eigen::Matrix3d& pull, const Vec3& place);
@@ -62,6 +69,7 @@ class ForceRates {
   std::vector<Eigen::Matrix3d> neighbor_pull_;  ///< per node, by the mean place of its neighbors
   Points neighbor_arms_;                        ///< per node: from that mean place to where they want the node, m
   std::vector<BodyRate> by_body_;               ///< node by node
+  std::vector<std::size_t> bones_around_;       ///< of the muscle
   std::vector<std::size_t> near_bones_;         ///< of the string whose nodes are looked at
 };
 

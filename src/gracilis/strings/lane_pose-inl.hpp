@@ -55,7 +55,8 @@ class LanePose {
         bend[at] = static_cast<float>(2 * here[at] - here[static_cast<std::ptrdiff_t>(at) - stride] -
                                       here[static_cast<std::ptrdiff_t>(at) + stride]);
       w_.place[axis] = begun;
-      for (LanePoints* each : {&w_.gradient, &w_.direction, &w_.solution}) (*each)[axis].resize(count);
+      for (LanePoints* each : {&w_.gradient, &w_.direction, &w_.solution, &w_.last_solution, &w_.last_step})
+        (*each)[axis].resize(count);
     }
     for (std::vector<float>& each : w_.stiffness) each.resize(count);
     for (std::vector<float>& each : w_.inverse) each.resize(count);

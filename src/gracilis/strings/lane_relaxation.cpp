@@ -1,6 +1,5 @@
 #include <gracilis/strings/lane_relaxation.hpp>
 
-
 #include <algorithm>
 
 #undef HWY_TARGET_INCLUDE

@@ -10,6 +10,7 @@
 #include <gracilis/strings/lane_pose-inl.hpp>
 #include <gracilis/strings/relaxation.hpp>
 #include <gracilis/strings/section_lanes-inl.hpp>
+#include <gracilis/strings/section_shift-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
 namespace gracilis::HWY_NAMESPACE {
@@ -23,28 +24,46 @@ class LaneSteps {
         bones_(bones),
         w_(workspace),
         width_(static_cast<std::size_t>(lanes_.width)),
-        inner_(static_cast<std::size_t>(lanes_.nodes - 1)) {}
+        inner_(static_cast<std::size_t>(lanes_.nodes - 1)),
+        sections_move_(!lanes_.neighbor_weight.empty()) {}
 
   void relax(const strings::Relaxation& relaxation) {
-    const V stop = lanes_of(std::max(static_cast<float>(relaxation.stop_move), strings::least_lane_move));
+    const float stop_move = std::max(static_cast<float>(relaxation.stop_move), strings::least_lane_move);
+    const V stop = lanes_of(stop_move);
     for (int iteration = 0; iteration < relaxation.iterations; ++iteration) {
       if (has_neighbors()) look_at_sections(iteration);
       const auto taken = static_cast<float>(strings::taken_share(relaxation, iteration));
-      bool any_moves = false;
-      for (std::size_t s = 0; s < width_; s += hn::Lanes(D())) {
-        if (hn::AllTrue(D(), hn::Lt(load(w_.last_move, s), stop))) continue;
+      for_moving_groups(stop, [&](std::size_t s) HWY_ATTR {
         assemble(s);
         for (std::size_t b = 0; b < w_.bones.size(); ++b) keep_from_bone(b, s);
+      });
+      if (has_neighbors()) shift_sections(stop_move);
+      bool any_moves = sections_move_;
+      for_moving_groups(stop, [&](std::size_t s) HWY_ATTR {
         solve(s);
-        move(s, stop, taken);
+        move(s, stop, taken, iteration);
         any_moves |= !hn::AllTrue(D(), hn::Lt(load(w_.last_move, s), stop));
-      }
+      });
       if (!any_moves) return;
     }
   }
 
  private:
   bool has_neighbors() const { return !lanes_.neighbor_weight.empty(); }
+
+  /// Groups none of whose strings moves are left out, but where their sections take them along.
+  template <class Act>
+  void for_moving_groups(V stop, const Act& act) {
+    for (std::size_t s = 0; s < width_; s += hn::Lanes(D()))
+      if (sections_move_ || !hn::AllTrue(D(), hn::Lt(load(w_.last_move, s), stop))) act(s);
+  }
+
+  void shift_sections(float stop_move) {
+    sections_shifted_ = sections_move_;
+    if (!sections_shifted_) return;
+    const auto neighbor = static_cast<float>(1 / (settings_.neighbor_length * settings_.neighbor_length));
+    sections_move_ = SectionShift(lanes_, neighbor, w_).apply() >= stop_move;
+  }
 
   void look_at_sections(int iteration) {
     constexpr int first_steps = 6, further_steps = 2;
@@ -117,7 +136,9 @@ class LaneSteps {
             scaled(lanes_of(1) / hn::Max(slope, least), gradient), hn::And(at.inside, hn::Ge(slope, least))};
   }
 
-  HWY_INLINE void add_spring(std::size_t at, V k, Point normal, V stretch) {
+  HWY_INLINE void add_spring(std::size_t at, hn::Mask<D> acts, V k, Point normal, V stretch) {
+    if (hn::AllFalse(D(), acts)) return;
+    k = hn::IfThenElseZero(acts, k);
     NodeSystem node{load(w_.stiffness, at), load(w_.gradient, at)};
     node.add_spring(k, normal, stretch);
     store(node.stiffness, w_.stiffness, at);
@@ -163,11 +184,11 @@ class LaneSteps {
       if (ask(here, load(kept.acts_within, at), bone.asked_from, at, seen)) {
         const V depth = seen.distance - load(kept.kept, at);
         const auto pressed = hn::And(seen.has_direction, hn::Lt(depth, hn::Zero(D())));
-        add_spring(at, hn::IfThenElseZero(pressed, stiffness), seen.outward, depth);
+        add_spring(at, pressed, stiffness, seen.outward, depth);
         const V nearer = seen.distance - load(kept.slide_distance, at);
         const auto slides = hn::And(seen.has_direction, hn::Lt(nearer, hn::Zero(D())));
-        add_spring(at, hn::IfThenElseZero(slides, load(kept.slide_share, at) * support),
-                   across(load(w_.direction, at), seen.outward), nearer);
+        add_spring(at, slides, load(kept.slide_share, at) * support, across(load(w_.direction, at), seen.outward),
+                   nearer);
       }
       if (i + 1 == inner_) continue;
       const Point next_place = load(w_.place, at + width_);
@@ -177,9 +198,9 @@ class LaneSteps {
       const V depth = seen.distance - load(kept.kept_middle, at);
       const auto pressed = hn::And(seen.has_direction, hn::Lt(depth, hn::Zero(D())));
       // The middle of a segment is shared by its two nodes.
-      const V half = hn::IfThenElseZero(pressed, lanes_of(0.5f) * stiffness);
-      add_spring(at, half, seen.outward, depth);
-      add_spring(at + width_, half, seen.outward, depth);
+      const V half = lanes_of(0.5f) * stiffness;
+      add_spring(at, pressed, half, seen.outward, depth);
+      add_spring(at + width_, pressed, half, seen.outward, depth);
     }
     store(clear, bone.clear_until, s);
   }
@@ -209,15 +230,29 @@ class LaneSteps {
     for (std::size_t i = inner_ - 1; i > 0; --i) {
       const std::size_t at = i * width_ + s;
       after = times(load(w_.inverse, at), load(w_.solution, at) + scaled(tension, after));
-      store(after, w_.solution, at);
+      store(sections_shifted_ ? after + section_shift(lanes_, w_, i, s) : after, w_.solution, at);
     }
   }
 
+  /// What a string takes back of its last move, so that steps which slowly die out are taken at once (Anderson 1965, of
+  /// depth one).
+  HWY_INLINE V taken_back(std::size_t s, int iteration) const {
+    if (iteration < 1) return hn::Zero(D());
+    V with_change = hn::Zero(D()), change2 = lanes_of(1e-20f);
+    for (std::size_t i = 1; i < inner_; ++i) {
+      const std::size_t at = i * width_ + s;
+      const Point step = load(w_.solution, at), change = step - load(w_.last_solution, at);
+      with_change = with_change + dot<Math>(step, change);
+      change2 = change2 + dot<Math>(change, change);
+    }
+    return hn::Min(hn::Max(with_change / change2, lanes_of(-4.f)), lanes_of(0.5f));
+  }
+
   /// Moves those strings that do not rest by a share of the solution.
-  void move(std::size_t s, V stop, float taken) {
+  void move(std::size_t s, V stop, float taken, int iteration) {
     const V zero = hn::Zero(D()), longest = lanes_of(static_cast<float>(settings_.longest_move));
     const V last = load(w_.last_move, s);
-    const auto moves = hn::Ge(last, stop);
+    const auto moves = sections_shifted_ ? hn::Ge(last, hn::Zero(D())) : hn::Ge(last, stop);
     V farthest2 = zero;
     for (std::size_t i = 1; i < inner_; ++i) {
       const Point step = load(w_.solution, i * width_ + s);
@@ -226,23 +261,34 @@ class LaneSteps {
     const V farthest = hn::Sqrt(farthest2);
     store(hn::IfThenElse(moves, farthest, last), w_.last_move, s);
     const auto goes = hn::And(moves, hn::Ge(farthest, lanes_of(strings::least_lane_move)));
-    store(load(w_.travelled, s) + hn::IfThenElseZero(goes, hn::Min(farthest, longest)), w_.travelled, s);
+    const V back = taken == 1 ? taken_back(s, iteration) : zero;
+    V travelled2 = zero;
     for (std::size_t i = 1; i < inner_; ++i) {
       const std::size_t at = i * width_ + s;
-      const Point step = load(w_.solution, at);
-      const V length = hn::Sqrt(hn::Max(dot<Math>(step, step), lanes_of(1e-20f)));
+      const Point solution = load(w_.solution, at);
+      Point step = solution;
+      if (iteration > 0) step = step - scaled(back, load(w_.last_step, at) + solution - load(w_.last_solution, at));
+      const V length2 = dot<Math>(step, step);
+      const V length = hn::Sqrt(hn::Max(length2, lanes_of(1e-20f)));
       const V share = hn::IfThenElseZero(goes, lanes_of(taken) * hn::Min(lanes_of(1), longest / length));
-      const Point moved = load(w_.moved, at) + scaled(share, step);
+      step = scaled(share, step);
+      travelled2 = hn::Max(travelled2, dot<Math>(step, step));
+      const Point moved = load(w_.moved, at) + step;
+      store(solution, w_.last_solution, at);
+      store(step, w_.last_step, at);
       store(moved, w_.moved, at);
       store(load(w_.begun, at) + moved, w_.place, at);
     }
+    store(load(w_.travelled, s) + hn::Sqrt(travelled2), w_.travelled, s);
   }
 
   const strings::StringLanes& lanes_;
   const strings::StringSettings& settings_;
   const strings::BoneDistances& bones_;
   LaneWorkspace& w_;
-  std::size_t width_, inner_;  ///< inner_: the last node's number, which does not move
+  std::size_t width_, inner_;      ///< inner_: the last node's number, which does not move
+  bool sections_move_;             ///< further than strings that rest may
+  bool sections_shifted_ = false;  ///< in this iteration
 };
 
 }  // namespace gracilis::HWY_NAMESPACE

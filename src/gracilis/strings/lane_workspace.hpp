@@ -22,8 +22,8 @@ struct LaneWorkspace {
   /// A bone from here: to cells of its grid, and from there back for directions.
   struct Bone {
     Eigen::Matrix<float, 3, 4> to_cells, from_cells;
-    /// How far a string must have travelled before a node, or the middle after it, can be near the bone; m. The least of
-    /// all nodes per string.
+    /// How far a string must have travelled before a node, or the middle after it, can be near the bone; m. The least
+    /// of all nodes per string.
     std::vector<float> asked_from, asked_from_middle, clear_until;
   };
   std::vector<Bone> bones;
@@ -31,6 +31,15 @@ struct LaneWorkspace {
   /// Of one group of strings: the system of each node.
   std::array<std::vector<float>, 6> stiffness, inverse;
   LanePoints gradient, direction, solution;
+  LanePoints last_solution, last_step;
+
+  /// A cross-section that moves as one: its system, solved to the shift, m; the coupling is to the next.
+  struct Section {
+    Eigen::Matrix3f stiffness = Eigen::Matrix3f::Zero();
+    Eigen::Vector3f shift = Eigen::Vector3f::Zero();
+    float coupling = 0;
+  };
+  std::vector<Section> sections;
 
   std::array<std::vector<float>, 9> correlation, turn;  ///< of the cross-sections, row by row; a node per lane
 };

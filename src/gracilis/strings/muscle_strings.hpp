@@ -47,8 +47,9 @@ struct MuscleStrings {
 /// Whether a muscle is attached to several bodies: with one alone it just goes along, and needs no strings.
 bool runs_between_bodies(const Muscle& muscle);
 
-/// Lays strings along a muscle's fibers from attachment to attachment (those of the scene, or of the template) and pulls them tight in the capture
-/// pose. Nothing for a muscle that has no fibers from an origin to an insertion. Precondition: the scene is valid.
+/// Lays strings along a muscle's fibers from attachment to attachment (those of the scene, or of the template) and
+/// pulls them tight in the capture pose. Nothing for a muscle that has no fibers from an origin to an insertion.
+/// Precondition: the scene is valid.
 std::optional<MuscleStrings> muscle_strings(const Scene& scene, const Muscle& muscle, const BoneDistances& bones,
                                             const StringSettings& settings);
 

@@ -14,6 +14,8 @@ namespace {
 
 /// Strings settle until no node moves further, m, or for so many iterations, of which the last take small steps.
 constexpr Real settled_move = 1e-7;
+/// Less is lost in single precision.
+constexpr Real nearly_settled_move = 1e-6;
 constexpr int settling_iterations = 300, settling_quenched_from = 80;
 /// One that would still move further than this then, m, has no place; less matters nothing to its derivative.
 constexpr Real unsettled_move = 5e-6;
@@ -49,15 +51,22 @@ Points pulled_tight(const MuscleStrings& muscle, const BoneDistances& bones) {
   return places;
 }
 
-std::vector<char> settle(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
-  const Relaxation relaxation{settling_iterations, settled_move, settling_quenched_from};
+std::vector<char> settle_nearly(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
   LanePlaces places = lane_places(muscle.lanes, state.places);
-  relax_lanes(muscle, bones, state.bodies, relaxation, places);
+  std::vector<char> unsettled;
+  for (const float move : relax_lanes(muscle, bones, state.bodies,
+                                      {settling_iterations, nearly_settled_move, settling_quenched_from}, places))
+    unsettled.push_back(!(static_cast<Real>(move) < unsettled_move));
   state.places = places_of(muscle.lanes, places);
-  // Single precision leaves more than differences of lengths between near poses allow.
+  return unsettled;
+}
+
+std::vector<char> settle(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
+  settle_nearly(muscle, bones, state);
   NodeForces forces(muscle, bones, state.bodies);
   std::vector<char> unsettled;
-  for (const Real move : relax_nodes(forces, relaxation, state.places)) unsettled.push_back(!(move < unsettled_move));
+  for (const Real move : relax_nodes(forces, {settling_iterations, settled_move, settling_quenched_from}, state.places))
+    unsettled.push_back(!(move < unsettled_move));
   return unsettled;
 }
 

@@ -31,4 +31,8 @@ void follow(const MuscleStrings& muscle, const BoneDistances& bones, const Pose&
 /// whether it did not.
 std::vector<char> settle(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state);
 
+/// The same in single precision: to some micrometres, which derivatives do not notice, where differences of lengths
+/// between near poses do.
+std::vector<char> settle_nearly(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state);
+
 }  // namespace gracilis::strings

@@ -19,8 +19,7 @@ struct MatrixLanes {
 
 HWY_INLINE MatrixLanes load_matrix(const std::array<std::vector<float>, 9>& a, std::size_t at) {
   MatrixLanes m;
-  for (std::size_t i = 0; i < 3; ++i)
-    m.row[i] = {load(a[3 * i], at), load(a[3 * i + 1], at), load(a[3 * i + 2], at)};
+  for (std::size_t i = 0; i < 3; ++i) m.row[i] = {load(a[3 * i], at), load(a[3 * i + 1], at), load(a[3 * i + 2], at)};
   return m;
 }
 HWY_INLINE void store_matrix(const MatrixLanes& m, std::array<std::vector<float>, 9>& a, std::size_t at) {
@@ -47,8 +46,8 @@ HWY_INLINE MatrixLanes nearer_rotation(const MatrixLanes& a, const MatrixLanes& 
   const V zero = hn::Zero(D());
   const V spread = hn::Max(hn::Abs(xx) + hn::Abs(yy) + hn::Abs(zz), lanes_of(least_spread));
   const V bit = lanes_of(regular) * spread;
-  const SymmetricLanes newton = {yy + zz + bit,           zero - half * (xy + yx), zero - half * (xz + zx),
-                                 xx + zz + bit,           zero - half * (yz + zy), xx + yy + bit};
+  const SymmetricLanes newton = {yy + zz + bit, zero - half * (xy + yx), zero - half * (xz + zx),
+                                 xx + zz + bit, zero - half * (yz + zy), xx + yy + bit};
   Point w = times(inverse(newton), Point{zy - yz, xz - zx, yx - xy});
   const V length = hn::Sqrt(dot<Math>(w, w));
   const V share = hn::Min(lanes_of(1), lanes_of(largest_turn) / hn::Max(length, lanes_of(1e-12f)));
@@ -82,7 +81,8 @@ HWY_INLINE void correlate_sections(const strings::StringLanes& lanes, LaneWorksp
     MatrixLanes sum{{direction, direction, direction}};
     for (std::size_t s = 0; s < width; s += hn::Lanes(d)) {
       const std::size_t at = i * width + s;
-      const auto counted = hn::FirstN(d, s < static_cast<std::size_t>(lanes.strings) ? static_cast<std::size_t>(lanes.strings) - s : 0);
+      const auto counted =
+          hn::FirstN(d, s < static_cast<std::size_t>(lanes.strings) ? static_cast<std::size_t>(lanes.strings) - s : 0);
       const Point x = load(w.place, at), rest = load(lanes.from_section, at);
       const Point along = unit(load(w.place, at + width) - load(w.place, at - width));
       direction = direction + Point{hn::IfThenElseZero(counted, along.x), hn::IfThenElseZero(counted, along.y),

@@ -150,7 +150,7 @@ FiberActions string_actions(const MuscleStrings& muscle, const BoneDistances& bo
                             const std::vector<std::vector<Twist>>& coordinates) {
   StringState settled = state;
   FiberActions actions;
-  actions.doubtful = settle(muscle, bones, settled);
+  actions.doubtful = settle_nearly(muscle, bones, settled);
   const Points by_length = length_rates(muscle, settled.places);
   actions.origin_directions.resize(3, muscle.strings), actions.insertion_directions.resize(3, muscle.strings);
   for (Index s = 0; s < muscle.strings; ++s) {

@@ -32,8 +32,8 @@ struct StringSettings {
   Real stop_move = 2e-5;        ///< m; a string rests for the rest of a step once none of its nodes moves further
 };
 
-/// How strings come to rest. One of which no node moved further than `stop_move` (m) rests from then on; after iteration
-/// `quenched_from` steps are small, which ends most going to and fro.
+/// How strings come to rest. One of which no node moved further than `stop_move` (m) rests from then on; after
+/// iteration `quenched_from` steps are small, which ends most going to and fro.
 struct Relaxation {
   int iterations = 0;
   Real stop_move = 0;
