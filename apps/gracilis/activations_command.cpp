@@ -112,6 +112,7 @@ void add_activations_command(CLI::App& program, Command& chosen) {
   CLI::App* command = program.add_subcommand("activations", "Samples of activations for joint control units");
   command->require_subcommand(1);
   CLI::App* joining = command->add_subcommand("join", "Join motions with results of static optimization by time");
+  joining->footer("Example: gracilis activations join walks results --out joined.sto");
   const auto options = std::make_shared<JoinOptions>();
   joining->add_option("MOTIONS", options->motions, "Folder of .mot or .sto files with coordinates, or one file")
       ->required();

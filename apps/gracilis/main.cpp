@@ -1,5 +1,6 @@
 #include "activations_command.hpp"
 #include "bench_command.hpp"
+#include "build_info.hpp"
 #include "command.hpp"
 #include "compare_command.hpp"
 #include "console.hpp"
@@ -7,10 +8,12 @@
 #include "exit_handling.hpp"
 #include "export_command.hpp"
 #include "fibers_command.hpp"
+#include "hidden_commands.hpp"
 #include "import_command.hpp"
 #include "inspect_command.hpp"
 #include "motions_command.hpp"
 #include "new_command.hpp"
+#include "option_text.hpp"
 #include "paths_command.hpp"
 #include "prepare_command.hpp"
 #include "print_config_command.hpp"
@@ -40,7 +43,12 @@ int main(int count, char** arguments) {
   const std::vector<std::string> words(arguments, arguments + count);
 
   CLI::App program("Gracilis: bones, muscle surfaces and a motion become deforming, contracting muscles.", "gracilis");
-  program.set_version_flag("--version", "gracilis " GRACILIS_VERSION);
+  program.formatter(std::make_shared<HelpText>());  // commands take theirs from the program
+  bool as_json = false;
+  CLI::Option* version = program.set_version_flag(
+      "--version", [&as_json] { return as_json ? version_json() : version_text(); },
+      "Say version, commit, compiler, instruction sets and components");
+  program.add_flag("--json", as_json, "For programs")->trigger_on_parse()->needs(version);
   program.require_subcommand(1);
   Command chosen;
   add_demo_command(program, words, chosen);
@@ -70,6 +78,7 @@ int main(int count, char** arguments) {
       fmt::print("{}", first_steps());
       return static_cast<int>(ExitCode::done);
     });
+  if (Command hidden = hidden_command(program, words)) return run_guarded(hidden);
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {

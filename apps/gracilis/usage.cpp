@@ -75,7 +75,24 @@ std::string first_steps() {
          "`gracilis --help` lists all commands, `gracilis COMMAND --help` explains one.\n";
 }
 
+static constexpr const char* ends_of_program =
+    "Exit codes:\n"
+    "  0    done\n"
+    "  1    internal error, out of memory\n"
+    "  2    wrong usage or configuration; a run of more than 2 GB that nobody said yes to\n"
+    "  3    a file is missing, unreadable or unfit, or cannot be written\n"
+    "  4    this machine or program does not offer what is asked, as OpenGL or a display\n"
+    "  5    quality: a value is not finite, or with --strict a frame missed a gate\n"
+    "  130  interrupted; --resume goes on\n"
+    "\n"
+    "Environment:\n"
+    "  GRACILIS_DATA  folder in which files of scenes are looked for\n"
+    "  NO_COLOR       no colors, on terminals, too\n"
+    "\n"
+    "Example: gracilis demo";
+
 void add_examples(CLI::App& program) {
+  program.footer(ends_of_program);
   for (CLI::App* command : program.get_subcommands({}))
     for (const Example& example : examples)
       if (command->get_name() == example.command) {

@@ -150,6 +150,9 @@ int view(ViewOptions& options) {
   set_size(options.size, options.window);
   options.window.keys = words(options.keys);
   require_display();
+  // What a file manager opens of a run.
+  if (const std::filesystem::path file = options.what; file.filename() == "run.json")
+    options.what = file.has_parent_path() ? file.parent_path().string() : ".";
   if (std::filesystem::is_directory(options.what)) {
     view_run(options);
   } else if (options.what == "demo" || options.what == "demo-elbow") {
@@ -169,7 +172,7 @@ void add_view_command(CLI::App& program, Command& chosen) {
   options->scene.prepare = scene_preparation();
   options->scene.say = log_lines;
   CLI::App* command = program.add_subcommand("view", "Look at a run, or move a scene, in a window");
-  command->add_option("WHAT", options->what, "A run folder, a scene file, demo for the built-in hip, or demo-elbow")
+  command->add_option("WHAT", options->what, "A run folder or its run.json, a scene file, demo for the built-in hip, or demo-elbow")
       ->required();
   command->add_option("--view", options->window.view, "From where at first (lateral)")
       ->check(CLI::IsMember(view_names()));

@@ -192,6 +192,24 @@ def sweep(
     processes: Optional[int] = ...,
 ) -> Sweep: ...
 
+def run(
+    scene: Scene,
+    out: Optional[_Path] = ...,
+    *,
+    progress: Optional[Callable[[int, int], object]] = ...,
+    resume: bool = ...,
+    force: bool = ...,
+    every: int = ...,
+    ramps: bool = ...,
+    fibers: bool = ...,
+    metrics: str = ...,
+    layout: Optional[str] = ...,
+    arms: bool = ...,
+    threads: int = ...,
+    strict: bool = ...,
+    large: bool = ...,
+) -> Run: ...
+
 class Run:
     def __init__(self, folder: _Path) -> None: ...
     @property

@@ -3,6 +3,7 @@
 #include "opensim_models.hpp"
 #include "preparing.hpp"
 #include "run_handle.hpp"
+#include "running.hpp"
 #include "scene_handle.hpp"
 #include "simulation_handle.hpp"
 #include "tables.hpp"
@@ -45,4 +46,5 @@ PYBIND11_MODULE(_core, module) {
   bind_opensim(module);
   bind_preparing(module);
   bind_run(module);
+  bind_running(module);
 }

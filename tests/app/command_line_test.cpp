@@ -51,7 +51,7 @@ TEST(CommandLine, every_help_ends_with_an_example_that_uses_its_own_options) {
   int commands = 0;
   for (std::string line; std::getline(lines, line) && line != "Subcommands:";) {
   }
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line; std::getline(lines, line) && !line.empty();) {
     if (line.size() < 3 || line[2] == ' ') continue;  // a description goes on
     const std::string command = line.substr(2, line.find(' ', 2) - 2);
     std::string help = run_program(command + " --help").out;

@@ -51,7 +51,8 @@ const std::map<std::string, std::map<std::string, int>> room_ranks = {
       {"static_optimization", 4},
       {"import", 4},
       {"export", 5}}},
-    {"view", {{"pictures", 0}, {"charts", 1}, {"export", 1}, {"report", 2}, {"window", 2}, {"comparison", 3}}}};
+    {"view",
+     {{"pictures", 0}, {"charts", 1}, {"export", 1}, {"report", 2}, {"window", 2}, {"comparison", 3}, {"session", 3}}}};
 
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
 const std::vector<std::string> toolkit_libraries = {"vtk",      "fmt/", "spdlog/", "toml++/", "nlohmann/", "CLI/",

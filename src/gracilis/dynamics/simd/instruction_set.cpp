@@ -21,5 +21,12 @@ HWY_EXPORT(instruction_set);
 
 const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(instruction_set)(); }
 
+std::vector<std::string> instruction_sets() {
+  std::vector<std::string> names;
+  constexpr std::int64_t targets = HWY_TARGETS;
+  for (std::int64_t left = targets; left != 0; left &= left - 1) names.emplace_back(hwy::TargetName(left & -left));
+  return names;
+}
+
 }  // namespace gracilis
 #endif

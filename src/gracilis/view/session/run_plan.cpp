@@ -1,13 +1,10 @@
-#include "run_plan.hpp"
+#include <gracilis/view/session/run_plan.hpp>
 
 #include <gracilis/core/errors.hpp>
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <iostream>
 
 namespace gracilis {
 
@@ -20,12 +17,12 @@ std::string with_commas(std::int64_t number) {
   return text;
 }
 
-std::string taken(const RunPlan& plan) {
+}  // namespace
+
+std::string room_text(const RunPlan& plan) {
   return fmt::format("{} in {} {}", size_text(plan.size.bytes), with_commas(plan.size.files),
                      plan.layout == RunLayout::compact ? "compact files" : "files");
 }
-
-}  // namespace
 
 RunPlan plan_run(const LoadedScene& loaded, const SessionOptions& options) {
   RunPlan plan;
@@ -50,7 +47,7 @@ RunPlan plan_run(const LoadedScene& loaded, const SessionOptions& options) {
 std::string describe_plan(const RunPlan& plan) {
   const SequenceParts& parts = plan.parts;
   if (!plan.recorded.empty())
-    return fmt::format("{} frames of {} that are computed; about {}", plan.frames, parts.count(), taken(plan));
+    return fmt::format("{} frames of {} that are computed; about {}", plan.frames, parts.count(), room_text(plan));
   std::string what;
   const auto add = [&](int frames, const char* are) {
     if (frames > 0) what += fmt::format("{}{} {}", what.empty() ? ": " : ", ", frames, are);
@@ -60,21 +57,7 @@ std::string describe_plan(const RunPlan& plan) {
   if (parts.count() > parts.motion) add(parts.motion, "of the motion");
   add(parts.hold, "that hold its last pose");
   add(parts.back, "back to the capture pose");
-  return fmt::format("{} frames{}; about {}", plan.frames, what, taken(plan));
-}
-
-void confirm_size(const RunPlan& plan, const SessionOptions& options) {
-  if (plan.size.bytes <= asking_bytes || options.yes || options.resume) return;
-  const std::string fewer = fmt::format("--every N records every Nth frame{}",
-                                        options.without_fibers ? "" : ", --no-fibers leaves out fibers");
-  if (isatty(STDIN_FILENO) && isatty(STDERR_FILENO)) {
-    fmt::print(stderr, "This run writes about {} ({}). Go on? [y/N] ", taken(plan), fewer);
-    std::string answer;
-    if (std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes")) return;
-    throw Error(ExitCode::usage, "nothing was run");
-  }
-  throw Error(ExitCode::usage,
-              fmt::format("the run would write about {}: --yes runs it all the same, {}", taken(plan), fewer));
+  return fmt::format("{} frames{}; about {}", plan.frames, what, room_text(plan));
 }
 
 }  // namespace gracilis

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "session.hpp"
-
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/io/run/run_size.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
+#include <gracilis/view/session/session_options.hpp>
 
 #include <vector>
 
@@ -29,8 +29,7 @@ std::string describe_plan(const RunPlan& plan);
 /// Beyond this a run asks, or wants to be told beforehand.
 inline constexpr double asking_bytes = 2e9;
 
-/// Asks on a terminal whether a run that takes more than `asking_bytes` shall begin. Throws Error (exit code 2) where
-/// the answer is no, or where there is no terminal to ask and `yes` was not given; its text has the ways out.
-void confirm_size(const RunPlan& plan, const SessionOptions& options);
+/// As in "1.1 GB in 30,653 files".
+std::string room_text(const RunPlan& plan);
 
 }  // namespace gracilis

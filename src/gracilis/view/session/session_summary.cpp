@@ -1,4 +1,4 @@
-#include "session_summary.hpp"
+#include <gracilis/view/session/session_summary.hpp>
 
 #include <gracilis/methods/registry.hpp>
 

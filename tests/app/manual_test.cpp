@@ -1,0 +1,113 @@
+#include "app/program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace gracilis {
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// stdout and stderr of a shell's command line; its exit code is told in the last line.
+std::string said_by(const std::string& command) {
+  std::FILE* pipe = popen((command + " 2>&1; echo \"exit $?\"").c_str(), "r");
+  std::string text = read_all(pipe);
+  pclose(pipe);
+  return text;
+}
+
+bool has_program(const std::string& name) { return said_by("command -v " + name).ends_with("exit 0\n"); }
+
+/// The manual as the program writes it, made once.
+const fs::path& manual_folder() {
+  static const fs::path folder = [] {
+    fs::path made = fs::temp_directory_path() / ("gracilis_manual_" + std::to_string(getpid()));
+    const ProgramResult result = run_program("manual " + made.string());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::atexit([] { fs::remove_all(manual_folder()); });
+    return made;
+  }();
+  return folder;
+}
+
+std::string manual_page(const std::string& name) {
+  std::ifstream file(manual_folder() / name);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Words of a text alone: how lines break and what stands bold is up to man.
+std::string words_only(const std::string& text) {
+  std::string words;
+  for (const char c : text)
+    if (std::isalnum(static_cast<unsigned char>(c))) words += c;
+  return words;
+}
+
+}  // namespace
+
+TEST(Manual, every_command_that_help_lists_has_a_page_with_all_its_options) {
+  std::istringstream lines(run_program("--help").out);
+  for (std::string line; std::getline(lines, line) && line != "Subcommands:";) {
+  }
+  std::set<std::string> pages = {"gracilis.1", "gracilis-activations-join.1"};
+  for (std::string line; std::getline(lines, line) && !line.empty();)
+    if (line.size() > 2 && line[2] != ' ') pages.insert("gracilis-" + line.substr(2, line.find(' ', 2) - 2) + ".1");
+  ASSERT_GT(pages.size(), 20U);
+  for (const std::string& name : pages) {
+    const std::string text = manual_page(name);
+    ASSERT_NE(text, "") << name;
+    std::string command = name.substr(8, name.size() - 10);
+    if (command == "-activations-join")
+      command = " activations join";
+    else if (!command.empty())
+      command[0] = ' ';
+    const std::string help = run_program(command + " --help").out;
+    const std::regex option("\n +(?:-.,)?(--[a-z-]+)");
+    for (std::sregex_iterator each(help.begin(), help.end(), option), end; each != end; ++each)
+      EXPECT_THAT(words_only(text), HasSubstr(words_only((*each)[1]))) << name;
+    EXPECT_THAT(text, HasSubstr(".SH EXAMPLES")) << name;
+  }
+  std::set<std::string> written;
+  for (const fs::directory_entry& entry : fs::directory_iterator(manual_folder()))
+    written.insert(entry.path().filename());
+  EXPECT_EQ(written, pages);
+}
+
+TEST(Manual, man_has_nothing_to_warn_about) {
+  const bool mandoc = has_program("mandoc");
+  if (!mandoc && !has_program("man")) GTEST_SKIP() << "neither mandoc nor man is installed";
+  std::string command = "cd " + manual_folder().string() + " && for page in *.1; do ";
+  command += mandoc ? "mandoc -Tlint -W warning $page; done" : "man --warnings -E UTF-8 -l $page 2>&1 >/dev/null; done";
+  EXPECT_EQ(said_by(command), "exit 0\n");
+}
+
+TEST(Manual, a_folder_that_cannot_be_made_is_an_error) {
+  EXPECT_EQ(run_program("manual /dev/null/manual").exit_code, 3);
+}
+
+TEST(Version, tells_commit_compiler_instruction_sets_and_components) {
+  const ProgramResult text = run_program("--version");
+  for (const char* word : {"gracilis 0.", "commit ", "compiler ", "instruction sets ", "in use ", "components "})
+    EXPECT_THAT(text.out, HasSubstr(word));
+  for (const char* arguments : {"--version --json", "--json --version"}) {
+    const nlohmann::json json = nlohmann::json::parse(run_program(arguments).out);
+    EXPECT_THAT(text.out, HasSubstr("gracilis " + json.at("version").get<std::string>() + "\n"));
+    EXPECT_TRUE(std::regex_match(json.at("commit").get<std::string>(), std::regex("unknown|[0-9a-f]{7,}(, changed)?")));
+    const auto sets = json.at("instruction_sets").get<std::vector<std::string>>();
+    EXPECT_NE(std::find(sets.begin(), sets.end(), json.at("instruction_set")), sets.end());
+    EXPECT_EQ(json.at("components").size() + json.at("not_built").size(), 2U);
+  }
+  EXPECT_EQ(run_program("--json").exit_code, 2);
+}
+
+}  // namespace gracilis
