@@ -25,12 +25,11 @@ inline pid_t start_group(const std::string& command) {
 /// A study of so many runs of a few frames by the repository's workflow with two jobs, killed so many times at random
 /// with all that it started; then to its end.
 inline void expect_snakemake_completes(int runs, int shards, int kills) {
-  const std::filesystem::path folder = empty_folder("snakemake_" + std::to_string(runs));
-  const std::filesystem::path study = write_study(
-      folder,
-      "scene = \"demo\"\nset = [\"method=skinning\"]\nonly = [\"iliacus_r\"]\nmetrics = \"light\"\nfibers = "
-      "false\n[sampling]\nkind = \"sobol\"\nsamples = " +
-          std::to_string(runs) + "\n[[parameters]]\nkey = \"flexion\"\nrange = [1, 4]\n");
+  const StudyFolder boxes;
+  const std::filesystem::path folder = boxes.path("");
+  const std::filesystem::path study = boxes.study(
+      "scene = \"boxes.toml\"\nmetrics = \"light\"\nfibers = false\n[sampling]\nkind = \"sobol\"\nsamples = " +
+      std::to_string(runs) + "\n[[parameters]]\nkey = \"pressure\"\nrange = [1, 1.1]\n");
   const std::string results = (folder / "results").string(), log = (folder / "log.txt").string();
   const std::string begin = "cd " + folder.string() + " && HOME=" + folder.string() + " exec snakemake -s " +
                             build_paths::source_folder + "/studies/Snakefile -j 2 --nolock --rerun-incomplete ";
@@ -48,7 +47,6 @@ inline void expect_snakemake_completes(int runs, int shards, int kills) {
   EXPECT_NE(status.find(" " + std::to_string(runs) + " complete\n"), std::string::npos) << status;
   EXPECT_EQ(lines_in(results + "/runs.csv"), static_cast<std::size_t>(runs) + 1);
   EXPECT_TRUE(std::filesystem::exists(results + "/report.html"));
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace gracilis

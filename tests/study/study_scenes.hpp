@@ -4,6 +4,8 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/run/output_hashes.hpp>
 
+#include "io/scene_folder.hpp"
+
 #include <build_paths.hpp>
 
 #include <sys/types.h>
@@ -21,19 +23,19 @@
 
 namespace gracilis {
 
-/// An empty folder of this process.
-inline std::filesystem::path empty_folder(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("gracilis_study_" + name);
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
+/// A muscle between two bones, all of them boxes, and six runs of it, each of a hundred frames in a fraction of a
+/// second.
+inline const std::string six_runs =
+    "scene = \"boxes.toml\"\nmetrics = \"light\"\nfibers = false\n[[parameters]]\nkey = \"motion.step_deg\"\n"
+    "values = [0.1, 0.11, 0.12, 0.13, 0.14, 0.15]\n[[outcomes]]\nmetric = \"volume_ratio\"\nstatistic = \"last\"\n";
 
-inline std::filesystem::path write_study(const std::filesystem::path& folder, const std::string& text,
-                                         const std::string& name = "study.toml") {
-  std::ofstream(folder / name) << text;
-  return folder / name;
-}
+/// A folder with that scene in it.
+struct StudyFolder : SceneFolder {
+  StudyFolder() { write("boxes.toml", good_scene()); }
+  std::filesystem::path study(const std::string& text, const std::string& name = "study.toml") const {
+    return write(name, text);
+  }
+};
 
 /// Starts the program and does not wait for it.
 inline pid_t start_program(const std::vector<std::string>& words) {
