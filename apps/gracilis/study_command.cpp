@@ -208,9 +208,10 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
       ->check(CLI::Range(0, 1024));
   running->add_flag("--retry", options->retry, "Also try again what has failed");
   running->footer(
-      "Exit codes: 0 all of the shard is complete; 2 the study is wrong; 3 its files "
-      "cannot be read or written; 5 runs have failed, and no other has stopped for it (`collect` has the reasons); 130 "
-      "interrupted: the same command goes on.");
+      "Exit codes: 0 all of the shard is complete; 2 the study is wrong; 3 its files cannot be read or written; 5 some "
+      "runs have failed, the others are complete (collect and status have the reasons); 130 interrupted: the same "
+      "command "
+      "goes on.");
   CLI::App* status = add_part(*study, "status", "Count what is complete, under way, failed and to do", *options);
   status->add_flag("--runs", options->all_runs, "A line for every run");
   CLI::App* collecting = add_part(*study, "collect", "Write one table of all measures, and one of all runs", *options);

@@ -47,7 +47,7 @@ LineChart scatter_chart(const Study& study, std::size_t parameter, const Outcome
     low_y = std::min(low_y, y), high_y = std::max(high_y, y);
   }
   // Small crosses: a chart knows lines only.
-  const Real across = 0.006 * (high_x - low_x), up = 0.009 * (high_y - low_y), none = std::nan("");
+  const Real across = 0.01 * (high_x - low_x), up = 0.015 * (high_y - low_y), none = std::nan("");
   ChartSeries crosses{"", {}, {}, series_color(0), 1.5};
   for (const auto& [x, y] : marks) {
     for (const Real value : {x - across, x + across, none, x, x, none}) crosses.x.push_back(value);
