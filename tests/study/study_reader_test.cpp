@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -16,7 +18,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 std::filesystem::path file_with(const std::string& name, const std::string& text) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / name;
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + name);
   std::ofstream(file) << text;
   return file;
 }
