@@ -23,6 +23,7 @@
 #include "run_command.hpp"
 #include "scene_command.hpp"
 #include "static_optimization_command.hpp"
+#include "study_command.hpp"
 #include "usage.hpp"
 #include "verify_command.hpp"
 #include "view_command.hpp"
@@ -55,6 +56,7 @@ int main(int count, char** arguments) {
   add_run_command(program, words, chosen);
   add_compare_command(program, words, chosen);
   add_rom_command(program, words, chosen);
+  add_study_command(program, words, chosen);
   add_fibers_command(program, chosen);
   add_activations_command(program, chosen);
   add_print_config_command(program, chosen);

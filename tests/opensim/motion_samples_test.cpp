@@ -1,6 +1,7 @@
 #include "opensim/model_texts.hpp"
 
 #include <gracilis/geometry/halton.hpp>
+#include <gracilis/geometry/latin_hypercube.hpp>
 #include <gracilis/opensim/kinematics/sample_motions.hpp>
 #include <gracilis/opensim/kinematics/spread_points.hpp>
 

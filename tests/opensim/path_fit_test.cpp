@@ -1,8 +1,8 @@
 #include "opensim/model_texts.hpp"
 
+#include <gracilis/geometry/sobol_points.hpp>
 #include <gracilis/opensim/export/path_fit.hpp>
 #include <gracilis/opensim/export/run_paths.hpp>
-#include <gracilis/opensim/export/sobol_points.hpp>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

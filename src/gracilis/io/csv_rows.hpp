@@ -17,6 +17,8 @@ class CsvRows {
   /// `text` must outlive this. Fails where there is no line of columns.
   CsvRows(std::filesystem::path path, std::string_view text);
 
+  /// Names of the columns.
+  const std::vector<std::string_view>& labels() const { return labels_; }
   /// Number of the column with this name.
   std::optional<std::size_t> column(std::string_view label) const;
 

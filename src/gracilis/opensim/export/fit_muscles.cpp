@@ -1,8 +1,8 @@
 #include <gracilis/opensim/export/fit_muscles.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/sobol_points.hpp>
 #include <gracilis/opensim/export/model_samples.hpp>
-#include <gracilis/opensim/export/sobol_points.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 #include <gracilis/opensim/reader/crossed_coordinates.hpp>
 

@@ -1,6 +1,6 @@
 #include <gracilis/opensim/export/model_samples.hpp>
 
-#include <gracilis/opensim/export/sobol_points.hpp>
+#include <gracilis/geometry/sobol_points.hpp>
 #include <gracilis/opensim/kinematics/loop_closer.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 

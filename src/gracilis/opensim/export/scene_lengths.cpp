@@ -3,9 +3,9 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/sobol_points.hpp>
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/methods/registry.hpp>
-#include <gracilis/opensim/export/sobol_points.hpp>
 #include <gracilis/opensim/import/scene_joints.hpp>
 #include <gracilis/opensim/reader/crossed_coordinates.hpp>
 #include <gracilis/simulate/fiber_tracker.hpp>

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/halton.hpp>
+#include <gracilis/geometry/latin_hypercube.hpp>
 #include <gracilis/opensim/kinematics/spread_points.hpp>
 
 #include <fmt/format.h>

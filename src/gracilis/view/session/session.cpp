@@ -216,6 +216,11 @@ class Session {
     summarize();
     if (const std::string remark = method_->remark(); !remark.empty()) warn(remark);
     folder_.finish();
+    if (options_.pictures) draw();
+    write_manifest(status);
+  }
+
+  void draw() {
     write_run_charts(folder_.path(), loaded_.scene);
     try {
       write_preview(folder_.path(), loaded_.scene, recorded_poses_);
@@ -223,7 +228,6 @@ class Session {
       // A run is complete without its picture, as on a machine that offers no OpenGL.
       warn(std::string("no preview: ") + error.what());
     }
-    write_manifest(status);
   }
 
   SessionResult close(RunEnd end) const {

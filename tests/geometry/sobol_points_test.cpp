@@ -1,10 +1,10 @@
-#include <gracilis/opensim/export/sobol_points.hpp>
+#include <gracilis/geometry/sobol_points.hpp>
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-namespace gracilis::opensim {
+namespace gracilis {
 
 TEST(SobolPoints, every_column_has_a_point_in_each_equal_part) {
   const Eigen::MatrixXd points = sobol_points(256, most_sobol_dimensions);
@@ -35,4 +35,4 @@ TEST(SobolPoints, a_sequence_goes_on_where_it_was_left) {
   EXPECT_TRUE(sobol_points(5, 3, 7).isApprox(sobol_points(12, 3).bottomRows(5), 0));
 }
 
-}  // namespace gracilis::opensim
+}  // namespace gracilis

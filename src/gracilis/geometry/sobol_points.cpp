@@ -1,11 +1,11 @@
-#include <gracilis/opensim/export/sobol_points.hpp>
+#include <gracilis/geometry/sobol_points.hpp>
 
 #include <array>
 #include <cassert>
 #include <cstdint>
 #include <vector>
 
-namespace gracilis::opensim {
+namespace gracilis {
 
 /// A primitive polynomial over the field of two elements, its inner coefficients as bits, and the first odd direction
 /// numbers, as many as its degree.
@@ -78,4 +78,4 @@ Eigen::MatrixXd sobol_points(Eigen::Index count, int dimensions, Eigen::Index sk
   return points;
 }
 
-}  // namespace gracilis::opensim
+}  // namespace gracilis

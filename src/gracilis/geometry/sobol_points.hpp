@@ -2,7 +2,7 @@
 
 #include <gracilis/core/types.hpp>
 
-namespace gracilis::opensim {
+namespace gracilis {
 
 /// Most numbers that a point of sobol_points has.
 inline constexpr int most_sobol_dimensions = 21;
@@ -13,4 +13,4 @@ inline constexpr int most_sobol_dimensions = 21;
 /// than 2^31 points.
 Eigen::MatrixXd sobol_points(Eigen::Index count, int dimensions, Eigen::Index skip = 0);
 
-}  // namespace gracilis::opensim
+}  // namespace gracilis

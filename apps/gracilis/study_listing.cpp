@@ -1,0 +1,86 @@
+#include "study_listing.hpp"
+
+#include <gracilis/io/run/run_size.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis {
+
+std::vector<RunStanding> standings_of(const Study& study, const std::string& version) {
+  InputHashes hashes;
+  std::vector<RunStanding> standings;
+  for (const StudyRun& run : study.runs) standings.push_back(standing_of(study, run, version, hashes));
+  return standings;
+}
+
+static std::string table_cell(const std::string& text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
+  return cell + "\"";
+}
+
+std::string plan_table(const Study& study, const std::vector<RunStanding>& standings) {
+  std::string text = "run,state";
+  for (const std::string& key : study.parameters) text += "," + table_cell(key);
+  text += ",alone\n";
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    text += study.runs[i].name + "," + name_of(standings[i].state);
+    for (const std::string& value : study.runs[i].values) text += "," + table_cell(value);
+    text += "," + table_cell(command_alone(study, study.runs[i])) + "\n";
+  }
+  return text;
+}
+
+static double bytes_below(const std::filesystem::path& folder) {
+  double bytes = 0;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, ignored))
+    if (entry.is_regular_file(ignored)) bytes += static_cast<double>(entry.file_size(ignored));
+  return bytes;
+}
+
+std::vector<std::string> estimate_lines(const Study& study, const std::vector<RunStanding>& standings) {
+  double seconds = 0, peak = 0, bytes = 0;
+  int complete = 0, left = 0;
+  for (std::size_t i = 0; i < standings.size(); ++i) {
+    const bool is_left = standings[i].state != RunState::complete && standings[i].state != RunState::failed;
+    left += is_left ? 1 : 0;
+    if (standings[i].state != RunState::complete) continue;
+    ++complete;
+    seconds += standings[i].record->seconds;
+    peak = std::max(peak, standings[i].record->peak_bytes);
+    if (complete == 1) bytes = bytes_below(complete_folder(study, study.runs[i]));
+  }
+  if (complete == 0)
+    return {fmt::format("{} runs; none is complete, so that their cost is not known", standings.size())};
+  const double each = seconds / complete;
+  return {fmt::format("{} runs, {} complete, {} left", standings.size(), complete, left),
+          fmt::format("{:.1f} s a run (mean of {}): about {} for what is left in one process, {} in 16", each, complete,
+                      duration_text(each * left), duration_text(each * std::ceil(left / 16.0))),
+          fmt::format("{} of memory a run at most; {} on the disk a run, {} in all", size_text(peak), size_text(bytes),
+                      size_text(bytes * static_cast<double>(standings.size())))};
+}
+
+std::string status_text(const Study& study, const std::vector<RunStanding>& standings, bool all) {
+  std::string text = fmt::format("{}: {} runs in {}\n", study.file.string(), study.runs.size(), study.folder.string());
+  for (const RunState state : {RunState::complete, RunState::failed, RunState::under_way, RunState::interrupted,
+                               RunState::stale, RunState::to_do}) {
+    const auto count =
+        std::count_if(standings.begin(), standings.end(), [&](const RunStanding& each) { return each.state == state; });
+    if (count > 0 || state == RunState::complete) text += fmt::format("{:>8} {}\n", count, name_of(state));
+  }
+  for (std::size_t i = 0; i < standings.size(); ++i) {
+    const bool is_told = all || (standings[i].state != RunState::complete && !standings[i].reason.empty());
+    if (!is_told) continue;
+    text += study.runs[i].name + ": " + name_of(standings[i].state);
+    if (!standings[i].reason.empty()) text += ": " + standings[i].reason.substr(0, standings[i].reason.find('\n'));
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+
+#include <cstdint>
+
+namespace gracilis {
+
+/// A Latin hypercube in the unit cube, a row for each point: each column has one point in the middle of every
+/// `count`-th of its range (McKay, Beckman and Conover 1979), shuffled by the seed alike on every machine.
+Eigen::MatrixXd latin_hypercube(Index count, Index columns, std::uint64_t seed);
+
+}  // namespace gracilis
