@@ -94,7 +94,7 @@ std::string objection(const std::string& from, const std::string& included) {
   if (other.empty() || !ranks.contains(other[0])) return "a folder without a rank";
   if (own[0] != other[0]) return ranks.at(other[0]) < rank ? "" : "a folder that is not further down";
   // Methods are siblings: each knows itself and what stands in methods/ for all of them.
-  const bool is_registry = from == "methods/registry.cpp";  // the one place that knows them all
+  const bool is_registry = from == "methods/every_method.cpp";  // the one place that knows them all
   const bool other_method =
       own[0] == "methods" && other.size() > 1 && !is_registry && (own.size() < 2 || own[1] != other[1]);
   if (other_method) return "another method";
