@@ -1,7 +1,7 @@
 #include <gracilis/geometry/nearest_triangle.hpp>
 
-#include <gracilis/geometry/embree_scene.hpp>
 #include <gracilis/geometry/point_triangle.hpp>
+#include <gracilis/geometry/triangle_tree.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ bool is_farther(const EnclosingDisk& disk, const Vec3& p, Real distance) {
 struct NearestTriangle::Tree {
   TriangleMesh mesh;
   std::vector<EnclosingDisk> disks;  ///< around the faces
-  EmbreeScene embree;
+  TriangleTree triangles;
 };
 
 namespace {
@@ -67,30 +67,16 @@ bool consider(Index face, Query& query) {
   return true;
 }
 
-/// What Embree has to look at for everything within `reach`: its boxes are rounded to float.
+/// What the tree has to look at for everything within `reach`: its boxes are rounded to float.
 float generous(Real reach) { return static_cast<float>(reach * (1 + 1e-5) + 1e-7); }
 
-/// Embree calls this for each triangle whose box meets the query sphere; shrinking the radius prunes the rest.
-bool consider_triangle(RTCPointQueryFunctionArguments* arguments) {
-  auto& query = *static_cast<Query*>(arguments->userPtr);
-  if (!consider(static_cast<Index>(arguments->primID), query)) return false;
-  const float radius = generous(query.best.distance);
-  if (radius >= arguments->query->radius) return false;
-  arguments->query->radius = radius;
-  return true;
+float consider_near(Index face, void* of_point) {
+  auto& query = *static_cast<Query*>(of_point);
+  return consider(face, query) ? generous(query.best.distance) : std::numeric_limits<float>::infinity();
 }
 
-void search(RTCScene scene, const Vec3& place, Query& query) {
-  const Eigen::Vector3f p = (query.p - place).cast<float>();
-  RTCPointQuery point_query;
-  point_query.x = p.x();
-  point_query.y = p.y();
-  point_query.z = p.z();
-  point_query.time = 0;
-  point_query.radius = generous(query.best.distance);
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  rtcPointQuery(scene, &point_query, &context, nullptr, &query);
+void search(const TriangleTree& triangles, Query& query) {
+  triangles.near(query.p, generous(query.best.distance), consider_near, &query);
 }
 
 }  // namespace
@@ -103,7 +89,7 @@ static std::vector<EnclosingDisk> disks_around(const TriangleMesh& mesh) {
 }
 
 NearestTriangle::NearestTriangle(const TriangleMesh& mesh)
-    : tree_(new Tree{mesh, disks_around(mesh), EmbreeScene(mesh, consider_triangle)}) {}
+    : tree_(new Tree{mesh, disks_around(mesh), TriangleTree(mesh)}) {}
 
 NearestTriangle::~NearestTriangle() = default;
 NearestTriangle::NearestTriangle(NearestTriangle&&) noexcept = default;
@@ -113,7 +99,7 @@ NearestPoint NearestTriangle::query(const Vec3& p, Real reach) const {
   Query query{tree_->mesh, tree_->disks, p, {}};
   query.best.distance = reach;
   query.best.face = std::numeric_limits<Index>::max();
-  search(tree_->embree.get(), tree_->embree.place(), query);
+  search(tree_->triangles, query);
   if (query.best.face == std::numeric_limits<Index>::max()) return {};
   return query.best;
 }
@@ -121,7 +107,7 @@ NearestPoint NearestTriangle::query(const Vec3& p, Real reach) const {
 NearestPoint NearestTriangle::query_from(Index guess, const Vec3& p) const {
   Query query{tree_->mesh, tree_->disks, p, {}};
   consider(guess, query);
-  search(tree_->embree.get(), tree_->embree.place(), query);
+  search(tree_->triangles, query);
   return query.best;
 }
 

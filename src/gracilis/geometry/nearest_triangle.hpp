@@ -16,7 +16,7 @@ struct NearestPoint {
   Real distance = std::numeric_limits<Real>::infinity();
 };
 
-/// Answers nearest-point queries on a surface (Embree's bounding volume hierarchy; distances in double precision).
+/// Answers nearest-point queries on a surface (a TriangleTree; distances in double precision).
 /// Queries may run at the same time. Precondition: at least one face, all coordinates finite.
 class NearestTriangle {
  public:

@@ -7,7 +7,7 @@
 
 namespace gracilis {
 
-/// Tells whether and where segments cut a surface (Embree's rays, in single precision). Queries may run at the same
+/// Tells whether and where segments cut a surface (by a TriangleTree, in single precision). Queries may run at the same
 /// time. Precondition: at least one face, all coordinates finite.
 class SegmentHits {
  public:

@@ -8,8 +8,8 @@
 namespace gracilis {
 
 /// Which faces of a surface cross others: an edge of one runs through the inside of another with which it shares no
-/// vertex. By Embree, in single precision: what comes nearer than some 1e-7 of the surface's size may count, too.
-/// `edges` are the mesh's. Precondition: at least one face, all coordinates finite.
+/// vertex. By a TriangleTree, in single precision: what comes nearer than some 1e-7 of the surface's size may count,
+/// too. `edges` are the mesh's. Precondition: at least one face, all coordinates finite.
 std::vector<char> crossing_faces(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges);
 
 }  // namespace gracilis

@@ -1,14 +1,6 @@
 #include <gracilis/methods/registry.hpp>
 
-#include <gracilis/methods/arap/arap_method.hpp>
-#include <gracilis/methods/cylinder/cylinder_method.hpp>
-#include <gracilis/methods/mass_spring/mass_spring_method.hpp>
-#include <gracilis/methods/pbd/pbd_method.hpp>
-#include <gracilis/methods/rbf/rbf_method.hpp>
-#include <gracilis/methods/skinning/skinning_method.hpp>
-#include <gracilis/methods/strings/strings_method.hpp>
-#include <gracilis/methods/tissue/tissue_method.hpp>
-#include <gracilis/methods/xpbd/xpbd_method.hpp>
+#include <gracilis/methods/every_method.hpp>
 
 #include <cassert>
 #include <string>
@@ -16,9 +8,7 @@
 namespace gracilis {
 
 const std::vector<MethodEntry>& methods() {
-  static const std::vector<MethodEntry> all = {xpbd_entry(),   cylinder_entry(), skinning_entry(),
-                                               tissue_entry(), pbd_entry(),      arap_entry(),
-                                               rbf_entry(),    strings_entry(),  mass_spring_entry()};
+  static const std::vector<MethodEntry> all = every_method();
   return all;
 }
 

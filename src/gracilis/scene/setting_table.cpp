@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 namespace gracilis {
 
@@ -19,7 +20,12 @@ Real shortest_decimal(float value) {
   char buffer[40];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
   Real decimal = 0;
+#ifdef __wasm__
+  *end = 0;
+  decimal = std::strtod(buffer, nullptr);  // clang's library there reads no floats; its locale is always C
+#else
   std::from_chars(buffer, end, decimal);
+#endif
   return decimal;
 }
 

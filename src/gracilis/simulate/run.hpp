@@ -3,6 +3,7 @@
 #include <gracilis/methods/method.hpp>
 #include <gracilis/scene/frame.hpp>
 #include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/capture_frame.hpp>
 #include <gracilis/simulate/fiber_tracker.hpp>
 #include <gracilis/simulate/measures.hpp>
 
@@ -52,10 +53,5 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
 
 /// s, that pass before pose `number` (above 0); the usual time where poses say nothing of theirs.
 Real time_before(const std::vector<Pose>& poses, int number);
-
-/// Frame 0: the input surfaces at the capture pose.
-Frame capture_frame(const Scene& scene, const Pose& pose);
-/// The same, with the fibers that the method knows. Precondition: it stands at the capture pose.
-Frame capture_frame(const Scene& scene, const Pose& pose, const DeformationMethod& method);
 
 }  // namespace gracilis

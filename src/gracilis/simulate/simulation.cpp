@@ -3,7 +3,7 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/methods/registry.hpp>
-#include <gracilis/simulate/run.hpp>
+#include <gracilis/simulate/capture_frame.hpp>
 
 #include <cassert>
 #include <utility>

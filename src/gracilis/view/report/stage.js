@@ -194,13 +194,14 @@ class RunShapes {
 }
 
 class Stage {
-  constructor(runs, canvas) {
+  // `shapesOf(run, i)` makes what is shown of a run.
+  constructor(runs, canvas, shapesOf = (run, i) => new RunShapes(run, i)) {
     this.canvas = canvas;
     const options = {antialias: true, alpha: true, preserveDrawingBuffer: true};
     const context = canvas.getContext('webgl', options);
     this.renderer = context && new THREE.WebGLRenderer({canvas, context, ...options});
     if (context) this.renderer.setScissorTest(true);
-    this.shapes = runs.map((run, i) => new RunShapes(run, i));
+    this.shapes = runs.map(shapesOf);
     const vector = name => new THREE.Vector3(...runs[0][name]);
     this.axes = {anterior: vector('anterior'), superior: vector('superior'), right: vector('right')};
     // What the view was fitted to; null once somebody has turned or moved it.

@@ -1,0 +1,109 @@
+#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/anatomy/overlap/bone_field.hpp>
+#include <gracilis/methods/registry.hpp>
+#include <gracilis/simulate/simulation.hpp>
+
+#include "build_paths.hpp"
+#include "view/browser.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <thread>
+
+using namespace gracilis;
+using testing::Each;
+using testing::IsEmpty;
+using testing::StartsWith;
+using Json = nlohmann::json;
+
+namespace {
+
+std::filesystem::path live_page() {
+  return std::filesystem::path(build_paths::program).parent_path().parent_path() / "gracilis.html";
+}
+
+/// The same steps as the page makes (web/page/worker.js), by this machine.
+std::vector<Points> shapes_of_this_machine(const MethodChoice& method, Real flexion) {
+  Scene scene = builtin_hip();
+  scene.method = method;
+  drive_all(scene);
+  Simulation simulation(scene,
+                        make_method(scene,
+                                    [&](const DistanceFieldSettings& settings) {
+                                      std::vector<DistanceField> fields;
+                                      for (const Bone& bone : scene.bones)
+                                        fields.push_back(build_bone_field(bone, settings));
+                                      return fields;
+                                    }),
+                        Simulation::Keeps::last_frame);
+  std::vector<Real> coordinates = capture_coordinates(scene);
+  for (int step = 1; coordinates[0] != flexion; ++step) {
+    coordinates[0] += std::clamp(flexion - coordinates[0], -radians(1.25), radians(1.25));
+    Pose pose = pose_at(scene, coordinates);
+    pose.time = step * usual_time_step;
+    pose.activations.assign(scene.muscles.size(), 0);
+    simulation.advance(pose, usual_time_step);
+  }
+  std::vector<Points> shapes;
+  for (const MuscleShape& shape : simulation.frame()->muscles) shapes.push_back(shape.points);
+  return shapes;
+}
+
+class LivePage : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!Browser::is_there()) GTEST_SKIP() << "there is no /usr/bin/chromium";
+    if (!std::filesystem::exists(live_page())) GTEST_SKIP() << "the page was not built (ninja gracilis_web)";
+  }
+
+  /// Until the expression is true.
+  void wait_for(const std::string& expression) {
+    for (int i = 0; i < 1200 && browser_.evaluate("!!(" + expression + ")") != true; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    ASSERT_EQ(browser_.evaluate("!!(" + expression + ")"), true)
+        << expression << ": " << browser_.evaluate("element('status').textContent");
+  }
+
+  void open() {
+    browser_.open(live_page());
+    wait_for(is_ready);
+  }
+
+  void slide(const std::string& name, Real value) {
+    browser_.evaluate("{ const slider = element('" + name + "'); slider.value = " + std::to_string(value) +
+                      "; slider.dispatchEvent(new Event('input')); }");
+  }
+
+  Real largest_difference(const std::vector<Points>& expected) {
+    Real largest = 0;
+    for (std::size_t m = 0; m < expected.size(); ++m) {
+      const Json points = browser_.evaluate("[...page.frame.muscles[" + std::to_string(m) + "].points]");
+      EXPECT_EQ(points.size(), static_cast<std::size_t>(expected[m].size()));
+      for (Index i = 0; i < expected[m].size(); ++i)
+        largest = std::max(largest, std::abs(points[static_cast<std::size_t>(i)].get<Real>() - expected[m].data()[i]));
+    }
+    return largest;
+  }
+
+  static constexpr const char* is_ready =
+      "page.frame && !element('method').disabled && element('status').textContent === ''";
+  Browser browser_{1280, 900};
+};
+
+}  // namespace
+
+TEST_F(LivePage, shows_the_shapes_of_this_machine_without_a_word_on_the_console) {
+  open();
+  slide("hip_flexion_r", 30);
+  wait_for("page.frame.coordinates[0] === 30 / DEGREES");
+  EXPECT_LT(largest_difference(shapes_of_this_machine(find_preset("fast")->method, radians(30))), 1e-4);
+  EXPECT_NE(browser_.evaluate("element('time').textContent"), "–");
+  EXPECT_GT(browser_.evaluate("page.history.frames.length").get<int>(), 20);
+  EXPECT_THAT(browser_.complaints, IsEmpty());
+  EXPECT_THAT(browser_.requests, Each(StartsWith("blob:null/"))) << "beside the worker, which stands in the page";
+}

@@ -1,0 +1,283 @@
+// Puts the page together: one state, what the worker sends, and everything that follows them.
+const element = id => document.getElementById(id);
+const DEGREES = 180 / Math.PI;
+const DIRECTIONS = {front: [1, 0, 0], right: [0, 0, 1], back: [-1, 0, 0], left: [0, 0, -1], 'front right': [0.75, 0.15, 0.7]};
+const PLOT_INTERVAL = 150;  // ms; drawing them costs more than what is new
+
+const page = {
+  runCount: 1,
+  state: {visible: new Set(), colorBy: 'muscle', bones: true, fibers: false, wireframe: false, xAxis: 0, frame: 0},
+  frame: null,          // the last one
+  charts: [],
+  milliseconds: [],     // of the last steps
+  failures: 0,
+
+  // What a Chart asks for.
+  frameOf(run, frame) { return frame; },
+  xOf() { return this.places; },
+  xLabel() { return this.state.xAxis < 0 ? 'step' : `${spoken(this.scene.coordinates[this.state.xAxis].name)} (°)`; },
+  poseText(frame) {
+    return this.history.frames[frame].coordinates
+      .map((value, c) => `${spoken(this.scene.coordinates[c].name)} ${shownNumber(value * DEGREES)}°`).join(', ');
+  },
+  goTo(frame) {
+    const at = this.history.frames[frame];
+    if (at) this.aimAt(at.coordinates, at.activations);
+  },
+
+  send(task, what = {}) { this.worker.postMessage({task, ...what}); },
+  wanted() {
+    const values = list => list.map(({slider}) => Number(slider.value));
+    return {coordinates: values(this.coordinates).map(value => value / DEGREES),
+            activations: values(this.muscles).map(value => value / 100)};
+  },
+  aim() { this.send('aim', this.wanted()); },
+  aimAt(coordinates, activations) {
+    this.pause();
+    coordinates.forEach((value, c) => { this.coordinates[c].slider.value = value * DEGREES; });
+    activations.forEach((value, m) => { this.muscles[m].slider.value = value * 100; });
+    this.aim();
+  },
+  tell(text, failed = false) {
+    element('status').textContent = text;
+    element('status').classList.toggle('failed', failed);
+  },
+
+  pause() {
+    this.playing = false;
+    element('play').setAttribute('aria-pressed', 'false');
+  },
+  play() {
+    this.playing = true;
+    element('play').setAttribute('aria-pressed', 'true');
+    this.swing();
+  },
+  // Flexes as far as it goes, and back again.
+  swing() {
+    if (!this.playing) return;
+    const {slider} = this.coordinates[0], most = Math.min(90, Number(slider.max));
+    slider.value = Number(slider.value) < most ? most : 0;
+    this.aim();
+  },
+};
+
+function bytesOfProgram() {
+  const text = atob(element('program').textContent), bytes = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+  return bytes;
+}
+
+// A row of a list of sliders: what it is called, the slider, and what is said of it.
+function addSlider(list, id, name, attributes, unit, explain) {
+  const row = make('div', '', {class: 'row'}), label = make('label', name, {for: id});
+  const slider = make('input', '', {type: 'range', id, ...attributes});
+  const output = make('output', '', {for: id});
+  row.append(label, slider, output);
+  list.append(row);
+  const say = () => slider.setAttribute('aria-valuetext', `${shownNumber(Number(slider.value))} ${unit}`);
+  slider.addEventListener('input', () => { say(); page.pause(); page.aim(); });
+  say();
+  return {slider, output, label, say, explain};
+}
+
+function addChoices(select, choices) {
+  for (const [value, label] of choices) select.append(make('option', label, {value}));
+}
+
+function buildControls({coordinates, muscles, methods}) {
+  page.coordinates = coordinates.map(({name, low, high, capture}) =>
+    addSlider(element('coordinates'), name, spoken(name),
+              {min: Math.round(low * DEGREES), max: Math.round(high * DEGREES), step: 0.5, value: capture * DEGREES}, 'degrees'));
+  page.muscles = muscles.map(({name, color}) => {
+    const row = addSlider(element('muscles'), name, '', {min: 0, max: 100, step: 1, value: 0, 'aria-label': `Activation of ${spoken(name)}`},
+                          '% active');
+    const shown = make('input', '', {type: 'checkbox', checked: '', 'aria-label': `Show ${spoken(name)}`});
+    shown.addEventListener('change', () => {
+      page.state.visible[shown.checked ? 'add' : 'delete'](name);
+      drawEverything();
+    });
+    const swatch = make('span', '', {class: 'swatch'});
+    swatch.style.background = `rgb(${color.map(part => Math.round(255 * part))})`;
+    row.label.append(swatch, spoken(name));
+    row.label.before(shown);
+    const head = make('span');
+    head.append(shown, row.label);
+    row.slider.before(head);
+    return row;
+  });
+  addChoices(element('method'), methods.map(({name}, i) => [i, name]));
+  addChoices(element('color-by'), Object.entries(SURFACE_COLORS));
+  addChoices(element('x-axis'), [...coordinates.map(({name}, c) => [c, spoken(name)]), [-1, 'step']]);
+  for (const [name, direction] of Object.entries(DIRECTIONS)) {
+    const button = make('button', name, {type: 'button'});
+    button.addEventListener('click', () => page.stage.lookFrom(new THREE.Vector3(...direction)));
+    element('views').append(button, ' ');
+  }
+}
+
+function buildCharts({muscles}) {
+  const css = color => `rgb(${color.map(part => Math.round(255 * part))})`;
+  const lines = () => muscles.map(({name, color}) => ({name: spoken(name), muscle: name, color: css(color), dash: '', run: 0,
+                                                        x: [], values: []}));
+  for (const title of ['Fiber length', 'Moment arm']) {
+    const chart = new Chart({title, unit: 'mm', limits: []}, lines(), page);
+    page.charts.push(chart);
+    element('plots').append(chart.element);
+  }
+}
+
+function drawPlots() {
+  page.plotted = performance.now();
+  page.waiting = false;
+  if (page.history.frames.length === 0) return;
+  page.places = page.history.places(page.state.xAxis);
+  page.state.frame = page.places.length - 1;
+  const about = Math.max(page.state.xAxis, 0), [lengths, arms] = page.charts;
+  arms.chart.title = `Moment arm about ${spoken(page.scene.coordinates[about].name)}`;
+  arms.element.querySelector('h3').textContent = `${arms.chart.title} (mm)`;
+  page.scene.muscles.forEach((muscle, m) => {
+    Object.assign(lengths.lines[m], {x: page.places, values: page.history.lengths(m)});
+    Object.assign(arms.lines[m], {x: page.places, values: page.history.arms(m, about)});
+  });
+  for (const chart of page.charts) chart.draw();
+}
+
+// Soon, and not more often than is of use.
+function plotSoon() {
+  if (page.waiting) return;
+  page.waiting = true;
+  setTimeout(drawPlots, Math.max(0, (page.plotted || 0) + PLOT_INTERVAL - performance.now()));
+}
+
+function drawColorBar() {
+  const scale = SHAPE_COLORS[page.state.colorBy], bar = element('color-bar');
+  bar.hidden = !scale || !scale.ticks;
+  if (bar.hidden) return;
+  bar.querySelector('b').textContent = scale.title;
+  const stops = scale.colors.map(color => `rgb(${color})`);
+  bar.querySelector('i').style.background = `linear-gradient(to right, ${stops})`;
+  bar.querySelector('span').replaceChildren(...scale.ticks.map(tick => make('span', tick)));
+}
+
+function drawScale() {
+  const pixels = 0.05 * page.stage.pixelsPerMetre();
+  element('scale').style.width = `${pixels}px`;
+  element('scale').querySelector('span').textContent = '50 mm';
+}
+
+function drawEverything() {
+  if (!page.frame) return;
+  page.stage.shapes[0].show(page.frame, page.state);
+  page.stage.draw();
+  drawColorBar();
+  plotSoon();
+}
+
+function sayFrame(frame) {
+  const angles = frame.coordinates.map((value, c) => `${spoken(page.scene.coordinates[c].name)} ${shownNumber(value * DEGREES)}°`);
+  element('canvas').setAttribute('aria-label', `Bones and six muscles of a right hip: ${angles.join(', ')}`);
+  frame.coordinates.forEach((value, c) => {
+    page.coordinates[c].output.textContent = `${shownNumber(Number((value * DEGREES).toFixed(1)))}°`;
+  });
+  frame.muscles.forEach(({facts}, m) => {
+    page.muscles[m].output.textContent = `${(1000 * facts[0]).toFixed(1)} mm, ${(1e6 * facts[1]).toFixed(0)} cm³`;
+  });
+  if (frame.milliseconds === null) return;
+  page.milliseconds.push(frame.milliseconds);
+  if (page.milliseconds.length > 30) page.milliseconds.shift();
+  const mean = page.milliseconds.reduce((a, b) => a + b) / page.milliseconds.length;
+  element('time').textContent = `${mean.toFixed(1)} ms per frame`;
+}
+
+// Before the first frame: nothing is known of fibers.
+function atRest({bones, muscles, coordinates}) {
+  const bodies = 1 + Math.max(...bones.map(bone => bone.body));
+  const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0];
+  return {bodies: new Float32Array(Array(bodies).fill(identity).flat()), activations: muscles.map(() => 0),
+          coordinates: coordinates.map(each => each.capture),
+          muscles: muscles.map(({points}) => ({points, fibers: [], offsets: [0], strains: [], facts: []}))};
+}
+
+function tellMeaning(method) {
+  element('meaning').textContent = page.scene.methods[method].meaning.replaceAll('`', '');
+}
+
+const heard = {
+  scene(scene) {
+    page.scene = scene;
+    page.history = new History(scene);
+    page.state.visible = new Set(scene.muscles.map(muscle => muscle.name));
+    buildControls(scene);
+    buildCharts(scene);
+    const axes = {anterior: [1, 0, 0], superior: [0, 1, 0], right: [0, 0, 1]};
+    page.stage = new Stage([axes], element('canvas'), () => new LiveShapes(scene));
+    page.stage.drawn = drawScale;
+    page.pulling = new Pulling(element('view'), page.stage, page.stage.shapes[0], (bone, point, target, looking) => {
+      page.pause();
+      page.send('pull', {bone, point, target, looking});
+    });
+    page.frame = atRest(scene);
+    drawEverything();
+    page.stage.lookFrom(new THREE.Vector3(...DIRECTIONS['front right']));
+    if (!page.stage.renderer) page.tell('This browser draws no WebGL: numbers and plots follow the sliders, the picture does not', true);
+  },
+  frame(frame) {
+    page.frame = frame;
+    if (frame.milliseconds === null) page.history.last = null;
+    page.history.add(frame);
+    sayFrame(frame);
+    drawEverything();
+  },
+  status({text}) {
+    const ready = text === 'ready';
+    if (ready) for (const id of ['method', 'play', 'reset']) element(id).disabled = false;
+    if (ready && page.frame) tellMeaning(page.frame.method);
+    if (ready && page.playing) return page.swing();
+    page.tell(ready ? '' : text);
+  },
+  aim({coordinates}) {
+    coordinates.forEach((value, c) => {
+      page.coordinates[c].slider.value = value * DEGREES;
+      page.coordinates[c].say();
+    });
+  },
+  failure({text}) {
+    ++page.failures;
+    page.pause();
+    page.tell(`stopped: ${text}; starting again`, true);
+    if (page.scene) setSliders();
+  },
+};
+
+// To the capture pose, relaxed.
+function setSliders() {
+  page.scene.coordinates.forEach(({capture}, c) => { page.coordinates[c].slider.value = capture * DEGREES; });
+  for (const {slider} of page.muscles) slider.value = 0;
+  for (const row of [...page.coordinates, ...page.muscles]) row.say();
+}
+
+function startAgain(task, what) {
+  page.pause();
+  page.history.clear();
+  page.milliseconds = [];
+  if (task === 'reset') setSliders();
+  page.send(task, what);
+}
+
+element('method').addEventListener('change', event => {
+  const method = Number(event.target.value);
+  tellMeaning(method);
+  startAgain('choose', {method});
+});
+element('reset').addEventListener('click', () => startAgain('reset'));
+element('play').addEventListener('click', () => page.playing ? page.pause() : page.play());
+element('clear').addEventListener('click', () => { page.history.clear(); if (page.frame) page.history.add(page.frame); drawPlots(); });
+element('color-by').addEventListener('change', event => { page.state.colorBy = event.target.value; drawEverything(); });
+element('x-axis').addEventListener('change', event => { page.state.xAxis = Number(event.target.value); drawPlots(); });
+for (const name of ['bones', 'fibers', 'wireframe'])
+  element(name).addEventListener('change', event => { page.state[name] = event.target.checked; drawEverything(); });
+
+page.worker = new Worker(URL.createObjectURL(new Blob([element('worker').textContent], {type: 'text/javascript'})));
+page.worker.onmessage = ({data}) => heard[data.kind](data);
+page.worker.onerror = event => page.tell(`The program does not start here: ${event.message}`, true);
+page.send('begin', {bytes: bytesOfProgram(), method: 0});

@@ -1,0 +1,98 @@
+// What the worker sends, as three.js draws it: a Stage's shapes, as RunShapes is for a recorded run.
+const SURFACE_COLORS = {muscle: 'by muscle', activation: 'by activation', strain: 'by fiber length'};
+
+class LiveShapes {
+  constructor(description) {
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.01, 10);
+    this.scene.add(this.camera, new THREE.AmbientLight(0xffffff, 0.32));
+    for (const [x, y, z, strength] of [[-0.7, 0.8, 1, 0.62], [1, -0.1, 0.8, 0.28], [0.3, 1, -0.6, 0.25]]) {
+      const light = new THREE.DirectionalLight(0xffffff, strength);
+      light.position.set(x, y, z);
+      this.camera.add(light, light.target);
+    }
+    this.bones = description.bones.map(bone => ({...bone, mesh: this.surface(bone, 0xefe6d0)}));
+    this.muscles = description.muscles.map(muscle => ({...muscle, mesh: this.surface(muscle, new THREE.Color(...muscle.color)),
+                                                       lines: this.lines()}));
+    for (const bone of this.bones) bone.mesh.matrixAutoUpdate = false;
+  }
+
+  surface({points, faces}, color) {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setIndex(new THREE.BufferAttribute(faces, 1));
+    geometry.setAttribute('position', new THREE.BufferAttribute(points.slice(), 3));
+    geometry.computeVertexNormals();
+    const material = new THREE.MeshPhongMaterial({color, specular: 0x222222, shininess: 18, side: THREE.DoubleSide});
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.frustumCulled = false;
+    this.scene.add(mesh);
+    return mesh;
+  }
+
+  lines() {
+    const lines = new THREE.LineSegments(new THREE.BufferGeometry(),
+                                         new THREE.LineBasicMaterial({vertexColors: THREE.VertexColors}));
+    lines.frustumCulled = false;
+    this.scene.add(lines);
+    return lines;
+  }
+
+  show(frame, state) {
+    for (const bone of this.bones) {
+      const at = frame.bodies.subarray(12 * bone.body, 12 * bone.body + 12);
+      bone.mesh.matrix.set(at[0], at[3], at[6], at[9], at[1], at[4], at[7], at[10], at[2], at[5], at[8], at[11], 0, 0, 0, 1);
+      bone.mesh.visible = state.bones;
+    }
+    frame.muscles.forEach((now, m) => this.showMuscle(this.muscles[m], now, frame.activations[m], state));
+  }
+
+  showMuscle(muscle, now, activation, state) {
+    const {geometry, material} = muscle.mesh, shown = state.visible.has(muscle.name);
+    const fibersShown = state.fibers || state.colorBy === 'strain';
+    muscle.mesh.visible = shown;
+    muscle.lines.visible = shown && fibersShown;
+    if (!shown) return;
+    geometry.attributes.position.array.set(now.points);
+    geometry.attributes.position.needsUpdate = true;
+    geometry.computeVertexNormals();
+    const opacity = fibersShown ? 0.25 : 1;
+    Object.assign(material, {opacity, transparent: opacity < 1, depthWrite: opacity === 1, wireframe: state.wireframe});
+    material.color.setRGB(...(state.colorBy === 'activation' ? colorAt(SHAPE_COLORS.activation, activation) :
+                              state.colorBy === 'strain' ? [0.8, 0.8, 0.8] : muscle.color));
+    if (fibersShown) this.showFibers(muscle, now, state);
+  }
+
+  showFibers({lines}, now, state) {
+    const count = now.fibers.length / 3;
+    if (!lines.geometry.attributes.position || lines.geometry.attributes.position.count !== count) {
+      const index = [];
+      for (let line = 0; line + 1 < now.offsets.length; ++line)
+        for (let i = now.offsets[line]; i + 1 < now.offsets[line + 1]; ++i) index.push(i, i + 1);
+      lines.geometry.dispose();
+      lines.geometry = new THREE.BufferGeometry();
+      lines.geometry.setIndex(index);
+      lines.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+      lines.geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+    }
+    const {position, color} = lines.geometry.attributes;
+    position.array.set(now.fibers);
+    now.strains.forEach((strain, line) => {
+      const shown = state.colorBy === 'strain' ? colorAt(SHAPE_COLORS.strain, Math.log2(strain)) : [0.25, 0.04, 0.04];
+      for (let i = now.offsets[line]; i < now.offsets[line + 1]; ++i) color.array.set(shown, 3 * i);
+    });
+    position.needsUpdate = true;
+    color.needsUpdate = true;
+  }
+
+  // Corners of boxes around everything, where it is now.
+  corners() {
+    const list = [];
+    for (const {mesh} of [...this.bones, ...this.muscles]) {
+      const {min, max} = new THREE.Box3().setFromBufferAttribute(mesh.geometry.attributes.position);
+      for (let i = 0; i < 8; ++i)
+        list.push(new THREE.Vector3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z)
+          .applyMatrix4(mesh.matrixAutoUpdate ? new THREE.Matrix4() : mesh.matrix));
+    }
+    return list;
+  }
+}

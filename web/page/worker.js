@@ -1,0 +1,170 @@
+// Runs the program in a worker of its own, so that the page never waits for it. Told where sliders stand, it goes there
+// in steps that methods take, and sends every step's shapes.
+const TURN = 1.25 * Math.PI / 180, ACTIVATION = 0.05, STEP = 1000 / 60;
+const ARMS_INTERVAL = 400;  // ms; moment arms of strings take longer than the strings
+let module, program, scene, reached, wanted, coordinates, activations, places, pulled, chosen = 0, armsAt = 0, running = false;
+
+const text = (at, length) => new TextDecoder().decode(new Uint8Array(program.memory.buffer, at, length));
+
+// What the C++ library asks a system for; it opens no files.
+function system() {
+  const view = () => new DataView(program.memory.buffer);
+  return new Proxy({
+    clock_time_get(clock, precision, at) {
+      view().setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
+      return 0;
+    },
+    fd_write(file, parts, count, written) {
+      let bytes = 0;
+      for (let i = 0; i < count; ++i) bytes += view().getUint32(parts + 8 * i + 4, true);
+      view().setUint32(written, bytes, true);
+      return 0;
+    },
+    proc_exit(code) { throw new Error(`the program ended with ${code}`); },
+  }, {get: (known, name) => known[name] || (() => 52)});  // 52: there is no such call
+}
+
+async function start() {
+  const imports = {wasi_snapshot_preview1: system(), page: {fail(at, length) { throw new Error(text(at, length)); }}};
+  program = (await WebAssembly.instantiate(module, imports)).exports;
+  program._initialize();
+  program.prepare();
+  describe();
+  reached = {coordinates: scene.coordinates.map(each => each.capture), activations: scene.muscles.map(() => 0)};
+  wanted = wanted || JSON.parse(JSON.stringify(reached));
+  coordinates = program.malloc(8 * scene.coordinates.length);
+  activations = program.malloc(8 * scene.muscles.length);
+  places = program.malloc(8 * 9);
+  pulled = program.malloc(8 * scene.coordinates.length);
+}
+
+function describe() {
+  const at = program.description(), bytes = new Uint8Array(program.memory.buffer, at);
+  scene = JSON.parse(text(at, bytes.indexOf(0)));
+}
+
+const copy = (Type, at, count) => new Type(program.memory.buffer, at, count).slice();
+
+function constants() {
+  const surface = each => ({name: each.name, points: copy(Float32Array, each.points, 3 * each.vertices),
+                            faces: copy(Uint32Array, each.faces, 3 * each.faceCount)});
+  postMessage({kind: 'scene', methods: scene.methods, coordinates: scene.coordinates,
+               bones: scene.bones.map(each => ({...surface(each), body: each.body})),
+               muscles: scene.muscles.map(each => ({...surface(each), color: each.color}))});
+}
+
+function show(milliseconds, arms = true) {
+  program.show(arms ? 1 : 0);
+  if (arms) armsAt = performance.now();
+  describe();  // addresses change with the fibers' number
+  const muscles = scene.muscles.map(each => {
+    const offsets = copy(Uint32Array, each.fiberOffsets, each.fiberCount + 1);
+    return {points: copy(Float32Array, each.points, 3 * each.vertices), offsets,
+            fibers: copy(Float32Array, each.fibers, 3 * offsets[each.fiberCount]),
+            strains: copy(Float32Array, each.strains, each.fiberCount),
+            facts: copy(Float64Array, each.facts, 2 + scene.coordinates.length)};
+  });
+  postMessage({kind: 'frame', milliseconds, muscles, method: chosen,
+               bodies: copy(Float32Array, scene.bodies, 12 * scene.bodyCount),
+               coordinates: reached.coordinates.slice(), activations: reached.activations.slice()},
+              muscles.flatMap(each => [each.points.buffer, each.fibers.buffer]));
+}
+
+function choose(method) {
+  postMessage({kind: 'status', text: `preparing ${scene.methods[method].name}`});
+  chosen = method;
+  program.choose(method);
+  reached = {coordinates: scene.coordinates.map(each => each.capture), activations: scene.muscles.map(() => 0)};
+  show(null);
+  postMessage({kind: 'status', text: 'ready'});
+}
+
+// One step of all values towards where they are wanted; false when they are there.
+function approach() {
+  let moved = false;
+  const move = (values, targets, most) => values.forEach((value, i) => {
+    if (value === targets[i]) return;
+    moved = true;
+    values[i] = value + Math.min(Math.max(targets[i] - value, -most), most);
+  });
+  move(reached.coordinates, wanted.coordinates, TURN);
+  move(reached.activations, wanted.activations, ACTIVATION);
+  return moved;
+}
+
+function step() {
+  new Float64Array(program.memory.buffer, coordinates, reached.coordinates.length).set(reached.coordinates);
+  new Float64Array(program.memory.buffer, activations, reached.activations.length).set(reached.activations);
+  const began = performance.now();
+  program.advance(coordinates, activations);
+  const milliseconds = performance.now() - began, there = JSON.stringify(reached) === JSON.stringify(wanted);
+  show(milliseconds, there || performance.now() - armsAt > ARMS_INTERVAL);
+}
+
+async function run() {
+  if (running) return;
+  running = true;
+  try {
+    while (approach()) {
+      const began = performance.now();
+      step();
+      // Messages come in between; and no faster than 60 steps a second, which is a time step.
+      await new Promise(done => setTimeout(done, Math.max(0, STEP - (performance.now() - began))));
+    }
+    postMessage({kind: 'status', text: 'ready'});
+  } catch (error) {
+    await recover(error);
+  }
+  running = false;
+}
+
+// After a failure nothing in the program's memory can be relied on.
+async function recover(error) {
+  postMessage({kind: 'failure', text: error.message});
+  wanted = null;
+  await start();
+  choose(chosen);
+}
+
+const tasks = {
+  async begin({bytes, method}) {
+    module = await WebAssembly.compile(bytes);
+    postMessage({kind: 'status', text: 'making the hip'});
+    await start();
+    constants();
+    choose(method);
+    run();
+  },
+  async choose({method}) {
+    while (running) await new Promise(done => setTimeout(done, 5));
+    running = true;
+    try {
+      choose(method);
+    } catch (error) {
+      chosen = 0;
+      await recover(error);
+    }
+    running = false;
+    run();
+  },
+  aim(values) {
+    wanted = {coordinates: values.coordinates, activations: values.activations};
+    run();
+  },
+  // A bone's point (at rest) is wanted at `target`, seen along `looking`: the page is told what that means for sliders.
+  pull({bone, point, target, looking}) {
+    if (!wanted) return;
+    new Float64Array(program.memory.buffer, places, 9).set([...point, ...target, ...looking]);
+    const values = new Float64Array(program.memory.buffer, pulled, wanted.coordinates.length);
+    values.set(wanted.coordinates);
+    if (!program.pull(bone, places, pulled)) return;
+    wanted.coordinates = [...new Float64Array(program.memory.buffer, pulled, wanted.coordinates.length)];
+    postMessage({kind: 'aim', coordinates: wanted.coordinates});
+    run();
+  },
+  async reset() {
+    wanted = {coordinates: scene.coordinates.map(each => each.capture), activations: scene.muscles.map(() => 0)};
+    await tasks.choose({method: chosen});
+  },
+};
+onmessage = ({data}) => tasks[data.task](data);
