@@ -19,7 +19,7 @@ using namespace gracilis;
 using testing::Each;
 using testing::IsEmpty;
 using testing::StartsWith;
-using Json = nlohmann::json;
+using PageJson = nlohmann::json;
 
 namespace {
 
@@ -82,7 +82,7 @@ class LivePage : public testing::Test {
   Real largest_difference(const std::vector<Points>& expected) {
     Real largest = 0;
     for (std::size_t m = 0; m < expected.size(); ++m) {
-      const Json points = browser_.evaluate("[...page.frame.muscles[" + std::to_string(m) + "].points]");
+      const PageJson points = browser_.evaluate("[...page.frame.muscles[" + std::to_string(m) + "].points]");
       EXPECT_EQ(points.size(), static_cast<std::size_t>(expected[m].size()));
       for (Index i = 0; i < expected[m].size(); ++i)
         largest = std::max(largest, std::abs(points[static_cast<std::size_t>(i)].get<Real>() - expected[m].data()[i]));
@@ -95,8 +95,6 @@ class LivePage : public testing::Test {
   Browser browser_{1280, 900};
 };
 
-}  // namespace
-
 TEST_F(LivePage, shows_the_shapes_of_this_machine_without_a_word_on_the_console) {
   open();
   slide("hip_flexion_r", 30);
@@ -107,3 +105,5 @@ TEST_F(LivePage, shows_the_shapes_of_this_machine_without_a_word_on_the_console)
   EXPECT_THAT(browser_.complaints, IsEmpty());
   EXPECT_THAT(browser_.requests, Each(StartsWith("blob:null/"))) << "beside the worker, which stands in the page";
 }
+
+}  // namespace
