@@ -25,7 +25,7 @@ class LaneSteps {
         w_(workspace),
         width_(static_cast<std::size_t>(lanes_.width)),
         inner_(static_cast<std::size_t>(lanes_.nodes - 1)),
-        sections_move_(!lanes_.neighbor_weight.empty()) {}
+        sections_move_(settings_.sections_first && has_neighbors()) {}
 
   void relax(const strings::Relaxation& relaxation) {
     const float stop_move = std::max(static_cast<float>(relaxation.stop_move), strings::least_lane_move);
@@ -37,7 +37,7 @@ class LaneSteps {
         assemble(s);
         for (std::size_t b = 0; b < w_.bones.size(); ++b) keep_from_bone(b, s);
       });
-      if (has_neighbors()) shift_sections(stop_move);
+      shift_sections(stop_move);
       bool any_moves = sections_move_;
       for_moving_groups(stop, [&](std::size_t s) HWY_ATTR {
         solve(s);
@@ -261,7 +261,7 @@ class LaneSteps {
     const V farthest = hn::Sqrt(farthest2);
     store(hn::IfThenElse(moves, farthest, last), w_.last_move, s);
     const auto goes = hn::And(moves, hn::Ge(farthest, lanes_of(strings::least_lane_move)));
-    const V back = taken == 1 ? taken_back(s, iteration) : zero;
+    const V back = settings_.sections_first && taken == 1 ? taken_back(s, iteration) : zero;
     V travelled2 = zero;
     for (std::size_t i = 1; i < inner_; ++i) {
       const std::size_t at = i * width_ + s;

@@ -15,7 +15,7 @@ namespace {
 /// Strings settle until no node moves further, m, or for so many iterations, of which the last take small steps.
 constexpr Real settled_move = 1e-7;
 /// Less is lost in single precision.
-constexpr Real nearly_settled_move = 1e-6;
+constexpr Real nearly_settled_move = 3e-7;
 constexpr int settling_iterations = 300, settling_quenched_from = 80;
 /// One that would still move further than this then, m, has no place; less matters nothing to its derivative.
 constexpr Real unsettled_move = 5e-6;

@@ -27,6 +27,7 @@ struct StringSettings {
   int rest_iterations = 300;    ///< at most, until strings are taut in the capture pose ...
   Real rest_stop_move = 1e-9;   ///< m ... where none of their nodes moves further: that pose must be at rest
   int iterations = 8;           ///< in each step
+  bool sections_first = true;   ///< whole cross-sections move before single strings do
   Real step_turn = radians(3);  ///< rad; bones never turn further against each other in one step
   Real longest_move = 0.004;    ///< m, of a node in one iteration
   Real stop_move = 2e-5;        ///< m; a string rests for the rest of a step once none of its nodes moves further
