@@ -180,6 +180,7 @@ int report(const StudyOptions& options) {
 
 CLI::App* add_part(CLI::App& study, const std::string& name, const std::string& meaning, StudyOptions& options) {
   CLI::App* part = study.add_subcommand(name, meaning);
+  part->footer("Example: gracilis study " + name + " study.toml");
   part->add_option("STUDY", options.file, "What to run: .toml (docs/guide/studies.md), or .csv with a run per row")
       ->required();
   part->add_option("--folder", options.out, "What the study leaves behind (default: as it says, or named like it)");
@@ -210,8 +211,8 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
   running->footer(
       "Exit codes: 0 all of the shard is complete; 2 the study is wrong; 3 its files cannot be read or written; 5 some "
       "runs have failed, the others are complete (collect and status have the reasons); 130 interrupted: the same "
-      "command "
-      "goes on.");
+      "command goes on.\n\n"
+      "Example: gracilis study run study.toml --shard 1/4");
   CLI::App* status = add_part(*study, "status", "Count what is complete, under way, failed and to do", *options);
   status->add_flag("--runs", options->all_runs, "A line for every run");
   CLI::App* collecting = add_part(*study, "collect", "Write one table of all measures, and one of all runs", *options);

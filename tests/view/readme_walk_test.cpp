@@ -118,6 +118,7 @@ const std::vector<Step> steps = {
      "rom out/my_hip.toml --coord hip_flexion_r=-10:60:10 --reference published.csv --out arms"},
     {"import MODEL.osim", "import tiny.osim --out model"},
     {"compare SCENE", "compare out/my_hip.toml --methods skinning,strings --out compared"},
+    {"study run study.toml --shard 1/8", "study run study.toml --shard 1/2"},
     {"view demo", "view demo --pictures . --keys 'p q'", "gracilis_0001.png", true},
     {"report RUN", "report out/demo"},
     {"prepare a.stl --bone hip.stl --unit mm",
@@ -158,6 +159,9 @@ TEST(ReadmeWalk, every_command_works_and_every_picture_looks_as_it_should) {
       "muscle,source,angle_deg,moment_arm_mm\nadductor_longus_r,a book,0,40\nadductor_longus_r,a book,60,10\n");
   folder.write("tiny.osim", opensim::pendulum(opensim::muscle("m", opensim::point("/ground", "0.3 0 0") +
                                                                        opensim::point("/bodyset/rod", "0 -0.4 0"))));
+  folder.write("study.toml",
+               "scene = \"out/my_hip.toml\"\nset = [\"method=skinning\"]\n"
+               "[[parameters]]\nkey = \"tendon_length\"\nvalues = [0.005, 0.01]\n");
   fs::create_directories(folder.path() / "scans");
   for (const std::string name : {"hip_bone_r", "femur_r", "adductor_longus_r"})
     fs::copy_file(folder.path() / "out/demo/frames" / (name + "_0000.vtp"), folder.path() / "scans" / (name + ".vtp"));
