@@ -9,10 +9,14 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../family/options.sh" cervenka-kohout-2020 "$@"
 mkdir -p "$out/curves"
 
+# The box needs no data, and a folder that is not there is refused.
+from=()
+[[ -d $data ]] && from=(--data "$data")
+
 # run NAME SCENE: a missed gate (exit code 5) is no reason to stop, the curves are there all the same.
 run() {
   [[ -f $out/$1/run.json && -f $out/$1/plots/angles.svg ]] && return
-  "$gracilis" run "$2" --data "$data" "${more[@]}" --out "$out/$1" --layout surfaces --force >"$out/$1.txt" 2>&1 ||
+  "$gracilis" run "$2" "${from[@]}" "${more[@]}" --out "$out/$1" --layout surfaces --force >"$out/$1.txt" 2>&1 ||
     [[ -f $out/$1/plots/angles.svg ]] || {
     echo "$1: failed, see $out/$1.txt" >&2
     exit 1
