@@ -236,8 +236,8 @@ class LaneSteps {
 
   /// What a string takes back of its last move, so that steps which slowly die out are taken at once (Anderson 1965, of
   /// depth one).
-  HWY_INLINE V taken_back(std::size_t s, int iteration) const {
-    if (iteration < 1) return hn::Zero(D());
+  HWY_INLINE V taken_back(std::size_t s) const {
+    constexpr float least = -4, most = 0.5f;  // steps that grow or turn around tell little
     V with_change = hn::Zero(D()), change2 = lanes_of(1e-20f);
     for (std::size_t i = 1; i < inner_; ++i) {
       const std::size_t at = i * width_ + s;
@@ -245,7 +245,7 @@ class LaneSteps {
       with_change = with_change + dot<Math>(step, change);
       change2 = change2 + dot<Math>(change, change);
     }
-    return hn::Min(hn::Max(with_change / change2, lanes_of(-4.f)), lanes_of(0.5f));
+    return hn::Min(hn::Max(with_change / change2, lanes_of(least)), lanes_of(most));
   }
 
   /// Moves those strings that do not rest by a share of the solution.
@@ -261,21 +261,20 @@ class LaneSteps {
     const V farthest = hn::Sqrt(farthest2);
     store(hn::IfThenElse(moves, farthest, last), w_.last_move, s);
     const auto goes = hn::And(moves, hn::Ge(farthest, lanes_of(strings::least_lane_move)));
-    const V back = settings_.sections_first && taken == 1 ? taken_back(s, iteration) : zero;
+    const bool remembers = settings_.sections_first && taken == 1, takes_back = remembers && iteration > 0;
+    const V back = takes_back ? taken_back(s) : zero;
     V travelled2 = zero;
     for (std::size_t i = 1; i < inner_; ++i) {
       const std::size_t at = i * width_ + s;
       const Point solution = load(w_.solution, at);
       Point step = solution;
-      if (iteration > 0) step = step - scaled(back, load(w_.last_step, at) + solution - load(w_.last_solution, at));
-      const V length2 = dot<Math>(step, step);
-      const V length = hn::Sqrt(hn::Max(length2, lanes_of(1e-20f)));
+      if (takes_back) step = step - scaled(back, load(w_.last_step, at) + solution - load(w_.last_solution, at));
+      const V length = hn::Sqrt(hn::Max(dot<Math>(step, step), lanes_of(1e-20f)));
       const V share = hn::IfThenElseZero(goes, lanes_of(taken) * hn::Min(lanes_of(1), longest / length));
       step = scaled(share, step);
       travelled2 = hn::Max(travelled2, dot<Math>(step, step));
       const Point moved = load(w_.moved, at) + step;
-      store(solution, w_.last_solution, at);
-      store(step, w_.last_step, at);
+      if (remembers) store(solution, w_.last_solution, at), store(step, w_.last_step, at);
       store(moved, w_.moved, at);
       store(load(w_.begun, at) + moved, w_.place, at);
     }

@@ -31,7 +31,7 @@ struct LaneWorkspace {
   /// Of one group of strings: the system of each node.
   std::array<std::vector<float>, 6> stiffness, inverse;
   LanePoints gradient, direction, solution;
-  LanePoints last_solution, last_step;
+  LanePoints last_solution, last_step;  ///< of the iteration before, where steps take back of it
 
   /// A cross-section that moves as one: its system, solved to the shift, m; the coupling is to the next.
   struct Section {

@@ -51,23 +51,26 @@ Points pulled_tight(const MuscleStrings& muscle, const BoneDistances& bones) {
   return places;
 }
 
+/// Which strings still moved.
+template <class Moves>
+static std::vector<char> unsettled(const Moves& moves) {
+  std::vector<char> strings;
+  for (const auto move : moves) strings.push_back(!(static_cast<Real>(move) < unsettled_move));
+  return strings;
+}
+
 std::vector<char> settle_nearly(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
   LanePlaces places = lane_places(muscle.lanes, state.places);
-  std::vector<char> unsettled;
-  for (const float move : relax_lanes(muscle, bones, state.bodies,
-                                      {settling_iterations, nearly_settled_move, settling_quenched_from}, places))
-    unsettled.push_back(!(static_cast<Real>(move) < unsettled_move));
+  const std::vector<float> moves = relax_lanes(
+      muscle, bones, state.bodies, {settling_iterations, nearly_settled_move, settling_quenched_from}, places);
   state.places = places_of(muscle.lanes, places);
-  return unsettled;
+  return unsettled(moves);
 }
 
 std::vector<char> settle(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
   settle_nearly(muscle, bones, state);
   NodeForces forces(muscle, bones, state.bodies);
-  std::vector<char> unsettled;
-  for (const Real move : relax_nodes(forces, {settling_iterations, settled_move, settling_quenched_from}, state.places))
-    unsettled.push_back(!(move < unsettled_move));
-  return unsettled;
+  return unsettled(relax_nodes(forces, {settling_iterations, settled_move, settling_quenched_from}, state.places));
 }
 
 StringState capture_state(const MuscleStrings& muscle, std::size_t bodies) {
