@@ -1,8 +1,8 @@
 #pragma once
 
 #include <gracilis/geometry/polylines.hpp>
-#include <gracilis/geometry/segment_hits.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/geometry/triangle_tree.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ struct LinePieces {
 };
 
 /// The length of a fascicle with both of its ends carried straight on to the surface, by at most its length each.
-inline Real length_to_surface(const Points& line, const SegmentHits& surface) {
+inline Real length_to_surface(const Points& line, const TriangleTree& surface) {
   const Real length = polyline_length(line);
   const Points even = resampled(line, 8);
   Real sum = length;
@@ -69,7 +69,7 @@ inline FascicleMeasures compared(const TriangleMesh& surface, const Polylines& f
   result.median_angle = angles[angles.size() / 2];
   result.large_angle = angles[angles.size() * 95 / 100];
   for (const Real length : polyline_lengths(fibers)) result.mean_length += length / fibers.count();
-  const SegmentHits hits(surface);
+  const TriangleTree hits(surface);
   for (Index l = 0; l < fascicles.count(); ++l)
     result.measured_length += length_to_surface(fascicles.line(l), hits) / fascicles.count();
   const SignedDistance distance(surface);

@@ -71,8 +71,8 @@ TEST(SectionCollision, another_muscles_surface_is_an_obstacle) {
   EXPECT_FALSE(cuts({-0.002, 0.0001, 0.03}, {0.002, 0.0001, 0.03}));  // all of it inside
 }
 
-TEST(SegmentHits, a_segment_cuts_a_box_or_ends_before_it) {
-  const SegmentHits hits(shapes::box({0, 0, 0}, {1, 1, 1}));
+TEST(TriangleTree, a_segment_cuts_a_box_or_ends_before_it) {
+  const TriangleTree hits(shapes::box({0, 0, 0}, {1, 1, 1}));
   EXPECT_TRUE(hits.cut({-1, 0.4, 0.3}, {0.5, 0.4, 0.3}));
   EXPECT_FALSE(hits.cut({-1, 0.4, 0.3}, {-0.5, 0.4, 0.3}));
   EXPECT_FALSE(hits.cut({0.2, 0.4, 0.3}, {0.5, 0.4, 0.3}));

@@ -1,7 +1,6 @@
 #include <gracilis/geometry/nearest_triangle.hpp>
 
 #include <gracilis/geometry/point_triangle.hpp>
-#include <gracilis/geometry/triangle_tree.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +93,8 @@ NearestTriangle::NearestTriangle(const TriangleMesh& mesh)
 NearestTriangle::~NearestTriangle() = default;
 NearestTriangle::NearestTriangle(NearestTriangle&&) noexcept = default;
 NearestTriangle& NearestTriangle::operator=(NearestTriangle&&) noexcept = default;
+
+const TriangleTree& NearestTriangle::triangles() const { return tree_->triangles; }
 
 NearestPoint NearestTriangle::query(const Vec3& p, Real reach) const {
   Query query{tree_->mesh, tree_->disks, p, {}};

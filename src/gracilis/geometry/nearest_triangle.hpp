@@ -2,6 +2,7 @@
 
 #include <gracilis/core/types.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/geometry/triangle_tree.hpp>
 
 #include <limits>
 #include <memory>
@@ -29,6 +30,9 @@ class NearestTriangle {
   NearestPoint query(const Vec3& p, Real reach = std::numeric_limits<Real>::infinity()) const;
   /// The nearest point at any distance, found the faster the nearer the face `guess` is; the answer is the same.
   NearestPoint query_from(Index guess, const Vec3& p) const;
+
+  /// What finds the triangles, for other questions about the surface.
+  const TriangleTree& triangles() const;
 
  private:
   struct Tree;

@@ -1,7 +1,7 @@
 #include <gracilis/geometry/opposite_vertices.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/geometry/segment_hits.hpp>
+#include <gracilis/geometry/triangle_tree.hpp>
 #include <gracilis/geometry/vertex_normals.hpp>
 
 #include <limits>
@@ -15,7 +15,7 @@ std::vector<Index> opposite_vertices(const TriangleMesh& surface) {
   const Points& vertices = surface.vertices;
   const Points normals = vertex_normals(vertices, surface.faces);
   const Real size = (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm();
-  const SegmentHits hits(surface);
+  const TriangleTree hits(surface);
   std::vector<Index> opposite(static_cast<std::size_t>(vertices.cols()), -1);
   parallel_for(static_cast<Index>(vertices.cols()), 64, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v) {

@@ -1,7 +1,6 @@
 #include <gracilis/geometry/self_crossings.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/geometry/triangle_tree.hpp>
 
 #include <atomic>
 
@@ -31,8 +30,8 @@ void note_crossing(Index face, void* of_edge) {
 
 }  // namespace
 
-std::vector<char> crossing_faces(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges) {
-  const TriangleTree triangles(mesh);
+std::vector<char> crossing_faces(const TriangleTree& triangles, const TriangleMesh& mesh,
+                                 const std::vector<MeshEdge>& edges) {
   std::vector<std::atomic<char>> crossing(static_cast<std::size_t>(mesh.face_count()));
   parallel_for(static_cast<Index>(edges.size()), edges_per_task, [&](Index begin, Index end) {
     for (Index e = begin; e < end; ++e) {

@@ -30,13 +30,13 @@ static constexpr int doubtful_rings = 2;
 
 /// Faces at folds and crossings: where a triangle lies over others the wrong way up, points beyond it seem inside at
 /// any distance.
-static std::vector<char> faces_at_folds(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges,
-                                        const Points& face_normals) {
+static std::vector<char> faces_at_folds(const TriangleTree& triangles, const TriangleMesh& mesh,
+                                        const std::vector<MeshEdge>& edges, const Points& face_normals) {
   std::vector<char> reached(static_cast<std::size_t>(mesh.vertex_count()), 0);
   const auto reach = [&](Index v) { reached[static_cast<std::size_t>(v)] = 1; };
   for (const MeshEdge& edge : edges)
     if (face_normals.col(edge.left).dot(face_normals.col(edge.right)) < folded) reach(edge.a), reach(edge.b);
-  std::vector<char> found = crossing_faces(mesh, edges);
+  std::vector<char> found = crossing_faces(triangles, mesh, edges);
   for (Index face = 0; face < mesh.face_count(); ++face)
     if (found[static_cast<std::size_t>(face)])
       for (const Index v : mesh.faces.col(face)) reach(v);
@@ -64,7 +64,7 @@ static bool tells_the_side(const TriangleMesh& mesh, const WindingNumber& windin
 
 /// Where a surface passes through itself whole parts of it may lie inside of others, or inside out.
 void SignedDistance::find_doubtful(const TriangleMesh& mesh, const std::vector<MeshEdge>& edges) {
-  doubtful_ = faces_at_folds(mesh, edges, face_normals_);
+  doubtful_ = faces_at_folds(nearest_triangle_.triangles(), mesh, edges, face_normals_);
   if (std::none_of(doubtful_.begin(), doubtful_.end(), [](char each) { return each != 0; })) return;
   winding_.emplace(mesh);
   std::vector<Index> others;

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <gracilis/geometry/segment_hits.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/geometry/triangle_tree.hpp>
 
 #include <array>
 #include <optional>
@@ -67,7 +67,7 @@ class SolidGrid {
   Points nodes_;
   std::vector<Real> depths_;
   std::vector<Edge> edges_;
-  std::optional<SegmentHits> sheets_;
+  std::optional<TriangleTree> sheets_;
   std::vector<char> is_cut_;  ///< per node: whether an edge of it is
 };
 

@@ -122,7 +122,7 @@ std::optional<TriangleTree::Hit> TriangleTree::first(const Vec3& a, const Vec3& 
   seen.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(tree_->scene, &context, &seen);
   if (seen.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return Hit{static_cast<Index>(seen.hit.primID), seen.ray.tfar};
+  return Hit{static_cast<Index>(seen.hit.primID), a + static_cast<Real>(seen.ray.tfar) * (b - a)};
 }
 
 void TriangleTree::all(const Vec3& a, const Vec3& b, Met met, void* query) const {

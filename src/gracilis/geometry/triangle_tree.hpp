@@ -28,7 +28,7 @@ class TriangleTree {
 
   struct Hit {
     Index face = -1;
-    float share = 0;  ///< of the segment, before it
+    Vec3 place;
   };
   /// Where the segment from a to b first meets a triangle; empty where it meets none.
   std::optional<Hit> first(const Vec3& a, const Vec3& b) const;

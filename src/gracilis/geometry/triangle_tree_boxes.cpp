@@ -22,12 +22,14 @@ void TriangleTree::near(const Vec3& p, float radius, Near near, void* query) con
 bool TriangleTree::cut(const Vec3& a, const Vec3& b) const { return first(a, b).has_value(); }
 
 std::optional<TriangleTree::Hit> TriangleTree::first(const Vec3& a, const Vec3& b) const {
-  std::optional<Hit> first;
+  Index first = -1;
+  float before = 1;
   tree_->boxes.along(a, b, [&](Index face, float share) {
-    if (!first || share < first->share || (share == first->share && face < first->face)) first = Hit{face, share};
-    return first->share;
+    if (first < 0 || share < before || (share == before && face < first)) first = face, before = share;
+    return before;
   });
-  return first;
+  if (first < 0) return std::nullopt;
+  return Hit{first, a + static_cast<Real>(before) * (b - a)};
 }
 
 void TriangleTree::all(const Vec3& a, const Vec3& b, Met met, void* query) const {

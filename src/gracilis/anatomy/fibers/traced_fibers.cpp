@@ -36,7 +36,7 @@ std::vector<Vec3> way_out(const FiberRoom& room, const FiberField& field, const 
     Vec3 ahead = sign * field.direction(p);
     if (!room.bounds().cut(p, p + step / 2 * ahead)) ahead = sign * field.direction(p + step / 2 * ahead);
     if (ahead.isZero()) return {};
-    const std::optional<SegmentHits::Hit> hit = room.bounds().first(p, p + step * ahead);
+    const std::optional<TriangleTree::Hit> hit = room.bounds().first(p, p + step * ahead);
     way.push_back(hit ? hit->place : p + step * ahead);
     if (hit) return way;
     if (!room.finds_seams()) continue;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/anatomy/fibers/fiber_field.hpp>
-#include <gracilis/geometry/segment_hits.hpp>
+#include <gracilis/geometry/triangle_tree.hpp>
 
 #include <optional>
 #include <vector>
@@ -19,7 +19,7 @@ class FiberRoom {
   const SignedDistance& distance() const { return distance_; }
   const SolidGrid& grid() const { return grid_; }
   /// The surface and the sheets.
-  const SegmentHits& bounds() const { return bounds_; }
+  const TriangleTree& bounds() const { return bounds_; }
   /// Whether fibers also end at seams: where sheets are given, all are.
   bool finds_seams() const { return finds_seams_; }
 
@@ -27,7 +27,7 @@ class FiberRoom {
   const TriangleMesh& surface_;
   SignedDistance distance_;
   SolidGrid grid_;
-  SegmentHits bounds_;
+  TriangleTree bounds_;
   bool finds_seams_;
 };
 

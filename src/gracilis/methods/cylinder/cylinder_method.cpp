@@ -91,7 +91,7 @@ namespace {
 class Resolution {
  public:
   Resolution(const std::vector<Transversal>& transversals, const std::vector<Bone>& bones,
-             const std::vector<SegmentHits>& hits, const Pose& pose, std::vector<CylinderShape>& shapes)
+             const std::vector<TriangleTree>& hits, const Pose& pose, std::vector<CylinderShape>& shapes)
       : transversals_(transversals), bones_(bones), hits_(hits), pose_(pose), shapes_(shapes) {
     for (const Transversal& each : transversals) {
       const SectionRings& rings = rings_of(each.moved);
@@ -155,7 +155,7 @@ class Resolution {
     for (const Index bone : each.bones) {
       const Bone& solid = bones_[static_cast<std::size_t>(bone)];
       const RigidTransform back = pose_.bodies[static_cast<std::size_t>(solid.body)].inverse();
-      const SegmentHits& tree = hits_[static_cast<std::size_t>(bone)];
+      const TriangleTree& tree = hits_[static_cast<std::size_t>(bone)];
       obstacles.push_back([back, &tree](const Vec3& a, const Vec3& b) { return tree.cut(back * a, back * b); });
     }
     const Obstacle any = [&](const Vec3& a, const Vec3& b) {
@@ -168,7 +168,7 @@ class Resolution {
 
   const std::vector<Transversal>& transversals_;
   const std::vector<Bone>& bones_;
-  const std::vector<SegmentHits>& hits_;
+  const std::vector<TriangleTree>& hits_;
   const Pose& pose_;
   std::vector<CylinderShape>& shapes_;
   std::vector<Held> held_;
@@ -233,7 +233,7 @@ class CylinderMethod final : public DeformationMethod {
   std::vector<Muscle> lines_;  ///< the scene's, which need not outlive this
   std::vector<Transversal> transversals_;
   std::vector<Bone> bones_;
-  std::vector<SegmentHits> hits_;                         ///< of each bone
+  std::vector<TriangleTree> hits_;                        ///< of each bone
   std::vector<CylinderMuscle> muscles_;                   ///< with an action line
   std::vector<std::optional<SurfaceSections>> surfaces_;  ///< without
   std::vector<Points> shapes_;

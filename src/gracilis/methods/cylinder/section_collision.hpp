@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/anatomy/sections/section_rings.hpp>
-#include <gracilis/geometry/segment_hits.hpp>
+#include <gracilis/geometry/triangle_tree.hpp>
 #include <gracilis/scene/scene.hpp>
 
 #include <functional>
