@@ -34,8 +34,8 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
           "--metrics", options.measures,
           "What is measured: none; light: volume, edges and angles; full: depth in bones and places, too (full)")
       ->transform(CLI::CheckedTransformer(levels));
-  static const std::map<std::string, RunLayout> layouts = {{"compact", RunLayout::compact},
-                                                           {"surfaces", RunLayout::surfaces}};
+  std::map<std::string, RunLayout> layouts;
+  for (const RunLayout layout : run_layouts) layouts[name_of(layout)] = layout;
   command
       .add_option(
           "--layout", options.layout,

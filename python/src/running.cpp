@@ -22,19 +22,18 @@ namespace gracilis::python {
 namespace {
 
 MeasureLevel level_called(const std::string& name) {
+  if (const auto level = measure_level_called(name)) return *level;
   std::vector<std::string> known;
-  for (const MeasureLevel level : measure_levels) {
-    if (name == name_of(level)) return level;
-    known.emplace_back(name_of(level));
-  }
+  for (const MeasureLevel level : measure_levels) known.push_back(name_of(level));
   refuse("metrics", "there is no '" + name + "'", suggestion(name, known));
 }
 
 std::optional<RunLayout> layout_called(const std::optional<std::string>& name) {
   if (!name) return {};
-  if (*name == "compact") return RunLayout::compact;
-  if (*name == "surfaces") return RunLayout::surfaces;
-  refuse("layout", "there is no '" + *name + "'", suggestion(*name, {"compact", "surfaces"}));
+  if (const auto layout = run_layout_called(*name)) return layout;
+  std::vector<std::string> known;
+  for (const RunLayout layout : run_layouts) known.push_back(name_of(layout));
+  refuse("layout", "there is no '" + *name + "'", suggestion(*name, known));
 }
 
 void warn(const std::vector<std::string>& warnings) {

@@ -97,4 +97,10 @@ std::string name_of(MeasureLevel level) {
   return level == MeasureLevel::none ? "none" : level == MeasureLevel::light ? "light" : "full";
 }
 
+std::optional<MeasureLevel> measure_level_called(const std::string& name) {
+  for (const MeasureLevel level : measure_levels)
+    if (name == name_of(level)) return level;
+  return std::nullopt;
+}
+
 }  // namespace gracilis

@@ -3,6 +3,7 @@
 #include <gracilis/core/types.hpp>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,5 +50,7 @@ std::vector<std::string> unmeasured_gates(MeasureLevel level);
 
 /// "none", "light" or "full".
 std::string name_of(MeasureLevel level);
+/// The level of that name, if there is one.
+std::optional<MeasureLevel> measure_level_called(const std::string& name);
 
 }  // namespace gracilis

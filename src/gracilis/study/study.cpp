@@ -25,8 +25,7 @@ std::string run_definition(const Study& study, const StudyRun& run, const std::s
   const StudyRecording& recording = study.recording;
   return text + fmt::format("metrics {}\nfibers {}\nramps {}\narms {}\npictures {}\nevery {}\nlayout {}\n",
                             name_of(recording.measures), recording.fibers, recording.ramps, recording.arms,
-                            recording.pictures, recording.every,
-                            recording.layout == RunLayout::compact ? "compact" : "surfaces");
+                            recording.pictures, recording.every, name_of(recording.layout));
 }
 
 std::string command_alone(const Study& study, const StudyRun& run) {
@@ -45,7 +44,7 @@ std::string command_alone(const Study& study, const StudyRun& run) {
   if (!recording.ramps) text += " --no-ramp";
   if (recording.arms) text += " --arms";
   if (recording.every > 1) text += fmt::format(" --every {}", recording.every);
-  text += recording.layout == RunLayout::compact ? " --layout compact" : " --layout surfaces";
+  text += " --layout " + name_of(recording.layout);
   return text + " --out " + shell_word(run.name);
 }
 

@@ -24,22 +24,19 @@ static std::vector<std::string> names_of_samplings() {
 }
 
 static void read_recording(TomlReader& top, StudyRecording& recording) {
-  const std::string level = top.text("metrics").value_or("full");
-  const auto* found = std::find_if(measure_levels.begin(), measure_levels.end(),
-                                   [&](MeasureLevel each) { return level == name_of(each); });
-  if (found == measure_levels.end())
-    top.add_problem("metrics", "'metrics' must be \"none\", \"light\" or \"full\"");
+  if (const auto level = measure_level_called(top.text("metrics").value_or("full")))
+    recording.measures = *level;
   else
-    recording.measures = *found;
+    top.add_problem("metrics", "'metrics' must be \"none\", \"light\" or \"full\"");
   recording.fibers = top.flag("fibers").value_or(true);
   recording.ramps = top.flag("ramps").value_or(true);
   recording.arms = top.flag("arms").value_or(false);
   recording.pictures = top.flag("pictures").value_or(false);
   recording.every = static_cast<int>(top.integer("every", 1, 1'000'000).value_or(1));
-  const std::string layout = top.text("layout").value_or("compact");
-  if (layout != "compact" && layout != "surfaces")
+  if (const auto layout = run_layout_called(top.text("layout").value_or("compact")))
+    recording.layout = *layout;
+  else
     top.add_problem("layout", "'layout' must be \"compact\" or \"surfaces\"");
-  recording.layout = layout == "surfaces" ? RunLayout::surfaces : RunLayout::compact;
 }
 
 /// The table that lists runs, where the sampling says so.

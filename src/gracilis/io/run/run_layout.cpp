@@ -6,6 +6,14 @@ namespace gracilis {
 
 namespace fs = std::filesystem;
 
+std::string name_of(RunLayout layout) { return layout == RunLayout::compact ? "compact" : "surfaces"; }
+
+std::optional<RunLayout> run_layout_called(const std::string& name) {
+  for (const RunLayout layout : run_layouts)
+    if (name == name_of(layout)) return layout;
+  return std::nullopt;
+}
+
 RunLayout layout_of(const fs::path& folder, RunLayout otherwise) {
   if (fs::exists(shapes_file(folder, 0))) return RunLayout::compact;
   // Frames of the other layout, or a run of before there were two.

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace gracilis {
@@ -9,6 +11,12 @@ namespace gracilis {
 /// with all muscles (shapes/), each bone once (bones/) with its motion in the frames' files, and fibers once where they
 /// follow the surfaces. Both hold the same numbers.
 enum class RunLayout { surfaces, compact };
+inline constexpr std::array<RunLayout, 2> run_layouts = {RunLayout::compact, RunLayout::surfaces};
+
+/// "compact" or "surfaces".
+std::string name_of(RunLayout layout);
+/// The layout of that name, if there is one.
+std::optional<RunLayout> run_layout_called(const std::string& name);
 
 /// That of the run in a folder; `otherwise` where there is no frame yet.
 RunLayout layout_of(const std::filesystem::path& folder, RunLayout otherwise = RunLayout::surfaces);

@@ -271,9 +271,8 @@ SessionOptions as_begun(const LoadedScene& loaded, const SessionOptions& given) 
   options.every = std::max(1, manifest.value("every", 1));
   options.without_ramps = !manifest.value("ramps", true);
   options.without_fibers = !manifest.value("fibers", true);
-  const std::string measured = manifest.value("metrics", name_of(MeasureLevel::full));
-  for (const MeasureLevel level : measure_levels)
-    if (measured == name_of(level)) options.measures = level;
+  options.measures =
+      measure_level_called(manifest.value("metrics", name_of(MeasureLevel::full))).value_or(options.measures);
   return options;
 }
 
