@@ -1,6 +1,7 @@
 #include "exit_handling.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/failure.hpp>
 
 #include <spdlog/spdlog.h>
 
@@ -8,11 +9,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
 #include <iostream>
-#include <new>
 #include <sstream>
-#include <system_error>
 
 namespace gracilis {
 
@@ -49,22 +47,12 @@ int run_guarded(const std::function<int()>& command) {
     const int code = command();
     require_printed();
     return code;
-  } catch (const Error& error) {
-    std::istringstream lines(error.what());
+  } catch (const std::exception&) {
+    const Failure failure = current_failure();
+    std::istringstream lines(failure.text);
     for (std::string line; std::getline(lines, line);) spdlog::error("{}", line);
-    return static_cast<int>(error.code());
-  } catch (const std::filesystem::filesystem_error& error) {
-    spdlog::error("{}: {}", error.path1().string(), error.code().message());
-    return static_cast<int>(ExitCode::unreadable_input);
-  } catch (const std::system_error& error) {
-    spdlog::error("the system refused: {}", error.what());
-    return static_cast<int>(ExitCode::unreadable_input);
-  } catch (const std::bad_alloc&) {
-    spdlog::error("out of memory");
-  } catch (const std::exception& error) {
-    spdlog::error("internal error: {}", error.what());
+    return static_cast<int>(failure.code);
   }
-  return static_cast<int>(ExitCode::internal);
 }
 
 }  // namespace gracilis

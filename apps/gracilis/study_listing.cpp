@@ -1,6 +1,7 @@
 #include "study_listing.hpp"
 
 #include <gracilis/io/run/run_size.hpp>
+#include <gracilis/io/text_cells.hpp>
 
 #include <fmt/format.h>
 
@@ -16,21 +17,14 @@ std::vector<RunStanding> standings_of(const Study& study, const std::string& ver
   return standings;
 }
 
-static std::string table_cell(const std::string& text) {
-  if (text.find_first_of(",\"") == std::string::npos) return text;
-  std::string cell = "\"";
-  for (const char c : text) cell += c == '"' ? "\"\"" : std::string(1, c);
-  return cell + "\"";
-}
-
 std::string plan_table(const Study& study, const std::vector<RunStanding>& standings) {
   std::string text = "run,state";
-  for (const std::string& key : study.parameters) text += "," + table_cell(key);
+  for (const std::string& key : study.parameters) text += "," + csv_cell(key);
   text += ",alone\n";
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     text += study.runs[i].name + "," + name_of(standings[i].state);
-    for (const std::string& value : study.runs[i].values) text += "," + table_cell(value);
-    text += "," + table_cell(command_alone(study, study.runs[i])) + "\n";
+    for (const std::string& value : study.runs[i].values) text += "," + csv_cell(value);
+    text += "," + csv_cell(command_alone(study, study.runs[i])) + "\n";
   }
   return text;
 }

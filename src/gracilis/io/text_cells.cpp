@@ -49,4 +49,11 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
+  return cell + "\"";
+}
+
 }  // namespace gracilis

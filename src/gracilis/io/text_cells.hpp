@@ -10,6 +10,9 @@ namespace gracilis {
 /// Empty cells at the end are dropped.
 std::vector<std::string_view> cells_of(std::string_view line);
 
+/// A cell between commas as other programs read it (RFC 4180); the end of a line in it becomes a space.
+std::string csv_cell(const std::string& text);
+
 /// Cells between any white space or commas.
 std::vector<std::string_view> words_of(std::string_view line);
 

@@ -1,6 +1,7 @@
 #include <gracilis/study/child_process.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/failure.hpp>
 
 #include <fmt/format.h>
 
@@ -18,7 +19,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <new>
 
 namespace gracilis {
 
@@ -35,14 +35,9 @@ struct WorkEnd {
 WorkEnd guarded(const std::function<int()>& work) {
   try {
     return {work(), ""};
-  } catch (const Error& error) {
-    return {static_cast<int>(error.code()), error.what()};
-  } catch (const std::filesystem::filesystem_error& error) {
-    return {static_cast<int>(ExitCode::unreadable_input), error.path1().string() + ": " + error.code().message()};
-  } catch (const std::bad_alloc&) {
-    return {static_cast<int>(ExitCode::internal), "out of memory"};
-  } catch (const std::exception& error) {
-    return {static_cast<int>(ExitCode::internal), std::string("internal error: ") + error.what()};
+  } catch (const std::exception&) {
+    const Failure failure = current_failure();
+    return {static_cast<int>(failure.code), failure.text};
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/text_cells.hpp>
 
 #include <fmt/format.h>
 
@@ -14,14 +15,6 @@ namespace gracilis {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A cell as other programs read it (RFC 4180).
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string cell = "\"";
-  for (const char c : text) cell += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
-  return cell + "\"";
-}
 
 class TableFile {
  public:

@@ -5,7 +5,6 @@
 #include <gracilis/geometry/sobol_points.hpp>
 
 #include <limits>
-#include <numeric>
 #include <random>
 
 namespace gracilis {
@@ -37,17 +36,14 @@ static Eigen::MatrixXd morris_points(Index ways, Index columns, Index levels, st
   const auto below = [&](Index count) { return static_cast<Index>(random() % static_cast<std::uint64_t>(count)); };
   const Real step = Real(levels / 2) / static_cast<Real>(levels - 1);
   Eigen::MatrixXd points(ways * (columns + 1), columns);
-  std::vector<Index> order(static_cast<std::size_t>(columns));
   for (Index way = 0; way < ways; ++way) {
     Eigen::RowVectorXd low(columns), at(columns);
     for (Index column = 0; column < columns; ++column) {
       low[column] = static_cast<Real>(below(levels / 2)) / static_cast<Real>(levels - 1);
       at[column] = low[column] + (below(2) == 0 ? 0 : step);
     }
-    std::iota(order.begin(), order.end(), 0);
-    for (std::size_t i = order.size(); i > 1; --i)
-      std::swap(order[i - 1], order[static_cast<std::size_t>(below(static_cast<Index>(i)))]);
     points.row(way * (columns + 1)) = at;
+    const std::vector<Index> order = shuffled_order(columns, random);
     for (Index i = 0; i < columns; ++i) {
       const Index column = order[static_cast<std::size_t>(i)];
       at[column] = at[column] > low[column] ? low[column] : low[column] + step;
