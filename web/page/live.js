@@ -61,12 +61,6 @@ const page = {
   },
 };
 
-function bytesOfProgram() {
-  const text = atob(element('program').textContent), bytes = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  return bytes;
-}
-
 // A row of a list of sliders: what it is called, the slider, and what is said of it.
 function addSlider(list, id, name, attributes, unit, explain) {
   const row = make('div', '', {class: 'row'}), label = make('label', name, {for: id});
@@ -280,4 +274,4 @@ for (const name of ['bones', 'fibers', 'wireframe'])
 page.worker = new Worker(URL.createObjectURL(new Blob([element('worker').textContent], {type: 'text/javascript'})));
 page.worker.onmessage = ({data}) => heard[data.kind](data);
 page.worker.onerror = event => page.tell(`The program does not start here: ${event.message}`, true);
-page.send('begin', {bytes: bytesOfProgram(), method: 0});
+page.send('begin', {bytes: bytesOf('program'), method: 0});

@@ -1,19 +1,12 @@
 // What the worker sends, as three.js draws it: a Stage's shapes, as RunShapes is for a recorded run.
 const SURFACE_COLORS = {muscle: 'by muscle', activation: 'by activation', strain: 'by fiber length'};
 
-class LiveShapes {
+class LiveShapes extends LitScene {
   constructor(description) {
-    this.scene = new THREE.Scene();
-    this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.01, 10);
-    this.scene.add(this.camera, new THREE.AmbientLight(0xffffff, 0.32));
-    for (const [x, y, z, strength] of [[-0.7, 0.8, 1, 0.62], [1, -0.1, 0.8, 0.28], [0.3, 1, -0.6, 0.25]]) {
-      const light = new THREE.DirectionalLight(0xffffff, strength);
-      light.position.set(x, y, z);
-      this.camera.add(light, light.target);
-    }
+    super();
     this.bones = description.bones.map(bone => ({...bone, mesh: this.surface(bone, 0xefe6d0)}));
     this.muscles = description.muscles.map(muscle => ({...muscle, mesh: this.surface(muscle, new THREE.Color(...muscle.color)),
-                                                       lines: this.lines()}));
+                                                       lines: this.addLines(new THREE.BufferGeometry())}));
     for (const bone of this.bones) bone.mesh.matrixAutoUpdate = false;
   }
 
@@ -21,20 +14,7 @@ class LiveShapes {
     const geometry = new THREE.BufferGeometry();
     geometry.setIndex(new THREE.BufferAttribute(faces, 1));
     geometry.setAttribute('position', new THREE.BufferAttribute(points.slice(), 3));
-    geometry.computeVertexNormals();
-    const material = new THREE.MeshPhongMaterial({color, specular: 0x222222, shininess: 18, side: THREE.DoubleSide});
-    const mesh = new THREE.Mesh(geometry, material);
-    mesh.frustumCulled = false;
-    this.scene.add(mesh);
-    return mesh;
-  }
-
-  lines() {
-    const lines = new THREE.LineSegments(new THREE.BufferGeometry(),
-                                         new THREE.LineBasicMaterial({vertexColors: THREE.VertexColors}));
-    lines.frustumCulled = false;
-    this.scene.add(lines);
-    return lines;
+    return this.addSurface(geometry, color);
   }
 
   show(frame, state) {

@@ -18,6 +18,7 @@ namespace gracilis {
 namespace embedded {
 
 extern const std::string_view comparison_html;  // the file beside this one
+extern const std::string_view tables_css;       // of the report's folder
 
 }  // namespace embedded
 
@@ -170,6 +171,7 @@ void write_comparison_page(const std::filesystem::path& path, const std::string&
   fill(page, "methods", method_table(runs, rows));
   fill(page, "heading", in_element(scene) + ": methods side by side");
   fill(page, "title", in_element(scene));
+  fill(page, "style", embedded::tables_css);
   write_text_atomically(path, page);
 }
 

@@ -48,10 +48,9 @@ function blendPoints(stored, count, low, size, [a, b, share], out) {
   }
 }
 
-class RunShapes {
-  constructor(run, index) {
-    this.run = run;
-    this.buffer = bytesOf('shapes-' + index);
+// A scene with its camera, and lights that go with that.
+class LitScene {
+  constructor() {
     this.scene = new THREE.Scene();
     this.camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 0.01, 10);
     this.scene.add(this.camera, new THREE.AmbientLight(0xffffff, 0.32));
@@ -60,6 +59,31 @@ class RunShapes {
       light.position.set(x, y, z);
       this.camera.add(light, light.target);
     }
+  }
+
+  addSurface(geometry, color) {
+    geometry.computeVertexNormals();
+    return this.add(new THREE.Mesh(geometry, new THREE.MeshPhongMaterial({color, specular: 0x222222, shininess: 18,
+                                                                          side: THREE.DoubleSide})));
+  }
+
+  addLines(geometry) {
+    return this.add(new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({vertexColors: THREE.VertexColors})));
+  }
+
+  // Shapes change without their bounds being told.
+  add(shape) {
+    shape.frustumCulled = false;
+    this.scene.add(shape);
+    return shape;
+  }
+}
+
+class RunShapes extends LitScene {
+  constructor(run, index) {
+    super();
+    this.run = run;
+    this.buffer = bytesOf('shapes-' + index);
     this.surfaces = run.shapes.surfaces.map(surface => this.makeSurface(surface));
     this.fibers = run.shapes.fibers.map(fibers => this.makeFibers(fibers));
   }
@@ -74,15 +98,10 @@ class RunShapes {
     geometry.setIndex(new THREE.BufferAttribute(new Uint16Array(this.buffer, surface.faces_at, 3 * surface.faces), 1));
     geometry.setAttribute('position', new THREE.BufferAttribute(points, 3));
     geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(points.length).fill(1), 3));
-    geometry.computeVertexNormals();
-    const material = new THREE.MeshPhongMaterial({color: 0xefe6d0, specular: 0x222222, shininess: 18,
-                                                  side: THREE.DoubleSide});
-    const mesh = new THREE.Mesh(geometry, material);
-    mesh.frustumCulled = false;
-    this.scene.add(mesh);
+    const mesh = this.addSurface(geometry, 0xefe6d0);
     const result = {...surface, mesh, stored};
     if (muscle) {
-      material.vertexColors = THREE.VertexColors;
+      mesh.material.vertexColors = THREE.VertexColors;
       const color = new THREE.Color(this.run.muscles.find(each => each.name === surface.name).color);
       result.color = [color.r, color.g, color.b];
       const bytes = at => new Uint8Array(this.buffer, at, surface.vertices * this.run.shapes.frames.length);
@@ -105,9 +124,7 @@ class RunShapes {
     geometry.setIndex(index);
     geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3 * count), 3));
     geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * count), 3));
-    const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({vertexColors: THREE.VertexColors}));
-    lines.frustumCulled = false;
-    this.scene.add(lines);
+    const lines = this.addLines(geometry);
     const frames = this.run.shapes.frames.length;
     return {...fibers, count, lines, stored: new Uint16Array(this.buffer, fibers.points_at, 3 * count * frames),
             strain: new Uint8Array(this.buffer, fibers.strain_at, fibers.sizes.length * frames)};

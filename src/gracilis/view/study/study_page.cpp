@@ -20,6 +20,7 @@ namespace gracilis {
 namespace embedded {
 
 extern const std::string_view study_html;  // the file beside this one
+extern const std::string_view tables_css;  // of the report's folder
 
 }  // namespace embedded
 
@@ -170,6 +171,7 @@ void write_study_page(const std::filesystem::path& path, const Study& study, con
   fill(page, "summary", summary);
   fill(page, "heading", "Study " + in_element(name));
   fill(page, "title", in_element(name));
+  fill(page, "style", embedded::tables_css);
   write_text_atomically(path, page);
 }
 
