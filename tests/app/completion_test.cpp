@@ -1,4 +1,5 @@
 #include "app/program.hpp"
+#include "io/test_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,8 +27,6 @@ using testing::StartsWith;
 class Completion : public testing::Test {
  protected:
   void SetUp() override {
-    char name[] = "/tmp/gracilis_completion_XXXXXX";
-    folder_ = mkdtemp(name);
     write("base.toml",
           "[[muscles]]\nname = \"psoas_r\"\n[[muscles]]\nname = \"iliacus_r\"\n"
           "[[joints]]\nname = \"hip_r\"\n[[joints.axes]]\ncoordinate = \"hip_flexion_r\"\n");
@@ -39,15 +38,11 @@ class Completion : public testing::Test {
     write("done/run.json", "{}");
     fs::create_directories(folder_ / "drafts");
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
-  void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void write(const std::string& name, const std::string& text) const { test_folder_.write(name, text); }
 
   std::string said_here(const std::string& command) const {
-    std::FILE* pipe = popen(("cd " + folder_.string() + " && " + command + " 2>&1").c_str(), "r");
-    std::string text = read_all(pipe);
-    pclose(pipe);
-    return text;
+    return said_by("cd '" + folder_.string() + "' && " + command);
   }
 
   std::vector<std::string> lines_of(const std::string& text, bool first_column) const {
@@ -81,7 +76,8 @@ class Completion : public testing::Test {
     return lines_of(said_here("bash " + script.string()), false);
   }
 
-  fs::path folder_;
+  TestFolder test_folder_;
+  fs::path folder_ = test_folder_.path();
 };
 
 TEST_F(Completion, commands_and_options_come_from_the_tables_of_help) {

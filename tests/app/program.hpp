@@ -24,6 +24,14 @@ inline std::string read_all(std::FILE* pipe) {
   return text;
 }
 
+/// stdout and stderr of a shell's command line.
+inline std::string said_by(const std::string& command) {
+  std::FILE* pipe = popen(("{ " + command + "\n} 2>&1").c_str(), "r");
+  std::string text = read_all(pipe);
+  pclose(pipe);
+  return text;
+}
+
 /// Runs the program with these arguments, as a shell would read them.
 inline ProgramResult run_program(const std::string& arguments) {
   char errors[] = "/tmp/gracilis_stderr_XXXXXX";
