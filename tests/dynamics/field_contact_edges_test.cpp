@@ -108,7 +108,7 @@ TEST(FieldContact, a_fixed_end_leaves_the_whole_way_to_the_other) {
   EXPECT_EQ(fixed.near_edges(), 0);
 }
 
-TEST(FieldContact, an_edge_whose_fixed_end_a_bone_has_come_over_comes_out_with_its_middle_and_is_not_thrown_away) {
+TEST(FieldContact, an_edge_whose_fixed_end_a_bone_has_come_over_lies_on_it_with_its_middle_and_is_not_thrown_away) {
   // The fixed end is 2 mm below its gap, the other 0.2 mm above it.
   Scenario scenario = points_at({{0, 0.0285, 0}, {0.004, 0.0304, 0}}, {0, 1}, 0.0005f);
   scenario.distances = build_distance_set({{0, 1, 0.0044, 0}}, 2);
@@ -118,8 +118,8 @@ TEST(FieldContact, an_edge_whose_fixed_end_a_bone_has_come_over_comes_out_with_i
   scenario.look();
   for (int pass = 0; pass < 20; ++pass) scenario.push_edges();
   const Eigen::Vector3f middle = (scenario.particles.position(0) + scenario.particles.position(1)) / 2;
-  EXPECT_NEAR(middle.norm(), radius + 0.0005, 5e-5);
-  EXPECT_LT(largest_motion(before, scenario.particles), 0.002);
+  EXPECT_NEAR(middle.norm(), radius, 5e-5) << "a gap there would throw the free end by twice that gap";
+  EXPECT_LT(largest_motion(before, scenario.particles), 0.0014);
 }
 
 TEST(FieldContact, pushes_an_edge_out_at_its_deepest_point_wherever_that_is) {

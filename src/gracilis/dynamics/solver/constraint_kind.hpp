@@ -10,6 +10,7 @@ enum class ConstraintKind {
   dihedral,
   volume,
   strain_limit,
+  shape_limit,
   muscle_contact,
   slivers,
   rest_proximities,

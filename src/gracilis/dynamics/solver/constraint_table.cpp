@@ -77,6 +77,12 @@ void strain_limit_pass(SurfaceSolve& surface) {
   surface.report.limited_edges += limited;
 }
 
+void shape_limit_pass(SurfaceSolve& surface) {
+  if (!surface.settings.shape_limits.any()) return;
+  project_shape_limits(surface.system->shape_limits, surface.settings.shape_limits, surface.state->near_shape_limit,
+                       surface.state->particles);
+}
+
 void sliver_pass(SurfaceSolve& surface) { project_slivers(surface.system->slivers, surface.state->particles); }
 
 void rest_proximity_pass(SurfaceSolve& surface) {
@@ -95,6 +101,7 @@ constexpr ConstraintRow rows[] = {
     {ConstraintKind::dihedral, "dihedral", before_contact, dihedral_pass},
     {ConstraintKind::volume, "volume", before_contact, volume_pass},
     {ConstraintKind::strain_limit, "stretch limit", before_contact, strain_limit_pass},
+    {ConstraintKind::shape_limit, "shape limit", settling, shape_limit_pass},
     {ConstraintKind::muscle_contact, "muscle contact", contact, nullptr},  // Coupling::project
     {ConstraintKind::slivers, "sliver", after_contact, sliver_pass},
     {ConstraintKind::rest_proximities, "rest proximity", after_contact, rest_proximity_pass},

@@ -7,8 +7,9 @@
 
 namespace gracilis {
 
-/// When an iteration projects a kind: before contact between surfaces, as that contact, or after it.
-enum class ConstraintPhase { before_contact, contact, after_contact };
+/// When an iteration projects a kind: before contact between surfaces, as that contact, or after it; or only while a
+/// surface settles after its iterations.
+enum class ConstraintPhase { before_contact, settling, contact, after_contact };
 
 /// What the solver knows of a kind of constraint.
 struct ConstraintRow {

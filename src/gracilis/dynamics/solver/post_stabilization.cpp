@@ -17,7 +17,7 @@ constexpr int further_rounds = 16;
 constexpr double squeezed = 1e-3;
 /// Passes in which surfaces recover that in the end are squeezed so far, or torn: with an edge so many times as long as
 /// the limit allows.
-constexpr int recovering_passes = 10;
+constexpr int recovering_passes = 40;
 constexpr float torn = 1.1f;
 
 /// Whether contact has squeezed it out of its volume.
@@ -81,6 +81,7 @@ void project(ConstraintKind kind, JointSolve& solve, const Wanted& is_wanted) {
 template <class Wanted>
 void pull_together(JointSolve& solve, const Wanted& is_wanted) {
   project(ConstraintKind::strain_limit, solve, is_wanted);
+  project(ConstraintKind::shape_limit, solve, is_wanted);
   solve.for_each(is_wanted, [&](std::size_t i) {
     const SurfaceSolve& surface = solve.surfaces[i];
     keep_listed(*surface.system, *surface.placements, *surface.state);
@@ -96,6 +97,17 @@ void settle_once(JointSolve& solve, const Wanted& is_wanted) {
   pull_together(solve, is_wanted);
 }
 
+/// From this share of the way to a limit of shape on, a particle may come to it while its surface settles.
+constexpr float near_limit = 0.7f;
+
+void list_near_shape_limits(const SurfaceSolve& surface) {
+  const ShapeLimits& limits = surface.settings.shape_limits;
+  SurfaceState& state = *surface.state;
+  state.near_shape_limit.clear();
+  if (limits.any())
+    state.near_shape_limit = near_shape_limits(surface.system->shape_limits, limits, near_limit, state.particles);
+}
+
 /// What was moved since the last iteration, by untangling too, may be near anything and may be stretched far.
 void look_again(JointSolve& solve) {
   if (solve.coupling.refresh) solve.coupling.refresh(solve.movers);
@@ -104,6 +116,7 @@ void look_again(JointSolve& solve) {
     keep_listed(*surface.system, *surface.placements, *surface.state);
     find_edge_points(*surface.system, *surface.placements, *surface.state);
     activate_all(surface.state->strained);
+    list_near_shape_limits(surface);
   });
 }
 
@@ -122,8 +135,10 @@ void settle(JointSolve& solve) {
   for (const SurfaceSolve& surface : solve.surfaces) rounds = std::max(rounds, surface.settings.settling_rounds);
   look_again(solve);
   // What untangling took to its place may have stretched edges far, and what contact does in each round some.
-  for (int pass = 0; pass < limit_passes; ++pass)
+  for (int pass = 0; pass < limit_passes; ++pass) {
     project(ConstraintKind::strain_limit, solve, movers_of_round(solve, 0));
+    project(ConstraintKind::shape_limit, solve, movers_of_round(solve, 0));
+  }
   for (int round = 0; round < rounds; ++round) settle_once(solve, movers_of_round(solve, round));
   settle_squeezed(solve);
 }

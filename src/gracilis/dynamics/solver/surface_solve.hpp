@@ -19,6 +19,7 @@ struct SolveSettings {
   float tension = 0;                ///< factor on the stiffness of tensions; 0: they are not projected
   double pressure = 1;              ///< target volume over the volume at rest
   float strain_limit = 0;           ///< longest an edge may be, over its length at rest; 0: none
+  ShapeLimits shape_limits;         ///< while settling
   float stop_displacement = 0;      ///< m; stop early when no particle moved further in an iteration; 0: never
   double stop_milliseconds = 0;     ///< stop early after this time; 0: never
 };

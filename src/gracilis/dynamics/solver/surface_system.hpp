@@ -4,6 +4,7 @@
 #include <gracilis/dynamics/constraints/dihedral.hpp>
 #include <gracilis/dynamics/constraints/distance.hpp>
 #include <gracilis/dynamics/constraints/rest_proximity.hpp>
+#include <gracilis/dynamics/constraints/shape_limit.hpp>
 #include <gracilis/dynamics/constraints/slivers.hpp>
 #include <gracilis/dynamics/constraints/strain_limit.hpp>
 #include <gracilis/dynamics/constraints/volume.hpp>
@@ -24,6 +25,7 @@ struct SurfaceSystem {
   VolumeSet volume;
   SliverSet slivers;  ///< what a surface does where its data are too poor for contact with itself
   std::vector<RestProximity> rest_proximities;
+  ShapeLimitSet shape_limits;
   FaceSet large_faces;  ///< those that contact tests between their edges, too
   std::vector<FieldContactSet> contacts;
 };
@@ -41,6 +43,7 @@ struct SurfaceState {
   AlignedVector<float> volume_gradients;  ///< workspace
   std::vector<NearField> near;            ///< per contact set; workspace
   StrainLimitActiveSet strained;          ///< workspace
+  std::vector<Index> near_shape_limit;    ///< particles; workspace
   Particles listed;                       ///< where the particles were when what is near was listed; workspace
 };
 

@@ -284,6 +284,8 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
     prepared.system.rest_proximities =
         find_rest_proximities(prepared.rest, prepared.faces, tight, prepared.system.rest);
   }
+  if (prepared.settings.spike_limit > 0 || prepared.settings.thickness_limit > 0)
+    prepared.system.shape_limits = build_shape_limits({prepared.rest, prepared.faces});
   const MeshTopology topology = build_topology(prepared.faces, prepared.particle_count());
   build_predictor(scene, topology, fields, prepared);
   build_edges(attachments, topology, prepared);

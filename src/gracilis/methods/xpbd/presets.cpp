@@ -39,6 +39,8 @@ static Preset thesis_2024() {
   xpbd.shape_recovery = 0;
   xpbd.dihedral_limit = 0;
   xpbd.stretch_limit = 0;
+  xpbd.spike_limit = 0;
+  xpbd.thickness_limit = 0;
   xpbd.slack_uptake = false;
   preset.distance_fields.resolution = 128;
   preset.distance_fields.domain_margin = 0;

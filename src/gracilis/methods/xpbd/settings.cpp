@@ -90,6 +90,11 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "Largest motion that one projection of a dihedral may cause, as a share of its edge; 0 sets no limit."},
       {"stretch_limit", &S::stretch_limit, "", 0, 1000,
        "Longest an edge may become as a multiple of its length at rest; 0 sets no limit."},
+      {"spike_limit", &S::spike_limit, "", 0, 1000,
+       "Farthest a vertex may stand out from its neighbors beyond rest, as a multiple of the edges around it; 0 sets "
+       "no limit."},
+      {"thickness_limit", &S::thickness_limit, "", 0, 1000,
+       "Thickest a place of the muscle may become as a multiple of its thickness at rest; 0 sets no limit."},
       {"slack_uptake", &S::slack_uptake, "", 0, 0,
        "Edges aim at the lengths they have on the surface skinned to the bones, so that a muscle shortens and "
        "lengthens where the motion asks for it instead of folding."},

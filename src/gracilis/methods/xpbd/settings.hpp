@@ -43,6 +43,8 @@ struct SolverSettings {
   int settling_rounds = 4;      ///< of volume and contact alone, after the last iteration
   Real dihedral_limit = 0.05;   ///< largest motion by one dihedral projection, as a share of its edge; 0: off
   Real stretch_limit = 2.5;     ///< longest an edge may become, over its length at rest; 0: no limit
+  Real spike_limit = 1.5;       ///< farthest a vertex may stand out of its neighbors, in edges; 0: no limit
+  Real thickness_limit = 2.5;   ///< thickest a place may become, over its thickness at rest; 0: no limit
 };
 
 /// How much of a surface is simulated, and how fast.

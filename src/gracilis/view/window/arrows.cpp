@@ -18,6 +18,7 @@ Color arrow_color(ConstraintKind kind) {
     case ConstraintKind::volume:
       return Color(0.00, 0.62, 0.45);
     case ConstraintKind::strain_limit:
+    case ConstraintKind::shape_limit:
       return Color(0.80, 0.47, 0.65);
     case ConstraintKind::muscle_contact:
       return Color(0.00, 0.45, 0.70);

@@ -21,8 +21,11 @@ void list_edge(Index a, Index b, float sag, float least, const FieldPlacement& p
   NearEdges& edges = near.edges;
   const Eigen::Vector3f middle = placement.to_obstacle((particles.position(a) + particles.position(b)) / 2);
   edges.a.push_back(a), edges.b.push_back(b);
-  edges.gap_a.push_back(near.gap[static_cast<std::size_t>(a)] + sag);
-  edges.gap_b.push_back(near.gap[static_cast<std::size_t>(b)] + sag);
+  const auto gap = [&](Index p, Index other) {
+    return sag + gap_of_end(particles.inverse_mass(p) > 0, near.clearance[static_cast<std::size_t>(p)],
+                            near.gap[static_cast<std::size_t>(p)], near.gap[static_cast<std::size_t>(other)]);
+  };
+  edges.gap_a.push_back(gap(a, b)), edges.gap_b.push_back(gap(b, a));
   const auto untested = [&](Index p) {
     return untested_share(particles.inverse_mass(p) > 0, near.clearance[static_cast<std::size_t>(p)]);
   };
@@ -104,9 +107,11 @@ void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPla
       std::array<ContactCorner, 3> corners;
       Eigen::Vector3f movable;
       float longest2 = 0, clearance = std::numeric_limits<float>::infinity(), untested = 0;
+      float largest_gap = -std::numeric_limits<float>::infinity();
       for (std::size_t k = 0; k < 3; ++k) {
         const Index p = faces.particles[k][static_cast<std::size_t>(slot)];
         corners[k] = {placement.to_obstacle(particles.position(p)), near.gap[static_cast<std::size_t>(p)]};
+        largest_gap = std::max(largest_gap, corners[k].gap);
         const float above = near.clearance[static_cast<std::size_t>(p)];
         const bool moves = particles.inverse_mass(p) > 0;
         clearance = std::min(clearance, above);
@@ -115,6 +120,11 @@ void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPla
       }
       for (std::size_t k = 0; k < 3; ++k)
         longest2 = std::max(longest2, (corners[k].q - corners[(k + 1) % 3].q).squaredNorm());
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index p = faces.particles[k][static_cast<std::size_t>(slot)];
+        corners[k].gap = gap_of_end(movable[static_cast<Eigen::Index>(k)] > 0,
+                                    near.clearance[static_cast<std::size_t>(p)], corners[k].gap, largest_gap);
+      }
       // No point of a triangle is farther from its nearest corner than this share of its longest edge.
       if (movable.isZero() || clearance > element_reach + 0.58f * steepest * std::sqrt(longest2)) continue;
       near.faces.slots.push_back(slot);

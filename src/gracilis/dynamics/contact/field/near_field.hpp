@@ -4,6 +4,7 @@
 #include <gracilis/dynamics/constraints/color_order.hpp>
 #include <gracilis/dynamics/contact/field/field_contact_set.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -33,6 +34,13 @@ inline bool may_reach(const CachedQuery& seen, const Eigen::Vector3f& q, float l
 inline float untested_share(bool movable, float clearance) {
   if (movable) return 0;
   return clearance < 0 ? 0.5f : 0.2f;
+}
+
+/// The gap at an end or a corner: its own; but where a bone has come over it and it cannot move, one by which what is
+/// half way to the other end, with a gap of `other`, touches the bone and no more: each bit of gap there throws the
+/// other end twice as far.
+inline float gap_of_end(bool movable, float clearance, float gap, float other) {
+  return movable || !(clearance < 0) ? gap : std::min(gap, -other);
 }
 
 /// Gradients shorter than this, squared, tell no way out: on a field's ridges they fade.
