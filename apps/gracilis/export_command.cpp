@@ -21,6 +21,7 @@
 #include <gracilis/view/export/export_surfaces.hpp>
 #include <gracilis/view/export/export_tables.hpp>
 #include <gracilis/view/export/export_tetrahedra.hpp>
+#include <gracilis/view/export/export_usd.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -38,7 +39,7 @@ struct ExportOptions {
   std::filesystem::path run, out, model, check, page;
   std::string to;
   std::vector<int> frames;
-  GltfOptions gltf;
+  AnimationOptions animation;
   Real specific_tension = 6.1e5;
   Index points = 12;
   opensim::MuscleFitSettings fit;
@@ -173,7 +174,13 @@ const std::vector<ExportFormat>& formats() {
   static const std::vector<ExportFormat> list = {
       {"gltf", "run.glb", "one .glb that plays in viewers, muscles as morph targets",
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
-         export_gltf(run, out, options.gltf);
+         export_gltf(run, out, options.animation);
+       }},
+      {"usd", "run.usda",
+       "one .usda (OpenUSD's text) that plays in Blender, Houdini and usdview, muscles as meshes whose points move, "
+       "fibers as curves",
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+         export_usd(run, out, options.animation);
        }},
       {"csv", "csv", "a folder with all tables, and the muscles' points in --frames",
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
@@ -243,9 +250,11 @@ void add_export_command(CLI::App& program, Command& chosen) {
   command->add_option("--frames", options->frames, "These only, as in 0,45,90 (csv, obj, surfaces, tetrahedra)")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--vertices", options->gltf.muscle_vertices, "About so many at most for each muscle (gltf; 4000)")
+  command
+      ->add_option("--vertices", options->animation.muscle_vertices,
+                   "About so many at most for each muscle (gltf, usd; 4000)")
       ->check(CLI::Range(50, 10'000'000));
-  command->add_option("--most-frames", options->gltf.frames, "At most so many frames (gltf; 60)")
+  command->add_option("--most-frames", options->animation.frames, "At most so many frames (gltf, usd; 60)")
       ->check(CLI::Range(2, 100'000));
   command
       ->add_option("--specific-tension", options->specific_tension,

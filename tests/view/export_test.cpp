@@ -113,7 +113,7 @@ TEST(ExportGltf, a_run_kilometres_away_keeps_its_shapes_and_stands_there) {
 
 TEST(ExportGltf, keeps_to_the_frames_and_vertices_that_are_asked_for) {
   const TestFolder folder;
-  GltfOptions options;
+  AnimationOptions options;
   options.frames = 5;
   options.muscle_vertices = 100;
   export_gltf(FlexingLeg(21).written(folder.path() / "run"), folder.path() / "run.glb", options);

@@ -1,7 +1,5 @@
 #include <gracilis/view/export/export_gltf.hpp>
 
-#include <gracilis/geometry/decimation.hpp>
-#include <gracilis/geometry/rotations.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/palette.hpp>
 
@@ -110,15 +108,14 @@ void add_channel(Model& model, int node, const char* path, int times, int values
 
 int add_bone(Model& model, const RecordedRun& run, const std::string& name, const std::vector<int>& frames, int times,
              Index vertices) {
-  const TriangleMesh rest = placed_surface(run, name, 0);
-  const CoarseSurface coarse = decimate(rest, vertices);
-  const int mesh = add_mesh(model, name, picked(rest.vertices, coarse.vertices), coarse.faces, bone_color());
+  const AnimatedSurface surface = animated_surface(run, name, vertices);
+  const int mesh = add_mesh(model, name, surface.rest, surface.faces, bone_color());
   const int node = model.add("nodes", {{"name", name}, {"mesh", mesh}});
+  const std::vector<RigidTransform> motions = bone_motions(run, name, frames);
   Eigen::MatrixXf turns(4, static_cast<Index>(frames.size())), shifts(3, turns.cols());
   Eigen::Quaternionf last = Eigen::Quaternionf::Identity();
   for (Index i = 0; i < turns.cols(); ++i) {
-    const TriangleMesh now = placed_surface(run, name, frames[static_cast<std::size_t>(i)]);
-    const RigidTransform motion = rigid_motion(rest.vertices, now.vertices);
+    const RigidTransform& motion = motions[static_cast<std::size_t>(i)];
     Eigen::Quaternionf turn(motion.linear().cast<float>());
     if (turn.dot(last) < 0) turn.coeffs() *= -1;  // the short way round
     last = turn;
@@ -130,21 +127,16 @@ int add_bone(Model& model, const RecordedRun& run, const std::string& name, cons
   return node;
 }
 
-int add_muscle(Model& model, const RecordedRun& run, std::size_t number, const std::vector<int>& frames, int times,
+int add_muscle(Model& model, const RecordedRun& run, const std::string& name, const std::vector<int>& frames, int times,
                Index vertices) {
-  const std::string& name = run.muscles[number];
-  const TriangleMesh rest = placed_surface(run, name, 0);
-  const CoarseSurface coarse = decimate(rest, vertices);
-  const Points points = picked(rest.vertices, coarse.vertices);
-  const int mesh = add_mesh(model, name, points, coarse.faces, muscle_color(name));
+  const AnimatedSurface surface = animated_surface(run, name, vertices);
+  const int mesh = add_mesh(model, name, surface.rest, surface.faces, muscle_color(name));
   const int node = model.add("nodes", {{"name", name}, {"mesh", mesh}});
   const std::size_t targets = frames.size() - 1;  // frame 0 is the mesh itself
   if (targets == 0) return node;
   Json morphs = Json::array();
-  for (std::size_t i = 1; i < frames.size(); ++i) {
-    const Points now = picked(placed_surface(run, name, frames[i]).vertices, coarse.vertices);
-    morphs.push_back({{"POSITION", model.add_points(now - points, array_buffer)}});
-  }
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    morphs.push_back({{"POSITION", model.add_points(points_in(run, surface, frames[i]) - surface.rest, array_buffer)}});
   Json& written = model.list("meshes")[static_cast<std::size_t>(mesh)];
   written["primitives"][0]["targets"] = morphs;
   written["weights"] = std::vector<Real>(targets, 0.0);
@@ -168,7 +160,7 @@ std::string padded(std::string text, char with) {
 
 }  // namespace
 
-void export_gltf(const RecordedRun& run, const std::filesystem::path& path, const GltfOptions& options) {
+void export_gltf(const RecordedRun& run, const std::filesystem::path& path, const AnimationOptions& options) {
   Model model;
   model.json = {{"asset", {{"version", "2.0"}, {"generator", "Gracilis"}}}, {"scene", 0}};
   const std::vector<int> frames = spread_frames(run.frame_count, std::max(2, options.frames));
@@ -181,11 +173,9 @@ void export_gltf(const RecordedRun& run, const std::filesystem::path& path, cons
   std::vector<int> children;
   for (const std::string& bone : run.bones)
     children.push_back(add_bone(model, run, bone, frames, times, options.bone_vertices));
-  for (std::size_t m = 0; m < run.muscles.size(); ++m)
-    children.push_back(add_muscle(model, run, m, frames, times, options.muscle_vertices));
-  // Rows are where glTF's axes point in our frame: x to the subject's left, y up, z ahead.
-  Eigen::Matrix3d turn;
-  turn << -run.axes.right().transpose(), run.axes.superior.transpose(), run.axes.anterior.transpose();
+  for (const std::string& muscle : run.muscles)
+    children.push_back(add_muscle(model, run, muscle, frames, times, options.muscle_vertices));
+  const Eigen::Matrix3d turn = upright_turn(run);
   const Eigen::Quaterniond upright(turn);
   Json root_node = {{"name", run.manifest.value("scene", "run")},
                     {"rotation", {upright.x(), upright.y(), upright.z(), upright.w()}},
