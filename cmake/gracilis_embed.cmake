@@ -8,6 +8,32 @@ function(gracilis_embed target name file)
   target_sources(${target} PRIVATE ${source})
 endfunction()
 
+# gracilis_embed_bytes(TARGET NAME FILE): the same of a file of any bytes that the build makes.
+function(gracilis_embed_bytes target name file)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded/${name}.cpp)
+  file(CONFIGURE OUTPUT ${source} @ONLY CONTENT [[#include <string_view>
+
+asm(".pushsection .rodata\n"
+    ".balign 8\n"
+    "@name@_begin:\n"
+    ".incbin \"@file@\"\n"
+    "@name@_end:\n"
+    ".popsection\n");
+extern "C" {
+__attribute__((visibility("hidden"))) extern const char @name@_begin[], @name@_end[];
+}
+
+namespace gracilis::embedded {
+
+extern const std::string_view @name@;
+const std::string_view @name@(@name@_begin, static_cast<std::size_t>(@name@_end - @name@_begin));
+
+}  // namespace gracilis::embedded
+]])
+  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS ${file} SKIP_UNITY_BUILD_INCLUSION ON)
+  target_sources(${target} PRIVATE ${source})
+endfunction()
+
 if(NOT CMAKE_SCRIPT_MODE_FILE)
   set(gracilis_embed_script ${CMAKE_CURRENT_LIST_FILE})
   return()

@@ -24,11 +24,11 @@ install_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 }
 
-# As many compilers as there are processors, but no more than memory holds (ten source files compiled as one take up to 2 GB).
+# As many compilers as there are processors, but no more than memory holds (twenty source files compiled as one, or one with CGAL, take up to 3 GB).
 build_jobs() {
   local processors gigabytes
   processors=$(nproc)
-  gigabytes=$(awk '/^MemAvailable/ { print int($2 / 2000000) }' /proc/meminfo)
+  gigabytes=$(awk '/^MemAvailable/ { print int($2 / 3000000) }' /proc/meminfo)
   ((gigabytes < 1)) && gigabytes=1
   echo $((processors < gigabytes ? processors : gigabytes))
 }

@@ -2,7 +2,6 @@
 
 #include "scene_options.hpp"
 
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/anatomy/resolution/coarser_muscle.hpp>
 #include <gracilis/anatomy/resolution/finer_muscle.hpp>
@@ -10,6 +9,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/state_hash.hpp>
 #include <gracilis/dynamics/simd/instruction_set.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/methods/registry.hpp>
@@ -251,7 +251,7 @@ void add_bench_command(CLI::App& program, Command& chosen) {
       const Clock::time_point started = Clock::now();
       if (!options->file.empty()) return bench(read_scene(options->file, options->scene).scene, *options, started);
       LoadedScene hip;
-      hip.scene = builtin_hip();
+      hip.scene = demo_scene("hip");
       change_scene(hip, options->scene.set, options->scene.only);
       return bench(hip.scene, *options, started);
     };

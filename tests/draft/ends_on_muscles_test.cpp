@@ -3,8 +3,8 @@
 #include "drafted_scene.hpp"
 
 #include <gracilis/anatomy/attachments/muscle_bodies.hpp>
-#include <gracilis/anatomy/builtin/builtin_elbow.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 
 #include <gmock/gmock.h>
 
@@ -22,7 +22,7 @@ const std::map<std::string, std::string> elbow_names = {{"scapula_r", "scapula_r
 const Vec3 coracoid(0.027, 0.307, -0.034), above_olecranon(-0.02, 0.12, 0);  // m
 
 const Scene& whole_elbow() {
-  static const Scene scene = builtin_elbow();
+  static const Scene scene = demo_scene("elbow");
   return scene;
 }
 

@@ -2,10 +2,9 @@
 #include "body_folder.hpp"
 #include "drafted_scene.hpp"
 
-#include <gracilis/anatomy/builtin/builtin_elbow.hpp>
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/draft/name_search.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 
 #include <gmock/gmock.h>
 
@@ -16,12 +15,12 @@ namespace {
 namespace fs = std::filesystem;
 
 const Scene& hip() {
-  static const Scene scene = builtin_hip();
+  static const Scene scene = demo_scene("hip");
   return scene;
 }
 
 const Scene& elbow() {
-  static const Scene scene = builtin_elbow();
+  static const Scene scene = demo_scene("elbow");
   return scene;
 }
 

@@ -3,8 +3,8 @@
 #include "app/program.hpp"
 #include "io/test_files.hpp"
 
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 
 #include <gmock/gmock.h>
 
@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 TEST(SceneCommand, a_folder_becomes_a_scene_with_a_picture_that_runs_and_tells_its_guesses) {
   const TestFolder folder;
-  write_body(folder.path() / "hip", builtin_hip(),
+  write_body(folder.path() / "hip", demo_scene("hip"),
              {{"hip_bone_r", "hip_bone_r.vtp"},
               {"sacrum", "sacrum.vtp"},
               {"femur_r", "femur_r.vtp"},
@@ -50,7 +50,7 @@ TEST(SceneCommand, a_folder_becomes_a_scene_with_a_picture_that_runs_and_tells_i
 
 TEST(NewCommand, surfaces_become_a_commented_scene_that_runs) {
   const TestFolder folder;
-  write_body(folder.path() / "hip", builtin_hip(),
+  write_body(folder.path() / "hip", demo_scene("hip"),
              {{"hip_bone_r", "hip_bone_r.vtp"}, {"femur_r", "femur_r.vtp"}, {"adductor_longus_r", "add_long_r.vtp"}});
   const std::string scene = (folder.path() / "hip.toml").string();
   const ProgramResult made = run_program("new " + (folder.path() / "hip").string() + "/*.vtp --out " + scene);
@@ -66,7 +66,7 @@ TEST(NewCommand, surfaces_become_a_commented_scene_that_runs) {
 
 TEST(NewCommand, surfaces_of_unknown_names_become_a_scene_to_fill_in) {
   const TestFolder folder;
-  write_body(folder.path() / "x", builtin_hip(),
+  write_body(folder.path() / "x", demo_scene("hip"),
              {{"hip_bone_r", "one.vtp"}, {"femur_r", "two.vtp"}, {"adductor_longus_r", "three.vtp"}});
   const std::string in = (folder.path() / "x").string(), scene = (folder.path() / "x.toml").string();
   const ProgramResult made =

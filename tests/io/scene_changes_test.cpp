@@ -1,5 +1,5 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/methods/registry.hpp>
 
@@ -14,7 +14,7 @@ namespace {
 
 /// The built-in hip, whose muscles have settings of their own for its method.
 LoadedScene hip() {
-  static const Scene built = builtin_hip();  // takes seconds
+  static const Scene built = demo_scene("hip");
   LoadedScene loaded;
   loaded.scene = built;
   loaded.preset = presets().front().name;

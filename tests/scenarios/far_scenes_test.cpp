@@ -1,9 +1,9 @@
-#include <gracilis/anatomy/builtin/builtin_elbow.hpp>
 #include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/anatomy/sections/cylinder_surface.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/section_frames.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/run.hpp>
 
@@ -176,9 +176,7 @@ TEST(FarScenes, muscles_meet_by_virtual_edges_as_at_the_origin) { expect_same(tw
 TEST(FarScenes, sections_about_a_line_keep_out_of_bones_as_at_the_origin) { expect_same(line_scene()); }
 
 TEST(FarScenes, an_arm_of_bones_and_muscles_deforms_as_at_the_origin) {
-  BuiltinElbowOptions options;
-  options.last_flexion = radians(20);
-  Scene scene = builtin_elbow(options);
+  Scene scene = demo_scene("elbow", radians(20));
   std::erase_if(scene.muscles,
                 [](const Muscle& muscle) { return muscle.name.find("brachialis") == std::string::npos; });
   const RigidTransform by = Eigen::Translation3d(kilometres_away) * RigidTransform::Identity();

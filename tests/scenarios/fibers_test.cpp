@@ -1,6 +1,6 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/fibers/fiber_containment.hpp>
 #include <gracilis/anatomy/fibers/muscle_fibers.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 
 #include "scenarios/scenario_runs.hpp"
 
@@ -56,7 +56,7 @@ TEST(Fibers, of_the_cadaver_hip_keep_their_mean_length_when_count_or_resolution_
 }
 
 TEST(Fibers, of_the_builtin_hip_run_from_origin_to_insertion_inside_their_muscles) {
-  for (const Muscle& muscle : builtin_hip().muscles) {
+  for (const Muscle& muscle : demo_scene("hip").muscles) {
     expect_fibers_in_place(muscle, fibers_of(muscle));
     expect_independence_of_sampling(muscle);
   }

@@ -1,5 +1,5 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/core/state_hash.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 
 #include "scenario_runs.hpp"
 
@@ -17,7 +17,7 @@ TEST(CadaverHipScenario, adductor_brevis_survives_flexion_in_steps_of_five_degre
 
 TEST(BuiltinHip, crowded_it_resumes_to_the_same_bits) {
   for (const std::string contact : {"surface", "virtual-edges"}) {
-    Scene scene = builtin_hip();
+    Scene scene = demo_scene("hip");
     scene.method.contact["muscle"] = contact;
     const std::vector<Pose> poses = pose_sequence(scene);
     const auto method = make_xpbd_method(scene, cached_bone_fields(scene)),

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/scene/motion.hpp>
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ inline Scene scene_of(const HipMotion& motion, Real step, const std::string& con
     if (!contact.empty()) set.push_back("contact.muscle=" + contact);
     return cadaver_scene("../" + motion.folder + "/" + motion.file, {}, set);
   }
-  Scene scene = builtin_hip();
+  Scene scene = demo_scene("hip");
   Eigen::MatrixXd keys = Eigen::MatrixXd::Zero(2, 3);
   keys.row(1) = motion.end.transpose() * (pi / 180);
   scene.motion = motion_through({"hip_flexion_r", "hip_adduction_r", "hip_rotation_r"}, keys, radians(step), 1.0 / 60);

@@ -1,5 +1,5 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/scene/motion.hpp>
 
 #include "scenario_runs.hpp"
@@ -44,7 +44,7 @@ Real depth_in(const Eigen::AlignedBox3d& box, const Vec3& p) {
 
 }  // namespace
 
-TEST(Pbd2020, keeps_volumes_of_the_builtin_hip_within_1_percent) { expect_published_volume(builtin_hip(), 1); }
+TEST(Pbd2020, keeps_volumes_of_the_builtin_hip_within_1_percent) { expect_published_volume(demo_scene("hip"), 1); }
 
 TEST(Pbd2020, keeps_volumes_of_the_cadaver_hip_within_1_percent) {
   SKIP_WITHOUT_DATA();

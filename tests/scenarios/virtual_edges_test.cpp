@@ -1,4 +1,4 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/motion.hpp>
 
@@ -13,7 +13,7 @@ namespace {
 
 /// Flexed by 30 degrees, three degrees per frame.
 Scene flexed_hip(const Preset& preset) {
-  Scene scene = builtin_hip();
+  Scene scene = demo_scene("hip");
   scene.distance_fields = preset.distance_fields;
   scene.method = preset.method;
   for (Muscle& muscle : scene.muscles) muscle.settings.clear();

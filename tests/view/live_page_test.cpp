@@ -1,6 +1,6 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/overlap/bone_field.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/simulation.hpp>
 
@@ -29,7 +29,7 @@ std::filesystem::path live_page() {
 
 /// The same steps as the page makes (web/page/worker.js), by this machine.
 std::vector<Points> shapes_of_this_machine(const MethodChoice& method, Real flexion) {
-  Scene scene = builtin_hip();
+  Scene scene = demo_scene("hip");
   scene.method = method;
   drive_all(scene);
   Simulation simulation(scene,

@@ -1,5 +1,5 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/view/window/arrows.hpp>
 #include <gracilis/view/window/bone_pull.hpp>
 #include <gracilis/view/window/bone_slice.hpp>
@@ -270,7 +270,7 @@ TEST(BoneSlice, is_dark_at_the_surface_red_inside_and_ends_where_bones_are_far) 
 }
 
 TEST(BonePull, turns_the_joint_so_that_the_grabbed_point_follows_the_mouse) {
-  const Scene scene = builtin_hip();
+  const Scene scene = demo_scene("hip");
   const std::vector<std::string> names = coordinate_names(scene);
   const auto flexion = static_cast<std::size_t>(std::find(names.begin(), names.end(), "hip_flexion_r") - names.begin());
   const auto femur = static_cast<std::size_t>(

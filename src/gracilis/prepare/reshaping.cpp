@@ -16,9 +16,9 @@
 namespace gracilis {
 namespace {
 
-constexpr Real farthest_rounding = 0.4;  ///< of an edge
-constexpr Real thinnest_radius = 0.45;   ///< of an edge: about three go around
-constexpr Real finer = 0.6;              ///< edges of the next attempt
+constexpr Real largest_rounding_share = 0.4;  ///< of an edge
+constexpr Real thinnest_radius = 0.45;        ///< of an edge: about three go around
+constexpr Real finer = 0.6;                   ///< edges of the next attempt
 constexpr int attempts = 3;
 
 Real volume_error(const TriangleMesh& mesh, Real volume) { return std::abs(volume_of(mesh) / volume - 1); }
@@ -39,11 +39,11 @@ std::optional<TriangleMesh> shaped_piece(const TriangleMesh& piece, Real edge_le
   if (!fine) return std::nullopt;
   if (settings.rounding_rounds > 0) {
     thicken(*fine, thinnest_radius * edge_length, limit);
-    round_off(*fine, sharpest_turn, settings.rounding_rounds, farthest_rounding * edge_length);
+    round_off(*fine, sharpest_turn, settings.rounding_rounds, largest_rounding_share * edge_length);
   }
   std::optional<TriangleMesh> shaped = remeshed_solid(*fine, edge_length, settings.remeshing_rounds, limit);
   if (!shaped) return std::nullopt;
-  round_off(*shaped, sharpest_turn, settings.rounding_rounds, farthest_rounding * edge_length);
+  round_off(*shaped, sharpest_turn, settings.rounding_rounds, largest_rounding_share * edge_length);
   const Real volume = volume_of(piece);
   if (volume_error(*shaped, volume) > settings.volume_tolerance) set_volume(*shaped, volume, limit);
   return is_solid(*shaped) ? shaped : std::nullopt;

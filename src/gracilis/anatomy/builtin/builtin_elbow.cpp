@@ -38,15 +38,23 @@ std::vector<Joint> make_joints() {
 
 }  // namespace
 
-Scene builtin_elbow(const BuiltinElbowOptions& options) {
-  Skeleton skeleton = elbow_skeleton();
+Scene builtin_elbow_outline(const BuiltinElbowOptions& options) {
   Scene scene;
   scene.name = "builtin_elbow";
   scene.bodies = {"scapula_r", "humerus_r", "ulna_r", "radius_r"};
   scene.joints = make_joints();
+  for (Index body = scapula_body; body <= radius_body; ++body)
+    scene.bones.push_back({scene.bodies[static_cast<std::size_t>(body)], body, {}});
+  scene.muscles = outlined_muscles(elbow_muscle_plans());
+  scene.motion = ramp_from_zero("elbow flexion", "elbow_flexion", options.last_flexion, options.flexion_step, 1.0 / 60);
+  return scene;
+}
+
+Scene builtin_elbow(const BuiltinElbowOptions& options) {
+  Skeleton skeleton = elbow_skeleton();
+  Scene scene = builtin_elbow_outline(options);
   scene.muscles = make_muscles(elbow_muscle_plans(), skeleton, {});
   scene.bones = std::move(skeleton.bones);
-  scene.motion = ramp_from_zero("elbow flexion", "elbow_flexion", options.last_flexion, options.flexion_step, 1.0 / 60);
   return scene;
 }
 

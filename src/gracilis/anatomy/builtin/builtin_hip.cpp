@@ -42,16 +42,26 @@ Joint make_joint() {
 
 }  // namespace
 
-Scene builtin_hip(const BuiltinHipOptions& options) {
-  Skeleton skeleton = hip_skeleton();
+Scene builtin_hip_outline(const BuiltinHipOptions& options) {
   Scene scene;
   scene.name = "builtin_hip";
   scene.bodies = {"pelvis", "femur_r"};
   scene.joints = {make_joint()};
-  scene.muscles = make_muscles(hip_muscle_plans(), skeleton, {options.bone_gap, options.muscle_gap});
-  scene.bones = std::move(skeleton.bones);
+  scene.bones = {{"hip_bone_r", pelvis_body, {}},
+                 {"sacrum", pelvis_body, {}},
+                 {"femur_r", femur_body, {}},
+                 {"hip_bone_l", pelvis_body, {}}};
+  scene.muscles = outlined_muscles(hip_muscle_plans());
   scene.motion =
       ramp_from_zero("hip flexion", "hip_flexion_r", options.last_flexion, options.flexion_step, options.time_step);
+  return scene;
+}
+
+Scene builtin_hip(const BuiltinHipOptions& options) {
+  Skeleton skeleton = hip_skeleton();
+  Scene scene = builtin_hip_outline(options);
+  scene.muscles = make_muscles(hip_muscle_plans(), skeleton, {options.bone_gap, options.muscle_gap});
+  scene.bones = std::move(skeleton.bones);
   return scene;
 }
 

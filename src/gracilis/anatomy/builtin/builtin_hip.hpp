@@ -20,8 +20,11 @@ struct BuiltinHipOptions {
 /// Frame: metres, origin at the center of the right hip joint, x anterior, y superior, z to the subject's right.
 /// Bodies: pelvis (fixed), femur_r. Joint hip_r turns about z (hip_flexion_r, positive moves the knee forward), then x
 /// (hip_adduction_r, positive towards the midline), then y (hip_rotation_r, positive internal), as OpenSim's gait
-/// models do. Takes one to a few seconds; the same bits for any number of threads. Preconditions: last_flexion >= 0,
-/// flexion_step > 0, time_step > 0.
+/// models do. Takes one to a few seconds (demo_scene of io/scene/demo_scene.hpp has the default one at once); the same
+/// bits for any number of threads. Preconditions: last_flexion >= 0, flexion_step > 0, time_step > 0.
 Scene builtin_hip(const BuiltinHipOptions& options = {});
+
+/// The same without surfaces, in no time: put_surfaces (builtin_surfaces.hpp) puts in those that are known.
+Scene builtin_hip_outline(const BuiltinHipOptions& options = {});
 
 }  // namespace gracilis

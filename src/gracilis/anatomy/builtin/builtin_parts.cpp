@@ -13,25 +13,23 @@ namespace {
 
 constexpr Real attachment_reach = 0.0042;  ///< m; what is closer to the bone grows on it
 
-/// Marks the vertices of `muscle` that grow on bone: near a bone of the body, and in the part of the sheet that is this
-/// end.
-std::vector<Attachment> attach(const MusclePlan& plan, const TriangleMesh& surface, const std::vector<Bone>& bones,
-                               const std::vector<NearestTriangle>& nearest) {
-  std::vector<Attachment> attachments = {{"origin", AttachmentEnd::origin, plan.origin_body, {}, false},
-                                         {"insertion", AttachmentEnd::insertion, plan.insertion_body, {}, false}};
+/// Marks the vertices of the muscle that grow on bone: near a bone of the body, and in the part of the sheet that is
+/// this end.
+void attach(const MusclePlan& plan, const std::vector<Bone>& bones, const std::vector<NearestTriangle>& nearest,
+            Muscle& muscle) {
+  const TriangleMesh& surface = muscle.surface;
   const ThickSheet sheet(plan.net);
   for (Index v = 0; v < surface.vertex_count(); ++v) {
     const Vec3 point = surface.vertices.col(v);
     const Real along = sheet.nearest(point).along;
     if (along > plan.origin_until && along < plan.insertion_from) continue;
-    Attachment& attachment = attachments[along > plan.origin_until ? 1 : 0];
+    Attachment& attachment = muscle.attachments[along > plan.origin_until ? 1 : 0];
     for (std::size_t b = 0; b < bones.size(); ++b)
       if (bones[b].body == attachment.body && nearest[b].query(point, attachment_reach).face >= 0) {
         attachment.vertices.push_back(v);
         break;
       }
   }
-  return attachments;
 }
 
 }  // namespace
@@ -49,15 +47,24 @@ std::vector<Muscle> make_muscles(const std::vector<MusclePlan>& plans, const Ske
   std::vector<NearestTriangle> nearest;
   for (const Bone& bone : skeleton.bones) nearest.emplace_back(bone.surface);
 
+  std::vector<Muscle> muscles = outlined_muscles(plans);
+  for (std::size_t m = 0; m < plans.size(); ++m) {
+    ShapedMuscle shaped = shape_muscle(plans[m], obstacles);
+    obstacles.push_back({as_solid(std::move(shaped.shape)), gaps.muscle});
+    muscles[m].surface = std::move(shaped.surface);
+    attach(plans[m], skeleton.bones, nearest, muscles[m]);
+  }
+  return muscles;
+}
+
+std::vector<Muscle> outlined_muscles(const std::vector<MusclePlan>& plans) {
   std::vector<Muscle> muscles;
   for (const MusclePlan& plan : plans) {
-    ShapedMuscle shaped = shape_muscle(plan, obstacles);
-    obstacles.push_back({as_solid(std::move(shaped.shape)), gaps.muscle});
     Muscle muscle;
     muscle.name = plan.name;
     muscle.settings["iterations"] = plan.iterations;
-    muscle.attachments = attach(plan, shaped.surface, skeleton.bones, nearest);
-    muscle.surface = std::move(shaped.surface);
+    muscle.attachments = {{"origin", AttachmentEnd::origin, plan.origin_body, {}, false},
+                          {"insertion", AttachmentEnd::insertion, plan.insertion_body, {}, false}};
     muscles.push_back(std::move(muscle));
   }
   return muscles;

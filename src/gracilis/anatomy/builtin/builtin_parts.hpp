@@ -29,6 +29,9 @@ struct Gaps {
 /// is this end.
 std::vector<Muscle> make_muscles(const std::vector<MusclePlan>& plans, const Skeleton& skeleton, const Gaps& gaps);
 
+/// The muscles of these plans without their surfaces, their attachments without vertices.
+std::vector<Muscle> outlined_muscles(const std::vector<MusclePlan>& plans);
+
 /// A motion of one coordinate from 0 to `last` (rad, at least 0) in steps of `step` (rad, above 0), `time_step` (s)
 /// apart.
 Motion ramp_from_zero(const std::string& name, const std::string& coordinate, Real last, Real step, Real time_step);

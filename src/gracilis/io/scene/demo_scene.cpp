@@ -2,21 +2,32 @@
 
 #include <gracilis/anatomy/builtin/builtin_elbow.hpp>
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/anatomy/builtin/builtin_surfaces.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/methods/registry.hpp>
 
+#include <string_view>
+
 namespace gracilis {
+
+namespace embedded {
+extern const std::string_view builtin_hip_surfaces, builtin_elbow_surfaces;  // shaped when this was built
+}
 
 Scene demo_scene(const std::string& name, std::optional<Real> flexion) {
   if (name == "elbow") {
     BuiltinElbowOptions elbow;
     elbow.last_flexion = flexion.value_or(elbow.last_flexion);
-    return builtin_elbow(elbow);
+    Scene scene = builtin_elbow_outline(elbow);
+    put_surfaces(embedded::builtin_elbow_surfaces, scene);
+    return scene;
   }
   BuiltinHipOptions hip;
   hip.last_flexion = flexion.value_or(hip.last_flexion);
-  return builtin_hip(hip);
+  Scene scene = builtin_hip_outline(hip);
+  put_surfaces(embedded::builtin_hip_surfaces, scene);
+  return scene;
 }
 
 LoadedScene load_demo(const DemoOptions& options, const SceneOptions& changes) {

@@ -1,0 +1,13 @@
+# Read by CTest after the tests of each program: single tests that take long, about seconds of two processors, are begun
+# early, so that none is left for one processor at the end.
+set_tests_properties(view.ReadmeWalk.every_command_works_and_every_picture_looks_as_it_should PROPERTIES COST 60)
+foreach(test view.ViewCommand.a_scene_follows_its_sliders_and_tells_what_constraints_moved
+             app.CompareCommand.runs_the_builtin_hip_by_several_methods_and_shows_them_side_by_side
+             app.FailingCalls.each_is_one_message_leaves_nothing_half_written_and_can_be_resumed
+             app.FailingCalls.the_same_holds_for_compact_frames)
+  set_tests_properties(${test} PROPERTIES COST 30)
+endforeach()
+foreach(test prepare.SurfaceRepair.random_triangles_give_a_solid_or_a_refusal
+             view.ViewCommand.a_bone_is_dragged_and_a_click_on_a_muscle_tells_its_numbers)
+  set_tests_properties(${test} PROPERTIES COST 15)
+endforeach()
