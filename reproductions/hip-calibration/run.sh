@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Strings of the cadaver's hip calibrated on published moment arms about flexion, and judged by adduction and rotation, which
-# they have not seen (docs/guide/calibration.md). A quarter of an hour on two cores; killed, it goes on.
+# they have not seen (docs/guide/calibration.md). Ten minutes on two busy cores; killed, it goes on.
 #   reproductions/hip-calibration/run.sh [--data FOLDER] [--out FOLDER]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
