@@ -1,6 +1,7 @@
 #include "activations_command.hpp"
 #include "bench_command.hpp"
 #include "build_info.hpp"
+#include "calibrate_command.hpp"
 #include "command.hpp"
 #include "compare_command.hpp"
 #include "console.hpp"
@@ -57,6 +58,7 @@ int main(int count, char** arguments) {
   add_compare_command(program, words, chosen);
   add_rom_command(program, words, chosen);
   add_study_command(program, words, chosen);
+  add_calibrate_command(program, chosen);
   add_fibers_command(program, chosen);
   add_activations_command(program, chosen);
   add_print_config_command(program, chosen);

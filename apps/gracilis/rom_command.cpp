@@ -90,6 +90,13 @@ CoordinateRange set_motion(const std::vector<std::string>& texts, int max_frames
   return moving;
 }
 
+/// The coordinate that moves; empty where none does.
+std::string moving_name(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts)
+    if (const CoordinateRange range = parse_range(text); range.moves()) return range.name;
+  return "";
+}
+
 }  // namespace
 
 void add_rom_command(CLI::App& program, const std::vector<std::string>& words, Command& chosen) {
@@ -112,13 +119,14 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
   command->add_option(
       "--reference", options->reference,
       "Published moment arms to compare with and to draw: a .csv with the columns muscle, angle_deg and "
-      "moment_arm_mm, and perhaps coordinate, source, min and max");
+      "moment_arm_mm, and perhaps coordinate, source, min and max; or a moment_arms.sto of another 'rom'");
   add_session_options(*command, options->session);
   options->session.command = words;
   command->callback([&chosen, options] {
     chosen = [options] {
       std::vector<ArmCurve> references;
-      if (!options->reference.empty()) references = read_arm_reference(options->reference);
+      if (!options->reference.empty())
+        references = read_arm_reference(options->reference, moving_name(options->coordinates));
       LoadedScene loaded = read_scene(options->file, options->scene);
       if (options->session.out.empty())
         options->session.out = std::filesystem::path("runs") / (file_name_of(loaded.scene.name) + "_rom");

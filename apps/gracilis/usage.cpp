@@ -21,6 +21,7 @@ constexpr Example examples[] = {
     {"compare", "gracilis compare leg.toml --methods xpbd,tissue --out compared"},
     {"rom", "gracilis rom hip.toml --coord hip_flexion_r=-10:60:2 --out arms"},
     {"study", "gracilis study run study.toml --shard 1/4"},
+    {"calibrate", "gracilis calibrate hip.toml --targets targets.toml --out calibrated"},
     {"fibers", "gracilis fibers leg.toml --out fibers"},
     {"activations", "gracilis activations join walks results --out joined.sto"},
     {"print-config", "gracilis print-config > scene.toml"},

@@ -8,6 +8,7 @@
 #include <chrono>
 
 using namespace gracilis;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 TEST(ArmReference, each_muscle_coordinate_and_source_is_a_curve_by_ascending_angles) {
@@ -39,6 +40,30 @@ TEST(ArmReference, bounds_come_with_the_mean_and_the_file_is_the_source) {
   EXPECT_EQ(curves[0].arms, std::vector<Real>{2});
   EXPECT_EQ(curves[0].low, std::vector<Real>{-1});
   EXPECT_EQ(curves[0].high, std::vector<Real>{4});
+}
+
+TEST(ArmReference, tables_of_rom_are_curves_too_and_what_led_to_the_range_gives_way) {
+  const TestFolder folder;
+  const auto table = folder.write("moment_arms.sto",
+                                  "arms\nversion=1\nnRows=4\nnColumns=3\ninDegrees=yes\nendheader\ntime\tq\tpsoas\n"
+                                  "0\t0\t9\n1\t10\t0.01\n2\t0\t0.02\n3\t-10\t0.03\n");
+  const auto curves = read_arm_reference(table, "q");
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].muscle, "psoas");
+  EXPECT_EQ(curves[0].coordinate, "q");
+  EXPECT_THAT(curves[0].angles, ElementsAre(radians(-10), 0, radians(10)));
+  EXPECT_THAT(curves[0].arms, ElementsAre(0.03, 0.02, 0.01));
+  EXPECT_THAT(message_of_input_error([&] { read_arm_reference(table, "knee"); }), HasSubstr("no column 'knee'"));
+}
+
+TEST(ArmReference, lengths_are_read_alike) {
+  const TestFolder folder;
+  const auto curves = read_length_reference(folder.write("l.csv", "muscle,angle_deg,length_cm\npsoas,5,20\n"), "q");
+  EXPECT_THAT(curves.at(0).arms, ElementsAre(0.2));
+  EXPECT_THAT(message_of_input_error([&] {
+                read_length_reference(folder.write("m.csv", "muscle,angle_deg,moment_arm_mm\npsoas,5,20\n"), "q");
+              }),
+              HasSubstr("names no column of lengths"));
 }
 
 TEST(ArmReference, what_is_wrong_is_told_with_its_line) {

@@ -119,6 +119,8 @@ const std::vector<Step> steps = {
     {"import MODEL.osim", "import tiny.osim --out model"},
     {"compare SCENE", "compare out/my_hip.toml --methods skinning,strings --out compared"},
     {"study run study.toml --shard 1/8", "study run study.toml --shard 1/2"},
+    {"calibrate SCENE --targets targets.toml",
+     "calibrate out/my_hip.toml --targets targets.toml --set method=skinning"},
     {"view demo", "view demo --pictures . --keys 'p q'", "gracilis_0001.png", true},
     {"report RUN", "report out/demo"},
     {"prepare a.stl --bone hip.stl --unit mm",
@@ -162,6 +164,9 @@ TEST(ReadmeWalk, every_command_works_and_every_picture_looks_as_it_should) {
   folder.write("study.toml",
                "scene = \"out/my_hip.toml\"\nset = [\"method=skinning\"]\n"
                "[[parameters]]\nkey = \"tendon_length\"\nvalues = [0.005, 0.01]\n");
+  folder.write("targets.toml",
+               "[[targets]]\nkind = \"volumes\"\nvolumes_cm3 = { adductor_longus_r = 150 }\n"
+               "[[parameters]]\nkey = \"tendon_length\"\nbounds = [0.005, 0.05]\n[search]\nevaluations = 1\n");
   fs::create_directories(folder.path() / "scans");
   for (const std::string name : {"hip_bone_r", "femur_r", "adductor_longus_r"})
     fs::copy_file(folder.path() / "out/demo/frames" / (name + "_0000.vtp"), folder.path() / "scans" / (name + ".vtp"));

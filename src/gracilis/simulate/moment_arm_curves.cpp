@@ -29,7 +29,8 @@ static std::vector<int> frames_of_range(const SequenceParts& parts) {
 }
 
 MomentArmCurves moment_arm_curves(const Scene& scene, Index coordinate, DeformationMethod& method,
-                                  const FiberTracker& tracker, int max_frames, const std::atomic<bool>& stop) {
+                                  const FiberTracker& tracker, int max_frames, const std::atomic<bool>& stop,
+                                  const std::function<void(Index, const Frame&)>& look) {
   std::vector<std::size_t> numbers;
   MomentArmCurves curves;
   for (std::size_t m = 0; m < scene.muscles.size(); ++m) {
@@ -50,6 +51,7 @@ MomentArmCurves moment_arm_curves(const Scene& scene, Index coordinate, Deformat
   const auto record = [&](const FrameRecord& now) {
     const Index row = now.frame.number - before;
     if (row < 0) return;
+    if (look) look(row, now.frame);
     curves.values(row) = now.frame.pose.coordinates[static_cast<std::size_t>(coordinate)];
     for (Index i = 0; i < muscles; ++i) {
       const std::size_t m = numbers[static_cast<std::size_t>(i)];

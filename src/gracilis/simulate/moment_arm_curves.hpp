@@ -5,6 +5,7 @@
 #include <gracilis/simulate/fiber_tracker.hpp>
 
 #include <atomic>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,10 @@ struct MomentArmCurves {
 
 /// Runs a scene whose motion was made by set_range, and tells the arms about one of its coordinates, by its number in
 /// coordinate_names. Throws QualityError as run_scene does, Interrupted soon after `stop` is set, and
-/// ConfigurationError where there are more than `max_frames` frames. Precondition: `method` and `tracker` were made for
-/// the scene.
+/// ConfigurationError where there are more than `max_frames` frames. `look`, where it is not empty, sees the frame of
+/// every row, one after the other. Precondition: `method` and `tracker` were made for the scene.
 MomentArmCurves moment_arm_curves(const Scene& scene, Index coordinate, DeformationMethod& method,
-                                  const FiberTracker& tracker, int max_frames, const std::atomic<bool>& stop);
+                                  const FiberTracker& tracker, int max_frames, const std::atomic<bool>& stop,
+                                  const std::function<void(Index row, const Frame&)>& look = {});
 
 }  // namespace gracilis

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace gracilis {
 
@@ -27,5 +28,11 @@ struct ChildOptions {
 /// parent is killed is killed, too. Precondition: this process runs one thread (TBB has not begun). Throws Error where
 /// the system does not give another process.
 ChildOutcome run_in_child(const std::function<int()>& work, const ChildOptions& options);
+
+/// The same of several pieces of work, `at_once` at a time, begun in their order. `ended` is told of each as it ends,
+/// in any order; may be empty. Once asked to stop, none begins any more: those left have the exit code `interrupted`.
+std::vector<ChildOutcome> run_in_children(const std::vector<std::function<int()>>& works, int at_once,
+                                          const ChildOptions& options,
+                                          const std::function<void(std::size_t, const ChildOutcome&)>& ended = {});
 
 }  // namespace gracilis

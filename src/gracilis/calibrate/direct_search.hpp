@@ -1,0 +1,14 @@
+#pragma once
+
+#include <gracilis/calibrate/calibration.hpp>
+#include <gracilis/calibrate/least_squares.hpp>
+
+namespace gracilis {
+
+/// The sum of squares lowered by NLopt's BOBYQA, COBYLA or SBPLX, which ask for one point after the other and for no
+/// slopes. A point that cannot be evaluated counts as worse than all seen. Preconditions: the start can be evaluated;
+/// `method` is one of these.
+SearchEnd direct_search(SearchMethod method, const ResidualFunction& residuals, const Eigen::VectorXd& start,
+                        const LeastSquaresOptions& options);
+
+}  // namespace gracilis
