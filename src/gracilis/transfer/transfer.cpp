@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace gracilis {
@@ -172,6 +173,21 @@ Eigen::Matrix3d directions(const AnatomicalAxes& axes) {
   return columns;
 }
 
+/// Few bones tell little about how a body stands: where their places say something else than the bones that were laid
+/// on each other, the template's directions are taken with the first body's.
+AnatomicalAxes checked_axes(const AnatomicalAxes& found, Transferred& result) {
+  const std::vector<char>& has_bones = result.skeleton.has_bones;
+  const auto body = static_cast<std::size_t>(std::find(has_bones.begin(), has_bones.end(), 1) - has_bones.begin());
+  const Eigen::Matrix3d& turn = result.skeleton.bodies[body].rotation;
+  const AnatomicalAxes carried = {turn * result.whole_template.axes.anterior,
+                                  turn * result.whole_template.axes.superior};
+  const Real nearly = std::cos(radians(25));
+  if (found.anterior.dot(carried.anterior) > nearly && found.superior.dot(carried.superior) > nearly) return found;
+  result.guesses.front().how = "the template's, turned as its " + result.whole_template.bodies[body];
+  result.guesses.front().certainty = 0.7;
+  return carried;
+}
+
 }  // namespace
 
 Transferred transfer(const Scene& scene, FoundFolder subject, const TransferOptions& options) {
@@ -185,14 +201,14 @@ Transferred transfer(const Scene& scene, FoundFolder subject, const TransferOpti
   const Scene& from = result.whole_template;
   require_known_muscles(from, options.volumes);
   const BodyFrame frame = body_frame(result.subject, bone_axes(result.subject));
-  result.guesses.push_back({"directions", frame.how, frame.certainty});
+  result.guesses.insert(result.guesses.begin(), {"directions", frame.how, frame.certainty});
   const AnatomicalAxes axes = {frame.anterior, frame.superior};
   result.skeleton =
       fit_skeleton(from, result.subject, result.matches.pairs, directions(axes) * directions(from.axes).transpose(),
                    common_landmarks(options.landmarks, result), say);
   result.warp = space_warp(from, result.skeleton);
   result.scene = from;
-  result.scene.axes = axes;
+  result.scene.axes = checked_axes(axes, result);
   const std::vector<TriangleMesh> bones = place_bones(result);
   leave_out(result);
   move_joints(result);

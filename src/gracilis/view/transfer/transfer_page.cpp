@@ -26,7 +26,7 @@ namespace {
 const ColorScale& fit_scale() {
   static const ColorScale scale = [] {
     ColorScale result = color_scale(ColorBy::activation);
-    result.title = "from the template's bone, mm";
+    result.title = "bones apart, mm";
     result.low = 0;
     result.high = 0.002;
     result.ticks = {"0", "1", "≥ 2"};
