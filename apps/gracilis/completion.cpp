@@ -92,7 +92,8 @@ std::vector<Candidate> values_of(const CLI::Option& option, const std::vector<st
     return setting_candidates(names, begun);
   }
   if (is({"--only", "--muscles"})) return listed(words_of(names_in_subject(words).muscles), begun);
-  if (is({"--bones"})) return listed(words_of(names_in_subject(words).bones), begun);
+  if (is({"--bones"}) && !description.starts_with("Folder"))
+    return listed(words_of(names_in_subject(words).bones), begun);
   if (is({"--hide", "--focus"})) {
     SubjectNames names = names_in_subject(words);
     names.muscles.insert(names.muscles.end(), names.bones.begin(), names.bones.end());

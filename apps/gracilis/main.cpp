@@ -25,6 +25,7 @@
 #include "scene_command.hpp"
 #include "static_optimization_command.hpp"
 #include "study_command.hpp"
+#include "transfer_command.hpp"
 #include "usage.hpp"
 #include "verify_command.hpp"
 #include "view_command.hpp"
@@ -72,6 +73,7 @@ int main(int count, char** arguments) {
   add_prepare_command(program, chosen);
   add_new_command(program, chosen);
   add_scene_command(program, chosen);
+  add_transfer_command(program, words, chosen);
   add_import_command(program, chosen);
   add_motions_command(program, chosen);
   add_paths_command(program, chosen);

@@ -14,6 +14,7 @@
 #ifdef GRACILIS_WITH_PREPARE
 #include <gracilis/prepare/estimates.hpp>
 #include <gracilis/prepare/prepare_surfaces.hpp>
+#include <gracilis/prepare/separation.hpp>
 #include <gracilis/prepare/surface_repair.hpp>
 #endif
 
@@ -186,6 +187,16 @@ int prepare(const PrepareOptions&) {
 PrepareFunction scene_preparation() {
 #ifdef GRACILIS_WITH_PREPARE
   return prepare_surfaces;
+#else
+  return {};
+#endif
+}
+
+SeparateFunction scene_separation() {
+#ifdef GRACILIS_WITH_PREPARE
+  return [](std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones) {
+    return separate(muscles, bones, {}).shortfall;
+  };
 #else
   return {};
 #endif

@@ -35,6 +35,7 @@ constexpr Example examples[] = {
     {"prepare", "gracilis prepare biceps.stl triceps.stl --bone humerus.stl --unit mm --out prepared"},
     {"new", "gracilis new hip_bone_r.ply femur_r.ply gluteus_maximus_r.ply --out hip.toml"},
     {"scene", "gracilis scene scans --out leg.toml"},
+    {"transfer", "gracilis transfer hip.toml --bones scans --out subject"},
     {"import", "gracilis import model.osim --motion walk.mot --out walk"},
     {"motions", "gracilis motions model.osim --joint hip_r --out motions"},
     {"paths", "gracilis paths model.osim --coord hip_flexion_r=-10:60:2 --out paths"},

@@ -16,10 +16,10 @@
 /// not know each other.
 namespace {
 
-const std::map<std::string, int> ranks = {{"core", 0},    {"geometry", 1},  {"dynamics", 2}, {"scene", 2},
-                                          {"anatomy", 3}, {"strings", 4},   {"methods", 5},  {"simulate", 6},
-                                          {"io", 7},      {"prepare", 7},   {"opensim", 8},  {"draft", 8},
-                                          {"study", 8},   {"calibrate", 9}, {"view", 10},    {"apps", 11}};
+const std::map<std::string, int> ranks = {
+    {"core", 0},    {"geometry", 1},  {"dynamics", 2}, {"scene", 2},   {"anatomy", 3}, {"strings", 4},
+    {"methods", 5}, {"simulate", 6},  {"io", 7},       {"prepare", 7}, {"opensim", 8}, {"draft", 8},
+    {"study", 8},   {"calibrate", 9}, {"transfer", 9}, {"view", 10},   {"apps", 11}};
 
 /// Rooms of a folder, "." for the files that stand in it without one, and the same rule between them.
 const std::map<std::string, std::map<std::string, int>> room_ranks = {
@@ -61,7 +61,8 @@ const std::map<std::string, std::map<std::string, int>> room_ranks = {
       {"calibration", 3},
       {"comparison", 3},
       {"session", 3},
-      {"study", 3}}}};
+      {"study", 3},
+      {"transfer", 3}}}};
 
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
 const std::vector<std::string> toolkit_libraries = {"vtk",   "fmt/",     "spdlog/", "toml++/", "nlohmann/",
