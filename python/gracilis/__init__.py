@@ -30,13 +30,14 @@ from ._core import (
     paths,
     prepare,
     read_sto,
+    rom,
     run,
     static_optimization,
     write_sto,
 )
 
 for _each in (Activations, Bone, Checkpoint, Muscle, Pose, Run, Scene, Simulation, demo, import_model, limit_threads, load,
-              moment_arms, paths, prepare, read_sto, run, static_optimization, write_sto):  # fmt: skip
+              moment_arms, paths, prepare, read_sto, rom, run, static_optimization, write_sto):  # fmt: skip
     _each.__module__ = "gracilis"
 del _each
 

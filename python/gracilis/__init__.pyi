@@ -210,6 +210,22 @@ def run(
     large: bool = ...,
 ) -> Run: ...
 
+def rom(
+    scene: Scene,
+    coordinate: str,
+    range: tuple[float, float, float],
+    out: Optional[_Path] = ...,
+    *,
+    at: Mapping[str, float] = ...,
+    reference: Optional[_Path] = ...,
+    progress: Optional[Callable[[int, int], object]] = ...,
+    resume: bool = ...,
+    force: bool = ...,
+    metrics: str = ...,
+    threads: int = ...,
+    large: bool = ...,
+) -> Run: ...
+
 class Run:
     def __init__(self, folder: _Path) -> None: ...
     @property

@@ -5,6 +5,8 @@
 #include "scene_handle.hpp"
 
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/tables/arm_reference.hpp>
+#include <gracilis/view/session/coordinate_range.hpp>
 #include <gracilis/view/session/session.hpp>
 
 #include <pybind11/stl.h>
@@ -13,7 +15,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <exception>
+#include <map>
 
 namespace py = pybind11;
 
@@ -109,9 +114,62 @@ py::object run(const SceneHandle& scene, const std::optional<std::filesystem::pa
   return py::module_::import("gracilis").attr("Run")(result.folder);
 }
 
+/// A coordinate's range and the values of others, as the command has them.
+std::vector<CoordinateRange> ranges_of(const std::string& coordinate, const std::array<Real, 3>& range,
+                                       const std::map<std::string, Real>& at) {
+  std::vector<CoordinateRange> ranges = {{coordinate, range[0], range[1], range[2]}};
+  if (!std::isfinite(range[0]) || !std::isfinite(range[1]) || !(range[2] > 0) || !std::isfinite(range[2]) ||
+      range[0] == range[1])
+    refuse("range", "goes nowhere", "give (from, to, step), degrees (mm for a translation)");
+  for (const auto& [name, value] : at) {
+    if (!std::isfinite(value)) refuse("at", "'" + name + "' is not finite");
+    ranges.push_back({name, value, value, 0});
+  }
+  return ranges;
+}
+
+py::object rom(const SceneHandle& scene, const std::string& coordinate, const std::array<Real, 3>& range,
+               const std::optional<std::filesystem::path>& out, const std::map<std::string, Real>& at,
+               const std::optional<std::filesystem::path>& reference, const py::object& progress, bool resume,
+               bool force, const std::string& metrics, int threads, bool large) {
+  if (threads < 0) refuse("threads", "must be 0 or more");
+  if (resume && force) refuse("resume", "a run that is replaced does not go on", "give resume=True or force=True");
+  std::vector<ArmCurve> references;
+  if (reference) references = read_arm_reference(*reference, coordinate);
+  LoadedScene loaded = *scene.loaded;
+  const MovedCoordinate moved = move_through(ranges_of(coordinate, range, at), loaded);
+  SessionOptions options;
+  options.out = out.value_or(range_folder(loaded.scene));
+  options.threads = threads;
+  options.resume = resume;
+  options.force = force;
+  options.yes = large;
+  options.measures = level_called(metrics);
+  options.fiber_actions = true;
+  options.print_folder = false;
+  options.command = {"gracilis.rom"};
+  std::vector<std::string> warnings;
+  const SessionResult result = record(loaded, options, progress, warnings);
+  const MomentArmReport report = write_moment_arms(result.folder, loaded.scene, moved, references);
+  warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
+  warn(warnings);
+  return py::module_::import("gracilis").attr("Run")(result.folder);
+}
+
 }  // namespace
 
 void bind_running(py::module_& module) {
+  module.def(
+      "rom", &rom, py::arg("scene"), py::arg("coordinate"), py::arg("range"), py::arg("out") = py::none(),
+      py::kw_only(), py::arg("at") = std::map<std::string, Real>{}, py::arg("reference") = py::none(),
+      py::arg("progress") = py::none(), py::arg("resume") = false, py::arg("force") = false,
+      py::arg("metrics") = "full", py::arg("threads") = 0, py::arg("large") = false,
+      R"(Takes the scene through the range of one coordinate into a run folder, as `gracilis rom` does with the same bits.
+
+coordinate, range: its name and (from, to, step), degrees (mm for a translation). out: the folder (runs/NAME_rom of the
+scene). at: values of other coordinates; without one they keep that of the capture pose. reference: a table of published
+moment arms to compare with (reference.csv in the folder). Others: as of run. The folder has moment_arms.sto and
+plots/moment_arms*.svg. Returns the Run; moment_arms gives arms alone, without a folder.)");
   module.def("run", &run, py::arg("scene"), py::arg("out") = py::none(), py::kw_only(),
              py::arg("progress") = py::none(), py::arg("resume") = false, py::arg("force") = false,
              py::arg("every") = 1, py::arg("ramps") = true, py::arg("fibers") = true, py::arg("metrics") = "full",

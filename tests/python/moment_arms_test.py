@@ -53,6 +53,9 @@ class MomentArms(unittest.TestCase):
             subprocess.run([program, "rom", str(file), "--coord", "bend=-20:20:5", "--out", str(out), "--metrics", "none"],
                            check=True, capture_output=True)  # fmt: skip
             table = gracilis.read_sto(out / "moment_arms.sto")
+            again = gracilis.rom(gracilis.load(file), "bend", (-20, 20, 5), Path(folder) / "rom", metrics="none")
+            for name in ("moment_arms.sto", "fiber_lengths.sto", "frames/muscle_0008.vtp"):
+                self.assertEqual((Path(again.folder) / name).read_bytes(), (out / name).read_bytes(), name)
             scene = pickle.loads(pickle.dumps(gracilis.load(file)))  # made again from its file
             arms = gracilis.moment_arms(scene, "bend", range(-20, 21, 5))
         np.testing.assert_array_equal(arms.degrees, np.arange(-20, 21, 5))
@@ -66,6 +69,24 @@ class MomentArms(unittest.TestCase):
         slopes = -np.gradient(arms.lengths["iliacus_r"], np.radians(arms.degrees))
         np.testing.assert_allclose(arms.arms["iliacus_r"][1:-1], slopes[1:-1], rtol=1e-9)
         self.assertTrue((arms.arms["iliacus_r"] > 0.01).all())  # it flexes the hip
+
+    def test_a_range_is_compared_with_published_arms(self):
+        with tempfile.TemporaryDirectory() as folder:
+            published, out = Path(folder) / "published.csv", Path(folder) / "rom"
+            published.write_text("muscle,angle_deg,moment_arm_mm\niliacus_r,0,30\niliacus_r,6,32\n")
+            run = gracilis.rom(small_demo(), "hip_flexion_r", (0, 6, 3), out, at={"hip_rotation_r": 5.0},
+                               reference=published, metrics="none")  # fmt: skip
+            self.assertEqual(run.coordinates["hip_rotation_r_deg"][-1], 5)
+            self.assertEqual(len((out / "reference.csv").read_text().splitlines()), 2)
+
+    def test_what_no_range_can_be(self):
+        for wrong in ((0, 0, 1), (0, 10, 0), (0, 10, -1), (0, float("nan"), 1)):
+            with self.subTest(wrong), self.assertRaisesRegex(gracilis.InputError, "goes nowhere"):
+                gracilis.rom(small_demo(), "hip_flexion_r", wrong)
+        with self.assertRaisesRegex(gracilis.ConfigurationError, "did you mean 'hip_flexion_r'"):
+            gracilis.rom(small_demo(), "hip_flexion", (0, 6, 3))
+        with self.assertRaisesRegex(gracilis.ConfigurationError, "given twice"):
+            gracilis.rom(small_demo(), "hip_flexion_r", (0, 6, 3), at={"hip_flexion_r": 1})
 
     def test_what_cannot_be_asked(self):
         scene = small_demo()

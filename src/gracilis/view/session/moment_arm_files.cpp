@@ -1,4 +1,4 @@
-#include "moment_arm_output.hpp"
+#include <gracilis/view/session/moment_arm_files.hpp>
 
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/io/atomic_file.hpp>
@@ -10,7 +10,6 @@
 #include <gracilis/view/charts/run_charts.hpp>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,22 +67,24 @@ void add_arms_by_force(const std::filesystem::path& folder, const Scene& scene, 
 }
 
 /// Says how arms by lengths and by forces differ.
-void tell_by_force(const Table& table, const std::string& muscle, const Eigen::VectorXd& arms) {
+void tell_by_force(const Table& table, const std::string& muscle, const Eigen::VectorXd& arms,
+                   MomentArmReport& report) {
   const std::optional<Eigen::Index> column = column_of(table, by_force(muscle));
   if (!column) return;
   const Eigen::VectorXd others = table.values.col(*column);
-  fmt::print("  by its forces {:.1f} to {:.1f} mm, {:.1f} mm RMS from that\n", 1e3 * others.minCoeff(),
-             1e3 * others.maxCoeff(), 1e3 * (others - arms).norm() / std::sqrt(static_cast<Real>(arms.size())));
+  report.lines.push_back(fmt::format("  by its forces {:.1f} to {:.1f} mm, {:.1f} mm RMS from that",
+                                     1e3 * others.minCoeff(), 1e3 * others.maxCoeff(),
+                                     1e3 * (others - arms).norm() / std::sqrt(static_cast<Real>(arms.size()))));
 }
 
 /// Says where fibers were left out of a muscle's mean, because they are about to snap to another way or not at rest.
-void tell_left_out(const Table& table, const std::string& muscle) {
+void tell_left_out(const Table& table, const std::string& muscle, MomentArmReport& report) {
   const std::optional<Eigen::Index> column = column_of(table, muscle + "_left_out");
   if (!column) return;
   const Eigen::VectorXd counts = table.values.col(*column);
   if (counts.isZero(0)) return;
-  fmt::print("  at most {:.0f} fibers, in {} of {} poses, are near a snap and left out\n", counts.maxCoeff(),
-             (counts.array() > 0).count(), counts.size());
+  report.lines.push_back(fmt::format("  at most {:.0f} fibers, in {} of {} poses, are near a snap and left out",
+                                     counts.maxCoeff(), (counts.array() > 0).count(), counts.size()));
 }
 
 std::vector<ArmCurve> references_of(const std::vector<ArmCurve>& all, const std::string& muscle,
@@ -105,35 +106,37 @@ ChartSeries gray_series(const ArmCurve& curve, int number) {
 
 /// Says how a muscle's arms lie beside the curves; rows of reference.csv.
 std::string compared(const std::string& muscle, const std::vector<Real>& angles, const std::vector<Real>& arms,
-                     const std::vector<ArmCurve>& curves) {
+                     const std::vector<ArmCurve>& curves, MomentArmReport& report) {
   const Real per_degree = 1e3 * radians(1);
   const Real beyond_band = 1e3 * mean_distance_from_band(angles, arms, curves);
   std::string rows;
   for (const ArmCurve& curve : curves) {
     const ArmComparison c = compare_arms(angles, arms, curve);
     if (c.angles == 0) continue;
-    fmt::print("  beside {}: {:.1f} mm RMS, {:.1f} mm at most, from {:.0f} to {:.0f} degrees", curve.source,
-               1e3 * c.rms, 1e3 * c.largest, degrees(c.from), degrees(c.to));
+    std::string line = fmt::format("  beside {}: {:.1f} mm RMS, {:.1f} mm at most, from {:.0f} to {:.0f} degrees",
+                                   curve.source, 1e3 * c.rms, 1e3 * c.largest, degrees(c.from), degrees(c.to));
     if (std::isfinite(c.slope))
-      fmt::print("; slope at 0 {:.2f} mm per degree, there {:.2f}", per_degree * c.slope,
-                 per_degree * c.reference_slope);
-    fmt::print("\n");
+      line += fmt::format("; slope at 0 {:.2f} mm per degree, there {:.2f}", per_degree * c.slope,
+                          per_degree * c.reference_slope);
+    report.lines.push_back(line);
     rows += fmt::format("{},{},{},{:.2f},{:.2f},{:.3f},{:.3f},{:.4f},{:.4f},{:.3f}\n", muscle, curve.source, c.angles,
                         degrees(c.from), degrees(c.to), 1e3 * c.rms, 1e3 * c.largest, per_degree * c.slope,
                         per_degree * c.reference_slope, beyond_band);
   }
   if (curves.size() > 1 && std::isfinite(beyond_band))
-    fmt::print("  beyond the band of all {}: {:.1f} mm on average\n", curves.size(), beyond_band);
+    report.lines.push_back(
+        fmt::format("  beyond the band of all {}: {:.1f} mm on average", curves.size(), beyond_band));
   return rows;
 }
 
 }  // namespace
 
-void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
-                       const std::vector<ArmCurve>& references) {
+MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
+                                  const std::vector<ArmCurve>& references) {
+  MomentArmReport report;
   if (!is_there(folder / "fiber_lengths.sto")) {
-    spdlog::warn("no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
-    return;
+    report.warnings.emplace_back("no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
+    return report;
   }
   Table table = arms_of(folder, scene, moved);
   add_arms_by_force(folder, scene, moved, table);
@@ -152,30 +155,33 @@ void write_moment_arms(const std::filesystem::path& folder, const Scene& scene, 
     const Eigen::VectorXd arms = table.values.col(*found);
     LineChart chart = fiber_chart(table, coordinate, muscle.name, muscle.name + ": " + title, y_label);
     if (moved.translation) {
-      fmt::print("{}: shortens by {:.1f} to {:.1f} mm per m of {}\n", muscle.name, 1e3 * arms.minCoeff(),
-                 1e3 * arms.maxCoeff(), moved.name);
+      report.lines.push_back(fmt::format("{}: shortens by {:.1f} to {:.1f} mm per m of {}", muscle.name,
+                                         1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), moved.name));
     } else {
-      fmt::print("{}: moment arm about {} {:.1f} to {:.1f} mm, largest step {:.3f} mm per degree\n", muscle.name,
-                 moved.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), 1e3 * largest_step_per_degree(angles, arms));
+      report.lines.push_back(fmt::format(
+          "{}: moment arm about {} {:.1f} to {:.1f} mm, largest step {:.3f} mm per degree", muscle.name, moved.name,
+          1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), 1e3 * largest_step_per_degree(angles, arms)));
       const std::vector<ArmCurve> curves = references_of(references, muscle.name, moved);
-      comparisons += compared(muscle.name, as_list(angles), as_list(arms), curves);
+      comparisons += compared(muscle.name, as_list(angles), as_list(arms), curves, report);
       for (std::size_t i = 0; i < curves.size(); ++i)
         chart.series.push_back(gray_series(curves[i], static_cast<int>(i)));
     }
-    tell_by_force(table, muscle.name, arms);
-    tell_left_out(table, muscle.name);
+    tell_by_force(table, muscle.name, arms, report);
+    tell_left_out(table, muscle.name, report);
     write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"), chart);
   }
   write_chart(folder / "plots" / "moment_arms.svg",
               muscles_chart(table, coordinate, muscles, scene.name + ": " + title, y_label));
-  if (references.empty()) return;
+  if (references.empty()) return report;
   if (comparisons.empty())
-    spdlog::warn("the reference tells nothing of these muscles about {} in this range", moved.name);
+    report.warnings.push_back(
+        fmt::format("the reference tells nothing of these muscles about {} in this range", moved.name));
   else
     write_text_atomically(folder / "reference.csv",
                           "muscle,source,angles,from_deg,to_deg,rms_mm,largest_mm,slope_mm_per_deg,"
                           "reference_slope_mm_per_deg,beyond_band_mm\n" +
                               comparisons);
+  return report;
 }
 
 }  // namespace gracilis

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/arm_comparison.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// The coordinate that a run through a range of motion moved.
+struct MovedCoordinate {
+  std::string name;
+  bool translation = false;
+};
+
+/// What a range of motion told.
+struct MomentArmReport {
+  std::vector<std::string> lines;     ///< per muscle and reference, for people
+  std::vector<std::string> warnings;  ///< why there are none, or none to compare
+};
+
+/// Writes the moment arms of a run folder along a coordinate (those that its method knows, or else what its fiber
+/// lengths say): moment_arms.sto, where the method knows forces with `<muscle>_by_force`, moment over tension, too;
+/// plots/moment_arms*.svg; and beside `references`, as far as they are of this coordinate, reference.csv. Of
+/// translations: how much muscles shorten. The scene's motion is the range; rows before it only led there. Throws
+/// InputError.
+MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
+                                  const std::vector<ArmCurve>& references);
+
+}  // namespace gracilis
