@@ -74,7 +74,7 @@ set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libtbb-dev, libembree-dev, libhwy-dev, libnanoflann-dev, "
        "libqhull-dev, libvtk9-dev, libtomlplusplus-dev, nlohmann-json3-dev, libspdlog-dev, libfmt-dev, libssl-dev, "
        "libegl-dev, libx11-dev, libpugixml-dev, libgif-dev, libtinygltf-dev, libdraco-dev, libsimbody-dev, libmuparser-dev, "
-       "libnlopt-cxx-dev")
+       "libnlopt-cxx-dev, libhdf5-dev")
 set(CPACK_COMPONENT_DEV_DESCRIPTION "Headers, static libraries and CMake files for programs that deform muscles
 of musculoskeletal models: find_package(gracilis) brings gracilis::core and
 gracilis::toolkit.")

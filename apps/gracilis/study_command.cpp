@@ -12,6 +12,7 @@
 #include <gracilis/study/collect.hpp>
 #include <gracilis/study/run_study.hpp>
 #include <gracilis/study/study_reader.hpp>
+#include <gracilis/study/trajectories.hpp>
 #include <gracilis/view/study/study_page.hpp>
 
 #include <fmt/format.h>
@@ -28,7 +29,7 @@ struct StudyOptions {
   std::filesystem::path file, out, report;
   std::string shard = "1/1";
   std::vector<std::string> names, words;
-  bool retry = false, names_only = false, no_probe = false, all_runs = false;
+  bool retry = false, names_only = false, no_probe = false, all_runs = false, hdf5 = false;
   int threads = 1, worst = 6;
 };
 
@@ -166,6 +167,11 @@ int collect(const StudyOptions& options) {
                end.left);
   for (const char* file : {"measures.csv", "frames.csv", "runs.csv", "failures.csv"})
     fmt::print("{}\n", (study.folder / file).string());
+  if (!options.hdf5) return static_cast<int>(ExitCode::done);
+  const TrajectoryEnd trajectories = write_trajectories(study, GRACILIS_VERSION);
+  for (const std::string& line : trajectories.skipped) spdlog::warn("left out of the trajectories: {}", line);
+  spdlog::info("trajectories of {} runs", trajectories.runs);
+  fmt::print("{}\n", (study.folder / trajectory_file).string());
   return static_cast<int>(ExitCode::done);
 }
 
@@ -216,6 +222,8 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
   CLI::App* status = add_part(*study, "status", "Count what is complete, under way, failed and to do", *options);
   status->add_flag("--runs", options->all_runs, "A line for every run");
   CLI::App* collecting = add_part(*study, "collect", "Write one table of all measures, and one of all runs", *options);
+  collecting->add_flag("--hdf5", options->hdf5,
+                       "Also write trajectories.h5: surfaces, fibers, poses and measures of every frame (HDF5)");
   CLI::App* reporting =
       add_part(*study, "report", "Distributions, sensitivities and the worst runs in one HTML file", *options);
   reporting->add_option("--out", options->report, "File to write (default: report.html in the study's folder)");

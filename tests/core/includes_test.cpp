@@ -67,7 +67,7 @@ const std::map<std::string, std::map<std::string, int>> room_ranks = {
 /// Libraries that only `io` and `view` (and programs) may use: file formats, text, graphics.
 const std::vector<std::string> toolkit_libraries = {"vtk",   "fmt/",     "spdlog/", "toml++/", "nlohmann/",
                                                     "CLI/",  "openssl/", "EGL/",    "pugixml", "gif_lib",
-                                                    "SimTK", "muParser", "nlopt"};
+                                                    "SimTK", "muParser", "nlopt",   "hdf5"};
 
 /// Folder names of a path such as "methods/xpbd/motion.hpp", without the file.
 std::vector<std::string> folders_of(const std::string& path) {
