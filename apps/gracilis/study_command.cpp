@@ -17,6 +17,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -29,7 +30,7 @@ struct StudyOptions {
   std::filesystem::path file, out, report;
   std::string shard = "1/1";
   std::vector<std::string> names, words;
-  bool retry = false, names_only = false, no_probe = false, all_runs = false, hdf5 = false;
+  bool retry = false, names_only = false, no_probe = false, all_runs = false, hdf5 = false, json = false;
   int threads = 1, worst = 6;
 };
 
@@ -221,6 +222,7 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
       "Example: gracilis study run study.toml --shard 1/4");
   CLI::App* status = add_part(*study, "status", "Count what is complete, under way, failed and to do", *options);
   status->add_flag("--runs", options->all_runs, "A line for every run");
+  status->add_flag("--json", options->json, "Print JSON with every run, for programs");
   CLI::App* collecting = add_part(*study, "collect", "Write one table of all measures, and one of all runs", *options);
   collecting->add_flag("--hdf5", options->hdf5,
                        "Also write trajectories.h5: surfaces, fibers, poses and measures of every frame (HDF5)");
@@ -232,6 +234,11 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
   running->callback(chooses(run_shard));
   status->callback(chooses([](const StudyOptions& asked) {
     const Study of = study_of(asked);
+    if (asked.json) {
+      const nlohmann::ordered_json status = status_json(of, standings_of(of, GRACILIS_VERSION));
+      fmt::print("{}\n", status.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+      return static_cast<int>(ExitCode::done);
+    }
     fmt::print("{}", status_text(of, standings_of(of, GRACILIS_VERSION), asked.all_runs));
     return static_cast<int>(ExitCode::done);
   }));

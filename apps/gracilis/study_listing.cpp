@@ -4,6 +4,7 @@
 #include <gracilis/io/text_cells.hpp>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -59,12 +60,34 @@ std::vector<std::string> estimate_lines(const Study& study, const std::vector<Ru
                       size_text(bytes * static_cast<double>(standings.size())))};
 }
 
+static constexpr RunState states[] = {RunState::complete,    RunState::failed, RunState::under_way,
+                                      RunState::interrupted, RunState::stale,  RunState::to_do};
+
+static Index count_of(const std::vector<RunStanding>& standings, RunState state) {
+  return static_cast<Index>(
+      std::count_if(standings.begin(), standings.end(), [&](const RunStanding& each) { return each.state == state; }));
+}
+
+nlohmann::ordered_json status_json(const Study& study, const std::vector<RunStanding>& standings) {
+  nlohmann::ordered_json counts, runs = nlohmann::json::array();
+  for (const RunState state : states) counts[name_of(state)] = count_of(standings, state);
+  for (std::size_t i = 0; i < standings.size(); ++i) {
+    const RunStanding& standing = standings[i];
+    nlohmann::ordered_json run = {{"name", study.runs[i].name}, {"state", name_of(standing.state)}};
+    if (!standing.reason.empty()) run["reason"] = standing.reason;
+    if (standing.record) {
+      run["seconds"] = standing.record->seconds;
+      run["peak_memory_mb"] = 1e-6 * standing.record->peak_bytes;
+    }
+    runs.push_back(std::move(run));
+  }
+  return {{"study", study.file.string()}, {"folder", study.folder.string()}, {"counts", counts}, {"runs", runs}};
+}
+
 std::string status_text(const Study& study, const std::vector<RunStanding>& standings, bool all) {
   std::string text = fmt::format("{}: {} runs in {}\n", study.file.string(), study.runs.size(), study.folder.string());
-  for (const RunState state : {RunState::complete, RunState::failed, RunState::under_way, RunState::interrupted,
-                               RunState::stale, RunState::to_do}) {
-    const auto count =
-        std::count_if(standings.begin(), standings.end(), [&](const RunStanding& each) { return each.state == state; });
+  for (const RunState state : states) {
+    const Index count = count_of(standings, state);
     if (count > 0 || state == RunState::complete) text += fmt::format("{:>8} {}\n", count, name_of(state));
   }
   for (std::size_t i = 0; i < standings.size(); ++i) {

@@ -2,6 +2,8 @@
 
 #include <gracilis/study/run_record.hpp>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -18,5 +20,8 @@ std::vector<std::string> estimate_lines(const Study& study, const std::vector<Ru
 
 /// How many runs have come to what, and why some did not; with `all`, every run.
 std::string status_text(const Study& study, const std::vector<RunStanding>& standings, bool all);
+/// The same with every run, for programs: study, folder, counts by state, runs (name, state, reason, seconds,
+/// peak_memory_mb).
+nlohmann::ordered_json status_json(const Study& study, const std::vector<RunStanding>& standings);
 
 }  // namespace gracilis

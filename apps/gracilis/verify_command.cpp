@@ -5,18 +5,34 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
 namespace gracilis {
 
-static int verify(const std::filesystem::path& run) {
+static ExitCode code_of(const Verification& result) {
+  return result.findings.empty() ? ExitCode::done : ExitCode::unreadable_input;
+}
+
+static int print_json(const std::filesystem::path& run, const Verification& result) {
+  const nlohmann::ordered_json found = {{"run", run.string()},
+                                        {"status", result.status},
+                                        {"frames", result.frames},
+                                        {"files", result.files},
+                                        {"findings", result.findings}};
+  fmt::print("{}\n", found.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  return static_cast<int>(code_of(result));
+}
+
+static int verify(const std::filesystem::path& run, bool json) {
   const Verification result = verify_run(run);
+  if (json) return print_json(run, result);
   for (const std::string& finding : result.findings) fmt::print("{}\n", finding);
   if (result.files == 0) spdlog::warn("a run that is {} has no hashes: only what it says was compared", result.status);
   if (!result.findings.empty()) {
     spdlog::error("{}: {} things are missing, changed or inconsistent", run.string(), result.findings.size());
-    return static_cast<int>(ExitCode::unreadable_input);
+    return static_cast<int>(code_of(result));
   }
   fmt::print("{}: {}, {} frames, {} files as they were written\n", run.string(), result.status, result.frames,
              result.files);
@@ -24,11 +40,16 @@ static int verify(const std::filesystem::path& run) {
 }
 
 void add_verify_command(CLI::App& program, Command& chosen) {
-  const auto run = std::make_shared<std::filesystem::path>();
+  struct Options {
+    std::filesystem::path run;
+    bool json = false;
+  };
+  const auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand(
       "verify", "Tell what of a run is missing, has changed since it ended or contradicts itself (exit code 3)");
-  command->add_option("RUN", *run, "Run folder")->required();
-  command->callback([&chosen, run] { chosen = [run] { return verify(*run); }; });
+  command->add_option("RUN", options->run, "Run folder")->required();
+  command->add_flag("--json", options->json, "Print JSON, for programs");
+  command->callback([&chosen, options] { chosen = [options] { return verify(options->run, options->json); }; });
 }
 
 }  // namespace gracilis

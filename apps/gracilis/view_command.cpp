@@ -172,7 +172,9 @@ void add_view_command(CLI::App& program, Command& chosen) {
   options->scene.prepare = scene_preparation();
   options->scene.say = log_lines;
   CLI::App* command = program.add_subcommand("view", "Look at a run, or move a scene, in a window");
-  command->add_option("WHAT", options->what, "A run folder or its run.json, a scene file, demo for the built-in hip, or demo-elbow")
+  command
+      ->add_option("WHAT", options->what,
+                   "A run folder or its run.json, a scene file, demo for the built-in hip, or demo-elbow")
       ->required();
   command->add_option("--view", options->window.view, "From where at first (lateral)")
       ->check(CLI::IsMember(view_names()));

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <sstream>
@@ -74,6 +75,9 @@ TEST_F(RunChoices, a_thinned_run_resumes_as_it_was_begun) {
   EXPECT_EQ(recorded_surface(after, "muscle", 4).vertices, expected);
   EXPECT_EQ(recorded_fibers(after, "muscle", 4).count(), 0);
   EXPECT_EQ(run_program("verify " + folder.path("out").string()).exit_code, 0);
+  const auto as_json = nlohmann::json::parse(run_program("verify --json " + folder.path("out").string()).out);
+  EXPECT_EQ(as_json.at("status"), "complete");
+  EXPECT_TRUE(as_json.at("findings").empty());
 }
 
 TEST_F(RunChoices, without_ramp_frames_the_motion_follows_the_capture_pose) {

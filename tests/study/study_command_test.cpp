@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <chrono>
 #include <cstdio>
@@ -107,6 +108,9 @@ TEST(StudyCommand, processes_share_a_folder_whether_their_shards_are_the_same_or
   EXPECT_THAT(run_program("study run " + study.string() + " --run 0001 --run 0002").out,
               HasSubstr("1 complete before, 1 done now, 0 failed"));
   EXPECT_EQ(status_of(run_program("study status " + study.string()).out, "complete"), 5);
+  const auto as_json = nlohmann::json::parse(run_program("study status --json " + study.string()).out);
+  EXPECT_EQ(as_json.at("counts").at("complete"), 5);
+  EXPECT_EQ(as_json.at("runs").size(), 6u);
 
   folder.write_box("muscle.ply", 11, 28.5);
   EXPECT_EQ(status_of(run_program("study status " + study.string()).out, "stale"), 6) << "a file has changed";
