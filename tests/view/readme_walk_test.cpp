@@ -121,6 +121,8 @@ const std::vector<Step> steps = {
     {"study run study.toml --shard 1/8", "study run study.toml --shard 1/2"},
     {"calibrate SCENE --targets targets.toml",
      "calibrate out/my_hip.toml --targets targets.toml --set method=skinning"},
+    {"transfer TEMPLATE --bones SUBJECT/ --out scene",
+     "transfer demo --bones scans --only adductor_longus_r --keep-overlaps --out carried"},
     {"view demo", "view demo --pictures . --keys 'p q'", "gracilis_0001.png", true},
     {"report RUN", "report out/demo"},
     {"prepare a.stl --bone hip.stl --unit mm",
