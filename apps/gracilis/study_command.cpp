@@ -235,8 +235,8 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
   status->callback(chooses([](const StudyOptions& asked) {
     const Study of = study_of(asked);
     if (asked.json) {
-      const nlohmann::ordered_json status = status_json(of, standings_of(of, GRACILIS_VERSION));
-      fmt::print("{}\n", status.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+      const nlohmann::ordered_json found = status_json(of, standings_of(of, GRACILIS_VERSION));
+      fmt::print("{}\n", found.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
       return static_cast<int>(ExitCode::done);
     }
     fmt::print("{}", status_text(of, standings_of(of, GRACILIS_VERSION), asked.all_runs));
