@@ -12,11 +12,12 @@ namespace {
 
 struct Range {
   std::string name, scene, coordinates, key_poses_deg;
+  std::string step_deg = "2";
 };
 
 std::string name_of_range(const testing::TestParamInfo<Range>& info) { return info.param.name; }
 
-/// A copy of a scene's file with another motion, in steps of 2 degrees. A scene is read with its motion: attachments
+/// A copy of a scene's file with another motion. A scene is read with its motion: attachments
 /// depend on it.
 std::filesystem::path with_motion(const std::filesystem::path& scene, const Range& range) {
   std::stringstream text;
@@ -25,7 +26,7 @@ std::filesystem::path with_motion(const std::filesystem::path& scene, const Rang
   const std::filesystem::path copy =
       std::filesystem::path(testing::TempDir()) / ("gracilis_limb_ranges_" + range.name + ".toml");
   std::ofstream(copy) << all.substr(0, all.find("[motion]")) << "[motion]\ncoordinates = " << range.coordinates
-                      << "\nkey_poses_deg = " << range.key_poses_deg << "\nstep_deg = 2\n";
+                      << "\nkey_poses_deg = " << range.key_poses_deg << "\nstep_deg = " << range.step_deg << "\n";
   return copy;
 }
 
@@ -44,14 +45,16 @@ TEST_P(LimbRanges, no_muscle_misses_a_gate_in_any_frame) {
   });
 }
 
-static const std::string hip_and_knee = R"(["hip_flexion_r", "knee_flexion_r"])";
+static const std::string hip_and_knee = R"(["hip_flexion_r", "knee_flexion_r"])", elbow = R"(["elbow_flexion"])";
 
 INSTANTIATE_TEST_SUITE_P(Long, LimbRanges,
                          testing::Values(Range{"hip", "leg/leg.toml", hip_and_knee, "[[0, 0], [-10, 0], [90, 0]]"},
                                          Range{"knee", "leg/leg.toml", hip_and_knee, "[[0, 0], [0, 110]]"},
                                          Range{"hip_and_knee", "leg/leg.toml", hip_and_knee, "[[0, 0], [90, 110]]"},
-                                         Range{"elbow", "elbow/elbow.toml", R"(["elbow_flexion"])",
-                                               "[[14], [0], [130]]"}),
+                                         Range{"elbow", "elbow/elbow.toml", elbow, "[[14], [0], [130]]"},
+                                         Range{"elbow_slowly", "elbow/elbow.toml", elbow, "[[14], [0], [130]]", "1"},
+                                         Range{"elbow_fast", "elbow/elbow.toml", elbow, "[[14], [0], [130]]", "3"},
+                                         Range{"elbow_to_150", "elbow/elbow.toml", elbow, "[[14], [150]]"}),
                          name_of_range);
 
 }  // namespace
