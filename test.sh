@@ -39,8 +39,7 @@ results=$PWD/build/$preset/test_results.xml
 cases=$PWD/build/$preset/test_cases
 rm -rf "$results" "$cases"
 status=0
-# One more than there are processors: some wait for a browser, a clock or the disk.
-ctest --preset "$preset" --parallel "$(($(nproc) + 1))" --no-tests=error "${selection[@]}" --output-junit "$results" || status=$?
+ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error "${selection[@]}" --output-junit "$results" || status=$?
 [[ -f $results ]] || exit 1
 
 # Counted by test case: where a process ran many (its file is in $cases), those. One that ended without a file counts as
