@@ -76,6 +76,16 @@ TEST(StudyCommand, killed_at_random_and_started_again_it_does_every_run_once_wit
   EXPECT_EQ(read_text(folder.path("study/runs/0004/study.json")), before) << "what is complete stays";
 }
 
+TEST(StudyCommand, what_a_process_left_that_was_killed_after_its_run_was_complete_is_cleared_up) {
+  const StudyFolder folder;
+  const fs::path study = folder.study(six_runs);
+  ASSERT_EQ(run_program("study run " + study.string()).exit_code, 0);
+  fs::create_directories(folder.path("study/under_way/0003/old"));
+  for (const char* left : {"definition.txt", "log.txt"}) folder.write("study/under_way/0003/" + std::string(left), "x");
+  EXPECT_THAT(run_program("study run " + study.string()).out, HasSubstr("6 complete before, 0 done now, 0 failed"));
+  expect_complete(folder.path("study"), 6);
+}
+
 TEST(StudyCommand, processes_share_a_folder_whether_their_shards_are_the_same_or_not) {
   const StudyFolder folder;
   const fs::path study = folder.study(six_runs);

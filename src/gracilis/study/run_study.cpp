@@ -96,6 +96,8 @@ class StudyRunner {
     // Most that is complete is found so, without a claim.
     if (standing_of(study_, run, options_.version, hashes_).state == RunState::complete) {
       ++end_.complete_before;
+      if (fs::exists(working_folder(study_, run)))
+        if (const std::optional<RunClaim> claim = RunClaim::take(working_folder(study_, run))) clear_up(run);
       return true;
     }
     const std::optional<RunClaim> claim = RunClaim::take(working_folder(study_, run));
@@ -103,8 +105,19 @@ class StudyRunner {
       if (is_first) say(run.name + ": another process works on it: " + who_claims(working_folder(study_, run)));
       return false;
     }
-    if (!is_settled(run)) work_on(run, *claim);
+    if (is_settled(run))
+      clear_up(run);
+    else
+      work_on(run, *claim);
     return true;
+  }
+
+  /// Removes what a process left that was killed when its run had come to something, but for the claim, which is this
+  /// process's.
+  void clear_up(const StudyRun& run) {
+    std::error_code ignored;
+    for (const char* left : {"old", "run", "definition.txt", "log.txt"})
+      fs::remove_all(working_folder(study_, run) / left, ignored);
   }
 
   /// Whether what lies there is the same run, begun.
