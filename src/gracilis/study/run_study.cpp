@@ -91,16 +91,24 @@ class StudyRunner {
     return standing.state == RunState::complete;
   }
 
+  /// Nothing where another process works on it. What killed ones were writing goes.
+  std::optional<RunClaim> claim_of(const StudyRun& run) const {
+    const fs::path working = working_folder(study_, run);
+    std::optional<RunClaim> claim = RunClaim::take(working);
+    if (claim) remove_left_temporaries(working, LeftBy::own_machine);
+    return claim;
+  }
+
   /// False where another process works on it.
   bool consider(const StudyRun& run, bool is_first) {
     // Most that is complete is found so, without a claim.
     if (standing_of(study_, run, options_.version, hashes_).state == RunState::complete) {
       ++end_.complete_before;
       if (fs::exists(working_folder(study_, run)))
-        if (const std::optional<RunClaim> claim = RunClaim::take(working_folder(study_, run))) clear_up(run);
+        if (const std::optional<RunClaim> claim = claim_of(run)) clear_up(run);
       return true;
     }
-    const std::optional<RunClaim> claim = RunClaim::take(working_folder(study_, run));
+    const std::optional<RunClaim> claim = claim_of(run);
     if (!claim) {
       if (is_first) say(run.name + ": another process works on it: " + who_claims(working_folder(study_, run)));
       return false;
