@@ -21,6 +21,10 @@ Particles at_rest(const TriangleMesh& mesh) {
   return make_particles(mesh.vertices, Eigen::VectorXd::Ones(mesh.vertex_count()));
 }
 
+ShapeLimitSet limits_of(const TriangleMesh& mesh) {
+  return build_shape_limits(shape_of(mesh, build_topology(mesh.faces, mesh.vertex_count())));
+}
+
 /// The vertex that is highest, in the middle of the cushion's upper side.
 Index top_of(const TriangleMesh& mesh) {
   Index top = 0;
@@ -32,9 +36,10 @@ Index top_of(const TriangleMesh& mesh) {
 float from_neighbors(const ShapeLimitSet& set, Index vertex, const Particles& particles) {
   const auto v = static_cast<std::size_t>(vertex);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (Index i = set.offsets[v]; i < set.offsets[v + 1]; ++i)
-    sum += particles.position(set.neighbors[static_cast<std::size_t>(i)]);
-  return (particles.position(vertex) - sum / static_cast<float>(set.offsets[v + 1] - set.offsets[v])).norm();
+  for (Index i = set.stars.offsets[v]; i < set.stars.offsets[v + 1]; ++i)
+    sum += particles.position(set.stars.neighbors[static_cast<std::size_t>(i)]);
+  return (particles.position(vertex) - sum / static_cast<float>(set.stars.offsets[v + 1] - set.stars.offsets[v]))
+      .norm();
 }
 
 Vec3 momentum_center(const Particles& particles) {
@@ -46,7 +51,7 @@ Vec3 momentum_center(const Particles& particles) {
 class ShapeLimit : public testing::Test {
  protected:
   TriangleMesh mesh = cushion();
-  ShapeLimitSet set = build_shape_limits(mesh);
+  ShapeLimitSet set = limits_of(mesh);
   Particles particles = at_rest(mesh);
   Index top = top_of(mesh);
 
@@ -120,7 +125,7 @@ TEST(ShapeLimitOfOpenSurfaces, a_vertex_without_edges_and_one_that_faces_nothing
   triangle.vertices.col(1) = Vec3(0.01, 0, 0), triangle.vertices.col(2) = Vec3(0, 0.01, 0);
   triangle.vertices.col(3) = Vec3(1, 1, 1);
   triangle.faces = Eigen::Vector3i(0, 1, 2);
-  const ShapeLimitSet set = build_shape_limits(triangle);
+  const ShapeLimitSet set = limits_of(triangle);
   Particles particles = at_rest(triangle);
   particles.position(3) *= 5;
   EXPECT_EQ(project_shape_limits(set, {1.5f, 2.5f}, {0, 1, 2, 3}, particles), 0);

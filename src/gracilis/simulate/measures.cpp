@@ -66,8 +66,9 @@ Measurer::Measurer(const Scene& scene, const FiberTracker* tracker, MeasureLevel
 Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
   const Points& x = muscle.surface.vertices;
   MuscleRest rest;
-  rest.edges = build_topology(muscle.surface.faces, muscle.surface.vertex_count()).edges;
-  rest.flaws = SurfaceFlaws(muscle.surface, rest.edges);
+  const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
+  rest.edges = topology.edges;
+  rest.flaws = SurfaceFlaws(muscle.surface, topology);
   rest.volume = enclosed_volume(x, muscle.surface.faces);
   std::vector<char> fixed(static_cast<std::size_t>(x.cols()), 0);
   for (const Attachment& attachment : muscle.attachments)

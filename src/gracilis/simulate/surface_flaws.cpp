@@ -1,68 +1,34 @@
 #include <gracilis/simulate/surface_flaws.hpp>
 
-#include <gracilis/geometry/opposite_vertices.hpp>
-
 #include <algorithm>
-#include <cmath>
-#include <numeric>
-#include <utility>
 
 namespace gracilis {
 
 SurfaceFlaws::SurfaceFlaws(const TriangleMesh& rest)
-    : SurfaceFlaws(rest, build_topology(rest.faces, rest.vertex_count()).edges) {}
+    : SurfaceFlaws(rest, build_topology(rest.faces, rest.vertex_count())) {}
 
-SurfaceFlaws::SurfaceFlaws(const TriangleMesh& rest, std::vector<MeshEdge> edges)
-    : edges_(std::move(edges)), opposite_(opposite_vertices(rest)) {
-  const Points& x = rest.vertices;
-  const auto count = static_cast<std::size_t>(x.cols());
-  std::vector<Real> sums(count);
-  std::vector<Index> degrees(count);
-  for (const MeshEdge& edge : edges_) {
-    edge_lengths_.push_back((x.col(edge.a) - x.col(edge.b)).norm());
-    for (const Index v : {edge.a, edge.b})
-      sums[static_cast<std::size_t>(v)] += edge_lengths_.back(), ++degrees[static_cast<std::size_t>(v)];
-  }
-  mean_edge_ = std::accumulate(edge_lengths_.begin(), edge_lengths_.end(), Real{0}) /
-               static_cast<Real>(std::max<std::size_t>(edges_.size(), 1));
-  begin_.assign(count + 1, 0);
-  std::partial_sum(degrees.begin(), degrees.end(), begin_.begin() + 1);
-  neighbors_.resize(static_cast<std::size_t>(begin_.back()));
-  std::vector<Index> next(begin_.begin(), begin_.end() - 1);
-  for (const MeshEdge& edge : edges_) {
-    neighbors_[static_cast<std::size_t>(next[static_cast<std::size_t>(edge.a)]++)] = edge.b;
-    neighbors_[static_cast<std::size_t>(next[static_cast<std::size_t>(edge.b)]++)] = edge.a;
-  }
-  for (Index v = 0; v < x.cols(); ++v) {
-    const auto i = static_cast<std::size_t>(v);
-    apart_.push_back(from_neighbors(v, x).norm());
-    reach_.push_back(std::max(degrees[i] > 0 ? sums[i] / static_cast<Real>(degrees[i]) : 0, mean_edge_ / 2));
-    thickness_.push_back(opposite_[i] < 0 ? 0 : (x.col(v) - x.col(opposite_[i])).norm());
-  }
-}
-
-Vec3 SurfaceFlaws::from_neighbors(Index vertex, const Points& points) const {
-  const auto v = static_cast<std::size_t>(vertex);
-  const Index begin = begin_[v], end = begin_[v + 1];
-  if (begin == end) return Vec3::Zero();
-  Vec3 sum = Vec3::Zero();
-  for (Index i = begin; i < end; ++i) sum += points.col(neighbors_[static_cast<std::size_t>(i)]);
-  return points.col(vertex) - sum / static_cast<Real>(end - begin);
+SurfaceFlaws::SurfaceFlaws(const TriangleMesh& rest, const MeshTopology& topology)
+    : edges_(topology.edges), shape_(shape_of(rest, topology)) {
+  for (const MeshEdge& edge : edges_)
+    edge_lengths_.push_back((rest.vertices.col(edge.a) - rest.vertices.col(edge.b)).norm());
 }
 
 Real SurfaceFlaws::spike_at(Index vertex, const Points& points) const {
   const auto v = static_cast<std::size_t>(vertex);
-  return std::max(from_neighbors(vertex, points).norm() - apart_[v], Real{0}) / reach_[v];
+  const Real apart = from_neighbors(shape_.stars, vertex, points).norm();
+  return std::max(apart - shape_.apart[v], Real{0}) / shape_.reach[v];
 }
 
 Real SurfaceFlaws::thickness_at(Index vertex, const Points& points) const {
   const auto v = static_cast<std::size_t>(vertex);
-  if (opposite_[v] < 0) return 1;
-  return ((points.col(vertex) - points.col(opposite_[v])).norm() + mean_edge_) / (thickness_[v] + mean_edge_);
+  const Index opposite = shape_.opposite[v];
+  if (opposite < 0) return 1;
+  return ((points.col(vertex) - points.col(opposite)).norm() + shape_.mean_edge) /
+         (shape_.thickness[v] + shape_.mean_edge);
 }
 
 Real SurfaceFlaws::edge_ratio(Real length, Real rest_length) const {
-  const Real least = mean_edge_ / 2;
+  const Real least = shape_.mean_edge / 2;
   return std::max(length, least) / std::max(rest_length, least);
 }
 

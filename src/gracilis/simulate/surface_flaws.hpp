@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/geometry/surface_shape.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 #include <gracilis/simulate/gates.hpp>
@@ -15,8 +16,8 @@ class SurfaceFlaws {
   SurfaceFlaws() = default;  ///< of nothing
   /// Precondition: at least one face, all coordinates finite.
   explicit SurfaceFlaws(const TriangleMesh& rest);
-  /// The same where the surface's edges are known.
-  SurfaceFlaws(const TriangleMesh& rest, std::vector<MeshEdge> edges);
+  /// The same where the surface's topology is known.
+  SurfaceFlaws(const TriangleMesh& rest, const MeshTopology& topology);
 
   struct Worst {
     Real spike = 0;       ///< largest of spike_at
@@ -41,15 +42,9 @@ class SurfaceFlaws {
   Real edge_ratio(Real length, Real rest_length) const;
 
  private:
-  Vec3 from_neighbors(Index vertex, const Points& points) const;
-
   std::vector<MeshEdge> edges_;
-  std::vector<Real> edge_lengths_;        ///< at rest, m
-  std::vector<Index> begin_, neighbors_;  ///< of vertex v: neighbors_[begin_[v]] up to begin_[v + 1]
-  std::vector<Index> opposite_;           ///< vertex faced through the muscle, -1: none
-  std::vector<Real> apart_, thickness_;   ///< at rest, m, per vertex
-  std::vector<Real> reach_;               ///< mean edge around a vertex at rest, m, at least half of the whole mean
-  Real mean_edge_ = 0;                    ///< m
+  std::vector<Real> edge_lengths_;  ///< at rest, m
+  SurfaceShape shape_;              ///< at rest
 };
 
 }  // namespace gracilis

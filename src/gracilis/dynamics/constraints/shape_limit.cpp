@@ -1,11 +1,5 @@
 #include <gracilis/dynamics/constraints/shape_limit.hpp>
 
-#include <gracilis/geometry/opposite_vertices.hpp>
-#include <gracilis/geometry/topology.hpp>
-
-#include <algorithm>
-#include <numeric>
-
 namespace gracilis {
 
 namespace {
@@ -13,12 +7,12 @@ namespace {
 Eigen::Vector3f mean_of_neighbors(const ShapeLimitSet& set, Index particle, const Particles& particles) {
   const auto p = static_cast<std::size_t>(particle);
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (Index i = set.offsets[p]; i < set.offsets[p + 1]; ++i)
-    sum += particles.position(set.neighbors[static_cast<std::size_t>(i)]);
-  return sum / static_cast<float>(set.offsets[p + 1] - set.offsets[p]);
+  for (Index i = set.stars.offsets[p]; i < set.stars.offsets[p + 1]; ++i)
+    sum += particles.position(set.stars.neighbors[static_cast<std::size_t>(i)]);
+  return sum / static_cast<float>(set.stars.offsets[p + 1] - set.stars.offsets[p]);
 }
 
-bool has_neighbors(const ShapeLimitSet& set, std::size_t p) { return set.offsets[p + 1] > set.offsets[p]; }
+bool has_neighbors(const ShapeLimitSet& set, std::size_t p) { return set.stars.offsets[p + 1] > set.stars.offsets[p]; }
 
 /// The farthest that a particle may be from the mean of its neighbors, and from the one that it faces, m.
 float farthest_apart(const ShapeLimitSet& set, float spike, std::size_t p) {
@@ -35,15 +29,15 @@ bool push_back_spike(const ShapeLimitSet& set, float spike, Index particle, Part
   const Eigen::Vector3f out = particles.position(particle) - mean_of_neighbors(set, particle, particles);
   const float length = out.norm(), beyond = length - farthest_apart(set, spike, p);
   if (!(beyond > 0)) return false;
-  const float share = 1 / static_cast<float>(set.offsets[p + 1] - set.offsets[p]);
+  const float share = 1 / static_cast<float>(set.stars.offsets[p + 1] - set.stars.offsets[p]);
   float weight = particles.inverse_mass(particle);
-  for (Index i = set.offsets[p]; i < set.offsets[p + 1]; ++i)
-    weight += share * share * particles.inverse_mass(set.neighbors[static_cast<std::size_t>(i)]);
+  for (Index i = set.stars.offsets[p]; i < set.stars.offsets[p + 1]; ++i)
+    weight += share * share * particles.inverse_mass(set.stars.neighbors[static_cast<std::size_t>(i)]);
   if (!(weight > 0)) return false;
   const Eigen::Vector3f push = (beyond / (weight * length)) * out;
   particles.position(particle) -= particles.inverse_mass(particle) * push;
-  for (Index i = set.offsets[p]; i < set.offsets[p + 1]; ++i) {
-    const Index neighbor = set.neighbors[static_cast<std::size_t>(i)];
+  for (Index i = set.stars.offsets[p]; i < set.stars.offsets[p + 1]; ++i) {
+    const Index neighbor = set.stars.neighbors[static_cast<std::size_t>(i)];
     particles.position(neighbor) += share * particles.inverse_mass(neighbor) * push;
   }
   return true;
@@ -65,41 +59,16 @@ bool press_together(const ShapeLimitSet& set, float thickness, Index particle, P
 
 }  // namespace
 
-ShapeLimitSet build_shape_limits(const TriangleMesh& rest) {
-  const Points& x = rest.vertices;
-  const auto count = static_cast<std::size_t>(x.cols());
-  const std::vector<MeshEdge> edges = build_topology(rest.faces, rest.vertex_count()).edges;
-  ShapeLimitSet set;
-  set.offsets.assign(count + 1, 0);
-  for (const MeshEdge& edge : edges)
-    for (const Index v : {edge.a, edge.b}) ++set.offsets[static_cast<std::size_t>(v) + 1];
-  std::partial_sum(set.offsets.begin(), set.offsets.end(), set.offsets.begin());
-  set.neighbors.resize(2 * edges.size());
-  std::vector<Index> next(set.offsets.begin(), set.offsets.end() - 1);
-  std::vector<Real> lengths(count);
-  Real total = 0;
-  for (const MeshEdge& edge : edges) {
-    const Real length = (x.col(edge.a) - x.col(edge.b)).norm();
-    total += length;
-    for (const auto& [v, other] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
-      set.neighbors[static_cast<std::size_t>(next[static_cast<std::size_t>(v)]++)] = other;
-      lengths[static_cast<std::size_t>(v)] += length;
-    }
-  }
-  const Real mean_edge = total / static_cast<Real>(std::max<std::size_t>(edges.size(), 1));
-  set.mean_edge = static_cast<float>(mean_edge);
-  set.opposite = opposite_vertices(rest);
-  for (std::size_t v = 0; v < count; ++v) {
-    Vec3 sum = Vec3::Zero();
-    for (Index i = set.offsets[v]; i < set.offsets[v + 1]; ++i)
-      sum += x.col(set.neighbors[static_cast<std::size_t>(i)]);
-    const auto degree = static_cast<Real>(std::max(set.offsets[v + 1] - set.offsets[v], Index{1}));
-    const Vec3 at = x.col(static_cast<Index>(v));
-    set.apart.push_back(has_neighbors(set, v) ? static_cast<float>((at - sum / degree).norm()) : 0);
-    set.reach.push_back(static_cast<float>(std::max(lengths[v] / degree, mean_edge / 2)));
-    set.thickness.push_back(set.opposite[v] < 0 ? 0 : static_cast<float>((at - x.col(set.opposite[v])).norm()));
-  }
-  return set;
+ShapeLimitSet build_shape_limits(const SurfaceShape& rest) {
+  const auto in_floats = [](const std::vector<Real>& values) {
+    return std::vector<float>(values.begin(), values.end());
+  };
+  return {rest.stars,
+          rest.opposite,
+          in_floats(rest.apart),
+          in_floats(rest.reach),
+          in_floats(rest.thickness),
+          static_cast<float>(rest.mean_edge)};
 }
 
 std::vector<Index> near_shape_limits(const ShapeLimitSet& set, const ShapeLimits& limits, float share,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/dynamics/particles.hpp>
-#include <gracilis/geometry/triangle_mesh.hpp>
+#include <gracilis/geometry/surface_shape.hpp>
 
 #include <vector>
 
@@ -15,18 +15,15 @@ struct ShapeLimits {
   bool any() const { return spike > 0 || thickness > 0; }
 };
 
-/// What the limits are measured by, per particle. Lengths in m.
+/// A SurfaceShape at rest, per particle, in single precision. Lengths in m.
 struct ShapeLimitSet {
-  std::vector<Index> offsets, neighbors;  ///< of particle p: neighbors[offsets[p]] up to neighbors[offsets[p + 1]]
-  std::vector<float> apart;               ///< distance from the mean of its neighbors at rest
-  std::vector<float> reach;               ///< mean edge around it at rest, at least half of the surface's mean
-  std::vector<Index> opposite;            ///< the particle it faces through the surface, -1: none
-  std::vector<float> thickness;           ///< distance to that at rest
-  float mean_edge = 0;                    ///< of the surface: what is thinner is not resolved
+  VertexStars stars;
+  std::vector<Index> opposite;
+  std::vector<float> apart, reach, thickness;
+  float mean_edge = 0;
 };
 
-/// Precondition: at least one face, all coordinates finite.
-ShapeLimitSet build_shape_limits(const TriangleMesh& rest);
+ShapeLimitSet build_shape_limits(const SurfaceShape& rest);
 
 /// The particles that are beyond `share` of a limit or of the way to it, in ascending order.
 std::vector<Index> near_shape_limits(const ShapeLimitSet& set, const ShapeLimits& limits, float share,

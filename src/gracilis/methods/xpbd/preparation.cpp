@@ -284,9 +284,9 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
     prepared.system.rest_proximities =
         find_rest_proximities(prepared.rest, prepared.faces, tight, prepared.system.rest);
   }
-  if (prepared.settings.spike_limit > 0 || prepared.settings.thickness_limit > 0)
-    prepared.system.shape_limits = build_shape_limits({prepared.rest, prepared.faces});
   const MeshTopology topology = build_topology(prepared.faces, prepared.particle_count());
+  if (prepared.settings.spike_limit > 0 || prepared.settings.thickness_limit > 0)
+    prepared.system.shape_limits = build_shape_limits(shape_of({prepared.rest, prepared.faces}, topology));
   build_predictor(scene, topology, fields, prepared);
   build_edges(attachments, topology, prepared);
   build_dihedrals(topology, prepared);
