@@ -4,6 +4,7 @@
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/view/charts/line_chart.hpp>
 #include <gracilis/view/report/html_text.hpp>
+#include <gracilis/view/report/tables_head.hpp>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@ namespace gracilis {
 namespace embedded {
 
 extern const std::string_view calibration_html;  // the file beside this one
-extern const std::string_view tables_css;        // of the report's folder
 
 }  // namespace embedded
 
@@ -185,8 +185,7 @@ void write_calibration_page(const std::filesystem::path& path, const Calibration
   fill(page, "parameters", parameter_table(result));
   fill(page, "summary", in_element(summary_of(result)));
   fill(page, "heading", "Calibration " + in_element(name));
-  fill(page, "title", in_element(name));
-  fill(page, "style", embedded::tables_css);
+  fill(page, "head", tables_head(name, "calibration"));
   write_text_atomically(path, page);
 }
 

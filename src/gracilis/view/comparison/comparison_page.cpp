@@ -6,6 +6,7 @@
 #include <gracilis/view/pictures/palette.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/report/html_text.hpp>
+#include <gracilis/view/report/tables_head.hpp>
 
 #include <fmt/format.h>
 
@@ -18,7 +19,6 @@ namespace gracilis {
 namespace embedded {
 
 extern const std::string_view comparison_html;  // the file beside this one
-extern const std::string_view tables_css;       // of the report's folder
 
 }  // namespace embedded
 
@@ -170,8 +170,7 @@ void write_comparison_page(const std::filesystem::path& path, const std::string&
   fill(page, "pictures", shown);
   fill(page, "methods", method_table(runs, rows));
   fill(page, "heading", in_element(scene) + ": methods side by side");
-  fill(page, "title", in_element(scene));
-  fill(page, "style", embedded::tables_css);
+  fill(page, "head", tables_head(scene, "comparison of methods"));
   write_text_atomically(path, page);
 }
 

@@ -6,6 +6,7 @@
 #include <gracilis/study/run_record.hpp>
 #include <gracilis/study/sensitivity.hpp>
 #include <gracilis/view/report/html_text.hpp>
+#include <gracilis/view/report/tables_head.hpp>
 #include <gracilis/view/study/study_charts.hpp>
 #include <gracilis/view/study/worst_runs.hpp>
 
@@ -20,7 +21,6 @@ namespace gracilis {
 namespace embedded {
 
 extern const std::string_view study_html;  // the file beside this one
-extern const std::string_view tables_css;  // of the report's folder
 
 }  // namespace embedded
 
@@ -170,8 +170,7 @@ void write_study_page(const std::filesystem::path& path, const Study& study, con
   fill(page, "failures", failure_table(study, standings));
   fill(page, "summary", summary);
   fill(page, "heading", "Study " + in_element(name));
-  fill(page, "title", in_element(name));
-  fill(page, "style", embedded::tables_css);
+  fill(page, "head", tables_head(name, "study"));
   write_text_atomically(path, page);
 }
 

@@ -5,6 +5,7 @@
 #include <gracilis/view/pictures/color_scale.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/report/html_text.hpp>
+#include <gracilis/view/report/tables_head.hpp>
 
 #include <fmt/format.h>
 
@@ -16,7 +17,6 @@ namespace gracilis {
 namespace embedded {
 
 extern const std::string_view transfer_html;  // the file beside this one
-extern const std::string_view tables_css;     // of the report's folder
 
 }  // namespace embedded
 
@@ -166,8 +166,7 @@ void write_transfer_page(const std::filesystem::path& path, const Transferred& t
                               scene.joints.size(), scene.muscles.size(), page.origin,
                               transferred.is_mirrored ? ", mirrored" : "")));
   fill(text, "heading", "Transfer to " + in_element(scene.name));
-  fill(text, "title", in_element(scene.name));
-  fill(text, "style", embedded::tables_css);
+  fill(text, "head", tables_head(scene.name, "transfer"));
   write_text_atomically(path, text);
 }
 
