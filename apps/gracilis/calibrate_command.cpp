@@ -37,16 +37,13 @@ struct CalibrateOptions {
   int jobs = 0, threads = 1;
   bool force = false;
 
-  bool is_built_in() const { return scene == "demo" || scene == "demo-elbow"; }
+  bool is_built_in() const { return builtin_scene_of(scene.string()).has_value(); }
 };
 
 LoadedScene load_with(const CalibrateOptions& options, const std::vector<std::string>& set) {
   SceneOptions of_scene = options.of_scene;
   of_scene.set.insert(of_scene.set.end(), set.begin(), set.end());
-  if (!options.is_built_in()) return read_scene(options.scene, of_scene);
-  DemoOptions demo;
-  demo.scene = options.scene == "demo" ? "hip" : "elbow";
-  return load_demo(demo, of_scene);
+  return load_scene(options.scene.string(), of_scene);
 }
 
 /// What the scene says of the calibration, asked in a process of its own, for evaluations are started by fork.

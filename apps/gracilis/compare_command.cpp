@@ -84,14 +84,6 @@ std::vector<LoadedScene> scenes_of(const std::vector<std::string>& names, const 
   return scenes;
 }
 
-LoadedScene load(const CompareOptions& options) {
-  if (options.scene != "demo" && options.scene != "demo-elbow") return read_scene(options.scene, options.scene_options);
-  DemoOptions demo;
-  demo.scene = options.scene == "demo" ? "hip" : "elbow";
-  demo.flexion_deg = options.flexion_deg;
-  return load_demo(demo, options.scene_options);
-}
-
 std::string meaning_of(const std::string& name) {
   if (const MethodEntry* method = find_method(name)) return std::string(method->meaning);
   const Preset preset = *find_preset(name);
@@ -133,7 +125,7 @@ void write_comparison(const CompareOptions& options, const std::string& scene, c
 
 int compare(const CompareOptions& options) {
   check_names(options.methods);
-  const LoadedScene loaded = load(options);
+  const LoadedScene loaded = load_scene(options.scene, options.scene_options, options.flexion_deg);
   check_frames(options.frames, loaded);
   const std::vector<LoadedScene> scenes = scenes_of(options.methods, loaded);
   std::vector<ComparedRun> runs;

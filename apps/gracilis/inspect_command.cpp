@@ -1,6 +1,7 @@
 #include "inspect_command.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/run/inspect.hpp>
 #include <gracilis/io/run/inspect_data.hpp>
 
@@ -30,7 +31,7 @@ static int inspect(const std::vector<std::filesystem::path>& files, bool json, i
       problems.insert(problems.end(), error.problems().begin(), error.problems().end());
     }
   }
-  if (json) std::cout << descriptions.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  if (json) std::cout << json_text(descriptions);
   std::cout.flush();
   if (!problems.empty()) throw InputError(problems);
   return static_cast<int>(ExitCode::done);

@@ -7,6 +7,7 @@
 #include "study_listing.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/study/collect.hpp>
@@ -47,11 +48,8 @@ LoadedScene load(const Study& study, const StudyRun& run) {
   scene.data = study.data;
   scene.prepare = scene_preparation();
   scene.say = log_lines;
-  if (const std::filesystem::path file = scene_file(study, run); !file.empty()) return read_scene(file, scene);
-  DemoOptions demo;
-  demo.scene = run.scene == "demo" ? "hip" : "elbow";
-  demo.flexion_deg = run.flexion_deg;
-  return load_demo(demo, scene);
+  const std::filesystem::path file = scene_file(study, run);
+  return load_scene(file.empty() ? run.scene : file.string(), scene, run.flexion_deg);
 }
 
 int run_one(const Study& study, const StudyRun& run, const StudyOptions& options, const std::filesystem::path& folder,
@@ -236,7 +234,7 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
     const Study of = study_of(asked);
     if (asked.json) {
       const nlohmann::ordered_json found = status_json(of, standings_of(of, GRACILIS_VERSION));
-      fmt::print("{}\n", found.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+      fmt::print("{}", json_text(found));
       return static_cast<int>(ExitCode::done);
     }
     fmt::print("{}", status_text(of, standings_of(of, GRACILIS_VERSION), asked.all_runs));

@@ -1,6 +1,7 @@
 #include "verify_command.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/run/verify_run.hpp>
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ static int print_json(const std::filesystem::path& run, const Verification& resu
                                         {"frames", result.frames},
                                         {"files", result.files},
                                         {"findings", result.findings}};
-  fmt::print("{}\n", found.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  fmt::print("{}", json_text(found));
   return static_cast<int>(code_of(result));
 }
 

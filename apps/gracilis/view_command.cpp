@@ -155,10 +155,8 @@ int view(ViewOptions& options) {
     options.what = file.has_parent_path() ? file.parent_path().string() : ".";
   if (std::filesystem::is_directory(options.what)) {
     view_run(options);
-  } else if (options.what == "demo" || options.what == "demo-elbow") {
-    view_scene(demo_scene(options.what == "demo" ? "hip" : "elbow"), options, begin);
   } else {
-    const LoadedScene loaded = read_scene(options.what, options.scene);
+    const LoadedScene loaded = load_scene(options.what, options.scene);
     for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
     view_scene(loaded.scene, options, begin);
   }

@@ -142,6 +142,8 @@ TEST(TransferInputs, landmarks_come_as_a_table_or_as_names) {
   EXPECT_LT((table.at("HJC") - Vec3(0.001, 0.002, 0.003)).norm(), 1e-12);
   const auto names = read_landmark_points(folder.write("l.toml", "unit = \"mm\"\nhip_r = [1, 2, 3]\n"), 1);
   EXPECT_LT((names.at("hip_r") - Vec3(0.001, 0.002, 0.003)).norm(), 1e-12);
+  EXPECT_THROW(read_landmark_points(folder.write("i.toml", "unit = \"inch\"\nhip_r = [1, 2, 3]\n"), 1),
+               ConfigurationError);
 }
 
 }  // namespace

@@ -215,16 +215,7 @@ Calibration read_targets(const fs::path& file, const fs::path& data) {
   Calibration calibration;
   calibration.file = file;
   calibration.inputs = {file};
-  const std::string text = read_text(file);
-  toml::table table;
-  try {
-    table = parse_toml(text, file.string());
-  } catch (const toml::parse_error& error) {
-    Problem problem{file.string(), "", std::string(error.description()), "correct the line"};
-    if (error.source().begin)
-      problem.where = fmt::format("{}:{}", error.source().begin.line, error.source().begin.column);
-    throw ConfigurationError(problem);
-  }
+  const toml::table table = parse_written_toml(read_text(file), file.string());
   std::vector<Problem> problems, of_files;
   TomlReader top(table, "the targets file", problems);
   read_description(top, TargetFiles(file, data, calibration.inputs, of_files), calibration);

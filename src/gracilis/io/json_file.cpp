@@ -38,4 +38,8 @@ nlohmann::ordered_json parse_json(const std::filesystem::path& path, const std::
   }
 }
 
+std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace gracilis

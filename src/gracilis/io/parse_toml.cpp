@@ -53,4 +53,14 @@ toml::table parse_toml(const std::string& text, const std::string& source) {
   return toml::parse(text, source);
 }
 
+toml::table parse_written_toml(const std::string& text, const std::string& source, const std::string& advice) {
+  try {
+    return parse_toml(text, source);
+  } catch (const toml::parse_error& error) {
+    const toml::source_position at = error.source().begin;
+    throw ConfigurationError({source, at ? std::to_string(at.line) + ":" + std::to_string(at.column) : "",
+                              std::string(error.description()), advice});
+  }
+}
+
 }  // namespace gracilis

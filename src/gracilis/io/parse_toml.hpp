@@ -11,4 +11,9 @@ namespace gracilis {
 /// functions that call themselves as often. (Arrays and tables in braces are counted by the parser.)
 toml::table parse_toml(const std::string& text, const std::string& source);
 
+/// The same of what a person wrote: where it is no TOML, a ConfigurationError names file, line and column, and what to
+/// do.
+toml::table parse_written_toml(const std::string& text, const std::string& source,
+                               const std::string& advice = "correct the line");
+
 }  // namespace gracilis

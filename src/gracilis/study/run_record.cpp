@@ -33,7 +33,7 @@ void write_run_record(const fs::path& file, const RunRecord& record) {
                                        {"processor_seconds", record.processor_seconds},
                                        {"peak_memory_bytes", record.peak_bytes},
                                        {"host", record.host}};
-  write_text_atomically(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text_atomically(file, json_text(json));
 }
 
 std::optional<RunRecord> read_run_record(const fs::path& file) {

@@ -1,13 +1,14 @@
 #include <gracilis/study/study.hpp>
 
 #include <gracilis/core/shell_word.hpp>
+#include <gracilis/io/scene/demo_scene.hpp>
 
 #include <fmt/format.h>
 
 namespace gracilis {
 
 std::filesystem::path scene_file(const Study& study, const StudyRun& run) {
-  if (run.scene == "demo" || run.scene == "demo-elbow") return {};
+  if (builtin_scene_of(run.scene)) return {};
   return (std::filesystem::absolute(study.file).parent_path() / run.scene).lexically_normal();
 }
 

@@ -200,16 +200,7 @@ Study read_study(const fs::path& file) {
   if (lower_case_extension(file) == ".csv") {
     read_run_table(file, "", study);
   } else if (lower_case_extension(file) == ".toml") {
-    const std::string text = read_text(file);
-    toml::table table;
-    try {
-      table = parse_toml(text, file.string());
-    } catch (const toml::parse_error& error) {
-      Problem problem{file.string(), "", std::string(error.description()), "correct the line"};
-      if (error.source().begin)
-        problem.where = fmt::format("{}:{}", error.source().begin.line, error.source().begin.column);
-      throw ConfigurationError(problem);
-    }
+    const toml::table table = parse_written_toml(read_text(file), file.string());
     TomlReader top(table, "the study", problems);
     read_description(top, study, problems);
   } else {

@@ -86,10 +86,8 @@ TemplateScene template_of(const Scene& scene) {
 }
 
 TemplateScene read_template(const std::string& name, const SceneOptions& options) {
-  if (name == "demo" || name == "demo-elbow") {
-    DemoOptions demo;
-    demo.scene = name == "demo" ? "hip" : "elbow";
-    TemplateScene result = template_of(load_demo(demo, options).scene);
+  if (builtin_scene_of(name)) {
+    TemplateScene result = template_of(load_scene(name, options).scene);
     result.name = name;
     return result;
   }

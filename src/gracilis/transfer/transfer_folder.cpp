@@ -4,6 +4,7 @@
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/mesh/polyline_file.hpp>
 #include <gracilis/io/text_cells.hpp>
@@ -132,7 +133,7 @@ std::string manifest_text(const TemplateScene& origin, const Transferred& transf
   json["inputs"] = {{"template", hashes_of(origin.loaded.inputs)},
                     {"subject", hashes_of(subject)},
                     {"options", hashes_of(record.inputs)}};
-  return json.dump(2) + "\n";
+  return json_text(json);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gracilis/io/csv_rows.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/parse_toml.hpp>
+#include <gracilis/io/scene/files.hpp>
 #include <gracilis/io/scene/landmarks.hpp>
 #include <gracilis/io/toml_reader.hpp>
 
@@ -25,21 +26,11 @@ LandmarkPoints of_table(const std::filesystem::path& path, Real unit) {
   return points;
 }
 
-toml::table parsed(const std::filesystem::path& path) {
-  try {
-    return parse_toml(read_text(path), path.string());
-  } catch (const toml::parse_error& error) {
-    throw ConfigurationError(
-        {path.string(), std::to_string(error.source().begin.line), std::string(error.description()), ""});
-  }
-}
-
 LandmarkPoints of_toml(const std::filesystem::path& path, Real unit) {
-  const toml::table table = parsed(path);
+  const toml::table table = parse_written_toml(read_text(path), path.string());
   std::vector<Problem> problems;
   TomlReader reader(table, "the landmarks", problems);
-  if (const std::optional<std::string> name = reader.text("unit"))
-    unit = *name == "mm" ? 0.001 : *name == "cm" ? 0.01 : 1;
+  if (table.contains("unit")) unit = sections::unit_of(reader, "unit");
   LandmarkPoints points;
   for (auto&& [key, node] : table)
     if (key.str() != "unit")

@@ -188,8 +188,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"libraries", library_versions()},
       {"settings", manifest.settings}};
   if (!manifest.outputs_sha256.empty()) json["outputs_sha256"] = manifest.outputs_sha256;
-  // Names of files need not be UTF-8; what is not is replaced, so that the manifest always is.
-  write_text_atomically(path, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_text_atomically(path, json_text(json));
 }
 
 }  // namespace gracilis

@@ -42,4 +42,19 @@ LoadedScene load_demo(const DemoOptions& options, const SceneOptions& changes) {
   return loaded;
 }
 
+std::optional<std::string> builtin_scene_of(const std::string& word) {
+  if (word == "demo") return "hip";
+  if (word == "demo-elbow") return "elbow";
+  return {};
+}
+
+LoadedScene load_scene(const std::string& file_or_word, const SceneOptions& options, std::optional<Real> flexion_deg) {
+  const std::optional<std::string> builtin = builtin_scene_of(file_or_word);
+  if (!builtin) return read_scene(file_or_word, options);
+  DemoOptions demo;
+  demo.scene = *builtin;
+  demo.flexion_deg = flexion_deg;
+  return load_demo(demo, options);
+}
+
 }  // namespace gracilis

@@ -23,4 +23,13 @@ struct DemoOptions {
 /// a preset.
 LoadedScene load_demo(const DemoOptions& options, const SceneOptions& changes);
 
+/// The built-in scene that a command means where a scene file may stand: hip for "demo", elbow for "demo-elbow"; none
+/// for anything else.
+std::optional<std::string> builtin_scene_of(const std::string& word);
+
+/// The scene of a file (read_scene, whose errors it throws), or the built-in one that is meant; `flexion_deg` is for
+/// that alone.
+LoadedScene load_scene(const std::string& file_or_word, const SceneOptions& options,
+                       std::optional<Real> flexion_deg = {});
+
 }  // namespace gracilis

@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/scene/preparation_report.hpp>
 #include <gracilis/scene/setting_table.hpp>
 
@@ -93,7 +94,7 @@ std::vector<TriangleMesh> cached_preparation(const std::vector<NamedSurface>& mu
   try {
     std::string bytes;
     for (const TriangleMesh& mesh : prepared.muscles) bytes += bytes_of(mesh);
-    write_text_atomically(fs::path(file).replace_extension(".json"), to_json(prepared.report).dump(2) + "\n");
+    write_text_atomically(fs::path(file).replace_extension(".json"), json_text(to_json(prepared.report)));
     write_cache_file(file, muscles_format, bytes);
     say("kept in " + file.string());
   } catch (const Error&) {

@@ -77,16 +77,6 @@ static void add_layer(SceneLayers& layers, toml::table& upper) {
   lay_over(layers.table, upper);
 }
 
-static toml::table parse(const std::string& text, const std::string& source) {
-  try {
-    return parse_toml(text, source);
-  } catch (const toml::parse_error& error) {
-    const toml::source_position at = error.source().begin;
-    throw ConfigurationError(
-        {source, std::to_string(at.line) + ":" + std::to_string(at.column), std::string(error.description()), ""});
-  }
-}
-
 namespace {
 
 // What a person writes stays far below; without limits two lines of text could ask for days and all memory.
@@ -124,7 +114,7 @@ static void add_file(SceneLayers& layers, const fs::path& path, Including& inclu
   ++including.files;
   including.bytes += fs::file_size(path, error);
   including.require_limits(path);
-  toml::table table = parse(read_text(path), path.string());
+  toml::table table = parse_written_toml(read_text(path), path.string());
   if (std::find(layers.files.begin(), layers.files.end(), path) == layers.files.end()) layers.files.push_back(path);
 
   std::vector<Problem> problems;

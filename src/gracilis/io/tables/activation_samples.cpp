@@ -67,15 +67,8 @@ std::vector<MuscleParts> grouped_parts(const std::vector<std::string>& columns) 
 }
 
 std::vector<MuscleParts> read_muscle_mapping(const fs::path& path) {
-  const std::string text = read_text(path);
-  toml::table table;
-  try {
-    table = parse_toml(text, path.string());
-  } catch (const toml::parse_error& error) {
-    throw ConfigurationError({path.string(),
-                              fmt::format("{}:{}", error.source().begin.line, error.source().begin.column),
-                              std::string(error.description()), "write: muscle = [\"column\", \"column\"]"});
-  }
+  const toml::table table =
+      parse_written_toml(read_text(path), path.string(), "write: muscle = [\"column\", \"column\"]");
   std::vector<MuscleParts> muscles;
   std::vector<Problem> problems;
   for (const auto& [key, value] : table) {
