@@ -83,6 +83,16 @@ TEST(OverlapSides, tubes_that_lie_in_each_others_flanks_have_a_side) {
   }
 }
 
+TEST(OverlapSides, all_that_lies_inside_together_has_one_way_out) {
+  const TriangleMesh a = tube(Vec3::Zero(), Vec3::UnitZ()), b = tube({0.015, 0, 0}, Vec3::UnitZ());
+  const std::vector<RestOverlap> overlaps = rest_overlaps({a, b});
+  ASSERT_EQ(overlaps.size(), 1u);
+  const OverlapSides sides = overlap_sides(overlaps.front(), a, b);
+  Points expected = Points::Zero(3, a.vertex_count());
+  for (const Index v : overlaps.front().of_first.vertices) expected.col(v) = -Vec3::UnitX();
+  EXPECT_LT((sides.first_ways - expected).cwiseAbs().maxCoeff(), 0.01) << "but for how the triangles lie";
+}
+
 TEST(OverlapSides, a_tube_through_another_has_none_however_thick_the_other_is) {
   const TriangleMesh a = tube(Vec3::Zero(), Vec3::UnitZ());
   for (const Real radius : {0.004, 0.01, 0.02}) {

@@ -37,12 +37,13 @@ int number_parts(const VertexStars& stars, const std::vector<char>& wanted, std:
 
 struct Side {
   std::vector<char> astray;
+  Points ways;
   bool is_clear = true;
 };
 
 Side side_of(const InsideVertices& inside, const TriangleMesh& mesh) {
   const auto count = static_cast<std::size_t>(mesh.vertex_count());
-  Side side{std::vector<char>(count, 0), true};
+  Side side{std::vector<char>(count, 0), Points::Zero(3, static_cast<Eigen::Index>(count)), true};
   if (inside.vertices.empty()) return side;
   const VertexStars stars = build_topology(mesh.faces, mesh.vertex_count()).stars;
   const Eigen::VectorXd areas = vertex_areas(mesh.vertices, mesh.faces);
@@ -90,6 +91,9 @@ Side side_of(const InsideVertices& inside, const TriangleMesh& mesh) {
   Real clear_area = 0, area = 0;
   for (std::size_t r = 0; r < regions; ++r) area += region_area[r], clear_area += clear[r] ? region_area[r] : 0;
   side.is_clear = 2 * clear_area >= area;
+  for (const Index v : inside.vertices)
+    if (const auto r = static_cast<std::size_t>(region[static_cast<std::size_t>(v)]); clear[r])
+      side.ways.col(v) = way[r].normalized();
   for (std::size_t v = 0; v < count; ++v)
     side.astray[v] =
         region[v] >= 0 ? !clear[static_cast<std::size_t>(region[v])] : cut_off[static_cast<std::size_t>(piece[v])];
@@ -105,6 +109,8 @@ OverlapSides overlap_sides(const RestOverlap& overlap, const TriangleMesh& first
                      (overlap.of_second.vertices.empty() || !of_second.is_clear);
   sides.first_astray = std::move(of_first.astray);
   sides.second_astray = std::move(of_second.astray);
+  sides.first_ways = std::move(of_first.ways);
+  sides.second_ways = std::move(of_second.ways);
   return sides;
 }
 

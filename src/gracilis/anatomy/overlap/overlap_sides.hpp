@@ -11,6 +11,7 @@ namespace gracilis {
 /// pieces, as it would where that passes through the other.
 struct OverlapSides {
   std::vector<char> first_astray, second_astray;  ///< per vertex: in a region without a side, or cut off by one
+  Points first_ways, second_ways;  ///< per vertex: of its region the mean of the ways out, unit; 0 without a side
   bool is_through = false;  ///< neither surface has a side for at least half of what lies inside: one passes through
                             ///< the other
 };

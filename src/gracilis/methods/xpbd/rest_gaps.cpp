@@ -159,6 +159,8 @@ void OverlapTable::mark(SurfacePair& pair) const {
   pair.release = std::max(least_release, static_cast<float>(entry->overlap.deepest()) / release_steps);
   mark_side(entry->overlap.of_first, entry->sides.first_astray, pair.first_gap, pair.first_overlaps);
   mark_side(entry->overlap.of_second, entry->sides.second_astray, pair.second_gap, pair.second_overlaps);
+  pair.first_ways = entry->sides.first_ways.cast<float>();
+  pair.second_ways = entry->sides.second_ways.cast<float>();
 }
 
 void measure_rest_gaps(const ContactWorldState& state, const std::vector<const Particles*>& rest, std::size_t number,

@@ -133,8 +133,9 @@ EdgeGap edge_gap(const Eigen::Vector3f& a0, const Eigen::Vector3f& a1, const Eig
   return gap;
 }
 
-NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,
-                            const Particles& particles) {
+template <class MayVisit>
+static NearestFace walk(const Eigen::Vector3f& p, const ContactSurface& surface, Index face, const Particles& particles,
+                        const MayVisit& may_visit) {
   const auto distance2_to = [&](Index f, Eigen::Vector3f& barycentric) {
     const Corners x = corners_of(surface, f, particles);
     barycentric = nearest_barycentric(p, x[0], x[1], x[2]);
@@ -146,7 +147,7 @@ NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surf
     Index next = face;
     Eigen::Vector3f there = barycentric;
     const auto consider = [&](Index candidate) {
-      if (candidate < 0 || candidate == face) return;
+      if (candidate < 0 || candidate == face || !may_visit(candidate)) return;
       Eigen::Vector3f weights;
       const float distance2 = distance2_to(candidate, weights);
       if (distance2 < best) best = distance2, next = candidate, there = weights;
@@ -165,6 +166,16 @@ NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surf
     barycentric = there;
   }
   return {face, barycentric};
+}
+
+NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,
+                            const Particles& particles) {
+  return walk(p, surface, face, particles, [](Index) { return true; });
+}
+
+NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,
+                            const Particles& particles, const std::function<bool(Index)>& may_visit) {
+  return walk(p, surface, face, particles, may_visit);
 }
 
 }  // namespace gracilis

@@ -5,6 +5,7 @@
 #include <gracilis/dynamics/vertex_faces.hpp>
 
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -100,5 +101,8 @@ EdgeGap edge_gap(const Eigen::Vector3f& a0, const Eigen::Vector3f& a1, const Eig
 /// From `face` to neighbors as long as they come nearer to p: the nearest face, or one nearest among those around it.
 NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,
                             const Particles& particles);
+/// The same over faces alone that `may_visit` allows; `face` is taken as it is.
+NearestFace walk_to_nearest(const Eigen::Vector3f& p, const ContactSurface& surface, Index face,
+                            const Particles& particles, const std::function<bool(Index)>& may_visit);
 
 }  // namespace gracilis

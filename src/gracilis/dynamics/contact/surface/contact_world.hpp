@@ -26,6 +26,8 @@ struct SurfacePair {
   float reach = 0.006f;                      ///< m, farthest that one is looked for from the other, once per step
   std::vector<float> first_gap, second_gap;  ///< m, per particle
   std::vector<char> first_overlaps, second_overlaps;  ///< which particles lie in the other at rest; empty: none
+  Eigen::Matrix3Xf first_ways, second_ways;  ///< unit, where those are to come out, in the other's shape at rest; zero:
+                                             ///< where it is nearest; empty: none
   float release = 0;  ///< m per step, how fast those come out that do: all alike, so that nothing bends on its way
   std::vector<char> first_touches, second_touches;  ///< which particles touch the other at rest; for cohesion
   bool is_self() const { return first == second; }

@@ -25,25 +25,35 @@ constexpr float listed_within = 0.0015f;
 constexpr float calm = 0.0005f;
 
 /// Walks each to its nearest face.
-void walk(std::vector<VertexFaceCandidate>& near, const ContactSurface& surface, const Particles& probe,
-          const Particles& target, const Eigen::Vector3f& shift) {
+void walk(std::vector<VertexFaceCandidate>& near, const ExitSide& exit, const Particles& probe, const Particles& target,
+          const Eigen::Vector3f& shift) {
   parallel_for(static_cast<Index>(near.size()), points_per_task, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       VertexFaceCandidate& candidate = near[static_cast<std::size_t>(i)];
       const Eigen::Vector3f p = probe.position(candidate.particle) + shift;
-      note_nearest(p, walk_to_nearest(p, surface, candidate.face, target), surface, target, candidate);
+      note_nearest(p, exit.walk(candidate.particle, p, candidate.face, target), exit.surface, target, candidate);
     }
   });
+}
+
+ExitSide exit_to_second(const ContactWorld& world, const SurfacePair& pair) {
+  const auto second = static_cast<std::size_t>(pair.second);
+  return {world.surfaces[second], world.rest[second], pair.first_ways};
+}
+
+ExitSide exit_to_first(const ContactWorld& world, const SurfacePair& pair) {
+  const auto first = static_cast<std::size_t>(pair.first);
+  return {world.surfaces[first], world.rest[first], pair.second_ways};
 }
 
 OverlapRelease release_of(const ContactWorld& world, const SurfacePair& pair, const ContactWorldState& state,
                           bool toward_second) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   if (toward_second)
-    return {world.surfaces[b], state.before[a],     state.before[b], state.normals[b],
-            pair.shift,        pair.first_overlaps, pair.release};
-  return {world.surfaces[a], state.before[b],      state.before[a], state.normals[a],
-          -pair.shift,       pair.second_overlaps, pair.release};
+    return {exit_to_second(world, pair), state.before[a], state.before[b], state.normals[b], pair.shift,
+            pair.first_overlaps,         pair.release};
+  return {exit_to_first(world, pair), state.before[b], state.before[a], state.normals[a], -pair.shift,
+          pair.second_overlaps,       pair.release};
 }
 
 /// Lists those that could push before the next look. Within one surface a walk that ended among neighbors has found no
@@ -119,8 +129,8 @@ void walk_pair(const ContactWorld& world, const SurfacePair& pair, const std::ve
   candidates.drift += drift;
   candidates.is_new = false;
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-  walk(candidates.near_second, world.surfaces[b], *particles[a], *particles[b], pair.shift);
-  walk(candidates.near_first, world.surfaces[a], *particles[b], *particles[a], -pair.shift);
+  walk(candidates.near_second, exit_to_second(world, pair), *particles[a], *particles[b], pair.shift);
+  walk(candidates.near_first, exit_to_first(world, pair), *particles[b], *particles[a], -pair.shift);
 }
 
 /// Lists what of a pair the next iterations have to project.

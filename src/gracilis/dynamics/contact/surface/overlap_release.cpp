@@ -11,8 +11,8 @@ float OverlapRelease::most_gap(const VertexFaceCandidate& candidate, float gap) 
   const bool overlapped = overlapped_at_rest(candidate.particle);
   if (!overlapped && gap - candidate.distance <= asked_at_once) return std::numeric_limits<float>::infinity();
   const Eigen::Vector3f p = probe.position(candidate.particle) + shift;
-  const NearestFace nearest = walk_to_nearest(p, surface, candidate.face, target);
-  return released(candidate.side * point_gap(p, surface, nearest, target, normals).distance, gap,
+  const NearestFace nearest = exit.walk(candidate.particle, p, candidate.face, target);
+  return released(candidate.side * point_gap(p, exit.surface, nearest, target, normals).distance, gap,
                   overlapped ? speed : asked_at_once);
 }
 

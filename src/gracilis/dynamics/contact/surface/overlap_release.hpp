@@ -1,13 +1,13 @@
 #pragma once
 
-#include <gracilis/dynamics/contact/surface/contact_world.hpp>
+#include <gracilis/dynamics/contact/surface/exit_side.hpp>
 
 namespace gracilis {
 
 /// Bounds what a contact may ask for within a step by where the step began. What came in since then has to go out
 /// again; what was in before comes out gradually.
 struct OverlapRelease {
-  const ContactSurface& surface;      ///< that the particle is near to
+  ExitSide exit;                      ///< of the surface that the particle is near to
   const Particles &probe, &target;    ///< before the step
   const Eigen::Matrix3Xf& normals;    ///< of the target
   Eigen::Vector3f shift;              ///< from the probe's coordinates to the target's

@@ -89,7 +89,7 @@ void search(const SearchedSurface& probe, const Eigen::Vector3f& shift, const Se
 }  // namespace
 
 void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const SearchedSurface& target, float reach,
-               std::vector<VertexFaceCandidate>& found) {
+               const ExitSide& exit, std::vector<VertexFaceCandidate>& found) {
   search(
       probe, shift, target, reach,
       [&](PatchTree::Bounds bounds) {
@@ -97,11 +97,23 @@ void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const
         bounds.normals.low.setConstant(-1), bounds.normals.high.setConstant(1);  // whichever way they face
         return bounds;
       },
-      [&](Index, const Eigen::Vector3f& p, const BoundsLanes& bounds, std::vector<NearPatch>& workspace) {
-        return nearest_face(
-            p, Eigen::Vector3f::Zero(), target.tree, bounds, reach, [](Index) { return 1.0f; }, workspace);
+      [&](Index particle, const Eigen::Vector3f& p, const BoundsLanes& bounds, std::vector<NearPatch>& workspace) {
+        const Eigen::Vector3f any_side = Eigen::Vector3f::Zero();
+        const VertexFaceCandidate nearest = nearest_face(
+            p, any_side, target.tree, bounds, reach, [](Index) { return 1.0f; }, workspace);
+        if (nearest.face < 0 || !exit.is_told(particle)) return nearest;
+        if (point_gap(p, target.surface, nearest.face, target.particles, target.tree.outward).distance >= 0)
+          return nearest;  // it has come out
+        const auto side_of = [&](Index face) { return exit.is_exit(particle, face) ? 1.0f : 0.0f; };
+        const VertexFaceCandidate out = nearest_face(p, any_side, target.tree, bounds, reach, side_of, workspace);
+        return out.face < 0 ? nearest : out;
       },
       found);
+}
+
+void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const SearchedSurface& target, float reach,
+               std::vector<VertexFaceCandidate>& found) {
+  find_near(probe, shift, target, reach, ExitSide{target.surface, {}, {}}, found);
 }
 
 void find_self(const SearchedSurface& surface, const SelfRule& rule, float reach,

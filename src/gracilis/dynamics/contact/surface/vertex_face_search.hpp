@@ -2,6 +2,7 @@
 
 #include <gracilis/dynamics/contact/self/self_contact.hpp>
 #include <gracilis/dynamics/contact/surface/contact_world.hpp>
+#include <gracilis/dynamics/contact/surface/exit_side.hpp>
 
 namespace gracilis {
 
@@ -24,6 +25,9 @@ struct SearchedSurface {
 /// leads from the probe's coordinates to the target's.
 void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const SearchedSurface& target, float reach,
                std::vector<VertexFaceCandidate>& found);
+/// The same; for a particle inside that has a side to come out on only its exits count.
+void find_near(const SearchedSurface& probe, const Eigen::Vector3f& shift, const SearchedSurface& target, float reach,
+               const ExitSide& exit, std::vector<VertexFaceCandidate>& found);
 
 /// The nearest face of the same surface within `reach` (m) that each particle may meet, in the order of particles.
 void find_self(const SearchedSurface& surface, const SelfRule& rule, float reach,
