@@ -195,7 +195,7 @@ void draw(const Step& step, const std::vector<Curve>& curves, const std::filesys
   for (std::size_t i = 0; i < curves.size(); ++i) {
     ChartSeries series;
     series.name = curves[i].name;
-    series.color = muscle_color(static_cast<Index>(i), Palette::okabe_ito);
+    series.color = series_color(static_cast<Index>(i));
     series.width = 2;
     for (const Sample& sample : curves[i].samples) {
       series.x.push_back(std::log10(sample.milliseconds));

@@ -12,8 +12,8 @@ int main(int count, char** arguments) {
     std::fprintf(stderr, "usage: gracilis_growth_chart OUT.svg TITLE WHAT_GROWS < measured\n");
     return 2;
   }
-  ChartSeries measured{"measured", {}, {}, muscle_color(0, Palette::okabe_ito), 2},
-      proportional{"in proportion to the first", {}, {}, muscle_color(1, Palette::okabe_ito), 1};
+  ChartSeries measured{"measured", {}, {}, series_color(0), 2},
+      proportional{"in proportion to the first", {}, {}, series_color(1), 1};
   for (Real size = 0, milliseconds = 0; std::cin >> size >> milliseconds;) {
     measured.x.push_back(std::log10(size));
     measured.y.push_back(std::log10(milliseconds));
