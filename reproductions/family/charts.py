@@ -1,18 +1,59 @@
 """Charts as SVG, all of one family: axes with units, what was published in gray, ours in color, no scripts."""
+import base64
 import html
+import struct
 import zlib
 
 COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f3c8d", "#11a579", "#a5aa99"]
 PUBLISHED = "#555"
 LEFT, BOTTOM, TOP = 52, 36, 8
+BAR = 64  # what a field's color bar takes on the right
+RISING = [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)]  # from dark to light, in gray, too
+ABOUT_ZERO = [(33, 102, 172), (247, 247, 247), (178, 24, 43)]
 
 
 class Series:
     """Points (x, y) joined by a line, or apart (`marks`); `band`: a second row of points, the area between is filled."""
 
-    def __init__(self, name, points, color=None, marks=False, dash=False, band=None):
+    def __init__(self, name, points, color=None, marks=False, dash=False, band=None, size=3):
         self.name, self.points, self.color = name, points, color
-        self.marks, self.dash, self.band = marks, dash, band
+        self.marks, self.dash, self.band, self.size = marks, dash, band, size
+
+
+class Field:
+    """Colors under a chart: rows of values from below, each from left to right, that fill the ranges. Values beyond
+    `low` and `high` have the colors of these. `about_zero`: low is -high, and both signs have a color of their own."""
+
+    def __init__(self, rows, x_range, y_range, label, low, high, about_zero=False):
+        self.rows, self.x_range, self.y_range = rows, x_range, y_range
+        self.label, self.low, self.high = label, low, high
+        self.colors = ABOUT_ZERO if about_zero else RISING
+
+    def color(self, value):
+        share = min(max((value - self.low) / (self.high - self.low), 0), 1) * (len(self.colors) - 1)
+        at = min(int(share), len(self.colors) - 2)
+        return [round(a + (b - a) * (share - at)) for a, b in zip(self.colors[at], self.colors[at + 1])]
+
+    def image(self, rows):
+        """Rows of values from above as a PNG's data address."""
+        raw = b"".join(b"\0" + bytes(c for value in row for c in self.color(value)) for row in rows)
+        size = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2, 0, 0, 0)
+        chunks = b"".join(struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+                          for kind, data in ((b"IHDR", size), (b"IDAT", zlib.compress(raw, 9)), (b"IEND", b"")))
+        return "data:image/png;base64," + base64.b64encode(b"\x89PNG\r\n\x1a\n" + chunks).decode()
+
+
+def color_bar(field, x, high):
+    """Colors and numbers to the right of a chart."""
+    steps = [[field.low + (field.high - field.low) * (1 - i / 99)] for i in range(100)]
+    parts = [f'<image x="{x}" y="{TOP}" width="10" height="{high}" preserveAspectRatio="none" href="{field.image(steps)}"/>'
+             f'<rect x="{x}" y="{TOP}" width="10" height="{high}" fill="none" stroke="#999"/>']
+    for t in ticks(field.low, field.high, 6):
+        y = TOP + high * (field.high - t) / (field.high - field.low)
+        parts.append(f'<text x="{x + 13}" y="{y:.1f}" dy="4">{t:g}</text>')
+    parts.append(f'<text transform="translate({x + 50},{TOP + high / 2:.0f}) rotate(-90)" text-anchor="middle">'
+                 f'{html.escape(field.label)}</text>')
+    return "".join(parts)
 
 
 def published(name, points, **more):
@@ -39,14 +80,17 @@ def bounds(values, margin=0.05):
     return low - room, high + room
 
 
-def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, y_range=None, square=False):
-    """An SVG's text. `square`: a unit is as long on both axes."""
+def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, y_range=None, square=False, field=None):
+    """An SVG's text. `square`: a unit is as long on both axes. `field`: what lies under the curves."""
+    if field:
+        x_range, y_range = x_range or field.x_range, y_range or field.y_range
     every = [p for s in series for p in list(s.points) + list(s.band or [])]
+    every += [(field.x_range[0], field.y_range[0])] if field else []
     if not every:
         return ""
     left, right = x_range or bounds([p[0] for p in every], 0.02)
     bottom, top = y_range or bounds([p[1] for p in every])
-    across, high = width - LEFT - 10, height - BOTTOM - TOP
+    across, high = width - LEFT - (BAR if field else 10), height - BOTTOM - TOP
     if square:
         unit = max((right - left) / across, (top - bottom) / high)
         middle = (left + right) / 2, (bottom + top) / 2
@@ -63,7 +107,7 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
     parts = []
     for t in ticks(bottom, top):
         y = at((left, t))[1]
-        parts.append(f'<line x1="{LEFT}" y1="{y:.1f}" x2="{width - 10}" y2="{y:.1f}" stroke="#e4e4e4"/>'
+        parts.append(f'<line x1="{LEFT}" y1="{y:.1f}" x2="{LEFT + across}" y2="{y:.1f}" stroke="#e4e4e4"/>'
                      f'<text x="{LEFT - 5}" y="{y:.1f}" dy="4" text-anchor="end">{t:g}</text>')
     for t in ticks(left, right):
         x = at((t, bottom))[0]
@@ -75,13 +119,19 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
     colors = iter(COLORS * 9)
     legend = []
     inside = []
+    if field:
+        (x0, y0), (x1, y1) = at((field.x_range[0], field.y_range[1])), at((field.x_range[1], field.y_range[0]))
+        inside.append(f'<image x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}" style="image-rendering:pixelated" '
+                      f'preserveAspectRatio="none" href="{field.image(field.rows[::-1])}"/>')
+        parts.append(color_bar(field, LEFT + across + 6, high))
     for s in series:
         color = s.color or next(colors)
         if s.band:
             corners = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(at, list(s.points) + list(reversed(s.band))))
             inside.append(f'<polygon points="{corners}" fill="{color}" opacity="0.25"/>')
         elif s.marks:
-            inside += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{color}"/>' for x, y in map(at, s.points)]
+            rim = ' stroke="#fff" stroke-width="0.8"' if field and s.size > 2 else ""
+            inside += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{s.size}" fill="{color}"{rim}/>' for x, y in map(at, s.points)]
         else:
             dash = ' stroke-dasharray="5 3"' if s.dash else ""
             inside.append(line(s.points, f'stroke="{color}" stroke-width="1.8"{dash}'))

@@ -28,5 +28,5 @@ def section(name):
 
 OUT = sys.argv[1]
 with open(os.path.join(OUT, "index.html"), "w") as file:
-    file.write(f'<!doctype html><html lang="en"><meta charset="utf-8"><title>Published beside ours</title><style>{STYLE}</style>'
+    file.write(f'<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>Published beside ours</title><style>{STYLE}</style>'
                f'<h1>Published beside ours</h1>{"".join(section(name) for name in sys.argv[2:])}</html>\n')

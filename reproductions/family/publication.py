@@ -9,8 +9,8 @@ import charts
 
 STYLE = """body{font:15px/1.5 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}
 .figures{display:flex;flex-wrap:wrap;gap:18px}figure{margin:0;max-width:100%}figcaption{max-width:380px;font-size:13px}
-figcaption b{display:block;font-size:15px}svg,img{background:#fff;max-width:100%}
-figure img{max-width:380px;height:auto}table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;border-bottom:1px solid #ddd;text-align:right}
+figcaption b{display:block;font-size:15px}svg,img{background:#fff;max-width:100%;height:auto}
+figure img{max-width:min(380px,100%)}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;border-bottom:1px solid #ddd;text-align:right}
 td.word,th.word{text-align:left}code{background:#f4f4f4;padding:0 3px}.thumbs figure{width:210px}.thumbs svg,.thumbs img{width:210px;height:auto}
 .key{display:inline-block;width:22px;height:4px;margin:0 5px 3px 14px}"""
 COLUMNS = ["source", "quantity", "unit", "published", "ours", "ratio", "remark"]
@@ -53,7 +53,7 @@ def table(rows, columns=None):
     head = "".join(f"<th{kind[c]}>{html.escape(c.replace('_', ' '))}</th>" for c in columns)
     body = "".join("<tr>" + "".join(f"<td{kind[c]}>{html.escape(str(r.get(c, '')))}</td>" for c in columns) + "</tr>"
                    for r in rows)
-    return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>"
+    return f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
 def list_figures(out, title, command, drawn):
@@ -76,7 +76,7 @@ class Page:
         self.figures, self.rows, self.missing = [], [], []
 
     def chart(self, name, title, remark, series, x_label, y_label, **more):
-        """A chart, OUT/figures/NAME.svg, and its points, NAME.csv."""
+        """A chart, OUT/figures/NAME.svg, and its points, NAME.csv (NAME_field.csv: what lies under them)."""
         svg = charts.chart(title, series, x_label, y_label, **more)
         if not svg:
             return
@@ -86,7 +86,21 @@ class Page:
             writer.writerow(["curve", x_label, y_label])
             for s in series:
                 writer.writerows([s.name, f"{x:.6g}", f"{y:.6g}"] for x, y in list(s.points) + list(s.band or []))
+        field = more.get("field")
+        if field:
+            self._field(name, field, x_label, y_label)
         self.figures.append((name, title, remark, svg))
+
+    def _field(self, name, field, x_label, y_label):
+        """NAME_field.csv: the middle of each colored rectangle and the value there."""
+        (x0, x1), (y0, y1) = field.x_range, field.y_range
+        with open(self._path(f"{name}_field.csv"), "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow([x_label, y_label, field.label])
+            for j, row in enumerate(field.rows):
+                y = y0 + (y1 - y0) * (j + 0.5) / len(field.rows)
+                writer.writerows([f"{x0 + (x1 - x0) * (i + 0.5) / len(row):.6g}", f"{y:.6g}", f"{value:.6g}"]
+                                 for i, value in enumerate(row))
 
     def picture(self, name, title, remark, path):
         """A PNG, which the page holds."""
@@ -112,7 +126,7 @@ class Page:
                           f'</figcaption></figure>' for name, title, remark, drawn in self.figures)
         missing = f"<h2>What is not made</h2>{table(self.missing)}" if self.missing else ""
         with open(os.path.join(self.out, "index.html"), "w") as file:
-            file.write(f"""<!doctype html><html lang="en"><meta charset="utf-8"><title>{html.escape(self.title)}</title>
+            file.write(f"""<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{html.escape(self.title)}</title>
 <style>{STYLE}</style><h1>{html.escape(self.title)}</h1><p>{self.about}</p>
 <p>Made by <code>{html.escape(self.command)}</code>. Gray: published; in color: ours.</p>
 <h2>Figures</h2><div class="figures">{figures}</div>
