@@ -5,7 +5,7 @@
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/.." && pwd)
-only=cervenka-kohout-2020,havlicek-2024,janak-2012,lacle-2014,modenese-kohout-2020
+only=cervenka-2024,cervenka-kohout-2020,havlicek-2024,janak-2012,lacle-2014,modenese-kohout-2020
 out=$root/out/reproductions
 options=()
 while (($#)); do

@@ -15,6 +15,7 @@
 #include <map>
 #include <numeric>
 #include <random>
+#include <string_view>
 
 namespace gracilis {
 
@@ -31,6 +32,9 @@ const std::vector<std::pair<std::string, std::string>> measured = {{"LC_SET_Ori_
                                                                    {"LC_SET_Ori_1_R_M082_Glut_Med", "hip_bone_r"},
                                                                    {"LC_SET_Ins_1_R_M082_Glut_Med", "femur_r"},
                                                                    {"LC_SET_Ori_1_R_M091_Iliacus", "hip_bone_r"}};
+
+/// The one that curves differ on most.
+const std::string drawn = "LC_SET_Ori_1_R_M082_Glut_Med";
 
 std::vector<Index> shuffled_numbers(Index count) {
   std::vector<Index> numbers(static_cast<std::size_t>(count));
@@ -61,23 +65,38 @@ Found found_again(OutlineCurve curve, const Points& points) {
   return found;
 }
 
-/// How far the vertices of a surface lie from heights over the outline's plane: thin plates through the outline's
-/// points.
-Eigen::VectorXd surface_errors(const Points& outline, const Points& vertices) {
+/// Points as seen along the normal of the plane that fits an outline best: two coordinates in it and the height, m.
+Points flattened(const Points& outline, const Points& points) {
   const Vec3 middle = outline.rowwise().mean();
   const Points from = outline.colwise() - middle;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(from * from.transpose());
   const Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();  // the last is the normal
-  const auto flat = [&](const Points& points) {
-    Points seen = axes.transpose() * (points.colwise() - middle);
-    return seen;
-  };
-  Points base = flat(outline), there = flat(vertices);
+  return axes.transpose() * (points.colwise() - middle);
+}
+
+/// How far the vertices of a surface lie from heights over the outline's plane: thin plates through the outline's
+/// points.
+Eigen::VectorXd surface_errors(const Points& outline, const Points& vertices) {
+  Points base = flattened(outline, outline), there = flattened(outline, vertices);
   const Eigen::VectorXd heights = base.row(2), wanted = there.row(2);
   base.row(2).setZero();
   there.row(2).setZero();
   const RadialFit fit = interpolate({{RadialShape::thin_plate}, RadialPolynomial::linear, 2}, base, 0.05, heights);
   return errors_at(fit.basis, there, wanted).cwiseAbs();
+}
+
+/// An outline as it was measured and as each curve finds it, closed, in its plane.
+void draw_outline(const TableRequest& request, const Outline& outline) {
+  std::ofstream table = request.table("outline_curves", "area,curve,x_mm,y_mm");
+  const auto add = [&](std::string_view curve, const Points& in_order) {
+    const Points seen = 1000 * flattened(outline.points, in_order);
+    for (Index i = 0; i <= static_cast<Index>(seen.cols()); ++i)
+      table << fmt::format("{},{},{:.2f},{:.2f}\n", outline.name, curve, seen(0, i % seen.cols()),
+                           seen(1, i % seen.cols()));
+  };
+  add("measured", outline.points);
+  for (std::size_t c = 0; c < choices_of(OutlineCurve{}).size(); ++c)
+    add(choices_of(OutlineCurve{})[c], found_again(static_cast<OutlineCurve>(c), outline.points).in_order);
 }
 
 void add_curves(std::ofstream& table, const std::string& set, const Outline& outline, const TriangleMesh* bone) {
@@ -104,7 +123,9 @@ void add_measured(const TableRequest& request, std::ofstream& table) {
   for (const auto& [name, bone] : measured) {
     if (!bones.contains(bone)) bones[bone] = read_mesh(folder / "clean" / (bone + ".ply"), 0.001);
     const auto cloud = std::find_if(clouds.begin(), clouds.end(), [&](const auto& c) { return c.name == name; });
-    if (cloud != clouds.end()) add_curves(table, "measured", {name, cloud->points}, &bones[bone]);
+    if (cloud == clouds.end()) continue;
+    add_curves(table, "measured", {name, cloud->points}, &bones[bone]);
+    if (name == drawn) draw_outline(request, {name, cloud->points});
   }
 }
 

@@ -25,5 +25,34 @@ TEST(Reproduction, every_method_stands_beside_every_published_curve_of_the_scene
   }
 }
 
+TEST(CervenkaReproduction, as_many_functions_as_published_hold_the_shape_of_heights_and_of_the_cadavers_muscle) {
+  if (!Reproduction::has_data("lhdl-hip") || !Reproduction::has_data("leg"))
+    GTEST_SKIP() << "the cadaver and the leg are not here: set GRACILIS_DATA";
+  const Reproduction made("", "cervenka-2024", "results.csv");
+  ASSERT_EQ(made.exit_code, 0);
+  const auto ours = [&](const std::string& quantity) {
+    for (const Reproduction::Row& row : made.rows())
+      if (row.text("quantity").rfind(quantity, 0) == 0) return row.number("ours");
+    ADD_FAILURE() << "nothing made of " << quantity;
+    return Real{0};
+  };
+  // Section 5.6: between 5 and 10 % of the data keep their shape.
+  for (const char* curve : {"four bumps, Halton", "cliff, Halton", "ripples, Halton"})
+    for (const auto& [share, log_percent] : made.curve("compression", curve))
+      if (share > 4.9) {
+        EXPECT_LT(log_percent, -1) << curve << ", " << share << " %";
+      }
+  for (const auto& [share, log_percent] : made.curve("solid_volume", "cadaver"))
+    if (share > 4.9) {
+      EXPECT_LT(log_percent, 0) << share << " %";
+    }
+  // Section 5.7: one singular shape parameter for each number of functions on a grid, two on the Halton sequence.
+  EXPECT_EQ(made.curve("thin_plate_peaks", "on a grid").size(), 8U);
+  EXPECT_EQ(made.curve("thin_plate_peaks", "on the Halton sequence").size(), 16U);
+  // Section 5.8: volumes within 1 %; section 5.11: more than the published 78.74 % of the outlines.
+  EXPECT_LT(ours("largest change of a muscle's volume by position based dynamics"), 1);
+  EXPECT_GT(ours("attachment outlines found again"), 95);
+}
+
 }  // namespace
 }  // namespace gracilis
