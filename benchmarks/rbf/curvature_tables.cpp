@@ -48,6 +48,19 @@ void write_slice(const TableRequest& request, const rbf::MuscleModel& model, con
     }
 }
 
+/// Where the surface's edges cross that plane.
+void write_crossings(const TableRequest& request, const TriangleMesh& surface) {
+  std::ofstream table = request.table("crossings", "along_mm,across_mm");
+  const Points seen =
+      spread_axes(surface.vertices).transpose() * (surface.vertices.colwise() - surface.vertices.rowwise().mean());
+  for (const MeshEdge& edge : build_topology(surface.faces, surface.vertex_count()).edges) {
+    const Real a = seen(1, edge.a), b = seen(1, edge.b);
+    if ((a < 0) == (b < 0)) continue;
+    const Vec3 at = seen.col(edge.a) + a / (a - b) * (seen.col(edge.b) - seen.col(edge.a));
+    table << fmt::format("{:.2f},{:.2f}\n", 1000 * at.x(), 1000 * at.z());
+  }
+}
+
 /// A field whose centers were drawn apart along the muscle by a tenth.
 RadialBasis stretched(const RadialBasis& rest, const TriangleMesh& surface) {
   const Vec3 along = spread_axes(surface.vertices).col(0), middle = surface.vertices.rowwise().mean();
@@ -96,6 +109,7 @@ void write_curvature(const TableRequest& request) {
   const rbf::MuscleModel model = model_of(surface, request.thin ? 60 : 300);
   const RadialBasis moved = stretched(model.rest, surface);
   write_slice(request, model, surface);
+  write_crossings(request, surface);
   write_gradient(request, model, moved);
   write_descent(request, model, moved);
 }

@@ -29,7 +29,7 @@ void write_signals(const TableRequest& request);
 void write_fields(const TableRequest& request);
 /// solids: gluteus maximus as an implicit surface.
 void write_solids(const TableRequest& request);
-/// curvature, gradient, descent: figure 5.13 and chapter 6.
+/// curvature, crossings, gradient, descent: figure 5.13 and chapter 6.
 void write_curvature(const TableRequest& request);
 /// outlines, attachment_surfaces: section 5.11. Nothing without data.
 void write_outlines(const TableRequest& request);

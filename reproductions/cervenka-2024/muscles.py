@@ -43,16 +43,17 @@ def curvature(results):
     heights = sorted(lines)
     widths = [row["along_mm"] for row in lines[heights[0]]]
     half = (heights[1] - heights[0]) / 2
-    surface = Series("the surface", zero_points(rows), "#222", marks=True, size=0.9)
+    surface = [Series("implicit surface", zero_points(rows), "#222", marks=True, size=0.9),
+               Series("triangles", [(row["along_mm"], row["across_mm"]) for row in results.table("crossings")], "#009e73", marks=True, size=1.3)]
     for column, title, label in (("field_mm", "field", "distance to the surface, mm"), ("field_curvature", "curvature", "curvature of the field, 1/m")):
         sizes = sorted(abs(row[column]) for row in rows)
         reach = sizes[int(0.98 * len(sizes))]
         field = Field([[row[column] for row in lines[y]] for y in heights], (widths[0] - half, widths[-1] + half),
                       (heights[0] - half, heights[-1] + half), label, -reach, reach, about_zero=True)
         results.page.chart(f"figure_5_13_{title}", f"Figure 5.13: {title} around gluteus maximus", "A slice through the muscle's middle, along its most and its least spread; "
-                           "the field of the method rbf. Black: where the field is 0. " +
+                           "the field of the method rbf. Black: where the field is 0; green: where the muscle's triangles are. " +
                            ("Eq. 6.5's 'mean curvature', the Laplacian over three." if title == "curvature" else "It levels off away from the surface."),
-                           [surface], "along the muscle, mm", "across, mm", field=field, square=True, width=560, height=214)
+                           surface, "along the muscle, mm", "across, mm", field=field, square=True, width=560, height=214)
 
 
 def gradient(results):
