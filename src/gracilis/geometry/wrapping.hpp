@@ -9,7 +9,7 @@ namespace gracilis {
 /// A surface that lines run around (OpenSim's wrap objects), in a frame of its own.
 struct WrapSurface {
   enum class Kind { cylinder, sphere, ellipsoid, torus };
-  /// How OpenSim chooses the plane of the way around an ellipsoid (<method> of a path's wrap).
+  /// How OpenSim chooses the plane of the way around an ellipsoid (`<method>` of a path's wrap).
   enum class Plane { hybrid, midpoint, axial };
   Kind kind = Kind::cylinder;
   Real radius = 0, length = 0;  ///< m; the axis of a cylinder or torus is z; a torus' radius is that of its tube

@@ -25,7 +25,7 @@ class ValueReader {
 
   /// The next word between white space, on this line or a later one; empty at the end of the file.
   std::string_view word();
-  /// The rest of the current line without its line break (\n or \r\n).
+  /// The rest of the current line without its line break (`\n` or `\r\n`).
   std::string_view line();
   /// The next number; integers are exact up to 2^53.
   double number(ScalarType type);

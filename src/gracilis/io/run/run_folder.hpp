@@ -20,7 +20,7 @@ namespace gracilis {
 enum class ExistingRun { refuse, replace, resume };
 
 /// The folder that a run leaves behind:
-///
+/// ```
 ///   run.json                       see run_manifest.hpp
 ///   run.pvd                        opens the animation in ParaView; always names frames that are there only
 ///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits
@@ -34,9 +34,10 @@ enum class ExistingRun { refuse, replace, resume };
 ///   forces.sto                     where the method knows forces, see force_table.hpp
 ///   fibers/<muscle>_0000.vtp       one per frame and muscle with fibers, m
 ///   fibers/0000.vtp                where the run is compact: all of frame 0; of others what the surfaces do not tell
-///   outputs.sha256                 hashes of all files but run.json, which has that of this one, once the run has
-///   ended run.lock                       while a process writes here
-///
+///   outputs.sha256                 hashes of all files but run.json, which has that of this one, once the run
+///                                  has ended
+/// ```
+/// and run.lock while a process writes there.
 /// An interrupted run is readable: files appear whole, rows are flushed frame by frame, run.pvd follows every second.
 class RunFolder {
  public:

@@ -21,13 +21,13 @@ std::optional<RunLayout> run_layout_called(const std::string& name);
 /// That of the run in a folder; `otherwise` where there is no frame yet.
 RunLayout layout_of(const std::filesystem::path& folder, RunLayout otherwise = RunLayout::surfaces);
 
-/// RUN/frames/<name>_<number as four digits>.vtp
+/// `RUN/frames/<name>_<number as four digits>.vtp`
 std::filesystem::path frame_file(const std::filesystem::path& folder, const std::string& name, int number);
-/// RUN/shapes/<number as four digits>.vtp
+/// `RUN/shapes/<number as four digits>.vtp`
 std::filesystem::path shapes_file(const std::filesystem::path& folder, int number);
-/// RUN/fibers/<number as four digits>.vtp
+/// `RUN/fibers/<number as four digits>.vtp`
 std::filesystem::path fibers_file(const std::filesystem::path& folder, int number);
-/// RUN/bones/<name>.vtp
+/// `RUN/bones/<name>.vtp`
 std::filesystem::path bone_file(const std::filesystem::path& folder, const std::string& name);
 
 /// The file that holds a muscle or a bone in a frame.

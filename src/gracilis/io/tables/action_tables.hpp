@@ -11,7 +11,7 @@ namespace gracilis {
 /// What a frame's fiber actions add to the run's tables; nothing where it has none. All begin as run_table.hpp
 /// says.
 ///
-/// moment_arms_<coordinate>.sto, one per coordinate: per muscle `<muscle>`, the mean, `<muscle>_f000` ... (m), and
+/// `moment_arms_<coordinate>.sto`, one per coordinate: per muscle `<muscle>`, the mean, `<muscle>_f000` ... (m), and
 /// `<muscle>_left_out`, how many fibers the mean leaves out because they are about to snap to another way or not at
 /// rest.
 ///
@@ -24,7 +24,7 @@ std::vector<RunTable> action_tables(const Scene& scene, const FrameRecord& recor
 /// The names of all .sto tables that a run of the scene may have.
 std::vector<std::string> table_names(const Scene& scene);
 
-/// moment_arms_<coordinate>.sto
+/// `moment_arms_<coordinate>.sto`
 std::string moment_arm_file(const std::string& coordinate);
 
 }  // namespace gracilis

@@ -20,7 +20,7 @@ std::string fiber_lengths_row(const Scene& scene, const Pose& pose, const std::v
 /// Drops all rows but the first `rows`; the head then announces `announced`. Does nothing when there is no file.
 void truncate_fiber_lengths(const std::filesystem::path& path, int rows, int announced);
 
-/// RUN/fibers/<muscle>_<number as four digits>.vtp
+/// `RUN/fibers/<muscle>_<number as four digits>.vtp`
 std::filesystem::path fiber_file(const std::filesystem::path& folder, const std::string& muscle, int number);
 
 }  // namespace gracilis

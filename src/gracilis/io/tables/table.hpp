@@ -28,7 +28,7 @@ std::optional<Eigen::Index> column_of(const Table& table, const std::string& nam
 /// columns between tabs, spaces or commas, in any order. Survived with a warning: wrong row and column counts, a
 /// missing inDegrees (radians; degrees under a SIMM header); a time that is repeated or a column of a name that was
 /// there before (the first one counts); columns with several numbers in a cell, as OpenSim writes quaternions (left
-/// out); no column beside the time. Survived in silence: blank lines, separators at the ends of lines, \r\n, a byte
+/// out); no column beside the time. Survived in silence: blank lines, separators at the ends of lines, `\r\n`, a byte
 /// order mark. Throws InputError with file and line: no header end, no column "time", rows of a wrong length, cells
 /// that are not finite numbers, times that decrease, no rows.
 Table read_table(const std::filesystem::path& path);

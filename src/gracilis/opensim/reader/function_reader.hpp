@@ -12,7 +12,7 @@ namespace gracilis::opensim {
 Function read_function(const XmlContext& context, pugi::xml_node node, std::size_t arguments,
                        std::vector<std::string>& unsupported);
 
-/// The first child of `node` that is a function, under <function> (3.x) or directly below (4.x); empty when there is
+/// The first child of `node` that is a function, under `<function>` (3.x) or directly below (4.x); empty when there is
 /// none.
 pugi::xml_node function_below(const pugi::xml_node& node);
 

@@ -24,7 +24,7 @@ struct XmlFile {
 /// later. One of a version below 3.0 is brought into that form (old_versions).
 XmlFile read_xml(const std::filesystem::path& path);
 
-/// A file being read, and what its <defaults> say about elements that leave something out.
+/// A file being read, and what its `<defaults>` say about elements that leave something out.
 struct XmlContext {
   std::filesystem::path path;
   pugi::xml_node defaults;
@@ -41,11 +41,11 @@ struct XmlContext {
   std::vector<Real> numbers(const pugi::xml_node& node, const char* name) const;
   Vec3 vector(const pugi::xml_node& node, const char* name, const Vec3& otherwise) const;
   bool boolean(const pugi::xml_node& node, const char* name, bool otherwise) const;
-  /// What a socket is connected to: <socket_NAME> (4.x), a connector (3.3 to 4.0 betas) or <NAME> (3.x), in this order.
+  /// What a socket leads to: `<socket_NAME>` (4.x), a connector (3.3 to 4.0 betas) or `<NAME>` (3.x), in this order.
   std::string socket(const pugi::xml_node& node, const std::string& name, const char* old_name) const;
 };
 
-/// Elements below <set><objects>, or below <set> itself.
+/// Elements below `<set><objects>`, or below `<set>` itself.
 std::vector<pugi::xml_node> objects_of(const pugi::xml_node& parent, const char* set);
 
 /// "/jointset/knee_r/knee_angle_r" becomes "knee_angle_r".

@@ -33,7 +33,7 @@ LineChart muscles_chart(const Table& table, const ChartCoordinate& coordinate, c
 /// coordinates.
 std::string main_coordinate(const Table& table, const Scene& scene);
 
-/// Writes RUN/plots: fiber_lengths_<muscle>.svg against the main coordinate where the run has fiber lengths, and
+/// Writes RUN/plots: `fiber_lengths_<muscle>.svg` against the main coordinate where the run has fiber lengths, and
 /// volume.svg, edges.svg and angles.svg, the changes of volume, of mean edge length and of dihedral angles against the
 /// frame.
 void write_run_charts(const std::filesystem::path& run_folder, const Scene& scene);
