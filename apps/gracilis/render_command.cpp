@@ -71,7 +71,7 @@ void warn_of_missing(const RecordedRun& run, const RunPictureOptions& options) {
   if (options.color_by == ColorBy::activation && largest("activation") == 0)
     spdlog::warn(
         "{}: has no activation: all muscles are relaxed, and all have the color of 0; `activations` of a scene "
-        "says what they do (docs/guide/fibers.md)",
+        "says what they do (docs/guide/activations.md)",
         folder);
   if (options.color_by == ColorBy::volume && largest("volume_ratio") == 0)
     spdlog::warn("{}: was not measured: colors of volume say nothing (run it with --metrics light)", folder);
