@@ -3,7 +3,7 @@
 
 #include "app/program.hpp"
 #include "io/test_files.hpp"
-#include "opensim/model_texts.hpp"
+#include "view/walk_files.hpp"
 
 #include <build_paths.hpp>
 
@@ -130,13 +130,6 @@ const std::vector<Step> steps = {
     {"prepare", "prepare --help"},
     {"verify RUN", "verify out/demo"}};
 
-/// The first block of TOML of the guide that README sends to.
-std::string scene_of_guide() {
-  const std::string text = read_text(root / "docs/guide/your-own-data.md");
-  const std::size_t begin = text.find("```toml\n") + 8;
-  return text.substr(begin, text.find("```", begin) - begin);
-}
-
 }  // namespace
 
 TEST(ReadmeWalk, knows_every_command) {
@@ -157,21 +150,7 @@ TEST(ReadmeWalk, every_command_works_and_every_picture_looks_as_it_should) {
   };
   type("demo --out out/demo");  // as ./demo.sh does
   expect_like_its_thumbnail(folder.path() / "out/demo/preview.png", "demo");
-  folder.write("out/my_hip.toml", scene_of_guide());
-  folder.write(
-      "published.csv",
-      "muscle,source,angle_deg,moment_arm_mm\nadductor_longus_r,a book,0,40\nadductor_longus_r,a book,60,10\n");
-  folder.write("tiny.osim", opensim::pendulum(opensim::muscle("m", opensim::point("/ground", "0.3 0 0") +
-                                                                       opensim::point("/bodyset/rod", "0 -0.4 0"))));
-  folder.write("study.toml",
-               "scene = \"out/my_hip.toml\"\nset = [\"method=skinning\"]\n"
-               "[[parameters]]\nkey = \"tendon_length\"\nvalues = [0.005, 0.01]\n");
-  folder.write("targets.toml",
-               "[[targets]]\nkind = \"volumes\"\nvolumes_cm3 = { adductor_longus_r = 150 }\n"
-               "[[parameters]]\nkey = \"tendon_length\"\nbounds = [0.005, 0.05]\n[search]\nevaluations = 1\n");
-  fs::create_directories(folder.path() / "scans");
-  for (const std::string name : {"hip_bone_r", "femur_r", "adductor_longus_r"})
-    fs::copy_file(folder.path() / "out/demo/frames" / (name + "_0000.vtp"), folder.path() / "scans" / (name + ".vtp"));
+  write_walk_files(folder.path());
   for (const Step& step : steps) {
     if (step.needs_display && access("/usr/bin/xvfb-run", X_OK) != 0) continue;
     type(step.typed, step.needs_display);
