@@ -61,7 +61,7 @@ coordinates = ["hip_adduction_r"]
 key_poses_deg = [[0], [$3]]
 ${4:-}
 TOML
-  $gracilis run "$1.toml" --out "$1" --force
+  $gracilis run "$1.toml" --out "$1" --force --strict
 }
 beside() { # PICTURE RUN RUN_B FRAME MORE...
   $gracilis render "$2" --compare "$3" --out "$pictures/$1.png" --size 1000x520 --frames "$4" --view "$5" "${@:6}"
@@ -87,10 +87,10 @@ hold_frames = 20'
 beside active relaxed active 20 anterior --focus adductor_longus_r --color-by activation
 
 $gracilis demo --out by_skinning --set method=skinning --only gluteus_maximus_r --force
-$gracilis demo --out by_xpbd --only gluteus_maximus_r --force
+$gracilis demo --out by_xpbd --only gluteus_maximus_r --force --strict  # what cures meets every gate
 beside wrong_volume by_skinning by_xpbd 90 posterolateral --color-by volume
 $gracilis demo elbow --out elbow_by_skinning --set method=skinning --force
-$gracilis demo elbow --out elbow_by_xpbd --force
+$gracilis demo elbow --out elbow_by_xpbd --force --strict
 beside wrong_place elbow_by_skinning elbow_by_xpbd 65 lateral
 
 for picture in first_scene first_run active wrong_handful wrong_stretch wrong_volume wrong_place; do

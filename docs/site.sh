@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the manual as one static site in out/site: README, guide, background, a page per command, the API reference.
-# It opens from the disk (out/site/index.html) and loads nothing from elsewhere.
+# It opens from the disk (out/site/index.html) and loads nothing from elsewhere. OUT says another folder than out, GRACILIS another program.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -18,7 +18,7 @@ if [[ ! -x $gracilis ]]; then
   exit 1
 fi
 
-out=out
+out=${OUT:-out}
 mkdir -p $out
 /usr/bin/python3 docs/site/pages.py $out/site_pages "$gracilis"
 mkdocs build --quiet --clean --config-file $out/mkdocs.yml
@@ -33,5 +33,6 @@ without=$(grep -c '(function).*is not documented' $out/api_undocumented.log || t
 warnings=$(wc -l <$out/api.log)
 echo "API reference: $functions functions, $without of them without a comment of their own, $warnings warnings"
 cat $out/api.log >&2
+/usr/bin/python3 docs/site/check.py $out/site
 echo "$out/site/index.html"
 [[ $warnings -eq 0 ]]
