@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 missing=()
-for package in mkdocs mkdocs-material doxygen mandoc; do
+for package in mkdocs mkdocs-material doxygen libjs-mathjax mandoc; do
   [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || missing+=("$package")
 done
 if [[ ${#missing[@]} -gt 0 ]]; then
@@ -18,7 +18,7 @@ if [[ ! -x $gracilis ]]; then
   exit 1
 fi
 
-out=${OUT:-out}
+out=$(realpath -m "${OUT:-out}")
 mkdir -p $out
 /usr/bin/python3 docs/site/pages.py $out/site_pages "$gracilis"
 mkdocs build --quiet --clean --config-file $out/mkdocs.yml
@@ -28,6 +28,11 @@ api() { # NAME=VALUE...: Doxygen with these settings, too
 }
 api OUTPUT_DIRECTORY=$out/site HTML_OUTPUT=api GENERATE_TAGFILE=$out/api.tag WARN_LOGFILE=$out/api.log
 api EXTRACT_ALL=NO GENERATE_HTML=NO WARN_LOGFILE=$out/api_undocumented.log 2>/dev/null
+# What shows formulas, without what other ways of drawing them need.
+mkdir -p $out/site/api/mathjax/jax/output $out/site/api/mathjax/fonts/HTML-CSS/TeX
+(cd /usr/share/javascript/mathjax && cp -rL MathJax.js extensions "$out/site/api/mathjax" &&
+  cp -rL jax/input jax/element "$out/site/api/mathjax/jax" && cp -rL jax/output/HTML-CSS "$out/site/api/mathjax/jax/output" &&
+  cp -rL fonts/HTML-CSS/TeX/woff "$out/site/api/mathjax/fonts/HTML-CSS/TeX")
 functions=$(grep -c '<member kind="function"' $out/api.tag)
 without=$(grep -c '(function).*is not documented' $out/api_undocumented.log || true)
 warnings=$(wc -l <$out/api.log)

@@ -8,8 +8,8 @@ namespace gracilis {
 
 /// docs/site.sh follows every link of what it built, and counts Doxygen's warnings.
 TEST(Site, is_built_without_a_warning_and_every_link_leads_somewhere) {
-  if (!said_by("dpkg-query -W mkdocs mkdocs-material doxygen mandoc >/dev/null || echo missing").empty())
-    GTEST_SKIP() << "mkdocs, mkdocs-material, doxygen or mandoc are not installed";
+  if (!said_by("dpkg-query -W mkdocs mkdocs-material doxygen libjs-mathjax mandoc >/dev/null || echo missing").empty())
+    GTEST_SKIP() << "mkdocs, mkdocs-material, doxygen, libjs-mathjax or mandoc are not installed";
   const TestFolder folder;
   const std::string said = said_by("OUT='" + folder.path().string() + "' GRACILIS='" + build_paths::program + "' '" +
                                    build_paths::source_folder + "/docs/site.sh'\necho \"exit $?\"");

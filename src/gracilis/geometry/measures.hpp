@@ -11,7 +11,7 @@ namespace gracilis {
 /// The smallest box along the axes that holds all points. Precondition: there are some.
 Eigen::AlignedBox3d bounding_box(const Points& points);
 
-/// Twice the area times the outward unit normal of face `face`: (b - a) × (c - a).
+/// Twice the area times the outward unit normal of face `face`: \f$(b - a) \times (c - a)\f$.
 Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners);
 
 /// Area of the triangles at an edge, m².
@@ -20,8 +20,9 @@ Real area_at(const MeshEdge& edge, const Points& vertices, const Eigen::Matrix3X
 /// The mean length of edges, m; 0 where there are none.
 Real mean_edge_length(const std::vector<MeshEdge>& edges, const Points& vertices);
 
-/// Signed volume enclosed by a closed surface, m³, positive when oriented outwards: the sum of a·(b × c) / 6 over all
-/// faces (divergence theorem), taken about the first vertex to keep digits.
+/// Signed volume enclosed by a closed surface, m³, positive when oriented outwards. By the divergence theorem it is
+/// \f$V = \frac{1}{6} \sum a \cdot (b \times c)\f$ over all faces (a, b, c), taken about the first vertex to keep
+/// digits.
 Real enclosed_volume(const Points& vertices, const Eigen::Matrix3Xi& faces);
 
 /// Area of the surface, m².

@@ -8,8 +8,8 @@ namespace gracilis {
 /// A polynomial added to radial basis functions (Cervenka 2024, section 3.1.2).
 enum class RadialPolynomial { none, constant, linear };
 
-/// f(x) = Σ λ_i φ(|x - ξ_i|) + a_0 + a·(x - o) / l (Cervenka 2024, eqs. 3.1 and 6.1). In 1 or 2 `dimensions` the other
-/// coordinates are 0 everywhere.
+/// \f$f(x) = \sum_i \lambda_i \varphi(|x - \xi_i|) + a_0 + a \cdot (x - o) / l\f$ (Cervenka 2024, eqs. 3.1 and 6.1). In
+/// 1 or 2 `dimensions` the other coordinates are 0 everywhere.
 struct RadialBasis {
   RadialKernel kernel;
   Points centers = Points(3, 0);  ///< ξ, m

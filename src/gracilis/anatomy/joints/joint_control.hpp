@@ -10,9 +10,9 @@
 namespace gracilis {
 
 /// A joint control unit ready for queries. The activations at joint angles q are the mean of those of the nearest
-/// samples (K, or all when there are fewer), with the weights exp(-F d²), d the distance of the angles in degrees,
-/// made to sum to 1. A sample no farther than ε from q is returned as it is; where all weights underflow, the nearest
-/// sample is.
+/// samples (K, or all when there are fewer), with the weights \f$e^{-F d^2}\f$, d the distance of the angles in
+/// degrees, made to sum to 1. A sample no farther than ε from q is returned as it is; where all weights underflow, the
+/// nearest sample is.
 class JointControl {
  public:
   /// Precondition: the unit has samples and as many columns as names. Of samples with the same angles the mean counts.

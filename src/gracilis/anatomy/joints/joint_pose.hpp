@@ -18,7 +18,8 @@ std::vector<Real> capture_coordinates(const Scene& scene);
 /// Where every body is when the coordinates have these values (rad, m for translations; in the order of
 /// `coordinate_names`).
 ///
-/// A body's transform carries it from its place in the capture pose: T_child = T_parent P X(q) X(q_capture)⁻¹ P⁻¹,
+/// A body's transform carries it from its place in the capture pose:
+/// \f$T_{child} = T_{parent} P X(q) X(q_{capture})^{-1} P^{-1}\f$,
 /// where P is the joint's frame and X the product of its rotations and translations in their order, each about or along
 /// an axis fixed in the frame left by the ones before. At the capture values every transform is the identity, to the
 /// last bit. Joints must stand parents before children, and each body must be the child of one joint at most.

@@ -19,8 +19,9 @@ inline Real dihedral_angle(const Vec3& x0, const Vec3& x1, const Vec3& x2, const
   return length > 0 ? std::atan2(n1.cross(n2).dot(e) / length, n1.dot(n2)) : 0;
 }
 
-/// Two triangles keep the angle at their shared edge: C = θ(x) - θ_rest, θ the signed angle between the normals.
-/// Particles: the edge runs from `particles[0]` to `particles[1]`; [2] is the apex on its left, [3] on its right.
+/// Two triangles keep the angle at their shared edge: \f$C = \theta(x) - \theta_0\f$, θ the signed angle between the
+/// normals. Particles: the edge runs from `particles[0]` to `particles[1]`; [2] is the apex on its left, [3] on its
+/// right.
 struct DihedralSet {
   std::array<AlignedVector<Index>, 4> particles;
   AlignedVector<float> rest_angle;   ///< rad

@@ -11,7 +11,7 @@ namespace gracilis {
 
 struct StrainLimitActiveSet;
 
-/// Two particles keep a distance: C = |x_b - x_a| - length (Müller et al. 2007).
+/// Two particles keep a distance: \f$C = |x_b - x_a| - L\f$, L its length (Müller et al. 2007).
 struct DistanceSet {
   AlignedVector<Index> a, b;
   AlignedVector<float> rest_length;  ///< m, in the capture pose

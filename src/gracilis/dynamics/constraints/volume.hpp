@@ -8,7 +8,7 @@
 
 namespace gracilis {
 
-/// A closed surface keeps its volume: C = V(x) - V_target (Müller et al. 2007, with the factor 1/6 of a volume). The
+/// A closed surface keeps its volume: \f$C = V(x) - V_0\f$ (Müller et al. 2007, with the factor 1/6 of a volume). The
 /// ring of a vertex lists its neighbors counter-clockwise seen from outside and ends with the first again; gradients
 /// are sums over rings, so no two vertices ever write to the same place. Vertices with rings of nearly equal length
 /// stand in groups; shorter rings repeat their last neighbor, which adds nothing.
