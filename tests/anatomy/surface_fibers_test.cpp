@@ -71,6 +71,20 @@ TEST(SurfaceFibers, as_published_reject_what_runs_across) {
   EXPECT_LE(share(better), share(published));
 }
 
+TEST(SurfaceFibers, told_not_to_reject_keep_every_edge_as_often_as_fibers_run_over_it) {
+  const Muscle muscle = tube_muscle();
+  const Polylines fibers = inner_fibers(muscle);
+  const SurfaceFibers some = surface_fibers(muscle, fibers, SurfacePaths::nearest_joined);
+  const SurfaceFibers all = surface_fibers(muscle, fibers, SurfacePaths::nearest_joined, false);
+  ASSERT_GT(some.rejected, 0);
+  EXPECT_EQ(all.rejected, 0);
+  EXPECT_EQ(static_cast<Index>(all.segments.size()), static_cast<Index>(some.segments.size()) + some.rejected);
+  Index steps = 0, counted = 0;
+  for (const std::vector<Index>& path : all.paths) steps += static_cast<Index>(path.size()) - 1;
+  for (const FiberSegment& segment : all.segments) counted += segment.fibers;
+  EXPECT_EQ(counted, steps) << "each as often as a fiber runs over it";
+}
+
 TEST(SurfaceFibers, drawn_by_hand_join_the_nearest_vertices) {
   const Muscle muscle = tube_muscle();
   Points line(3, 3);

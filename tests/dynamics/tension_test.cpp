@@ -33,7 +33,7 @@ SurfaceState aiming_at(const SurfaceSystem& system, float share) {
 SolveSettings active(int iterations, float strength = 1) {
   SolveSettings settings;
   settings.iterations = iterations;
-  settings.tension = strength;
+  settings.tension.strength = strength;
   return settings;
 }
 
@@ -74,6 +74,72 @@ TEST(Tension, never_makes_a_segment_longer_whatever_its_neighbors_do) {
     for (const Real length : lengths_of(state)) EXPECT_LE(length, 0.9 * segment_length + 1e-6) << "pushed apart";
     for (const float multiplier : state.tension_lambda) EXPECT_LE(multiplier, 0) << "a push";
   }
+}
+
+TEST(Tension, two_sided_a_segment_is_held_at_the_length_it_aims_at_from_above_and_from_below) {
+  const SurfaceSystem system = chain(1, 100);
+  SolveSettings settings = active(30);
+  settings.tension.two_sided = true;
+  for (const float begin : {0.6f, 1.1f}) {
+    SurfaceState state = aiming_at(system, 0.8f);
+    state.particles.position(1).x() *= begin;
+    for (int step = 0; step < 200; ++step) solve_substep(system, {}, settings, state);
+    EXPECT_NEAR(lengths_of(state)[0], 0.8 * segment_length, 1e-6);
+  }
+}
+
+TEST(Tension, two_sided_moves_as_an_edge_does) {
+  SurfaceSystem system = chain(12, 100);
+  SurfaceState tensions = aiming_at(system, 0.8f);
+  for (Index i = 1; i <= 12; ++i) tensions.particles.position(i).x() *= i % 2 ? 0.9f : 0.7f;
+  SolveSettings settings = active(30);
+  settings.tension.two_sided = true;
+  SurfaceState edges = tensions;
+  solve_substep(system, {}, settings, tensions);
+  std::swap(system.distances, system.tensions);
+  std::swap(edges.target_length, edges.tension_length);
+  std::swap(edges.distance_lambda, edges.tension_lambda);
+  solve_substep(system, {}, settings, edges);
+  EXPECT_LT((positions_of(tensions.particles) - positions_of(edges.particles)).cwiseAbs().maxCoeff(), 1e-8);
+}
+
+TEST(Tension, dissipates_as_rayleigh_says) {
+  // One particle on a segment from a wall, predicted at p, that began its step at s: force k (L - x) - β (x - s) / dt
+  // and inertia (x - p) / (w dt²) balance at x.
+  const Real weight = 2, stiffness = 100, beta = 3, dt = 0.01, target = 0.8 * segment_length;
+  const SurfaceSystem system = chain(1, stiffness, weight);
+  for (const Real strength : {1.0, 0.5})
+    for (const bool two_sided : {false, true}) {
+      const Real start = 0.013, predicted = 0.011, k = strength * stiffness, b = strength * beta;
+      SurfaceState state = aiming_at(system, 0.8f);
+      state.start.position(1).x() = static_cast<float>(start);
+      state.particles.position(1).x() = static_cast<float>(predicted);
+      SolveSettings settings = active(200, static_cast<float>(strength));
+      settings.tension.two_sided = two_sided;
+      settings.projection.time_step = static_cast<float>(dt);
+      settings.projection.rayleigh_beta = static_cast<float>(beta);
+      solve_substep(system, {}, settings, state);
+      const Real inertia = 1 / (weight * dt * dt);
+      const Real pulled = (k * target + b / dt * start + inertia * predicted) / (k + b / dt + inertia);
+      // At p the damper pushes more than the segment pulls: one that only pulls lets it be.
+      ASSERT_GT(pulled, predicted);
+      EXPECT_NEAR(lengths_of(state)[0], two_sided ? pulled : predicted, 1e-7);
+    }
+}
+
+TEST(Tension, that_only_pulls_is_damped_while_it_does) {
+  const Real weight = 2, stiffness = 100, beta = 0.2, dt = 0.01, target = 0.8 * segment_length;
+  const SurfaceSystem system = chain(1, stiffness, weight);
+  SurfaceState state = aiming_at(system, 0.8f);
+  state.start.position(1).x() = 0.0095f;
+  SolveSettings settings = active(200);
+  settings.projection.time_step = static_cast<float>(dt);
+  settings.projection.rayleigh_beta = static_cast<float>(beta);
+  solve_substep(system, {}, settings, state);
+  const Real inertia = 1 / (weight * dt * dt);
+  EXPECT_NEAR(lengths_of(state)[0],
+              (stiffness * target + beta / dt * 0.0095 + inertia * segment_length) / (stiffness + beta / dt + inertia),
+              1e-7);
 }
 
 TEST(Tension, without_strength_nothing_moves) {

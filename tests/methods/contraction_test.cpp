@@ -1,5 +1,6 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/methods/xpbd/contraction.hpp>
 #include <gracilis/simulate/fiber_tracker.hpp>
 #include <gracilis/simulate/run.hpp>
@@ -53,6 +54,17 @@ TEST(Contraction, strength_grows_from_nothing_at_the_threshold_to_all_at_the_sho
   EXPECT_EQ(xpbd::contraction_strength(settings, 1), 1);
   EXPECT_EQ(contracted_share(settings, 0.2), 0.8);
   EXPECT_EQ(contracted_share(settings, 0.9), 0.7);
+}
+
+TEST(Contraction, without_ramp_is_at_its_full_strength_above_the_threshold_and_without_that_always) {
+  ContractionSettings settings;
+  settings.ramp = false;
+  EXPECT_EQ(xpbd::contraction_strength(settings, 0.02), 0);
+  EXPECT_EQ(xpbd::contraction_strength(settings, 0.03), 1);
+  settings.threshold = 0;
+  EXPECT_EQ(xpbd::contraction_strength(settings, 0), 1);
+  settings.ramp = true;
+  EXPECT_EQ(xpbd::contraction_strength(settings, 0), 0);
 }
 
 TEST(Contraction, an_active_muscle_has_shorter_fibers_and_its_volume) {
@@ -126,6 +138,47 @@ TEST(Contraction, follows_lines_drawn_by_hand) {
   for (const Index slot : set.slot)
     for (const Index p : {set.a[static_cast<std::size_t>(slot)], set.b[static_cast<std::size_t>(slot)]})
       EXPECT_LT((muscle.rest.col(p).head(2) - line.col(0).head(2)).norm(), 0.004);
+}
+
+TEST(Contraction, without_area_scaling_acts_once_for_every_fiber_with_the_stiffness_itself) {
+  Scene scene = active_tube(1);
+  scene.muscles[0].contraction.spread = false;
+  scene.muscles[0].contraction.area_scaling = false;
+  Points line(3, 2), half(3, 2);
+  line << 0.0355, 0.0355, 0, 0, 0.075, -0.075;
+  half << 0.0355, 0.0355, 0, 0, 0.075, 0;
+  const auto tensions = [&](const std::vector<Points>& lines) {
+    scene.muscles[0].given_surface_fibers = join(lines);
+    return xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields()).system.tensions;
+  };
+  const Index whole = tensions({line}).count, upper = tensions({half}).count;
+  ASSERT_GT(upper, 5);
+  const DistanceSet all = tensions({line, line, half});
+  EXPECT_EQ(all.count, 2 * whole + upper);
+  // In a tendon less: the tube is all tendon and border but for its middle.
+  scene.method.settings["tendon_length"] = 0.0;
+  const DistanceSet full = tensions({line, line, half});
+  for (const Index slot : full.slot)
+    EXPECT_NEAR(full.compliance[static_cast<std::size_t>(slot)], 1 / scene.muscles[0].contraction.stiffness, 1e-8);
+}
+
+TEST(Contraction, as_published_stiffens_a_relaxed_muscle_and_shortens_an_active_one_more) {
+  const Preset thesis = *find_preset("thesis-2024");
+  const auto published = [&](Scene scene) {
+    scene.method = thesis.method;
+    scene.muscles[0].contraction = thesis.contraction;
+    return scene;
+  };
+  const Scene passive = published(tube_scene());
+  // The tube runs taut over the bone, so that its fibers can only press it there.
+  const Frame undriven = flexed_frame(passive, 60), relaxed = flexed_frame(published(active_tube(0)), 60),
+              active = flexed_frame(published(active_tube(0.3)), 60);
+  const FiberTracker tracker(passive);
+  const auto length = [&](const Frame& frame) { return tracker.follow(frame)[0].mean_length; };
+  EXPECT_LT(length(relaxed), length(undriven) - 0.002) << "edges that contract by nothing still hold";
+  EXPECT_LT(length(active), length(relaxed) - 0.0004);
+  const Real rest = volume_of(passive, capture_frame(passive, flexed(passive, 0)));
+  for (const Frame& frame : {undriven, relaxed, active}) EXPECT_NEAR(volume_of(passive, frame) / rest, 1, 0.01);
 }
 
 TEST(Contraction, of_a_muscle_that_no_plan_drives_is_an_error_and_no_silence) {

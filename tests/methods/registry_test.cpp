@@ -125,7 +125,11 @@ TEST(Presets, the_published_preset_switches_off_what_this_project_added) {
   EXPECT_EQ(edges.distance, 0.002f);
   EXPECT_EQ(edges.reach, 0.02f);
   EXPECT_EQ(edges.update_period, 5);
-  EXPECT_FALSE(preset->contraction.spread);
+  EXPECT_EQ(settings.fiber_direction, FiberDirection::nearest_fiber);
+  const ContractionSettings& contraction = preset->contraction;
+  EXPECT_FALSE(contraction.spread || contraction.area_scaling || contraction.ramp || contraction.reject_across);
+  EXPECT_TRUE(contraction.two_sided);
+  EXPECT_EQ(contraction.threshold, 0);
 }
 
 TEST(Presets, every_preset_is_of_a_method_that_accepts_it) {

@@ -1,4 +1,6 @@
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/methods/xpbd/fiber_directions.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 
 #include <scenes_for_tests.hpp>
@@ -56,6 +58,32 @@ TEST(XpbdPreparation, fibers_run_from_origin_to_insertion) {
     EXPECT_GT(directions.col(f).dot(-Vec3::UnitZ()), 0.99);
   }
   EXPECT_GT(free, 500);
+}
+
+TEST(XpbdPreparation, anisotropy_takes_the_nearest_fiber_where_it_is_asked_to_and_there_is_one) {
+  Scene scene = tube_scene();
+  scene.method.settings = {{"distance_shape_scaling", false}, {"anisotropy_floor", 0.0}};
+  const auto compliances = [&] {
+    const DistanceSet& set = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields()).system.distances;
+    std::vector<float> found;
+    for (const Index slot : set.slot) found.push_back(set.compliance[static_cast<std::size_t>(slot)]);
+    return found;
+  };
+  const std::vector<float> harmonic = compliances();
+  scene.method.settings["fiber_direction"] = "nearest_fiber";
+  const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], tube_fields());
+  const DistanceSet& set = prepared.system.distances;
+  const NearestFiber fibers(fibers_of(scene.muscles[0]));
+  for (const Index slot : set.slot) {
+    const auto at = static_cast<std::size_t>(slot);
+    const Vec3 a = prepared.rest.col(set.a[at]), b = prepared.rest.col(set.b[at]);
+    const Real factor = 1 - std::abs((b - a).normalized().dot(fibers.direction((a + b) / 2)));
+    const Real stiffness = prepared.settings.distance_stiffness * std::max(factor, 1e-6);
+    EXPECT_NEAR(set.compliance[at] * stiffness, 1, 1e-3);
+  }
+  EXPECT_NE(compliances(), harmonic);
+  scene.muscles[0].fibers.count = 0;
+  EXPECT_EQ(compliances(), harmonic);
 }
 
 }  // namespace gracilis

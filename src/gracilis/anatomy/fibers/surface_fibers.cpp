@@ -160,7 +160,7 @@ Real coverage(const Muscle& muscle, const MeshTopology& topology, const std::vec
 
 }  // namespace
 
-SurfaceFibers surface_fibers(const Muscle& muscle, const Polylines& fibers, SurfacePaths paths) {
+SurfaceFibers surface_fibers(const Muscle& muscle, const Polylines& fibers, SurfacePaths paths, bool reject) {
   SurfaceFibers result;
   if (fibers.count() == 0) return result;
   const Points& x = muscle.surface.vertices;
@@ -176,7 +176,7 @@ SurfaceFibers surface_fibers(const Muscle& muscle, const Polylines& fibers, Surf
                                                       ? along_fiber(x, fibers.line(f), vertices, graph)
                                                       : joined_nearest(fibers.line(f), vertices, graph);
   });
-  collect_segments(x, &directions, result);
+  collect_segments(x, reject ? &directions : nullptr, result);
   result.coverage = coverage(muscle, topology, result.segments);
   return result;
 }

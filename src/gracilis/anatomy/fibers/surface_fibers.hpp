@@ -18,7 +18,7 @@ struct FiberSegment {
 struct SurfaceFibers {
   std::vector<std::vector<Index>> paths;  ///< per fiber its vertices; neighbors share an edge
   std::vector<FiberSegment> segments;     ///< each edge once, ascending; those off the fiber direction left out
-  Index rejected = 0;  ///< distinct edges of paths that lie more than `largest_angle` off the fiber direction
+  Index rejected = 0;  ///< distinct edges of paths that lie more than `largest_segment_angle` off the fiber direction
   Real coverage = 0;   ///< share of the free surface's area whose vertices lie on a segment or next to one
 };
 
@@ -26,9 +26,10 @@ struct SurfaceFibers {
 inline constexpr Real largest_segment_angle = radians(60);
 
 /// Carries fibers onto the surface of their muscle. The fiber direction at an edge is the mean of the directions of the
-/// four inner fiber pieces nearest to its middle. Deterministic for any number of threads.
+/// four inner fiber pieces nearest to its middle. Without `reject` all edges of the paths are segments, as published.
+/// Deterministic for any number of threads.
 SurfaceFibers surface_fibers(const Muscle& muscle, const Polylines& fibers,
-                             SurfacePaths paths = SurfacePaths::along_fibers);
+                             SurfacePaths paths = SurfacePaths::along_fibers, bool reject = true);
 
 /// Fibers drawn by hand on the surface: their points' nearest vertices, joined by shortest ways; no edge is rejected.
 SurfaceFibers surface_fibers_from_lines(const Muscle& muscle, const Polylines& lines);

@@ -30,9 +30,7 @@ ProjectionCounts project_distance_range(const DistanceSet& set, ColorRange range
     const V multiplier = hn::LoadU(d, lambda + at);
     const V moving_weight = edges.weight();
     V motion = zero;
-    if constexpr (dissipative)
-      motion = motion_along(edge.direction, edges.b.x, start.xyzw.data(), edges.ib) -
-               motion_along(edge.direction, edges.a.x, start.xyzw.data(), edges.ia);
+    if constexpr (dissipative) motion = motion_of(edges, edge.direction, start);
     // Between two fixed particles, and in padding, nothing moves.
     const V step = multiplier_step<dissipative>(c, alpha, multiplier, moving_weight, hn::Gt(moving_weight, zero),
                                                 parameters, motion);

@@ -8,6 +8,7 @@
 #endif
 
 #include <gracilis/dynamics/constraints/distance.hpp>
+#include <gracilis/dynamics/constraints/multiplier-inl.hpp>
 #include <gracilis/dynamics/simd/particle_lanes-inl.hpp>
 
 HWY_BEFORE_NAMESPACE();
@@ -24,6 +25,12 @@ struct LoadedEdges {
 HWY_INLINE LoadedEdges load_edges(const DistanceSet& set, std::size_t at, const Particles& particles) {
   const Index *ia = set.a.data() + at, *ib = set.b.data() + at;
   return {ia, ib, load_particles(particles.xyzw.data(), ia), load_particles(particles.xyzw.data(), ib)};
+}
+
+/// How much longer each has become since the particles were at `start`, to first order: ∇C·(x - xⁿ).
+HWY_INLINE V motion_of(const LoadedEdges& edges, Point direction, const Particles& start) {
+  return motion_along(direction, edges.b.x, start.xyzw.data(), edges.ib) -
+         motion_along(direction, edges.a.x, start.xyzw.data(), edges.ia);
 }
 
 /// Moves the second end by `share` of `along` times its inverse mass, the first the other way by its own.

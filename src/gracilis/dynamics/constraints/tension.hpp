@@ -4,11 +4,18 @@
 
 namespace gracilis {
 
+/// How the segments of an active surface act.
+struct TensionLaw {
+  float strength = 0;      ///< factor on stiffness and dissipation; 0: they do not act
+  bool two_sided = false;  ///< they hold the length aimed at both ways (Havlíček 2024) instead of pulling only
+};
+
 /// Projects tensions of slots [begin, end), which belong to one color: distance constraints that only pull, C =
-/// target_length - |x_b - x_a| >= 0. A segment that is shorter than its target is left alone, except that it gives back
-/// what it was pulled too far within this substep. `strength` > 0 is a factor on the stiffness; the rest as for
-/// project_distances.
-ProjectionCounts project_tensions(const DistanceSet& set, ColorRange range, const float* target_length, float strength,
-                                  float* lambda, Particles& particles, const ProjectionParameters& parameters);
+/// target_length - |x_b - x_a| >= 0, or C = 0 where the law is two-sided. A segment that only pulls and is shorter than
+/// its target is left alone, except that it gives back what it was pulled too far within this substep. Precondition:
+/// strength > 0; the rest as for project_distances.
+ProjectionCounts project_tensions(const DistanceSet& set, ColorRange range, const float* target_length,
+                                  const TensionLaw& law, float* lambda, const Particles& start, Particles& particles,
+                                  const ProjectionParameters& parameters);
 
 }  // namespace gracilis

@@ -42,12 +42,12 @@ void distance_pass(SurfaceSolve& surface) {
 }
 
 void tension_pass(SurfaceSolve& surface) {
-  if (!(surface.settings.tension > 0)) return;
+  if (!(surface.settings.tension.strength > 0)) return;
   const DistanceSet& set = surface.system->tensions;
   SurfaceState& state = *surface.state;
   project_colors(set.order, surface, [&](ColorRange range) {
     return project_tensions(set, range, state.tension_length.data(), surface.settings.tension,
-                            state.tension_lambda.data(), state.particles, surface.settings.projection);
+                            state.tension_lambda.data(), state.start, state.particles, surface.settings.projection);
   });
 }
 

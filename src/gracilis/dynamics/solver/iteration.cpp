@@ -22,7 +22,7 @@ constexpr int contact_period = 2, last_with_contact = 8;
 bool projects_contact(const SurfaceSolve& surface, int iteration) {
   const SolveSettings& settings = surface.settings;
   const bool settles = settings.settling_rounds > 0;
-  const bool contracts = settings.tension > 0 && !surface.system->tensions.a.empty();
+  const bool contracts = settings.tension.strength > 0 && !surface.system->tensions.a.empty();
   return !settles || contracts || iteration % contact_period == 1 ||
          iteration + last_with_contact >= settings.iterations;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/dynamics/constraints/tension.hpp>
 #include <gracilis/dynamics/movers.hpp>
 #include <gracilis/dynamics/solver/constraint_kind.hpp>
 #include <gracilis/dynamics/solver/surface_system.hpp>
@@ -16,7 +17,7 @@ struct SolveSettings {
   int settling_rounds = 0;          ///< of volume and contact alone after the last iteration
   double time_step = 1.0 / 60;      ///< s
   ProjectionParameters projection;  ///< its time step is that of distances and dihedrals
-  float tension = 0;                ///< factor on the stiffness of tensions; 0: they are not projected
+  TensionLaw tension;               ///< by default tensions are not projected
   double pressure = 1;              ///< target volume over the volume at rest
   float strain_limit = 0;           ///< longest an edge may be, over its length at rest; 0: none
   ShapeLimits shape_limits;         ///< while settling

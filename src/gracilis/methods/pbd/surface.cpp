@@ -1,16 +1,15 @@
 #include <gracilis/methods/pbd/surface.hpp>
 
+#include <gracilis/anatomy/fibers/nearest_fiber.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/coloring.hpp>
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/methods/pbd/constraints.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <limits>
 #include <numeric>
-#include <optional>
 
 namespace gracilis::pbd {
 
@@ -45,34 +44,6 @@ void for_each_by_color(const Colored<Constraint>& colored, const Act& act) {
   }
 }
 
-/// Where fibers run: their segments' middles and directions.
-class FiberDirections {
- public:
-  explicit FiberDirections(const Polylines& fibers) {
-    std::vector<Vec3> middles;
-    for (Index line = 0; line < fibers.count(); ++line)
-      for (Index p = fibers.begin(line); p + 1 < fibers.end(line); ++p) {
-        const Vec3 along = fibers.points.col(p + 1) - fibers.points.col(p);
-        if (!(along.norm() > 0)) continue;
-        middles.emplace_back((fibers.points.col(p + 1) + fibers.points.col(p)) / 2);
-        directions_.push_back(along.normalized());
-      }
-    if (middles.empty()) return;
-    Points points(3, static_cast<Index>(middles.size()));
-    for (std::size_t i = 0; i < middles.size(); ++i) points.col(static_cast<Index>(i)) = middles[i];
-    nearest_.emplace(points);
-  }
-
-  /// Of the fiber nearest to p; zero without fibers.
-  Vec3 at(const Vec3& p) const {
-    return nearest_ ? directions_[static_cast<std::size_t>(nearest_->nearest(p))] : Vec3(Vec3::Zero());
-  }
-
- private:
-  std::vector<Vec3> directions_;
-  std::optional<NearestPoints> nearest_;
-};
-
 template <std::size_t count>
 std::array<Vec3, count> places(const std::array<Index, count>& vertices, const Points& points) {
   std::array<Vec3, count> result;
@@ -102,7 +73,7 @@ bool move(const Surface& surface, const std::array<Index, count>& vertices, cons
 Surface build_surface(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<Index>& fixed_body,
                       const Polylines& fibers) {
   const Points& rest = mesh.vertices;
-  const FiberDirections directions(fibers);
+  const NearestFiber nearest(fibers);
   Surface surface;
   for (const Index body : fixed_body) surface.weight.push_back(body < 0 ? 1 : 0);
   std::vector<EdgeConstraint> edges;
@@ -113,7 +84,8 @@ Surface build_surface(const TriangleMesh& mesh, const MeshTopology& topology, co
     const bool is_held =
         fixed_body[static_cast<std::size_t>(edge.a)] >= 0 && fixed_body[static_cast<std::size_t>(edge.b)] >= 0;
     if (!is_held) {
-      edges.push_back({edge.a, edge.b, (b - a).norm(), anisotropy((b - a).normalized(), directions.at((a + b) / 2))});
+      edges.push_back(
+          {edge.a, edge.b, (b - a).norm(), anisotropy((b - a).normalized(), nearest.direction((a + b) / 2))});
       edge_graph.particles.insert(edge_graph.particles.end(), {edge.a, edge.b});
     }
     const std::array<Index, 4> vertices = {edge.a, edge.b, edge.left_apex, edge.right_apex};

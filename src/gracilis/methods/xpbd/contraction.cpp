@@ -21,6 +21,7 @@ struct Pull {
   Real length = 0;          ///< m, at rest
   Real area = 0;            ///< m², of the surface that it pulls for
   Real squared_cosine = 1;  ///< between it and the fibers
+  Index fibers = 1;         ///< how often it pulls where its area does not count
 };
 
 /// The lines that say how the muscle contracts.
@@ -55,7 +56,7 @@ std::vector<Pull> spread_pulls(const PreparedMuscle& muscle, const MeshTopology&
     if (!(length2 > 0)) continue;
     const Real c2 = std::pow(along.dot(directions.col(static_cast<Index>(e))), 2) / length2;
     if (c2 < 0.5) continue;
-    pulls.push_back({edge.a, edge.b, std::sqrt(length2), c2 * area_at(edge, muscle.rest, muscle.faces), c2});
+    pulls.push_back({edge.a, edge.b, std::sqrt(length2), c2 * area_at(edge, muscle.rest, muscle.faces), c2, 1});
   }
   return pulls;
 }
@@ -75,16 +76,17 @@ void take_strips(const PreparedMuscle& muscle, std::vector<Pull>& pulls) {
 
 /// The segments of the surface fibers.
 std::vector<Pull> segment_pulls(const Muscle& muscle, const PreparedMuscle& prepared, const Polylines& lines) {
-  const SurfaceFibers fibers = muscle.given_surface_fibers.count() > 0
-                                   ? surface_fibers_from_lines(muscle, lines)
-                                   : surface_fibers(muscle, lines, muscle.contraction.paths);
+  const SurfaceFibers fibers =
+      muscle.given_surface_fibers.count() > 0
+          ? surface_fibers_from_lines(muscle, lines)
+          : surface_fibers(muscle, lines, muscle.contraction.paths, muscle.contraction.reject_across);
   std::vector<Index> particle_of(prepared.order.size());
   for (std::size_t p = 0; p < prepared.order.size(); ++p)
     particle_of[static_cast<std::size_t>(prepared.order[p])] = static_cast<Index>(p);
   std::vector<Pull> pulls;
   for (const FiberSegment& segment : fibers.segments)
     pulls.push_back({particle_of[static_cast<std::size_t>(segment.a)], particle_of[static_cast<std::size_t>(segment.b)],
-                     segment.rest_length, 0, 1});
+                     segment.rest_length, 0, 1, segment.fibers});
   if (!pulls.empty()) take_strips(prepared, pulls);
   return pulls;
 }
@@ -94,6 +96,7 @@ std::vector<Pull> segment_pulls(const Muscle& muscle, const PreparedMuscle& prep
 void build_contractions(const Muscle& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
   const Polylines lines = contracting_lines(muscle);
   if (lines.count() == 0) return;
+  const bool by_area = muscle.contraction.spread || muscle.contraction.area_scaling;
   const std::vector<Pull> pulls =
       muscle.contraction.spread ? spread_pulls(prepared, topology, lines) : segment_pulls(muscle, prepared, lines);
   std::vector<Real> belly =
@@ -103,12 +106,13 @@ void build_contractions(const Muscle& muscle, const MeshTopology& topology, Prep
   std::vector<Real> squared_cosines;
   for (const Pull& pull : pulls) {
     // A sheet's tension per width times the strip's width, area over length, per length.
-    const Real shape = std::min(pull.area / (pull.length * pull.length), largest_shape);
+    const Real shape = by_area ? std::min(pull.area / (pull.length * pull.length), largest_shape) : 1;
     const Real share = (belly[static_cast<std::size_t>(pull.a)] + belly[static_cast<std::size_t>(pull.b)]) / 2;
     const Real stiffness = muscle.contraction.stiffness * share * shape;
     if (!(stiffness > 0)) continue;
-    constraints.push_back({pull.a, pull.b, pull.length, compliance_of(stiffness)});
-    squared_cosines.push_back(pull.squared_cosine);
+    const auto times = static_cast<std::size_t>(by_area ? 1 : pull.fibers);
+    constraints.insert(constraints.end(), times, {pull.a, pull.b, pull.length, compliance_of(stiffness)});
+    squared_cosines.insert(squared_cosines.end(), times, pull.squared_cosine);
   }
   DistanceSet& set = prepared.system.tensions;
   set = build_distance_set(constraints, static_cast<Index>(prepared.rest.cols()));
@@ -118,6 +122,7 @@ void build_contractions(const Muscle& muscle, const MeshTopology& topology, Prep
 }
 
 Real contraction_strength(const ContractionSettings& settings, Real activation) {
+  if (!settings.ramp) return activation > settings.threshold || settings.threshold == 0 ? 1 : 0;
   if (!(activation > settings.threshold) || settings.shortest >= 1) return 0;
   return (1 - contracted_share(settings, activation)) / (1 - settings.shortest);
 }

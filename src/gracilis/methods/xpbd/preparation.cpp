@@ -1,14 +1,15 @@
 #include <gracilis/methods/xpbd/preparation.hpp>
 
 #include <gracilis/anatomy/attachments/skinning_weights.hpp>
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/dynamics/constraints/compliance.hpp>
 #include <gracilis/dynamics/constraints/dihedral.hpp>
 #include <gracilis/dynamics/particle_order.hpp>
-#include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/xpbd/bone_gaps.hpp>
 #include <gracilis/methods/xpbd/contraction.hpp>
+#include <gracilis/methods/xpbd/fiber_directions.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -98,13 +99,10 @@ Eigen::VectorXd inverse_masses(const Scene& scene, const PreparedMuscle& prepare
   return inverse;
 }
 
-/// The fiber direction at an edge: the mean over its two triangles.
-Vec3 direction_at(const MeshEdge& edge, const Points& directions) {
-  Vec3 sum = Vec3::Zero();
-  if (edge.left >= 0) sum += directions.col(edge.left);
-  if (edge.right >= 0) sum += directions.col(edge.right);
-  const Real length = sum.norm();
-  return length > 0 ? Vec3(sum / length) : Vec3(Vec3::Zero());
+/// The fibers that the anisotropy asks for the nearest of.
+NearestFiber anisotropy_fibers(const Muscle& muscle, const MaterialSettings& settings) {
+  const bool asks = settings.fiber_anisotropy && settings.fiber_direction == FiberDirection::nearest_fiber;
+  return asks ? NearestFiber(fibers_of(muscle)) : NearestFiber();
 }
 
 /// The published anisotropy: edges along the fibers are softer by 1 - |u·v| (Cervenka and Kohout 2020).
@@ -131,15 +129,18 @@ Real tendon_factor(const PreparedMuscle& prepared, const MeshEdge& edge) {
   return std::pow(tendon_stiffness, 1 - belly);
 }
 
-void build_edges(const std::vector<Attachment>& attachments, const MeshTopology& topology, PreparedMuscle& prepared) {
+void build_edges(const Muscle& muscle, const std::vector<Attachment>& attachments, const MeshTopology& topology,
+                 PreparedMuscle& prepared) {
   const Points& x = prepared.rest;
-  const Points directions = fiber_directions(x, prepared.faces, topology, attachments);
+  const Points directions =
+      edge_fiber_directions({x, prepared.faces}, topology, attachments, anisotropy_fibers(muscle, prepared.settings));
   std::vector<DistanceConstraint> constraints;
   constraints.reserve(topology.edges.size());
-  for (const MeshEdge& edge : topology.edges) {
+  for (std::size_t e = 0; e < topology.edges.size(); ++e) {
+    const MeshEdge& edge = topology.edges[e];
     const Vec3 along = x.col(edge.b) - x.col(edge.a);
     const Real length = along.norm();
-    const Real cosine = length > 0 ? direction_at(edge, directions).dot(along) / length : 0;
+    const Real cosine = length > 0 ? directions.col(static_cast<Index>(e)).dot(along) / length : 0;
     const Real stiffness = edge_stiffness(x, prepared.faces, edge, prepared.settings) *
                            anisotropy(cosine, prepared.settings) * tendon_factor(prepared, edge);
     constraints.push_back({edge.a, edge.b, length, compliance_of(stiffness)});
@@ -220,29 +221,6 @@ void build_contacts(const Scene& scene, const MeshTopology& topology, const std:
 
 }  // namespace
 
-Points fiber_directions(const Points& vertices, const Eigen::Matrix3Xi& faces, const MeshTopology& topology,
-                        const std::vector<Attachment>& attachments) {
-  std::vector<Index> fixed;
-  std::vector<Real> values;
-  bool has_origin = false, has_insertion = false;
-  for (const Attachment& attachment : attachments) {
-    const bool is_insertion = attachment.end == AttachmentEnd::insertion;
-    (is_insertion ? has_insertion : has_origin) = true;
-    for (Index v : attachment.vertices) fixed.push_back(v), values.push_back(is_insertion ? 1 : 0);
-  }
-  Points directions = Points::Zero(3, faces.cols());
-  if (!has_origin || !has_insertion) return directions;
-  const Eigen::Map<const Eigen::VectorXd> given(values.data(), static_cast<Index>(values.size()));
-  const Eigen::VectorXd coordinate = harmonic_fields(vertices, topology, fixed, given).col(0);
-  directions = face_gradients(vertices, faces, coordinate);
-  for (Index f = 0; f < directions.cols(); ++f) {
-    const Real length = directions.col(f).norm();
-    // Inside an attachment the coordinate is constant and the gradient only rounding.
-    directions.col(f) = length > 1e-6 ? Vec3(directions.col(f) / length) : Vec3(Vec3::Zero());
-  }
-  return directions;
-}
-
 bool asks_for_strings(const Scene& scene, const Muscle& muscle) {
   const XpbdSettings settings = xpbd_settings(scene, muscle);
   const bool is_carried = settings.predictor != Predictor::none || settings.slack_uptake;
@@ -288,7 +266,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   if (prepared.settings.spike_limit > 0 || prepared.settings.thickness_limit > 0)
     prepared.system.shape_limits = build_shape_limits(shape_of({prepared.rest, prepared.faces}, topology));
   build_predictor(scene, topology, fields, prepared);
-  build_edges(attachments, topology, prepared);
+  build_edges(muscle, attachments, topology, prepared);
   build_dihedrals(topology, prepared);
   prepared.system.volume =
       build_volume_set(prepared.faces, prepared.particle_count(), enclosed_volume(prepared.rest, prepared.faces),

@@ -79,9 +79,4 @@ bool asks_for_strings(const Scene& scene, const Muscle& muscle);
 /// the result.
 CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones);
 
-/// Fiber direction on each triangle, unit: the gradient of the harmonic coordinate that is 0 on origins and 1 on
-/// insertions (3 × faces; zero where there is none).
-Points fiber_directions(const Points& vertices, const Eigen::Matrix3Xi& faces, const MeshTopology& topology,
-                        const std::vector<Attachment>& attachments);
-
 }  // namespace gracilis::xpbd

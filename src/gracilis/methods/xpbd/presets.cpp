@@ -21,6 +21,7 @@ static Preset thesis_2024() {
   xpbd.distance_shape_scaling = false;
   xpbd.distance_stiffness = 1e2;
   xpbd.fiber_anisotropy = true;
+  xpbd.fiber_direction = FiberDirection::nearest_fiber;
   xpbd.anisotropy_floor = 0;
   xpbd.dihedral_stiffness = 1e8;
   xpbd.dihedral_shape_scaling = false;
@@ -51,8 +52,13 @@ static Preset thesis_2024() {
   contact.self = false;
   preset.method.contact = changed_values(contact);
   preset.contraction.stiffness = 1e2;
+  preset.contraction.threshold = 0;
+  preset.contraction.two_sided = true;
+  preset.contraction.ramp = false;
   preset.contraction.spread = false;
+  preset.contraction.area_scaling = false;
   preset.contraction.paths = SurfacePaths::nearest_joined;
+  preset.contraction.reject_across = false;
   return preset;
 }
 

@@ -19,8 +19,9 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"damping", &S::damping, "", 0, 1, "Factor on all velocities in each step; used by the dynamic mode only."},
       {"gravity", &S::gravity, "m/s²", -1000, 1000, "Acceleration of free fall."},
       {"rayleigh_beta", &S::rayleigh_beta, "N·s/m", 0, 1e6,
-       "Rayleigh dissipation of the distance and (in N·m·s) dihedral constraints: resists what changes them within a "
-       "step, in both time modes."},
+       "Rayleigh dissipation of edges, contractions and (in N·m·s) dihedrals: resists what changes them within a step, "
+       "in "
+       "both time modes."},
       {"stop_displacement", &S::stop_displacement, "m", 0, 1,
        "A substep ends early once no vertex moved further in an iteration; 0 never ends it early."},
       {"stop_milliseconds", &S::stop_milliseconds, "ms", 0, 1e6,
@@ -45,6 +46,9 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "mesh."},
       {"fiber_anisotropy", &S::fiber_anisotropy, "", 0, 0,
        "Scales each edge's stiffness by 1 - |u·v|, u along the edge and v along the fibers."},
+      {"fiber_direction", &S::fiber_direction, "", 0, 0,
+       "Which way fibers run at an edge, for its anisotropy: 'harmonic' along the gradient of the harmonic coordinate "
+       "from origins to insertions, 'nearest_fiber' as the nearest fiber, as published, where there are fibers."},
       {"anisotropy_floor", &S::anisotropy_floor, "", 0, 1, "Smallest factor that the anisotropy may reach."},
       {"dihedral_stiffness", &S::dihedral_stiffness, "N·m", 0, 1e18,
        "Stiffness of the surface's dihedrals against bending."},

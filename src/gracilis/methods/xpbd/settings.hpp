@@ -25,6 +25,11 @@ constexpr std::array<std::string_view, 2> choices_of(DihedralFormula) { return {
 enum class Skinning { strings, bodies };
 constexpr std::array<std::string_view, 2> choices_of(Skinning) { return {"strings", "bodies"}; }
 
+/// Which way fibers run at an edge: along the gradient of the harmonic coordinate from origins to insertions, or as the
+/// nearest fiber does (Havlíček 2024, eq. 4.1).
+enum class FiberDirection { harmonic, nearest_fiber };
+constexpr std::array<std::string_view, 2> choices_of(FiberDirection) { return {"harmonic", "nearest_fiber"}; }
+
 constexpr std::array<std::string_view, 3> choices_of(MotionGuard) { return {"none", "turned_direction", "kept_path"}; }
 
 /// How a step is solved.
@@ -36,7 +41,7 @@ struct SolverSettings {
   TimeMode time_mode = TimeMode::quasi_static;
   Real damping = 0.9;           ///< factor on velocities per step, dynamic mode
   Vec3 gravity = Vec3::Zero();  ///< m/s²
-  Real rayleigh_beta = 0;       ///< N·s/m, N·m·s: dissipation of the distance and dihedral constraints
+  Real rayleigh_beta = 0;       ///< N·s/m, N·m·s: dissipation of edges, contractions and dihedrals
   Real stop_displacement = 0;   ///< m; stop a substep early when no vertex moved further; 0: never
   Real stop_milliseconds = 0;   ///< ms; stop a frame early after this time; 0: never
   Real step_turn = radians(2);  ///< rad; a frame that turns bones further is taken in several steps; 0: in one
@@ -61,6 +66,7 @@ struct MaterialSettings {
   Real distance_stiffness = 5;         ///< N/m
   bool distance_shape_scaling = true;  ///< scale per edge by A/l²
   bool fiber_anisotropy = true;        ///< scale the distance stiffness by 1 - |u·v|
+  FiberDirection fiber_direction = FiberDirection::harmonic;
   Real anisotropy_floor = 0.1;         ///< smallest factor the anisotropy may reach
   Real dihedral_stiffness = 1e-6;      ///< N·m
   bool dihedral_shape_scaling = true;  ///< scale per dihedral by 3 l²/A

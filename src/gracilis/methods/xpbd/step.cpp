@@ -116,7 +116,8 @@ void move_bones(const MuscleStep& step, int substeps, const Pose& before, const 
                 std::vector<FieldPlacement>& placements, SurfaceSolve& solve) {
   const PreparedMuscle& muscle = *step.muscle;
   solve = {&muscle.system, &placements, solve_settings(muscle.settings, substeps), step.state, {}};
-  solve.settings.tension = static_cast<float>(contraction_strength(muscle.contraction, step.activation));
+  solve.settings.tension = {static_cast<float>(contraction_strength(muscle.contraction, step.activation)),
+                            muscle.contraction.two_sided};
   placements = place_fields(muscle, now);
   remember_sides(muscle.system, place_fields(muscle, before), *step.state);
 }
