@@ -9,6 +9,15 @@
 
 namespace gracilis {
 
+/// "iliacus_r=0.3"
+static std::pair<std::string, Real> activation_in(const std::string& word) {
+  const std::size_t sign = word.find('=');
+  Real value = 0;
+  if (sign == std::string::npos || !CLI::detail::lexical_cast(word.substr(sign + 1), value))
+    throw CLI::ValidationError("--activation", "'" + word + "' is not MUSCLE=VALUE, as in iliacus_r=0.3");
+  return {word.substr(0, sign), value};
+}
+
 void add_demo_command(CLI::App& program, const std::vector<std::string>& words, Command& chosen) {
   CLI::App* command = program.add_subcommand(
       "demo", "Flex the built-in hip by 90 degrees, or the built-in elbow by 130; no file needed");
@@ -32,6 +41,16 @@ void add_demo_command(CLI::App& program, const std::vector<std::string>& words, 
       ->add_option("--contact", options->demo.contact,
                    "How muscles keep out of each other: surface, virtual-edges or none (default: as the preset says)")
       ->check(CLI::IsMember({"none", "surface", "virtual-edges"}));
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--activation",
+          [options](const std::vector<std::string>& given) {
+            for (const std::string& word : given) options->demo.activations.insert(activation_in(word));
+          },
+          "MUSCLE=VALUE, 0 to 1: how active it becomes with the flexion, as in iliacus_r=0.3; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--step", options->demo.step_deg, "How far to flex in a frame, degrees (hip 1, elbow 2)")
+      ->check(CLI::Range(0.01, 130.0));
   add_setting_options(*command, options->scene_options);
   add_session_options(*command, options->session);
   options->session.command = words;

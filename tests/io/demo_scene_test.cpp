@@ -1,5 +1,7 @@
+#include <gracilis/anatomy/activation/activation.hpp>
 #include <gracilis/anatomy/builtin/builtin_elbow.hpp>
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/core/errors.hpp>
 #include <gracilis/io/scene/demo_scene.hpp>
 
 #include <gtest/gtest.h>
@@ -43,6 +45,29 @@ TEST(DemoScene, the_hip_that_the_program_carries_is_the_one_that_is_shaped) {
 
 TEST(DemoScene, the_elbow_that_the_program_carries_is_the_one_that_is_shaped) {
   expect_the_same(demo_scene("elbow"), builtin_elbow());
+}
+
+TEST(DemoScene, flexes_by_the_step_that_is_asked_for_and_activates_with_it) {
+  DemoOptions options;
+  options.flexion_deg = 10;
+  options.step_deg = 2.5;
+  options.activations = {{"iliacus_r", 0.4}};
+  const Scene scene = load_demo(options, {}).scene;
+  EXPECT_EQ(scene.motion.values.rows(), 5);
+  EXPECT_NEAR(scene.motion.values(1, 0), radians(2.5), 1e-12);
+  std::vector<Pose> poses(1);
+  poses[0].coordinates = {radians(5), 0, 0};
+  set_activations(scene, poses);
+  for (std::size_t m = 0; m < scene.muscles.size(); ++m)
+    EXPECT_NEAR(poses[0].activations[m], scene.muscles[m].name == "iliacus_r" ? 0.2 : 0, 1e-12);
+}
+
+TEST(DemoScene, an_activation_of_no_muscle_or_beyond_1_is_an_error) {
+  DemoOptions options;
+  options.activations = {{"iliacs_r", 0.4}};
+  EXPECT_THROW(load_demo(options, {}), ConfigurationError);
+  options.activations = {{"iliacus_r", 1.4}};
+  EXPECT_THROW(load_demo(options, {}), ConfigurationError);
 }
 
 }  // namespace
