@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""make.py OUT HERE: the page, results.csv and figures from the runs OUT/xpbd and OUT/pbd."""
+"""make.py OUT HERE: the page, results.csv and figures from the runs OUT/passive, OUT/active, OUT/pbd and OUT/sweep/*."""
 import csv
+import glob
 import json
 import os
 import re
@@ -9,10 +10,10 @@ import tomllib
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "family"))
 import publication  # noqa: E402
-from charts import Series  # noqa: E402
+from charts import COLORS, Series  # noqa: E402
 
-COLORS = {"xpbd": "#d55e00", "pbd": "#0072b2"}
-NAMES = {"xpbd": "XPBD, 70 iterations", "pbd": "PBD, 3 iterations"}
+RUNS = {"passive": ("XPBD, passive", "#d55e00"), "active": ("XPBD, active", "#cc79a7"), "pbd": ("PBD, 3 iterations", "#0072b2")}
+EXPLODED = 1.5  # a muscle's edges so many times as long as at rest, in the mean
 
 
 def settings(folder):
@@ -20,7 +21,7 @@ def settings(folder):
     with open(f"{folder}/run.json") as file:
         text = tomllib.loads(json.load(file)["settings"])
     muscle = text["muscles"][0]
-    found = {f"{part}.{key}": value for part in ("settings", "contraction") for key, value in muscle[part].items()}
+    found = {f"{part}.{key}": value for part in ("settings", "contraction", "fibers") for key, value in muscle[part].items()}
     found.update({f"{part}.{key}": value for part in ("contact", "distance_field") for key, value in text[part].items()})
     return found
 
@@ -42,52 +43,94 @@ def fibers(folder):
     return found
 
 
+def mean(values):
+    return sum(values) / len(values)
+
+
 def measures(folder, column):
-    """{muscle: [(frame, value)]}"""
+    """{muscle: [(flexion, value)]}, flexion in degrees."""
     found = {}
     with open(f"{folder}/measures.csv", newline="") as file:
         for row in csv.DictReader(file):
-            found.setdefault(row["muscle"], []).append((int(row["frame"]), float(row[column])))
+            found.setdefault(row["muscle"], []).append((float(row["hip_flexion_r_deg"]), float(row[column])))
+    return found
+
+
+def worst(folder, column):
+    """[(flexion, value)] of the muscle whose value is farthest from 1 there."""
+    rows = {}
+    for number, row in enumerate(zip(*measures(folder, column).values())):
+        rows[number] = max(row, key=lambda point: abs(point[1] - 1))
+    return list(rows.values())
+
+
+def fiber_charts(page, out):
+    by_run = {name: fibers(f"{out}/{name}") for name in RUNS}
+    for muscle in sorted(by_run["passive"]):
+        series = []
+        for name, (label, color) in RUNS.items():
+            rows = by_run[name][muscle]
+            low = [(angle, 1000 * min(lengths)) for angle, lengths in rows]
+            high = [(angle, 1000 * max(lengths)) for angle, lengths in rows]
+            series += [Series("", low, color, band=high),
+                       Series(label, [(angle, 1000 * mean(lengths)) for angle, lengths in rows], color)]
+        page.chart(f"fibers_{muscle}", f"As Figures 7.10 and 7.11: {muscle.replace('_', ' ')}",
+                   "Lengths of 100 fibers: their mean, and from the least to the largest.", series, "hip flexion, degrees", "fiber length, mm")
+    return by_run
+
+
+def sweeps(page, out):
+    """Charts of the sweep, and where a muscle first exploded, if one did: {(kind, step): (flexion, muscle) or None}."""
+    found = {}
+    for kind in ("passive", "active"):
+        folders = {1.0: f"{out}/{kind}"}
+        folders.update({float(name.rsplit("_", 1)[1]): name for name in glob.glob(f"{out}/sweep/{kind}_*[0-9]")})
+        series = []
+        for (step, folder), color in zip(sorted(folders.items()), COLORS):
+            series.append(Series(f"{step:g}°", worst(folder, "edge_ratio_max_free"), color))
+            over = [(flexion, muscle) for muscle, rows in measures(folder, "edge_ratio_mean").items()
+                    for flexion, value in rows if value > EXPLODED]
+            found[kind, step] = min(over, default=None)
+        page.chart(f"sweep_{kind}", f"Section 6.6.2: step of the {kind} flexion",
+                   "Worst muscle's longest free edge, by the flexion in a frame.",
+                   series, "hip flexion, degrees", "longest free edge over rest")
     return found
 
 
 def main(out, here):
     page = publication.Page(
         out, "Extended position based dynamics (Havlíček 2024)",
-        "Flexion of the built-in hip by the preset <code>thesis-2024</code> beside <code>pbd-2020</code>. The publication's fiber lengths are "
-        "curves of a cadaver without numbers, so that only its parameters stand in the table.", "reproductions/havlicek-2024/run.sh")
-    by_method = {name: fibers(f"{out}/{name}") for name in NAMES}
-    for muscle in sorted(by_method["xpbd"]):
-        series = []
-        for name, color in COLORS.items():
-            rows = by_method[name][muscle]
-            low = [(angle, 1000 * min(lengths)) for angle, lengths in rows]
-            high = [(angle, 1000 * max(lengths)) for angle, lengths in rows]
-            mean = [(angle, 1000 * sum(lengths) / len(lengths)) for angle, lengths in rows]
-            series += [Series("", low, color, band=high), Series(NAMES[name], mean, color)]
-        page.chart(f"fibers_{muscle}", f"As Figures 7.10 and 7.11: {muscle.replace('_', ' ')}",
-                   "Lengths of 15 fibers: their mean, and from the least to the largest.", series, "hip flexion, degrees", "fiber length, mm")
-    for column, label in (("volume_ratio", "volume over rest"), ("edge_ratio_max_free", "longest free edge over rest")):
-        worst = {}
-        for name in NAMES:
-            frames = {}
-            for rows in measures(f"{out}/{name}", column).values():
-                for frame, value in rows:
-                    old = frames.get(frame, 1)
-                    frames[frame] = value if abs(value - 1) > abs(old - 1) else old
-            worst[name] = sorted(frames.items())
-        page.chart(column, f"Worst muscle: {label}", "Where a muscle explodes, edges show it first.",
-                   [Series(NAMES[name], worst[name], COLORS[name]) for name in NAMES], "frame (1 degree each)", label)
-    page.picture("xpbd", "As Figure 7.1: XPBD", "20, 50 and 90 degrees of flexion.", f"{out}/xpbd.png")
-    page.picture("pbd", "The same by PBD", "Preset pbd-2020.", f"{out}/pbd.png")
-    ours = {key: float(value) for key, value in settings(f"{out}/xpbd").items() if isinstance(value, (int, float))}
+        "Flexion of a hip by the preset <code>thesis-2024</code>, passive and active, beside <code>pbd-2020</code>. The publication's fiber lengths "
+        "are curves without numbers: what its text says of them stands in the table.", "reproductions/havlicek-2024/run.sh")
+    by_run = fiber_charts(page, out)
+    page.chart("volume_error", "Volume of the worst muscle", "The published compliance of the volume is 0.",
+               [Series(label, [(angle, 100 * (value - 1)) for angle, value in worst(f"{out}/{name}", "volume_ratio")], color)
+                for name, (label, color) in RUNS.items()], "hip flexion, degrees", "volume error, %")
+    page.chart("longest_edge", "Longest free edge of the worst muscle", "Where a muscle explodes, edges show it first.",
+               [Series(label, worst(f"{out}/{name}", "edge_ratio_max_free"), color) for name, (label, color) in RUNS.items()],
+               "hip flexion, degrees", "longest free edge over rest")
+    exploded = sweeps(page, out)
+    for name, (label, _) in RUNS.items():
+        for view, figure in (("anterior", "7.1 and A.5"), ("lateral", "A.6")):
+            page.picture(f"{name}_{view}", f"As Figures {figure}: {label}, {view}", "20, 50 and 90 degrees of flexion.", f"{out}/{name}_{view}.png")
+    ours = {key: float(value) for key, value in settings(f"{out}/passive").items() if isinstance(value, (int, float))}
     with open(f"{out}/config.toml") as file:
         ours["neighbors"] = float(re.search(r"^# neighbors = (\d+)", file.read(), re.MULTILINE)[1])
-    remarks = {"resolution_factor": "left out: at 1 it does nothing", "neighbors": "as print-config has it; this hip has no [[joint_control_units]]"}
+    remarks = {"resolution_factor": "left out: at 1 it does nothing"}
+    if by_run["passive"].get("adductor_brevis_r", [(0, [])])[-1][0] > 80:
+        ours["adductor_brevis_shortest"] = min(by_run["passive"]["adductor_brevis_r"], key=lambda row: mean(row[1]))[0]
+    first = min((at for at in exploded.values() if at), default=None)
+    steps = ", ".join(f"{kind} {step:g}°" for kind, step in exploded)
+    remarks["explosion"] = f"none in steps of {steps}: no muscle's edges {EXPLODED} times as long as at rest in the mean"
+    if first:
+        ours["explosion"] = first[0]
+        remarks["explosion"] = "; ".join(f"{kind} {step:g}°: {at[1]} at {at[0]:.0f}" if at else f"{kind} {step:g}°: none"
+                                         for (kind, step), at in exploded.items())
     page.rows = publication.beside(publication.read_published(f"{here}/published.csv"), ours, remarks)
-    page.cannot("Figures 7.1 to 7.9 and A.1 to A.14 of a hip and leg with all muscles", "the publication's set of muscles; of the cadaver's five "
-                "scenes/lhdl_hip/flexion_thesis_2024.toml runs, which takes minutes")
-    page.cannot("Figures 7.10 and 7.11 with contraction", "activations, which the built-in hip has none of; a sweep of step sizes for explosions")
+    page.cannot("Figures 7.4 to 7.6 and A.7 to A.14: extension, abduction and rotation", "scenes/lhdl_hip/extension.toml, abduction.toml and "
+                "rotation.toml run with --set preset=thesis-2024; nothing of them is a number")
+    page.cannot("Figures 7.7 to 7.9, A.1 and A.2: a hip and leg with twenty muscles", "the publication's set of muscles")
+    page.cannot("Figures 7.2 and 7.3, of the publication of 2020", "see reproductions/cervenka-kohout-2020")
     page.cannot("Figures 6.1 to 6.6: pictures of flaws", "the publication's muscles")
     page.write()
 
