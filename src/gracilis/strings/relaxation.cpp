@@ -12,13 +12,8 @@ namespace gracilis::strings {
 
 namespace {
 
-/// Strings settle until no node moves further, m, or for so many iterations, of which the last take small steps.
+/// In double precision strings settle until no node moves further, m.
 constexpr Real settled_move = 1e-7;
-/// Less is lost in single precision.
-constexpr Real nearly_settled_move = 3e-7;
-constexpr int settling_iterations = 300, settling_quenched_from = 80;
-/// One that would still move further than this then, m, has no place; less matters nothing to its derivative.
-constexpr Real unsettled_move = 5e-6;
 
 /// The largest turn of a body from one pose to another, rad.
 Real largest_turn(const std::vector<RigidTransform>& before, const std::vector<RigidTransform>& now) {
@@ -61,8 +56,7 @@ static std::vector<char> unsettled(const Moves& moves) {
 
 std::vector<char> settle_nearly(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
   LanePlaces places = lane_places(muscle.lanes, state.places);
-  const std::vector<float> moves = relax_lanes(
-      muscle, bones, state.bodies, {settling_iterations, nearly_settled_move, settling_quenched_from}, places);
+  const std::vector<float> moves = relax_lanes(muscle, bones, state.bodies, settling_nearly, places);
   state.places = places_of(muscle.lanes, places);
   return unsettled(moves);
 }
@@ -70,7 +64,9 @@ std::vector<char> settle_nearly(const MuscleStrings& muscle, const BoneDistances
 std::vector<char> settle(const MuscleStrings& muscle, const BoneDistances& bones, StringState& state) {
   settle_nearly(muscle, bones, state);
   NodeForces forces(muscle, bones, state.bodies);
-  return unsettled(relax_nodes(forces, {settling_iterations, settled_move, settling_quenched_from}, state.places));
+  Relaxation settling = settling_nearly;
+  settling.stop_move = settled_move;
+  return unsettled(relax_nodes(forces, settling, state.places));
 }
 
 StringState capture_state(const MuscleStrings& muscle, std::size_t bodies) {

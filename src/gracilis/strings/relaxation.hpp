@@ -10,6 +10,11 @@ namespace gracilis::strings {
 /// Where a bone's distance has a smaller gradient than this it has no direction: within it, or beyond its field.
 inline constexpr Real least_slope = 0.1;
 
+/// How strings come to rest in single precision, in which less is lost.
+inline constexpr Relaxation settling_nearly{300, 3e-7, 80};
+/// A string that would still move further then, m, has no place to rest; less matters nothing to its derivative.
+inline constexpr Real unsettled_move = 5e-6;
+
 /// Where a muscle's strings are, and the pose that they were relaxed in.
 struct StringState {
   Points places;  ///< nodes, world, m

@@ -1,131 +1,187 @@
 #include <gracilis/strings/string_arms.hpp>
 
-#include <gracilis/strings/coupled_solver.hpp>
+#include <gracilis/strings/lane_relaxation.hpp>
 
 #include <algorithm>
-#include <utility>
+#include <cmath>
 
-namespace gracilis::strings {
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "gracilis/strings/string_arms.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as Highway asks.
+#include <gracilis/strings/lane_rest-inl.hpp>
 
-namespace {
+HWY_BEFORE_NAMESPACE();
+namespace gracilis::HWY_NAMESPACE {
 
+/// Relative residuals that are left: of motions, whose arms it moves by micrometres, and of weights, from which forces
+/// come that have to balance.
+inline constexpr float motion_tolerance = 1e-3f, weight_tolerance = 1e-5f;
 /// A string one of whose nodes moves so many times as fast as bodies carry any node of its muscle is about to snap ...
-constexpr Real fastest = 6;
+inline constexpr float fastest = 6;
 /// ... but not one that hardly moves, m per unit of a coordinate.
-constexpr Real least_speed = 0.001;
+inline constexpr float least_speed = 0.001f;
 
-/// The derivative of each string's length by its nodes.
-Points length_rates(const MuscleStrings& muscle, const Points& places) {
-  Points rates = Points::Zero(3, places.cols());
-  for (Index s = 0; s < muscle.strings; ++s)
-    for (Index i = 0; i + 1 < muscle.nodes; ++i) {
-      const Index p = muscle.node(s, i);
-      const Vec3 along = (places.col(p + 1) - places.col(p)).normalized();
-      rates.col(p) -= along, rates.col(p + 1) += along;
-    }
-  return rates;
-}
-
-/// By how much a node goes with each body where it is not free: fully with the one that holds it; by the bodies' shares
-/// where its string is left out; empty where it is free.
-Eigen::VectorXd carried_by(const MuscleStrings& muscle, Index string, Index i, bool left_out) {
-  const Index body = body_holding(muscle, string, i);
-  if (body >= 0) return Eigen::VectorXd::Unit(muscle.shares.rows(), body);
-  return left_out ? Eigen::VectorXd(muscle.shares.col(muscle.node(string, i))) : Eigen::VectorXd();
-}
-
-/// The velocity of a place that goes with bodies by these shares.
-Vec3 carried_velocity(const Eigen::VectorXd& shares, const std::vector<Twist>& twists, const Vec3& place) {
-  Vec3 velocity = Vec3::Zero();
-  for (Index body = 0; body < shares.size(); ++body)
-    velocity += shares[body] * twists[static_cast<std::size_t>(body)].velocity_at(place);
-  return velocity;
-}
-
-Points string_columns(const MuscleStrings& muscle, const Points& columns, Index string) {
-  return columns.middleCols(muscle.node(string, 0), muscle.nodes);
-}
-
-/// The derivative of a muscle's strings at rest, and what follows from it.
-class Equilibrium {
+/// What a muscle's strings at rest say of its arms and forces.
+class LaneActions {
  public:
-  /// `left_out`: strings that go with the bodies by their shares, for all others, too. All must outlive this.
-  Equilibrium(const MuscleStrings& muscle, const ForceRates& rates, const Points& places,
-              const std::vector<char>& left_out)
+  LaneActions(const strings::MuscleStrings& muscle, LaneWorkspace& workspace, RateWorkspace& rates,
+              LaneEquilibrium& equilibrium)
       : muscle_(muscle),
-        places_(places),
-        rates_(rates),
-        left_out_(left_out),
-        solver_(muscle, rates, left_out),
-        by_length_(length_rates(muscle, places)) {}
+        lanes_(muscle.lanes),
+        w_(workspace),
+        r_(rates),
+        equilibrium_(equilibrium),
+        width_(static_cast<std::size_t>(lanes_.width)),
+        by_length_(length_rates()) {}
 
-  bool is_stable(Index string) const { return solver_.is_stable(string); }
-
-  /// -dL/dq of each string about a coordinate. Marks those that run off.
-  Eigen::VectorXd arms(const std::vector<Twist>& twists, std::vector<char>& runs_off) const {
-    Eigen::VectorXd arms = Eigen::VectorXd::Zero(muscle_.strings);
-    Points motions = carried_motions(twists);
-    const Real usual = std::max(fastest_carried(twists), motions.colwise().norm().maxCoeff());
-    const Points forces = rates_.by_places(motions) + rates_.by_bodies(twists);
-    motions -= solver_.moves(forces);
+  void find_directions(FiberActions& actions) const {
+    actions.origin_directions.resize(3, muscle_.strings), actions.insertion_directions.resize(3, muscle_.strings);
+    const auto last = static_cast<std::size_t>(muscle_.nodes - 1);
     for (Index s = 0; s < muscle_.strings; ++s) {
-      const Points of_string = string_columns(muscle_, motions, s);
-      arms[s] = -of_string.cwiseProduct(string_columns(muscle_, by_length_, s)).sum();
-      if (!of_string.allFinite() || of_string.colwise().norm().maxCoeff() > fastest * usual)
-        runs_off[static_cast<std::size_t>(s)] = 1;
+      const auto string = static_cast<std::size_t>(s);
+      actions.origin_directions.col(s) = -vector_at(by_length_, string, 0).normalized();
+      actions.insertion_directions.col(s) = -vector_at(by_length_, string, last).normalized();
     }
-    return arms;
+  }
+
+  /// A string that is about to snap would drag its neighbors along: found out, it is left out, and all begins again.
+  void find_arms(const std::vector<std::vector<Twist>>& coordinates, FiberActions& actions) {
+    std::vector<char> left_out(actions.doubtful.size(), 0);
+    for (bool found = true; found;) {
+      std::vector<char> snap;
+      for (const char stable : r_.stable) snap.push_back(!stable);
+      actions.arms.resize(muscle_.strings, static_cast<Index>(coordinates.size()));
+      for (std::size_t c = 0; c < coordinates.size(); ++c)
+        actions.arms.col(static_cast<Index>(c)) = arms_about(coordinates[c], snap);
+      found = false;
+      for (std::size_t s = 0; s < snap.size(); ++s)
+        if (snap[s]) found |= !left_out[s], left_out[s] = actions.doubtful[s] = 1;
+      if (found) equilibrium_.leave_out(left_out);
+    }
   }
 
   /// Force and moment on each of the bodies by the strings that are not doubtful, whose tensions sum to 1.
-  Eigen::MatrixXd wrenches(const std::vector<char>& doubtful) const {
-    const auto counted = static_cast<Real>(std::count(doubtful.begin(), doubtful.end(), 0));
-    Points weights = by_length_;
-    for (Index s = 0; s < muscle_.strings; ++s)
-      weights.middleCols(muscle_.node(s, 0), muscle_.nodes) *= doubtful[static_cast<std::size_t>(s)] ? 0 : 1 / counted;
-    const Points adjoint = solver_.transposed(weights);
-    Eigen::MatrixXd wrenches = rates_.by_bodies_transposed(adjoint);
-    const Points at_carried = rates_.by_places_transposed(adjoint) - weights;
-    for (Index p = 0; p < places_.cols(); ++p) {
-      const Vec3 force = at_carried.col(p), place = places_.col(p);
-      const Eigen::VectorXd shares = carried(p);
-      for (Index body = 0; body < shares.size(); ++body) {
-        wrenches.col(body).head<3>() += shares[body] * force;
-        wrenches.col(body).tail<3>() += shares[body] * place.cross(force);
-      }
+  void find_wrenches(std::size_t bodies, FiberActions& actions) {
+    const auto counted = static_cast<float>(std::count(actions.doubtful.begin(), actions.doubtful.end(), 0));
+    std::vector<float> tension(width_, 0);
+    for (std::size_t s = 0; s < actions.doubtful.size(); ++s)
+      if (!actions.doubtful[s]) tension[s] = 1 / counted;
+    Numbers weights = by_length_;
+    for (std::size_t at = 0; 3 * at < weights.size(); at += hn::Lanes(D()))
+      store_point(scaled(load(tension, at % width_), load_point(&weights[3 * at])), &weights[3 * at]);
+    const Numbers adjoint = equilibrium_.transposed(weights, weight_tolerance);
+    actions.wrenches.setZero(6, static_cast<Index>(bodies));
+    for (std::size_t b = 0; b < bodies; ++b) {
+      const auto [force, moment] = equilibrium_.on_body(b, adjoint);
+      add_wrench(actions.wrenches, static_cast<Index>(b), force, moment + w_.center.cross(force));
     }
-    return wrenches;
+    const Numbers at_nodes = equilibrium_.by_places_transposed(adjoint);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(muscle_.nodes); ++i)
+      for (std::size_t s = 0; s < actions.doubtful.size(); ++s) {
+        const std::size_t at = i * width_ + s;
+        if (r_.free[at] > 0) continue;
+        const Vec3 force = vector_at(at_nodes, s, i) - vector_at(weights, s, i);
+        const Vec3 place = w_.center + Eigen::Vector3f(w_.place[0][at], w_.place[1][at], w_.place[2][at]).cast<Real>();
+        for (std::size_t c = 0; c < lanes_.bodies.size(); ++c) {
+          const Vec3 share = static_cast<Real>(lanes_.shares[c][at]) * force;
+          add_wrench(actions.wrenches, lanes_.bodies[c], share, place.cross(share));
+        }
+      }
   }
 
  private:
-  Eigen::VectorXd carried(Index p) const {
-    const Index string = p / muscle_.nodes;
-    return carried_by(muscle_, string, p % muscle_.nodes, left_out_[static_cast<std::size_t>(string)] != 0);
+  /// The derivative of each string's length by its nodes.
+  Numbers length_rates() const {
+    const std::size_t count = w_.place[0].size();
+    Numbers rates(3 * count, 0);
+    for (std::size_t at = 0; at + width_ < count; at += hn::Lanes(D())) {
+      const Point segment = load(w_.place, at + width_) - load(w_.place, at);
+      const V square = hn::Max(dot<Math>(segment, segment), lanes_of(1e-20f));
+      const Point along = scaled(lanes_of(1) / hn::Sqrt(square), segment);
+      store_point(load_point(&rates[3 * at]) - along, &rates[3 * at]);
+      store_point(along, &rates[3 * (at + width_)]);
+    }
+    return rates;
   }
 
-  /// By the shares of bodies.
-  Real fastest_carried(const std::vector<Twist>& twists) const {
-    Real speed = least_speed;
-    for (Index p = 0; p < places_.cols(); ++p)
-      speed = std::max(speed, carried_velocity(muscle_.shares.col(p), twists, places_.col(p)).norm());
-    return speed;
+  Vec3 vector_at(const Numbers& points, std::size_t s, std::size_t i) const {
+    const std::size_t lanes = hn::Lanes(D());
+    const float* p = &points[3 * (i * width_ + s / lanes * lanes) + s % lanes];
+    return Eigen::Vector3f(p[0], p[lanes], p[2 * lanes]).cast<Real>();
   }
 
-  Points carried_motions(const std::vector<Twist>& twists) const {
-    Points motions = Points::Zero(3, places_.cols());
-    for (Index p = 0; p < places_.cols(); ++p) motions.col(p) = carried_velocity(carried(p), twists, places_.col(p));
-    return motions;
+  static void add_wrench(Eigen::MatrixXd& wrenches, Index body, const Vec3& force, const Vec3& moment) {
+    wrenches.col(body).head<3>() += force, wrenches.col(body).tail<3>() += moment;
   }
 
-  const MuscleStrings& muscle_;
-  const Points& places_;
-  const ForceRates& rates_;
-  const std::vector<char>& left_out_;
-  CoupledSolver solver_;
-  Points by_length_;
+  /// -dL/dq of each string. Marks those that run off.
+  Eigen::VectorXd arms_about(const std::vector<Twist>& coordinate, std::vector<char>& runs_off) {
+    std::vector<LaneTwist> twists;
+    for (const Twist& twist : coordinate)
+      twists.push_back({twist.velocity_at(w_.center).cast<float>(), twist.turning.cast<float>()});
+    const Numbers carried = equilibrium_.carried(twists);
+    const std::vector<float> usual = speeds(carried);
+    const float bound = fastest * std::max(least_speed, *std::max_element(usual.begin(), usual.end()));
+    const Numbers motions = equilibrium_.motions(twists, carried, motion_tolerance);
+    const std::vector<float> found = speeds(motions);
+    for (std::size_t s = 0; s < runs_off.size(); ++s)
+      if (!(found[s] <= bound)) runs_off[s] = 1;
+    std::vector<float> shortening(width_, 0);
+    for (std::size_t at = 0; 3 * at < motions.size(); at += hn::Lanes(D())) {
+      const V by_node = dot<Math>(load_point(&motions[3 * at]), load_point(&by_length_[3 * at]));
+      store(load(shortening, at % width_) - by_node, shortening, at % width_);
+    }
+    return Eigen::Map<const Eigen::VectorXf>(shortening.data(), muscle_.strings).cast<Real>();
+  }
+
+  /// Of the fastest node of each string.
+  std::vector<float> speeds(const Numbers& motions) const {
+    std::vector<float> speeds(width_, 0);
+    for (std::size_t at = 0; 3 * at < motions.size(); at += hn::Lanes(D())) {
+      const Point motion = load_point(&motions[3 * at]);
+      const V speed = hn::Sqrt(dot<Math>(motion, motion));
+      // What is not a number stays so.
+      store(hn::IfThenElse(hn::Lt(speed, load(speeds, at % width_)), load(speeds, at % width_), speed), speeds,
+            at % width_);
+    }
+    speeds.resize(static_cast<std::size_t>(muscle_.strings));
+    return speeds;
+  }
+
+  const strings::MuscleStrings& muscle_;
+  const strings::StringLanes& lanes_;
+  const LaneWorkspace& w_;
+  const RateWorkspace& r_;
+  LaneEquilibrium& equilibrium_;
+  std::size_t width_;
+  Numbers by_length_;
 };
 
-Eigen::VectorXd mean_of_counted(const Eigen::MatrixXd& arms, const std::vector<char>& doubtful) {
+void find_actions(const strings::MuscleStrings& muscle, const strings::BoneDistances& bones,
+                  const strings::StringState& state, const std::vector<std::vector<Twist>>& coordinates,
+                  LaneWorkspace& workspace, RateWorkspace& rates, FiberActions& actions) {
+  LanePose(muscle, bones, state.bodies, workspace).begin(lane_places(muscle.lanes, state.places));
+  LaneEquilibrium equilibrium(muscle, bones, state.bodies, workspace, rates);
+  for (const float move : LaneRest(muscle, bones, workspace, rates, equilibrium).find())
+    actions.doubtful.push_back(!(static_cast<Real>(move) < strings::unsettled_move));
+  LaneActions found(muscle, workspace, rates, equilibrium);
+  found.find_directions(actions);
+  found.find_arms(coordinates, actions);
+  found.find_wrenches(state.bodies.size(), actions);
+}
+
+}  // namespace gracilis::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gracilis {
+
+HWY_EXPORT(find_actions);
+
+namespace strings {
+
+static Eigen::VectorXd mean_of_counted(const Eigen::MatrixXd& arms, const std::vector<char>& doubtful) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(arms.cols());
   Real counted = 0;
   for (Index s = 0; s < arms.rows(); ++s)
@@ -133,44 +189,17 @@ Eigen::VectorXd mean_of_counted(const Eigen::MatrixXd& arms, const std::vector<c
   return counted > 0 ? Eigen::VectorXd(sum / counted) : sum;
 }
 
-/// Every string about every coordinate. Returns which are about to snap.
-std::vector<char> find_arms(const MuscleStrings& muscle, const Equilibrium& equilibrium,
-                            const std::vector<std::vector<Twist>>& coordinates, Eigen::MatrixXd& arms) {
-  std::vector<char> snap;
-  for (Index s = 0; s < muscle.strings; ++s) snap.push_back(!equilibrium.is_stable(s));
-  arms.resize(muscle.strings, static_cast<Index>(coordinates.size()));
-  for (std::size_t c = 0; c < coordinates.size(); ++c)
-    arms.col(static_cast<Index>(c)) = equilibrium.arms(coordinates[c], snap);
-  return snap;
-}
-
-}  // namespace
-
 FiberActions string_actions(const MuscleStrings& muscle, const BoneDistances& bones, const StringState& state,
                             const std::vector<std::vector<Twist>>& coordinates) {
-  StringState settled = state;
+  // Kept between calls, as in relax_lanes.
+  static thread_local LaneWorkspace workspace;
+  static thread_local RateWorkspace rates;
   FiberActions actions;
-  actions.doubtful = settle_nearly(muscle, bones, settled);
-  const Points by_length = length_rates(muscle, settled.places);
-  actions.origin_directions.resize(3, muscle.strings), actions.insertion_directions.resize(3, muscle.strings);
-  for (Index s = 0; s < muscle.strings; ++s) {
-    actions.origin_directions.col(s) = -by_length.col(muscle.node(s, 0));
-    actions.insertion_directions.col(s) = -by_length.col(muscle.node(s, muscle.nodes - 1));
-  }
-  const ForceRates rates(muscle, bones, settled.places, settled.bodies);
-  // A string that is about to snap would drag its neighbors along: found out, it is left out, and all begins again.
-  std::vector<char> left_out(actions.doubtful.size(), 0);
-  for (bool found = true; found;) {
-    const Equilibrium equilibrium(muscle, rates, settled.places, left_out);
-    const std::vector<char> snap = find_arms(muscle, equilibrium, coordinates, actions.arms);
-    found = false;
-    for (std::size_t s = 0; s < snap.size(); ++s)
-      if (snap[s]) found |= !left_out[s], actions.doubtful[s] = 1;
-    if (!found) actions.wrenches = equilibrium.wrenches(actions.doubtful);
-    for (std::size_t s = 0; s < snap.size(); ++s) left_out[s] |= snap[s];
-  }
+  HWY_DYNAMIC_DISPATCH(find_actions)(muscle, bones, state, coordinates, workspace, rates, actions);
   actions.mean_arms = mean_of_counted(actions.arms, actions.doubtful);
   return actions;
 }
 
-}  // namespace gracilis::strings
+}  // namespace strings
+}  // namespace gracilis
+#endif

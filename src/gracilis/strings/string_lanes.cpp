@@ -86,10 +86,14 @@ void keep_to_bones(const MuscleStrings& muscle, StringLanes& lanes) {
 void hold_among_neighbors(const MuscleStrings& muscle, StringLanes& lanes) {
   if (muscle.neighbors.empty() || muscle.neighbors.front().empty()) return;
   lanes.neighbor_weight.assign(static_cast<std::size_t>(muscle.strings * lanes.width), 0);
+  lanes.neighbor_weight_of = lanes.neighbor_weight;
   for (Index s = 0; s < muscle.strings; ++s) {
     const std::vector<Index>& neighbors = muscle.neighbors[static_cast<std::size_t>(s)];
-    for (const Index j : neighbors)
-      lanes.neighbor_weight[static_cast<std::size_t>(j * lanes.width + s)] = 1 / static_cast<float>(neighbors.size());
+    for (const Index j : neighbors) {
+      const float weight = 1 / static_cast<float>(neighbors.size());
+      lanes.neighbor_weight[static_cast<std::size_t>(j * lanes.width + s)] = weight;
+      lanes.neighbor_weight_of[static_cast<std::size_t>(s * lanes.width + j)] = weight;
+    }
   }
   lanes.from_neighbors = points_per_node(lanes, [&](Index s, Index i) -> Vec3 {
     Vec3 mean = Vec3::Zero();

@@ -36,8 +36,10 @@ struct StringLanes {
   std::vector<Bone> bones;
 
   std::vector<float> neighbor_weight;  ///< number j · width + s: what string j counts among the neighbors of string s
-  LanePoints from_neighbors;           ///< from their mean place
-  LanePoints from_section;  ///< from the mean place of all strings' nodes of this number; zero beyond the last
+  std::vector<float>
+      neighbor_weight_of;     ///< number j · width + s: what string s counts among the neighbors of string j
+  LanePoints from_neighbors;  ///< from their mean place
+  LanePoints from_section;    ///< from the mean place of all strings' nodes of this number; zero beyond the last
   std::vector<std::vector<Real>> section_shares;   ///< mean shares of `bodies`, per node
   std::vector<Eigen::Vector3f> section_direction;  ///< mean of the strings' directions, times the section's spread, m²
 };
