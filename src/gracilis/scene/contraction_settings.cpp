@@ -13,8 +13,7 @@ std::span<const Setting<ContractionSettings>> setting_table() {
       {"stiffness", &S::stiffness, "N/m", 0, 1e18,
        "Tension across each metre of the surface's width per relative excess length, however many fibers there are; "
        "full from the activation on at which segments aim at the shortest. Without spread and area_scaling: of a "
-       "segment, "
-       "per fiber that runs over it."},
+       "segment, per fiber that runs over it."},
       {"two_sided", &S::two_sided, "", 0, 0,
        "Contracting edges hold the length that they aim at both ways, as published; false: they only pull."},
       {"ramp", &S::ramp, "", 0, 0,
@@ -33,8 +32,7 @@ std::span<const Setting<ContractionSettings>> setting_table() {
       {"segments", &S::segments, "", 1, 10000, "Pieces of each fiber that is carried onto the surface."},
       {"reject_across", &S::reject_across, "", 0, 0,
        "Segments of surface fibers that run more than 60 degrees off the fibers inside are left out; false: none is, "
-       "as "
-       "published."},
+       "as published."},
   };
   return table;
 }
