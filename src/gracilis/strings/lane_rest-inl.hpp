@@ -37,7 +37,7 @@ class LaneRest {
   /// Of its first guess a step leaves this to the next.
   static constexpr float step_tolerance = 0.1f;
   /// A longer step may lead to another equilibrium than that which is near, m.
-  static constexpr float longest_step = 2e-4f;
+  static constexpr float longest_step = 1e-3f;
 
   /// How far nodes moved last; nothing, and no node has moved, where the steps do not end.
   std::vector<float> step_to_rest() {
