@@ -29,6 +29,7 @@
 #include "usage.hpp"
 #include "verify_command.hpp"
 #include "view_command.hpp"
+#include "wrap_command.hpp"
 
 #include <gracilis/core/errors.hpp>
 
@@ -75,6 +76,7 @@ int main(int count, char** arguments) {
   add_scene_command(program, chosen);
   add_transfer_command(program, words, chosen);
   add_import_command(program, chosen);
+  add_wrap_command(program, chosen);
   add_motions_command(program, chosen);
   add_paths_command(program, chosen);
   add_static_optimization_command(program, chosen);

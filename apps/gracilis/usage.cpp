@@ -36,6 +36,7 @@ constexpr Example examples[] = {
     {"new", "gracilis new hip_bone_r.ply femur_r.ply gluteus_maximus_r.ply --out hip.toml"},
     {"scene", "gracilis scene scans --out leg.toml"},
     {"transfer", "gracilis transfer hip.toml --bones scans --out subject"},
+    {"wrap", "gracilis wrap model.osim hip.toml --geometry Geometry --out wrapped.osim"},
     {"import", "gracilis import model.osim --motion walk.mot --out walk"},
     {"motions", "gracilis motions model.osim --joint hip_r --out motions"},
     {"paths", "gracilis paths model.osim --coord hip_flexion_r=-10:60:2 --out paths"},

@@ -26,6 +26,8 @@ struct LengthSamples {
   std::vector<MuscleLengths> muscles;
   bool follow_lines = false;  ///< the muscles' sections follow the model's own paths, wherever these run
   bool spread = false;        ///< the poses are spread over the coordinates' ranges instead of following a motion
+  /// Of the scene's bodies in each pose, where a scene was asked (scene_lengths); otherwise empty.
+  std::vector<std::vector<RigidTransform>> scene_poses = {};
 };
 
 /// The mean of fibers, `count` points along it; none where there are none.

@@ -98,6 +98,7 @@ LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const
       for (const auto& [place, axis] : known) axes[place] = value_of(axis, values);
       method.advance(pose_at(scene, axes), usual_time_step);
     }
+    samples.scene_poses.push_back(pose_at(scene, axes).bodies);
     samples.coordinates.row(row) = values;
     Frame frame = rest;
     method.write(frame);

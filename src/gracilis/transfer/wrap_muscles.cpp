@@ -1,0 +1,98 @@
+#include <gracilis/transfer/wrap_muscles.hpp>
+
+#include <gracilis/opensim/export/muscle_points.hpp>
+#include <gracilis/opensim/kinematics/skeleton.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gracilis {
+
+namespace {
+
+using opensim::KnownFibers;
+using opensim::LengthSamples;
+
+/// A muscle in those poses from one to another in which it has a length, and where these put the model's bodies.
+KnownFibers known_fibers(const LengthSamples& samples, const opensim::MuscleLengths& muscle,
+                         const std::vector<SharedBody>& bodies, Eigen::Index from, Eigen::Index to) {
+  KnownFibers known;
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index row = from; row < to; ++row) {
+    const auto pose = static_cast<std::size_t>(row);
+    if (!std::isfinite(muscle.lengths[row]) || muscle.fibers[pose].cols() == 0) continue;
+    rows.push_back(row);
+    known.lines.push_back(muscle.fibers[pose]);
+    std::vector<RigidTransform>& poses = known.poses.emplace_back();
+    for (const SharedBody& body : bodies)
+      poses.push_back(samples.scene_poses[pose][static_cast<std::size_t>(body.of_scene)] * body.frame);
+  }
+  for (const SharedBody& body : bodies) known.bodies.push_back(body.of_model);
+  known.samples.coordinates = samples.coordinates(rows, Eigen::all);
+  known.samples.muscles = {{muscle.name, muscle.lengths(rows), muscle.arms(rows, Eigen::all)}};
+  return known;
+}
+
+}  // namespace
+
+WrappedMuscles wrap_muscles(const opensim::Model& model, const std::vector<SharedBody>& bodies,
+                            const LengthSamples& samples) {
+  WrappedMuscles wrapped;
+  opensim::Skeleton skeleton(model);
+  const Eigen::Index poses = samples.coordinates.rows();
+  const auto fitted = poses - static_cast<Eigen::Index>(held_out_share * static_cast<Real>(poses));
+  for (const opensim::MuscleLengths& each : samples.muscles) {
+    const auto leave_out = [&](const std::string& why) { wrapped.left_out.push_back(each.name + ": " + why); };
+    const Index index = opensim::index_of(model.muscles, each.name);
+    if (index < 0) {
+      leave_out("the model has no muscle of this name");
+      continue;
+    }
+    const opensim::Muscle& own = model.muscles[static_cast<std::size_t>(index)];
+    if (own.path.points.empty()) {
+      leave_out("its path is a function");
+      continue;
+    }
+    std::string why = "none of its bodies is the model's, too";
+    const KnownFibers known = known_fibers(samples, each, bodies, 0, fitted);
+    const KnownFibers held_out = known_fibers(samples, each, bodies, fitted, poses);
+    const std::vector<opensim::FiberPoint> points =
+        bodies.empty() ? std::vector<opensim::FiberPoint>{} : points_of(skeleton, known, &own, why);
+    if (points.empty()) {
+      leave_out(why);
+      continue;
+    }
+    const opensim::Muscle& muscle =
+        wrapped.muscles.emplace_back(muscle_along(skeleton, points, each.name, &own, samples.coordinates.row(0)));
+    const bool has_held_out = !held_out.lines.empty();
+    const opensim::PathErrors errors = point_errors(skeleton, muscle.path, &own.path, has_held_out ? held_out : known);
+    wrapped.lines.push_back(fmt::format("{}: {} points; {} {} poses: {}", each.name, muscle.path.points.size(),
+                                        has_held_out ? held_out.lines.size() : known.lines.size(),
+                                        has_held_out ? "held-out" : "fitted",
+                                        opensim::point_errors_text(errors, false)));
+  }
+  return wrapped;
+}
+
+opensim::CoordinateBox shared_ranges(const opensim::Model& model, const Scene& scene) {
+  std::vector<Real> least, most;
+  opensim::CoordinateBox box;
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes) {
+      const Index index = opensim::index_of(model.coordinates, axis.coordinate);
+      if (index < 0 || opensim::is_dependent(model, index)) continue;
+      const opensim::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
+      const Real from = std::max(axis.range_min, coordinate.range_min);
+      const Real to = std::min(axis.range_max, coordinate.range_max);
+      if (!(from < to)) continue;
+      box.coordinates.push_back(index), least.push_back(from), most.push_back(to);
+    }
+  const auto count = static_cast<Eigen::Index>(least.size());
+  box.least = Eigen::Map<const Eigen::VectorXd>(least.data(), count);
+  box.most = Eigen::Map<const Eigen::VectorXd>(most.data(), count);
+  return box;
+}
+
+}  // namespace gracilis

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <gracilis/opensim/export/model_samples.hpp>
+#include <gracilis/opensim/export/run_lengths.hpp>
+#include <gracilis/transfer/body_frames.hpp>
+
+#include <string>
+#include <vector>
+
+namespace gracilis {
+
+/// A model's muscles along the mean fibers of a scene's, and what became of each.
+struct WrappedMuscles {
+  std::vector<opensim::Muscle> muscles;  ///< of the model, with new paths and tendons' slack lengths
+  std::vector<std::string> lines;        ///< those: how far lengths and arms are from the scene's in held-out poses
+  std::vector<std::string> left_out;     ///< those of the scene that are not written: which, and why
+};
+
+/// The share of the poses that points are not fitted to: the last ones.
+inline constexpr Real held_out_share = 0.2;
+
+/// Fits path points on the shared bodies to the mean fibers in all but the held-out poses (points_of). Lengths and arms
+/// are those along the points as the model moves them. `samples`: of the scene in spread poses with mean fibers
+/// (scene_lengths).
+WrappedMuscles wrap_muscles(const opensim::Model& model, const std::vector<SharedBody>& bodies,
+                            const opensim::LengthSamples& samples);
+
+/// The ranges of those coordinates of the model that the scene has an axis of, as far as both allow. Dependent ones are
+/// left out.
+opensim::CoordinateBox shared_ranges(const opensim::Model& model, const Scene& scene);
+
+}  // namespace gracilis
