@@ -59,14 +59,18 @@ std::string hinge_model() {
   const RigidTransform hinge = of_upper.inverse() * of_lower;
   const std::string flexion =
       "<Coordinate name=\"flexion\"><default_value>0</default_value><range>-1 1</range></Coordinate>";
+  const std::string twist =
+      "<Coordinate name=\"twist\"><default_value>0</default_value><range>-1 1</range></Coordinate>";
   const std::string points = point("/bodyset/upper", "0.1 0.2 0.3") + point("/bodyset/lower", "0.3 0.2 0.1");
-  return document(set("BodySet", body("upper") + body("lower")) +
-                  set("JointSet", joint("WeldJoint", "fixed", "/ground", "upper", "", "",
-                                        numbers(of_upper.translation()), angles(of_upper)) +
-                                      joint("PinJoint", "hinge", "/bodyset/upper", "lower", flexion, "",
-                                            numbers(hinge.translation()), angles(hinge))) +
-                  set("ForceSet", muscle("flexor", points, "<max_isometric_force>77</max_isometric_force>") +
-                                      muscle("other", points)));
+  return document(
+      set("BodySet", body("upper") + body("lower") + body("tip")) +
+      set("JointSet",
+          joint("WeldJoint", "fixed", "/ground", "upper", "", "", numbers(of_upper.translation()), angles(of_upper)) +
+              joint("PinJoint", "hinge", "/bodyset/upper", "lower", flexion, "", numbers(hinge.translation()),
+                    angles(hinge)) +
+              joint("PinJoint", "wrist", "/bodyset/lower", "tip", twist, "", "0 0 0", "0 0 0")) +
+      set("ForceSet",
+          muscle("flexor", points, "<max_isometric_force>77</max_isometric_force>") + muscle("other", points)));
 }
 
 std::vector<opensim::ModelBone> bones_in_their_bodies(const Scene& scene) {
@@ -138,11 +142,31 @@ TEST(WrapMuscles, a_straight_muscle_has_its_length_in_a_model_of_other_frames) {
   const auto flexor = static_cast<std::size_t>(opensim::index_of(after.muscles, "flexor"));
   EXPECT_EQ(after.muscles[flexor].max_isometric_force, 77);
   for (const Real angle : {0.0, 0.2, 0.5, 0.78}) {
-    const Eigen::VectorXd q = Eigen::VectorXd::Constant(1, angle);
+    const Eigen::VectorXd q = Eigen::Vector2d(angle, 0);
     skeleton.place(q);
     const Real length = opensim::measure_path(skeleton, after.muscles[flexor].path, q).length;
     EXPECT_NEAR(length, (Eigen::AngleAxisd(angle, Vec3::UnitY()) * insertion - origin).norm(), 1e-6) << angle;
   }
+}
+
+TEST(WrapMuscles, poses_are_spread_over_coordinates_alone_that_a_muscle_crosses) {
+  Scene scene = wrapped().scene;
+  Joint wrist = scene.joints[0];
+  wrist.parent_body = 1;
+  wrist.child_body = static_cast<Index>(scene.bodies.size());
+  wrist.axes[0].coordinate = "twist";
+  scene.bodies.push_back("tip");
+  scene.joints.push_back(wrist);
+  const auto named = [&](const opensim::CoordinateBox& box) {
+    std::vector<std::string> names;
+    for (const Index i : box.coordinates)
+      names.push_back(wrapped().model.coordinates[static_cast<std::size_t>(i)].name);
+    return names;
+  };
+  EXPECT_THAT(named(shared_ranges(wrapped().model, scene)), testing::ElementsAre("flexion"));
+  for (Attachment& attachment : scene.muscles[0].attachments)
+    if (attachment.body == 1) attachment.body = wrist.child_body;
+  EXPECT_THAT(named(shared_ranges(wrapped().model, scene)), testing::ElementsAre("flexion", "twist"));
 }
 
 TEST(WrapMuscles, errors_in_held_out_poses_are_told) {

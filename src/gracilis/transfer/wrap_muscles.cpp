@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace gracilis {
 
@@ -76,10 +77,44 @@ WrappedMuscles wrap_muscles(const opensim::Model& model, const std::vector<Share
   return wrapped;
 }
 
+/// The bodies that a muscle is attached to; of ends on muscles those of the muscles below.
+static std::set<Index> attached_bodies(const Scene& scene, const Muscle& muscle) {
+  std::set<Index> bodies;
+  for (const Attachment& attachment : muscle.attachments) {
+    const auto carried = std::find_if(scene.muscle_bodies.begin(), scene.muscle_bodies.end(),
+                                      [&](const MuscleBody& each) { return each.body == attachment.body; });
+    if (carried == scene.muscle_bodies.end())
+      bodies.insert(attachment.body);
+    else
+      bodies.merge(attached_bodies(scene, scene.muscles[static_cast<std::size_t>(carried->muscle)]));
+  }
+  return bodies;
+}
+
+/// Whether the joint moves the body.
+static bool moves(const Scene& scene, const Joint& joint, Index body) {
+  while (body != joint.child_body) {
+    const auto above = std::find_if(scene.joints.begin(), scene.joints.end(),
+                                    [&](const Joint& each) { return each.child_body == body; });
+    if (above == scene.joints.end()) return false;
+    body = above->parent_body;
+  }
+  return true;
+}
+
+static bool is_crossed(const Scene& scene, const Joint& joint) {
+  return std::any_of(scene.muscles.begin(), scene.muscles.end(), [&](const Muscle& muscle) {
+    const std::set<Index> bodies = attached_bodies(scene, muscle);
+    const auto moved = std::count_if(bodies.begin(), bodies.end(), [&](Index b) { return moves(scene, joint, b); });
+    return moved > 0 && moved < static_cast<std::ptrdiff_t>(bodies.size());
+  });
+}
+
 opensim::CoordinateBox shared_ranges(const opensim::Model& model, const Scene& scene) {
   std::vector<Real> least, most;
   opensim::CoordinateBox box;
-  for (const Joint& joint : scene.joints)
+  for (const Joint& joint : scene.joints) {
+    if (!is_crossed(scene, joint)) continue;
     for (const JointAxis& axis : joint.axes) {
       const Index index = opensim::index_of(model.coordinates, axis.coordinate);
       if (index < 0 || opensim::is_dependent(model, index)) continue;
@@ -89,6 +124,7 @@ opensim::CoordinateBox shared_ranges(const opensim::Model& model, const Scene& s
       if (!(from < to)) continue;
       box.coordinates.push_back(index), least.push_back(from), most.push_back(to);
     }
+  }
   const auto count = static_cast<Eigen::Index>(least.size());
   box.least = Eigen::Map<const Eigen::VectorXd>(least.data(), count);
   box.most = Eigen::Map<const Eigen::VectorXd>(most.data(), count);

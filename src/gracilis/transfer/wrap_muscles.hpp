@@ -25,8 +25,8 @@ inline constexpr Real held_out_share = 0.2;
 WrappedMuscles wrap_muscles(const opensim::Model& model, const std::vector<SharedBody>& bodies,
                             const opensim::LengthSamples& samples);
 
-/// The ranges of those coordinates of the model that the scene has an axis of, as far as both allow. Dependent ones are
-/// left out.
+/// The ranges of those coordinates of the model that the scene has an axis of and that a muscle of it crosses, as far as
+/// both allow. Dependent ones are left out.
 opensim::CoordinateBox shared_ranges(const opensim::Model& model, const Scene& scene);
 
 }  // namespace gracilis

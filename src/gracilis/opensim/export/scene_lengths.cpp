@@ -73,7 +73,7 @@ LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const
   if (box.coordinates.empty() || static_cast<int>(box.coordinates.size()) > most_sobol_dimensions)
     throw ConfigurationError(
         {"--sample", "",
-         fmt::format("the run's muscles cross {} coordinates that it moves; poses are spread over 1 to {}",
+         fmt::format("the muscles cross {} coordinates that may move; poses are spread over 1 to {}",
                      box.coordinates.size(), most_sobol_dimensions),
          "run fewer muscles, or a motion that moves their joints"});
   const std::vector<KnownAxis> known = known_axes(model, scene);
