@@ -65,7 +65,7 @@ int wrap_model(WrapOptions options) {
   skeleton.place(samples.coordinates.row(0));
   const SharedBodies shared = shared_bodies(model, scene, surfaces_of_bodies(model, options), skeleton.poses());
   say_shared(shared);
-  const WrappedMuscles wrapped = wrap_muscles(model, shared.bodies, samples);
+  const WrappedMuscles wrapped = wrap_muscles(model, scene, shared.bodies, samples);
   for (const std::string& line : wrapped.lines) fmt::print("{}\n", line);
   for (const std::string& line : wrapped.left_out) spdlog::warn("{}; the model keeps its path", line);
   if (wrapped.muscles.empty())

@@ -94,7 +94,7 @@ struct Wrapped {
     samples = opensim::scene_lengths(scene, *method, model, shared_ranges(model, scene), 40, {}, 12);
     shared = shared_bodies(model, scene, bones_in_their_bodies(scene),
                            std::vector<RigidTransform>(3, RigidTransform::Identity()));
-    muscles = wrap_muscles(model, shared.bodies, samples);
+    muscles = wrap_muscles(model, scene, shared.bodies, samples);
   }
 
   TestFolder folder;
@@ -169,6 +169,19 @@ TEST(WrapMuscles, poses_are_spread_over_coordinates_alone_that_a_muscle_crosses)
   EXPECT_THAT(named(shared_ranges(wrapped().model, scene)), testing::ElementsAre("flexion", "twist"));
 }
 
+TEST(WrapMuscles, points_lie_on_no_body_that_only_moves_along) {
+  const Wrapped& made = wrapped();
+  opensim::LengthSamples samples = made.samples;
+  for (std::vector<RigidTransform>& pose : samples.scene_poses) pose.push_back(pose[1]);  // the tip, which never bends
+  std::vector<SharedBody> bodies = made.shared.bodies;
+  SharedBody tip = bodies[1];
+  tip.name = "tip", tip.of_model = opensim::index_of(made.model.bodies, "tip"), tip.of_scene = 2;
+  bodies.insert(bodies.begin(), tip);
+  const WrappedMuscles muscles = wrap_muscles(made.model, made.scene, bodies, samples);
+  ASSERT_EQ(muscles.muscles.size(), 1u);
+  for (const opensim::PathPoint& point : muscles.muscles[0].path.points) EXPECT_NE(point.body, tip.of_model);
+}
+
 TEST(WrapMuscles, errors_in_held_out_poses_are_told) {
   EXPECT_THAT(wrapped().muscles.lines, testing::ElementsAre(testing::MatchesRegex(
                                            "flexor: [0-9]+ points; 8 held-out poses: lengths 0.000 mm root .*"
@@ -180,7 +193,7 @@ TEST(WrapMuscles, those_that_cannot_be_written_are_named) {
   opensim::LengthSamples samples = made.samples;
   samples.muscles.push_back(samples.muscles[0]);
   samples.muscles[1].name = "unknown";
-  const WrappedMuscles upper_alone = wrap_muscles(made.model, {made.shared.bodies[0]}, samples);
+  const WrappedMuscles upper_alone = wrap_muscles(made.model, made.scene, {made.shared.bodies[0]}, samples);
   EXPECT_TRUE(upper_alone.muscles.empty());
   EXPECT_THAT(upper_alone.left_out, testing::ElementsAre("flexor: its ends move with no body of the model",
                                                          "unknown: the model has no muscle of this name"));

@@ -2,6 +2,7 @@
 
 #include <gracilis/opensim/export/muscle_points.hpp>
 #include <gracilis/opensim/kinematics/skeleton.hpp>
+#include <gracilis/opensim/reader/crossed_coordinates.hpp>
 
 #include <fmt/format.h>
 
@@ -36,9 +37,40 @@ KnownFibers known_fibers(const LengthSamples& samples, const opensim::MuscleLeng
   return known;
 }
 
+/// The bodies that a muscle is attached to; of ends on muscles those of the muscles below.
+std::set<Index> attached_bodies(const Scene& scene, const Muscle& muscle) {
+  std::set<Index> bodies;
+  for (const Attachment& attachment : muscle.attachments) {
+    const auto carried = std::find_if(scene.muscle_bodies.begin(), scene.muscle_bodies.end(),
+                                      [&](const MuscleBody& each) { return each.body == attachment.body; });
+    if (carried == scene.muscle_bodies.end())
+      bodies.insert(attachment.body);
+    else
+      bodies.merge(attached_bodies(scene, scene.muscles[static_cast<std::size_t>(carried->muscle)]));
+  }
+  return bodies;
+}
+
+/// Those of the shared bodies that lie between the ends of the muscle, as the model and the scene have them.
+std::vector<SharedBody> bodies_of(const opensim::Model& model, const Scene& scene,
+                                  const std::vector<SharedBody>& shared, const opensim::Muscle& own) {
+  std::vector<Index> ends;
+  for (const opensim::PathPoint& point : own.path.points) ends.push_back(point.body);
+  for (const Muscle& muscle : scene.muscles)
+    if (muscle.name == own.name)
+      for (const Index body : attached_bodies(scene, muscle))
+        for (const SharedBody& each : shared)
+          if (each.of_scene == body) ends.push_back(each.of_model);
+  const std::vector<Index> between = opensim::bodies_between(model, ends);
+  std::vector<SharedBody> bodies;
+  for (const SharedBody& each : shared)
+    if (std::binary_search(between.begin(), between.end(), each.of_model)) bodies.push_back(each);
+  return bodies;
+}
+
 }  // namespace
 
-WrappedMuscles wrap_muscles(const opensim::Model& model, const std::vector<SharedBody>& bodies,
+WrappedMuscles wrap_muscles(const opensim::Model& model, const Scene& scene, const std::vector<SharedBody>& shared,
                             const LengthSamples& samples) {
   WrappedMuscles wrapped;
   opensim::Skeleton skeleton(model);
@@ -56,6 +88,7 @@ WrappedMuscles wrap_muscles(const opensim::Model& model, const std::vector<Share
       leave_out("its path is a function");
       continue;
     }
+    const std::vector<SharedBody> bodies = bodies_of(model, scene, shared, own);
     std::string why = "none of its bodies is the model's, too";
     const KnownFibers known = known_fibers(samples, each, bodies, 0, fitted);
     const KnownFibers held_out = known_fibers(samples, each, bodies, fitted, poses);
@@ -75,20 +108,6 @@ WrappedMuscles wrap_muscles(const opensim::Model& model, const std::vector<Share
                                         opensim::point_errors_text(errors, false)));
   }
   return wrapped;
-}
-
-/// The bodies that a muscle is attached to; of ends on muscles those of the muscles below.
-static std::set<Index> attached_bodies(const Scene& scene, const Muscle& muscle) {
-  std::set<Index> bodies;
-  for (const Attachment& attachment : muscle.attachments) {
-    const auto carried = std::find_if(scene.muscle_bodies.begin(), scene.muscle_bodies.end(),
-                                      [&](const MuscleBody& each) { return each.body == attachment.body; });
-    if (carried == scene.muscle_bodies.end())
-      bodies.insert(attachment.body);
-    else
-      bodies.merge(attached_bodies(scene, scene.muscles[static_cast<std::size_t>(carried->muscle)]));
-  }
-  return bodies;
 }
 
 /// Whether the joint moves the body.

@@ -21,8 +21,8 @@ inline constexpr Real held_out_share = 0.2;
 
 /// Fits path points on the shared bodies to the mean fibers in all but the held-out poses (points_of). Lengths and arms
 /// are those along the points as the model moves them. `samples`: of the scene in spread poses with mean fibers
-/// (scene_lengths).
-WrappedMuscles wrap_muscles(const opensim::Model& model, const std::vector<SharedBody>& bodies,
+/// (scene_lengths). Points lie on bodies alone that are between the muscle's ends, in the model or the scene.
+WrappedMuscles wrap_muscles(const opensim::Model& model, const Scene& scene, const std::vector<SharedBody>& shared,
                             const opensim::LengthSamples& samples);
 
 /// The ranges of those coordinates of the model that the scene has an axis of and that a muscle of it crosses, as far as

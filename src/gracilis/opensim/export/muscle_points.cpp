@@ -89,8 +89,7 @@ static std::vector<FiberPoint> best_points(Skeleton& skeleton, const Path* own, 
     const std::vector<Points> lines = fewer_points(known.lines, count);
     for (const auto& choice : choices) {
       std::vector<FiberPoint> points = fit_points(lines, known.poses, choice);
-      if (!known.bodies.empty())
-        for (FiberPoint& point : points) point.body = known.bodies[static_cast<std::size_t>(point.body)];
+      for (FiberPoint& point : points) point.body = known.bodies[static_cast<std::size_t>(point.body)];
       const PathErrors errors = point_errors(skeleton, path_of(points), own, known);
       const Real cost = std::hypot(errors.length_root_mean_square, errors.arm_root_mean_square);
       if (!(cost < 0.99 * least)) continue;

@@ -15,7 +15,7 @@ struct KnownFibers {
   LengthSamples samples;                           ///< of this muscle alone
   std::vector<Points> lines;                       ///< its mean fiber in each pose, m
   std::vector<std::vector<RigidTransform>> poses;  ///< of bodies, in the same frame as lines
-  std::vector<Index> bodies = {};                  ///< the model's that `poses` are of; empty: all of them
+  std::vector<Index> bodies = {};                  ///< the model's that `poses` are of, on which points may be
 };
 
 /// Points along a muscle's mean fiber, as export_points writes them; `why` says what stands against it where there are

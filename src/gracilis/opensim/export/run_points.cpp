@@ -5,19 +5,24 @@
 #include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/opensim/export/muscle_points.hpp>
 #include <gracilis/opensim/export/muscle_text.hpp>
+#include <gracilis/opensim/reader/crossed_coordinates.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace gracilis::opensim {
 
 /// The muscle in the poses in which it has a length: those of the samples where they hold fibers, else the run's
 /// frames.
 static KnownFibers known_fibers(const RecordedRun& run, const LengthSamples& samples, const MuscleLengths& muscle,
-                                const std::vector<std::vector<RigidTransform>>& poses, Index count) {
+                                const std::vector<std::vector<RigidTransform>>& poses, std::vector<Index> bodies,
+                                Index count) {
   KnownFibers known;
+  known.bodies = std::move(bodies);
   std::vector<Eigen::Index> rows;
   for (std::size_t pose = 0; pose < poses.size(); ++pose) {
     const auto row = static_cast<Eigen::Index>(pose);
@@ -27,13 +32,25 @@ static KnownFibers known_fibers(const RecordedRun& run, const LengthSamples& sam
     if (line.cols() == 0) return {};
     rows.push_back(row);
     known.lines.push_back(std::move(line));
-    known.poses.push_back(poses[pose]);
+    std::vector<RigidTransform>& of_bodies = known.poses.emplace_back();
+    for (const Index body : known.bodies) of_bodies.push_back(poses[pose][static_cast<std::size_t>(body)]);
   }
   known.samples.coordinates = samples.coordinates(rows, Eigen::all);
   known.samples.muscles = {{muscle.name, muscle.lengths(rows),
                             muscle.arms.cols() > 0 ? Eigen::MatrixXd(muscle.arms(rows, Eigen::all))
                                                    : Eigen::MatrixXd(static_cast<Eigen::Index>(rows.size()), 0)}};
   return known;
+}
+
+/// The bodies that the muscle's points may be put on: of one that the model lacks any.
+static std::vector<Index> bodies_for(const Model& model, const Muscle* own) {
+  std::vector<Index> ends;
+  if (own)
+    for (const PathPoint& point : own->path.points) ends.push_back(point.body);
+  if (own) return bodies_between(model, ends);
+  std::vector<Index> all(model.bodies.size());
+  std::iota(all.begin(), all.end(), Index{0});
+  return all;
 }
 
 PointExport export_points(const std::filesystem::path& folder, const Model& model, const LengthSamples& samples,
@@ -62,7 +79,7 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
     std::string why = "it follows the model's line";
     KnownFibers known;
     if (!(own && samples.follow_lines)) {
-      known = known_fibers(run, samples, each, poses, count);
+      known = known_fibers(run, samples, each, poses, bodies_for(model, own), count);
       points = points_of(skeleton, known, own, why);
     }
     if (points.empty()) {

@@ -16,21 +16,37 @@ static std::set<std::size_t> chain_of(const Model& model, Index body) {
   return chain;
 }
 
+/// The joints that some of the chains hold, but not all.
+static std::vector<std::size_t> crossed_joints(const Model& model, const std::vector<std::set<std::size_t>>& chains) {
+  std::vector<std::size_t> crossed;
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
+    const auto holds = [&](const std::set<std::size_t>& chain) { return chain.count(joint) > 0; };
+    const auto count = static_cast<std::size_t>(std::count_if(chains.begin(), chains.end(), holds));
+    if (count > 0 && count < chains.size()) crossed.push_back(joint);
+  }
+  return crossed;
+}
+
 std::vector<Index> crossed_coordinates(const Model& model, const Path& path) {
   std::vector<Index> result = path.function_coordinates;
   std::vector<std::set<std::size_t>> chains;
   for (const PathPoint& point : path.points) chains.push_back(chain_of(model, point.body));
   for (const PathWrap& wrap : path.wraps)
     chains.push_back(chain_of(model, model.wrap_objects[static_cast<std::size_t>(wrap.object)].body));
-  for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
-    const auto holds = [&](const std::set<std::size_t>& chain) { return chain.count(joint) > 0; };
-    const auto count = static_cast<std::size_t>(std::count_if(chains.begin(), chains.end(), holds));
-    if (count == 0 || count == chains.size()) continue;
+  for (const std::size_t joint : crossed_joints(model, chains))
     result.insert(result.end(), model.joints[joint].coordinates.begin(), model.joints[joint].coordinates.end());
-  }
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
+}
+
+std::vector<Index> bodies_between(const Model& model, const std::vector<Index>& ends) {
+  std::set<Index> bodies(ends.begin(), ends.end());
+  std::vector<std::set<std::size_t>> chains;
+  for (const Index body : ends) chains.push_back(chain_of(model, body));
+  for (const std::size_t joint : crossed_joints(model, chains))
+    bodies.insert({model.joints[joint].parent_body, model.joints[joint].child_body});
+  return {bodies.begin(), bodies.end()};
 }
 
 }  // namespace gracilis::opensim
