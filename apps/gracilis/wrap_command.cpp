@@ -54,6 +54,16 @@ int wrap_model(WrapOptions options) {
   const opensim::Model model = read_opensim_model(options.model, false);
   options.scene.set.insert(options.scene.set.begin(), "method=strings");
   const Scene scene = read_scene(options.file, options.scene).scene;
+  const std::set<Index> wanted = bodies_to_share(model, scene);
+  if (wanted.empty())
+    throw InputError(
+        {options.file.string(), "", "has no muscle of a name of the model's", "name muscles as the model does"});
+  opensim::Skeleton skeleton(model);
+  skeleton.place(opensim::captured_coordinates(model, scene));
+  const SharedBodies shared = shared_bodies(model, scene, wanted, surfaces_of_bodies(model, options), skeleton.poses());
+  say_shared(shared);
+  if (shared.bodies.empty())
+    throw InputError({options.file.string(), "", "shares no body with the model", "name bodies as the model does"});
   const auto method =
       make_method(scene, [&](const DistanceFieldSettings& settings) { return cached_bone_fields(scene, settings); });
   Progress progress(0, static_cast<int>(options.poses));
@@ -61,10 +71,6 @@ int wrap_model(WrapOptions options) {
       scene, *method, model, shared_ranges(model, scene), options.poses,
       [&](Index done) { progress.show(static_cast<int>(done)); }, options.points);
   progress.clear();
-  opensim::Skeleton skeleton(model);
-  skeleton.place(samples.coordinates.row(0));
-  const SharedBodies shared = shared_bodies(model, scene, surfaces_of_bodies(model, options), skeleton.poses());
-  say_shared(shared);
   const WrappedMuscles wrapped = wrap_muscles(model, scene, shared.bodies, samples);
   for (const std::string& line : wrapped.lines) fmt::print("{}\n", line);
   for (const std::string& line : wrapped.left_out) spdlog::warn("{}; the model keeps its path", line);

@@ -1,4 +1,5 @@
 #include "solids.hpp"
+#include "spread_axes.hpp"
 #include "tables.hpp"
 
 #include <gracilis/anatomy/attachments/body_carriers.hpp>
@@ -9,7 +10,6 @@
 #include <gracilis/methods/rbf/muscle_model.hpp>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 
@@ -24,13 +24,6 @@ rbf::MuscleModel model_of(const TriangleMesh& surface, Index centers) {
   muscle.surface = surface;
   const MeshTopology topology = build_topology(surface.faces, surface.vertex_count());
   return rbf::muscle_model(muscle, topology, body_carriers(muscle, topology, 0), centers, 1.2);
-}
-
-/// Directions of most, less and least spread, as columns.
-Eigen::Matrix3d spread_axes(const Points& points) {
-  const Points from = points.colwise() - points.rowwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(from * from.transpose());
-  return solver.eigenvectors().rowwise().reverse();
 }
 
 /// Field and curvatures in the plane through the muscle's middle along its most and its least spread.

@@ -1,4 +1,5 @@
 #include "patch_rims.hpp"
+#include "spread_axes.hpp"
 #include "tables.hpp"
 
 #include <gracilis/geometry/outline_curves.hpp>
@@ -8,7 +9,6 @@
 #include <gracilis/io/scene/landmarks.hpp>
 
 #include <fmt/format.h>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -68,10 +68,7 @@ Found found_again(OutlineCurve curve, const Points& points) {
 /// Points as seen along the normal of the plane that fits an outline best: two coordinates in it and the height, m.
 Points flattened(const Points& outline, const Points& points) {
   const Vec3 middle = outline.rowwise().mean();
-  const Points from = outline.colwise() - middle;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(from * from.transpose());
-  const Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();  // the last is the normal
-  return axes.transpose() * (points.colwise() - middle);
+  return spread_axes(outline).transpose() * (points.colwise() - middle);
 }
 
 /// How far the vertices of a surface lie from heights over the outline's plane: thin plates through the outline's

@@ -92,7 +92,7 @@ struct Wrapped {
       return fields;
     });
     samples = opensim::scene_lengths(scene, *method, model, shared_ranges(model, scene), 40, {}, 12);
-    shared = shared_bodies(model, scene, bones_in_their_bodies(scene),
+    shared = shared_bodies(model, scene, bodies_to_share(model, scene), bones_in_their_bodies(scene),
                            std::vector<RigidTransform>(3, RigidTransform::Identity()));
     muscles = wrap_muscles(model, scene, shared.bodies, samples);
   }
@@ -127,10 +127,18 @@ TEST(SharedBodies, other_bones_and_bodies_of_other_names_are_left_out) {
   bones[1].surface.vertices *= 1.1;
   scene.bodies[0] = "thigh";
   const SharedBodies shared =
-      shared_bodies(wrapped().model, scene, bones, std::vector<RigidTransform>(3, RigidTransform::Identity()));
+      shared_bodies(wrapped().model, scene, {0, 1}, bones, std::vector<RigidTransform>(3, RigidTransform::Identity()));
   EXPECT_TRUE(shared.bodies.empty());
   EXPECT_THAT(shared.left_out, testing::ElementsAre(testing::HasSubstr("thigh: the model has no body of this name"),
                                                     testing::HasSubstr("lower: its surfaces in the model are 1.100")));
+}
+
+TEST(SharedBodies, are_those_of_muscles_of_the_same_names_and_what_lies_between) {
+  Scene scene = hinge_scene();
+  scene.bodies.emplace_back("tip");  // a body of the model's, too, that no muscle lies on
+  EXPECT_THAT(bodies_to_share(wrapped().model, scene), testing::ElementsAre(0, 1));
+  scene.muscles[0].name = "extensor";
+  EXPECT_THAT(bodies_to_share(wrapped().model, scene), testing::IsEmpty());
 }
 
 TEST(WrapMuscles, a_straight_muscle_has_its_length_in_a_model_of_other_frames) {

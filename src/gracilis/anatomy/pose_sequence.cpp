@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/activation/activation.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/scene/motion.hpp>
 
 #include <algorithm>
@@ -39,13 +40,9 @@ static std::vector<bool> carries_all(const Scene& scene) {
   if (std::find(used.begin(), used.end(), true) == used.end()) return std::vector<bool>(scene.joints.size(), false);
   std::vector<bool> carries;
   for (const Joint& joint : scene.joints) {
-    std::vector<bool> beyond(scene.bodies.size(), false);
-    beyond[static_cast<std::size_t>(joint.child_body)] = true;
-    for (const Joint& other : scene.joints)  // parents stand before children
-      if (beyond[static_cast<std::size_t>(other.parent_body)])
-        beyond[static_cast<std::size_t>(other.child_body)] = true;
     bool all = true;
-    for (std::size_t body = 0; body < used.size(); ++body) all = all && (!used[body] || beyond[body]);
+    for (std::size_t body = 0; body < used.size(); ++body)
+      all = all && (!used[body] || hangs_on(scene, static_cast<Index>(body), joint));
     carries.push_back(all);
   }
   return carries;

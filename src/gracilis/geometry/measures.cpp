@@ -1,9 +1,15 @@
 #include <gracilis/geometry/measures.hpp>
 
+#include <cmath>
+
 namespace gracilis {
 
 Eigen::AlignedBox3d bounding_box(const Points& points) {
   return {points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
+}
+
+Real extent_of(const Points& points) {
+  return std::sqrt((points.colwise() - points.rowwise().mean()).colwise().squaredNorm().mean());
 }
 
 Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners) {

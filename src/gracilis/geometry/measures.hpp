@@ -11,6 +11,9 @@ namespace gracilis {
 /// The smallest box along the axes that holds all points. Precondition: there are some.
 Eigen::AlignedBox3d bounding_box(const Points& points);
 
+/// Root mean square of the distances from the points' mean, m. Precondition: there are some.
+Real extent_of(const Points& points);
+
 /// Twice the area times the outward unit normal of face `face`: \f$(b - a) \times (c - a)\f$.
 Vec3 area_vector(const Points& vertices, const Eigen::Vector3i& corners);
 

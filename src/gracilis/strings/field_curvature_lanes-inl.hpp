@@ -32,25 +32,14 @@ HWY_INLINE CurvedSum curved_sum(const SplineLanes& axis, V a, V b, V c) {
 
 /// Preconditions: as sample_spline_lanes.
 HWY_INLINE CurvedSplineSample sample_curved_lanes(const FieldGrid& grid, const GridPlace& place) {
-  const hn::RebindToSigned<D> di;
-  const auto inside = [&](V x) HWY_ATTR { return hn::IfThenElseZero(place.inside, x); };
-  const SplineLanes x = spline_lanes(inside(place.cells.x), grid.nodes[0]),
-                    y = spline_lanes(inside(place.cells.y), grid.nodes[1]),
-                    z = spline_lanes(inside(place.cells.z), grid.nodes[2] - 1);  // rows are read one number too far
-  const Index row = grid.nodes[0], slice = grid.nodes[0] * grid.nodes[1];
-  const auto at = x.first + hn::Set(di, row) * y.first + hn::Set(di, slice) * z.first;
-#if !(HWY_HAVE_SCALABLE || HWY_TARGET == HWY_SCALAR)
-  HWY_ALIGN std::int32_t offsets[group_width];
-  hn::Store(at, di, offsets);
-#else
-  const auto offsets = at;
-#endif
+  const CellLanes cells = cell_lanes(grid, place);
+  const SplineLanes &x = cells.x, &y = cells.y, &z = cells.z;
   CurvedSum plane[3], by_x[3];
   V by_xx[3];
   for (int k = 0; k < 3; ++k) {
     CurvedSum rows[3];
     for (int j = 0; j < 3; ++j) {
-      const RowLanes at_row = load_rows(grid.values + (j * row + k * slice), offsets);
+      const RowLanes at_row = cells.values(grid, j, k);
       rows[j] = curved_sum(x, at_row.v[0], at_row.v[1], at_row.v[2]);
     }
     plane[k] = curved_sum(y, rows[0].value, rows[1].value, rows[2].value);

@@ -90,6 +90,40 @@ HWY_INLINE RowLanes load_rows(const float* values, const std::int32_t* at) {
 }
 #endif
 
+/// The splines around each lane's place, and where the numbers that they weight begin.
+struct CellLanes {
+  SplineLanes x, y, z;
+  Index row, slice;  ///< how many numbers further the next row and slice begin
+#if HWY_HAVE_SCALABLE || HWY_TARGET == HWY_SCALAR
+  hn::Vec<hn::RebindToSigned<D>> first;
+#else
+  HWY_ALIGN std::int32_t first[group_width];
+#endif
+
+  /// Of the row j and the slice k, from 0 to 2.
+  HWY_INLINE RowLanes values(const FieldGrid& grid, int j, int k) const {
+    return load_rows(grid.values + (j * row + k * slice), first);
+  }
+};
+
+/// Preconditions: as sample_spline_lanes.
+HWY_INLINE CellLanes cell_lanes(const FieldGrid& grid, const GridPlace& place) {
+  const hn::RebindToSigned<D> di;
+  const auto inside = [&](V x) HWY_ATTR { return hn::IfThenElseZero(place.inside, x); };
+  CellLanes cells;
+  cells.x = spline_lanes(inside(place.cells.x), grid.nodes[0]);
+  cells.y = spline_lanes(inside(place.cells.y), grid.nodes[1]);
+  cells.z = spline_lanes(inside(place.cells.z), grid.nodes[2] - 1);  // rows are read one number too far
+  cells.row = grid.nodes[0], cells.slice = grid.nodes[0] * grid.nodes[1];
+  const auto first = cells.x.first + hn::Set(di, cells.row) * cells.y.first + hn::Set(di, cells.slice) * cells.z.first;
+#if HWY_HAVE_SCALABLE || HWY_TARGET == HWY_SCALAR
+  cells.first = first;
+#else
+  hn::Store(first, di, cells.first);
+#endif
+  return cells;
+}
+
 struct SplineSample {
   V distance;
   Point gradient;  ///< by the point in cells
@@ -98,25 +132,14 @@ struct SplineSample {
 /// Preconditions: inside, at least four nodes along each axis. Other lanes get anything.
 HWY_INLINE SplineSample sample_spline_lanes(const FieldGrid& grid, const GridPlace& place) {
   const D d;
-  const hn::RebindToSigned<D> di;
-  const auto inside = [&](V x) HWY_ATTR { return hn::IfThenElseZero(place.inside, x); };
-  const SplineLanes x = spline_lanes(inside(place.cells.x), grid.nodes[0]),
-                    y = spline_lanes(inside(place.cells.y), grid.nodes[1]),
-                    z = spline_lanes(inside(place.cells.z), grid.nodes[2] - 1);  // rows are read one number too far
-  const Index row = grid.nodes[0], slice = grid.nodes[0] * grid.nodes[1];
-  const auto at = x.first + hn::Set(di, row) * y.first + hn::Set(di, slice) * z.first;
-#if !(HWY_HAVE_SCALABLE || HWY_TARGET == HWY_SCALAR)
-  HWY_ALIGN std::int32_t offsets[group_width];
-  hn::Store(at, di, offsets);
-#else
-  const auto offsets = at;
-#endif
+  const CellLanes cells = cell_lanes(grid, place);
+  const SplineLanes &x = cells.x, &y = cells.y, &z = cells.z;
   const V zero = hn::Zero(d);
   SplineSample sum{zero, {zero, zero, zero}};
   for (int k = 0; k < 3; ++k) {
     V plane = zero, plane_by_x = zero, plane_by_y = zero;
     for (int j = 0; j < 3; ++j) {
-      const RowLanes at_row = load_rows(grid.values + (j * row + k * slice), offsets);
+      const RowLanes at_row = cells.values(grid, j, k);
       const V* v = at_row.v;
       const V along = hn::MulAdd(x.weight[0], v[0], hn::MulAdd(x.weight[1], v[1], x.weight[2] * v[2]));
       const V along_by_x = hn::MulAdd(x.slope[0], v[0], hn::MulAdd(x.slope[1], v[1], x.slope[2] * v[2]));

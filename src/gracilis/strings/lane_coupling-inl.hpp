@@ -65,7 +65,7 @@ class LaneCoupling {
   void add(const std::vector<float>& moves, std::vector<float>& forces) const {
     if (!is_there()) return;
     for (std::size_t i = 1; i < inner_; ++i) {
-      const Point turning = lanes_of_vector(section_turning(moves, i));
+      const Point turning = lanes_of(section_turning(moves, i));
       for_neighbor_means(lanes_.neighbor_weight, moves, i, [&](std::size_t at, Point mean) HWY_ATTR {
         const Point wanted = mean + cross(turning, load_point(&r_.arm[3 * at]));
         const V pull = stiffness(at) * hn::LoadU(D(), &r_.free[at]);
@@ -111,13 +111,6 @@ class LaneCoupling {
   }
 
  private:
-  static HWY_INLINE Point lanes_of_vector(const Eigen::Vector3f& v) {
-    return {lanes_of(v.x()), lanes_of(v.y()), lanes_of(v.z())};
-  }
-  static HWY_INLINE Eigen::Vector3f total(Point p) {
-    const auto sum = [](V v) HWY_ATTR { return hn::GetLane(hn::SumOfLanes(D(), v)); };
-    return {sum(p.x), sum(p.y), sum(p.z)};
-  }
   HWY_INLINE Point direction(std::size_t at) const { return load_point(&r_.direction[3 * at]); }
   HWY_INLINE V stiffness(std::size_t at) const { return lanes_of(neighbor_) * load(lanes_.node_length, at % width_); }
   /// 1 for strings, 0 for what is beyond the last.
@@ -184,8 +177,8 @@ class LaneCoupling {
   HWY_INLINE void turn_transposed(std::size_t i, const Eigen::Vector3f& turning, std::vector<float>& of_moves) const {
     const RateWorkspace::Section& section = r_.sections[i];
     const Eigen::Vector3f moment = section.softness.transpose() * turning;
-    const Point by_moment = lanes_of_vector(moment),
-                by_direction = lanes_of_vector(section.mean_rate * moment.cross(section.direction));
+    const Point by_moment = lanes_of(moment),
+                by_direction = lanes_of(section.mean_rate * moment.cross(section.direction));
     const auto add = [&](std::size_t at, Point p)
                          HWY_ATTR { store_point(load_point(&of_moves[3 * at]) + p, &of_moves[3 * at]); };
     for (std::size_t s = 0; s < width_; s += hn::Lanes(D())) {

@@ -112,7 +112,7 @@ class LaneEquilibrium {
   void add_by_bodies(const std::vector<LaneTwist>& twists, Numbers& forces) const {
     for (std::size_t b = 0; b < twists.size(); ++b) {
       if (twists[b].velocity.isZero(0) && twists[b].turning.isZero(0)) continue;
-      const Point velocity = point_of(twists[b].velocity), turning = point_of(twists[b].turning);
+      const Point velocity = lanes_of(twists[b].velocity), turning = lanes_of(twists[b].turning);
       for (std::size_t at = width_; at < count_ - width_; at += hn::Lanes(D())) {
         const Point force = times(load_matrix(&r_.bodies[b].by_velocity[9 * at]), velocity) +
                             times(load_matrix(&r_.bodies[b].by_turning[9 * at]), turning);
@@ -130,7 +130,7 @@ class LaneEquilibrium {
       force = force + transposed_times(load_matrix(&r_.bodies[body].by_velocity[9 * at]), weight);
       moment = moment + transposed_times(load_matrix(&r_.bodies[body].by_turning[9 * at]), weight);
     }
-    return {total(force), total(moment)};
+    return {total(force).cast<Real>(), total(moment).cast<Real>()};
   }
 
   /// How bodies carry the nodes: by their shares, or all of it by the one that holds a node.
@@ -142,7 +142,7 @@ class LaneEquilibrium {
       Point sum{zero, zero, zero};
       for (std::size_t c = 0; c < lanes_.bodies.size(); ++c) {
         const LaneTwist& twist = twists[static_cast<std::size_t>(lanes_.bodies[c])];
-        const Point velocity = point_of(twist.velocity) + cross(point_of(twist.turning), place);
+        const Point velocity = lanes_of(twist.velocity) + cross(lanes_of(twist.turning), place);
         sum = plus_scaled(sum, load(lanes_.shares[c], at), velocity);
       }
       store_point(sum, &motions[3 * at]);
@@ -163,13 +163,6 @@ class LaneEquilibrium {
  private:
   static constexpr int most_directions = 40;
 
-  static HWY_INLINE Point point_of(const Eigen::Vector3f& v) {
-    return {lanes_of(v.x()), lanes_of(v.y()), lanes_of(v.z())};
-  }
-  static HWY_INLINE Vec3 total(Point p) {
-    const auto sum = [](V v) HWY_ATTR { return static_cast<Real>(hn::GetLane(hn::SumOfLanes(D(), v))); };
-    return {sum(p.x), sum(p.y), sum(p.z)};
-  }
   static void add(const Numbers& x, Numbers& to) {
     for (std::size_t at = 0; at < x.size(); at += hn::Lanes(D()))
       hn::StoreU(hn::LoadU(D(), &to[at]) + hn::LoadU(D(), &x[at]), D(), &to[at]);

@@ -1,5 +1,7 @@
 #include <gracilis/transfer/body_frames.hpp>
 
+#include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/mesh_pieces.hpp>
 #include <gracilis/transfer/similarity.hpp>
 
 #include <fmt/format.h>
@@ -15,33 +17,13 @@ namespace {
 constexpr Index samples_of_body = 1000;
 constexpr Real largest_scale_error = 0.03;
 
-/// Several surfaces as one.
-TriangleMesh as_one(const std::vector<const TriangleMesh*>& surfaces) {
-  TriangleMesh all;
-  Index vertices = 0, faces = 0;
-  for (const TriangleMesh* each : surfaces) vertices += each->vertex_count(), faces += each->faces.cols();
-  all.vertices.resize(3, vertices), all.faces.resize(3, faces);
-  vertices = faces = 0;
-  for (const TriangleMesh* each : surfaces) {
-    all.vertices.middleCols(vertices, each->vertex_count()) = each->vertices;
-    all.faces.middleCols(faces, each->faces.cols()) = each->faces.array() + static_cast<int>(vertices);
-    vertices += each->vertex_count(), faces += each->faces.cols();
-  }
-  return all;
-}
-
-TriangleMesh surface_of(const std::vector<opensim::ModelBone>& bones, Index body) {
-  std::vector<const TriangleMesh*> surfaces;
-  for (const opensim::ModelBone& bone : bones)
-    if (bone.body == body) surfaces.push_back(&bone.surface);
-  return as_one(surfaces);
-}
-
-TriangleMesh surface_of(const Scene& scene, Index body) {
-  std::vector<const TriangleMesh*> surfaces;
-  for (const Bone& bone : scene.bones)
-    if (bone.body == body) surfaces.push_back(&bone.surface);
-  return as_one(surfaces);
+/// All surfaces of a body, of a model's or a scene's bones.
+template <class Bone>
+TriangleMesh surface_of(const std::vector<Bone>& bones, Index body) {
+  std::vector<TriangleMesh> surfaces;
+  for (const Bone& bone : bones)
+    if (bone.body == body) surfaces.push_back(bone.surface);
+  return merged(surfaces);
 }
 
 /// The best of all turns that axes of both allow.
@@ -55,10 +37,6 @@ SimilarityFit laid_on(const PairedBone& bone) {
   return best;
 }
 
-Real spread_of(const Points& points) {
-  return std::sqrt((points.colwise() - points.rowwise().mean()).colwise().squaredNorm().mean());
-}
-
 /// Lays a body's surface on the scene's; says why it does not fit.
 std::string register_body(const TriangleMesh& of_model, const TriangleMesh& of_scene, SharedBody& body) {
   const PairedBone bone(body.name, of_model, of_scene, samples_of_body);
@@ -70,27 +48,27 @@ std::string register_body(const TriangleMesh& of_model, const TriangleMesh& of_s
   body.frame = RigidTransform::Identity();
   body.frame.linear() = fit.similarity.rotation;
   body.frame.translation() = fit.similarity.at(middle) - fit.similarity.rotation * middle;
-  body.error = fit.error * spread_of(bone.to_points());
+  body.error = fit.error * extent_of(bone.to_points());
   body.registered = true;
   return "";
 }
 
 }  // namespace
 
-SharedBodies shared_bodies(const opensim::Model& model, const Scene& scene,
+SharedBodies shared_bodies(const opensim::Model& model, const Scene& scene, const std::set<Index>& wanted,
                            const std::vector<opensim::ModelBone>& bones, const std::vector<RigidTransform>& poses) {
   SharedBodies shared;
   std::vector<std::pair<TriangleMesh, TriangleMesh>> surfaces;
   bool any = false;
-  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
-    const Index of_model = opensim::index_of(model.bodies, scene.bodies[b]);
+  for (const Index of_scene : wanted) {
+    const std::string& name = scene.bodies[static_cast<std::size_t>(of_scene)];
+    const Index of_model = opensim::index_of(model.bodies, name);
     if (of_model < 0) {
-      shared.left_out.push_back(fmt::format("{}: the model has no body of this name", scene.bodies[b]));
+      shared.left_out.push_back(fmt::format("{}: the model has no body of this name", name));
       continue;
     }
-    const auto of_scene = static_cast<Index>(b);
-    shared.bodies.push_back({scene.bodies[b], of_model, of_scene, poses[static_cast<std::size_t>(of_model)], 0, false});
-    surfaces.emplace_back(surface_of(bones, of_model), surface_of(scene, of_scene));
+    shared.bodies.push_back({name, of_model, of_scene, poses[static_cast<std::size_t>(of_model)], 0, false});
+    surfaces.emplace_back(surface_of(bones, of_model), surface_of(scene.bones, of_scene));
     any |= surfaces.back().first.faces.cols() > 0 || !model.bodies[static_cast<std::size_t>(of_model)].geometry.empty();
   }
   if (!any) return shared;

@@ -55,15 +55,11 @@ PlaceTargets targets_of(const PlacePairs& pairs, const NamedPoints& named, Real 
   return targets;
 }
 
-Real size_of(const Points& points) {
-  return std::sqrt((points.colwise() - points.rowwise().mean()).colwise().squaredNorm().mean());
-}
-
 }  // namespace
 
 BoneFit measure_fit(const PairedBone& bone, const Points& moved) {
   const PlacePairs pairs = bone.pairs(moved);
-  const Real far = std::max(outlier_distance(pairs, size_of(bone.to_points())), 1e-2 * size_of(bone.to_points()));
+  const Real far = std::max(outlier_distance(pairs, extent_of(bone.to_points())), 1e-2 * extent_of(bone.to_points()));
   BoneFit fit;
   std::array<Real, 2> squares = {0, 0};
   std::array<Index, 2> counted = {0, 0}, total = {0, 0};
@@ -97,7 +93,7 @@ BoneFit measure_fit(const PairedBone& bone, const Points& moved) {
 RegisteredBone register_bone(const PairedBone& bone, const NamedPoints& named, const Similarity& start) {
   RegisteredBone result;
   const SimilarityFit similar = closest_similarity({&bone}, named, start);
-  const Real size = size_of(bone.to_points());
+  const Real size = extent_of(bone.to_points());
   result.similarity = similar.similarity;
   result.similar = similar.error * size;
   result.map = ThinPlateMap::affine(result.similarity.linear(), result.similarity.shift);

@@ -21,10 +21,6 @@ Points joined(const std::vector<const PairedBone*>& bones, const Points& (Paired
   return all;
 }
 
-Real extent(const Points& points) {
-  return std::sqrt((points.colwise() - points.rowwise().mean()).colwise().squaredNorm().mean());
-}
-
 /// As right-handed columns, the longest first.
 Eigen::Matrix3d principal_axes(const Points& points) {
   const Points centered = points.colwise() - points.rowwise().mean();
@@ -94,7 +90,7 @@ SimilarityFit closest_similarity(const std::vector<const PairedBone*>& bones, co
                                  const Similarity& start) {
   constexpr int rounds = 60;
   constexpr Real least_gain = 1e-3;
-  const Real size = extent(joined(bones, &PairedBone::to_points));
+  const Real size = extent_of(joined(bones, &PairedBone::to_points));
   Similarity now = start;
   Real last = std::numeric_limits<Real>::infinity();
   for (int round = 0; round < rounds; ++round) {
@@ -111,7 +107,7 @@ Similarity turned(const std::vector<const PairedBone*>& bones, const Eigen::Matr
   const Points from = joined(bones, &PairedBone::from_points), to = joined(bones, &PairedBone::to_points);
   Similarity result;
   result.rotation = turn;
-  result.scale = extent(to) / extent(from);
+  result.scale = extent_of(to) / extent_of(from);
   result.shift = to.rowwise().mean() - result.linear() * from.rowwise().mean();
   return result;
 }

@@ -1,5 +1,6 @@
 #include <gracilis/transfer/wrap_muscles.hpp>
 
+#include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/opensim/export/muscle_points.hpp>
 #include <gracilis/opensim/kinematics/skeleton.hpp>
 #include <gracilis/opensim/reader/crossed_coordinates.hpp>
@@ -51,17 +52,21 @@ std::set<Index> attached_bodies(const Scene& scene, const Muscle& muscle) {
   return bodies;
 }
 
+/// The scene's bodies that the muscle of a name is attached to.
+std::set<Index> ends_of(const Scene& scene, const std::string& name) {
+  for (const Muscle& muscle : scene.muscles)
+    if (muscle.name == name) return attached_bodies(scene, muscle);
+  return {};
+}
+
 /// Those of the shared bodies that lie between the ends of the muscle, as the model and the scene have them.
 std::vector<SharedBody> bodies_of(const opensim::Model& model, const Scene& scene,
                                   const std::vector<SharedBody>& shared, const opensim::Muscle& own) {
+  const std::set<Index> attached = ends_of(scene, own.name);
   std::vector<Index> ends;
-  for (const opensim::PathPoint& point : own.path.points) ends.push_back(point.body);
-  for (const Muscle& muscle : scene.muscles)
-    if (muscle.name == own.name)
-      for (const Index body : attached_bodies(scene, muscle))
-        for (const SharedBody& each : shared)
-          if (each.of_scene == body) ends.push_back(each.of_model);
-  const std::vector<Index> between = opensim::bodies_between(model, ends);
+  for (const SharedBody& each : shared)
+    if (attached.count(each.of_scene) > 0) ends.push_back(each.of_model);
+  const std::vector<Index> between = opensim::bodies_between(model, own.path, ends);
   std::vector<SharedBody> bodies;
   for (const SharedBody& each : shared)
     if (std::binary_search(between.begin(), between.end(), each.of_model)) bodies.push_back(each);
@@ -69,6 +74,25 @@ std::vector<SharedBody> bodies_of(const opensim::Model& model, const Scene& scen
 }
 
 }  // namespace
+
+std::set<Index> bodies_to_share(const opensim::Model& model, const Scene& scene) {
+  std::set<Index> wanted;
+  for (const opensim::Muscle& own : model.muscles) {
+    const std::set<Index> attached = ends_of(scene, own.name);
+    if (attached.empty()) continue;
+    wanted.insert(attached.begin(), attached.end());
+    std::vector<Index> ends;
+    for (const Index body : attached)
+      if (const Index end = opensim::index_of(model.bodies, scene.bodies[static_cast<std::size_t>(body)]); end >= 0)
+        ends.push_back(end);
+    for (const Index between : opensim::bodies_between(model, own.path, ends))
+      if (const auto found =
+              std::find(scene.bodies.begin(), scene.bodies.end(), model.bodies[static_cast<std::size_t>(between)].name);
+          found != scene.bodies.end())
+        wanted.insert(static_cast<Index>(found - scene.bodies.begin()));
+  }
+  return wanted;
+}
 
 WrappedMuscles wrap_muscles(const opensim::Model& model, const Scene& scene, const std::vector<SharedBody>& shared,
                             const LengthSamples& samples) {
@@ -110,21 +134,11 @@ WrappedMuscles wrap_muscles(const opensim::Model& model, const Scene& scene, con
   return wrapped;
 }
 
-/// Whether the joint moves the body.
-static bool moves(const Scene& scene, const Joint& joint, Index body) {
-  while (body != joint.child_body) {
-    const auto above = std::find_if(scene.joints.begin(), scene.joints.end(),
-                                    [&](const Joint& each) { return each.child_body == body; });
-    if (above == scene.joints.end()) return false;
-    body = above->parent_body;
-  }
-  return true;
-}
-
+/// Whether the joint moves some, not all, of the bodies of a muscle.
 static bool is_crossed(const Scene& scene, const Joint& joint) {
   return std::any_of(scene.muscles.begin(), scene.muscles.end(), [&](const Muscle& muscle) {
     const std::set<Index> bodies = attached_bodies(scene, muscle);
-    const auto moved = std::count_if(bodies.begin(), bodies.end(), [&](Index b) { return moves(scene, joint, b); });
+    const auto moved = std::count_if(bodies.begin(), bodies.end(), [&](Index b) { return hangs_on(scene, b, joint); });
     return moved > 0 && moved < static_cast<std::ptrdiff_t>(bodies.size());
   });
 }

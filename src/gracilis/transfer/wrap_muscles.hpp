@@ -4,6 +4,7 @@
 #include <gracilis/opensim/export/run_lengths.hpp>
 #include <gracilis/transfer/body_frames.hpp>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,10 @@ struct WrappedMuscles {
 
 /// The share of the poses that points are not fitted to: the last ones.
 inline constexpr Real held_out_share = 0.2;
+
+/// The scene's bodies that path points of muscles of the same names may lie on: those of the ends of each, in the scene
+/// and in the model, and those between. Empty where no muscle of the scene has a name of the model's.
+std::set<Index> bodies_to_share(const opensim::Model& model, const Scene& scene);
 
 /// Fits path points on the shared bodies to the mean fibers in all but the held-out poses (points_of). Lengths and arms
 /// are those along the points as the model moves them. `samples`: of the scene in spread poses with mean fibers

@@ -13,7 +13,7 @@ static const Joint* joint_above(const Scene& scene, Index body) {
   return nullptr;
 }
 
-static bool hangs_on(const Scene& scene, Index body, const Joint& joint) {
+bool hangs_on(const Scene& scene, Index body, const Joint& joint) {
   for (const Joint* above = joint_above(scene, body); above; above = joint_above(scene, above->parent_body))
     if (above == &joint) return true;
   return false;

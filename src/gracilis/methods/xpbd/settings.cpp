@@ -20,8 +20,7 @@ std::span<const Setting<XpbdSettings>> setting_table() {
       {"gravity", &S::gravity, "m/s²", -1000, 1000, "Acceleration of free fall."},
       {"rayleigh_beta", &S::rayleigh_beta, "N·s/m", 0, 1e6,
        "Rayleigh dissipation of edges, contractions and (in N·m·s) dihedrals: resists what changes them within a step, "
-       "in "
-       "both time modes."},
+       "in both time modes."},
       {"stop_displacement", &S::stop_displacement, "m", 0, 1,
        "A substep ends early once no vertex moved further in an iteration; 0 never ends it early."},
       {"stop_milliseconds", &S::stop_milliseconds, "ms", 0, 1e6,

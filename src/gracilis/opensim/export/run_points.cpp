@@ -44,10 +44,7 @@ static KnownFibers known_fibers(const RecordedRun& run, const LengthSamples& sam
 
 /// The bodies that the muscle's points may be put on: of one that the model lacks any.
 static std::vector<Index> bodies_for(const Model& model, const Muscle* own) {
-  std::vector<Index> ends;
-  if (own)
-    for (const PathPoint& point : own->path.points) ends.push_back(point.body);
-  if (own) return bodies_between(model, ends);
+  if (own) return bodies_between(model, own->path);
   std::vector<Index> all(model.bodies.size());
   std::iota(all.begin(), all.end(), Index{0});
   return all;

@@ -39,11 +39,10 @@ static std::vector<KnownAxis> known_axes(const Model& model, const Scene& scene)
   return known;
 }
 
-/// Values of the model's coordinates in the scene's capture pose, where the scene has them; else their default ones.
-static Eigen::VectorXd captured(const Model& model, const Scene& scene, const std::vector<KnownAxis>& known) {
+Eigen::VectorXd captured_coordinates(const Model& model, const Scene& scene) {
   Eigen::VectorXd values = default_coordinates(model);
   const std::vector<Real> capture = capture_coordinates(scene);
-  for (const auto& [place, axis] : known)
+  for (const auto& [place, axis] : known_axes(model, scene))
     if (const Index index = index_of(model.coordinates, axis.coordinate); index >= 0) values[index] = capture[place];
   apply_couplers(model, values);
   return values;
@@ -77,7 +76,7 @@ LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const
                      box.coordinates.size(), most_sobol_dimensions),
          "run fewer muscles, or a motion that moves their joints"});
   const std::vector<KnownAxis> known = known_axes(model, scene);
-  const Eigen::VectorXd capture = captured(model, scene, known);
+  const Eigen::VectorXd capture = captured_coordinates(model, scene);
   const Eigen::MatrixXd poses = spread_poses(box, count);
   method.reset();
   const Frame rest = capture_frame(scene, capture_pose(scene.bodies.size()), method);
@@ -96,9 +95,10 @@ LengthSamples scene_lengths(const Scene& scene, DeformationMethod& method, const
         values[box.coordinates[i]] = poses(row - 1, static_cast<Eigen::Index>(i));
       apply_couplers(model, values);
       for (const auto& [place, axis] : known) axes[place] = value_of(axis, values);
-      method.advance(pose_at(scene, axes), usual_time_step);
     }
-    samples.scene_poses.push_back(pose_at(scene, axes).bodies);
+    const Pose pose = pose_at(scene, axes);
+    if (row > 0) method.advance(pose, usual_time_step);
+    samples.scene_poses.push_back(pose.bodies);
     samples.coordinates.row(row) = values;
     Frame frame = rest;
     method.write(frame);

@@ -9,6 +9,9 @@
 
 namespace gracilis::opensim {
 
+/// Values of the model's coordinates in the scene's capture pose, where the scene has them; else their default ones.
+Eigen::VectorXd captured_coordinates(const Model& model, const Scene& scene);
+
 /// Lengths and moment arms of a scene's muscles in poses spread over the box (spread_poses), each reached from the
 /// capture pose at once, by a method that holds fibers in an equilibrium (strings). The capture pose comes first.
 /// Coordinates outside of the box keep their capture values. A muscle with more than half of its fibers about to snap

@@ -40,10 +40,11 @@ std::vector<Index> crossed_coordinates(const Model& model, const Path& path) {
   return result;
 }
 
-std::vector<Index> bodies_between(const Model& model, const std::vector<Index>& ends) {
-  std::set<Index> bodies(ends.begin(), ends.end());
+std::vector<Index> bodies_between(const Model& model, const Path& path, const std::vector<Index>& more) {
+  std::set<Index> bodies(more.begin(), more.end());
+  for (const PathPoint& point : path.points) bodies.insert(point.body);
   std::vector<std::set<std::size_t>> chains;
-  for (const Index body : ends) chains.push_back(chain_of(model, body));
+  for (const Index body : bodies) chains.push_back(chain_of(model, body));
   for (const std::size_t joint : crossed_joints(model, chains))
     bodies.insert({model.joints[joint].parent_body, model.joints[joint].child_body});
   return {bodies.begin(), bodies.end()};

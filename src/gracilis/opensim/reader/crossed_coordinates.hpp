@@ -10,8 +10,8 @@ namespace gracilis::opensim {
 /// its length. Ascending; of paths by functions, the functions' own.
 std::vector<Index> crossed_coordinates(const Model& model, const Path& path);
 
-/// The bodies that a path may lie on whose points are on `ends`: these and those between them. Others may move with one
-/// of them in some motion, and not in the next.
-std::vector<Index> bodies_between(const Model& model, const std::vector<Index>& ends);
+/// The bodies that a muscle may lie on: those of a path's points, `more`, and those between them; ascending. Others may
+/// move with one of them in some motion, and not in the next.
+std::vector<Index> bodies_between(const Model& model, const Path& path, const std::vector<Index>& more = {});
 
 }  // namespace gracilis::opensim

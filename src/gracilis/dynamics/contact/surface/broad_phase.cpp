@@ -34,10 +34,8 @@ void search_pair(const ContactWorld& world, const std::vector<SearchedSurface>& 
     find_self(searched[a], self_rule(world, state, searched[a].particles, pair.first), pair.reach,
               candidates.near_second);
   } else {
-    find_near(searched[a], pair.shift, searched[b], pair.reach, {world.surfaces[b], world.rest[b], pair.first_ways},
-              candidates.near_second);
-    find_near(searched[b], -pair.shift, searched[a], pair.reach, {world.surfaces[a], world.rest[a], pair.second_ways},
-              candidates.near_first);
+    find_near(searched[a], pair.shift, searched[b], pair.reach, exit_of_first(world, pair), candidates.near_second);
+    find_near(searched[b], -pair.shift, searched[a], pair.reach, exit_of_second(world, pair), candidates.near_first);
   }
   candidates.drift = 0, candidates.steps = 0;
 }

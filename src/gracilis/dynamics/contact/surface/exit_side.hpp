@@ -39,4 +39,14 @@ struct ExitSide {
   }
 };
 
+/// Of a pair: where particles of the first come out of the second, and the other way.
+inline ExitSide exit_of_first(const ContactWorld& world, const SurfacePair& pair) {
+  const auto second = static_cast<std::size_t>(pair.second);
+  return {world.surfaces[second], world.rest[second], pair.first_ways};
+}
+inline ExitSide exit_of_second(const ContactWorld& world, const SurfacePair& pair) {
+  const auto first = static_cast<std::size_t>(pair.first);
+  return {world.surfaces[first], world.rest[first], pair.second_ways};
+}
+
 }  // namespace gracilis

@@ -36,24 +36,14 @@ void walk(std::vector<VertexFaceCandidate>& near, const ExitSide& exit, const Pa
   });
 }
 
-ExitSide exit_to_second(const ContactWorld& world, const SurfacePair& pair) {
-  const auto second = static_cast<std::size_t>(pair.second);
-  return {world.surfaces[second], world.rest[second], pair.first_ways};
-}
-
-ExitSide exit_to_first(const ContactWorld& world, const SurfacePair& pair) {
-  const auto first = static_cast<std::size_t>(pair.first);
-  return {world.surfaces[first], world.rest[first], pair.second_ways};
-}
-
 OverlapRelease release_of(const ContactWorld& world, const SurfacePair& pair, const ContactWorldState& state,
                           bool toward_second) {
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
   if (toward_second)
-    return {exit_to_second(world, pair), state.before[a], state.before[b], state.normals[b], pair.shift,
-            pair.first_overlaps,         pair.release};
-  return {exit_to_first(world, pair), state.before[b], state.before[a], state.normals[a], -pair.shift,
-          pair.second_overlaps,       pair.release};
+    return {exit_of_first(world, pair), state.before[a], state.before[b], state.normals[b], pair.shift,
+            pair.first_overlaps,        pair.release};
+  return {exit_of_second(world, pair), state.before[b], state.before[a], state.normals[a], -pair.shift,
+          pair.second_overlaps,        pair.release};
 }
 
 /// Lists those that could push before the next look. Within one surface a walk that ended among neighbors has found no
@@ -129,8 +119,8 @@ void walk_pair(const ContactWorld& world, const SurfacePair& pair, const std::ve
   candidates.drift += drift;
   candidates.is_new = false;
   const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
-  walk(candidates.near_second, exit_to_second(world, pair), *particles[a], *particles[b], pair.shift);
-  walk(candidates.near_first, exit_to_first(world, pair), *particles[b], *particles[a], -pair.shift);
+  walk(candidates.near_second, exit_of_first(world, pair), *particles[a], *particles[b], pair.shift);
+  walk(candidates.near_first, exit_of_second(world, pair), *particles[b], *particles[a], -pair.shift);
 }
 
 /// Lists what of a pair the next iterations have to project.
