@@ -197,7 +197,7 @@ TEST_F(ViewCommand, a_scene_follows_its_sliders_and_tells_what_constraints_moved
   const std::string log = drive("demo",
                                 "for i in $(seq 90); do grep -q 'pull the sliders' log && break; sleep 1; done; "
                                 "key b w p; "  // the muscles alone, as large as can be
-                                "at 720 68; xdotool click 1; sleep 10; key p; key space p; sleep 2; key p; "
+                                "at 720 68; xdotool click 1; sleep 10; key p space; sleep 2; key p; sleep 2; key p; "
                                 "key v p space; at 620 68; xdotool click 1; sleep 8; key space p v p");
   EXPECT_NE(log.find("pull the sliders"), std::string::npos);
   EXPECT_GT(difference(shot(1), shot(2)), 5000);
@@ -213,7 +213,7 @@ TEST_F(ViewCommand, a_bone_is_dragged_and_a_click_on_a_muscle_tells_its_numbers)
   // The femur's shaft is at 415, 440, gluteus maximus before and after at 360, 230. Paused, so that pictures differ by
   // the click alone and not by muscles that still come to rest.
   drive("demo",
-        "for i in $(seq 90); do grep -q 'pull the sliders' log && break; sleep 1; done; sleep 1; key space p; "
+        "for i in $(seq 90); do grep -q 'pull the sliders' log && break; sleep 1; done; key space; sleep 3; key p; "
         "at 360 230; xdotool click 1; sleep 1; key p; at 100 480; xdotool click 1; sleep 1; key p space; "
         "at 415 440; xdotool mousedown 1; at 430 440; at 470 430; sleep 0.5; xdotool mouseup 1; sleep 6; key p");
   EXPECT_GT(difference(shot(1), shot(2)), 100) << "the dot and the numbers";
