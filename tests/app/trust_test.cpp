@@ -215,6 +215,8 @@ TEST_F(Trust, rom_without_fibers_says_that_there_are_no_moment_arms) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("there are no moment arms"));
   EXPECT_THAT(bytes("out/measures.csv"), Not(HasSubstr("nan")));
+  EXPECT_THAT(run_program("rom " + scene() + " --out " + out() + "2 --coord flexion=0:2:1 --no-fibers").err,
+              HasSubstr("leave out '--no-fibers'"));
 }
 
 TEST_F(Trust, settings_at_their_limits_name_what_is_too_large) {

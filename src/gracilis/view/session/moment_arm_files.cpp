@@ -135,7 +135,10 @@ MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Sce
                                   const std::vector<ArmCurve>& references) {
   MomentArmReport report;
   if (!is_there(folder / "fiber_lengths.sto")) {
-    report.warnings.emplace_back("no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
+    const bool any = std::any_of(scene.muscles.begin(), scene.muscles.end(),
+                                 [](const Muscle& muscle) { return muscle.fibers.count > 0; });
+    report.warnings.emplace_back(any ? "fibers were left out, so there are no moment arms; leave out '--no-fibers'"
+                                     : "no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
     return report;
   }
   Table table = arms_of(folder, scene, moved);
