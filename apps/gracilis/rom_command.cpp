@@ -39,9 +39,11 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
   CLI::App* command = program.add_subcommand("rom", "Run through a joint's range of motion; writes moment arms, too");
   add_scene_options(*command, options->file, options->scene);
   command
-      ->add_option("--coord", options->coordinates,
-                   "NAME=FROM:TO:STEP in degrees, as in hip_flexion_r=-10:60:2, or in mm where the coordinate is a "
-                   "translation; NAME=VALUE fixes another coordinate. May be repeated")
+      ->add_option(
+          "--coord", options->coordinates,
+          "NAME=FROM:TO:STEP in degrees, as in hip_flexion_r=-10:60:2, or in mm where the coordinate is a "
+          "translation; NAME=VALUE fixes another coordinate. May be repeated; where several move, the scene goes "
+          "through all combinations, the first fastest")
       ->required()
       ->allow_extra_args(false);
   command->add_option(
@@ -58,11 +60,15 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
       if (!options->reference.empty()) references = read_arm_reference(options->reference, moving_name(ranges));
       LoadedScene loaded = read_scene(options->file, options->scene);
       if (options->session.out.empty()) options->session.out = range_folder(loaded.scene);
-      const MovedCoordinate moved = move_through(ranges, loaded);
+      const std::vector<MovedCoordinate> moved = move_through(ranges, loaded);
+      if (moved.size() > 1 && !references.empty())
+        throw ConfigurationError(
+            {"--reference", "", "is about one coordinate", "let one move and give the others one value"});
       options->session.fiber_actions = true;
       const int code = run_session(loaded, options->session);
       if (code != static_cast<int>(ExitCode::interrupted))
-        tell(write_moment_arms(options->session.out, loaded.scene, moved, references));
+        tell(moved.size() > 1 ? write_moment_arm_grids(options->session.out, loaded.scene, moved)
+                              : write_moment_arms(options->session.out, loaded.scene, moved.front(), references));
       return code;
     };
   });

@@ -137,7 +137,7 @@ py::object rom(const SceneHandle& scene, const std::string& coordinate, const st
   std::vector<ArmCurve> references;
   if (reference) references = read_arm_reference(*reference, coordinate);
   LoadedScene loaded = *scene.loaded;
-  const MovedCoordinate moved = move_through(ranges_of(coordinate, range, at), loaded);
+  const MovedCoordinate moved = move_through(ranges_of(coordinate, range, at), loaded).front();
   SessionOptions options;
   options.out = out.value_or(range_folder(loaded.scene));
   options.threads = threads;

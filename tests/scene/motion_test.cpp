@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 
 namespace gracilis {
@@ -59,6 +60,35 @@ TEST(Motion, more_frames_than_allowed_are_refused_before_any_is_made) {
   EXPECT_THROW(motion_through({"a"}, Eigen::Vector2d(-1e308, 1e308), 1, 1), ConfigurationError);
   EXPECT_THROW(motion_through({"a"}, Eigen::Vector3d(0, 6, 0), 1, 1, 10), ConfigurationError);
   EXPECT_EQ(motion_through({"a"}, Eigen::Vector3d(0, 5, 0), 1, 1, 10 + 1).times.size(), 11u);
+}
+
+TEST(Motion, over_a_grid_has_every_combination_once_and_neighbors_differ_by_one_step) {
+  const std::vector<Eigen::VectorXd> values = {Eigen::Vector3d(0, 1, 2), Eigen::VectorXd::Constant(1, 7),
+                                               Eigen::Vector2d(10, 20), Eigen::Vector2d(5, 6)};
+  const Motion motion = motion_over_grid({"a", "fixed", "b", "c"}, values, 0.5);
+  ASSERT_EQ(motion.values.rows(), 12);
+  EXPECT_EQ(motion.times[11], 5.5);
+  EXPECT_THAT(motion.values.col(0), ElementsAre(0, 1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0));
+  EXPECT_THAT(motion.values.col(2), ElementsAre(10, 10, 10, 20, 20, 20, 20, 20, 20, 10, 10, 10));
+  EXPECT_THAT(motion.values.col(3), ElementsAre(5, 5, 5, 5, 5, 5, 6, 6, 6, 6, 6, 6));
+  EXPECT_TRUE((motion.values.col(1).array() == 7).all());
+  EXPECT_EQ(motion_over_grid({"a"}, {Eigen::VectorXd::Constant(1, 3)}, 1).times.size(), 1u);
+}
+
+TEST(Motion, over_a_grid_of_too_many_frames_is_refused_before_it_is_made) {
+  const std::vector<Eigen::VectorXd> values(7, Eigen::VectorXd::Zero(1000));
+  EXPECT_THROW(motion_over_grid({"a", "b", "c", "d", "e", "f", "g"}, values, 1), ConfigurationError);
+  EXPECT_EQ(motion_over_grid({"a", "b"}, {values[0], values[0]}, 1).times.size(), 1'000'000u);
+  EXPECT_THROW(motion_over_grid({"a", "b"}, {values[0], values[0]}, 1, 999'999), ConfigurationError);
+}
+
+TEST(Motion, values_through_a_range_are_those_of_a_motion_through_it) {
+  for (const auto& [from, to, step] : {std::array{0.0, 1.0, 0.3}, {2.0, -1.0, 0.7}, {0.1, 0.2, 5.0}}) {
+    const Motion motion = motion_through({"a"}, Eigen::Vector2d(from, to), step, 1);
+    EXPECT_EQ(values_through(from, to, step), motion.values.col(0)) << from;
+  }
+  EXPECT_EQ(values_through(3, 3, 1).size(), 2);
+  EXPECT_THROW(values_through(0, 1e308, 1e-3), ConfigurationError);
 }
 
 }  // namespace gracilis

@@ -170,10 +170,10 @@ class ReportInBrowser : public testing::Test {
   std::optional<Browser> browser;
 };
 
-/// Of those that are shown within half a second; playing begins again at the end.
-static constexpr const char* farthest_frame =
-    "new Promise(done => { const seen = []; const look = () => { seen.push(page.state.frame); "
-    "seen.length < 25 ? setTimeout(look, 20) : done(Math.max(...seen)); }; look(); })";
+/// One after the first, when it is shown, however long a busy machine draws; 0 after 20 s.
+static constexpr const char* later_frame =
+    "new Promise(done => { let looks = 0; const look = () => { const frame = page.state.frame; "
+    "frame > 0 || ++looks > 1000 ? done(frame) : setTimeout(look, 20); }; look(); })";
 
 TEST_F(ReportInBrowser, plays_pauses_and_scrubs_view_and_plots_together) {
   open({FlexingLeg(21).written(folder.path() / "run")});
@@ -184,7 +184,7 @@ TEST_F(ReportInBrowser, plays_pauses_and_scrubs_view_and_plots_together) {
   click("#play");
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   EXPECT_EQ(js("page.state.playing"), true);
-  EXPECT_GT(js(farthest_frame).get<int>(), 0);
+  EXPECT_GT(js(later_frame).get<int>(), 0);
   click("#play");
   EXPECT_EQ(js("page.state.playing"), false);
   js("document.getElementById('slider').focus()");
@@ -203,7 +203,7 @@ TEST_F(ReportInBrowser, plays_on_from_an_image_that_was_begun_before_the_click) 
   picture();
   click("#play");
   EXPECT_EQ(js("page.state.playing"), true);
-  EXPECT_GT(js(farthest_frame).get<int>(), 0);
+  EXPECT_GT(js(later_frame).get<int>(), 0);
   expect_peace();
 }
 

@@ -43,6 +43,40 @@ Motion motion_through(const std::vector<std::string>& coordinates, const Eigen::
   return motion;
 }
 
+Eigen::VectorXd values_through(Real from, Real to, Real step, int max_count) {
+  const Real change = to - from;
+  const std::int64_t steps = steps_over(std::abs(change), step);
+  require_frames(steps > max_count ? steps : steps + 1, max_count);
+  Eigen::VectorXd values(static_cast<Index>(steps + 1));
+  for (std::int64_t i = 0; i < steps; ++i)
+    values[static_cast<Index>(i)] = from + change * (static_cast<Real>(i) / static_cast<Real>(steps));
+  values[static_cast<Index>(steps)] = to;
+  return values;
+}
+
+Motion motion_over_grid(const std::vector<std::string>& coordinates, const std::vector<Eigen::VectorXd>& values,
+                        Real time_step, int max_frames) {
+  std::int64_t rows = 1;
+  for (const Eigen::VectorXd& each : values) {
+    rows *= each.size();
+    require_frames(rows, max_frames);
+  }
+  Motion motion;
+  motion.coordinates = coordinates;
+  motion.values.resize(static_cast<Index>(rows), static_cast<Index>(values.size()));
+  for (Index row = 0; row < motion.values.rows(); ++row) {
+    motion.times.push_back(Real(row) * time_step);
+    Index way = row;  // how many values of this coordinate have been gone through
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      const auto count = static_cast<Index>(values[k].size());
+      const Index lap = way / count, forth = way % count;
+      motion.values(row, static_cast<Index>(k)) = values[k][lap % 2 == 0 ? forth : count - 1 - forth];
+      way = lap;
+    }
+  }
+  return motion;
+}
+
 void thin_out(Motion& motion, Real begin, Real end, Real time_step) {
   std::vector<Real> times;
   std::vector<Index> rows;

@@ -46,25 +46,23 @@ CoordinateRange parse_coordinate_range(const std::string& text) {
   return range;
 }
 
-MovedCoordinate move_through(const std::vector<CoordinateRange>& ranges, LoadedScene& loaded) {
+std::vector<MovedCoordinate> move_through(const std::vector<CoordinateRange>& ranges, LoadedScene& loaded) {
   std::vector<std::string> names;
-  Eigen::MatrixXd keys(2, static_cast<Index>(ranges.size()));
-  MovedCoordinate moved;
-  Real step = 0;
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const CoordinateRange& range = ranges[i];
+  std::vector<Eigen::VectorXd> values;
+  std::vector<MovedCoordinate> moved;
+  for (const CoordinateRange& range : ranges) {
     const bool translation = axis_called(loaded.scene, range.name).translation;
     const Real unit = translation ? 0.001 : radians(1);
     if (std::find(names.begin(), names.end(), range.name) != names.end())
       throw ConfigurationError({"--coord", "", "the coordinate '" + range.name + "' is given twice", ""});
-    if (range.moves() && step > 0)
-      throw ConfigurationError({"--coord", "", "two coordinates move", "let one move and give the others one value"});
-    if (range.moves()) moved = {range.name, translation}, step = range.step * unit;
+    if (range.moves()) moved.push_back({range.name, translation});
     names.push_back(range.name);
-    keys.col(static_cast<Index>(i)) << range.from * unit, range.to * unit;
+    values.push_back(range.moves()
+                         ? values_through(range.from * unit, range.to * unit, range.step * unit, loaded.max_frames)
+                         : Eigen::VectorXd::Constant(1, range.from * unit));
   }
-  if (!(step > 0)) throw ConfigurationError({"--coord", "", "no coordinate moves", "write one as NAME=FROM:TO:STEP"});
-  set_range(loaded.scene, motion_through(names, keys, step, 1.0 / 60, loaded.max_frames));
+  if (moved.empty()) throw ConfigurationError({"--coord", "", "no coordinate moves", "write one as NAME=FROM:TO:STEP"});
+  set_range(loaded.scene, motion_over_grid(names, values, 1.0 / 60, loaded.max_frames));
   return moved;
 }
 

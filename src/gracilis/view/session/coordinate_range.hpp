@@ -21,10 +21,11 @@ struct CoordinateRange {
 /// "NAME=FROM:TO:STEP" or "NAME=VALUE", as `--coord` has it. Throws ConfigurationError.
 CoordinateRange parse_coordinate_range(const std::string& text);
 
-/// Makes the scene's motion one through the range of the coordinate that moves, with others where they are said to be,
-/// or at their capture value. Throws ConfigurationError where there is no such coordinate, one is given twice, none or
-/// several move, or there are more frames than the scene allows.
-MovedCoordinate move_through(const std::vector<CoordinateRange>& ranges, LoadedScene& loaded);
+/// Makes the scene's motion one through the range of the coordinate that moves, or through all combinations where
+/// several do, the first fastest (motion_over_grid); with others where they are said to be, or at their capture value.
+/// Returns those that move. Throws ConfigurationError where there is no such coordinate, one is given twice, none
+/// moves, or there are more frames than the scene allows.
+std::vector<MovedCoordinate> move_through(const std::vector<CoordinateRange>& ranges, LoadedScene& loaded);
 
 /// Where a range's run folder is by default: runs/NAME_rom.
 std::filesystem::path range_folder(const Scene& scene);

@@ -1,11 +1,10 @@
 #include <gracilis/view/session/moment_arm_files.hpp>
 
-#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/io/tables/action_tables.hpp>
 #include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/io/tables/table.hpp>
+#include <gracilis/scene/names.hpp>
 #include <gracilis/simulate/moment_arms.hpp>
 #include <gracilis/view/charts/run_charts.hpp>
 
@@ -19,32 +18,6 @@ namespace gracilis {
 namespace {
 
 std::vector<Real> as_list(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
-
-/// The coordinate's values in a table, which has degrees and m, in rad or m.
-Eigen::VectorXd values_of(const Table& table, const MovedCoordinate& moved) {
-  return table.values.col(column_of(table, moved.name).value()) * (moved.translation ? 1 : radians(1));
-}
-
-/// Only along the range.
-Table rows_of_range(Table table, const Scene& scene) {
-  const auto rows = std::min(static_cast<Eigen::Index>(scene.motion.times.size()), table.values.rows());
-  table.values = table.values.bottomRows(rows).eval();
-  table.times.erase(table.times.begin(), table.times.end() - rows);
-  table.name = "moment_arms";
-  return table;
-}
-
-/// The moment arms that the run's method knows, or else those that its lengths say. Every coordinate has a column, then
-/// every muscle and fiber.
-Table arms_of(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved) {
-  if (const auto known = folder / moment_arm_file(moved.name); is_there(known))
-    return rows_of_range(read_table(known), scene);
-  Table table = rows_of_range(read_table(folder / "fiber_lengths.sto"), scene);
-  const auto coordinates = static_cast<Eigen::Index>(coordinate_names(scene).size());
-  const Eigen::Index lengths = table.values.cols() - coordinates;
-  table.values.rightCols(lengths) = moment_arms(values_of(table, moved), table.values.rightCols(lengths));
-  return table;
-}
 
 std::string by_force(const std::string& muscle) { return muscle + "_by_force"; }
 
@@ -75,16 +48,6 @@ void tell_by_force(const Table& table, const std::string& muscle, const Eigen::V
   report.lines.push_back(fmt::format("  by its forces {:.1f} to {:.1f} mm, {:.1f} mm RMS from that",
                                      1e3 * others.minCoeff(), 1e3 * others.maxCoeff(),
                                      1e3 * (others - arms).norm() / std::sqrt(static_cast<Real>(arms.size()))));
-}
-
-/// Says where fibers were left out of a muscle's mean, because they are about to snap to another way or not at rest.
-void tell_left_out(const Table& table, const std::string& muscle, MomentArmReport& report) {
-  const std::optional<Eigen::Index> column = column_of(table, muscle + "_left_out");
-  if (!column) return;
-  const Eigen::VectorXd counts = table.values.col(*column);
-  if (counts.isZero(0)) return;
-  report.lines.push_back(fmt::format("  at most {:.0f} fibers, in {} of {} poses, are near a snap and left out",
-                                     counts.maxCoeff(), (counts.array() > 0).count(), counts.size()));
 }
 
 std::vector<ArmCurve> references_of(const std::vector<ArmCurve>& all, const std::string& muscle,
@@ -129,19 +92,88 @@ std::string compared(const std::string& muscle, const std::vector<Real>& angles,
   return rows;
 }
 
+/// Whether the run has no fibers, with a warning that says why.
+bool has_no_fibers(const std::filesystem::path& folder, const Scene& scene, MomentArmReport& report) {
+  if (is_there(folder / "fiber_lengths.sto")) return false;
+  const bool any = std::any_of(scene.muscles.begin(), scene.muscles.end(),
+                               [](const Muscle& muscle) { return muscle.fibers.count > 0; });
+  report.warnings.emplace_back(any ? "fibers were left out, so there are no moment arms; leave out '--no-fibers'"
+                                   : "no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
+  return true;
+}
+
+/// One muscle's arms on each of at most seven of the lines, as many of those as lie evenly among all.
+LineChart grid_chart(const Table& table, const Scene& scene, const std::vector<MovedCoordinate>& all,
+                     const MovedCoordinate& moved, Eigen::Index column, const std::string& title) {
+  const std::vector<std::vector<Index>> lines = lines_along(table, scene, moved);
+  const std::size_t shown = std::min<std::size_t>(7, lines.size());
+  const ChartCoordinate coordinate = chart_coordinate(scene, moved.name);
+  LineChart chart{title, coordinate.label, moved.translation ? "shortening (mm per m)" : "moment arm (mm)", {}};
+  for (std::size_t i = 0; i < shown; ++i) {
+    const std::vector<Index>& line = lines[shown == 1 ? 0 : i * (lines.size() - 1) / (shown - 1)];
+    ChartSeries series;
+    for (const MovedCoordinate& other : all) {
+      if (other.name == moved.name) continue;
+      const ChartCoordinate label = chart_coordinate(scene, other.name);
+      const Real value = table.values(line.front(), column_of(table, other.name).value()) * label.factor;
+      series.name += fmt::format("{}{} {:.4g}", series.name.empty() ? "" : ", ", other.name, value);
+    }
+    for (const Index row : line) {
+      series.x.push_back(table.values(row, column_of(table, moved.name).value()) * coordinate.factor);
+      series.y.push_back(1e3 * table.values(row, column));
+    }
+    const Real late = shown == 1 ? 0 : static_cast<Real>(i) / static_cast<Real>(shown - 1);
+    series.color = (1 - late) * Color(0.1, 0.3, 0.7) + late * Color(0.85, 0.35, 0.1);
+    series.width = 2;
+    chart.series.push_back(series);
+  }
+  return chart;
+}
+
+/// The largest change per degree between neighbors along the lines, m.
+Real largest_step(const Table& table, const Scene& scene, const MovedCoordinate& moved, Eigen::Index column) {
+  const Eigen::VectorXd values = values_of(table, moved), arms = table.values.col(column);
+  Real largest = 0;
+  for (const std::vector<Index>& line : lines_along(table, scene, moved))
+    largest = std::max(largest, largest_step_per_degree(values(line), arms(line)));
+  return largest;
+}
+
 }  // namespace
+
+MomentArmReport write_moment_arm_grids(const std::filesystem::path& folder, const Scene& scene,
+                                       const std::vector<MovedCoordinate>& moved) {
+  MomentArmReport report;
+  if (has_no_fibers(folder, scene, report)) return report;
+  for (const MovedCoordinate& each : moved) {
+    const Table table = moment_arm_table(folder, scene, each);
+    const std::string stem = "moment_arms_about_" + file_name_of(each.name);
+    write_sto(folder / (stem + ".sto"), table);
+    for (const Muscle& muscle : scene.muscles) {
+      const std::optional<Eigen::Index> column = column_of(table, muscle.name);
+      if (!column) continue;
+      const Eigen::VectorXd arms = table.values.col(*column);
+      report.lines.push_back(
+          each.translation
+              ? fmt::format("{}: shortens by {:.1f} to {:.1f} mm per m of {}", muscle.name, 1e3 * arms.minCoeff(),
+                            1e3 * arms.maxCoeff(), each.name)
+              : fmt::format(
+                    "{}: moment arm about {} {:.1f} to {:.1f} mm in {} poses, largest step {:.3f} mm per degree",
+                    muscle.name, each.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), arms.size(),
+                    1e3 * largest_step(table, scene, each, *column)));
+      if (const std::string text = left_out_text(table, muscle.name); !text.empty()) report.lines.push_back(text);
+      write_chart(folder / "plots" / (stem + "_" + muscle.name + ".svg"),
+                  grid_chart(table, scene, moved, each, *column, muscle.name + ": about " + each.name));
+    }
+  }
+  return report;
+}
 
 MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
                                   const std::vector<ArmCurve>& references) {
   MomentArmReport report;
-  if (!is_there(folder / "fiber_lengths.sto")) {
-    const bool any = std::any_of(scene.muscles.begin(), scene.muscles.end(),
-                                 [](const Muscle& muscle) { return muscle.fibers.count > 0; });
-    report.warnings.emplace_back(any ? "fibers were left out, so there are no moment arms; leave out '--no-fibers'"
-                                     : "no muscle has fibers, so there are no moment arms; set 'fibers.count' above 0");
-    return report;
-  }
-  Table table = arms_of(folder, scene, moved);
+  if (has_no_fibers(folder, scene, report)) return report;
+  Table table = moment_arm_table(folder, scene, moved);
   add_arms_by_force(folder, scene, moved, table);
   write_sto(folder / "moment_arms.sto", table);
 
@@ -170,7 +202,7 @@ MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Sce
         chart.series.push_back(gray_series(curves[i], static_cast<int>(i)));
     }
     tell_by_force(table, muscle.name, arms, report);
-    tell_left_out(table, muscle.name, report);
+    if (const std::string text = left_out_text(table, muscle.name); !text.empty()) report.lines.push_back(text);
     write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"), chart);
   }
   write_chart(folder / "plots" / "moment_arms.svg",

@@ -2,18 +2,13 @@
 
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/simulate/arm_comparison.hpp>
+#include <gracilis/view/session/moment_arm_tables.hpp>
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace gracilis {
-
-/// The coordinate that a run through a range of motion moved.
-struct MovedCoordinate {
-  std::string name;
-  bool translation = false;
-};
 
 /// What a range of motion told.
 struct MomentArmReport {
@@ -28,5 +23,11 @@ struct MomentArmReport {
 /// InputError.
 MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
                                   const std::vector<ArmCurve>& references);
+
+/// Writes those of a run through all combinations of several coordinates' values: for each of these
+/// moment_arms_about_<coordinate>.sto and, per muscle, plots/moment_arms_about_<coordinate>_<muscle>.svg. Throws
+/// InputError.
+MomentArmReport write_moment_arm_grids(const std::filesystem::path& folder, const Scene& scene,
+                                       const std::vector<MovedCoordinate>& moved);
 
 }  // namespace gracilis
