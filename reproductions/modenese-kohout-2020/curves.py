@@ -112,7 +112,7 @@ def arms_of_sweep(folder, method, coordinate):
     for i, name in enumerate(names):
         fiber = re.fullmatch(r"(.+)_f\d+", name)
         muscle = fiber[1] if fiber else name
-        if muscle == "time" or muscle.endswith(("_by_force", "_left_out")):
+        if muscle == "time" or muscle.endswith(("_by_force", "_doubtful")):
             continue
         points = [(row[names.index(coordinate)], 1000 * row[i]) for row in table]
         curve = curves.setdefault(muscle, Curve(method, coordinate, muscle))

@@ -26,17 +26,17 @@ FrameRecord record_of(const Scene& scene, Real angle) {
   return record;
 }
 
-TEST(ActionTables, tell_the_arms_of_each_coordinate_and_how_many_fibers_are_left_out) {
+TEST(ActionTables, tell_the_arms_of_each_coordinate_and_how_many_fibers_are_doubtful) {
   const Scene scene = tube_scene();
   const std::vector<RunTable> tables = action_tables(scene, record_of(scene, radians(30)), 1);
   ASSERT_EQ(tables.size(), 2u);
   EXPECT_EQ(tables[0].name, "moment_arms_flexion.sto");
   const Table arms = read_back(tables[0]);
-  EXPECT_THAT(arms.columns, testing::ElementsAre("flexion", "tube", "tube_f000", "tube_f001", "tube_left_out"));
+  EXPECT_THAT(arms.columns, testing::ElementsAre("flexion", "tube", "tube_f000", "tube_f001", "tube_doubtful"));
   EXPECT_NEAR(value(arms, "flexion"), 30, 1e-9);
   EXPECT_EQ(value(arms, "tube"), 0.02);
   EXPECT_EQ(value(arms, "tube_f001"), 0.05);
-  EXPECT_EQ(value(arms, "tube_left_out"), 1);
+  EXPECT_EQ(value(arms, "tube_doubtful"), 1);
 }
 
 TEST(ActionTables, tell_moments_about_the_origins_of_bodies) {
@@ -53,8 +53,8 @@ TEST(ActionTables, tell_moments_about_the_origins_of_bodies) {
     EXPECT_EQ(value(lines, "tube_f000_origin_" + letter), axis == 2 ? -1 : 0);
     EXPECT_EQ(value(lines, "tube_f001_insertion_" + letter), axis == 2 ? 1 : 0);
   }
-  EXPECT_EQ(value(lines, "tube_f000_left_out"), 0);
-  EXPECT_EQ(value(lines, "tube_f001_left_out"), 1);
+  EXPECT_EQ(value(lines, "tube_f000_doubtful"), 0);
+  EXPECT_EQ(value(lines, "tube_f001_doubtful"), 1);
 }
 
 TEST(ActionTables, there_are_none_where_nothing_is_known) {

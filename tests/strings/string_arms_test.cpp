@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace gracilis::strings {
 namespace {
@@ -129,6 +130,8 @@ TEST(StringArms, of_a_tube_around_a_hinge_are_those_of_differences) {
     }
     ASSERT_GT(kept, 3 * arm.muscle.strings / 4);
     EXPECT_LT(std::abs(sum) / static_cast<Real>(kept), 1e-4) << angle;
+    const Real mean = std::accumulate(expected.begin(), expected.end(), Real{0}) / static_cast<Real>(expected.size());
+    EXPECT_NEAR(actions.mean_arms[0], mean, 3e-4) << angle << ", over all, doubtful ones too";
   }
   EXPECT_GT(near, 95 * counted / 100);
 }

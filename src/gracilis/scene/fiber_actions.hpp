@@ -10,11 +10,11 @@ namespace gracilis {
 /// without such fibers. World directions.
 struct FiberActions {
   Eigen::MatrixXd arms;        ///< fibers × coordinates: -dL/dq, m per rad (of a translation m per m)
-  std::vector<char> doubtful;  ///< per fiber: it is not at rest, or about to snap to another way; its arms mean nothing
-  Eigen::VectorXd mean_arms;   ///< per coordinate, over the fibers that are not doubtful; 0 where all are
+  std::vector<char> doubtful;  ///< per fiber: not at rest, or about to snap and so held where bodies carry it
+  Eigen::VectorXd mean_arms;   ///< per coordinate, over all fibers, doubtful ones too
   /// 6 × bodies: the force (1) and the moment about the world's origin (m) with which the muscle pulls at each body,
-  /// directly and through all that holds its fibers, at a tension of 1 that the fibers which are not doubtful share
-  /// equally. In the motion that a coordinate makes they work as much as its mean arm says.
+  /// directly and through all that holds its fibers, at a tension of 1 that all fibers share equally.
+  /// In the motion that a coordinate makes they work as much as its mean arm says.
   Eigen::MatrixXd wrenches;
   Points origin_directions, insertion_directions;  ///< per fiber, unit: how it pulls at its ends
 };

@@ -45,7 +45,7 @@ class LaneActions {
     }
   }
 
-  /// A string that is about to snap would drag its neighbors along: found out, it is left out, and all begins again.
+  /// A string that is about to snap would drag its neighbors along: found out, it is held, and all begins again.
   void find_arms(const std::vector<std::vector<Twist>>& coordinates, FiberActions& actions) {
     std::vector<char> left_out(actions.doubtful.size(), 0);
     for (bool found = true; found;) {
@@ -61,12 +61,10 @@ class LaneActions {
     }
   }
 
-  /// Force and moment on each of the bodies by the strings that are not doubtful, whose tensions sum to 1.
+  /// Force and moment on each of the bodies by the strings, whose tensions are equal and sum to 1.
   void find_wrenches(std::size_t bodies, FiberActions& actions) {
-    const auto counted = static_cast<float>(std::count(actions.doubtful.begin(), actions.doubtful.end(), 0));
     std::vector<float> tension(width_, 0);
-    for (std::size_t s = 0; s < actions.doubtful.size(); ++s)
-      if (!actions.doubtful[s]) tension[s] = 1 / counted;
+    std::fill_n(tension.begin(), muscle_.strings, 1 / static_cast<float>(muscle_.strings));
     Numbers weights = by_length_;
     for (std::size_t at = 0; 3 * at < weights.size(); at += hn::Lanes(D()))
       store_point(scaled(load(tension, at % width_), load_point(&weights[3 * at])), &weights[3 * at]);
@@ -181,14 +179,6 @@ HWY_EXPORT(find_actions);
 
 namespace strings {
 
-static Eigen::VectorXd mean_of_counted(const Eigen::MatrixXd& arms, const std::vector<char>& doubtful) {
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero(arms.cols());
-  Real counted = 0;
-  for (Index s = 0; s < arms.rows(); ++s)
-    if (!doubtful[static_cast<std::size_t>(s)]) sum += arms.row(s).transpose(), ++counted;
-  return counted > 0 ? Eigen::VectorXd(sum / counted) : sum;
-}
-
 FiberActions string_actions(const MuscleStrings& muscle, const BoneDistances& bones, const StringState& state,
                             const std::vector<std::vector<Twist>>& coordinates) {
   // Kept between calls, as in relax_lanes.
@@ -196,7 +186,8 @@ FiberActions string_actions(const MuscleStrings& muscle, const BoneDistances& bo
   static thread_local RateWorkspace rates;
   FiberActions actions;
   HWY_DYNAMIC_DISPATCH(find_actions)(muscle, bones, state, coordinates, workspace, rates, actions);
-  actions.mean_arms = mean_of_counted(actions.arms, actions.doubtful);
+  // Doubtful ones, too: fibers differ so much in their arms that a mean without some jumps by centimetres.
+  actions.mean_arms = actions.arms.colwise().mean();
   return actions;
 }
 

@@ -30,8 +30,8 @@ std::set<Index> bodies_to_share(const opensim::Model& model, const Scene& scene)
 WrappedMuscles wrap_muscles(const opensim::Model& model, const Scene& scene, const std::vector<SharedBody>& shared,
                             const opensim::LengthSamples& samples);
 
-/// The ranges of those coordinates of the model that the scene has an axis of and that a muscle of it crosses, as far as
-/// both allow. Dependent ones are left out.
+/// The ranges of those coordinates of the model that the scene has an axis of and that a muscle of it crosses, as far
+/// as both allow. Dependent ones are left out.
 opensim::CoordinateBox shared_ranges(const opensim::Model& model, const Scene& scene);
 
 }  // namespace gracilis

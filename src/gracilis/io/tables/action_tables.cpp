@@ -15,8 +15,8 @@ constexpr const char* lines_of_action_file = "lines_of_action.sto";
 void add_arms(const std::string& muscle, const FiberActions& actions, Index coordinate, RowColumns& columns) {
   columns.add(muscle, actions.mean_arms[coordinate]);
   for (Index f = 0; f < actions.arms.rows(); ++f) columns.add(fiber_name(muscle, f), actions.arms(f, coordinate));
-  const auto left_out = std::count(actions.doubtful.begin(), actions.doubtful.end(), 1);
-  columns.add(muscle + "_left_out", static_cast<Real>(left_out));
+  const auto doubtful = std::count(actions.doubtful.begin(), actions.doubtful.end(), 1);
+  columns.add(muscle + "_doubtful", static_cast<Real>(doubtful));
 }
 
 void add_lines(const Scene& scene, const Pose& pose, const std::string& muscle, const FiberActions& actions,
@@ -25,7 +25,7 @@ void add_lines(const Scene& scene, const Pose& pose, const std::string& muscle, 
     const std::string name = fiber_name(muscle, f);
     columns.add(name + "_origin", Vec3(actions.origin_directions.col(f)));
     columns.add(name + "_insertion", Vec3(actions.insertion_directions.col(f)));
-    columns.add(name + "_left_out", actions.doubtful[static_cast<std::size_t>(f)]);
+    columns.add(name + "_doubtful", actions.doubtful[static_cast<std::size_t>(f)]);
   }
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const auto wrench = actions.wrenches.col(static_cast<Index>(b));

@@ -12,11 +12,11 @@ namespace gracilis {
 /// says.
 ///
 /// `moment_arms_<coordinate>.sto`, one per coordinate: per muscle `<muscle>`, the mean, `<muscle>_f000` ... (m), and
-/// `<muscle>_left_out`, how many fibers the mean leaves out because they are about to snap to another way or not at
-/// rest.
+/// `<muscle>_doubtful`, how many of its fibers are about to snap to another way, and so counted as bodies carry them,
+/// or not quite at rest.
 ///
 /// lines_of_action.sto: per muscle `<muscle>_f000_origin_x`, `_y`, `_z`, the unit direction in which the fiber pulls at
-/// its origin, and `_insertion_x` ...; `<muscle>_f000_left_out`, 1 or 0; and per body that the muscle pulls at
+/// its origin, and `_insertion_x` ...; `<muscle>_f000_doubtful`, 1 or 0; and per body that the muscle pulls at
 /// `<muscle>_on_<body>_force_x` ... (1) and `_moment_x` ... (m) about the body's origin, the place of the ground's
 /// origin in the capture pose, which went with the body. All in the directions of the ground.
 std::vector<RunTable> action_tables(const Scene& scene, const FrameRecord& record, int rows);

@@ -161,7 +161,7 @@ MomentArmReport write_moment_arm_grids(const std::filesystem::path& folder, cons
                     "{}: moment arm about {} {:.1f} to {:.1f} mm in {} poses, largest step {:.3f} mm per degree",
                     muscle.name, each.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), arms.size(),
                     1e3 * largest_step(table, scene, each, *column)));
-      if (const std::string text = left_out_text(table, muscle.name); !text.empty()) report.lines.push_back(text);
+      if (const std::string text = doubtful_text(table, muscle.name); !text.empty()) report.lines.push_back(text);
       write_chart(folder / "plots" / (stem + "_" + muscle.name + ".svg"),
                   grid_chart(table, scene, moved, each, *column, muscle.name + ": about " + each.name));
     }
@@ -202,7 +202,7 @@ MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Sce
         chart.series.push_back(gray_series(curves[i], static_cast<int>(i)));
     }
     tell_by_force(table, muscle.name, arms, report);
-    if (const std::string text = left_out_text(table, muscle.name); !text.empty()) report.lines.push_back(text);
+    if (const std::string text = doubtful_text(table, muscle.name); !text.empty()) report.lines.push_back(text);
     write_chart(folder / "plots" / ("moment_arms_" + muscle.name + ".svg"), chart);
   }
   write_chart(folder / "plots" / "moment_arms.svg",

@@ -52,12 +52,12 @@ Table moment_arm_table(const std::filesystem::path& folder, const Scene& scene, 
   return table;
 }
 
-std::string left_out_text(const Table& table, const std::string& muscle) {
-  const std::optional<Eigen::Index> column = column_of(table, muscle + "_left_out");
+std::string doubtful_text(const Table& table, const std::string& muscle) {
+  const std::optional<Eigen::Index> column = column_of(table, muscle + "_doubtful");
   if (!column) return "";
   const Eigen::VectorXd counts = table.values.col(*column);
   if (counts.isZero(0)) return "";
-  return fmt::format("  at most {:.0f} fibers, in {} of {} poses, are near a snap and left out", counts.maxCoeff(),
+  return fmt::format("  at most {:.0f} fibers, in {} of {} poses, are near a snap or not at rest", counts.maxCoeff(),
                      (counts.array() > 0).count(), counts.size());
 }
 

@@ -29,8 +29,8 @@ std::vector<std::vector<Index>> lines_along(const Table& table, const Scene& sce
 /// lines (moment_arms). Every coordinate has a column, then every muscle and fiber. Throws InputError.
 Table moment_arm_table(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved);
 
-/// The most fibers of a muscle that were left out of its mean in a pose, being about to snap to another way or not at
-/// rest, and in how many poses any were: a line for people, or nothing.
-std::string left_out_text(const Table& table, const std::string& muscle);
+/// The most fibers of a muscle in a pose that are about to snap to another way or not at rest, and in how many poses
+/// any are: a line for people, or nothing.
+std::string doubtful_text(const Table& table, const std::string& muscle);
 
 }  // namespace gracilis
