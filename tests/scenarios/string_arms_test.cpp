@@ -7,6 +7,7 @@
 #include <gracilis/strings/string_arms.hpp>
 
 #include <algorithm>
+#include <numeric>
 
 /// Moment arms that strings know, on the real hip, beside differences of strings at rest.
 namespace gracilis {
@@ -68,6 +69,37 @@ TEST(StringArmsOfTheHip, are_those_of_differences) {
     EXPECT_GT(compared, 2 * strings / 3) << muscle.name;
     EXPECT_GT(near, 95 * compared / 100) << muscle.name;
   }
+}
+
+TEST(StringArmsOfTheLeg, have_a_mean_that_follows_mean_lengths_where_many_fibers_are_doubtful_too) {
+  const std::filesystem::path file = data_folder() / "leg/leg.toml";
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "there is no " << file;
+  SceneOptions options;
+  options.data = file.parent_path();
+  options.set = {"method=strings"};
+  options.only = {"gluteus_maximus_r"};
+  const Scene scene = read_scene(file, options).scene;
+  const std::vector<DistanceField> fields = cached_bone_fields(scene, strings::far_field_settings());
+  const strings::BoneDistances bones = strings::bone_distances(scene, fields);
+  const auto made = strings::muscle_strings(scene, scene.muscles[0], bones, {});
+  ASSERT_TRUE(made);
+  strings::StringState state = strings::capture_state(*made, scene.bodies.size());
+  constexpr Real step = radians(3);
+  std::vector<Real> lengths, arms;
+  std::ptrdiff_t doubtful = 0;
+  for (int i = 0; i <= 20; ++i) {
+    std::vector<Real> at = capture_coordinates(scene);
+    at[0] = step * i;
+    follow(*made, bones, pose_at(scene, at), state);
+    const std::vector<Real> fibers = lengths_of(*made, state.places);
+    lengths.push_back(std::accumulate(fibers.begin(), fibers.end(), Real{0}) / static_cast<Real>(fibers.size()));
+    const FiberActions actions = string_actions(*made, bones, state, joint_twists(scene, at));
+    arms.push_back(actions.mean_arms[0]);
+    doubtful = std::max(doubtful, std::count(actions.doubtful.begin(), actions.doubtful.end(), 1));
+  }
+  EXPECT_GT(doubtful, 5) << "else this shows nothing";
+  for (std::size_t i = 1; i + 1 < arms.size(); ++i)
+    EXPECT_NEAR(arms[i], (lengths[i - 1] - lengths[i + 1]) / (2 * step), 1.5e-3) << 3 * i << " degrees";
 }
 
 }  // namespace gracilis
