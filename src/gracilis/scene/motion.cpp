@@ -44,14 +44,7 @@ Motion motion_through(const std::vector<std::string>& coordinates, const Eigen::
 }
 
 Eigen::VectorXd values_through(Real from, Real to, Real step, int max_count) {
-  const Real change = to - from;
-  const std::int64_t steps = steps_over(std::abs(change), step);
-  require_frames(steps > max_count ? steps : steps + 1, max_count);
-  Eigen::VectorXd values(static_cast<Index>(steps + 1));
-  for (std::int64_t i = 0; i < steps; ++i)
-    values[static_cast<Index>(i)] = from + change * (static_cast<Real>(i) / static_cast<Real>(steps));
-  values[static_cast<Index>(steps)] = to;
-  return values;
+  return motion_through({}, Eigen::Vector2d(from, to), step, 0, max_count).values.col(0);
 }
 
 Motion motion_over_grid(const std::vector<std::string>& coordinates, const std::vector<Eigen::VectorXd>& values,

@@ -52,24 +52,22 @@ std::set<Index> attached_bodies(const Scene& scene, const Muscle& muscle) {
   return bodies;
 }
 
-/// The scene's bodies that the muscle of a name is attached to.
-std::set<Index> ends_of(const Scene& scene, const std::string& name) {
-  for (const Muscle& muscle : scene.muscles)
-    if (muscle.name == name) return attached_bodies(scene, muscle);
-  return {};
-}
-
-/// Those of the shared bodies that lie between the ends of the muscle, as the model and the scene have them.
-std::vector<SharedBody> bodies_of(const opensim::Model& model, const Scene& scene,
-                                  const std::vector<SharedBody>& shared, const opensim::Muscle& own) {
-  const std::set<Index> attached = ends_of(scene, own.name);
+/// The scene's bodies that path points of a model's muscle may lie on: those that the scene's muscle of this name is
+/// attached to and those that the model has between its own and these ends. None without such a muscle.
+std::set<Index> bodies_of(const opensim::Model& model, const Scene& scene, const opensim::Muscle& own) {
+  const auto muscle = std::find_if(scene.muscles.begin(), scene.muscles.end(),
+                                   [&](const Muscle& each) { return each.name == own.name; });
+  if (muscle == scene.muscles.end()) return {};
+  std::set<Index> bodies = attached_bodies(scene, *muscle);
   std::vector<Index> ends;
-  for (const SharedBody& each : shared)
-    if (attached.count(each.of_scene) > 0) ends.push_back(each.of_model);
-  const std::vector<Index> between = opensim::bodies_between(model, own.path, ends);
-  std::vector<SharedBody> bodies;
-  for (const SharedBody& each : shared)
-    if (std::binary_search(between.begin(), between.end(), each.of_model)) bodies.push_back(each);
+  for (const Index body : bodies)
+    if (const Index end = opensim::index_of(model.bodies, scene.bodies[static_cast<std::size_t>(body)]); end >= 0)
+      ends.push_back(end);
+  for (const Index between : opensim::bodies_between(model, own.path, ends)) {
+    const std::string& name = model.bodies[static_cast<std::size_t>(between)].name;
+    if (const auto found = std::find(scene.bodies.begin(), scene.bodies.end(), name); found != scene.bodies.end())
+      bodies.insert(static_cast<Index>(found - scene.bodies.begin()));
+  }
   return bodies;
 }
 
@@ -77,20 +75,7 @@ std::vector<SharedBody> bodies_of(const opensim::Model& model, const Scene& scen
 
 std::set<Index> bodies_to_share(const opensim::Model& model, const Scene& scene) {
   std::set<Index> wanted;
-  for (const opensim::Muscle& own : model.muscles) {
-    const std::set<Index> attached = ends_of(scene, own.name);
-    if (attached.empty()) continue;
-    wanted.insert(attached.begin(), attached.end());
-    std::vector<Index> ends;
-    for (const Index body : attached)
-      if (const Index end = opensim::index_of(model.bodies, scene.bodies[static_cast<std::size_t>(body)]); end >= 0)
-        ends.push_back(end);
-    for (const Index between : opensim::bodies_between(model, own.path, ends))
-      if (const auto found =
-              std::find(scene.bodies.begin(), scene.bodies.end(), model.bodies[static_cast<std::size_t>(between)].name);
-          found != scene.bodies.end())
-        wanted.insert(static_cast<Index>(found - scene.bodies.begin()));
-  }
+  for (const opensim::Muscle& own : model.muscles) wanted.merge(bodies_of(model, scene, own));
   return wanted;
 }
 
@@ -112,7 +97,10 @@ WrappedMuscles wrap_muscles(const opensim::Model& model, const Scene& scene, con
       leave_out("its path is a function");
       continue;
     }
-    const std::vector<SharedBody> bodies = bodies_of(model, scene, shared, own);
+    const std::set<Index> own_bodies = bodies_of(model, scene, own);
+    std::vector<SharedBody> bodies;
+    for (const SharedBody& body : shared)
+      if (own_bodies.count(body.of_scene) > 0) bodies.push_back(body);
     std::string why = "none of its bodies is the model's, too";
     const KnownFibers known = known_fibers(samples, each, bodies, 0, fitted);
     const KnownFibers held_out = known_fibers(samples, each, bodies, fitted, poses);

@@ -102,39 +102,59 @@ bool has_no_fibers(const std::filesystem::path& folder, const Scene& scene, Mome
   return true;
 }
 
+/// How a muscle acts in the coordinate's motion; `where` says in which poses.
+std::string arms_text(const std::string& muscle, const MovedCoordinate& moved, const Eigen::VectorXd& arms,
+                      Real largest_step, const std::string& where = "") {
+  const Real least = 1e3 * arms.minCoeff(), most = 1e3 * arms.maxCoeff();
+  if (moved.translation)
+    return fmt::format("{}: shortens by {:.1f} to {:.1f} mm per m of {}", muscle, least, most, moved.name);
+  return fmt::format("{}: moment arm about {} {:.1f} to {:.1f} mm{}, largest step {:.3f} mm per degree", muscle,
+                     moved.name, least, most, where, 1e3 * largest_step);
+}
+
+using Lines = std::vector<std::vector<Index>>;
+
+/// The values of the other coordinates that moved, in a row of a table.
+std::string others_text(const Table& table, const Scene& scene, const std::vector<MovedCoordinate>& all,
+                        const MovedCoordinate& moved, Index row) {
+  std::string text;
+  for (const MovedCoordinate& other : all) {
+    if (other.name == moved.name) continue;
+    const Real shown =
+        table.values(row, column_of(table, other.name).value()) * chart_coordinate(scene, other.name).factor;
+    text += fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", other.name, shown);
+  }
+  return text;
+}
+
 /// One muscle's arms on each of at most seven of the lines, as many of those as lie evenly among all.
 LineChart grid_chart(const Table& table, const Scene& scene, const std::vector<MovedCoordinate>& all,
-                     const MovedCoordinate& moved, Eigen::Index column, const std::string& title) {
-  const std::vector<std::vector<Index>> lines = lines_along(table, scene, moved);
+                     const MovedCoordinate& moved, const Lines& lines, Eigen::Index column, const std::string& title) {
   const std::size_t shown = std::min<std::size_t>(7, lines.size());
   const ChartCoordinate coordinate = chart_coordinate(scene, moved.name);
+  const Eigen::Index along = column_of(table, moved.name).value();
   LineChart chart{title, coordinate.label, moved.translation ? "shortening (mm per m)" : "moment arm (mm)", {}};
   for (std::size_t i = 0; i < shown; ++i) {
+    const Real late = shown == 1 ? 0 : static_cast<Real>(i) / static_cast<Real>(shown - 1);
     const std::vector<Index>& line = lines[shown == 1 ? 0 : i * (lines.size() - 1) / (shown - 1)];
-    ChartSeries series;
-    for (const MovedCoordinate& other : all) {
-      if (other.name == moved.name) continue;
-      const ChartCoordinate label = chart_coordinate(scene, other.name);
-      const Real value = table.values(line.front(), column_of(table, other.name).value()) * label.factor;
-      series.name += fmt::format("{}{} {:.4g}", series.name.empty() ? "" : ", ", other.name, value);
-    }
+    ChartSeries series{others_text(table, scene, all, moved, line.front()),
+                       {},
+                       {},
+                       (1 - late) * Color(0.1, 0.3, 0.7) + late * Color(0.85, 0.35, 0.1),
+                       2};
     for (const Index row : line) {
-      series.x.push_back(table.values(row, column_of(table, moved.name).value()) * coordinate.factor);
+      series.x.push_back(table.values(row, along) * coordinate.factor);
       series.y.push_back(1e3 * table.values(row, column));
     }
-    const Real late = shown == 1 ? 0 : static_cast<Real>(i) / static_cast<Real>(shown - 1);
-    series.color = (1 - late) * Color(0.1, 0.3, 0.7) + late * Color(0.85, 0.35, 0.1);
-    series.width = 2;
     chart.series.push_back(series);
   }
   return chart;
 }
 
 /// The largest change per degree between neighbors along the lines, m.
-Real largest_step(const Table& table, const Scene& scene, const MovedCoordinate& moved, Eigen::Index column) {
-  const Eigen::VectorXd values = values_of(table, moved), arms = table.values.col(column);
+Real largest_step(const Lines& lines, const Eigen::VectorXd& values, const Eigen::VectorXd& arms) {
   Real largest = 0;
-  for (const std::vector<Index>& line : lines_along(table, scene, moved))
+  for (const std::vector<Index>& line : lines)
     largest = std::max(largest, largest_step_per_degree(values(line), arms(line)));
   return largest;
 }
@@ -147,23 +167,19 @@ MomentArmReport write_moment_arm_grids(const std::filesystem::path& folder, cons
   if (has_no_fibers(folder, scene, report)) return report;
   for (const MovedCoordinate& each : moved) {
     const Table table = moment_arm_table(folder, scene, each);
+    const Lines lines = lines_along(table, scene, each);
+    const Eigen::VectorXd values = values_of(table, each);
     const std::string stem = "moment_arms_about_" + file_name_of(each.name);
     write_sto(folder / (stem + ".sto"), table);
     for (const Muscle& muscle : scene.muscles) {
       const std::optional<Eigen::Index> column = column_of(table, muscle.name);
       if (!column) continue;
       const Eigen::VectorXd arms = table.values.col(*column);
-      report.lines.push_back(
-          each.translation
-              ? fmt::format("{}: shortens by {:.1f} to {:.1f} mm per m of {}", muscle.name, 1e3 * arms.minCoeff(),
-                            1e3 * arms.maxCoeff(), each.name)
-              : fmt::format(
-                    "{}: moment arm about {} {:.1f} to {:.1f} mm in {} poses, largest step {:.3f} mm per degree",
-                    muscle.name, each.name, 1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), arms.size(),
-                    1e3 * largest_step(table, scene, each, *column)));
+      report.lines.push_back(arms_text(muscle.name, each, arms, largest_step(lines, values, arms),
+                                       fmt::format(" in {} poses", arms.size())));
       if (const std::string text = doubtful_text(table, muscle.name); !text.empty()) report.lines.push_back(text);
       write_chart(folder / "plots" / (stem + "_" + muscle.name + ".svg"),
-                  grid_chart(table, scene, moved, each, *column, muscle.name + ": about " + each.name));
+                  grid_chart(table, scene, moved, each, lines, *column, muscle.name + ": about " + each.name));
     }
   }
   return report;
@@ -189,13 +205,8 @@ MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Sce
     muscles.push_back(muscle.name);
     const Eigen::VectorXd arms = table.values.col(*found);
     LineChart chart = fiber_chart(table, coordinate, muscle.name, muscle.name + ": " + title, y_label);
-    if (moved.translation) {
-      report.lines.push_back(fmt::format("{}: shortens by {:.1f} to {:.1f} mm per m of {}", muscle.name,
-                                         1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), moved.name));
-    } else {
-      report.lines.push_back(fmt::format(
-          "{}: moment arm about {} {:.1f} to {:.1f} mm, largest step {:.3f} mm per degree", muscle.name, moved.name,
-          1e3 * arms.minCoeff(), 1e3 * arms.maxCoeff(), 1e3 * largest_step_per_degree(angles, arms)));
+    report.lines.push_back(arms_text(muscle.name, moved, arms, largest_step_per_degree(angles, arms)));
+    if (!moved.translation) {
       const std::vector<ArmCurve> curves = references_of(references, muscle.name, moved);
       comparisons += compared(muscle.name, as_list(angles), as_list(arms), curves, report);
       for (std::size_t i = 0; i < curves.size(); ++i)
