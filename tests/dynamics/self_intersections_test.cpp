@@ -1,5 +1,5 @@
 #include <contact_check/judge.hpp>
-#include <gracilis/dynamics/contact/self/self_intersections.hpp>
+#include <gracilis/dynamics/contact/self/unfolding.hpp>
 
 #include <shapes.hpp>
 
@@ -198,6 +198,36 @@ TEST(SelfIntersections, smoothing_takes_particles_to_their_neighbors_middle_and_
   EXPECT_EQ(Vector3f(sheet.particles.position(fixed)), stays);
 }
 
+TEST(SelfIntersections, restoring_the_shape_leaves_a_carried_thin_strand_as_it_is_where_smoothing_wears_it_down) {
+  // 20 mm long, 1 mm thick, with edges of its thickness.
+  TriangleMesh strand = shapes::sphere(Vec3::Zero(), 0.01, 3);
+  strand.vertices.topRows(2) *= 0.05;
+  Sheet sheet(strand);
+  sheet.carry(Eigen::AngleAxisf(0.7f, Vector3f(1, 2, 2) / 3).toRotationMatrix(), {0.1f, 0, 0});
+  const Particles carried = sheet.particles;
+  Pairs all;
+  for (Index face = 1; face < sheet.surface.faces.cols(); ++face) all.push_back({face - 1, face});
+  restore_shape(sheet.surface, sheet.rest, all, 4, anywhere, sheet.particles);
+  EXPECT_LT(largest_motion(carried, sheet.particles), 1e-6f);
+  smooth(sheet.surface, all, 4, anywhere, sheet.particles);
+  EXPECT_GT(largest_motion(carried, sheet.particles), 1e-4f);
+}
+
+TEST(SelfIntersections, restoring_the_shape_undoes_a_spike_and_leaves_fixed_particles_where_they_are) {
+  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  sheet.particles.position(7) *= -1.1f;
+  Index fixed = -1;
+  const Pairs cuts = sheet.cuts();
+  ASSERT_FALSE(cuts.empty());
+  for (const Index corner : sheet.surface.faces.col(cuts.front()[0]))
+    if (corner != 7) fixed = corner;
+  sheet.particles.at(fixed)[3] = 0;
+  for (int attempt = 0; attempt < 20 && !sheet.cuts().empty(); ++attempt)
+    restore_shape(sheet.surface, sheet.rest, sheet.cuts(), 4, anywhere, sheet.particles);
+  EXPECT_EQ(sheet.cuts(), Pairs());
+  EXPECT_EQ(Vector3f(sheet.particles.position(fixed)), Vector3f(sheet.rest.col(fixed)));
+}
+
 TEST(SelfIntersections, what_cut_before_the_step_is_left_alone) {
   Sheet sheet(pierced(-0.1));
   sheet.particles.position(3).z() = -0.1f;
@@ -237,6 +267,7 @@ TEST(SelfIntersections, with_nothing_to_untangle_nothing_moves) {
   const Particles before = sheet.particles;
   unfold(sheet.surface, sheet.rest, {}, anywhere, sheet.particles);
   smooth(sheet.surface, {}, 4, anywhere, sheet.particles);
+  restore_shape(sheet.surface, sheet.rest, {}, 4, anywhere, sheet.particles);
   EXPECT_EQ(largest_motion(before, sheet.particles), 0);
 }
 

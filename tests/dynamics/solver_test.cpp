@@ -147,7 +147,7 @@ TEST(Solver, limits_the_stretch_of_what_untangling_moved_though_no_edge_came_nea
   coupling.refresh = [](const Movers&) {};
   coupling.project = [](const Movers&) { return Index{0}; };
   bool is_untangled = false;
-  coupling.untangle = [&](Movers&) {
+  coupling.untangle = [&](int, Movers&) {
     if (std::exchange(is_untangled, true)) return false;
     state.particles.position(7) *= 1.5f;
     EXPECT_GT(longest(state.particles), 2);
@@ -169,7 +169,8 @@ TEST(Solver, all_settle_with_what_was_untangled_and_what_is_untangled_again_sett
   Coupling coupling;
   coupling.refresh = [](const Movers&) {};
   coupling.project = [](const Movers&) { return Index{0}; };
-  coupling.untangle = [&](Movers& movers) {
+  coupling.untangle = [&](int attempt, Movers& movers) {
+    EXPECT_EQ(attempt, untangled);
     movers.listed = {0, 1};
     ++untangled;
     return true;

@@ -27,11 +27,11 @@ Meeting folded_ball(bool lies_in_another) {
   return meeting;
 }
 
-bool untangle_once(Meeting& meeting) {
+bool untangle_once(Meeting& meeting, int attempt = 0) {
   meeting.find();
   meeting.follow();
   Movers movers;
-  return untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), movers);
+  return untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), attempt, movers);
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ TEST(SurfaceContact, untangling_leaves_only_what_was_untangled_among_the_movers)
   meeting.follow();
   Movers movers{{1, 0, 1}};
   const Particles left_alone = meeting.particles[1];
-  EXPECT_TRUE(untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), movers));
+  EXPECT_TRUE(untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), 0, movers));
   EXPECT_EQ(movers.listed, std::vector<char>({1, 0, 0}));
   EXPECT_EQ(largest_motion(left_alone, meeting.particles[1]), 0);
 }

@@ -16,7 +16,9 @@ constexpr int untangling_attempts = 2;
 bool settles(const SurfaceSolve& surface) { return surface.settings.settling_rounds > 0; }
 
 /// Whether anything was untangled and has to settle again.
-bool untangle(JointSolve& solve) { return solve.coupling.untangle && solve.coupling.untangle(solve.movers); }
+bool untangle(JointSolve& solve, int attempt) {
+  return solve.coupling.untangle && solve.coupling.untangle(attempt, solve.movers);
+}
 
 }  // namespace
 
@@ -25,7 +27,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   iterate(solve);
   if (std::none_of(surfaces.begin(), surfaces.end(), settles)) return;
   settle(solve);
-  for (int attempt = 0; attempt < untangling_attempts && untangle(solve); ++attempt) {
+  for (int attempt = 0; attempt < untangling_attempts && untangle(solve, attempt); ++attempt) {
     if (attempt == 0) solve.movers = {};  // at first all give way to what was untangled
     settle(solve);
   }

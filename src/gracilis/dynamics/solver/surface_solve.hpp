@@ -48,9 +48,9 @@ struct SurfaceSolve {
 struct Coupling {
   std::function<void(const Movers&)> refresh;   ///< looks again at what is near what
   std::function<Index(const Movers&)> project;  ///< returns how many contacts pushed
-  /// Untangles those of the movers that settled but cannot stay, and leaves none else among them; whether there was
-  /// any.
-  std::function<bool(Movers&)> untangle = {};
+  /// Untangles those of the movers that settled but cannot stay, in the given attempt of a step (from 0), and leaves
+  /// none else among them; whether there was any.
+  std::function<bool(int attempt, Movers&)> untangle = {};
 };
 
 /// Called after each projection of a kind on a surface.

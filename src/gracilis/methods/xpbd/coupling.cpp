@@ -20,7 +20,9 @@ Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const ContactW
           [&world, &state, start, particles](const Movers& movers) {
             return project_candidates(world, state, start, particles, movers);
           },
-          [&world, &state, particles](Movers& movers) { return untangle_surfaces(world, state, particles, movers); }};
+          [&world, &state, particles](int attempt, Movers& movers) {
+            return untangle_surfaces(world, state, particles, attempt, movers);
+          }};
 }
 
 Coupling couple_by_edges(const std::vector<MuscleStep>& steps, const VirtualEdgeWorld& world, VirtualEdgeState& state) {

@@ -27,15 +27,4 @@ std::vector<FacePair> find_self_intersections(const ContactSurface& surface, con
 std::vector<FacePair> find_folds(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Particles& before,
                                  const Particles& particles);
 
-/// Gives what cuts itself the shape that it had at rest: wherever cuts hang together, their corners and half of the
-/// way those next to them, as the affine map nearest to how they and three rings around them lie now carries them. No
-/// particle goes further than `most` (m).
-void unfold(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts, float most,
-            Particles& particles);
-
-/// Moves the corners of what cuts itself, and those next to them, half of the way to the middle of their neighbors, so
-/// many times over, each time no further than `most` (m).
-void smooth(const ContactSurface& surface, const std::vector<FacePair>& cuts, int rounds, float most,
-            Particles& particles);
-
 }  // namespace gracilis

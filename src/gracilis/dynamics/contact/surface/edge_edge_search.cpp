@@ -1,6 +1,7 @@
 #include <gracilis/dynamics/contact/surface/edge_edge_search.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/dynamics/contact/mesh/edge_crossings.hpp>
 #include <gracilis/dynamics/contact/surface/overlap_release.hpp>
 
@@ -144,8 +145,7 @@ void find_edges(const ContactWorld& world, const SurfacePair& pair, const std::v
       }
       keep_crossing(edge, edges_listed_within, second, *particles[b], near_edges);
       if (near_edges.empty()) continue;
-      std::sort(near_edges.begin(), near_edges.end());
-      near_edges.erase(std::unique(near_edges.begin(), near_edges.end()), near_edges.end());
+      sort_unique(near_edges);
       const Eigen::Vector3f own_normal = edge_normal(first, e, *particles[a]);
       for (const Index across : near_edges) {
         const auto& other = second.edges[static_cast<std::size_t>(across)].ends;

@@ -1,7 +1,7 @@
 #include <gracilis/dynamics/contact/surface/untangling.hpp>
 
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/dynamics/contact/self/self_intersections.hpp>
+#include <gracilis/dynamics/contact/self/unfolding.hpp>
 
 #include <algorithm>
 #include <span>
@@ -13,10 +13,10 @@ namespace {
 /// How far a particle goes at once to be untangled, in neighborhoods (of some edges each).
 constexpr float untangled_within = 0.5f;
 /// Where no more pairs of faces than these cut each other, as when a needle turns over, they go back to the shape that
-/// they had at rest; a tangle of more is smoothed, so many times over. Fewer leave more of it, more take the surface so
+/// they had at rest; a tangle of more is relaxed, so many times over. Fewer leave more of it, more take the surface so
 /// far from its shape that it folds again in the next steps.
 constexpr std::size_t few = 3;
-constexpr int smoothing_rounds = 4;
+constexpr int relaxing_rounds = 4;
 
 /// The faces that may cut each other: where the surface is folded, and where parts of it meet.
 std::vector<Index> suspects(const ContactSurface& surface, const PairCandidates& candidates,
@@ -63,7 +63,7 @@ std::vector<FacePair> let_go_of_overlaps(const ContactWorld& world, std::size_t 
 }  // namespace
 
 bool untangle_surfaces(const ContactWorld& world, ContactWorldState& state, const std::vector<Particles*>& particles,
-                       Movers& movers) {
+                       int attempt, Movers& movers) {
   std::vector<char> untangled(world.surfaces.size(), 0);
   parallel_for_each(world.pairs.size(), [&](std::size_t i) {
     const auto at = static_cast<std::size_t>(world.pairs[i].first);
@@ -78,8 +78,10 @@ bool untangle_surfaces(const ContactWorld& world, ContactWorldState& state, cons
     const float most = untangled_within * world.neighborhood[at];
     if (cuts.size() <= few)
       unfold(surface, world.rest[at], cuts, most, *particles[at]);
+    else if (attempt == 0)
+      smooth(surface, cuts, relaxing_rounds, most, *particles[at]);
     else
-      smooth(surface, cuts, smoothing_rounds, most, *particles[at]);
+      restore_shape(surface, world.rest[at], cuts, relaxing_rounds, most, *particles[at]);
     untangled[at] = !cuts.empty();
   });
   movers.listed = std::move(untangled);
