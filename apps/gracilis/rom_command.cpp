@@ -51,6 +51,11 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
       "Published moment arms to compare with and to draw: a .csv with the columns muscle, angle_deg and "
       "moment_arm_mm, and perhaps coordinate, source, min and max; or a moment_arms.sto of another 'rom'");
   add_session_options(*command, options->session);
+  CLI::Option* tables_only = command->add_flag(
+      "--tables-only", options->session.tables_only,
+      "Write fiber lengths, moment arms and their plots, but no run: no surfaces, measures or lines of action");
+  for (const char* of_runs : {"--resume", "--every", "--no-ramp", "--no-fibers", "--metrics", "--layout", "--strict"})
+    tables_only->excludes(command->get_option(of_runs));
   options->session.command = words;
   command->callback([&chosen, options] {
     chosen = [options] {

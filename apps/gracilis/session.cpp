@@ -4,7 +4,7 @@
 #include "exit_handling.hpp"
 #include "size_question.hpp"
 
-#include <gracilis/view/session/session.hpp>
+#include <gracilis/view/session/table_session.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -49,8 +49,11 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
 int run_session(const LoadedScene& loaded, const SessionOptions& options) {
   if (options.verbose) spdlog::set_level(spdlog::level::debug);
   const SessionOptions chosen = as_begun(loaded, options);
-  RunPlan plan = plan_run(loaded, chosen);
-  confirm_size(plan, chosen);
+  std::optional<RunPlan> plan;
+  if (!chosen.tables_only) {
+    plan = plan_run(loaded, chosen);
+    confirm_size(*plan, chosen);
+  }
   std::optional<Progress> progress;
   SessionListener listener;
   listener.version = GRACILIS_VERSION;
@@ -67,7 +70,8 @@ int run_session(const LoadedScene& loaded, const SessionOptions& options) {
     progress->show(done);
     if (done == last) progress->clear();
   };
-  const SessionResult result = record_session(loaded, chosen, std::move(plan), listener);
+  const SessionResult result =
+      plan ? record_session(loaded, chosen, *std::move(plan), listener) : record_tables(loaded, chosen, listener);
   if (options.print_folder && result.code != ExitCode::interrupted) fmt::print("{}\n", result.folder.string());
   return static_cast<int>(result.code);
 }

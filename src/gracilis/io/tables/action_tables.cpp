@@ -33,6 +33,10 @@ void add_lines(const Scene& scene, const Pose& pose, const std::string& muscle, 
   }
 }
 
+bool any_arms(const std::vector<FiberActions>& actions) {
+  return std::any_of(actions.begin(), actions.end(), [](const FiberActions& a) { return a.arms.rows() > 0; });
+}
+
 }  // namespace
 
 std::string moment_arm_file(const std::string& coordinate) {
@@ -45,18 +49,25 @@ std::vector<std::string> table_names(const Scene& scene) {
   return names;
 }
 
-std::vector<RunTable> action_tables(const Scene& scene, const FrameRecord& record, int rows) {
+std::vector<RunTable> moment_arm_tables(const Scene& scene, const FrameRecord& record, int rows) {
   const std::vector<FiberActions>& actions = record.actions;
-  if (std::all_of(actions.begin(), actions.end(), [](const FiberActions& a) { return a.arms.rows() == 0; })) return {};
-  const Pose& pose = record.frame.pose;
   std::vector<RunTable> tables;
+  if (!any_arms(actions)) return tables;
   const std::vector<std::string> coordinates = coordinate_names(scene);
   for (std::size_t c = 0; c < coordinates.size(); ++c) {
-    RowColumns columns = begin_row(scene, pose);
+    RowColumns columns = begin_row(scene, record.frame.pose);
     for (std::size_t m = 0; m < actions.size(); ++m)
       if (actions[m].arms.rows() > 0) add_arms(scene.muscles[m].name, actions[m], static_cast<Index>(c), columns);
     tables.push_back(run_table(moment_arm_file(coordinates[c]), rows, columns));
   }
+  return tables;
+}
+
+std::vector<RunTable> action_tables(const Scene& scene, const FrameRecord& record, int rows) {
+  const std::vector<FiberActions>& actions = record.actions;
+  std::vector<RunTable> tables = moment_arm_tables(scene, record, rows);
+  if (tables.empty()) return tables;
+  const Pose& pose = record.frame.pose;
   RowColumns columns = begin_row(scene, pose);
   for (std::size_t m = 0; m < actions.size(); ++m)
     if (actions[m].arms.rows() > 0) add_lines(scene, pose, scene.muscles[m].name, actions[m], columns);

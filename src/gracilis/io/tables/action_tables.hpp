@@ -21,6 +21,9 @@ namespace gracilis {
 /// origin in the capture pose, which went with the body. All in the directions of the ground.
 std::vector<RunTable> action_tables(const Scene& scene, const FrameRecord& record, int rows);
 
+/// Of these the moment arms alone.
+std::vector<RunTable> moment_arm_tables(const Scene& scene, const FrameRecord& record, int rows);
+
 /// The names of all .sto tables that a run of the scene may have.
 std::vector<std::string> table_names(const Scene& scene);
 

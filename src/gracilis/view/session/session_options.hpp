@@ -25,6 +25,7 @@ struct SessionOptions {
   MeasureLevel measures = MeasureLevel::full;
   std::optional<RunLayout> layout;   ///< none: compact where surfaces took more than asking_bytes (run_plan.hpp)
   bool fiber_actions = false;        ///< also write moment arms and lines of action, where the method knows them
+  bool tables_only = false;          ///< record_tables (table_session.hpp) instead of a run
   bool pictures = true;              ///< charts and a preview at the end
   bool print_folder = true;          ///< its path to stdout, once the run is complete
   std::vector<std::string> command;  ///< the command line, for the manifest
