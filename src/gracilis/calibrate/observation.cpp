@@ -1,6 +1,7 @@
 #include <gracilis/calibrate/observation.hpp>
 
 #include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
@@ -42,8 +43,7 @@ std::vector<TargetSweep> sweeps_of(const std::vector<CalibrationTarget>& targets
     }
   }
   for (TargetSweep& sweep : sweeps) {
-    std::sort(sweep.at.begin(), sweep.at.end());
-    sweep.at.erase(std::unique(sweep.at.begin(), sweep.at.end()), sweep.at.end());
+    sort_unique(sweep.at);
   }
   return sweeps;
 }

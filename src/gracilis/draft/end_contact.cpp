@@ -1,6 +1,7 @@
 #include <gracilis/draft/end_contact.hpp>
 
 #include <gracilis/anatomy/attachments/attachments.hpp>
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/measures.hpp>
 
 #include <algorithm>
@@ -82,8 +83,7 @@ HeldVertices MuscleEnds::touching(const BoneParts& bones, const std::vector<Zone
     HeldVertices held{without_crumbs(within(distances, reach)), {}, reach};
     if (!is_enough(held.vertices)) continue;
     for (const Index v : held.vertices) held.bones.push_back(nearest[static_cast<std::size_t>(v)]);
-    std::sort(held.bones.begin(), held.bones.end());
-    held.bones.erase(std::unique(held.bones.begin(), held.bones.end()), held.bones.end());
+    sort_unique(held.bones);
     return held;
   }
   return {};

@@ -1,5 +1,6 @@
 #include <gracilis/geometry/decimation.hpp>
 
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 #include <algorithm>
@@ -122,8 +123,7 @@ class Decimation {
     for (const Index f : around_[at(v)])
       for (int k = 0; k < 3; ++k)
         if (faces_(k, f) != v) ring.push_back(faces_(k, f));
-    std::sort(ring.begin(), ring.end());
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+    sort_unique(ring);
     return ring;
   }
 

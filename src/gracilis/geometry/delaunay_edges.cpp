@@ -1,6 +1,7 @@
 #include <gracilis/geometry/delaunay_edges.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/sort_unique.hpp>
 
 #include <libqhull_r/qhull_ra.h>
 
@@ -71,8 +72,7 @@ std::vector<std::array<Index, 2>> delaunay_edges(const Points& points) {
       for (std::size_t j = i + 1; j < corners.size(); ++j)
         if (const auto [a, b] = std::minmax(corners[i], corners[j]); a >= 0 && b < count) edges.push_back({a, b});
   });
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  sort_unique(edges);
   if (edges.empty()) refuse("they lie in a plane, or nearly");
   return edges;
 }

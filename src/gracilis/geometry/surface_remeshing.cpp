@@ -1,5 +1,7 @@
 #include <gracilis/geometry/surface_remeshing.hpp>
 
+#include <gracilis/core/sort_unique.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -141,8 +143,7 @@ bool EditableMesh::can_collapse(Index a, Index b, Real longest) const {
   for (Index f : stars_[a])
     for (Index v : faces_[f])
       if (v != a && v != b) around.push_back(v);
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
+  sort_unique(around);
   if (std::count_if(around.begin(), around.end(), [&](Index v) { return adjacent(b, v); }) != 2) return false;
   const Dihedral at = dihedral(a, b);
   if (stars_[at.opposite[0]].size() < 4 || stars_[at.opposite[1]].size() < 4) return false;

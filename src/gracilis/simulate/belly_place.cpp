@@ -1,6 +1,7 @@
 #include <gracilis/simulate/belly_place.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
 #include <gracilis/geometry/topology.hpp>
@@ -65,8 +66,7 @@ BellyPlace::BellyPlace(const Scene& scene, const std::vector<SignedDistance>& bo
       grounds_[m].insert(grounds_[m].end(), contact.bones.begin(), contact.bones.end());
       for (const std::size_t other : contact.muscles) asked_[other] = 1;
     }
-    std::sort(grounds_[m].begin(), grounds_[m].end());
-    grounds_[m].erase(std::unique(grounds_[m].begin(), grounds_[m].end()), grounds_[m].end());
+    sort_unique(grounds_[m]);
   }
   // As it will be asked for, so that nothing has come off in the capture pose.
   parallel_for_each(contacts_.size(), [&](std::size_t m) {

@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/attachments/attachments.hpp>
 
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/outline_curves.hpp>
 #include <gracilis/geometry/surface_region.hpp>
@@ -124,8 +125,7 @@ std::vector<Index> select_vertices(const TriangleMesh& muscle, std::span<const N
   std::vector<Index> vertices;
   if (const ListedVertices* listed = std::get_if<ListedVertices>(&rule)) {
     vertices = listed->vertices;
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    sort_unique(vertices);
     return vertices;
   }
   for (Index i = 0; i < muscle.vertex_count(); ++i) {

@@ -2,9 +2,9 @@
 
 #include <gracilis/anatomy/attachments/skinning_weights.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/rigid_blend.hpp>
 
-#include <algorithm>
 #include <numeric>
 
 namespace gracilis {
@@ -17,8 +17,7 @@ BodyCarriers body_carriers(const Muscle& muscle, const MeshTopology& topology, R
     for (const Index v : attachment.vertices) carriers.fixed_body[static_cast<std::size_t>(v)] = attachment.body;
     carriers.bodies.push_back(attachment.body);
   }
-  std::sort(carriers.bodies.begin(), carriers.bodies.end());
-  carriers.bodies.erase(std::unique(carriers.bodies.begin(), carriers.bodies.end()), carriers.bodies.end());
+  sort_unique(carriers.bodies);
   if (!carriers.bodies.empty())
     carriers.weights = skinning_weights(muscle.surface, topology, carriers.fixed_body, carriers.bodies, tendon_length);
   return carriers;

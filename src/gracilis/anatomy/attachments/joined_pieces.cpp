@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/attachments/joined_pieces.hpp>
 
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
@@ -78,8 +79,7 @@ MeshTopology joined_pieces(const TriangleMesh& surface, const MeshTopology& topo
     for (const auto& [a, b] : bridges_to(surface.vertices, vertices[piece], others, slack))
       bridges.emplace_back(std::minmax(a, b));
   }
-  std::sort(bridges.begin(), bridges.end());
-  bridges.erase(std::unique(bridges.begin(), bridges.end()), bridges.end());
+  sort_unique(bridges);
   MeshTopology joined{topology.edges, stars_with(topology.stars, bridges)};
   for (const auto& [a, b] : bridges) {
     MeshEdge edge;

@@ -1,5 +1,6 @@
 #include <gracilis/methods/mass_spring/layout.hpp>
 
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/delaunay_edges.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 
@@ -16,8 +17,7 @@ namespace {
 
 SpringPairs sorted(SpringPairs pairs) {
   for (std::array<Index, 2>& pair : pairs) std::sort(pair.begin(), pair.end());
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  sort_unique(pairs);
   return pairs;
 }
 

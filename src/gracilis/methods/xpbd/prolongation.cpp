@@ -1,9 +1,9 @@
 #include <gracilis/methods/xpbd/prolongation.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/point_triangle.hpp>
 
-#include <algorithm>
 #include <limits>
 
 namespace gracilis::xpbd {
@@ -28,8 +28,7 @@ std::vector<std::vector<Index>> faces_near(const PreparedMuscle& muscle) {
         const auto& theirs = around[static_cast<std::size_t>(muscle.faces(k, face))];
         near[p].insert(near[p].end(), theirs.begin(), theirs.end());
       }
-    std::sort(near[p].begin(), near[p].end());
-    near[p].erase(std::unique(near[p].begin(), near[p].end()), near[p].end());
+    sort_unique(near[p]);
   }
   return near;
 }

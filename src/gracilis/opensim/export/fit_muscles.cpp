@@ -1,6 +1,7 @@
 #include <gracilis/opensim/export/fit_muscles.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/sobol_points.hpp>
 #include <gracilis/opensim/export/model_samples.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
@@ -23,8 +24,7 @@ static std::vector<Index> free_coordinates(const Model& model, const Path& path)
   for (const Coupler& coupler : model.couplers)
     if (std::find(all.begin(), all.end(), coupler.dependent) != all.end())
       all.insert(all.end(), coupler.independent.begin(), coupler.independent.end());
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
+  sort_unique(all);
   std::copy_if(all.begin(), all.end(), std::back_inserter(free), [&](Index i) {
     return !model.coordinates[static_cast<std::size_t>(i)].locked && !is_dependent(model, i);
   });

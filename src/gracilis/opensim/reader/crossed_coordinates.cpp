@@ -1,5 +1,7 @@
 #include <gracilis/opensim/reader/crossed_coordinates.hpp>
 
+#include <gracilis/core/sort_unique.hpp>
+
 #include <algorithm>
 #include <set>
 
@@ -35,8 +37,7 @@ std::vector<Index> crossed_coordinates(const Model& model, const Path& path) {
     chains.push_back(chain_of(model, model.wrap_objects[static_cast<std::size_t>(wrap.object)].body));
   for (const std::size_t joint : crossed_joints(model, chains))
     result.insert(result.end(), model.joints[joint].coordinates.begin(), model.joints[joint].coordinates.end());
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  sort_unique(result);
   return result;
 }
 

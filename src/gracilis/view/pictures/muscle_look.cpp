@@ -1,5 +1,6 @@
 #include <gracilis/view/pictures/muscle_look.hpp>
 
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/topology.hpp>
@@ -207,8 +208,7 @@ MuscleLook muscle_look(const TriangleMesh& rest, const Polylines& fibers) {
       ends[1].push_back(nearest.nearest(fibers.points.col(fibers.offsets[at(i + 1)] - 1)));
     }
     for (std::vector<Index>& each : ends) {
-      std::sort(each.begin(), each.end());
-      each.erase(std::unique(each.begin(), each.end()), each.end());
+      sort_unique(each);
     }
   } else {
     const Eigen::VectorXd along = rest.vertices.transpose() * widest_direction(rest.vertices);
