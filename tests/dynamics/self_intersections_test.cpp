@@ -199,10 +199,7 @@ TEST(SelfIntersections, smoothing_takes_particles_to_their_neighbors_middle_and_
 }
 
 TEST(SelfIntersections, restoring_the_shape_leaves_a_carried_thin_strand_as_it_is_where_smoothing_wears_it_down) {
-  // 20 mm long, 1 mm thick, with edges of its thickness.
-  TriangleMesh strand = shapes::sphere(Vec3::Zero(), 0.01, 3);
-  strand.vertices.topRows(2) *= 0.05;
-  Sheet sheet(strand);
+  Sheet sheet(shapes::cylinder(0.001, 0.02, 6, 20));
   sheet.carry(Eigen::AngleAxisf(0.7f, Vector3f(1, 2, 2) / 3).toRotationMatrix(), {0.1f, 0, 0});
   const Particles carried = sheet.particles;
   Pairs all;

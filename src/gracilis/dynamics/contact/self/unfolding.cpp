@@ -2,6 +2,7 @@
 
 #include <gracilis/core/sort_unique.hpp>
 
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -124,12 +125,24 @@ Eigen::Vector3f middle_of_neighbors(const ContactSurface& surface, Index particl
   return sum / count;
 }
 
-/// Where a particle stands beside its neighbors' middle at rest.
-Eigen::Vector3f offset_at_rest(const ContactSurface& surface, Index particle, const Eigen::Matrix3Xf& rest) {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  float count = 0;
-  for_each_neighbor(surface, particle, [&](Index neighbor) { sum += rest.col(neighbor), ++count; });
-  return rest.col(particle) - sum / count;
+/// Where a surface is thin for its edges a particle stands out from its neighbors' middle by this share of them.
+constexpr float thin = 0.1f;
+
+/// Where a particle stands beside its neighbors' middle at rest; 0 where the surface is not thin there, which smoothing
+/// does not harm.
+Eigen::Vector3f offset_where_thin(const ContactSurface& surface, Index particle, const Eigen::Matrix3Xf& rest) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero(), normal = sum;
+  float count = 0, edges = 0;
+  for_each_neighbor(surface, particle, [&](Index neighbor) {
+    sum += rest.col(neighbor), edges += (rest.col(neighbor) - rest.col(particle)).norm(), ++count;
+  });
+  for (const Index face : surface.vertex_faces.around(particle)) {
+    const Eigen::Vector3f corner = rest.col(surface.faces(0, face));
+    normal += (rest.col(surface.faces(1, face)) - corner).cross(rest.col(surface.faces(2, face)) - corner);
+  }
+  const Eigen::Vector3f offset = rest.col(particle) - sum / count;
+  if (!(offset.dot(normal.normalized()) > thin * edges / count)) return Eigen::Vector3f::Zero();
+  return offset;
 }
 
 /// So many times over, the corners of cuts and those next to them go half of the way to goal(particle), all at once.
@@ -168,7 +181,7 @@ void restore_shape(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, 
                    int rounds, float most, Particles& particles) {
   relax(surface, cuts, rounds, most, particles, [&](Index particle) -> Eigen::Vector3f {
     const AffineMap map = fit(with_rings(surface, {particle}, rings_around_particle), rest, particles);
-    return middle_of_neighbors(surface, particle, particles) + map.linear * offset_at_rest(surface, particle, rest);
+    return middle_of_neighbors(surface, particle, particles) + map.linear * offset_where_thin(surface, particle, rest);
   });
 }
 

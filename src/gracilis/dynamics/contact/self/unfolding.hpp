@@ -19,8 +19,8 @@ void smooth(const ContactSurface& surface, const std::vector<FacePair>& cuts, in
 
 /// Gives the corners of what cuts itself, and those next to them, their places beside their neighbors again: so many
 /// times over, each goes half of the way to the middle of its neighbors and from there as it stood beside it at rest,
-/// by the affine map nearest to how it and two rings around it lie now; each time no further than `most` (m). Unlike
-/// smoothing it does not shrink what is thin.
+/// by the affine map nearest to how it and two rings around it lie now; each time no further than `most` (m). So it is
+/// where the surface is thin for its edges, which smoothing shrinks; elsewhere this is smoothing.
 void restore_shape(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts,
                    int rounds, float most, Particles& particles);
 
