@@ -40,6 +40,25 @@ struct Sheet {
 
 using Pairs = std::vector<FacePair>;
 
+/// A ball of which a particle lies beyond its other side.
+constexpr Index spike = 7;
+Sheet spiked_ball() {
+  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  sheet.particles.position(spike) *= -1.1f;
+  return sheet;
+}
+
+/// Fixes a corner of a face that cuts another, not the spike; -1 where nothing cuts itself.
+Index fix_beside_spike(Sheet& sheet) {
+  const Pairs cuts = sheet.cuts();
+  Index fixed = -1;
+  if (cuts.empty()) return fixed;
+  for (const Index corner : sheet.surface.faces.col(cuts.front()[0]))
+    if (corner != spike) fixed = corner;
+  sheet.particles.at(fixed)[3] = 0;
+  return fixed;
+}
+
 /// A triangle in the plane z = 0 and one that stands on its tip in the middle of it, `depth` deep.
 TriangleMesh pierced(Real depth) {
   return shapes::mesh_of({{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, -depth}, {0.2, 0, 1}, {-0.2, 0, 1}},
@@ -183,14 +202,9 @@ TEST(SelfIntersections, a_wrinkle_that_cuts_itself_is_unfolded_and_leaves_the_re
 }
 
 TEST(SelfIntersections, smoothing_takes_particles_to_their_neighbors_middle_and_fixed_ones_nowhere) {
-  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 4));
-  sheet.particles.position(7) *= -1.1f;
-  Index fixed = -1;
-  const Pairs cuts = sheet.cuts();
-  ASSERT_FALSE(cuts.empty());
-  for (const Index corner : sheet.surface.faces.col(cuts.front()[0]))
-    if (corner != 7) fixed = corner;
-  sheet.particles.at(fixed)[3] = 0;
+  Sheet sheet = spiked_ball();
+  const Index fixed = fix_beside_spike(sheet);
+  ASSERT_GE(fixed, 0) << "nothing cuts itself";
   const Vector3f stays = sheet.particles.position(fixed);
   for (int rounds = 2; rounds < 20 && !sheet.cuts().empty(); rounds += 2)
     smooth(sheet.surface, sheet.cuts(), rounds, anywhere, sheet.particles);
@@ -211,14 +225,9 @@ TEST(SelfIntersections, restoring_the_shape_leaves_a_carried_thin_strand_as_it_i
 }
 
 TEST(SelfIntersections, restoring_the_shape_undoes_a_spike_and_leaves_fixed_particles_where_they_are) {
-  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 4));
-  sheet.particles.position(7) *= -1.1f;
-  Index fixed = -1;
-  const Pairs cuts = sheet.cuts();
-  ASSERT_FALSE(cuts.empty());
-  for (const Index corner : sheet.surface.faces.col(cuts.front()[0]))
-    if (corner != 7) fixed = corner;
-  sheet.particles.at(fixed)[3] = 0;
+  Sheet sheet = spiked_ball();
+  const Index fixed = fix_beside_spike(sheet);
+  ASSERT_GE(fixed, 0) << "nothing cuts itself";
   for (int attempt = 0; attempt < 20 && !sheet.cuts().empty(); ++attempt)
     restore_shape(sheet.surface, sheet.rest, sheet.cuts(), 4, anywhere, sheet.particles);
   EXPECT_EQ(sheet.cuts(), Pairs());
@@ -234,14 +243,14 @@ TEST(SelfIntersections, what_cut_before_the_step_is_left_alone) {
 }
 
 TEST(SelfIntersections, untangling_moves_no_particle_further_than_it_may) {
-  Sheet spike(shapes::sphere(Vec3::Zero(), 0.01, 4));
-  spike.particles.position(7) *= -1.2f;
-  const Pairs cuts = spike.cuts();
+  Sheet unfolded(shapes::sphere(Vec3::Zero(), 0.01, 4));
+  unfolded.particles.position(spike) *= -1.2f;
+  const Pairs cuts = unfolded.cuts();
   ASSERT_FALSE(cuts.empty());
-  Sheet smoothed = spike;
-  const Particles before = spike.particles;
-  unfold(spike.surface, spike.rest, cuts, 0.5f * edge, spike.particles);
-  EXPECT_NEAR(largest_motion(before, spike.particles), 0.5f * edge, 1e-7);
+  Sheet smoothed = unfolded;
+  const Particles before = unfolded.particles;
+  unfold(unfolded.surface, unfolded.rest, cuts, 0.5f * edge, unfolded.particles);
+  EXPECT_NEAR(largest_motion(before, unfolded.particles), 0.5f * edge, 1e-7);
   smooth(smoothed.surface, cuts, 2, 0.5f * edge, smoothed.particles);
   EXPECT_GT(largest_motion(before, smoothed.particles), 0.5f * edge);
   EXPECT_LT(largest_motion(before, smoothed.particles), 2 * 0.5f * edge + 1e-7);

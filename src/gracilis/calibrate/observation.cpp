@@ -42,9 +42,7 @@ std::vector<TargetSweep> sweeps_of(const std::vector<CalibrationTarget>& targets
       sweep.at.insert(sweep.at.end(), {*low - sweep_step / 2, *high + sweep_step / 2});
     }
   }
-  for (TargetSweep& sweep : sweeps) {
-    sort_unique(sweep.at);
-  }
+  for (TargetSweep& sweep : sweeps) sort_unique(sweep.at);
   return sweeps;
 }
 

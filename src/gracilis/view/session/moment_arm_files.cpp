@@ -165,6 +165,7 @@ MomentArmReport write_moment_arm_grids(const std::filesystem::path& folder, cons
                                        const std::vector<MovedCoordinate>& moved) {
   MomentArmReport report;
   if (has_no_fibers(folder, scene, report)) return report;
+  create_folder(folder / "plots");
   for (const MovedCoordinate& each : moved) {
     const Table table = moment_arm_table(folder, scene, each);
     const Lines lines = lines_along(table, scene, each);
@@ -189,6 +190,7 @@ MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Sce
                                   const std::vector<ArmCurve>& references) {
   MomentArmReport report;
   if (has_no_fibers(folder, scene, report)) return report;
+  create_folder(folder / "plots");
   Table table = moment_arm_table(folder, scene, moved);
   add_arms_by_force(folder, scene, moved, table);
   write_sto(folder / "moment_arms.sto", table);

@@ -45,7 +45,7 @@ class Session {
       : loaded_(loaded),
         options_(options),
         listener_(listener),
-        stop_(listener.stop ? *listener.stop : never),
+        stop_(listener.stop_or_never()),
         plan_(std::move(plan)),
         poses_(pose_sequence(loaded.scene, loaded.max_frames)),
         recorded_poses_(plan_.recorded.empty() ? poses_ : recorded_of(poses_, plan_.recorded)),
@@ -90,12 +90,9 @@ class Session {
   }
 
  private:
-  void tell(MessageKind kind, const std::string& text) const {
-    if (listener_.say) listener_.say(kind, text);
-  }
-  void detail(const std::string& text) const { tell(MessageKind::detail, text); }
-  void note(const std::string& text) const { tell(MessageKind::note, text); }
-  void caution(const std::string& text) const { tell(MessageKind::warning, text); }
+  void detail(const std::string& text) const { listener_.tell(MessageKind::detail, text); }
+  void note(const std::string& text) const { listener_.tell(MessageKind::note, text); }
+  void caution(const std::string& text) const { listener_.tell(MessageKind::warning, text); }
 
   void prepare() {
     const StopScope scope(&stop_);
@@ -245,7 +242,6 @@ class Session {
   const LoadedScene& loaded_;
   const SessionOptions& options_;
   const SessionListener& listener_;
-  inline static const std::atomic<bool> never{false};
   const std::atomic<bool>& stop_;
   RunPlan plan_;
   std::vector<Pose> poses_, recorded_poses_;

@@ -22,6 +22,15 @@ struct SessionListener {
   std::function<void(MessageKind, const std::string&)> say = {};  ///< a line for people
   std::function<void(int first, int last)> begin = {};            ///< before the first frame is computed
   std::function<void(int done, int last)> progress = {};          ///< after each frame; may throw Interrupted
+
+  void tell(MessageKind kind, const std::string& text) const {
+    if (say) say(kind, text);
+  }
+  /// What ends the session; never set where nothing does.
+  const std::atomic<bool>& stop_or_never() const {
+    static const std::atomic<bool> never{false};
+    return stop ? *stop : never;
+  }
 };
 
 struct SessionResult {

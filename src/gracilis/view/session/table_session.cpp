@@ -58,21 +58,17 @@ void require_free(const std::filesystem::path& folder, bool force) {
 }  // namespace
 
 SessionResult record_tables(const LoadedScene& loaded, const SessionOptions& options, const SessionListener& listener) {
-  static const std::atomic<bool> never{false};
-  const std::atomic<bool>& stop = listener.stop ? *listener.stop : never;
-  const auto say = [&](MessageKind kind, const std::string& text) {
-    if (listener.say) listener.say(kind, text);
-  };
+  const std::atomic<bool>& stop = listener.stop_or_never();
   const Scene& scene = loaded.scene;
   const SessionResult interrupted = {ExitCode::interrupted, options.out};
   const ThreadLimit threads(options.threads);
-  create_folder(options.out / "plots");
+  create_folder(options.out);
   const FolderLock lock(options.out);
   require_free(options.out, options.force);
-  for (const std::string& warning : loaded.warnings) say(MessageKind::warning, warning);
+  for (const std::string& warning : loaded.warnings) listener.tell(MessageKind::warning, warning);
   const std::vector<Pose> poses = pose_sequence(scene, loaded.max_frames);
-  say(MessageKind::note,
-      fmt::format("scene {}: {} muscles, {} poses; tables alone", scene.name, scene.muscles.size(), poses.size()));
+  listener.tell(MessageKind::note, fmt::format("scene {}: {} muscles, {} poses; tables alone", scene.name,
+                                               scene.muscles.size(), poses.size()));
   RunChoices choices;
   choices.fiber_actions = true;
   choices.measures = MeasureLevel::none;
@@ -81,9 +77,10 @@ SessionResult record_tables(const LoadedScene& loaded, const SessionOptions& opt
   try {
     const StopScope scope(&stop);
     const auto method = make_method(scene, [&](const DistanceFieldSettings& settings) {
-      return cached_bone_fields(scene, settings, [&](const std::string& text) { say(MessageKind::warning, text); });
+      return cached_bone_fields(scene, settings,
+                                [&](const std::string& text) { listener.tell(MessageKind::warning, text); });
     });
-    say(MessageKind::note, "fibers");
+    listener.tell(MessageKind::note, "fibers");
     const Frame capture = capture_frame(scene, capture_pose(scene.bodies.size()), *method);
     const FiberTracker tracker(scene, &capture);
     if (listener.begin) listener.begin(0, last);

@@ -18,6 +18,8 @@ constexpr float half = 0.5f;
 constexpr int rings_around_cut = 3, rings_around_particle = 2;
 /// Weight of the turn alone in the map, against what the places tell: a flat part tells nothing across itself.
 constexpr float turn_weight = 0.1f;
+/// Where a surface is thin for its edges a particle stands out from its neighbors' middle by this share of them.
+constexpr float thin = 0.1f;
 
 /// Calls act(neighbor) for each particle at the other end of an edge.
 template <class Act>
@@ -125,21 +127,18 @@ Eigen::Vector3f middle_of_neighbors(const ContactSurface& surface, Index particl
   return sum / count;
 }
 
-/// Where a surface is thin for its edges a particle stands out from its neighbors' middle by this share of them.
-constexpr float thin = 0.1f;
-
 /// Where a particle stands beside its neighbors' middle at rest; 0 where the surface is not thin there, which smoothing
 /// does not harm.
 Eigen::Vector3f offset_where_thin(const ContactSurface& surface, Index particle, const Eigen::Matrix3Xf& rest) {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero(), normal = sum;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   float count = 0, edges = 0;
   for_each_neighbor(surface, particle, [&](Index neighbor) {
     sum += rest.col(neighbor), edges += (rest.col(neighbor) - rest.col(particle)).norm(), ++count;
   });
-  for (const Index face : surface.vertex_faces.around(particle)) {
+  const Eigen::Vector3f normal = sum_around(surface, particle, [&](Index face) -> Eigen::Vector3f {
     const Eigen::Vector3f corner = rest.col(surface.faces(0, face));
-    normal += (rest.col(surface.faces(1, face)) - corner).cross(rest.col(surface.faces(2, face)) - corner);
-  }
+    return (rest.col(surface.faces(1, face)) - corner).cross(rest.col(surface.faces(2, face)) - corner);
+  });
   const Eigen::Vector3f offset = rest.col(particle) - sum / count;
   if (!(offset.dot(normal.normalized()) > thin * edges / count)) return Eigen::Vector3f::Zero();
   return offset;
@@ -180,8 +179,10 @@ void smooth(const ContactSurface& surface, const std::vector<FacePair>& cuts, in
 void restore_shape(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const std::vector<FacePair>& cuts,
                    int rounds, float most, Particles& particles) {
   relax(surface, cuts, rounds, most, particles, [&](Index particle) -> Eigen::Vector3f {
-    const AffineMap map = fit(with_rings(surface, {particle}, rings_around_particle), rest, particles);
-    return middle_of_neighbors(surface, particle, particles) + map.linear * offset_where_thin(surface, particle, rest);
+    const Eigen::Vector3f middle = middle_of_neighbors(surface, particle, particles);
+    const Eigen::Vector3f offset = offset_where_thin(surface, particle, rest);
+    if (offset.isZero(0)) return middle;
+    return middle + fit(with_rings(surface, {particle}, rings_around_particle), rest, particles).linear * offset;
   });
 }
 
