@@ -1,16 +1,10 @@
 #pragma once
 
-#include <gracilis/core/types.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 namespace gracilis {
 
 /// Directions of most, less and least spread of points, as columns.
-inline Eigen::Matrix3d spread_axes(const Points& points) {
-  const Points from = points.colwise() - points.rowwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(from * from.transpose());
-  return solver.eigenvectors().rowwise().reverse();
-}
+inline Eigen::Matrix3d spread_axes(const Points& points) { return spread_of(points).directions.rowwise().reverse(); }
 
 }  // namespace gracilis

@@ -222,8 +222,8 @@ TEST_P(Method, any_jump_gives_finite_shapes_or_an_error) {
     return RigidTransform(Eigen::Translation3d(0.1 * shift) *
                           Eigen::AngleAxisd(pi * uniform(generator), axis.normalized()));
   };
-  std::vector<Pose> poses = {at(pi), at(0), at(-pi), at(pi), at(-pi / 2)};
-  for (int i = 0; i < 4; ++i) {
+  std::vector<Pose> poses = {at(pi), at(-pi / 2)};
+  for (int i = 0; i < 2; ++i) {
     poses.push_back(at(0));
     poses.back().bodies[0] = random_body();
     poses.back().bodies[1] = random_body();

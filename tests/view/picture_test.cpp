@@ -66,6 +66,17 @@ TEST(Picture, panels_that_look_the_same_way_share_one_camera_that_sees_everythin
   EXPECT_GE(layout.half_height * 200 / 120, 2.5);
 }
 
+TEST(Picture, panels_with_cameras_of_their_own_look_at_what_they_show_at_the_same_scale) {
+  Picture picture = two_panels();
+  picture.panels[1].surfaces[0].mesh = cube(Vec3(4, 0, 0));
+  const Real of_one = lay_out(two_panels()).half_height;
+  for (Panel& panel : picture.panels) panel.has_own_camera = true;
+  const PictureLayout layout = lay_out(picture);
+  EXPECT_TRUE(layout.cameras[0].center.isApprox(Vec3::Zero()));
+  EXPECT_TRUE(layout.cameras[1].center.isApprox(Vec3(4, 0, 0)));
+  EXPECT_NEAR(layout.half_height, of_one, 1e-12);
+}
+
 TEST(Picture, what_cannot_be_seen_is_a_configuration_error) {
   EXPECT_THROW(lay_out(Picture{}), ConfigurationError);
   Picture no_points = two_panels();

@@ -1,6 +1,7 @@
 #include <gracilis/draft/body_frame.hpp>
 
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/principal_axes.hpp>
 #include <gracilis/geometry/rotations.hpp>
 
 #include <fmt/format.h>
@@ -24,7 +25,7 @@ BoneAxis longest_line(const TriangleMesh& mesh) {
   const Points centered = mesh.vertices.colwise() - middle;
   const Eigen::VectorXd areas = vertex_areas(mesh.vertices, mesh.faces);
   const Eigen::Matrix3d spread = centered * areas.asDiagonal() * centered.transpose();
-  const Vec3 direction = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+  const Vec3 direction = principal_axes(spread).most();
   const Eigen::RowVectorXd along = direction.transpose() * centered;
   return {middle + along.minCoeff() * direction, middle + along.maxCoeff() * direction};
 }

@@ -1,8 +1,7 @@
 #include <gracilis/geometry/outline_curves.hpp>
 
 #include <gracilis/geometry/delaunay.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +24,7 @@ Real distance(const Points& points, Index a, Index b) { return (points.col(a) - 
 /// The points seen along the normal of the plane that fits them best.
 PlanePoints flattened(const Points& points) {
   const Points centered = points.colwise() - points.rowwise().mean();
-  const Eigen::Matrix3d directions =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centered * centered.transpose()).eigenvectors();
-  return directions.rightCols(2).transpose() * centered;
+  return spread_of(points).directions.rightCols(2).transpose() * centered;
 }
 
 std::vector<Index> nearest_chain(const Points& points) {

@@ -1,5 +1,7 @@
 #include <gracilis/geometry/revolution_fit.hpp>
 
+#include <gracilis/geometry/principal_axes.hpp>
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -40,8 +42,7 @@ RevolutionFit fit_revolution(const SurfaceSamples& samples, const Vec3& expected
     const Vec3 wish = expected.normalized();
     const Eigen::Matrix3d form = sum.topLeftCorner<3, 3>() - mixed.transpose() * solved +
                                  weights.sum() * bias * bias * (Eigen::Matrix3d::Identity() - wish * wish.transpose());
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(form);
-    direction = eigen.eigenvectors().col(0);
+    direction = principal_axes(form).least();
     if (direction.dot(wish) < 0) direction = -direction;
     shift = -solved * direction;
     Eigen::VectorXd misses(samples.count());

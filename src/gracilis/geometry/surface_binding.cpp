@@ -3,8 +3,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/mean_value_coordinates.hpp>
 #include <gracilis/geometry/measures.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 #include <algorithm>
 #include <numeric>
@@ -43,11 +42,11 @@ Eigen::Matrix3f SurfaceBinding::inverse_spread(Index begin, Index end, const Vec
     const Vec3 r = rest_.col(order_[static_cast<std::size_t>(i)]) - mean;
     spread += r * r.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(spread);
+  const PrincipalAxes axes = principal_axes(spread);
   Vec3 inverse = Vec3::Zero();
   for (int k = 0; k < 3; ++k)
-    if (axes.eigenvalues()[k] > flat * flat * axes.eigenvalues()[2]) inverse[k] = 1 / axes.eigenvalues()[k];
-  return (axes.eigenvectors() * inverse.asDiagonal() * axes.eigenvectors().transpose()).cast<float>();
+    if (axes.values[k] > flat * flat * axes.values[2]) inverse[k] = 1 / axes.values[k];
+  return (axes.directions * inverse.asDiagonal() * axes.directions.transpose()).cast<float>();
 }
 
 void SurfaceBinding::build_groups(const TriangleMesh& surface, Index begin, Index end) {

@@ -1,8 +1,7 @@
 #include <gracilis/simulate/wrong_side.hpp>
 
 #include <gracilis/geometry/polylines.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +59,7 @@ Vec3 axis_at(const PlacedBones& bones, std::size_t bone, const Place& middle) {
         if (i * i + j * j + k * k > across * across) continue;
         if (bones.sample(bone, middle.point + away).distance < 0) spread += away * away.transpose();
       }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+  return principal_axes(spread).most();
 }
 
 /// Whether the bone goes on both ways along the axis, so that nothing slides off its end nearby.

@@ -1,6 +1,6 @@
 #include <gracilis/transfer/similarity.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,10 +22,8 @@ Points joined(const std::vector<const PairedBone*>& bones, const Points& (Paired
 }
 
 /// As right-handed columns, the longest first.
-Eigen::Matrix3d principal_axes(const Points& points) {
-  const Points centered = points.colwise() - points.rowwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(centered * centered.transpose());
-  Eigen::Matrix3d axes = solver.eigenvectors().rowwise().reverse();
+Eigen::Matrix3d principal_frame(const Points& points) {
+  Eigen::Matrix3d axes = spread_of(points).directions.rowwise().reverse();
   if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
   return axes;
 }
@@ -113,8 +111,8 @@ Similarity turned(const std::vector<const PairedBone*>& bones, const Eigen::Matr
 }
 
 std::vector<Eigen::Matrix3d> principal_turns(const std::vector<const PairedBone*>& bones) {
-  const Eigen::Matrix3d from = principal_axes(joined(bones, &PairedBone::from_points));
-  const Eigen::Matrix3d to = principal_axes(joined(bones, &PairedBone::to_points));
+  const Eigen::Matrix3d from = principal_frame(joined(bones, &PairedBone::from_points));
+  const Eigen::Matrix3d to = principal_frame(joined(bones, &PairedBone::to_points));
   std::vector<Eigen::Matrix3d> turns;
   for (const Vec3& signs : {Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(-1, -1, 1)})
     turns.push_back(to * signs.asDiagonal() * from.transpose());

@@ -3,20 +3,13 @@
 #include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/outline_curves.hpp>
+#include <gracilis/geometry/principal_axes.hpp>
 #include <gracilis/geometry/surface_region.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
 
 namespace gracilis {
-
-/// The directions in which points spread, least first, as the columns of a rotation.
-static Eigen::Matrix3d principal_directions(const Points& points) {
-  const Points centered = points.colwise() - points.rowwise().mean();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centered * centered.transpose()).eigenvectors();
-}
 
 static Real distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 along = b - a;
@@ -40,7 +33,7 @@ Real distance_to(const LandmarkSet& landmarks, const Vec3& p) {
 bool inside_outline(const Points& outline, const Vec3& p, Real reach) {
   if (outline.cols() < 3) return false;
   const Vec3 center = outline.rowwise().mean();
-  const Eigen::Matrix3d directions = principal_directions(outline);
+  const Eigen::Matrix3d directions = spread_of(outline).directions;
   const Points flat = directions.transpose() * (outline.colwise() - center);
   const Vec3 q = directions.transpose() * (p - center);
   if (std::abs(q[0]) > flat.row(0).cwiseAbs().maxCoeff() + reach) return false;
@@ -143,7 +136,7 @@ AttachmentArea attachment_area(const TriangleMesh& muscle, std::span<const Index
     points.col(i) = muscle.vertices.col(vertices[i]);
     result.area += areas[vertices[i]];
   }
-  const Eigen::RowVectorXd along = principal_directions(points).col(2).transpose() * points;
+  const Eigen::RowVectorXd along = spread_of(points).most().transpose() * points;
   result.length = along.maxCoeff() - along.minCoeff();
   result.width = result.length > 0 ? result.area / result.length : 0;
   return result;

@@ -4,8 +4,7 @@
 #include <gracilis/anatomy/fibers/guide_tracts.hpp>
 #include <gracilis/geometry/assignment.hpp>
 #include <gracilis/geometry/mesh_pieces.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -68,10 +67,7 @@ std::vector<DirectionSample> pennate_directions(const SolidGrid& grid, const Mus
     if (grid.depths()[static_cast<std::size_t>(n)] > 0) inside.push_back(n);
   Points places(3, static_cast<Index>(inside.size()));
   for (std::size_t i = 0; i < inside.size(); ++i) places.col(static_cast<Index>(i)) = grid.nodes().col(inside[i]);
-  const Vec3 middle = places.rowwise().mean();
-  const Points around = places.colwise() - middle;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(around * around.transpose());
-  const Vec3 thin = solver.eigenvectors().col(0);
+  const Vec3 thin = spread_of(places).least();
   const Vec3 origin = attachment_center(muscle, AttachmentEnd::origin);
   const Vec3 insertion = attachment_center(muscle, AttachmentEnd::insertion);
   const Real aside = thin.dot(insertion - origin);

@@ -1,6 +1,6 @@
 #include <gracilis/anatomy/fibers/fiber_seams.hpp>
 
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 #include <cmath>
 
@@ -12,8 +12,7 @@ static Vec3 drawing_together(const FiberField& field, const Vec3& place, Real si
   for (Index k = 0; k < 3; ++k)
     change.col(k) =
         sign * (field.direction(place + reach * Vec3::Unit(k)) - field.direction(place - reach * Vec3::Unit(k)));
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(change + change.transpose());
-  return solver.eigenvectors().col(0);
+  return principal_axes(change + change.transpose()).least();
 }
 
 static Real angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }

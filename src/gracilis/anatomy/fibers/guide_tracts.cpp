@@ -1,8 +1,7 @@
 #include <gracilis/anatomy/fibers/guide_tracts.hpp>
 
 #include <gracilis/geometry/measures.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 #include <algorithm>
 #include <map>
@@ -11,10 +10,9 @@ namespace gracilis {
 
 /// The direction of the line that fits points best, turned to go on as they do; zero where they are one point.
 static Vec3 fitted_direction(const Points& points) {
-  const Points around = points.colwise() - points.rowwise().mean();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(around * around.transpose());
-  const Vec3 chord = points.rightCols(1) - points.leftCols(1), axis = solver.eigenvectors().col(2);
-  if (!(solver.eigenvalues()[2] > 0)) return Vec3::Zero();
+  const PrincipalAxes spread = spread_of(points);
+  const Vec3 chord = points.rightCols(1) - points.leftCols(1), axis = spread.most();
+  if (!(spread.values[2] > 0)) return Vec3::Zero();
   return axis.dot(chord) < 0 ? Vec3(-axis) : axis;
 }
 

@@ -2,8 +2,7 @@
 
 #include <gracilis/anatomy/sections/section_cut.hpp>
 #include <gracilis/geometry/measures.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 namespace gracilis {
 
@@ -24,11 +23,10 @@ Eigen::Matrix3d axes_of(const TriangleMesh& surface) {
     for (int k = 0; k < 3; ++k)
       second += part / 12 * surface.vertices.col(face[k]) * surface.vertices.col(face[k]).transpose();
   }
-  const Eigen::Matrix3d covariance = second - first * first.transpose() / area;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+  const PrincipalAxes spread = principal_axes(second - first * first.transpose() / area);
   Eigen::Matrix3d axes;
-  axes.col(2) = solver.eigenvectors().col(2);
-  axes.col(0) = solver.eigenvectors().col(1);
+  axes.col(2) = spread.directions.col(2);
+  axes.col(0) = spread.directions.col(1);
   axes.col(1) = axes.col(2).cross(axes.col(0));
   return axes;
 }

@@ -3,10 +3,9 @@
 #include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/harmonic_field.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
+#include <gracilis/geometry/principal_axes.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -79,10 +78,7 @@ Real blended(const std::vector<Real>& values, Real share) {
 /// The direction in which points spread most.
 Vec3 widest_direction(const Points& points) {
   if (points.cols() < 2) return Vec3::UnitX();
-  const Points around = points.colwise() - points.rowwise().mean();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(Eigen::Matrix3d(around * around.transpose()))
-      .eigenvectors()
-      .col(2);
+  return spread_of(points).most();
 }
 
 /// Carries a coordinate across the fibers from the middle level to both ends, against the field's gradient vertex by

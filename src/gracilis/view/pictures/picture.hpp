@@ -50,6 +50,7 @@ struct Panel {
   Vec3 looking = Vec3::UnitY();  ///< direction in which the camera looks, world frame
   Vec3 up = Vec3::UnitZ();       ///< points up in the picture; not parallel to `looking`
   Points room = Points(3, 0);    ///< points that the picture makes room for, too
+  bool has_own_camera = false;   ///< looks at what is framed in this panel, wherever it is in others
 };
 
 /// Panels side by side, all at the same scale, with a title above and a legend of the named surfaces below.

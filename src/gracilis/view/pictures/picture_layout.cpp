@@ -22,12 +22,15 @@ struct Extent {
   Vec3 high = -low;
 };
 
-static Extent extent_seen_by(const CameraView& camera, const Picture& picture) {
+/// Of what this panel's camera has to see: it is shared by those that look the same way and have none of their own.
+static Extent extent_seen_by(const CameraView& camera, const Panel& own, const Picture& picture) {
   Eigen::Matrix3d axes;
   axes << camera.right.transpose(), camera.up.transpose(), camera.looking.transpose();
   Extent extent;
   for (const Panel& panel : picture.panels) {
-    if (!panel.looking.normalized().isApprox(camera.looking, 1e-9)) continue;
+    const bool shares_camera = !own.has_own_camera && !panel.has_own_camera &&
+                               panel.looking.normalized().isApprox(camera.looking, 1e-9);
+    if (!shares_camera && &panel != &own) continue;
     const auto add = [&](const Points& points) {
       if (points.cols() == 0) return;
       require_drawable(points.allFinite(), "a point is not finite");
@@ -60,7 +63,7 @@ static Eigen::Vector2d place_cameras(const Picture& picture, PictureLayout& layo
   Eigen::Vector2d needed = Eigen::Vector2d::Zero();
   for (const Panel& panel : picture.panels) {
     CameraView camera = camera_of(panel);
-    const Extent extent = extent_seen_by(camera, picture);
+    const Extent extent = extent_seen_by(camera, panel, picture);
     require_drawable(extent.low.allFinite() && extent.high.allFinite(), "there is nothing to see");
     const Vec3 middle = (extent.low + extent.high) / 2;
     camera.center = camera.right * middle.x() + camera.up * middle.y() + camera.looking * middle.z();

@@ -31,7 +31,8 @@ struct PictureLayout {
   std::vector<std::pair<std::string, Color>> legend_entries;  ///< distinct named surfaces, in order of first appearance
 };
 
-/// Panels that look the same way get the same camera, so that what moves between them can be compared.
+/// Panels that look the same way get the same camera, so that what moves between them can be compared, unless they have
+/// their own.
 /// Throws ConfigurationError when there is no panel, nothing to see, a size below one pixel or a camera without
 /// direction.
 PictureLayout lay_out(const Picture& picture);

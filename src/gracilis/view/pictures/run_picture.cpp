@@ -223,6 +223,7 @@ Panel RunPainter::panel(int frame) const {
   const CameraDirection camera = camera_of(run_, options_.view);
   panel.looking = camera.looking;
   panel.up = camera.up;
+  panel.has_own_camera = !options_.focus.empty();  // what is in focus moves from pose to pose, and is looked at in each
   panel.caption = pose_caption(run_, frame);
   // Beside colors that mean something bones step back.
   const bool shows_values = options_.color_by != ColorBy::muscle && options_.color_by != ColorBy::tissue;
