@@ -158,6 +158,7 @@ TEST(Strings, settings_reach_them) {
   for (const auto& [key, value] : SettingValues{{"strings", 20},
                                                 {"segments", 12},
                                                 {"support_length", 0.02},
+                                                {"support_reach", 0.015},
                                                 {"tie_length", 0.01},
                                                 {"tie_reach", 0.05},
                                                 {"bone_gap", 0.012},

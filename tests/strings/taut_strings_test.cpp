@@ -47,6 +47,32 @@ TEST(TautStrings, a_straight_fiber_is_its_own_string) {
   }
 }
 
+/// The arm's muscle in a bow over what holds it up to 90 mm off its bone.
+Scene bowed_scene() {
+  Scene scene = arm_scene();
+  for (auto vertex : scene.muscles[0].surface.vertices.colwise()) {
+    const Real along = (vertex.z() + 0.05) / 0.16;  // -1 to 1
+    vertex.x() -= 0.08 * (1 - along * along);
+  }
+  return scene;
+}
+
+TEST(TautStrings, over_a_bone_that_is_far_off_strings_do_not_slide) {
+  const Strung strung(bowed_scene());
+  const Real reach = strung.muscle.settings.support_reach;
+  Index near = 0, far = 0;
+  for (Index p = 0; p < static_cast<Index>(strung.muscle.supports.size()); ++p)
+    for (const Slide& slide : strung.muscle.supports[static_cast<std::size_t>(p)].slides) {
+      EXPECT_LT(slide.distance, reach);
+      EXPECT_LE(slide.share, 1 - slide.distance / reach + 1e-9);
+      ++near;
+    }
+  for (Index p = 0; p < static_cast<Index>(strung.muscle.bone_distances.cols()); ++p)
+    far += strung.muscle.bone_distances.col(p).minCoeff() > reach;
+  EXPECT_GT(near, 0);
+  EXPECT_GT(far, 0) << "none is far";
+}
+
 TEST(TautStrings, shares_of_bodies_sum_to_one) {
   EXPECT_LT((arm().muscle.shares.colwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
 }

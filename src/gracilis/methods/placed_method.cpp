@@ -61,6 +61,8 @@ class PlacedMethod final : public DeformationMethod {
     shift_shapes(frame, place_);
   }
 
+  void leave_out_surfaces() override { method_->leave_out_surfaces(); }
+
   void restore(const std::vector<Pose>& poses, const Frame& before, const Frame& last) override {
     std::vector<Pose> near;
     for (const Pose& pose : poses) near.push_back(shifted(pose, -place_));

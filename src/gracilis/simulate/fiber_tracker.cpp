@@ -35,6 +35,7 @@ MuscleFibers FiberTracker::follow(std::size_t muscle, const MuscleShape& shape) 
     fibers.mean_length += fibers.lengths[i] / count;
     if (bound.rest_lengths[i] > 0) fibers.mean_strain += (fibers.lengths[i] / bound.rest_lengths[i] - 1) / count;
   }
+  if (shape.points.cols() == 0) return fibers;
   const TriangleMesh now = {shape.points, scene_.muscles[muscle].surface.faces};
   fibers.cross_section = largest_cross_section(now, bound.topology, fibers.lines);
   if (fibers.mean_length > 0)

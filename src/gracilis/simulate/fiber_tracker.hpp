@@ -17,8 +17,8 @@ struct MuscleFibers {
   std::vector<Real> lengths;             ///< m
   Real mean_length = 0;                  ///< m
   Real mean_strain = 0;                  ///< mean over fibers of length over length in the capture pose, less 1
-  Real cross_section = 0;                ///< m², largest area across the mean fiber
-  Real physiological_cross_section = 0;  ///< m², volume over mean length
+  Real cross_section = 0;                ///< m², largest area across the mean fiber; 0 without a surface
+  Real physiological_cross_section = 0;  ///< m², volume over mean length; 0 without a surface
 };
 
 /// Follows the fibers of all muscles of a scene. Those that a method knows itself are where its frames say; all others

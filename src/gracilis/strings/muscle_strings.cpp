@@ -129,9 +129,10 @@ std::vector<Slide> slides_under(const MuscleStrings& muscle, const BoneDistances
       gradient = seen.gradient.cast<Real>();
     }
     if (slide.bone < 0 || gradient.norm() < least_slope) continue;
-    const Real cosine = gradient.normalized().dot(normal);
-    slide.share = muscle.shares(body, node) * cosine;
-    if (cosine > 0) slides.push_back(slide);
+    // Far from a bone its nearest point jumps, and with it what a node would slide over.
+    const Real nearness = std::clamp(1 - slide.distance / muscle.settings.support_reach, Real{0}, Real{1});
+    slide.share = muscle.shares(body, node) * nearness * gradient.normalized().dot(normal);
+    if (slide.share > 0) slides.push_back(slide);
   }
   return slides;
 }

@@ -80,7 +80,7 @@ class StringsMethod final : public DeformationMethod {
     for (std::size_t m = 0; m < next.size(); ++m) next[m].strings = states_[m].strings;
     follow_all(pose, next, &report);
     for (std::size_t m = 0; m < muscles_.size(); ++m)
-      if (!next[m].shape.allFinite())
+      if (!next[m].shape.allFinite() || !next[m].strings.places.allFinite())
         throw QualityError("muscle " + muscles_[m].name + ": a vertex position is not finite; check the pose");
     states_ = std::move(next);
     return report;
@@ -95,6 +95,9 @@ class StringsMethod final : public DeformationMethod {
         shape.fibers = as_lines(*muscles_[m].strings, states_[m].strings.places);
     }
   }
+
+  /// Bodies that lie on a muscle go with its surface.
+  void leave_out_surfaces() override { with_surfaces_ = !carried_.empty(); }
 
   std::vector<FiberActions> fiber_actions(const std::vector<std::vector<Twist>>& coordinates) const override {
     std::vector<FiberActions> actions(muscles_.size());
@@ -135,7 +138,8 @@ class StringsMethod final : public DeformationMethod {
         const auto started = std::chrono::steady_clock::now();
         StrungState& state = states[group[i]];
         follow(muscles_[group[i]], pose, state.strings);
-        state.shape = shape_of(muscles_[group[i]], pose, state.strings);
+        if (with_surfaces_ || !muscles_[group[i]].strings)
+          state.shape = shape_of(muscles_[group[i]], pose, state.strings);
         const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - started;
         if (report) report->muscles[group[i]].milliseconds = taken.count();
       });
@@ -161,6 +165,7 @@ class StringsMethod final : public DeformationMethod {
   std::vector<CarriedBody> carried_;
   std::vector<StrungMuscle> muscles_;
   std::vector<StrungState> states_;
+  bool with_surfaces_ = true;
 };
 
 }  // namespace
