@@ -13,7 +13,7 @@ struct StringSettings {
   int segments = 20;  ///< of a string
 
   Real support_length = 0.007;   ///< m, s: what a fiber rested on holds it with 1/s² per length
-  Real support_reach = 0.08;     ///< m from a bone, through which that lets it slide over the bone: less the farther
+  Real support_reach = 0.08;     ///< m: it slides over a bone the less the farther that is, and not at all beyond
   Real tie_length = 0.025;       ///< m, s: fascia ties it across its direction with 1/s² per length at a bone ...
   Real tie_reach = 0.03;         ///< m ... and with nothing this far from bones
   Real bone_gap = 0.004;         ///< m, kept to a bone where the gap at rest allows

@@ -234,9 +234,8 @@ CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const
   // there was held with strings that move one by one, 0.1 mm from rest on average; contact moves the surface by more.
   strings::StringSettings settings;
   settings.sections_first = false;
-  // Strings know no other muscles. Held at their distances from bones however far these are, they lead muscles less deep
-  // into each other: a leg's, hip and knee flexed to 90 and 110 degrees, cut each other in 1,132 pairs of triangles
-  // beyond those at rest, in 1,922 with the reach of method = "strings".
+  // Strings know no other muscles: held off bones however far these are, they are held off what lies between, too, and
+  // lead muscles less deep into each other (docs/decisions/0005).
   settings.support_reach = std::numeric_limits<Real>::infinity();
   std::optional<strings::MuscleStrings> laid = strings::muscle_strings(scene, muscle, bones, settings);
   if (!laid) return {};
