@@ -11,8 +11,8 @@ std::span<const Setting<strings::StringSettings>> setting_table() {
       {"support_length", &S::support_length, "m", 0.0001, 10,
        "s: what a fiber rested on in the capture pose holds it with the stiffness 1/s² per length, at tension 1."},
       {"support_reach", &S::support_reach, "m", 0.0001, 10,
-       "A fiber slides over a bone the less the farther it is, at rest, and not at all beyond this; what holds it there "
-       "goes with the bodies."},
+       "A fiber slides over a bone the less the farther that is at rest, and not at all beyond this, where what holds "
+       "it goes with the bodies."},
       {"tie_length", &S::tie_length, "m", 0.0001, 10,
        "s: fascia ties a string across its direction with the stiffness 1/s² per length at a bone ..."},
       {"tie_reach", &S::tie_reach, "m", 0.0001, 10, "... and with nothing this far from bones."},
