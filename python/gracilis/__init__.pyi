@@ -216,7 +216,7 @@ def rom(
     range: tuple[float, float, float],
     out: Optional[_Path] = ...,
     *,
-    at: Mapping[str, float] = ...,
+    at: Mapping[str, Union[float, tuple[float, float, float]]] = ...,
     reference: Optional[_Path] = ...,
     progress: Optional[Callable[[int, int], object]] = ...,
     resume: bool = ...,

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <exception>
 #include <map>
+#include <variant>
 
 namespace py = pybind11;
 
@@ -114,22 +115,33 @@ py::object run(const SceneHandle& scene, const std::optional<std::filesystem::pa
   return py::module_::import("gracilis").attr("Run")(result.folder);
 }
 
-/// A coordinate's range and the values of others, as the command has them.
-std::vector<CoordinateRange> ranges_of(const std::string& coordinate, const std::array<Real, 3>& range,
-                                       const std::map<std::string, Real>& at) {
-  std::vector<CoordinateRange> ranges = {{coordinate, range[0], range[1], range[2]}};
-  if (!std::isfinite(range[0]) || !std::isfinite(range[1]) || !(range[2] > 0) || !std::isfinite(range[2]) ||
-      range[0] == range[1])
-    refuse("range", "goes nowhere", "give (from, to, step), degrees (mm for a translation)");
-  for (const auto& [name, value] : at) {
-    if (!std::isfinite(value)) refuse("at", "'" + name + "' is not finite");
-    ranges.push_back({name, value, value, 0});
-  }
+using Range = std::array<Real, 3>;  ///< from, to, step
+/// Of other coordinates: each stays at a value or goes through a range.
+using OtherCoordinates = std::map<std::string, std::variant<Real, Range>>;
+
+CoordinateRange range_of(const std::string& coordinate, const Range& range, const char* argument) {
+  const auto [from, to, step] = range;
+  if (!std::isfinite(from) || !std::isfinite(to) || !(step > 0) || !std::isfinite(step) || from == to)
+    refuse(argument, "'" + coordinate + "' goes nowhere", "give (from, to, step), degrees (mm for a translation)");
+  return {coordinate, from, to, step};
+}
+
+/// As the command has them.
+std::vector<CoordinateRange> ranges_of(const std::string& coordinate, const Range& range, const OtherCoordinates& at) {
+  std::vector<CoordinateRange> ranges = {range_of(coordinate, range, "range")};
+  for (const auto& [name, place] : at)
+    if (const Range* moves = std::get_if<Range>(&place)) {
+      ranges.push_back(range_of(name, *moves, "at"));
+    } else {
+      const Real value = std::get<Real>(place);
+      if (!std::isfinite(value)) refuse("at", "'" + name + "' is not finite");
+      ranges.push_back({name, value, value, 0});
+    }
   return ranges;
 }
 
-py::object rom(const SceneHandle& scene, const std::string& coordinate, const std::array<Real, 3>& range,
-               const std::optional<std::filesystem::path>& out, const std::map<std::string, Real>& at,
+py::object rom(const SceneHandle& scene, const std::string& coordinate, const Range& range,
+               const std::optional<std::filesystem::path>& out, const OtherCoordinates& at,
                const std::optional<std::filesystem::path>& reference, const py::object& progress, bool resume,
                bool force, const std::string& metrics, int threads, bool large) {
   if (threads < 0) refuse("threads", "must be 0 or more");
@@ -137,7 +149,8 @@ py::object rom(const SceneHandle& scene, const std::string& coordinate, const st
   std::vector<ArmCurve> references;
   if (reference) references = read_arm_reference(*reference, coordinate);
   LoadedScene loaded = *scene.loaded;
-  const MovedCoordinate moved = move_through(ranges_of(coordinate, range, at), loaded).front();
+  const std::vector<MovedCoordinate> moved = move_through(ranges_of(coordinate, range, at), loaded);
+  if (moved.size() > 1 && reference) refuse("reference", "is about one coordinate", "give the others one value");
   SessionOptions options;
   options.out = out.value_or(range_folder(loaded.scene));
   options.threads = threads;
@@ -150,7 +163,9 @@ py::object rom(const SceneHandle& scene, const std::string& coordinate, const st
   options.command = {"gracilis.rom"};
   std::vector<std::string> warnings;
   const SessionResult result = record(loaded, options, progress, warnings);
-  const MomentArmReport report = write_moment_arms(result.folder, loaded.scene, moved, references);
+  const MomentArmReport report = moved.size() > 1
+                                     ? write_moment_arm_grids(result.folder, loaded.scene, moved)
+                                     : write_moment_arms(result.folder, loaded.scene, moved.front(), references);
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
   warn(warnings);
   return py::module_::import("gracilis").attr("Run")(result.folder);
@@ -161,15 +176,17 @@ py::object rom(const SceneHandle& scene, const std::string& coordinate, const st
 void bind_running(py::module_& module) {
   module.def(
       "rom", &rom, py::arg("scene"), py::arg("coordinate"), py::arg("range"), py::arg("out") = py::none(),
-      py::kw_only(), py::arg("at") = std::map<std::string, Real>{}, py::arg("reference") = py::none(),
+      py::kw_only(), py::arg("at") = OtherCoordinates{}, py::arg("reference") = py::none(),
       py::arg("progress") = py::none(), py::arg("resume") = false, py::arg("force") = false,
       py::arg("metrics") = "full", py::arg("threads") = 0, py::arg("large") = false,
-      R"(Takes the scene through the range of one coordinate into a run folder, as `gracilis rom` does with the same bits.
+      R"(Takes the scene through a coordinate's range into a run folder, as `gracilis rom` does with the same bits.
 
 coordinate, range: its name and (from, to, step), degrees (mm for a translation). out: the folder (runs/NAME_rom of the
-scene). at: values of other coordinates; without one they keep that of the capture pose. reference: a table of published
-moment arms to compare with (reference.csv in the folder). Others: as of run. The folder has moment_arms.sto and
-plots/moment_arms*.svg. Returns the Run; moment_arms gives arms alone, without a folder.)");
+scene). at: values of other coordinates, or (from, to, step): the scene then goes through all combinations, the first
+coordinate fastest; without either they keep the value of the capture pose. reference: a table of published
+moment arms to compare with (reference.csv in the folder). Others: as of run. The folder has moment_arms.sto, or
+moment_arms_about_NAME.sto of each coordinate where several move, and plots/moment_arms*.svg. Returns the Run;
+moment_arms gives arms alone, without a folder.)");
   module.def("run", &run, py::arg("scene"), py::arg("out") = py::none(), py::kw_only(),
              py::arg("progress") = py::none(), py::arg("resume") = false, py::arg("force") = false,
              py::arg("every") = 1, py::arg("ramps") = true, py::arg("fibers") = true, py::arg("metrics") = "full",

@@ -70,19 +70,36 @@ class MomentArms(unittest.TestCase):
         np.testing.assert_allclose(arms.arms["iliacus_r"][1:-1], slopes[1:-1], rtol=1e-9)
         self.assertTrue((arms.arms["iliacus_r"] > 0.01).all())  # it flexes the hip
 
+    def published(self, folder):
+        file = Path(folder) / "published.csv"
+        file.write_text("muscle,angle_deg,moment_arm_mm\niliacus_r,0,30\niliacus_r,6,32\n")
+        return file
+
     def test_a_range_is_compared_with_published_arms(self):
         with tempfile.TemporaryDirectory() as folder:
-            published, out = Path(folder) / "published.csv", Path(folder) / "rom"
-            published.write_text("muscle,angle_deg,moment_arm_mm\niliacus_r,0,30\niliacus_r,6,32\n")
+            out = Path(folder) / "rom"
             run = gracilis.rom(small_demo(), "hip_flexion_r", (0, 6, 3), out, at={"hip_rotation_r": 5.0},
-                               reference=published, metrics="none")  # fmt: skip
+                               reference=self.published(folder), metrics="none")  # fmt: skip
             self.assertEqual(run.coordinates["hip_rotation_r_deg"][-1], 5)
             self.assertEqual(len((out / "reference.csv").read_text().splitlines()), 2)
+
+    def test_several_ranges_give_arms_about_each_in_all_combinations(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out, ranges = Path(folder) / "rom", {"hip_rotation_r": (0, 4, 2)}
+            gracilis.rom(small_demo(), "hip_flexion_r", (0, 6, 3), out, at=ranges, metrics="none")
+            for name in ("hip_flexion_r", "hip_rotation_r"):
+                table = gracilis.read_sto(out / f"moment_arms_about_{name}.sto")
+                poses = set(zip(np.round(table["hip_flexion_r"], 9), np.round(table["hip_rotation_r"], 9)))
+                self.assertEqual(poses, {(f, r) for f in (0, 3, 6) for r in (0, 2, 4)})
+            with self.assertRaisesRegex(gracilis.Error, "about one coordinate"):
+                gracilis.rom(small_demo(), "hip_flexion_r", (0, 6, 3), at=ranges, reference=self.published(folder))
 
     def test_what_no_range_can_be(self):
         for wrong in ((0, 0, 1), (0, 10, 0), (0, 10, -1), (0, float("nan"), 1)):
             with self.subTest(wrong), self.assertRaisesRegex(gracilis.InputError, "goes nowhere"):
                 gracilis.rom(small_demo(), "hip_flexion_r", wrong)
+            with self.subTest(wrong), self.assertRaisesRegex(gracilis.Error, "goes nowhere"):
+                gracilis.rom(small_demo(), "hip_flexion_r", (0, 6, 3), at={"hip_rotation_r": wrong})
         with self.assertRaisesRegex(gracilis.ConfigurationError, "did you mean 'hip_flexion_r'"):
             gracilis.rom(small_demo(), "hip_flexion", (0, 6, 3))
         with self.assertRaisesRegex(gracilis.ConfigurationError, "given twice"):
