@@ -72,8 +72,7 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
       options->session.fiber_actions = true;
       const int code = run_session(loaded, options->session);
       if (code != static_cast<int>(ExitCode::interrupted))
-        tell(moved.size() > 1 ? write_moment_arm_grids(options->session.out, loaded.scene, moved)
-                              : write_moment_arms(options->session.out, loaded.scene, moved.front(), references));
+        tell(write_moment_arms(options->session.out, loaded.scene, moved, references));
       return code;
     };
   });

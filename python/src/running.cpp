@@ -163,9 +163,7 @@ py::object rom(const SceneHandle& scene, const std::string& coordinate, const Ra
   options.command = {"gracilis.rom"};
   std::vector<std::string> warnings;
   const SessionResult result = record(loaded, options, progress, warnings);
-  const MomentArmReport report = moved.size() > 1
-                                     ? write_moment_arm_grids(result.folder, loaded.scene, moved)
-                                     : write_moment_arms(result.folder, loaded.scene, moved.front(), references);
+  const MomentArmReport report = write_moment_arms(result.folder, loaded.scene, moved, references);
   warnings.insert(warnings.end(), report.warnings.begin(), report.warnings.end());
   warn(warnings);
   return py::module_::import("gracilis").attr("Run")(result.folder);

@@ -3,8 +3,7 @@
 #include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/delaunay_edges.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
-
-#include <Eigen/Eigenvalues>
+#include <gracilis/geometry/principal_axes.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -31,10 +30,10 @@ Eigen::Matrix2Xd middles_across(const Polylines& particles) {
   }
   middles.colwise() -= Vec3(middles.rowwise().mean());
   if (along.norm() > 0) middles -= along.normalized() * (along.normalized().transpose() * middles);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(middles * middles.transpose());  // ascending
+  const PrincipalAxes spread = principal_axes(middles * middles.transpose());
   Eigen::Matrix<Real, 2, 3> axes;
-  axes.row(0) = spread.eigenvectors().col(2).transpose();
-  axes.row(1) = spread.eigenvectors().col(1).transpose();
+  axes.row(0) = spread.most().transpose();
+  axes.row(1) = spread.directions.col(1).transpose();
   return axes * middles;
 }
 

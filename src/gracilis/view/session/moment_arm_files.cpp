@@ -159,10 +159,9 @@ Real largest_step(const Lines& lines, const Eigen::VectorXd& values, const Eigen
   return largest;
 }
 
-}  // namespace
-
-MomentArmReport write_moment_arm_grids(const std::filesystem::path& folder, const Scene& scene,
-                                       const std::vector<MovedCoordinate>& moved) {
+/// Of all combinations of several coordinates' values.
+MomentArmReport write_grids(const std::filesystem::path& folder, const Scene& scene,
+                            const std::vector<MovedCoordinate>& moved) {
   MomentArmReport report;
   if (has_no_fibers(folder, scene, report)) return report;
   create_folder(folder / "plots");
@@ -186,8 +185,9 @@ MomentArmReport write_moment_arm_grids(const std::filesystem::path& folder, cons
   return report;
 }
 
-MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
-                                  const std::vector<ArmCurve>& references) {
+/// Along the range of one.
+MomentArmReport write_curves(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
+                             const std::vector<ArmCurve>& references) {
   MomentArmReport report;
   if (has_no_fibers(folder, scene, report)) return report;
   create_folder(folder / "plots");
@@ -230,6 +230,13 @@ MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Sce
                           "reference_slope_mm_per_deg,beyond_band_mm\n" +
                               comparisons);
   return report;
+}
+
+}  // namespace
+
+MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Scene& scene,
+                                  const std::vector<MovedCoordinate>& moved, const std::vector<ArmCurve>& references) {
+  return moved.size() > 1 ? write_grids(folder, scene, moved) : write_curves(folder, scene, moved.front(), references);
 }
 
 }  // namespace gracilis

@@ -16,18 +16,16 @@ struct MomentArmReport {
   std::vector<std::string> warnings;  ///< why there are none, or none to compare
 };
 
-/// Writes the moment arms of a run folder along a coordinate (those that its method knows, or else what its fiber
-/// lengths say): moment_arms.sto, where the method knows forces with `<muscle>_by_force`, moment over tension, too;
-/// plots/moment_arms*.svg; and beside `references`, as far as they are of this coordinate, reference.csv. Of
-/// translations: how much muscles shorten. The scene's motion is the range; rows before it only led there. Throws
-/// InputError.
-MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved,
-                                  const std::vector<ArmCurve>& references);
-
-/// Writes those of a run through all combinations of several coordinates' values: for each of these
-/// moment_arms_about_<coordinate>.sto and, per muscle, plots/moment_arms_about_<coordinate>_<muscle>.svg. Throws
-/// InputError.
-MomentArmReport write_moment_arm_grids(const std::filesystem::path& folder, const Scene& scene,
-                                       const std::vector<MovedCoordinate>& moved);
+/// Writes the moment arms of a run folder about the coordinates that its motion moves (those that its method knows, or
+/// else what its fiber lengths say). Of translations: how much muscles shorten. The scene's motion is the range; rows
+/// before it only led there.
+/// - Of one coordinate: moment_arms.sto, where the method knows forces with `<muscle>_by_force`, moment over tension,
+///   too; plots/moment_arms*.svg; and beside `references`, as far as they are of this coordinate, reference.csv.
+/// - Of several, whose values are all combined, without references: for each moment_arms_about_<coordinate>.sto and,
+/// per
+///   muscle, plots/moment_arms_about_<coordinate>_<muscle>.svg.
+/// Precondition: at least one. Throws InputError.
+MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Scene& scene,
+                                  const std::vector<MovedCoordinate>& moved, const std::vector<ArmCurve>& references);
 
 }  // namespace gracilis
