@@ -131,8 +131,9 @@ class Method : public ::testing::TestWithParam<Variant> {
   const Scene scene = scene_of(GetParam());
   std::unique_ptr<DeformationMethod> method = make();
 
-  std::unique_ptr<DeformationMethod> make() const {
-    return make_method(scene, [this](const DistanceFieldSettings& settings) {
+  std::unique_ptr<DeformationMethod> make() const { return make(scene); }
+  static std::unique_ptr<DeformationMethod> make(const Scene& scene) {
+    return make_method(scene, [&scene](const DistanceFieldSettings& settings) {
       if (settings.cell_size == scene.distance_fields.cell_size) return tube_fields();  // both scenes have these bones
       std::vector<DistanceField> fields;
       for (const Bone& bone : scene.bones) fields.push_back(build_bone_field(bone, settings));
@@ -241,6 +242,20 @@ TEST_P(Method, any_jump_gives_finite_shapes_or_an_error) {
   }
   EXPECT_EQ(survived, poses.size());
   EXPECT_NO_THROW(go(*method, at(0)));
+}
+
+TEST_P(Method, holds_a_muscle_by_two_vertices_at_each_end) {
+  Scene held = scene;
+  for (Muscle& muscle : held.muscles)
+    for (Attachment& attachment : muscle.attachments)
+      attachment.vertices.resize(std::min<std::size_t>(attachment.vertices.size(), 2));
+  ASSERT_THAT(validate_method(held), testing::IsEmpty());
+  const auto by_points = make(held);
+  try {
+    go(*by_points, at(radians(10)));
+  } catch (const QualityError&) {
+  }
+  EXPECT_TRUE(is_finite(frame_of(*by_points, {}, 0)));
 }
 
 TEST_P(Method, keeps_its_volume) {

@@ -31,6 +31,20 @@ StringState at(const Strung& strung, Real angle, Real step = radians(5)) {
 
 Real largest_difference(const Points& a, const Points& b) { return (a - b).colwise().norm().maxCoeff(); }
 
+TEST(StringSkin, a_vertex_in_which_all_fibers_end_follows_them) {
+  const TriangleMesh& surface = arm().scene.muscles[0].surface;
+  const Index vertex = arm().scene.muscles[0].attachments[1].vertices[0];
+  MuscleStrings muscle = arm().muscle;
+  for (Index s = 0; s < muscle.strings; ++s)
+    muscle.fibers.col(muscle.node(s, muscle.nodes - 1)) = surface.vertices.col(vertex);
+  const StringSkin skin = bind_skin(muscle, surface, attached_bodies(arm().scene.muscles[0]));
+  for (std::size_t v = 0; v + 1 < skin.begin.size(); ++v) {
+    float sum = 0;
+    for (Index k = skin.begin[v]; k < skin.begin[v + 1]; ++k) sum += skin.weights[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(sum, 1, 1e-5) << v;
+  }
+}
+
 TEST(TautStrings, a_muscle_without_two_ends_has_none) {
   Scene scene = arm_scene();
   scene.muscles[0].attachments.pop_back();

@@ -50,7 +50,9 @@ std::vector<std::pair<NearestOnFiber, Real>> weighted_fibers(const MuscleStrings
     return std::tie(a.distance, a.node) < std::tie(b.distance, b.node);
   });
   const std::size_t count = std::min(bound_fibers, all.size());
-  const Real cut = count < all.size() ? all[count].distance : all.back().distance * 1.1 + softening;
+  // Where more fibers than these end in the vertex itself, all of them are as near as can be.
+  const bool all_are_near = count < all.size() && all[count].distance > 0;
+  const Real cut = all_are_near ? all[count].distance : all.back().distance * 1.1 + softening;
   std::vector<std::pair<NearestOnFiber, Real>> weighted;
   Real sum = 0;
   for (std::size_t k = 0; k < count; ++k) {
