@@ -98,7 +98,7 @@ TEST_F(RunChoices, what_is_not_measured_is_not_called_kept) {
     EXPECT_EQ(run_program(command + folder.path("out").string()).exit_code, 0) << command;
 
   const ProgramResult light = run("--force --metrics light");
-  EXPECT_THAT(light.err, HasSubstr("not measured: depth in bones, place, side of bones, slack"));
+  EXPECT_THAT(light.err, HasSubstr("not measured: depth in bones, depth in muscles, place, side of bones, slack"));
   EXPECT_NEAR(measure_of(recorded(), "volume_ratio")(3, 0), 1, 0.1);
   EXPECT_TRUE(std::isnan(measure_of(recorded(), "vertex_depth_beyond_rest_mm")(3, 0)));
   EXPECT_EQ(run_program("verify " + folder.path("out").string()).exit_code, 0);

@@ -48,7 +48,8 @@ bool equal(const MuscleMeasures& a, const MuscleMeasures& b) {
          a.dihedral_change_mean == b.dihedral_change_mean && a.dihedral_change_max == b.dihedral_change_max &&
          a.dihedrals_over_90 == b.dihedrals_over_90 && a.vertex_depth == b.vertex_depth &&
          a.vertex_depth_beyond_rest == b.vertex_depth_beyond_rest &&
-         a.midpoint_depth_beyond_rest == b.midpoint_depth_beyond_rest && a.belly_off_place == b.belly_off_place &&
+         a.midpoint_depth_beyond_rest == b.midpoint_depth_beyond_rest &&
+         a.muscle_depth_beyond_rest == b.muscle_depth_beyond_rest && a.belly_off_place == b.belly_off_place &&
          a.wrong_side == b.wrong_side && a.slack == b.slack && a.finite == b.finite;
 }
 
@@ -179,15 +180,16 @@ TEST(QualityGates, say_what_was_missed_with_number_and_limit) {
   measures.volume_ratio = 0.99;
   measures.vertex_depth_beyond_rest = 0.00034;
   measures.midpoint_depth_beyond_rest = 0.0007;
+  measures.muscle_depth_beyond_rest = 0.0013;
   measures.edge_ratio_max_free = 4.2;
   measures.belly_off_place = 0.0184;
   measures.wrong_side = 0.25;
   measures.slack = 0.163;
   EXPECT_THAT(missed_gates(measures, {}),
               testing::ElementsAre(testing::HasSubstr("99.00 %"), testing::HasSubstr("0.340 mm"),
-                                   testing::HasSubstr("0.700 mm"), testing::HasSubstr("4.2 times"),
-                                   testing::HasSubstr("18.4 mm off its place"), testing::HasSubstr("25 %"),
-                                   testing::HasSubstr("16 % longer")));
+                                   testing::HasSubstr("0.700 mm"), testing::HasSubstr("1.300 mm"),
+                                   testing::HasSubstr("4.2 times"), testing::HasSubstr("18.4 mm off its place"),
+                                   testing::HasSubstr("25 %"), testing::HasSubstr("16 % longer")));
   measures = {};
   measures.volume_ratio = 1.0051;
   EXPECT_EQ(missed_gates(measures, {}).size(), 1u);

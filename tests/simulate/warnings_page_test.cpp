@@ -90,10 +90,11 @@ TEST(WarningsPage, every_gate_stands_there_with_why_it_matters) {
   bad.finite = false;
   bad.volume_ratio = 2;
   bad.vertex_depth_beyond_rest = bad.midpoint_depth_beyond_rest = bad.belly_off_place = 1;
+  bad.muscle_depth_beyond_rest = 1;
   bad.edge_ratio_max_free = bad.edge_ratio_max_near = bad.spike = bad.thickening = bad.thinning = 100;
   bad.wrong_side = bad.slack = 1;
   const std::vector<MissedGate> missed = gates_missed_by(bad, QualityGates{});
-  EXPECT_EQ(missed.size(), 12U);
+  EXPECT_EQ(missed.size(), 13U);
   const std::string text = page();
   for (const MissedGate& gate : missed)
     EXPECT_NE(text.find("\"" + gate.consequence + "\""), std::string::npos) << gate.text;

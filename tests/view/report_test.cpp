@@ -263,7 +263,7 @@ TEST_F(ReportInBrowser, plots_tell_values_under_the_pointer_and_go_where_one_cli
 
 TEST_F(ReportInBrowser, gates_link_to_their_worst_frame_and_warnings_stand_there_in_words) {
   open({FlexingLeg(21).written(folder.path() / "run")});
-  EXPECT_THAT(js("document.getElementById('verdict').textContent").get<std::string>(), HasSubstr("1 of 22"));
+  EXPECT_THAT(js("document.getElementById('verdict').textContent").get<std::string>(), HasSubstr("1 of 24"));
   EXPECT_THAT(js("document.querySelector('#gates tbody tr').textContent").get<std::string>(), HasSubstr("and 19 more"));
   click("#gates tbody tr button");
   EXPECT_EQ(js("page.state.frame"), 20);

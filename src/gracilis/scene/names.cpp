@@ -62,6 +62,7 @@ const std::vector<std::string>& measure_columns() {
                                                    "vertex_depth_mm",
                                                    "vertex_depth_beyond_rest_mm",
                                                    "midpoint_depth_beyond_rest_mm",
+                                                   "muscle_depth_beyond_rest_mm",
                                                    "belly_off_place_mm",
                                                    "wrong_side_share",
                                                    "slack",

@@ -44,6 +44,10 @@ std::vector<MissedGate> gates_missed_by(const MuscleMeasures& measures, const Qu
     missed.push_back(
         {depth_text("an edge's midpoint in a bone", measures.midpoint_depth_beyond_rest, gates.midpoint_depth), in_bone,
          measures.midpoint_depth_beyond_rest / gates.midpoint_depth});
+  if (measures.muscle_depth_beyond_rest > gates.muscle_depth)
+    missed.push_back({depth_text("a vertex in another muscle", measures.muscle_depth_beyond_rest, gates.muscle_depth),
+                      "one muscle would show inside the other",
+                      measures.muscle_depth_beyond_rest / gates.muscle_depth});
   if (measures.edge_ratio_max_free > gates.free_edge_ratio)
     missed.push_back({text_of("an edge far from attachments stretched %.1f times (limit %.1f)",
                               measures.edge_ratio_max_free, gates.free_edge_ratio),
@@ -89,7 +93,8 @@ std::vector<std::string> missed_gates(const MuscleMeasures& measures, const Qual
 std::vector<std::string> unmeasured_gates(MeasureLevel level) {
   std::vector<std::string> names;
   if (level == MeasureLevel::none) names = {"volume", "stretch"};
-  if (level != MeasureLevel::full) names.insert(names.end(), {"depth in bones", "place", "side of bones", "slack"});
+  if (level != MeasureLevel::full)
+    names.insert(names.end(), {"depth in bones", "depth in muscles", "place", "side of bones", "slack"});
   return names;
 }
 

@@ -16,6 +16,7 @@ struct QualityGates {
   Real volume = 0.005;         ///< |volume ratio - 1|
   Real vertex_depth = 1e-4;    ///< m beyond rest
   Real midpoint_depth = 5e-4;  ///< m beyond rest
+  Real muscle_depth = 1e-3;    ///< m in another muscle beyond rest
   Real free_edge_ratio = 3;
   Real near_edge_ratio = 5;      ///< within 15 mm of attachments, where tendons are drawn around bones
   Real spike = 2;                ///< edge lengths, see SurfaceFlaws
@@ -27,7 +28,7 @@ struct QualityGates {
 };
 
 /// How much of a muscle is measured: nothing; its shape alone (volume, edges, angles); or also how deep it lies in
-/// bones and where it runs and lies, which takes as long as some methods do.
+/// bones and other muscles and where it runs and lies, which takes as long as some methods do.
 enum class MeasureLevel { none, light, full };
 inline constexpr std::array<MeasureLevel, 3> measure_levels = {MeasureLevel::none, MeasureLevel::light,
                                                                MeasureLevel::full};

@@ -4,6 +4,8 @@
 #include <gracilis/dynamics/constraints/dihedral.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
+#include <gracilis/methods/registry.hpp>
+#include <gracilis/scene/attached_vertices.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +57,7 @@ std::vector<SignedDistance> distances_to_bones(const Scene& scene) {
 Measurer::Measurer(const Scene& scene, const FiberTracker* tracker, MeasureLevel level) : scene_(scene), level_(level) {
   if (level == MeasureLevel::full) {
     bones_ = distances_to_bones(scene);
+    if (scene.muscles.size() > 1 && keeps_surfaces_apart(scene)) muscle_depths_.emplace(scene);
     bellies_.emplace(scene, bones_);
     ways_.emplace(scene, bones_, tracker);
   }
@@ -70,9 +73,7 @@ Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
   rest.edges = topology.edges;
   rest.flaws = SurfaceFlaws(muscle.surface, topology);
   rest.volume = enclosed_volume(x, muscle.surface.faces);
-  std::vector<char> fixed(static_cast<std::size_t>(x.cols()), 0);
-  for (const Attachment& attachment : muscle.attachments)
-    for (Index v : attachment.vertices) fixed[static_cast<std::size_t>(v)] = 1;
+  const std::vector<char> fixed = attached_vertices(muscle);
   const auto is_fixed = [&](Index v) { return fixed[static_cast<std::size_t>(v)] != 0; };
   std::vector<Index> attached;
   for (Index v = 0; v < x.cols(); ++v) (is_fixed(v) ? attached : rest.free_vertices).push_back(v);
@@ -169,12 +170,23 @@ MuscleMeasures Measurer::measure_shape(std::size_t muscle, const Points& x, cons
   return measures;
 }
 
+static bool all_are_finite(const std::vector<MuscleMeasures>& measures) {
+  return std::all_of(measures.begin(), measures.end(), [](const MuscleMeasures& each) { return each.finite; });
+}
+
+/// How deep muscles lie in each other. Points that are not finite lie nowhere.
+void Measurer::measure_muscle_depths(const Frame& frame, std::vector<MuscleMeasures>& measures) const {
+  if (!muscle_depths_ || !all_are_finite(measures)) return;
+  const std::vector<Real> depths = muscle_depths_->beyond_rest(frame);
+  for (std::size_t m = 0; m < measures.size(); ++m) measures[m].muscle_depth_beyond_rest = depths[m];
+}
+
 /// Where the muscles run and lie. A frame that is not finite has no places.
 void Measurer::measure_places(const Frame& frame, const std::vector<MuscleFibers>& fibers,
                               std::vector<MuscleMeasures>& measures) {
   if (level_ != MeasureLevel::full) return;
   ways_->follow(frame.pose);
-  if (!std::all_of(measures.begin(), measures.end(), [](const MuscleMeasures& m) { return m.finite; })) return;
+  if (!all_are_finite(measures)) return;
   const std::vector<MuscleWay> ways = ways_->measure(frame, fibers);
   std::vector<Real> length_ratios;
   for (const MuscleWay& way : ways) length_ratios.push_back(way.length_ratio);
@@ -189,6 +201,7 @@ void Measurer::measure_places(const Frame& frame, const std::vector<MuscleFibers
 std::vector<MuscleMeasures> Measurer::measure(const Frame& frame, const std::vector<MuscleFibers>& fibers) {
   std::vector<MuscleMeasures> all(muscles_.size());
   parallel_for_each(all.size(), [&](std::size_t m) { all[m] = measure_shape(m, frame.muscles[m].points, frame.pose); });
+  measure_muscle_depths(frame, all);
   measure_places(frame, fibers, all);
   return all;
 }

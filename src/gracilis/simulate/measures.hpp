@@ -6,6 +6,7 @@
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/simulate/belly_place.hpp>
 #include <gracilis/simulate/gates.hpp>
+#include <gracilis/simulate/muscle_depths.hpp>
 #include <gracilis/simulate/surface_flaws.hpp>
 #include <gracilis/simulate/way_measures.hpp>
 
@@ -30,6 +31,7 @@ struct MuscleMeasures {
   Real vertex_depth = 0;                ///< m, deepest free vertex in a bone
   Real vertex_depth_beyond_rest = 0;    ///< m, deepest beyond that vertex's depth in that bone at rest
   Real midpoint_depth_beyond_rest = 0;  ///< m, the same for midpoints of edges with a free end
+  Real muscle_depth_beyond_rest = 0;    ///< m, see MuscleDepths; 0 where muscles are not kept out of each other
   Real belly_off_place = 0;             ///< m, see BellyPlace
   Real wrong_side = 0;                  ///< share of the muscle's lines, see is_on_wrong_side
   Real slack = 0;                       ///< mean over the muscle's lines, see slack_of
@@ -82,6 +84,7 @@ class Measurer {
                       MuscleMeasures& measures) const;
 
   MuscleMeasures measure_shape(std::size_t muscle, const Points& x, const Pose& pose);
+  void measure_muscle_depths(const Frame& frame, std::vector<MuscleMeasures>& measures) const;
   void measure_places(const Frame& frame, const std::vector<MuscleFibers>& fibers,
                       std::vector<MuscleMeasures>& measures);
 
@@ -89,6 +92,7 @@ class Measurer {
   MeasureLevel level_;
   std::vector<SignedDistance> bones_;  ///< these and what follows are there where depths and places are measured
   std::vector<Eigen::AlignedBox3d> bone_boxes_;  ///< in the capture pose
+  std::optional<MuscleDepths> muscle_depths_;    ///< where the method keeps muscles out of each other
   std::optional<BellyPlace> bellies_;
   std::optional<WayMeasures> ways_;
   std::vector<MuscleRest> muscles_;

@@ -4,6 +4,7 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
+#include <gracilis/scene/attached_vertices.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -138,9 +139,8 @@ void collect_segments(const Points& x, const DirectionField* directions, Surface
 
 Real coverage(const Muscle& muscle, const MeshTopology& topology, const std::vector<FiberSegment>& segments) {
   const auto count = static_cast<std::size_t>(muscle.surface.vertex_count());
-  std::vector<char> held(count, 0), covered(count, 0);
-  for (const Attachment& attachment : muscle.attachments)
-    for (const Index v : attachment.vertices) held[static_cast<std::size_t>(v)] = 1;
+  const std::vector<char> held = attached_vertices(muscle);
+  std::vector<char> covered(count, 0);
   for (const FiberSegment& segment : segments)
     for (const Index v : {segment.a, segment.b}) {
       covered[static_cast<std::size_t>(v)] = 1;

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/scene/attached_vertices.hpp>
 
 #include <Eigen/Geometry>
 
@@ -84,9 +85,7 @@ std::vector<BoneOverlap> rest_overlaps_with_bones(const Scene& scene) {
   std::vector<std::vector<BoneOverlap>> of_muscles(scene.muscles.size());
   parallel_for_each(of_muscles.size(), [&](std::size_t m) {
     const Muscle& muscle = scene.muscles[m];
-    std::vector<char> attached(static_cast<std::size_t>(muscle.surface.vertex_count()), 0);
-    for (const Attachment& attachment : muscle.attachments)
-      for (const Index v : attachment.vertices) attached[static_cast<std::size_t>(v)] = 1;
+    const std::vector<char> attached = attached_vertices(muscle);
     const Eigen::AlignedBox3d box = box_of(muscle.surface);
     for (std::size_t b = 0; b < bones.size(); ++b) {
       if (!bones[b]->box.intersects(box)) continue;

@@ -50,6 +50,7 @@ static Json worst_measures(const fs::path& path) {
                                         {"spike", 0.0},
                                         {"thickening", 1.0},
                                         {"thinning", 1.0},
+                                        {"muscle_depth_beyond_rest_mm", 0.0},
                                         {"belly_off_place_mm", 0.0},
                                         {"wrong_side_share", 0.0},
                                         {"slack", 0.0}})

@@ -36,15 +36,15 @@ std::string measures_header(const Scene& scene) {
 
 /// Empty where a level does not measure it.
 static std::string measure_cells(const MuscleMeasures& m) {
-  if (m.level == MeasureLevel::none) return ",,,,,,,,,,,,,,,,,";
+  if (m.level == MeasureLevel::none) return ",,,,,,,,,,,,,,,,,,";
   const std::string shape = fmt::format(
       ",{:.6f},{:.6f},{:.4f},{:.4f},{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{}", m.volume_ratio, m.edge_ratio_mean,
       m.edge_ratio_max, m.edge_ratio_max_free, m.edge_ratio_max_near, m.spike, m.thickening, m.thinning,
       degrees(m.dihedral_change_mean), degrees(m.dihedral_change_max), m.dihedrals_over_90);
-  if (m.level == MeasureLevel::light) return shape + ",,,,,,";
-  return shape + fmt::format(",{:.4f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f}", 1000 * m.vertex_depth,
+  if (m.level == MeasureLevel::light) return shape + ",,,,,,,";
+  return shape + fmt::format(",{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f}", 1000 * m.vertex_depth,
                              1000 * m.vertex_depth_beyond_rest, 1000 * m.midpoint_depth_beyond_rest,
-                             1000 * m.belly_off_place, m.wrong_side, m.slack);
+                             1000 * m.muscle_depth_beyond_rest, 1000 * m.belly_off_place, m.wrong_side, m.slack);
 }
 
 static std::string report_cells(const MethodEntry& method, const MuscleReport& report) {

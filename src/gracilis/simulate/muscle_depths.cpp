@@ -1,0 +1,53 @@
+#include <gracilis/simulate/muscle_depths.hpp>
+
+#include <gracilis/scene/attached_vertices.hpp>
+
+#include <algorithm>
+
+namespace gracilis {
+
+static std::vector<TriangleMesh> surfaces_of(const Scene& scene) {
+  std::vector<TriangleMesh> surfaces;
+  for (const Muscle& muscle : scene.muscles) surfaces.push_back(muscle.surface);
+  return surfaces;
+}
+
+static std::vector<std::vector<char>> attached_vertices_of(const Scene& scene) {
+  std::vector<std::vector<char>> attached;
+  for (const Muscle& muscle : scene.muscles) attached.push_back(attached_vertices(muscle));
+  return attached;
+}
+
+MuscleDepths::MuscleDepths(const Scene& scene) : attached_(attached_vertices_of(scene)), surfaces_(surfaces_of(scene)) {
+  const auto count = static_cast<Index>(scene.muscles.size());
+  at_rest_ = Eigen::MatrixXd::Zero(count, count);
+  std::vector<Points> points;
+  for (const Muscle& muscle : scene.muscles) points.push_back(muscle.surface.vertices);
+  for (const DepthInOther& each : depths_of(points)) {
+    Real& deepest = at_rest_(std::min(each.surface, each.other), std::max(each.surface, each.other));
+    deepest = std::max(deepest, each.depth);
+  }
+}
+
+/// Of free vertices only: attached ones go with their bones wherever these go.
+std::vector<DepthInOther> MuscleDepths::depths_of(const std::vector<Points>& points) const {
+  std::vector<DepthInOther> depths = surfaces_.find(points);
+  std::erase_if(depths, [&](const DepthInOther& each) {
+    return attached_[static_cast<std::size_t>(each.surface)][static_cast<std::size_t>(each.vertex)] != 0;
+  });
+  return depths;
+}
+
+std::vector<Real> MuscleDepths::beyond_rest(const Frame& frame) const {
+  std::vector<Points> points;
+  for (const MuscleShape& muscle : frame.muscles) points.push_back(muscle.points);
+  std::vector<Real> beyond(points.size(), 0);
+  for (const DepthInOther& each : depths_of(points)) {
+    const Real at_rest = at_rest_(std::min(each.surface, each.other), std::max(each.surface, each.other));
+    Real& deepest = beyond[static_cast<std::size_t>(each.surface)];
+    deepest = std::max(deepest, each.depth - at_rest);
+  }
+  return beyond;
+}
+
+}  // namespace gracilis
