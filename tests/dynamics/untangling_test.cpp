@@ -15,12 +15,15 @@ namespace {
 
 using Eigen::Vector3f;
 
-/// A ball of which a particle lies over its neighbors, so that faces have folded.
-Meeting folded_ball(bool lies_in_another) {
+/// A ball of which a particle lies over its neighbors, so that faces have folded; and another, so far from its center,
+/// in radii, on the side of that particle. With `lay_in_another` all of it lay in the other at rest.
+Meeting folded_ball(float away, bool lay_in_another) {
   Meeting meeting;
-  for (const Real x : {0.0, 0.1}) meeting.add(shapes::sphere({x, 0, 0}, 0.01, 4));
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.01, 4);
+  meeting.add(ball);
+  meeting.add(shapes::sphere(static_cast<Real>(away) * Vec3(ball.vertices.col(7)), 0.01, 4));
   meeting.pair(0, 0, 0.0003f).reach = 0.001f;
-  if (lies_in_another) meeting.pair(0, 1, 0.0003f).first_overlaps.assign(meeting.world.rest[0].cols(), 1);
+  if (lay_in_another) meeting.pair(0, 1, 0.0003f).first_overlaps.assign(meeting.world.rest[0].cols(), 1);
   meeting.prepare();
   const Vector3f place = meeting.particles[0].position(7);
   meeting.particles[0].position(7) = 1.03f * place + Vector3f(-place.y(), place.x(), 0).normalized() * 0.0022f;
@@ -31,7 +34,8 @@ bool untangle_once(Meeting& meeting, int attempt = 0) {
   meeting.find();
   meeting.follow();
   Movers movers;
-  return untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), attempt, movers);
+  return untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), attempt,
+                           movers);
 }
 
 }  // namespace
@@ -53,7 +57,7 @@ TEST(SurfaceContact, a_surface_that_cuts_itself_is_untangled_and_says_so) {
 }
 
 TEST(SurfaceContact, a_surface_that_has_folded_is_untangled_though_it_cuts_nothing) {
-  Meeting meeting = folded_ball(false);
+  Meeting meeting = folded_ball(10, false);
   const auto is_folded = [&] {
     return !find_folds(meeting.world.surfaces[0], meeting.world.rest[0], meeting.state.before[0], meeting.particles[0])
                 .empty();
@@ -69,13 +73,19 @@ TEST(SurfaceContact, a_surface_that_has_folded_is_untangled_though_it_cuts_nothi
   EXPECT_FALSE(meeting.state.torn[0][7]) << "it lay in nothing";
 }
 
-TEST(SurfaceContact, lets_go_of_what_folded_on_its_way_out_of_a_surface_that_it_lies_in_at_rest) {
-  Meeting meeting = folded_ball(true);
+TEST(SurfaceContact, lets_go_of_what_folded_on_its_way_out_of_a_surface_that_it_lay_in_at_rest) {
+  Meeting meeting = folded_ball(1.9f, true);
   ASSERT_TRUE(untangle_once(meeting));
   EXPECT_TRUE(meeting.state.torn[0][7]);
   EXPECT_FALSE(meeting.state.torn[0][100]) << "not folded";
   remember_places(meeting.pointers<const Particles*>(meeting.particles), meeting.state);
   EXPECT_FALSE(meeting.state.torn[0][7]) << "in the next step";
+}
+
+TEST(SurfaceContact, does_not_let_go_of_what_folded_when_it_had_come_out) {
+  Meeting meeting = folded_ball(2.2f, true);
+  ASSERT_TRUE(untangle_once(meeting));
+  EXPECT_FALSE(meeting.state.torn[0][7]);
 }
 
 TEST(SurfaceContact, untangling_leaves_only_what_was_untangled_among_the_movers) {
@@ -95,7 +105,8 @@ TEST(SurfaceContact, untangling_leaves_only_what_was_untangled_among_the_movers)
   meeting.follow();
   Movers movers{{1, 0, 1}};
   const Particles left_alone = meeting.particles[1];
-  EXPECT_TRUE(untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), 0, movers));
+  EXPECT_TRUE(
+      untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), 0, movers));
   EXPECT_EQ(movers.listed, std::vector<char>({1, 0, 0}));
   EXPECT_EQ(largest_motion(left_alone, meeting.particles[1]), 0);
 }

@@ -35,26 +35,40 @@ std::vector<Index> suspects(const ContactSurface& surface, const PairCandidates&
   return faces;
 }
 
-/// Whether a particle lies in another surface at rest.
-bool overlaps_at_rest(const ContactWorld& world, std::size_t surface, Index particle) {
-  const auto lies_in = [&](const std::vector<char>& overlaps) {
-    return !overlaps.empty() && overlaps[static_cast<std::size_t>(particle)] != 0;
-  };
-  return std::any_of(world.pairs.begin(), world.pairs.end(), [&](const SurfacePair& pair) {
-    return (static_cast<std::size_t>(pair.first) == surface && lies_in(pair.first_overlaps)) ||
-           (static_cast<std::size_t>(pair.second) == surface && lies_in(pair.second_overlaps));
-  });
+/// Whether a particle that is among `near` (ascending) is behind the face that it is near to.
+bool is_inside(const std::vector<VertexFaceCandidate>& near, Index particle) {
+  const auto found =
+      std::lower_bound(near.begin(), near.end(), particle,
+                       [](const VertexFaceCandidate& each, Index wanted) { return each.particle < wanted; });
+  return found != near.end() && found->particle == particle && found->distance < 0;
 }
 
-/// Those on the way out of another surface in which they lie at rest: what is still in and what is out already folds
+/// Whether a particle lay in another surface at rest and still does.
+bool is_on_its_way_out(const ContactWorld& world, const ContactWorldState& state, std::size_t surface, Index particle) {
+  const auto is_in = [&](const std::vector<char>& lay_in, const std::vector<VertexFaceCandidate>& near) {
+    return !lay_in.empty() && lay_in[static_cast<std::size_t>(particle)] && is_inside(near, particle);
+  };
+  for (std::size_t i = 0; i < world.pairs.size(); ++i) {
+    const SurfacePair& pair = world.pairs[i];
+    const PairCandidates& candidates = state.candidates[i];
+    if (static_cast<std::size_t>(pair.first) == surface && is_in(pair.first_overlaps, candidates.near_second))
+      return true;
+    if (static_cast<std::size_t>(pair.second) == surface && is_in(pair.second_overlaps, candidates.near_first))
+      return true;
+  }
+  return false;
+}
+
+/// Those on the way out of another surface in which they lay at rest: what is still in and what is out already folds
 /// between them. Contact lets go of it; it goes out later.
-std::vector<FacePair> let_go_of_overlaps(const ContactWorld& world, std::size_t surface, std::vector<FacePair> folds,
-                                         std::vector<char>& torn) {
+std::vector<FacePair> let_go_of_overlaps(const ContactWorld& world, const ContactWorldState& state, std::size_t surface,
+                                         std::vector<FacePair> folds, std::vector<char>& torn) {
   std::erase_if(folds, [&](const FacePair& fold) {
     bool overlaps = false;
     for (const Index face : fold)
       for (const Index corner : world.surfaces[surface].faces.col(face))
-        if (overlaps_at_rest(world, surface, corner)) torn[static_cast<std::size_t>(corner)] = 1, overlaps = true;
+        if (is_on_its_way_out(world, state, surface, corner))
+          torn[static_cast<std::size_t>(corner)] = 1, overlaps = true;
     return !overlaps;
   });
   return folds;
@@ -72,7 +86,7 @@ bool untangle_surfaces(const ContactWorld& world, ContactWorldState& state, cons
     std::vector<FacePair> cuts = find_self_intersections(surface, world.rest[at], state.before[at], *particles[at],
                                                          suspects(surface, state.candidates[i], *particles[at]));
     std::vector<FacePair> folds = find_folds(surface, world.rest[at], state.before[at], *particles[at]);
-    const std::vector<FacePair> overlapping = let_go_of_overlaps(world, at, folds, state.torn[at]);
+    const std::vector<FacePair> overlapping = let_go_of_overlaps(world, state, at, folds, state.torn[at]);
     if (!cuts.empty()) folds = overlapping;
     cuts.insert(cuts.end(), folds.begin(), folds.end());
     const float most = untangled_within * world.neighborhood[at];
