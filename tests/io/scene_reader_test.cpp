@@ -5,11 +5,25 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
+
 namespace gracilis {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+
+/// A muscle of strips from end to end between the two bones, `sides` around it, in millimetres.
+void write_needles(const SceneFolder& folder, int sides) {
+  const TriangleMesh mesh = shapes::cylinder(4, 18, sides, 1);
+  std::ostringstream text;
+  text << "ply\nformat ascii 1.0\nelement vertex " << mesh.vertex_count()
+       << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << mesh.face_count()
+       << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto v : mesh.vertices.colwise()) text << 5 + v.x() << ' ' << 5 + v.y() << ' ' << 11 + v.z() << '\n';
+  for (const auto f : mesh.faces.colwise()) text << "3 " << f[0] << ' ' << f[1] << ' ' << f[2] << '\n';
+  folder.write("muscle.ply", text.str());
+}
 
 }  // namespace
 
@@ -22,6 +36,30 @@ TEST_F(SceneReader, lengths_become_metres_and_angles_radians) {
   EXPECT_NEAR(scene.joints[0].axes[0].capture_value, radians(2), 1e-15);
   EXPECT_NEAR(scene.joints[0].axes[0].range_max, radians(20), 1e-15);
   EXPECT_NEAR(scene.motion.values(10, 0), radians(10), 1e-15);
+}
+
+TEST_F(SceneReader, divides_needles_unless_they_are_to_stay_and_says_so) {
+  write_needles(folder, 60);
+  const std::string kept = good_scene() + "[surfaces]\ndivide_needles = false\n";
+  const TriangleMesh raw = read(kept).scene.muscles.at(0).surface;
+  EXPECT_THAT(read(kept).warnings, testing::Each(testing::Not(HasSubstr("triangles were divided"))));
+  const LoadedScene loaded = read(good_scene());
+  EXPECT_THAT(loaded.warnings, testing::Contains(HasSubstr("divided in the surfaces of 1 of 1 muscles")));
+  const TriangleMesh& surface = loaded.scene.muscles.at(0).surface;
+  EXPECT_GT(surface.vertex_count(), raw.vertex_count());
+  EXPECT_EQ(surface.vertices.leftCols(raw.vertex_count()), raw.vertices);
+}
+
+TEST_F(SceneReader, holds_what_comes_between_listed_vertices_when_needles_are_divided) {
+  write_needles(folder, 60);
+  const std::string below =
+      with(good_scene(), "bone = \"femur\"\nbone_distance_mm = 2", "body = \"femur\"\nvertices = [30]");
+  const auto listing = [&](const std::string& vertices) {
+    return with(below, "bone = \"pelvis\"\nbone_distance_mm = 2", "body = \"pelvis\"\nvertices = [" + vertices + "]");
+  };
+  // Some of the lower end, and those above them.
+  EXPECT_GT(read(listing("0, 1, 2, 3, 60, 61, 62, 63")).scene.muscles.at(0).attachments.at(0).vertices.size(), 8u);
+  EXPECT_THAT(problems(listing("0, 122")), HasSubstr("vertex 122 does not exist (the surface has vertices 0 to 121)"));
 }
 
 TEST_F(SceneReader, attachments_by_distance_to_a_bone_take_the_vertices_that_face_it) {

@@ -1,6 +1,7 @@
 #include <gracilis/calibrate/calibration_files.hpp>
 
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/scene/scene_layers.hpp>
 #include <gracilis/io/text_cells.hpp>
 #include <gracilis/io/value_reader.hpp>
 
@@ -60,15 +61,13 @@ class SettingTables {
   }
 
   std::string text() const {
-    static constexpr std::array<std::string_view, 7> sections = {
-        "settings", "contact", "distance_field", "sequence", "fibers", "contraction", "prepare"};
     std::string top, tables, muscles;
     for (const auto& [owner, entries] : tables_) {
       std::string lines;
       for (const auto& [key, value] : entries) lines += key + " = " + value + "\n";
       if (owner.empty())
         top += lines;
-      else if (std::find(sections.begin(), sections.end(), owner) != sections.end())
+      else if (is_setting_section(owner))
         tables += "\n[" + owner + "]\n" + lines;
       else
         muscles += "\n[[muscles]]\nname = " + quoted(owner) + "\n[muscles.settings]\n" + lines;

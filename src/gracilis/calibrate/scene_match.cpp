@@ -3,6 +3,7 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/io/content_hash.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/scene/scene_layers.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/methods/registry.hpp>
 
@@ -74,13 +75,14 @@ SettingLookup look_up_setting(const Scene& scene, const std::string& key) {
   if (owner == "sequence") return of_struct(own, owner, &scene.sequence);
   if (owner == "fibers") return of_struct<FiberSettings>(own, owner, first ? &first->fibers : nullptr);
   if (owner == "contraction") return of_struct<ContractionSettings>(own, owner, first ? &first->contraction : nullptr);
+  if (owner == "surfaces") return of_struct<SurfaceSettings>(own, owner, nullptr);
   if (owner == "prepare") return of_struct<PrepareSettings>(own, owner, nullptr);
   std::vector<std::string> names;
   for (const Muscle& muscle : scene.muscles) {
     if (muscle.name == owner) return of_method(scene, own, &muscle);
     names.push_back(muscle.name);
   }
-  names.insert(names.end(), {"contact", "distance_field", "sequence", "fibers", "contraction", "prepare"});
+  names.insert(names.end(), setting_sections.begin(), setting_sections.end());
   return {{}, {}, "the scene has no muscle '" + owner + "'", suggestion(owner, names)};
 }
 

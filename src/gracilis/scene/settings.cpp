@@ -15,6 +15,18 @@ std::span<const Setting<DistanceFieldSettings>> setting_table() {
 }
 
 template <>
+std::span<const Setting<SurfaceSettings>> setting_table() {
+  using S = SurfaceSettings;
+  static const Setting<S> table[] = {
+      {"divide_needles", &S::divide_needles, "", 0, 1,
+       "Where more than 1 % of a muscle's edges are longer than three times those of equal triangles, its triangles "
+       "are "
+       "made better: edges are flipped, and long ones halved. New vertices come after the file's own."},
+  };
+  return table;
+}
+
+template <>
 std::span<const Setting<PrepareSettings>> setting_table() {
   using S = PrepareSettings;
   static const Setting<S> table[] = {

@@ -12,6 +12,11 @@ struct DistanceFieldSettings {
   Real domain_factor = 1;      ///< bounding box scaled by this factor about its center, as published
 };
 
+/// What is done to muscles' surfaces when they are read.
+struct SurfaceSettings {
+  bool divide_needles = true;  ///< where a surface is made of them (geometry/needles.hpp)
+};
+
 /// Settings of the optional preparation of a scene's muscles before anything else is done with them.
 struct PrepareSettings {
   Real edge_length = 0.003;       ///< m, of the new triangles; 0 keeps the triangles
@@ -26,6 +31,8 @@ struct PrepareSettings {
 
 template <>
 std::span<const Setting<DistanceFieldSettings>> setting_table();
+template <>
+std::span<const Setting<SurfaceSettings>> setting_table();
 template <>
 std::span<const Setting<PrepareSettings>> setting_table();
 

@@ -231,11 +231,28 @@ Index AttachmentSelector::body_on_muscle(const Muscle& muscle, const Attachment&
                          muscle.surface.vertices(Eigen::all, attachment.vertices));
 }
 
+/// Where a muscle's needles were divided, what lies between listed vertices is held, too.
+void AttachmentSelector::add_between_listed(const Muscle& muscle, const AttachmentDescription& description,
+                                            std::vector<Index>& listed) {
+  if (progress_.divided.empty()) return;
+  const auto number = static_cast<std::size_t>(&muscle - progress_.loaded.scene.muscles.data());
+  const VerticesBetween& added = progress_.divided[number];
+  if (added.ends.empty()) return;
+  for (const Index v : listed)
+    if (v < 0 || v >= added.first)
+      return progress_.add_problem(description.place, "attachment '" + description.attachment.name + "' of " +
+                                                          muscle.name + ": vertex " + std::to_string(v) +
+                                                          " does not exist (the surface has vertices 0 to " +
+                                                          std::to_string(added.first - 1) + ")");
+  add_vertices_between(added, listed);
+}
+
 Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDescription& description) {
   Attachment attachment = description.attachment;
   const std::vector<const NearestTriangle*> trees = trees_under(description);
   attachment.vertices = description.patch.path.empty() ? select_vertices(muscle.surface, trees, rule_of(description))
                                                        : held_by_patch(muscle, description, trees);
+  if (attachment.listed) add_between_listed(muscle, description, attachment.vertices);
   if (attachment.vertices.empty()) {
     progress_.add_problem(description.place,
                           "attachment '" + attachment.name + "' of " + muscle.name + " holds no vertex",

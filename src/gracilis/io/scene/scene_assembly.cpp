@@ -1,5 +1,6 @@
 #include <gracilis/io/scene/scene_assembly.hpp>
 
+#include <gracilis/anatomy/resolution/divided_muscle.hpp>
 #include <gracilis/anatomy/scene_warnings.hpp>
 #include <gracilis/io/scene/activation.hpp>
 #include <gracilis/io/scene/attachments.hpp>
@@ -66,6 +67,23 @@ void read_surfaces(SceneInProgress& progress) {
   read_files(progress, true);
 }
 
+/// Divides needles of muscles' surfaces, and says so.
+static void divide_needles_of(SceneInProgress& progress) {
+  std::vector<Muscle>& muscles = progress.loaded.scene.muscles;
+  progress.divided = divide_needles(muscles);
+  std::size_t surfaces = 0, before = 0, added = 0;
+  for (const VerticesBetween& each : progress.divided) {
+    surfaces += each.ends.empty() ? 0 : 1;
+    before += static_cast<std::size_t>(each.first);
+    added += each.ends.size();
+  }
+  if (surfaces == 0) return;
+  progress.add_warnings({"long, thin triangles were divided in the surfaces of " + std::to_string(surfaces) + " of " +
+                         std::to_string(muscles.size()) + " muscles: " + std::to_string(added) +
+                         " vertices more, after the files' own " + std::to_string(before) +
+                         " ([surfaces] divide_needles = false leaves them)"});
+}
+
 LoadedScene finish_scene(SceneInProgress progress) {
   const SceneDescription& description = progress.description;
   Scene& scene = progress.loaded.scene;
@@ -73,6 +91,7 @@ LoadedScene finish_scene(SceneInProgress progress) {
   progress.stop_at<ConfigurationError>();
   AttachmentSelector selector = read_files(progress, description.prepare.has_value());
   if (description.prepare) prepare_muscles(progress);
+  if (description.surfaces.divide_needles) divide_needles_of(progress);
   selector.attach_all(description.muscles);
   add_transversals(progress);
   progress.stop_at<ConfigurationError>();

@@ -134,6 +134,7 @@ struct SceneDescription {
   std::vector<ActivationDescription> activations;
   std::vector<ControlUnitDescription> control_units;
   std::vector<TransversalDescription> transversals;
+  SurfaceSettings surfaces;
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
   NamedFile landmarks;
   std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/anatomy/resolution/divided_muscle.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/scene_description.hpp>
@@ -20,8 +21,9 @@ struct SceneInProgress {
   const SceneOptions& options;
   std::filesystem::path data_root;  ///< empty: there is none
   LoadedScene loaded = {};
-  std::vector<TriangleMesh> surfaces = {};  ///< that came with the description, m
-  std::vector<Problem> problems = {};       ///< of the stage under way
+  std::vector<TriangleMesh> surfaces = {};    ///< that came with the description, m
+  std::vector<VerticesBetween> divided = {};  ///< what came into each muscle of the scene; empty: none was looked at
+  std::vector<Problem> problems = {};         ///< of the stage under way
   std::unique_ptr<MeshFiles> files = std::make_unique<MeshFiles>();
 
   void add_problem(Problem place, const std::string& what, const std::string& remedy = "") {

@@ -274,7 +274,8 @@ std::string scene_template() {
       head + method_section() + only_some + preset_section() + elements +
       "# How a run goes from the capture pose into the motion and out of it.\n" + section<Sequence>("sequence") +
       "# Optional: repairs, remeshes and pulls apart all muscles at first use; needs a program built with it.\n" +
-      commented_out(section<PrepareSettings>("prepare")) + "# Distance fields of all bones.\n" +
+      commented_out(section<PrepareSettings>("prepare")) + "# Surfaces of all muscles, when they are read.\n" +
+      section<SurfaceSettings>("surfaces") + "# Distance fields of all bones.\n" +
       section<DistanceFieldSettings>("distance_field") + "# Contact between muscles.\n" +
       section("contact", usual.contact) + "# Fibers inside all muscles.\n" + section<FiberSettings>("fibers") +
       "# How active muscles contract.\n" + section<ContractionSettings>("contraction") + "# The method '" +

@@ -63,6 +63,7 @@ MuscleDefaults read_settings(TomlReader& top, SceneDescription& description, std
   MuscleDefaults defaults = start_from_preset(top, description);
   read_axes(top, scene.axes);
   read_method_tables(top, defaults.method, scene.method, others);
+  read_section(top, "surfaces", description.surfaces);
   read_section(top, "distance_field", scene.distance_fields);
   read_section(top, "sequence", scene.sequence);
   read_section(top, "fibers", defaults.fibers);
