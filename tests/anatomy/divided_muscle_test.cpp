@@ -21,6 +21,15 @@ TEST(DividedMuscle, only_surfaces_of_needles_are_divided) {
   EXPECT_TRUE(added[2].ends.empty()) << "a muscle without a surface";
 }
 
+TEST(DividedMuscle, surfaces_of_sections_stay) {
+  std::vector<Muscle> muscles(1);
+  muscles[0].surface = shapes::cylinder(0.01, 0.2, 60, 2);
+  muscles[0].action_line.rays = 60;
+  const Index count = muscles[0].surface.vertex_count();
+  EXPECT_TRUE(divide_needles(muscles)[0].ends.empty());
+  EXPECT_EQ(muscles[0].surface.vertex_count(), count);
+}
+
 TEST(DividedMuscle, what_lies_between_listed_vertices_is_added_to_them) {
   const VerticesBetween added{4, {{0, 1}, {4, 1}, {2, 3}, {5, 4}}};
   std::vector<Index> vertices = {0, 1, 2};

@@ -11,7 +11,8 @@ std::vector<VerticesBetween> divide_needles(std::vector<Muscle>& muscles) {
   parallel_for_each(muscles.size(), [&](std::size_t m) {
     TriangleMesh& surface = muscles[m].surface;
     added[m].first = surface.vertex_count();
-    if (!has_needles(surface)) return;
+    const bool is_made_of_sections = muscles[m].action_line.rays > 0;
+    if (is_made_of_sections || !has_needles(surface)) return;
     DividedNeedles divided = divide_needles(surface);
     surface = std::move(divided.mesh);
     added[m].ends = std::move(divided.ends);

@@ -15,7 +15,8 @@ struct VerticesBetween {
 };
 
 /// Divides the needles of those muscles whose surfaces are made of them (geometry/needles.hpp), before they are
-/// attached. Returns what came into each.
+/// attached. Those with an action line are left: their surfaces are sections, corner by corner. Returns what came into
+/// each.
 std::vector<VerticesBetween> divide_needles(std::vector<Muscle>& muscles);
 
 /// Adds to vertices of the old surface (ascending) the new ones that lie between two of them.

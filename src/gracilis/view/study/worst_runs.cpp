@@ -23,6 +23,7 @@ static Real share_of_gate(const std::string& metric, Real value) {
   if (metric == "volume_ratio") return std::abs(value - 1) / gates.volume;
   if (metric == "vertex_depth_beyond_rest") return 1e-3 * value / gates.vertex_depth;
   if (metric == "midpoint_depth_beyond_rest") return 1e-3 * value / gates.midpoint_depth;
+  if (metric == "muscle_depth_beyond_rest") return 1e-3 * value / gates.muscle_depth;
   if (metric == "edge_ratio_max_free") return value / gates.free_edge_ratio;
   if (metric == "edge_ratio_max_near") return value / gates.near_edge_ratio;
   if (metric == "spike") return value / gates.spike;
