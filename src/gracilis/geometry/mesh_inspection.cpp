@@ -1,5 +1,6 @@
 #include <gracilis/geometry/mesh_inspection.hpp>
 
+#include <gracilis/geometry/disjoint_sets.hpp>
 #include <gracilis/geometry/half_edges.hpp>
 #include <gracilis/geometry/measures.hpp>
 
@@ -7,27 +8,6 @@
 #include <numeric>
 
 namespace gracilis {
-
-namespace {
-
-/// Disjoint sets with path halving.
-class DisjointSets {
- public:
-  explicit DisjointSets(Index count) : parent_(static_cast<std::size_t>(count)) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  Index find(Index i) {
-    while (parent(i) != i) i = parent(i) = parent(parent(i));
-    return i;
-  }
-  void join(Index a, Index b) { parent(find(a)) = find(b); }
-
- private:
-  Index& parent(Index i) { return parent_[static_cast<std::size_t>(i)]; }
-  std::vector<Index> parent_;
-};
-
-}  // namespace
 
 bool is_degenerate(const TriangleMesh& mesh, Index face) {
   const Eigen::Vector3i f = mesh.faces.col(face);

@@ -1,6 +1,7 @@
 #include <gracilis/geometry/mutual_depths.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/disjoint_sets.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/triangle_tree.hpp>
@@ -90,40 +91,33 @@ bool are_inside(const SurfacesNow& now, Index first_vertex, std::span<const Inde
   return 2 * inside > directions.size();
 }
 
-/// What hangs together by edges that are not in `cut` (ascending): per vertex the first of those.
-std::vector<Index> first_of_parts(const NumberedSurface& surface, std::span<const Meeting> cut) {
-  std::vector<Index> first(static_cast<std::size_t>(surface.vertex_count));
-  std::iota(first.begin(), first.end(), Index{0});
-  const auto at = [&](Index v) -> Index& { return first[static_cast<std::size_t>(v)]; };
-  const auto find = [&](Index v) {
-    while (at(v) != v) v = at(v) = at(at(v));
-    return v;
-  };
+/// What hangs together by edges that are not in `cut` (ascending): per vertex the one that stands for its part.
+std::vector<Index> parts_without(const NumberedSurface& surface, std::span<const Meeting> cut) {
+  DisjointSets parts(surface.vertex_count);
   auto next = cut.begin();
   for (Index e = 0; e < static_cast<Index>(surface.edges.size()); ++e) {
-    if (next != cut.end() && next->edge == e) {
-      ++next;
-      continue;
-    }
     const MeshEdge& edge = surface.edges[static_cast<std::size_t>(e)];
-    const Index a = find(edge.a), b = find(edge.b);
-    at(std::max(a, b)) = std::min(a, b);
+    if (next != cut.end() && next->edge == e)
+      ++next;
+    else
+      parts.join(edge.a, edge.b);
   }
-  for (Index v = 0; v < surface.vertex_count; ++v) at(v) = find(v);
-  return first;
+  std::vector<Index> part_of;
+  for (Index v = 0; v < surface.vertex_count; ++v) part_of.push_back(parts.find(v));
+  return part_of;
 }
 
-/// Calls act(vertices) for each part of a surface that is told by its first vertex.
+/// Calls act(vertices) for each part of a surface.
 template <class Act>
-void for_each_part(const std::vector<Index>& first, const Act& act) {
-  std::vector<std::size_t> begins(first.size() + 1, 0);
-  for (const Index v : first) ++begins[static_cast<std::size_t>(v) + 1];
+void for_each_part(const std::vector<Index>& part_of, const Act& act) {
+  std::vector<std::size_t> begins(part_of.size() + 1, 0);
+  for (const Index v : part_of) ++begins[static_cast<std::size_t>(v) + 1];
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
   std::vector<std::size_t> next = begins;
-  std::vector<Index> vertices(first.size());
-  for (std::size_t v = 0; v < first.size(); ++v)
-    vertices[next[static_cast<std::size_t>(first[v])]++] = static_cast<Index>(v);
-  for (std::size_t v = 0; v < first.size(); ++v)
+  std::vector<Index> vertices(part_of.size());
+  for (std::size_t v = 0; v < part_of.size(); ++v)
+    vertices[next[static_cast<std::size_t>(part_of[v])]++] = static_cast<Index>(v);
+  for (std::size_t v = 0; v < part_of.size(); ++v)
     if (begins[v + 1] > begins[v]) act(std::span<const Index>(&vertices[begins[v]], begins[v + 1] - begins[v]));
 }
 
@@ -140,7 +134,7 @@ std::vector<DepthInOther> inside_others(const SurfacesNow& now, Index number, co
     // What meets nothing is inside whole or not at all.
     if (other == number || (cut.empty() && !box(other).contains(box(number)))) continue;
     std::vector<Index> vertices;
-    for_each_part(first_of_parts(surface, cut), [&](std::span<const Index> part) {
+    for_each_part(parts_without(surface, cut), [&](std::span<const Index> part) {
       if (are_inside(now, surface.first_vertex, part, other)) vertices.insert(vertices.end(), part.begin(), part.end());
     });
     std::sort(vertices.begin(), vertices.end());

@@ -1,5 +1,6 @@
 #include <gracilis/geometry/needles.hpp>
 
+#include <gracilis/geometry/angle_between.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 
@@ -29,17 +30,12 @@ Real length_of(const TriangleMesh& mesh, const MeshEdge& edge) {
   return (mesh.vertices.col(edge.a) - mesh.vertices.col(edge.b)).norm();
 }
 
-Real angle_at(const Vec3& at, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - at, v = c - at;
-  return std::atan2(u.cross(v).norm(), u.dot(v));
-}
-
 /// Whether the two triangles at an edge are better and nearly the same surface with the other diagonal.
 bool should_flip(const TriangleMesh& mesh, const MeshEdge& edge, Real most_distance) {
   constexpr Real rounding = 1e-6;
   const Vec3 a = mesh.vertices.col(edge.a), b = mesh.vertices.col(edge.b), left = mesh.vertices.col(edge.left_apex),
              right = mesh.vertices.col(edge.right_apex);
-  if (angle_at(left, a, b) + angle_at(right, a, b) <= pi + rounding) return false;
+  if (corner_angle(left, a, b) + corner_angle(right, a, b) <= pi + rounding) return false;
   const Vec3 across = (b - a).cross(right - left).stableNormalized();
   if (std::abs(across.dot(left - a)) > most_distance) return false;
   const Vec3 normal = ((b - a).cross(left - a) + (a - b).cross(right - b)).stableNormalized();

@@ -1,5 +1,6 @@
 #include <gracilis/geometry/signed_distance.hpp>
 
+#include <gracilis/geometry/angle_between.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/self_crossings.hpp>
@@ -8,11 +9,6 @@
 #include <cmath>
 
 namespace gracilis {
-
-static Real corner_angle(const Vec3& at, const Vec3& b, const Vec3& c) {
-  const Vec3 u = b - at, v = c - at;
-  return std::atan2(u.cross(v).norm(), u.dot(v));
-}
 
 /// Which of a face's edges k → k+1 is (a, b), in either direction.
 static int edge_in_face(const Eigen::Matrix3Xi& faces, Index face, Index a, Index b) {

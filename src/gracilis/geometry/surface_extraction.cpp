@@ -1,6 +1,7 @@
 #include <gracilis/geometry/surface_extraction.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/disjoint_sets.hpp>
 #include <gracilis/geometry/surface_remeshing.hpp>
 
 #include <algorithm>
@@ -170,25 +171,19 @@ Real interpolate(const SampledSolid& solid, const Vec3& point, Vec3* gradient) {
 TriangleMesh extract_surface(const SampledSolid& solid) { return Extractor(solid).run(); }
 
 TriangleMesh largest_component(const TriangleMesh& mesh) {
-  // Union-find over vertices.
-  std::vector<Index> parent(mesh.vertex_count());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](Index v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets components(mesh.vertex_count());
   for (Index f = 0; f < mesh.face_count(); ++f)
-    for (int c = 1; c < 3; ++c) parent[root(mesh.faces(c, f))] = root(mesh.faces(0, f));
+    for (int c = 1; c < 3; ++c) components.join(mesh.faces(c, f), mesh.faces(0, f));
 
   std::vector<Index> faces_of(mesh.vertex_count(), 0);
-  for (Index f = 0; f < mesh.face_count(); ++f) ++faces_of[root(mesh.faces(0, f))];
+  for (Index f = 0; f < mesh.face_count(); ++f) ++faces_of[components.find(mesh.faces(0, f))];
   const Index largest = static_cast<Index>(std::max_element(faces_of.begin(), faces_of.end()) - faces_of.begin());
 
   TriangleMesh result;
   std::vector<Index> renumbered(mesh.vertex_count(), -1);
   Index kept = 0;
   for (Index v = 0; v < mesh.vertex_count(); ++v)
-    if (root(v) == largest) renumbered[v] = kept++;
+    if (components.find(v) == largest) renumbered[v] = kept++;
   result.vertices.resize(3, kept);
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (renumbered[v] >= 0) result.vertices.col(renumbered[v]) = mesh.vertices.col(v);

@@ -1,5 +1,6 @@
 #include <gracilis/prepare/smoothing.hpp>
 
+#include <gracilis/geometry/angle_between.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 
@@ -14,7 +15,7 @@ static constexpr Real forth = 0.5, back = -0.53;
 static Real turn_at(const TriangleMesh& mesh, const MeshEdge& edge) {
   const Vec3 left = area_vector(mesh.vertices, mesh.faces.col(edge.left));
   const Vec3 right = area_vector(mesh.vertices, mesh.faces.col(edge.right));
-  return std::atan2(left.cross(right).norm(), left.dot(right));
+  return angle_between(left, right);
 }
 
 void move_to_means(Points& vertices, const VertexStars& stars, const Eigen::VectorXd& weights, Real factor) {

@@ -24,8 +24,8 @@ MuscleDepths::MuscleDepths(const Scene& scene) : attached_(attached_vertices_of(
   std::vector<Points> points;
   for (const Muscle& muscle : scene.muscles) points.push_back(muscle.surface.vertices);
   for (const DepthInOther& each : depths_of(points)) {
-    Real& deepest = at_rest_(std::min(each.surface, each.other), std::max(each.surface, each.other));
-    deepest = std::max(deepest, each.depth);
+    const Real deepest = std::max(at_rest_(each.surface, each.other), each.depth);
+    at_rest_(each.surface, each.other) = at_rest_(each.other, each.surface) = deepest;
   }
 }
 
@@ -43,9 +43,8 @@ std::vector<Real> MuscleDepths::beyond_rest(const Frame& frame) const {
   for (const MuscleShape& muscle : frame.muscles) points.push_back(muscle.points);
   std::vector<Real> beyond(points.size(), 0);
   for (const DepthInOther& each : depths_of(points)) {
-    const Real at_rest = at_rest_(std::min(each.surface, each.other), std::max(each.surface, each.other));
     Real& deepest = beyond[static_cast<std::size_t>(each.surface)];
-    deepest = std::max(deepest, each.depth - at_rest);
+    deepest = std::max(deepest, each.depth - at_rest_(each.surface, each.other));
   }
   return beyond;
 }

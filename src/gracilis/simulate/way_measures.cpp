@@ -1,6 +1,7 @@
 #include <gracilis/simulate/way_measures.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/angle_between.hpp>
 #include <gracilis/simulate/taut_string.hpp>
 #include <gracilis/simulate/wrong_side.hpp>
 
@@ -17,7 +18,7 @@ static Real turn_of(const Points& way) {
   Real turn = 0;
   for (Index i = 1; i < turning_pieces; ++i) {
     const Vec3 before = coarse.col(i) - coarse.col(i - 1), after = coarse.col(i + 1) - coarse.col(i);
-    turn += std::atan2(before.cross(after).norm(), before.dot(after));
+    turn += angle_between(before, after);
   }
   return turn;
 }

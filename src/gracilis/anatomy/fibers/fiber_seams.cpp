@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/fibers/fiber_seams.hpp>
 
+#include <gracilis/geometry/angle_between.hpp>
 #include <gracilis/geometry/principal_axes.hpp>
 
 #include <cmath>
@@ -14,8 +15,6 @@ static Vec3 drawing_together(const FiberField& field, const Vec3& place, Real si
         sign * (field.direction(place + reach * Vec3::Unit(k)) - field.direction(place - reach * Vec3::Unit(k)));
   return principal_axes(change + change.transpose()).least();
 }
-
-static Real angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 std::optional<FiberSeam> seam_at(const FiberField& field, const Vec3& place, Real sign, Real reach) {
   constexpr Real least_turn = radians(15);

@@ -4,6 +4,7 @@
 #include <gracilis/anatomy/fibers/fascicles.hpp>
 #include <gracilis/anatomy/fibers/inner_fibers.hpp>
 #include <gracilis/anatomy/fibers/superficial_fibers.hpp>
+#include <gracilis/geometry/angle_between.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -57,8 +58,7 @@ static std::vector<Real> angles_to_mean(const std::vector<Vec3>& directions) {
   Vec3 mean = Vec3::Zero();
   for (const Vec3& direction : directions) mean += direction;
   std::vector<Real> angles;
-  for (const Vec3& direction : directions)
-    angles.push_back(std::atan2(direction.cross(mean).norm(), direction.dot(mean)));
+  for (const Vec3& direction : directions) angles.push_back(angle_between(direction, mean));
   return angles;
 }
 

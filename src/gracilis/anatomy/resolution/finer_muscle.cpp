@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/resolution/finer_muscle.hpp>
 
+#include <gracilis/anatomy/resolution/divided_muscle.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 namespace gracilis {
@@ -48,14 +49,9 @@ Muscle finer_muscle(const Muscle& muscle) {
   Muscle finer = muscle;
   const Divided divided = divide(muscle.surface);
   finer.surface = divided.surface;
-  for (Attachment& attachment : finer.attachments) {
-    std::vector<char> attached(static_cast<std::size_t>(divided.first_middle), 0);
-    for (const Index v : attachment.vertices) attached[static_cast<std::size_t>(v)] = 1;
-    for (std::size_t e = 0; e < divided.edges.size(); ++e)
-      if (attached[static_cast<std::size_t>(divided.edges[e].a)] &&
-          attached[static_cast<std::size_t>(divided.edges[e].b)])
-        attachment.vertices.push_back(divided.first_middle + static_cast<Index>(e));
-  }
+  VerticesBetween middles{divided.first_middle, {}};
+  for (const MeshEdge& edge : divided.edges) middles.ends.push_back({edge.a, edge.b});
+  for (Attachment& attachment : finer.attachments) add_vertices_between(middles, attachment.vertices);
   return finer;
 }
 
