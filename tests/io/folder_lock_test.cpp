@@ -10,6 +10,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <thread>
+
 using namespace gracilis;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
@@ -100,6 +103,32 @@ TEST(ProcessMark, tells_living_processes_from_dead_ones_and_their_successors) {
   EXPECT_FALSE(is_gone({"elsewhere", 1, 1}));
   EXPECT_FALSE(parse_mark("host -1 5").has_value());
   EXPECT_FALSE(parse_mark("host 99999999999999 5").has_value());
+}
+
+TEST(ProcessMark, of_a_process_that_ends_while_it_is_asked_for_is_no_error) {
+  std::atomic<pid_t> process = getpid();
+  std::atomic<bool> done = false;
+  std::thread begins([&] {
+    for (int i = 0; i < 300; ++i) {
+      const pid_t child = fork();
+      if (child == 0) _exit(0);
+      process = child;
+      waitpid(child, nullptr, 0);
+    }
+    done = true;
+  });
+  ProcessMark mark = own_mark();
+  int errors = 0;
+  while (!done) {
+    mark.process = process;
+    try {
+      (void)is_gone(mark);
+    } catch (const std::exception&) {
+      ++errors;
+    }
+  }
+  begins.join();
+  EXPECT_EQ(errors, 0);
 }
 
 TEST(AtomicFile, temporaries_of_killed_processes_are_removed_and_no_others) {

@@ -1,6 +1,7 @@
 #include <gracilis/core/failure.hpp>
 
 #include <filesystem>
+#include <ios>
 #include <new>
 #include <system_error>
 
@@ -13,6 +14,8 @@ Failure current_failure() {
     return {error.code(), error.what()};
   } catch (const std::filesystem::filesystem_error& error) {
     return {ExitCode::unreadable_input, error.path1().string() + ": " + error.code().message()};
+  } catch (const std::ios_base::failure& error) {  // as a system_error it is not always caught
+    return {ExitCode::unreadable_input, std::string("the system refused: ") + error.what()};
   } catch (const std::system_error& error) {
     return {ExitCode::unreadable_input, std::string("the system refused: ") + error.what()};
   } catch (const std::bad_alloc&) {

@@ -12,7 +12,7 @@
 #include <cctype>
 #include <cerrno>
 #include <fstream>
-#include <iterator>
+#include <string>
 #include <vector>
 
 namespace gracilis {
@@ -26,10 +26,12 @@ static std::string host_name() {
   return host.substr(0, 64);
 }
 
-/// The 22nd number of /proc/PROCESS/stat; counted from the bracket that closes the program's name.
+/// The 22nd number of /proc/PROCESS/stat; counted from the bracket that closes the program's name. 0 where the process
+/// ends meanwhile: then reading fails, which a stream's own functions take for an end and its iterators throw.
 static std::int64_t start_of(std::int64_t process) {
   std::ifstream file(fmt::format("/proc/{}/stat", process));
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  std::string text;
+  std::getline(file, text, '\0');
   const std::size_t bracket = text.rfind(')');
   if (bracket == std::string::npos) return 0;
   const std::vector<std::string_view> words = words_of(std::string_view(text).substr(bracket + 1));
