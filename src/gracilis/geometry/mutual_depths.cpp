@@ -4,11 +4,9 @@
 #include <gracilis/geometry/disjoint_sets.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
-#include <gracilis/geometry/triangle_tree.hpp>
 
 #include <algorithm>
 #include <array>
-#include <compare>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -17,93 +15,85 @@ namespace gracilis {
 
 namespace {
 
-/// An edge of a surface that meets a face of another.
-struct Meeting {
-  Index other = 0, edge = 0;
-
-  auto operator<=>(const Meeting&) const = default;
+/// A surface in one frame.
+struct SurfaceNow {
+  const ConnectedSurface& surface;
+  const Points& points;
+  Eigen::AlignedBox3d box;
+  NearestTriangle triangles;
 };
 
-/// All surfaces in one frame.
-struct SurfacesNow {
-  const TriangleMesh& mesh;
-  const std::vector<Index>& surface_of;  ///< per face
-  const TriangleTree& triangles;
-  std::vector<Eigen::AlignedBox3d> boxes;  ///< around each surface
-  Real size = 0;                           ///< m, of the box around all
-};
-
-struct EdgeQuestion {
-  const SurfacesNow& now;
-  Index own = 0, edge = 0;
-  std::vector<Meeting>& found;
-};
-
-void note_meeting(Index face, void* query) {
-  const auto& question = *static_cast<const EdgeQuestion*>(query);
-  const Index other = question.now.surface_of[static_cast<std::size_t>(face)];
-  if (other != question.own) question.found.push_back({other, question.edge});
+/// For each point the sides of the box that it lies beyond, a bit each: a segment whose ends share one misses the box
+/// (Cohen and Sutherland).
+std::vector<unsigned char> sides_beyond(const Points& points, const Eigen::AlignedBox3d& box) {
+  std::vector<unsigned char> sides;
+  sides.reserve(static_cast<std::size_t>(points.cols()));
+  for (const auto p : points.colwise()) {
+    int beyond = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      beyond |= (p[axis] < box.min()[axis]) << axis | (p[axis] > box.max()[axis]) << (3 + axis);
+    sides.push_back(static_cast<unsigned char>(beyond));
+  }
+  return sides;
 }
 
-/// Which edges of a surface meet which others, ascending, each once.
-std::vector<Meeting> meetings(const SurfacesNow& now, Index number, const NumberedSurface& surface) {
+/// Which edges of a surface meet the other, ascending.
+std::vector<Index> meeting_edges(const SurfaceNow& own, const SurfaceNow& other) {
   constexpr Real beyond_ends = 1e-3;  // of the edge: an end that lies on the other surface is on neither side of it
-  std::vector<Meeting> found = collect_in_order<Meeting>(
-      static_cast<Index>(surface.edges.size()), 1024, [&](Index begin, Index end, auto& part) {
-        for (Index e = begin; e < end; ++e) {
-          const MeshEdge& edge = surface.edges[static_cast<std::size_t>(e)];
-          const Vec3 a = now.mesh.vertices.col(surface.first_vertex + edge.a),
-                     b = now.mesh.vertices.col(surface.first_vertex + edge.b);
-          EdgeQuestion question{now, number, e, part};
-          now.triangles.all(a - beyond_ends * (b - a), b + beyond_ends * (b - a), note_meeting, &question);
-        }
-      });
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  const Vec3 room = Vec3::Constant(beyond_ends * own.box.diagonal().norm());
+  const std::vector<unsigned char> sides =
+      sides_beyond(own.points, Eigen::AlignedBox3d(other.box.min() - room, other.box.max() + room));
+  std::vector<Index> found;
+  for (Index e = 0; e < static_cast<Index>(own.surface.edges.size()); ++e) {
+    const MeshEdge& edge = own.surface.edges[static_cast<std::size_t>(e)];
+    if ((sides[static_cast<std::size_t>(edge.a)] & sides[static_cast<std::size_t>(edge.b)]) != 0) continue;
+    const Vec3 beyond = beyond_ends * (own.points.col(edge.b) - own.points.col(edge.a));
+    if (other.triangles.triangles().cut(own.points.col(edge.a) - beyond, own.points.col(edge.b) + beyond))
+      found.push_back(e);
+  }
   return found;
 }
 
 struct RayQuestion {
-  const SurfacesNow& now;
-  Index other = 0;
+  const SurfaceNow& other;
   Vec3 direction;
   int left = 0;  ///< how often the ray leaves the other surface, less how often it enters it
 };
 
 void count_crossing(Index face, void* query) {
   auto& question = *static_cast<RayQuestion*>(query);
-  const SurfacesNow& now = question.now;
-  if (now.surface_of[static_cast<std::size_t>(face)] != question.other) return;
-  question.left += area_vector(now.mesh.vertices, now.mesh.faces.col(face)).dot(question.direction) > 0 ? 1 : -1;
+  const Vec3 normal = area_vector(question.other.points, question.other.surface.faces.col(face));
+  question.left += normal.dot(question.direction) > 0 ? 1 : -1;
 }
 
-/// Whether vertices on one side of a surface are inside it.
-bool are_inside(const SurfacesNow& now, Index first_vertex, std::span<const Index> vertices, Index other) {
+/// Whether vertices on one side of the other surface are inside it.
+bool are_inside(const Points& points, std::span<const Index> vertices, const SurfaceNow& other) {
   static const std::array<Vec3, 3> directions = {
       Vec3(0.62, 0.35, 0.70).normalized(), Vec3(-0.71, 0.59, 0.38).normalized(), Vec3(0.17, -0.83, 0.53).normalized()};
   std::size_t inside = 0;
   for (std::size_t i = 0; i < directions.size(); ++i) {
-    const Vec3 p = now.mesh.vertices.col(first_vertex + vertices[i * vertices.size() / directions.size()]);
-    RayQuestion question{now, other, directions[i], 0};
-    now.triangles.all(p, p + now.size * directions[i], count_crossing, &question);
+    const Vec3 p = points.col(vertices[i * vertices.size() / directions.size()]);
+    const Real far = (p - other.box.center()).norm() + other.box.diagonal().norm();
+    RayQuestion question{other, directions[i], 0};
+    other.triangles.triangles().all(p, p + far * directions[i], count_crossing, &question);
     inside += question.left > 0;
   }
   return 2 * inside > directions.size();
 }
 
 /// What hangs together by edges that are not in `cut` (ascending): per vertex the one that stands for its part.
-std::vector<Index> parts_without(const NumberedSurface& surface, std::span<const Meeting> cut) {
-  DisjointSets parts(surface.vertex_count);
+std::vector<Index> parts_without(const ConnectedSurface& surface, Index vertex_count, const std::vector<Index>& cut) {
+  DisjointSets parts(vertex_count);
   auto next = cut.begin();
   for (Index e = 0; e < static_cast<Index>(surface.edges.size()); ++e) {
     const MeshEdge& edge = surface.edges[static_cast<std::size_t>(e)];
-    if (next != cut.end() && next->edge == e)
+    if (next != cut.end() && *next == e)
       ++next;
     else
       parts.join(edge.a, edge.b);
   }
   std::vector<Index> part_of;
-  for (Index v = 0; v < surface.vertex_count; ++v) part_of.push_back(parts.find(v));
+  for (Index v = 0; v < vertex_count; ++v) part_of.push_back(parts.find(v));
   return part_of;
 }
 
@@ -121,80 +111,55 @@ void for_each_part(const std::vector<Index>& part_of, const Act& act) {
     if (begins[v + 1] > begins[v]) act(std::span<const Index>(&vertices[begins[v]], begins[v + 1] - begins[v]));
 }
 
-/// What of one surface lies in which others, by other and vertex, without depths.
-std::vector<DepthInOther> inside_others(const SurfacesNow& now, Index number, const NumberedSurface& surface) {
-  const std::vector<Meeting> found = meetings(now, number, surface);
-  const auto box = [&](Index s) { return now.boxes[static_cast<std::size_t>(s)]; };
-  std::vector<DepthInOther> inside;
-  auto begin = found.begin();
-  for (Index other = 0; other < static_cast<Index>(now.boxes.size()); ++other) {
-    const auto end = std::find_if(begin, found.end(), [&](const Meeting& each) { return each.other != other; });
-    const std::span<const Meeting> cut(begin, end);
-    begin = end;
-    // What meets nothing is inside whole or not at all.
-    if (other == number || (cut.empty() && !box(other).contains(box(number)))) continue;
-    std::vector<Index> vertices;
-    for_each_part(parts_without(surface, cut), [&](std::span<const Index> part) {
-      if (are_inside(now, surface.first_vertex, part, other)) vertices.insert(vertices.end(), part.begin(), part.end());
-    });
-    std::sort(vertices.begin(), vertices.end());
-    for (const Index v : vertices) inside.push_back({number, v, other, 0});
-  }
+/// Vertices of a surface that lie in the other, ascending.
+std::vector<Index> vertices_inside(const SurfaceNow& own, const SurfaceNow& other) {
+  std::vector<Index> inside;
+  const std::vector<Index> cut = meeting_edges(own, other);
+  // What meets nothing is inside whole or not at all.
+  if (cut.empty() && !other.box.contains(own.box)) return inside;
+  for_each_part(parts_without(own.surface, own.points.cols(), cut), [&](std::span<const Index> part) {
+    if (are_inside(own.points, part, other)) inside.insert(inside.end(), part.begin(), part.end());
+  });
+  std::sort(inside.begin(), inside.end());
   return inside;
 }
 
-/// Adds their depths.
-void measure(const std::vector<NumberedSurface>& surfaces, const std::vector<Points>& points,
-             std::vector<DepthInOther>& inside) {
-  std::vector<char> is_asked(surfaces.size(), 0);
-  for (const DepthInOther& each : inside) is_asked[static_cast<std::size_t>(each.other)] = 1;
-  std::vector<std::optional<NearestTriangle>> nearest(surfaces.size());
+std::vector<SurfaceNow> surfaces_now(const std::vector<ConnectedSurface>& surfaces, const std::vector<Points>& points) {
+  std::vector<std::optional<NearestTriangle>> triangles(surfaces.size());
   parallel_for_each(surfaces.size(), [&](std::size_t s) {
-    if (is_asked[s]) nearest[s].emplace(TriangleMesh{points[s], surfaces[s].faces});
+    triangles[s].emplace(TriangleMesh{points[s], surfaces[s].faces});
   });
-  parallel_for(static_cast<Index>(inside.size()), 256, [&](Index begin, Index end) {
-    Index last = -1, face = 0;
-    for (Index i = begin; i < end; ++i) {
-      DepthInOther& each = inside[static_cast<std::size_t>(i)];
-      if (each.other != last) last = each.other, face = 0;
-      const Vec3 p = points[static_cast<std::size_t>(each.surface)].col(each.vertex);
-      const NearestPoint found = nearest[static_cast<std::size_t>(each.other)]->query_from(face, p);
-      face = found.face, each.depth = found.distance;
-    }
-  });
+  std::vector<SurfaceNow> now;
+  for (std::size_t s = 0; s < surfaces.size(); ++s)
+    now.push_back({surfaces[s], points[s], bounding_box(points[s]), std::move(*triangles[s])});
+  return now;
 }
 
 }  // namespace
 
 MutualDepths::MutualDepths(const std::vector<TriangleMesh>& surfaces) {
-  Index vertices = 0, faces = 0;
-  for (const TriangleMesh& mesh : surfaces) faces += mesh.face_count();
-  all_faces_.resize(3, faces);
-  for (const TriangleMesh& mesh : surfaces) {
-    all_faces_.middleCols(static_cast<Index>(surface_of_.size()), mesh.face_count()) = mesh.faces.array() + vertices;
-    surface_of_.insert(surface_of_.end(), static_cast<std::size_t>(mesh.face_count()),
-                       static_cast<Index>(surfaces_.size()));
-    surfaces_.push_back(
-        {mesh.faces, build_topology(mesh.faces, mesh.vertex_count()).edges, mesh.vertex_count(), vertices});
-    vertices += mesh.vertex_count();
-  }
+  for (const TriangleMesh& mesh : surfaces)
+    surfaces_.push_back({mesh.faces, build_topology(mesh.faces, mesh.vertex_count()).edges});
 }
 
 std::vector<DepthInOther> MutualDepths::find(const std::vector<Points>& points) const {
-  TriangleMesh all{Points(3, surfaces_.back().first_vertex + surfaces_.back().vertex_count), all_faces_};
-  std::vector<Eigen::AlignedBox3d> boxes;
-  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-    all.vertices.middleCols(surfaces_[s].first_vertex, surfaces_[s].vertex_count) = points[s];
-    boxes.push_back(bounding_box(points[s]));
-  }
-  const TriangleTree triangles(all);
-  const SurfacesNow now{all, surface_of_, triangles, boxes, bounding_box(all.vertices).diagonal().norm()};
-  std::vector<std::vector<DepthInOther>> of_surfaces(surfaces_.size());
-  parallel_for_each(surfaces_.size(),
-                    [&](std::size_t s) { of_surfaces[s] = inside_others(now, static_cast<Index>(s), surfaces_[s]); });
+  const std::vector<SurfaceNow> now = surfaces_now(surfaces_, points);
+  std::vector<std::pair<std::size_t, std::size_t>> near;
+  for (std::size_t own = 0; own < now.size(); ++own)
+    for (std::size_t other = 0; other < now.size(); ++other)
+      if (own != other && now[own].box.intersects(now[other].box)) near.emplace_back(own, other);
+  std::vector<std::vector<DepthInOther>> of_pairs(near.size());
+  parallel_for_each(near.size(), [&](std::size_t pair) {
+    const auto [own, other] = near[pair];
+    Index face = 0;
+    for (const Index v : vertices_inside(now[own], now[other])) {
+      const NearestPoint nearest = now[other].triangles.query_from(face, points[own].col(v));
+      of_pairs[pair].push_back({static_cast<Index>(own), v, static_cast<Index>(other), nearest.distance});
+      face = nearest.face;
+    }
+  });
   std::vector<DepthInOther> inside;
-  for (const std::vector<DepthInOther>& each : of_surfaces) inside.insert(inside.end(), each.begin(), each.end());
-  measure(surfaces_, points, inside);
+  for (const std::vector<DepthInOther>& each : of_pairs) inside.insert(inside.end(), each.begin(), each.end());
   return inside;
 }
 

@@ -15,12 +15,10 @@ struct DepthInOther {
   Real depth = 0;   ///< m, to the nearest point of the other surface
 };
 
-/// One of several surfaces.
-struct NumberedSurface {
+/// What of a surface stays as it deforms.
+struct ConnectedSurface {
   Eigen::Matrix3Xi faces;
   std::vector<MeshEdge> edges;
-  Index vertex_count = 0;
-  Index first_vertex = 0;  ///< where the vertices of all are numbered through
 };
 
 /// Finds how deep several surfaces lie in each other, frame after frame as they deform. The ends of an edge that does
@@ -36,9 +34,7 @@ class MutualDepths {
   std::vector<DepthInOther> find(const std::vector<Points>& points) const;
 
  private:
-  std::vector<NumberedSurface> surfaces_;
-  Eigen::Matrix3Xi all_faces_;     ///< of all surfaces, their vertices numbered through
-  std::vector<Index> surface_of_;  ///< per face of `all_faces_`
+  std::vector<ConnectedSurface> surfaces_;
 };
 
 }  // namespace gracilis
