@@ -19,6 +19,7 @@ set(GRACILIS_VTK_COMPONENTS CommonCore CommonDataModel CommonExecutionModel Filt
 gracilis_find(VTK libvtk9-dev COMPONENTS ${GRACILIS_VTK_COMPONENTS})
 gracilis_find(tomlplusplus libtomlplusplus-dev)
 gracilis_find(CLI11 libcli11-dev)
+gracilis_find(cereal libcereal-dev)
 gracilis_find(spdlog libspdlog-dev)
 gracilis_find(fmt libfmt-dev)
 gracilis_find(nanoflann libnanoflann-dev)

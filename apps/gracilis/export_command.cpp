@@ -1,7 +1,7 @@
 #include "export_command.hpp"
 
 #include "console.hpp"
-#include "scene_options.hpp"
+#include "run_scene.hpp"
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
@@ -93,23 +93,6 @@ void compare_paths(const opensim::Model& before, const opensim::Model& after, co
 std::vector<opensim::Muscle> muscles_in(const std::filesystem::path& force_set, opensim::Model model) {
   opensim::read_force_set(force_set, true, model);
   return model.muscles;
-}
-
-/// The scene that a run was made of, by the command line in its manifest.
-LoadedScene scene_of_run(const std::filesystem::path& run) {
-  const nlohmann::ordered_json manifest = read_manifest(run);
-  std::vector<std::string> words = manifest.value("command", std::vector<std::string>{});
-  if (words.size() < 3 || (words[1] != "run" && words[1] != "rom"))
-    throw ConfigurationError({run.string(), "", "the run was not made of a scene file", "run a scene file"});
-  CLI::App parser;
-  std::filesystem::path file;
-  SceneOptions options;
-  add_scene_options(parser, file, options);
-  parser.allow_extras();
-  words.erase(words.begin(), words.begin() + 2);
-  std::reverse(words.begin(), words.end());
-  parser.parse(words);
-  return read_scene(file, options);
 }
 
 /// What lengths the run's fibers would have along the model's lines, from its scene; a run whose scene is gone goes

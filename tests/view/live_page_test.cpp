@@ -3,8 +3,10 @@
 #include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/simulation.hpp>
+#include <gracilis/view/report/live_page.hpp>
 
 #include "build_paths.hpp"
+#include "io/test_files.hpp"
 #include "view/browser.hpp"
 
 #include <gmock/gmock.h>
@@ -28,8 +30,8 @@ std::filesystem::path live_page() {
 }
 
 /// The same steps as the page makes (web/page/worker.js), by this machine.
-std::vector<Points> shapes_of_this_machine(const MethodChoice& method, Real flexion) {
-  Scene scene = demo_scene("hip");
+std::vector<Points> shapes_of_this_machine(Scene scene, const MethodChoice& method, std::size_t coordinate,
+                                           Real flexion) {
   scene.method = method;
   drive_all(scene);
   Simulation simulation(scene,
@@ -42,8 +44,8 @@ std::vector<Points> shapes_of_this_machine(const MethodChoice& method, Real flex
                                     }),
                         Simulation::Keeps::last_frame);
   std::vector<Real> coordinates = capture_coordinates(scene);
-  for (int step = 1; coordinates[0] != flexion; ++step) {
-    coordinates[0] += std::clamp(flexion - coordinates[0], -radians(1.25), radians(1.25));
+  for (int step = 1; coordinates[coordinate] != flexion; ++step) {
+    coordinates[coordinate] += std::clamp(flexion - coordinates[coordinate], -radians(1.25), radians(1.25));
     Pose pose = pose_at(scene, coordinates);
     pose.time = step * usual_time_step;
     pose.activations.assign(scene.muscles.size(), 0);
@@ -66,11 +68,12 @@ class LivePage : public testing::Test {
     for (int i = 0; i < 1200 && browser_.evaluate("!!(" + expression + ")") != true; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     ASSERT_EQ(browser_.evaluate("!!(" + expression + ")"), true)
-        << expression << ": " << browser_.evaluate("element('status').textContent");
+        << expression << ": " << browser_.evaluate("element('status').textContent")
+        << browser_.evaluate("[page.failures, page.frame.coordinates, page.frame.method]");
   }
 
-  void open() {
-    browser_.open(live_page());
+  void open(const std::filesystem::path& page = live_page()) {
+    browser_.open(page);
     wait_for(is_ready);
   }
 
@@ -98,12 +101,35 @@ class LivePage : public testing::Test {
 TEST_F(LivePage, shows_the_shapes_of_this_machine_without_a_word_on_the_console) {
   open();
   slide("hip_flexion_r", 30);
-  wait_for("page.frame.coordinates[0] === 30 / DEGREES");
-  EXPECT_LT(largest_difference(shapes_of_this_machine(find_preset("fast")->method, radians(30))), 1e-4);
+  wait_for("page.frame.coordinates[0] === 30 / unitOf({}).factor");
+  EXPECT_LT(largest_difference(shapes_of_this_machine(demo_scene("hip"), find_preset("fast")->method, 0, radians(30))),
+            1e-4);
   EXPECT_NE(browser_.evaluate("element('time').textContent"), "–");
   EXPECT_GT(browser_.evaluate("page.history.frames.length").get<int>(), 20);
   EXPECT_THAT(browser_.complaints, IsEmpty());
   EXPECT_THAT(browser_.requests, Each(StartsWith("blob:null/"))) << "beside the worker, which stands in the page";
+}
+
+TEST_F(LivePage, moves_a_scene_that_was_put_into_it) {
+  const TestFolder folder;
+  Scene scene = demo_scene("elbow");
+  scene.name = "my \"elbow\" </script>";
+  scene.muscles.pop_back();
+  scene.method = {"strings", {{"support_reach", 0.05}}};
+  write_live_page(folder.path() / "live.html", live_page(), scene);
+  open(folder.path() / "live.html");
+  EXPECT_EQ(browser_.evaluate("document.querySelector('h1').textContent"), scene.name);
+  EXPECT_EQ(browser_.evaluate("page.scene.methods[1].name"), "strings, as the scene says");
+  EXPECT_EQ(browser_.evaluate("page.scene.muscles.length").get<std::size_t>(), scene.muscles.size());
+  slide("elbow_flexion", 40);
+  wait_for("page.frame.coordinates[1] === 40 / unitOf({}).factor");
+  EXPECT_LT(largest_difference(shapes_of_this_machine(scene, find_preset("fast")->method, 1, radians(40))), 1e-4);
+  browser_.evaluate("{ const box = element('method'); box.value = 1; box.dispatchEvent(new Event('change')); }");
+  wait_for(std::string("page.frame.method === 1 && ") + is_ready);
+  slide("elbow_flexion", 40);
+  wait_for("page.frame.coordinates[1] === 40 / unitOf({}).factor");
+  EXPECT_LT(largest_difference(shapes_of_this_machine(scene, scene.method, 1, radians(40))), 1e-4);
+  EXPECT_THAT(browser_.complaints, IsEmpty());
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 // What has been seen since the last reset, for the plots: lengths and moment arms of every muscle, frame by frame.
 const MOST_FRAMES = 3000;
-const LEAST_TURN = 0.2 * Math.PI / 180;  // of a step that tells an arm
+const LEAST_TURN = 0.2 * Math.PI / 180, LEAST_SHIFT = 0.0002;  // of a step that tells an arm
+
+// What a coordinate is shown in: `factor` of it to rad or m.
+const unitOf = ({translation}) => translation ? {factor: 1000, mark: ' mm', name: 'millimetres'} :
+                                                {factor: 180 / Math.PI, mark: '°', name: 'degrees'};
 
 class History {
   constructor(description) {
@@ -28,7 +32,8 @@ class History {
     const turns = frame.coordinates.map((value, c) => value - this.last.coordinates[c]);
     const moved = turns.map((turn, c) => c).filter(c => turns[c] !== 0);
     const same = frame.activations.every((value, m) => value === this.last.activations[m]);
-    if (!same || moved.length !== 1 || Math.abs(turns[moved[0]]) < LEAST_TURN) return;
+    if (!same || moved.length !== 1) return;
+    if (Math.abs(turns[moved[0]]) < (this.coordinates[moved[0]].translation ? LEAST_SHIFT : LEAST_TURN)) return;
     frame.muscles.forEach(({facts}, m) => {
       const arm = arms[m][moved[0]];
       if (arm === null) arms[m][moved[0]] = -(facts[0] - this.last.muscles[m].facts[0]) / turns[moved[0]];
@@ -40,8 +45,8 @@ class History {
   arms(muscle, coordinate) {
     return this.frames.map(frame => frame.arms[muscle][coordinate] === null ? null : 1000 * frame.arms[muscle][coordinate]);
   }
-  // Degrees, or frames where no coordinate is asked for.
+  // Degrees or millimetres, or frames where no coordinate is asked for.
   places(coordinate) {
-    return this.frames.map((frame, i) => coordinate < 0 ? i : frame.coordinates[coordinate] * 180 / Math.PI);
+    return this.frames.map((frame, i) => coordinate < 0 ? i : frame.coordinates[coordinate] * unitOf(this.coordinates[coordinate]).factor);
   }
 }

@@ -1,8 +1,11 @@
 // Puts the page together: one state, what the worker sends, and everything that follows them.
 const element = id => document.getElementById(id);
-const DEGREES = 180 / Math.PI;
+// Shares of the subject's directions: anterior, superior, right.
 const DIRECTIONS = {front: [1, 0, 0], right: [0, 0, 1], back: [-1, 0, 0], left: [0, 0, -1], 'front right': [0.75, 0.15, 0.7]};
 const PLOT_INTERVAL = 150;  // ms; drawing them costs more than what is new
+
+// A scene that `gracilis report --live` put into the page, or nothing: the built-in hip.
+const ownScene = element('scene').textContent.trim() && bytesOf('scene');
 
 const page = {
   runCount: 1,
@@ -15,11 +18,20 @@ const page = {
   // What a Chart asks for.
   frameOf(run, frame) { return frame; },
   xOf() { return this.places; },
-  xLabel() { return this.state.xAxis < 0 ? 'step' : `${spoken(this.scene.coordinates[this.state.xAxis].name)} (°)`; },
-  poseText(frame) {
-    return this.history.frames[frame].coordinates
-      .map((value, c) => `${spoken(this.scene.coordinates[c].name)} ${shownNumber(value * DEGREES)}°`).join(', ');
+  xLabel() {
+    if (this.state.xAxis < 0) return 'step';
+    const coordinate = this.scene.coordinates[this.state.xAxis];
+    return `${spoken(coordinate.name)} (${unitOf(coordinate).mark.trim()})`;
   },
+  poseText(frame) { return this.textOf(this.history.frames[frame].coordinates); },
+  textOf(coordinates) {
+    return coordinates.map((value, c) => `${spoken(this.scene.coordinates[c].name)} ${this.valueText(c, value)}`).join(', ');
+  },
+  valueText(c, value) {
+    const unit = unitOf(this.scene.coordinates[c]);
+    return `${shownNumber(Number((value * unit.factor).toFixed(1)))}${unit.mark}`;
+  },
+  setSlider(c, value) { this.coordinates[c].slider.value = value * unitOf(this.scene.coordinates[c]).factor; },
   goTo(frame) {
     const at = this.history.frames[frame];
     if (at) this.aimAt(at.coordinates, at.activations);
@@ -28,13 +40,13 @@ const page = {
   send(task, what = {}) { this.worker.postMessage({task, ...what}); },
   wanted() {
     const values = list => list.map(({slider}) => Number(slider.value));
-    return {coordinates: values(this.coordinates).map(value => value / DEGREES),
+    return {coordinates: values(this.coordinates).map((value, c) => value / unitOf(this.scene.coordinates[c]).factor),
             activations: values(this.muscles).map(value => value / 100)};
   },
   aim() { this.send('aim', this.wanted()); },
   aimAt(coordinates, activations) {
     this.pause();
-    coordinates.forEach((value, c) => { this.coordinates[c].slider.value = value * DEGREES; });
+    coordinates.forEach((value, c) => this.setSlider(c, value));
     activations.forEach((value, m) => { this.muscles[m].slider.value = value * 100; });
     this.aim();
   },
@@ -52,11 +64,12 @@ const page = {
     element('play').setAttribute('aria-pressed', 'true');
     this.swing();
   },
-  // Flexes as far as it goes, and back again.
+  // The first coordinate as far as it goes or to 90, and back again.
   swing() {
     if (!this.playing) return;
     const {slider} = this.coordinates[0], most = Math.min(90, Number(slider.max));
-    slider.value = Number(slider.value) < most ? most : 0;
+    const low = Math.max(most > 0 ? 0 : -90, Number(slider.min));
+    slider.value = Number(slider.value) < most ? most : low;
     this.aim();
   },
 };
@@ -79,9 +92,14 @@ function addChoices(select, choices) {
 }
 
 function buildControls({coordinates, muscles, methods}) {
-  page.coordinates = coordinates.map(({name, low, high, capture}) =>
-    addSlider(element('coordinates'), name, spoken(name),
-              {min: Math.round(low * DEGREES), max: Math.round(high * DEGREES), step: 0.5, value: capture * DEGREES}, 'degrees'));
+  page.coordinates = coordinates.map(coordinate => {
+    const {factor, name: unit} = unitOf(coordinate), step = 0.5, rounded = value => Number(value.toFixed(6));
+    const begin = rounded(factor * coordinate.capture);
+    // Steps are counted from the capture pose, which the slider can come back to.
+    const bound = value => rounded(begin + step * Math.trunc(rounded((factor * value - begin) / step)));
+    return addSlider(element('coordinates'), coordinate.name, spoken(coordinate.name),
+                     {min: bound(coordinate.low), max: bound(coordinate.high), step, value: begin}, unit);
+  });
   page.muscles = muscles.map(({name, color}) => {
     const row = addSlider(element('muscles'), name, '', {min: 0, max: 100, step: 1, value: 0, 'aria-label': `Activation of ${spoken(name)}`},
                           '% active');
@@ -104,9 +122,25 @@ function buildControls({coordinates, muscles, methods}) {
   addChoices(element('x-axis'), [...coordinates.map(({name}, c) => [c, spoken(name)]), [-1, 'step']]);
   for (const [name, direction] of Object.entries(DIRECTIONS)) {
     const button = make('button', name, {type: 'button'});
-    button.addEventListener('click', () => page.stage.lookFrom(new THREE.Vector3(...direction)));
+    button.addEventListener('click', () => page.stage.lookFrom(inScene(direction)));
     element('views').append(button, ' ');
   }
+}
+
+// A direction of the subject's in the scene.
+function inScene([anterior, superior, right]) {
+  const axes = page.scene.axes, sum = new THREE.Vector3();
+  for (const [axis, share] of [[axes.anterior, anterior], [axes.superior, superior], [axes.right, right]])
+    sum.addScaledVector(new THREE.Vector3(...axis), share);
+  return sum;
+}
+
+// Of a scene that the page brings along: what it is called.
+function tellOwn({name, muscles}) {
+  document.title = `${name} · Gracilis`;
+  document.querySelector('h1').textContent = name;
+  element('subtitle').textContent =
+    `${muscles.length} muscle${muscles.length === 1 ? '' : 's'}, solved in this page as you move the bones. Nothing is loaded or sent.`;
 }
 
 function buildCharts({muscles}) {
@@ -168,10 +202,10 @@ function drawEverything() {
 }
 
 function sayFrame(frame) {
-  const angles = frame.coordinates.map((value, c) => `${spoken(page.scene.coordinates[c].name)} ${shownNumber(value * DEGREES)}°`);
-  element('canvas').setAttribute('aria-label', `Bones and six muscles of a right hip: ${angles.join(', ')}`);
+  element('canvas').setAttribute('aria-label',
+                                 `Bones and ${frame.muscles.length} muscles: ${page.textOf(frame.coordinates)}`);
   frame.coordinates.forEach((value, c) => {
-    page.coordinates[c].output.textContent = `${shownNumber(Number((value * DEGREES).toFixed(1)))}°`;
+    page.coordinates[c].output.textContent = page.valueText(c, value);
   });
   frame.muscles.forEach(({facts}, m) => {
     page.muscles[m].output.textContent = `${(1000 * facts[0]).toFixed(1)} mm, ${(1e6 * facts[1]).toFixed(0)} cm³`;
@@ -203,8 +237,8 @@ const heard = {
     page.state.visible = new Set(scene.muscles.map(muscle => muscle.name));
     buildControls(scene);
     buildCharts(scene);
-    const axes = {anterior: [1, 0, 0], superior: [0, 1, 0], right: [0, 0, 1]};
-    page.stage = new Stage([axes], element('canvas'), () => new LiveShapes(scene));
+    if (ownScene) tellOwn(scene);
+    page.stage = new Stage([scene.axes], element('canvas'), () => new LiveShapes(scene));
     page.stage.drawn = drawScale;
     page.pulling = new Pulling(element('view'), page.stage, page.stage.shapes[0], (bone, point, target, looking) => {
       page.pause();
@@ -212,7 +246,7 @@ const heard = {
     });
     page.frame = atRest(scene);
     drawEverything();
-    page.stage.lookFrom(new THREE.Vector3(...DIRECTIONS['front right']));
+    page.stage.lookFrom(inScene(DIRECTIONS['front right']));
     if (!page.stage.renderer) page.tell('This browser draws no WebGL: numbers and plots follow the sliders, the picture does not', true);
   },
   frame(frame) {
@@ -231,7 +265,7 @@ const heard = {
   },
   aim({coordinates}) {
     coordinates.forEach((value, c) => {
-      page.coordinates[c].slider.value = value * DEGREES;
+      page.setSlider(c, value);
       page.coordinates[c].say();
     });
   },
@@ -245,7 +279,7 @@ const heard = {
 
 // To the capture pose, relaxed.
 function setSliders() {
-  page.scene.coordinates.forEach(({capture}, c) => { page.coordinates[c].slider.value = capture * DEGREES; });
+  page.scene.coordinates.forEach(({capture}, c) => page.setSlider(c, capture));
   for (const {slider} of page.muscles) slider.value = 0;
   for (const row of [...page.coordinates, ...page.muscles]) row.say();
 }
@@ -274,4 +308,4 @@ for (const name of ['bones', 'fibers', 'wireframe'])
 page.worker = new Worker(URL.createObjectURL(new Blob([element('worker').textContent], {type: 'text/javascript'})));
 page.worker.onmessage = ({data}) => heard[data.kind](data);
 page.worker.onerror = event => page.tell(`The program does not start here: ${event.message}`, true);
-page.send('begin', {bytes: bytesOf('program'), method: 0});
+page.send('begin', {bytes: bytesOf('program'), scene: ownScene, method: 0});

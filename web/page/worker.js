@@ -1,8 +1,8 @@
 // Runs the program in a worker of its own, so that the page never waits for it. Told where sliders stand, it goes there
 // in steps that methods take, and sends every step's shapes.
-const TURN = 1.25 * Math.PI / 180, ACTIVATION = 0.05, STEP = 1000 / 60;
+const TURN = 1.25 * Math.PI / 180, SHIFT = 0.002, ACTIVATION = 0.05, STEP = 1000 / 60;
 const ARMS_INTERVAL = 400;  // ms; moment arms of strings take longer than the strings
-let module, program, scene, reached, wanted, coordinates, activations, places, pulled, chosen = 0, armsAt = 0, running = false;
+let module, own, program, scene, reached, wanted, coordinates, activations, places, pulled, chosen = 0, armsAt = 0, running = false;
 
 const text = (at, length) => new TextDecoder().decode(new Uint8Array(program.memory.buffer, at, length));
 
@@ -28,7 +28,8 @@ async function start() {
   const imports = {wasi_snapshot_preview1: system(), page: {fail(at, length) { throw new Error(text(at, length)); }}};
   program = (await WebAssembly.instantiate(module, imports)).exports;
   program._initialize();
-  program.prepare();
+  if (own) prepareOwn();
+  else program.prepare();
   describe();
   reached = {coordinates: scene.coordinates.map(each => each.capture), activations: scene.muscles.map(() => 0)};
   wanted = wanted || JSON.parse(JSON.stringify(reached));
@@ -36,6 +37,13 @@ async function start() {
   activations = program.malloc(8 * scene.muscles.length);
   places = program.malloc(8 * 9);
   pulled = program.malloc(8 * scene.coordinates.length);
+}
+
+// The scene that the page brings along.
+function prepareOwn() {
+  const at = program.malloc(own.length);
+  new Uint8Array(program.memory.buffer, at, own.length).set(own);
+  program.prepare_scene(at, own.length);
 }
 
 function describe() {
@@ -48,7 +56,7 @@ const copy = (Type, at, count) => new Type(program.memory.buffer, at, count).sli
 function constants() {
   const surface = each => ({name: each.name, points: copy(Float32Array, each.points, 3 * each.vertices),
                             faces: copy(Uint32Array, each.faces, 3 * each.faceCount)});
-  postMessage({kind: 'scene', methods: scene.methods, coordinates: scene.coordinates,
+  postMessage({kind: 'scene', name: scene.name, axes: scene.axes, methods: scene.methods, coordinates: scene.coordinates,
                bones: scene.bones.map(each => ({...surface(each), body: each.body})),
                muscles: scene.muscles.map(each => ({...surface(each), color: each.color}))});
 }
@@ -85,10 +93,10 @@ function approach() {
   const move = (values, targets, most) => values.forEach((value, i) => {
     if (value === targets[i]) return;
     moved = true;
-    values[i] = value + Math.min(Math.max(targets[i] - value, -most), most);
+    values[i] = value + Math.min(Math.max(targets[i] - value, -most(i)), most(i));
   });
-  move(reached.coordinates, wanted.coordinates, TURN);
-  move(reached.activations, wanted.activations, ACTIVATION);
+  move(reached.coordinates, wanted.coordinates, c => scene.coordinates[c].translation ? SHIFT : TURN);
+  move(reached.activations, wanted.activations, () => ACTIVATION);
   return moved;
 }
 
@@ -127,9 +135,10 @@ async function recover(error) {
 }
 
 const tasks = {
-  async begin({bytes, method}) {
+  async begin({bytes, scene: brought, method}) {
     module = await WebAssembly.compile(bytes);
-    postMessage({kind: 'status', text: 'making the hip'});
+    own = brought && new Uint8Array(brought);
+    postMessage({kind: 'status', text: own ? 'reading the scene' : 'making the hip'});
     await start();
     constants();
     choose(method);

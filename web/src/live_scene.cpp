@@ -5,9 +5,11 @@
 #include <gracilis/anatomy/overlap/bone_field.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/registry.hpp>
+#include <gracilis/scene/setting_table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/window/bone_pull.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -23,8 +25,16 @@ std::vector<float> in_single_precision(const Points& points) {
   return values;
 }
 
-/// Names are those of the built-in scenes and of methods: nothing in them has to be escaped.
-std::string quoted(std::string_view text) { return '"' + std::string(text) + '"'; }
+/// As JSON has it. Of characters below a space nothing is left, for no name has any.
+std::string quoted(std::string_view text) {
+  std::string safe = "\"";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < ' ') continue;
+    if (c == '"' || c == '\\') safe += '\\';
+    safe += c;
+  }
+  return safe + '"';
+}
 
 std::string address(const void* at) { return std::to_string(reinterpret_cast<std::uintptr_t>(at)); }
 
@@ -34,8 +44,14 @@ std::string joined(const std::vector<std::string>& items) {
   return "[" + text + "]";
 }
 
-std::string color_text(const Color& color) {
-  return "[" + std::to_string(color.x()) + "," + std::to_string(color.y()) + "," + std::to_string(color.z()) + "]";
+template <class Vector>
+std::string vector_text(const Vector& v) {
+  return "[" + to_text(Real(v[0])) + "," + to_text(Real(v[1])) + "," + to_text(Real(v[2])) + "]";
+}
+
+std::string axes_text(const AnatomicalAxes& axes) {
+  return "{\"anterior\":" + vector_text(axes.anterior) + ",\"superior\":" + vector_text(axes.superior) +
+         ",\"right\":" + vector_text(axes.right()) + "}";
 }
 
 std::string surface_text(const std::string& name, const TriangleMesh& surface, const float* points) {
@@ -44,12 +60,21 @@ std::string surface_text(const std::string& name, const TriangleMesh& surface, c
          ",\"faceCount\":" + std::to_string(surface.face_count());
 }
 
-/// First what follows sliders as they are pulled.
-std::vector<PageChoice> page_choices() {
+bool has_settings(const Scene& scene) {
+  return !scene.method.settings.empty() || !scene.method.contact.empty() ||
+         std::any_of(scene.muscles.begin(), scene.muscles.end(),
+                     [](const Muscle& muscle) { return !muscle.settings.empty(); });
+}
+
+/// First what follows sliders as they are pulled, then the scene's own method where that is none of the others.
+std::vector<PageChoice> page_choices(const Scene& scene) {
   std::vector<PageChoice> choices;
   for (const Preset& preset : presets())
     if (preset.name == "fast")
       choices.push_back({preset.method.name + ", fast", std::string(preset.meaning), preset.method});
+  if (has_settings(scene) && find_method(scene.method.name))
+    choices.push_back(
+        {scene.method.name + ", as the scene says", "The method and the settings of this scene.", scene.method, true});
   for (const MethodEntry& method : methods())
     choices.push_back({std::string(method.name), std::string(method.meaning), {std::string(method.name)}});
   return choices;
@@ -59,7 +84,7 @@ std::vector<PageChoice> page_choices() {
 
 LiveScene::LiveScene(Scene scene)
     : scene_(std::move(scene)),
-      choices_(page_choices()),
+      choices_(page_choices(scene_)),
       coordinate_count_(coordinate_names(scene_).size()),
       bodies_(12 * scene_.bodies.size()),
       shown_(scene_.muscles.size()),
@@ -68,6 +93,7 @@ LiveScene::LiveScene(Scene scene)
   for (std::size_t m = 0; m < shown_.size(); ++m) {
     shown_[m].points = in_single_precision(scene_.muscles[m].surface.vertices);
     shown_[m].facts.resize(2 + coordinate_count_);
+    own_settings_.push_back(scene_.muscles[m].settings);
   }
   for (const Bone& bone : scene_.bones) bones_.push_back(in_single_precision(bone.surface.vertices));
 }
@@ -78,10 +104,9 @@ std::string LiveScene::description() const {
     choices.push_back("{\"name\":" + quoted(choice.name) + ",\"meaning\":" + quoted(choice.meaning) + "}");
   for (const Joint& joint : scene_.joints)
     for (const JointAxis& axis : joint.axes)
-      coordinates.push_back("{\"name\":" + quoted(axis.coordinate) + ",\"low\":" + std::to_string(axis.range_min) +
-                            ",\"high\":" + std::to_string(axis.range_max) +
-                            ",\"capture\":" + std::to_string(axis.capture_value) +
-                            ",\"child\":" + std::to_string(joint.child_body) + "}");
+      coordinates.push_back("{\"name\":" + quoted(axis.coordinate) + ",\"low\":" + to_text(axis.range_min) +
+                            ",\"high\":" + to_text(axis.range_max) + ",\"capture\":" + to_text(axis.capture_value) +
+                            ",\"translation\":" + (axis.translation ? "true" : "false") + "}");
   for (std::size_t b = 0; b < scene_.bones.size(); ++b)
     bones.push_back("{" + surface_text(scene_.bones[b].name, scene_.bones[b].surface, bones_[b].data()) +
                     ",\"body\":" + std::to_string(scene_.bones[b].body) + "}");
@@ -91,9 +116,10 @@ std::string LiveScene::description() const {
                       ",\"fibers\":" + address(shown.fibers.data()) + ",\"fiberOffsets\":" +
                       address(shown.fiber_offsets.data()) + ",\"fiberCount\":" + std::to_string(shown.strains.size()) +
                       ",\"strains\":" + address(shown.strains.data()) + ",\"facts\":" + address(shown.facts.data()) +
-                      ",\"color\":" + color_text(muscle_color(scene_.muscles[m].name)) + "}");
+                      ",\"color\":" + vector_text(muscle_color(scene_.muscles[m].name)) + "}");
   }
-  return "{\"methods\":" + joined(choices) + ",\"coordinates\":" + joined(coordinates) +
+  return "{\"name\":" + quoted(scene_.name) + ",\"axes\":" + axes_text(scene_.axes) +
+         ",\"methods\":" + joined(choices) + ",\"coordinates\":" + joined(coordinates) +
          ",\"bodies\":" + address(bodies_.data()) + ",\"bodyCount\":" + std::to_string(scene_.bodies.size()) +
          ",\"bones\":" + joined(bones) + ",\"muscles\":" + joined(muscles) + "}";
 }
@@ -112,6 +138,8 @@ std::vector<DistanceField> LiveScene::fields(const DistanceFieldSettings& settin
 void LiveScene::choose(std::size_t choice) {
   simulation_.reset();
   scene_.method = choices_.at(choice).method;
+  for (std::size_t m = 0; m < own_settings_.size(); ++m)
+    scene_.muscles[m].settings = choices_[choice].is_own ? own_settings_[m] : SettingValues();
   simulation_ = std::make_unique<Simulation>(
       scene_, make_method(scene_, [this](const DistanceFieldSettings& settings) { return fields(settings); }),
       Simulation::Keeps::last_frame);

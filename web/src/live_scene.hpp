@@ -23,6 +23,7 @@ struct ShownMuscle {
 struct PageChoice {
   std::string name, meaning;
   MethodChoice method;
+  bool is_own = false;  ///< with the settings that the scene has for single muscles
 };
 
 /// A scene that the page moves, by any of the methods.
@@ -49,6 +50,7 @@ class LiveScene {
   std::vector<DistanceField> fields(const DistanceFieldSettings& settings);
 
   Scene scene_;
+  std::vector<SettingValues> own_settings_;  ///< of each muscle, by the scene
   std::vector<PageChoice> choices_;
   std::size_t coordinate_count_ = 0;
   std::vector<DistanceField> fields_;  ///< by the scene's settings; made when a method first asks for them

@@ -1,7 +1,9 @@
-// What JavaScript calls. One scene, the built-in hip; numbers come and go through buffers of this program's memory.
+// What JavaScript calls. One scene, the built-in hip or one that the page brings along; numbers come and go through
+// buffers of this program's memory.
 #include "live_scene.hpp"
 
 #include <gracilis/anatomy/builtin/builtin_hip.hpp>
+#include <gracilis/io/scene/scene_bytes.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -18,6 +20,11 @@ std::string text;
 extern "C" {
 
 void prepare() { scene = std::make_unique<gracilis::LiveScene>(gracilis::builtin_hip()); }
+
+/// As `prepare`, of scene_bytes.
+void prepare_scene(const char* bytes, int size) {
+  scene = std::make_unique<gracilis::LiveScene>(gracilis::scene_of_bytes({bytes, bytes + size}));
+}
 
 /// JSON, which ends with a zero. Addresses hold until the next call of anything.
 const char* description() {
