@@ -2,7 +2,6 @@
 #include "scene_options.hpp"
 #include "session.hpp"
 
-#include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <memory>
@@ -18,44 +17,46 @@ static std::pair<std::string, Real> activation_in(const std::string& word) {
   return {word.substr(0, sign), value};
 }
 
+void add_demo_options(CLI::App& command, DemoOptions& demo, SceneOptions& changes) {
+  command.add_option("SCENE", demo.scene, "Which joint: hip (default) or elbow")
+      ->check(CLI::IsMember({"hip", "elbow"}));
+  command.add_option("--flexion", demo.flexion_deg, "How far to flex, degrees (hip 90, elbow 130)")
+      ->check(CLI::Range(0.0, 130.0));
+  std::vector<std::string> names;
+  for (const Preset& preset : presets()) names.emplace_back(preset.name);
+  command.add_option("--preset", demo.preset, "Settings to use: the default or, to compare with, the published ones")
+      ->check(CLI::IsMember(names));
+  command
+      .add_option("--contact", demo.contact,
+                  "How muscles keep out of each other: surface, virtual-edges or none (default: as the preset says)")
+      ->check(CLI::IsMember({"none", "surface", "virtual-edges"}));
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--activation",
+          [&demo](const std::vector<std::string>& given) {
+            for (const std::string& word : given) demo.activations.insert(activation_in(word));
+          },
+          "MUSCLE=VALUE, 0 to 1: how active it becomes with the flexion, as in iliacus_r=0.3; may be repeated")
+      ->allow_extra_args(false);
+  command.add_option("--step", demo.step_deg, "How far to flex in a frame, degrees (hip 1, elbow 2)")
+      ->check(CLI::Range(0.01, 130.0));
+  add_setting_options(command, changes);
+}
+
 void add_demo_command(CLI::App& program, const std::vector<std::string>& words, Command& chosen) {
   CLI::App* command = program.add_subcommand(
       "demo", "Flex the built-in hip by 90 degrees, or the built-in elbow by 130; no file needed");
   struct Options {
     DemoOptions demo;
-    SceneOptions scene_options;
+    SceneOptions changes;
     SessionOptions session;
   };
   const auto options = std::make_shared<Options>();
-  command->add_option("SCENE", options->demo.scene, "Which joint: hip (default) or elbow")
-      ->check(CLI::IsMember({"hip", "elbow"}));
-  command->add_option("--flexion", options->demo.flexion_deg, "How far to flex, degrees (hip 90, elbow 130)")
-      ->check(CLI::Range(0.0, 130.0));
-  std::vector<std::string> names;
-  for (const Preset& preset : presets()) names.emplace_back(preset.name);
-  command
-      ->add_option("--preset", options->demo.preset,
-                   "Settings to use: the default or, to compare with, the published ones")
-      ->check(CLI::IsMember(names));
-  command
-      ->add_option("--contact", options->demo.contact,
-                   "How muscles keep out of each other: surface, virtual-edges or none (default: as the preset says)")
-      ->check(CLI::IsMember({"none", "surface", "virtual-edges"}));
-  command
-      ->add_option_function<std::vector<std::string>>(
-          "--activation",
-          [options](const std::vector<std::string>& given) {
-            for (const std::string& word : given) options->demo.activations.insert(activation_in(word));
-          },
-          "MUSCLE=VALUE, 0 to 1: how active it becomes with the flexion, as in iliacus_r=0.3; may be repeated")
-      ->allow_extra_args(false);
-  command->add_option("--step", options->demo.step_deg, "How far to flex in a frame, degrees (hip 1, elbow 2)")
-      ->check(CLI::Range(0.01, 130.0));
-  add_setting_options(*command, options->scene_options);
+  add_demo_options(*command, options->demo, options->changes);
   add_session_options(*command, options->session);
   options->session.command = words;
   command->callback([&chosen, options] {
-    chosen = [options] { return run_session(load_demo(options->demo, options->scene_options), options->session); };
+    chosen = [options] { return run_session(load_demo(options->demo, options->changes), options->session); };
   });
 }
 

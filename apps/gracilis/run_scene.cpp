@@ -1,11 +1,11 @@
 #include "run_scene.hpp"
 
+#include "demo_command.hpp"
 #include "scene_options.hpp"
 #include "session.hpp"
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/run/run_manifest.hpp>
-#include <gracilis/io/scene/demo_scene.hpp>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -24,18 +24,16 @@ LoadedScene scene_of_run(const std::filesystem::path& run) {
   std::filesystem::path file;
   SceneOptions options;
   DemoOptions demo;
-  SessionOptions session;  // so that no value of these is taken for the scene
+  // So that no value of other options is taken for the scene.
+  SessionOptions session;
+  std::vector<std::string> of_rom;
   if (is_demo) {
-    parser.add_option("SCENE", demo.scene);
-    parser.add_option("--preset", demo.preset);
-    parser.add_option("--contact", demo.contact);
-    parser.add_option("--flexion", demo.flexion_deg);
-    parser.add_option("--step", demo.step_deg);
-    add_setting_options(parser, options);
+    add_demo_options(parser, demo, options);
   } else {
     add_scene_options(parser, file, options);
   }
   add_session_options(parser, session);
+  for (const char* option : {"--coord", "--reference"}) parser.add_option(option, of_rom)->allow_extra_args(false);
   parser.allow_extras();
   words.erase(words.begin(), words.begin() + 2);
   std::reverse(words.begin(), words.end());

@@ -15,6 +15,7 @@
 #include <gracilis/view/window/interactive_window.hpp>
 #include <gracilis/view/window/live_simulation.hpp>
 #include <gracilis/view/window/run_loader.hpp>
+#include <gracilis/view/window/slider_range.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -93,9 +94,9 @@ std::vector<WindowSlider> sliders_of(const Scene& scene, LiveSimulation& simulat
   std::size_t number = 0;
   for (const Joint& joint : scene.joints) {
     for (const JointAxis& axis : joint.axes) {
-      const Real unit = axis.translation ? 0.001 : radians(1), most = axis.translation ? 100 : 120;
-      sliders.push_back({"joints", axis.coordinate, axis.translation ? " mm" : "°",
-                         std::max(axis.range_min / unit, -most), std::min(axis.range_max / unit, most),
+      const Real unit = axis.translation ? 0.001 : radians(1);
+      const auto [least, most] = slider_range(axis);
+      sliders.push_back({"joints", axis.coordinate, axis.translation ? " mm" : "°", least / unit, most / unit,
                          [&simulation, number, unit] { return simulation.aim_of(number) / unit; },
                          [&simulation, number, unit](Real value) { simulation.aim(number, value * unit); }});
       ++number;

@@ -48,11 +48,14 @@ TEST(ReportLive, puts_the_scene_of_the_run_with_its_changes_into_the_page) {
 
 TEST(ReportLive, of_the_built_in_elbow_has_the_elbow) {
   const LiveFolder folder;
-  ASSERT_EQ(run_program("demo elbow --flexion 4 --out " + folder.path("run").string()).exit_code, 0);
+  ASSERT_EQ(run_program("demo --activation biceps_brachii_long_r=0.3 elbow --flexion 4 --out " + folder.path("run").string())
+                .exit_code,
+            0);
   ASSERT_EQ(folder.report(folder.with_page("page.html")).exit_code, 0);
   DemoOptions demo;
   demo.scene = "elbow";
   demo.flexion_deg = 4;
+  demo.activations = {{"biceps_brachii_long_r", 0.3}};
   EXPECT_THAT(read_text(folder.path("run/live.html")), HasSubstr(base64(scene_bytes(load_demo(demo, {}).scene))));
 }
 

@@ -8,6 +8,7 @@
 #include <gracilis/view/window/picking.hpp>
 #include <gracilis/view/window/player.hpp>
 #include <gracilis/view/window/shape_history.hpp>
+#include <gracilis/view/window/slider_range.hpp>
 
 #include <gracilis/geometry/measures.hpp>
 
@@ -20,6 +21,18 @@ static ShownFrame captioned(const std::string& caption) {
   ShownFrame frame;
   frame.caption = caption;
   return frame;
+}
+
+TEST(SliderRange, is_the_coordinates_within_120_degrees_or_100_millimetres_and_has_the_capture_pose) {
+  using Range = std::pair<Real, Real>;
+  JointAxis axis;
+  EXPECT_EQ(slider_range(axis), Range(-radians(120), radians(120)));
+  axis.range_min = -0.2, axis.range_max = 1;
+  EXPECT_EQ(slider_range(axis), Range(-0.2, 1));
+  axis.capture_value = 3;
+  EXPECT_EQ(slider_range(axis), Range(-0.2, 3));
+  axis.capture_value = 0, axis.translation = true;
+  EXPECT_EQ(slider_range(axis), Range(-0.1, 0.1));
 }
 
 TEST(ShapeHistory, keeps_the_last_frames_under_their_numbers) {

@@ -8,6 +8,7 @@
 #include <gracilis/scene/setting_table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/window/bone_pull.hpp>
+#include <gracilis/view/window/slider_range.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -103,10 +104,12 @@ std::string LiveScene::description() const {
   for (const PageChoice& choice : choices_)
     choices.push_back("{\"name\":" + quoted(choice.name) + ",\"meaning\":" + quoted(choice.meaning) + "}");
   for (const Joint& joint : scene_.joints)
-    for (const JointAxis& axis : joint.axes)
-      coordinates.push_back("{\"name\":" + quoted(axis.coordinate) + ",\"low\":" + to_text(axis.range_min) +
-                            ",\"high\":" + to_text(axis.range_max) + ",\"capture\":" + to_text(axis.capture_value) +
+    for (const JointAxis& axis : joint.axes) {
+      const auto [low, high] = slider_range(axis);
+      coordinates.push_back("{\"name\":" + quoted(axis.coordinate) + ",\"low\":" + to_text(low) +
+                            ",\"high\":" + to_text(high) + ",\"capture\":" + to_text(axis.capture_value) +
                             ",\"translation\":" + (axis.translation ? "true" : "false") + "}");
+    }
   for (std::size_t b = 0; b < scene_.bones.size(); ++b)
     bones.push_back("{" + surface_text(scene_.bones[b].name, scene_.bones[b].surface, bones_[b].data()) +
                     ",\"body\":" + std::to_string(scene_.bones[b].body) + "}");
