@@ -3,6 +3,7 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/joints/joint_twists.hpp>
 #include <gracilis/anatomy/overlap/bone_field.hpp>
+#include <gracilis/core/quoted_text.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/setting_table.hpp>
@@ -26,17 +27,6 @@ std::vector<float> in_single_precision(const Points& points) {
   return values;
 }
 
-/// As JSON has it. Of characters below a space nothing is left, for no name has any.
-std::string quoted(std::string_view text) {
-  std::string safe = "\"";
-  for (const char c : text) {
-    if (static_cast<unsigned char>(c) < ' ') continue;
-    if (c == '"' || c == '\\') safe += '\\';
-    safe += c;
-  }
-  return safe + '"';
-}
-
 std::string address(const void* at) { return std::to_string(reinterpret_cast<std::uintptr_t>(at)); }
 
 std::string joined(const std::vector<std::string>& items) {
@@ -56,7 +46,7 @@ std::string axes_text(const AnatomicalAxes& axes) {
 }
 
 std::string surface_text(const std::string& name, const TriangleMesh& surface, const float* points) {
-  return "\"name\":" + quoted(name) + ",\"vertices\":" + std::to_string(surface.vertex_count()) +
+  return "\"name\":" + quoted_text(name) + ",\"vertices\":" + std::to_string(surface.vertex_count()) +
          ",\"points\":" + address(points) + ",\"faces\":" + address(surface.faces.data()) +
          ",\"faceCount\":" + std::to_string(surface.face_count());
 }
@@ -102,11 +92,11 @@ LiveScene::LiveScene(Scene scene)
 std::string LiveScene::description() const {
   std::vector<std::string> choices, coordinates, bones, muscles;
   for (const PageChoice& choice : choices_)
-    choices.push_back("{\"name\":" + quoted(choice.name) + ",\"meaning\":" + quoted(choice.meaning) + "}");
+    choices.push_back("{\"name\":" + quoted_text(choice.name) + ",\"meaning\":" + quoted_text(choice.meaning) + "}");
   for (const Joint& joint : scene_.joints)
     for (const JointAxis& axis : joint.axes) {
       const auto [low, high] = slider_range(axis);
-      coordinates.push_back("{\"name\":" + quoted(axis.coordinate) + ",\"low\":" + to_text(low) +
+      coordinates.push_back("{\"name\":" + quoted_text(axis.coordinate) + ",\"low\":" + to_text(low) +
                             ",\"high\":" + to_text(high) + ",\"capture\":" + to_text(axis.capture_value) +
                             ",\"translation\":" + (axis.translation ? "true" : "false") + "}");
     }
@@ -121,7 +111,7 @@ std::string LiveScene::description() const {
                       ",\"strains\":" + address(shown.strains.data()) + ",\"facts\":" + address(shown.facts.data()) +
                       ",\"color\":" + vector_text(muscle_color(scene_.muscles[m].name)) + "}");
   }
-  return "{\"name\":" + quoted(scene_.name) + ",\"axes\":" + axes_text(scene_.axes) +
+  return "{\"name\":" + quoted_text(scene_.name) + ",\"axes\":" + axes_text(scene_.axes) +
          ",\"methods\":" + joined(choices) + ",\"coordinates\":" + joined(coordinates) +
          ",\"bodies\":" + address(bodies_.data()) + ",\"bodyCount\":" + std::to_string(scene_.bodies.size()) +
          ",\"bones\":" + joined(bones) + ",\"muscles\":" + joined(muscles) + "}";

@@ -1,5 +1,6 @@
 #include <gracilis/calibrate/calibration_files.hpp>
 
+#include <gracilis/core/quoted_text.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/scene/scene_layers.hpp>
 #include <gracilis/io/text_cells.hpp>
@@ -32,17 +33,11 @@ ParameterEstimate estimate_of(const CalibrationResult& result, std::size_t param
 
 namespace {
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-  return result + "\"";
-}
-
 /// What `--set` takes as a TOML value: a bare word is a text.
 std::string toml_value(const std::string& text) {
   double number = 0;
   const bool is_whole = text == "true" || text == "false" || text.starts_with('[') || text.starts_with('"');
-  return is_whole || parse_number(text, number) ? text : quoted(text);
+  return is_whole || parse_number(text, number) ? text : quoted_text(text);
 }
 
 /// Settings by the table that they stand in, in the order in which they were named; a later one replaces an earlier
@@ -70,7 +65,7 @@ class SettingTables {
       else if (is_setting_section(owner))
         tables += "\n[" + owner + "]\n" + lines;
       else
-        muscles += "\n[[muscles]]\nname = " + quoted(owner) + "\n[muscles.settings]\n" + lines;
+        muscles += "\n[[muscles]]\nname = " + quoted_text(owner) + "\n[muscles.settings]\n" + lines;
     }
     return top + tables + muscles;
   }
@@ -94,11 +89,11 @@ void write_scene(const fs::path& folder, const CalibratedScene& scene) {
   fs::path from = fs::relative(scene.file, folder, error);
   if (error || from.empty()) from = fs::absolute(scene.file);
   std::string text = "# The scene with what 'gracilis calibrate' found.\nschema = 1\nname = " +
-                     quoted(scene.file.stem().string() + "_calibrated") + "\ninclude = [" +
-                     quoted(from.generic_string()) + ", \"calibrated.toml\"]\n";
+                     quoted_text(scene.file.stem().string() + "_calibrated") + "\ninclude = [" +
+                     quoted_text(from.generic_string()) + ", \"calibrated.toml\"]\n";
   if (!scene.only.empty()) {
     text += "only = [";
-    for (std::size_t i = 0; i < scene.only.size(); ++i) text += (i > 0 ? ", " : "") + quoted(scene.only[i]);
+    for (std::size_t i = 0; i < scene.only.size(); ++i) text += (i > 0 ? ", " : "") + quoted_text(scene.only[i]);
     text += "]\n";
   }
   write_text_atomically(folder / "calibrated_scene.toml", text);

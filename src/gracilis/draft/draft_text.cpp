@@ -1,5 +1,7 @@
 #include <gracilis/draft/draft_text.hpp>
 
+#include <gracilis/core/quoted_text.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,19 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + "\"";
-}
-
 std::string list(const std::vector<std::string>& texts) {
-  if (texts.size() == 1) return quoted(texts.front());
+  if (texts.size() == 1) return quoted_text(texts.front());
   std::string result;
-  for (const std::string& text : texts) result += (result.empty() ? "[" : ", ") + quoted(text);
+  for (const std::string& text : texts) result += (result.empty() ? "[" : ", ") + quoted_text(text);
   return result + "]";
 }
 
@@ -40,7 +33,7 @@ std::string vector_text(const Vec3& v, int digits) {
 std::string path_text(const fs::path& file, const fs::path& folder) {
   std::error_code ignored;
   const fs::path relative = fs::relative(fs::absolute(file), fs::absolute(folder), ignored);
-  return quoted((relative.empty() ? fs::absolute(file) : relative).generic_string());
+  return quoted_text((relative.empty() ? fs::absolute(file) : relative).generic_string());
 }
 
 std::string guessed_line(const Guess& guess) { return "# guessed: " + to_string(guess) + "\n"; }
@@ -55,7 +48,7 @@ struct Writing {
   void line(const std::string& words) { text += words + "\n"; }
   /// What a surface's file needs to be said beside its name.
   std::string unit() const {
-    return (draft.found.unit == "m" ? "" : "unit = " + quoted(draft.found.unit) + "\n") +
+    return (draft.found.unit == "m" ? "" : "unit = " + quoted_text(draft.found.unit) + "\n") +
            (draft.found.is_mirrored ? "mirror = true\n" : "");
   }
 
@@ -75,7 +68,7 @@ struct Writing {
       line("# every key.");
     }
     line("schema = 1");
-    line("name = " + quoted(name) + " # of runs");
+    line("name = " + quoted_text(name) + " # of runs");
     if (!is_whole()) {
       line("anterior = [1, 0, 0] # where the body looks, in the files' frame; change it with 'superior'");
       line("superior = [0, 1, 0]");
@@ -86,7 +79,7 @@ struct Writing {
     line("anterior = " + vector_text(frame.anterior, 6));
     line("superior = " + vector_text(frame.superior, 6));
     line("guessed = [ # repeated in each run's manifest");
-    for (const Guess& guess : draft.guesses) line("  " + quoted(guess.subject + ": " + to_string(guess)) + ",");
+    for (const Guess& guess : draft.guesses) line("  " + quoted_text(guess.subject + ": " + to_string(guess)) + ",");
     line("]");
     if (landmarks.empty()) return;
     line("\n[landmarks]");
@@ -98,8 +91,8 @@ struct Writing {
     for (std::size_t b = 0; b < draft.found.bones.size(); ++b) {
       const FoundBone& bone = draft.found.bones[b];
       line("\n[[bones]] # rigid; 'body' is what it moves with (without: by itself)");
-      line("name = " + quoted(bone.name));
-      if (draft.skeleton.bodies[b] != bone.name) line("body = " + quoted(draft.skeleton.bodies[b]));
+      line("name = " + quoted_text(bone.name));
+      if (draft.skeleton.bodies[b] != bone.name) line("body = " + quoted_text(draft.skeleton.bodies[b]));
       text += "file = " + path_text(bone.file, folder) + "\n" + unit();
     }
   }
@@ -109,13 +102,13 @@ struct Writing {
       text += "\n" + guessed_line(joint.guess) +
               guessed_line({"", "capture pose: " + joint.capture_guess.how, joint.capture_guess.certainty});
       line("[[joints]] # change 'center' (m, in the files' frame) where it lies elsewhere");
-      line("name = " + quoted(joint.name));
-      line("parent = " + quoted(joint.parent));
-      line("child = " + quoted(joint.child));
+      line("name = " + quoted_text(joint.name));
+      line("parent = " + quoted_text(joint.parent));
+      line("child = " + quoted_text(joint.child));
       line("center = " + vector_text(joint.center, 5));
       for (const DraftAxis& axis : joint.axes) {
         line("[[joints.axes]] # 'capture_deg' is its value as the files have it; outside of 'range_deg' runs warn");
-        line("coordinate = " + quoted(axis.coordinate));
+        line("coordinate = " + quoted_text(axis.coordinate));
         line("axis = " + vector_text(axis.direction, 5));
         if (axis.capture != 0) line("capture_deg = " + number(degrees(axis.capture), 2));
         line(fmt::format("range_deg = [{}, {}]", number(degrees(axis.range_min), 1),
@@ -128,16 +121,16 @@ struct Writing {
     text += "\n" + guessed_line(each.guess);
     line(fmt::format("[[muscles.attachments]] # {} vertices; smaller distances hold fewer, larger ones more",
                      each.vertices.size()));
-    line("name = " + quoted(each.name));
+    line("name = " + quoted_text(each.name));
     line(each.end == AttachmentEnd::origin ? "end = \"origin\"" : "end = \"insertion\"");
     if (!each.muscle.empty())
-      line("muscle = " + quoted(each.muscle) + " # shares its tendon; or give 'bone', as other ends do");
+      line("muscle = " + quoted_text(each.muscle) + " # shares its tendon; or give 'bone', as other ends do");
     else if (each.bones.empty())
-      line("body = " + quoted(each.body));
+      line("body = " + quoted_text(each.body));
     else
       line("bone = " + list(each.bones));
     if (!each.patch.empty()) text += "patch = " + path_text(each.patch, folder) + "\n" + unit();
-    if (!each.cloud.empty()) line("cloud = " + quoted(each.cloud));
+    if (!each.cloud.empty()) line("cloud = " + quoted_text(each.cloud));
     if (each.line == LineKind::open) line("line = \"open\"");
     if (each.line == LineKind::closed) line("line = \"closed\"");
     if (each.bone_distance > 0) line("bone_distance_mm = " + number(1000 * each.bone_distance, 2));
@@ -149,7 +142,7 @@ struct Writing {
   void muscles() {
     for (const DraftMuscle& muscle : draft.muscles) {
       line("\n[[muscles]] # a closed surface, held at one origin and one insertion or more");
-      line("name = " + quoted(muscle.found->name));
+      line("name = " + quoted_text(muscle.found->name));
       text += "file = " + path_text(muscle.found->file, folder) + "\n" + unit();
       for (const DraftAttachment& each : muscle.attachments) attachment(each);
       if (muscle.attachments.empty()) missing_attachments();
@@ -165,9 +158,9 @@ struct Writing {
     for (const std::size_t end : {0u, 1u}) {
       line(end == 0 ? "# missing: where it is held; here, where it lies within 3 mm of a bone" : "#");
       line("# [[muscles.attachments]]");
-      line("# name = " + quoted(bone_name(end)));
+      line("# name = " + quoted_text(bone_name(end)));
       line(end == 0 ? "# end = \"origin\"" : "# end = \"insertion\"");
-      line("# bone = " + quoted(bone_name(end)));
+      line("# bone = " + quoted_text(bone_name(end)));
       line("# bone_distance_mm = 3");
     }
   }
@@ -177,18 +170,18 @@ struct Writing {
     for (std::size_t b = 1; b < std::max<std::size_t>(2, draft.found.bones.size()); ++b) {
       const std::string name = bone_name(b);
       line("# [[joints]]");
-      line("# name = " + quoted(name + "_joint"));
-      line("# parent = " + quoted(bone_name(0)) + " # the body that rests");
-      line("# child = " + quoted(name));
+      line("# name = " + quoted_text(name + "_joint"));
+      line("# parent = " + quoted_text(bone_name(0)) + " # the body that rests");
+      line("# child = " + quoted_text(name));
       line("# center = [0, 0, 0] # m, in the files' frame");
       line("# [[joints.axes]]");
-      line("# coordinate = " + quoted(name + "_flexion"));
+      line("# coordinate = " + quoted_text(name + "_flexion"));
       line("# axis = [0, 0, 1] # a right-handed turn about it is positive");
       line("# range_deg = [0, 90]\n#");
     }
     line("# missing: a motion. Without, a run has one frame, as the files are.");
     line("# [motion]");
-    line("# coordinates = [" + quoted(bone_name(1) + "_flexion") + "]");
+    line("# coordinates = [" + quoted_text(bone_name(1) + "_flexion") + "]");
     line("# key_poses_deg = [[0], [60]] # a row per pose");
     line("# step_deg = 2");
   }
@@ -198,7 +191,7 @@ struct Writing {
     std::string names, from, to;
     for (const DraftMotion& each : draft.motion) {
       const std::string comma = names.empty() ? "" : ", ";
-      names += comma + quoted(each.coordinate);
+      names += comma + quoted_text(each.coordinate);
       from += comma + number(degrees(each.from), 1);
       to += comma + number(degrees(each.to), 1);
     }

@@ -5,7 +5,6 @@
 #include <gracilis/geometry/topology.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace gracilis {
 

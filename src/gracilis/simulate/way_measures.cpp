@@ -6,7 +6,6 @@
 #include <gracilis/simulate/wrong_side.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 namespace gracilis {
 

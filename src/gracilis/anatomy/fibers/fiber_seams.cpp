@@ -3,8 +3,6 @@
 #include <gracilis/geometry/angle_between.hpp>
 #include <gracilis/geometry/principal_axes.hpp>
 
-#include <cmath>
-
 namespace gracilis {
 
 /// The direction across which the field draws together most.

@@ -7,7 +7,6 @@
 #include <gracilis/geometry/angle_between.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace gracilis {

@@ -1,5 +1,6 @@
 #include <gracilis/view/export/export_usd.hpp>
 
+#include <gracilis/core/quoted_text.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/palette.hpp>
@@ -37,19 +38,6 @@ std::string identifier(const std::string& name, std::set<std::string>& taken) {
   std::string free = word;
   for (int number = 2; !taken.insert(free).second; ++number) free = fmt::format("{}_{}", word, number);
   return free;
-}
-
-/// A string as USD writes it.
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') result += '\\';
-    if (c == '\n')
-      result += "\\n";
-    else
-      result += c;
-  }
-  return result + '"';
 }
 
 template <class Columns>
@@ -95,7 +83,7 @@ void add_samples(Text& text, const char* attribute, std::size_t frames, const Va
 void begin_prim(Text& text, const char* type, const std::string& name, const std::string& own_name,
                 const Color& color) {
   add(text, "\n    def {} \"{}\"\n    {{\n", type, name);
-  add(text, "        custom string gracilis:name = {}\n", quoted(own_name));
+  add(text, "        custom string gracilis:name = {}\n", quoted_text(own_name));
   add(text, "        color3f[] primvars:displayColor = [({:.4g}, {:.4g}, {:.4g})]\n", color[0], color[1], color[2]);
 }
 
@@ -160,7 +148,8 @@ void add_fibers(Text& text, const std::string& name, UsdRun& usd) {
 
 void add_head(Text& text, const UsdRun& usd, const std::string& root) {
   const std::string scene = usd.run.manifest.value("scene", "run");
-  add(text, "#usda 1.0\n(\n    defaultPrim = \"{}\"\n    doc = {}\n", root, quoted(scene + ", written by Gracilis"));
+  add(text, "#usda 1.0\n(\n    defaultPrim = \"{}\"\n    doc = {}\n", root,
+      quoted_text(scene + ", written by Gracilis"));
   add(text, "    metersPerUnit = 1\n    upAxis = \"Y\"\n    startTimeCode = 0\n    endTimeCode = {}\n",
       usd.frames.size() - 1);
   add(text, "    timeCodesPerSecond = {0}\n    framesPerSecond = {0}\n)\n\n", usd.options.frames_per_second);

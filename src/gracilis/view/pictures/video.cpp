@@ -1,6 +1,7 @@
 #include <gracilis/view/pictures/video.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/shell_word.hpp>
 #include <gracilis/io/atomic_file.hpp>
 
 #include <fmt/format.h>
@@ -10,13 +11,6 @@
 #include <cstdlib>
 
 namespace gracilis {
-
-/// As one word of a shell's command line.
-static std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
 
 void write_video(const std::filesystem::path& path, int count, int frames_per_second,
                  const std::function<PixelImage(int)>& image) {
@@ -35,7 +29,7 @@ void write_video(const std::filesystem::path& path, int count, int frames_per_se
             "ffmpeg -loglevel error -y -f rawvideo -pix_fmt rgba -s {}x{} -r {} -i - -vf "
             "'pad=ceil(iw/2)*2:ceil(ih/2)*2' "
             "-c:v libx264 -crf 18 -pix_fmt yuv420p -movflags +faststart {}",
-            now.width, now.height, frames_per_second, quoted("file:" + temporary.string()));
+            now.width, now.height, frames_per_second, shell_word("file:" + temporary.string()));
         pipe = popen(command.c_str(), "w");
         if (!pipe) break;
       }
