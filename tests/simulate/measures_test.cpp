@@ -49,8 +49,9 @@ bool equal(const MuscleMeasures& a, const MuscleMeasures& b) {
          a.dihedrals_over_90 == b.dihedrals_over_90 && a.vertex_depth == b.vertex_depth &&
          a.vertex_depth_beyond_rest == b.vertex_depth_beyond_rest &&
          a.midpoint_depth_beyond_rest == b.midpoint_depth_beyond_rest &&
-         a.muscle_depth_beyond_rest == b.muscle_depth_beyond_rest && a.belly_off_place == b.belly_off_place &&
-         a.wrong_side == b.wrong_side && a.slack == b.slack && a.finite == b.finite;
+         a.muscle_depth_beyond_rest == b.muscle_depth_beyond_rest && a.deepest_in == b.deepest_in &&
+         a.belly_off_place == b.belly_off_place && a.wrong_side == b.wrong_side && a.slack == b.slack &&
+         a.finite == b.finite;
 }
 
 }  // namespace
@@ -174,6 +175,31 @@ TEST(Measurer, remembering_where_points_were_changes_no_number) {
   EXPECT_LT(frames_inside, 60);
 }
 
+TEST(Measurer, says_which_muscle_a_vertex_lies_deepest_in_where_the_method_keeps_them_apart) {
+  Scene scene = ball_beside_a_box();
+  for (const Real x : {0.12, 0.165}) {
+    Muscle next = scene.muscles.front();
+    next.name = x < 0.15 ? "second" : "third";
+    next.surface = shapes::sphere({x, 0, 0}, 0.02, 2);
+    scene.muscles.push_back(next);
+  }
+  Frame frame;
+  frame.pose = pose_with(RigidTransform::Identity());
+  for (const Muscle& muscle : scene.muscles) frame.muscles.push_back({muscle.surface.vertices});
+  frame.muscles[1].points.row(0).array() -= 0.01;  // of the 5 mm between them 10 are gone
+  for (const auto& [method, measured] : {std::pair("xpbd", true), {"tissue", true}, {"skinning", false}}) {
+    scene.method.name = method;
+    const std::vector<MuscleMeasures> all = Measurer(scene).measure(frame);
+    EXPECT_EQ(all[0].deepest_in, measured ? "second" : "") << method;
+    EXPECT_EQ(all[1].deepest_in, measured ? "ball" : "") << method;
+    EXPECT_EQ(all[2].deepest_in, "") << method;
+    EXPECT_NEAR(all[1].muscle_depth_beyond_rest, measured ? 0.005 : 0, 5e-4) << method;
+    EXPECT_EQ(all[2].muscle_depth_beyond_rest, 0) << method;
+  }
+  scene.method = {.name = "tissue", .settings = {{"contact_rounds", 0}}};
+  EXPECT_EQ(Measurer(scene).measure(frame)[1].deepest_in, "") << "muscles that do not look at each other";
+}
+
 TEST(QualityGates, say_what_was_missed_with_number_and_limit) {
   MuscleMeasures measures;
   EXPECT_THAT(missed_gates(measures, {}), testing::IsEmpty());
@@ -181,15 +207,17 @@ TEST(QualityGates, say_what_was_missed_with_number_and_limit) {
   measures.vertex_depth_beyond_rest = 0.00034;
   measures.midpoint_depth_beyond_rest = 0.0007;
   measures.muscle_depth_beyond_rest = 0.0013;
+  measures.deepest_in = "psoas_r";
   measures.edge_ratio_max_free = 4.2;
   measures.belly_off_place = 0.0184;
   measures.wrong_side = 0.25;
   measures.slack = 0.163;
-  EXPECT_THAT(missed_gates(measures, {}),
-              testing::ElementsAre(testing::HasSubstr("99.00 %"), testing::HasSubstr("0.340 mm"),
-                                   testing::HasSubstr("0.700 mm"), testing::HasSubstr("1.300 mm"),
-                                   testing::HasSubstr("4.2 times"), testing::HasSubstr("18.4 mm off its place"),
-                                   testing::HasSubstr("25 %"), testing::HasSubstr("16 % longer")));
+  EXPECT_THAT(
+      missed_gates(measures, {}),
+      testing::ElementsAre(testing::HasSubstr("99.00 %"), testing::HasSubstr("0.340 mm"),
+                           testing::HasSubstr("0.700 mm"), testing::HasSubstr("another muscle (psoas_r) 1.300 mm"),
+                           testing::HasSubstr("4.2 times"), testing::HasSubstr("18.4 mm off its place"),
+                           testing::HasSubstr("25 %"), testing::HasSubstr("16 % longer")));
   measures = {};
   measures.volume_ratio = 1.0051;
   EXPECT_EQ(missed_gates(measures, {}).size(), 1u);

@@ -64,6 +64,7 @@ struct MethodEntry {
   int (*resume_period)(const Scene&) = nullptr;
   /// Whether surfaces keep out of each other in this scene; none: never.
   bool (*has_surface_contact)(const Scene&) = nullptr;
+  bool leaves_pairs_out = false;  ///< of muscles one of which passes through the other: no contact between them
   /// Of methods that iterate; none: it does not. Takes the muscle alone through the poses, to the middle of the last.
   /// The fields (of all bones, by the scene's settings) must outlive the timer.
   std::unique_ptr<PhaseTimer> (*phase_timer)(const Scene&, const Muscle&, const std::vector<DistanceField>& fields,

@@ -18,8 +18,10 @@ std::string text_of(const char* form, Values... values) {
   return text;
 }
 
-std::string depth_text(const char* what, Real metres, Real limit) {
-  return text_of("%s %.3f mm beyond rest (limit %.1f mm)", what, metres * 1e3, limit * 1e3);
+std::string in_parentheses(const std::string& name) { return name.empty() ? "" : " (" + name + ")"; }
+
+std::string depth_text(const std::string& what, Real metres, Real limit) {
+  return what + text_of(" %.3f mm beyond rest (limit %.1f mm)", metres * 1e3, limit * 1e3);
 }
 
 }  // namespace
@@ -45,7 +47,8 @@ std::vector<MissedGate> gates_missed_by(const MuscleMeasures& measures, const Qu
         {depth_text("an edge's midpoint in a bone", measures.midpoint_depth_beyond_rest, gates.midpoint_depth), in_bone,
          measures.midpoint_depth_beyond_rest / gates.midpoint_depth});
   if (measures.muscle_depth_beyond_rest > gates.muscle_depth)
-    missed.push_back({depth_text("a vertex in another muscle", measures.muscle_depth_beyond_rest, gates.muscle_depth),
+    missed.push_back({depth_text("a vertex in another muscle" + in_parentheses(measures.deepest_in),
+                                 measures.muscle_depth_beyond_rest, gates.muscle_depth),
                       "one muscle would show inside the other",
                       measures.muscle_depth_beyond_rest / gates.muscle_depth});
   if (measures.edge_ratio_max_free > gates.free_edge_ratio)

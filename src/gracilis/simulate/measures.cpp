@@ -177,8 +177,12 @@ static bool all_are_finite(const std::vector<MuscleMeasures>& measures) {
 /// How deep muscles lie in each other. Points that are not finite lie nowhere.
 void Measurer::measure_muscle_depths(const Frame& frame, std::vector<MuscleMeasures>& measures) const {
   if (!muscle_depths_ || !all_are_finite(measures)) return;
-  const std::vector<Real> depths = muscle_depths_->beyond_rest(frame);
-  for (std::size_t m = 0; m < measures.size(); ++m) measures[m].muscle_depth_beyond_rest = depths[m];
+  const std::vector<DepthBeyondRest> depths = muscle_depths_->beyond_rest(frame);
+  for (std::size_t m = 0; m < measures.size(); ++m) {
+    if (depths[m].other < 0) continue;
+    measures[m].muscle_depth_beyond_rest = depths[m].depth;
+    measures[m].deepest_in = scene_.muscles[static_cast<std::size_t>(depths[m].other)].name;
+  }
 }
 
 /// Where the muscles run and lie. A frame that is not finite has no places.

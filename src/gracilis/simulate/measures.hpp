@@ -32,9 +32,10 @@ struct MuscleMeasures {
   Real vertex_depth_beyond_rest = 0;    ///< m, deepest beyond that vertex's depth in that bone at rest
   Real midpoint_depth_beyond_rest = 0;  ///< m, the same for midpoints of edges with a free end
   Real muscle_depth_beyond_rest = 0;    ///< m, see MuscleDepths; 0 where muscles are not kept out of each other
-  Real belly_off_place = 0;             ///< m, see BellyPlace
-  Real wrong_side = 0;                  ///< share of the muscle's lines, see is_on_wrong_side
-  Real slack = 0;                       ///< mean over the muscle's lines, see slack_of
+  std::string deepest_in = {};  ///< the muscle that it lies so deep in; empty where it lies in none, or is not known
+  Real belly_off_place = 0;     ///< m, see BellyPlace
+  Real wrong_side = 0;          ///< share of the muscle's lines, see is_on_wrong_side
+  Real slack = 0;               ///< mean over the muscle's lines, see slack_of
   bool finite = true;
   MeasureLevel level = MeasureLevel::full;  ///< what of this was measured; the rest is as at rest
 };

@@ -38,13 +38,14 @@ std::vector<DepthInOther> MuscleDepths::depths_of(const std::vector<Points>& poi
   return depths;
 }
 
-std::vector<Real> MuscleDepths::beyond_rest(const Frame& frame) const {
+std::vector<DepthBeyondRest> MuscleDepths::beyond_rest(const Frame& frame) const {
   std::vector<Points> points;
   for (const MuscleShape& muscle : frame.muscles) points.push_back(muscle.points);
-  std::vector<Real> beyond(points.size(), 0);
+  std::vector<DepthBeyondRest> beyond(points.size());
   for (const DepthInOther& each : depths_of(points)) {
-    Real& deepest = beyond[static_cast<std::size_t>(each.surface)];
-    deepest = std::max(deepest, each.depth - at_rest_(each.surface, each.other));
+    DepthBeyondRest& deepest = beyond[static_cast<std::size_t>(each.surface)];
+    const Real depth = each.depth - at_rest_(each.surface, each.other);
+    if (depth > deepest.depth) deepest = {depth, each.other};
   }
   return beyond;
 }

@@ -8,6 +8,13 @@
 
 namespace gracilis {
 
+/// How deep the deepest of a muscle's free vertices lies in another, beyond how deep these two lie in each other at
+/// rest.
+struct DepthBeyondRest {
+  Real depth = 0;    ///< m
+  Index other = -1;  ///< the muscle that it lies in; -1 where none does
+};
+
 /// Measures how deep muscles lie in each other. What two muscles overlap by at rest is forgiven them everywhere, since
 /// they slide along each other.
 class MuscleDepths {
@@ -15,9 +22,8 @@ class MuscleDepths {
   /// The scene must outlive this.
   explicit MuscleDepths(const Scene& scene);
 
-  /// Per muscle: how deep the deepest of its free vertices lies in another, beyond how deep these two lie in each other
-  /// at rest (m). Precondition: all points are finite.
-  std::vector<Real> beyond_rest(const Frame& frame) const;
+  /// Per muscle. Precondition: all points are finite.
+  std::vector<DepthBeyondRest> beyond_rest(const Frame& frame) const;
 
  private:
   std::vector<DepthInOther> depths_of(const std::vector<Points>& points) const;

@@ -80,22 +80,22 @@ Matrix3 turn_of_patch(const EndOnMuscle& end, const Points& host_surface) {
   return motion_of(end.body, host_surface).linear();
 }
 
-void hold_on_host(const EndOnMuscle& end, const Matrix3& turn, const Points& host_surface, Surroundings& of_guest) {
+void hold_on_host(const EndOnMuscle& end, const Matrix3& turn, const PlacedTissue& host, Surroundings& of_guest) {
   for (const JoinedPoint& each : end.points) {
     Vec3 place = turn * each.place.offset;
     for (int k = 0; k < 3; ++k)
-      place += each.place.weights[k] * host_surface.col(each.place.corners[static_cast<std::size_t>(k)]);
+      place += each.place.weights[k] * host.place(each.place.corners[static_cast<std::size_t>(k)]);
     of_guest.held.col(each.point) = place;
   }
 }
 
-void draw_host(const EndOnMuscle& end, const PreparedTissue& guest, const Points& guest_points,
-               const Points& host_surface, const Surroundings& of_guest, Surroundings& of_host) {
+void draw_host(const EndOnMuscle& end, const PlacedTissue& guest, const PlacedTissue& host,
+               const Surroundings& of_guest, Surroundings& of_host) {
   for (const JoinedPoint& each : end.points) {
-    const Vec3 apart = guest_points.col(each.point) - of_guest.held.col(each.point);
+    const Vec3 apart = guest.place(each.point) - of_guest.held.col(each.point);
     for (int k = 0; k < 3; ++k) {
       const Index corner = each.place.corners[static_cast<std::size_t>(k)];
-      draw(corner, host_surface.col(corner) + apart, each.place.weights[k] * joint_stiffness(guest, each),
+      draw(corner, host.place(corner) + apart, each.place.weights[k] * joint_stiffness(guest.muscle, each),
            static_cast<Index>(end.guest), of_host);
     }
   }

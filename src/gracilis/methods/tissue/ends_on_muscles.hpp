@@ -36,12 +36,20 @@ std::vector<std::vector<std::size_t>> joined_groups(const std::vector<EndOnMuscl
 /// How the patch below an end has turned since rest.
 Matrix3 turn_of_patch(const EndOnMuscle& end, const Points& host_surface);
 
+/// A muscle, and where its nodes are.
+struct PlacedTissue {
+  const PreparedTissue& muscle;
+  const Points& nodes;
+
+  Vec3 place(Index point) const { return point_at(muscle, nodes, point); }
+};
+
 /// Holds the guest's points where the host's surface is.
-void hold_on_host(const EndOnMuscle& end, const Matrix3& turn, const Points& host_surface, Surroundings& of_guest);
+void hold_on_host(const EndOnMuscle& end, const Matrix3& turn, const PlacedTissue& host, Surroundings& of_guest);
 
 /// Draws the host's vertices to where the guest is, as it draws them: for what both do to each other in equilibrium.
 /// `of_guest` holds it where the host is.
-void draw_host(const EndOnMuscle& end, const PreparedTissue& guest, const Points& guest_points,
-               const Points& host_surface, const Surroundings& of_guest, Surroundings& of_host);
+void draw_host(const EndOnMuscle& end, const PlacedTissue& guest, const PlacedTissue& host,
+               const Surroundings& of_guest, Surroundings& of_host);
 
 }  // namespace gracilis::tissue

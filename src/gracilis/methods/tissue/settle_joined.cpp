@@ -36,13 +36,12 @@ std::vector<Joint> joints_of(const std::vector<EndOnMuscle>& ends, const std::ve
 }
 
 /// What the springs of a joint add to the derivative by the host's nodes.
-void add_host_gradient(const Joint& joint, const JoinedTissue& guest, const JoinedTissue& host,
-                       const Points& guest_points, Eigen::Ref<Points> gradient) {
+void add_host_gradient(const Joint& joint, const PlacedTissue& guest, const Points& held, const PreparedTissue& host,
+                       Eigen::Ref<Points> gradient) {
   for (const JoinedPoint& each : joint.end->points) {
-    const Vec3 pull =
-        joint_stiffness(*guest.muscle, each) * (guest_points.col(each.point) - guest.around->held.col(each.point));
+    const Vec3 pull = joint_stiffness(guest.muscle, each) * (guest.place(each.point) - held.col(each.point));
     for (std::size_t k = 0; k < 3; ++k) {
-      const EmbeddedPoint& at = host.muscle->points[static_cast<std::size_t>(each.place.corners[k])].at;
+      const EmbeddedPoint& at = host.points[static_cast<std::size_t>(each.place.corners[k])].at;
       for (std::size_t n = 0; n < 4; ++n)
         gradient.col(at.nodes[n]) -=
             each.place.weights[static_cast<Index>(k)] * at.weights[static_cast<Index>(n)] * pull;
@@ -68,19 +67,20 @@ class JoinedEnergy {
   }
 
   Real operator()(const Points& all, Points& gradient) {
-    std::vector<Points> points;
-    for (std::size_t i = 0; i < group_.size(); ++i) points.push_back(points_at(*group_[i].muscle, nodes_of(all, i)));
+    std::vector<Points> nodes;
+    for (std::size_t i = 0; i < group_.size(); ++i) nodes.push_back(nodes_of(all, i));
+    const auto placed = [&](std::size_t i) { return PlacedTissue{*group_[i].muscle, nodes[i]}; };
     for (const Joint& joint : joints_)
-      hold_on_host(*joint.end, joint.turn, points[joint.host], *group_[joint.guest].around);
+      hold_on_host(*joint.end, joint.turn, placed(joint.host), *group_[joint.guest].around);
     gradient.resize(3, all.cols());
     Real sum = 0;
     Points of_one;
     for (std::size_t i = 0; i < group_.size(); ++i) {
-      sum += total_energy(*group_[i].muscle, *group_[i].around, nodes_of(all, i), workspaces_[i], of_one);
+      sum += total_energy(*group_[i].muscle, *group_[i].around, nodes[i], workspaces_[i], of_one);
       gradient.middleCols(first_[i], of_one.cols()) = of_one;
     }
     for (const Joint& joint : joints_)
-      add_host_gradient(joint, group_[joint.guest], group_[joint.host], points[joint.guest],
+      add_host_gradient(joint, placed(joint.guest), group_[joint.guest].around->held, *group_[joint.host].muscle,
                         gradient.middleCols(first_[joint.host], first_[joint.host + 1] - first_[joint.host]));
     return sum;
   }
@@ -103,13 +103,12 @@ class JoinedEnergy {
 };
 
 void draw_hosts(const std::vector<Joint>& joints, const std::vector<JoinedTissue>& group) {
-  std::vector<Points> points;
-  for (const JoinedTissue& each : group) points.push_back(points_at(*each.muscle, *each.nodes));
+  const auto placed = [&](std::size_t i) { return PlacedTissue{*group[i].muscle, *group[i].nodes}; };
   for (const Joint& joint : joints)
-    hold_on_host(*joint.end, joint.turn, points[joint.host], *group[joint.guest].around);
+    hold_on_host(*joint.end, joint.turn, placed(joint.host), *group[joint.guest].around);
   for (const Joint& joint : joints)
-    draw_host(*joint.end, *group[joint.guest].muscle, points[joint.guest], points[joint.host],
-              *group[joint.guest].around, *group[joint.host].around);
+    draw_host(*joint.end, placed(joint.guest), placed(joint.host), *group[joint.guest].around,
+              *group[joint.host].around);
 }
 
 }  // namespace

@@ -316,14 +316,22 @@ std::unique_ptr<DeformationMethod> make_tissue_method(const Scene& scene, std::v
   return std::make_unique<TissueMethod>(scene, std::move(fields));
 }
 
+/// Muscles look at each other as often as that of them which asks for it most often.
+static bool muscles_meet(const Scene& scene) {
+  return scene.muscles.size() > 1 && std::any_of(scene.muscles.begin(), scene.muscles.end(), [&](const Muscle& muscle) {
+           return tissue_settings(scene, muscle).contact_rounds > 0;
+         });
+}
+
 MethodEntry tissue_entry() {
-  return {.name = "tissue",
-          .meaning = "their inside as tissue under tension, at rest in every frame",
-          .settings = describe_settings<TissueSettings>(),
-          .metrics = {{"cells"}, {"minimizer_iterations"}, {"residual_n", 6}, {"pull_n", 3}, {"least_volume_ratio", 3}},
-          .make = [](const Scene& scene, const BoneFieldSource& fields) {
-            return make_tissue_method(scene, fields(scene.distance_fields));
-          }};
+  return {
+      .name = "tissue",
+      .meaning = "their inside as tissue under tension, at rest in every frame",
+      .settings = describe_settings<TissueSettings>(),
+      .metrics = {{"cells"}, {"minimizer_iterations"}, {"residual_n", 6}, {"pull_n", 3}, {"least_volume_ratio", 3}},
+      .make = [](const Scene& scene,
+                 const BoneFieldSource& fields) { return make_tissue_method(scene, fields(scene.distance_fields)); },
+      .has_surface_contact = muscles_meet};
 }
 
 }  // namespace gracilis

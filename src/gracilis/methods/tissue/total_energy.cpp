@@ -190,15 +190,21 @@ Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const s
   return matrix;
 }
 
+Vec3 point_at(const PreparedTissue& muscle, const Points& nodes, Index point) {
+  const SurfacePoint& of = muscle.points[static_cast<std::size_t>(point)];
+  // By what the nodes have moved: exact at rest.
+  Vec3 moved = Vec3::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Index node = of.at.nodes[k];
+    moved += of.at.weights[static_cast<Index>(k)] * (nodes.col(node) - muscle.lattice.nodes.col(node));
+  }
+  return of.rest + moved;
+}
+
 /// Where the first points are.
 static Points first_points_at(Index count, const PreparedTissue& muscle, const Points& nodes) {
-  // By what the nodes have moved: exact at rest.
-  const Points moved = nodes - muscle.lattice.nodes;
   Points places(3, count);
-  for (Index p = 0; p < count; ++p) {
-    const SurfacePoint& point = muscle.points[static_cast<std::size_t>(p)];
-    places.col(p) = point.rest + mean_at(point.at, moved);
-  }
+  for (Index p = 0; p < count; ++p) places.col(p) = point_at(muscle, nodes, p);
   return places;
 }
 

@@ -71,7 +71,8 @@ Real total_energy(const PreparedTissue& muscle, const Surroundings& around, cons
 /// N/m. Positive definite.
 Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const std::vector<CellLaw>& laws);
 
-/// Where points are: rest plus what their cells have moved, 3 × points; and the surface's vertices alone.
+/// Where a point is: rest plus what its cell has moved; all of them, 3 × points; and the surface's vertices alone.
+Vec3 point_at(const PreparedTissue& muscle, const Points& nodes, Index point);
 Points points_at(const PreparedTissue& muscle, const Points& nodes);
 Points surface_at(const PreparedTissue& muscle, const Points& nodes);
 

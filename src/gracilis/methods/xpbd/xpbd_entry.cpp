@@ -63,6 +63,7 @@ MethodEntry xpbd_entry() {
           .make = make_xpbd,
           .resume_period = xpbd_resume_period,
           .has_surface_contact = has_surface_contact,
+          .leaves_pairs_out = true,
           .phase_timer = xpbd::phase_timer};
 }
 
