@@ -104,6 +104,21 @@ TEST_F(RunCommand, an_interrupted_run_exits_with_130_and_resumes_to_the_same_bit
   EXPECT_EQ(manifest()["frames"], 13);
 }
 
+TEST_F(RunCommand, what_is_said_of_a_resumed_run_is_of_all_its_frames) {
+  ASSERT_EQ(run(good_scene(), "--layout surfaces").exit_code, 0);
+  // As if frame 3 had lost a tenth of its volume, and the run had been stopped after frame 7.
+  const std::string measures = bytes("out/measures.csv");
+  const std::size_t row = measures.find("\n3,"), begin = measures.find(",muscle,", row) + 8;
+  folder.write("out/measures.csv", measures.substr(0, begin) + "0.9" + measures.substr(measures.find(',', begin)));
+  for (int frame = 8; frame <= 12; ++frame) std::filesystem::remove(frame_file(out(), "muscle", frame));
+  const ProgramResult resumed = run(good_scene(), "--resume --strict");
+  EXPECT_EQ(resumed.exit_code, 5);
+  EXPECT_THAT(resumed.err, HasSubstr("gates: missed by 1 of 1 muscles, in 1 of 13 frames"));
+  EXPECT_THAT(resumed.err, HasSubstr("worst: frame 3, muscle: volume 90.00 % of rest"));
+  EXPECT_THAT(manifest()["warnings"].dump(), HasSubstr("first in frame 3"));
+  EXPECT_EQ(run(good_scene(), "--resume --strict").exit_code, 5) << "nor does a complete one forget";
+}
+
 TEST_F(RunCommand, SIGTERM_ends_a_run_within_a_second_in_the_middle_of_a_frame) {
   // A frame of as many iterations would take hours.
   const std::string command = "run " + folder.write("scene.toml", good_scene()).string() + " --set iterations=100000";

@@ -3,6 +3,7 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/csv_rows.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/methods/registry.hpp>
@@ -10,10 +11,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 namespace gracilis {
 
@@ -34,17 +38,50 @@ std::string measures_header(const Scene& scene) {
   return header + "\n";
 }
 
+/// A measure as the table has it.
+struct MeasureColumn {
+  std::variant<Real MuscleMeasures::*, Index MuscleMeasures::*> measure;
+  MeasureLevel level;  ///< the least that measures it
+  int digits = 0;      ///< after the point
+  Real units = 1;      ///< of the table, in one of ours
+};
+
+/// The first of measure_columns(), in their order.
+static const std::vector<MeasureColumn>& columns_of_measures() {
+  using M = MuscleMeasures;
+  using enum MeasureLevel;
+  static const std::vector<MeasureColumn> columns = {{&M::volume_ratio, light, 6},
+                                                     {&M::edge_ratio_mean, light, 6},
+                                                     {&M::edge_ratio_max, light, 4},
+                                                     {&M::edge_ratio_max_free, light, 4},
+                                                     {&M::edge_ratio_max_near, light, 4},
+                                                     {&M::spike, light, 3},
+                                                     {&M::thickening, light, 3},
+                                                     {&M::thinning, light, 3},
+                                                     {&M::dihedral_change_mean, light, 3, degrees(1)},
+                                                     {&M::dihedral_change_max, light, 3, degrees(1)},
+                                                     {&M::dihedrals_over_90, light},
+                                                     {&M::vertex_depth, full, 4, 1000},
+                                                     {&M::vertex_depth_beyond_rest, full, 4, 1000},
+                                                     {&M::midpoint_depth_beyond_rest, full, 4, 1000},
+                                                     {&M::muscle_depth_beyond_rest, full, 4, 1000},
+                                                     {&M::belly_off_place, full, 3, 1000},
+                                                     {&M::wrong_side, full, 4},
+                                                     {&M::slack, full, 4}};
+  return columns;
+}
+
 /// Empty where a level does not measure it.
-static std::string measure_cells(const MuscleMeasures& m) {
-  if (m.level == MeasureLevel::none) return ",,,,,,,,,,,,,,,,,,";
-  const std::string shape = fmt::format(
-      ",{:.6f},{:.6f},{:.4f},{:.4f},{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{}", m.volume_ratio, m.edge_ratio_mean,
-      m.edge_ratio_max, m.edge_ratio_max_free, m.edge_ratio_max_near, m.spike, m.thickening, m.thinning,
-      degrees(m.dihedral_change_mean), degrees(m.dihedral_change_max), m.dihedrals_over_90);
-  if (m.level == MeasureLevel::light) return shape + ",,,,,,,";
-  return shape + fmt::format(",{:.4f},{:.4f},{:.4f},{:.4f},{:.3f},{:.4f},{:.4f}", 1000 * m.vertex_depth,
-                             1000 * m.vertex_depth_beyond_rest, 1000 * m.midpoint_depth_beyond_rest,
-                             1000 * m.muscle_depth_beyond_rest, 1000 * m.belly_off_place, m.wrong_side, m.slack);
+static std::string measure_cells(const MuscleMeasures& measures) {
+  std::string cells;
+  for (const MeasureColumn& column : columns_of_measures()) {
+    cells += ',';
+    if (measures.level < column.level) continue;
+    std::visit(
+        [&](auto member) { cells += fmt::format("{:.{}f}", Real(measures.*member) * column.units, column.digits); },
+        column.measure);
+  }
+  return cells;
 }
 
 static std::string report_cells(const MethodEntry& method, const MuscleReport& report) {
@@ -78,6 +115,44 @@ std::string measures_rows(const Scene& scene, const FrameRecord& record) {
             "\n";
   }
   return rows;
+}
+
+/// The cells of one row that are measures.
+static MuscleMeasures measures_in(const CsvRows& rows) {
+  MuscleMeasures measures;
+  measures.level = MeasureLevel::none;
+  for (std::size_t i = 0; i < columns_of_measures().size(); ++i) {
+    const std::size_t cell = rows.column(measure_columns()[i]).value();
+    if (rows.cell(cell).empty()) continue;
+    const MeasureColumn& column = columns_of_measures()[i];
+    const Real value = rows.number(cell, "a number") / column.units;
+    std::visit([&](auto member) { measures.*member = static_cast<std::decay_t<decltype(measures.*member)>>(value); },
+               column.measure);
+    measures.level = std::max(measures.level, column.level);
+  }
+  return measures;
+}
+
+void read_measures(const std::filesystem::path& path, const Scene& scene, int end,
+                   const std::function<void(const FrameRecord&)>& act) {
+  const std::string text = read_text(path);
+  require_same_columns(path, measures_header(scene));
+  CsvRows rows(path, text);
+  FrameRecord record;
+  while (rows.next()) {
+    Index frame = 0;
+    if (!parse_index(rows.cell(0), frame)) rows.fail("holds no number of a frame", "replace the run with --force");
+    if (frame >= end) break;
+    record.frame.number = frame;
+    record.measures.push_back(measures_in(rows));
+    record.report.muscles.emplace_back();
+    for (const MetricInfo& metric : method_of(scene).metrics)
+      record.report.muscles.back().metrics.push_back(
+          {metric.name, rows.number(rows.column(metric.name).value(), "a number")});
+    if (record.measures.size() < scene.muscles.size()) continue;
+    act(record);
+    record = {};
+  }
 }
 
 void append_measures(const std::filesystem::path& path, const std::string& header, const std::string& rows) {

@@ -4,6 +4,7 @@
 #include <gracilis/simulate/run.hpp>
 
 #include <filesystem>
+#include <functional>
 #include <string>
 
 namespace gracilis {
@@ -13,6 +14,11 @@ std::string measures_header(const Scene& scene);
 
 /// One line per muscle of the frame.
 std::string measures_rows(const Scene& scene, const FrameRecord& record);
+
+/// Calls act(record) for each frame before `end`, with its number, measures and metrics as the table rounds them.
+/// Throws InputError where the file is missing, damaged, or of another scene.
+void read_measures(const std::filesystem::path& path, const Scene& scene, int end,
+                   const std::function<void(const FrameRecord&)>& act);
 
 /// Adds lines at the end of the file and flushes them; creates it with `header` where it is missing. Throws InputError.
 void append_measures(const std::filesystem::path& path, const std::string& header, const std::string& rows);

@@ -8,6 +8,7 @@
 #include <gracilis/core/shell_word.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/run/measures_table.hpp>
 #include <gracilis/io/run/run_folder.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/io/scene/scene_template.hpp>
@@ -63,7 +64,7 @@ class Session {
     }
     write_manifest("running");
     const ResumePoint* resume = folder_.resume_point() ? &*folder_.resume_point() : nullptr;
-    if (resume) note(fmt::format("going on after frame {}", resume->last.number));
+    if (resume) go_on_after(resume->last.number);
     RunEnd end = RunEnd::complete;
     const int last = plan_.frames - 1;
     const int first = resume ? resume->last.number : 0;
@@ -97,13 +98,21 @@ class Session {
   void prepare() {
     const StopScope scope(&stop_);
     overlaps_ = report_overlaps(loaded_.scene);
-    for (const std::string& warning : overlap_warnings(overlaps_, keeps_surfaces_apart(loaded_.scene))) warn(warning);
+    const bool leaves_out = method_of(loaded_.scene).leaves_pairs_out && keeps_surfaces_apart(loaded_.scene);
+    for (const std::string& warning : overlap_warnings(overlaps_, leaves_out)) warn(warning);
     method_ =
         make_method(loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
     if (options_.without_fibers) return;
     note("fibers");
     const Frame capture = capture_frame(loaded_.scene, capture_pose(loaded_.scene.bodies.size()), *method_);
     tracker_.emplace(loaded_.scene, &capture);
+  }
+
+  /// What is said of a run in the end is of all its frames.
+  void go_on_after(int frame) {
+    note(fmt::format("going on after frame {}", frame));
+    read_measures(folder_.path() / "measures.csv", loaded_.scene, frame + 1,
+                  [this](const FrameRecord& record) { summary_.add(record); });
   }
 
   /// How long a run takes is known once some frames are done; told where it is worth waiting otherwise.
