@@ -48,4 +48,17 @@ TEST(FrameBudget, a_method_says_what_it_gave_up_for_a_rate_that_no_machine_holds
   EXPECT_GT(metric(report.metrics, "frame_milliseconds"), 0);
 }
 
+TEST(FrameBudget, limits_of_time_watch_the_clock_and_limits_of_iterations_do_not) {
+  const auto watches = [](Real target_fps, Real stop_milliseconds) {
+    XpbdSettings settings;
+    settings.target_fps = target_fps;
+    settings.stop_milliseconds = stop_milliseconds;
+    const Scene scene = tube_scene(settings);
+    return make_xpbd_method(scene, tube_fields())->depends_on_clock();
+  };
+  EXPECT_FALSE(watches(0, 0));
+  EXPECT_TRUE(watches(30, 0));
+  EXPECT_TRUE(watches(0, 5));
+}
+
 }  // namespace gracilis

@@ -132,7 +132,7 @@ std::span<const Setting<SurfaceContactSettings>> setting_table() {
   static const Setting<S> table[] = {
       {"friction", &S::friction, "", 0, 10, "Coulomb's coefficient of friction between muscles."},
       {"cohesion", &S::cohesion, "m", 0, 0.1,
-       "Farthest that parts of muscles which candidate in the capture pose may part; 0 lets them."},
+       "Farthest that parts of muscles which touch in the capture pose may part; 0 lets them."},
       {"update_period", &S::update_period, "", 1, 100000, update_period_meaning},
   };
   return table;

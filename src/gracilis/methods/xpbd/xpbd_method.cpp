@@ -90,7 +90,11 @@ class XpbdMethod final : public DeformationMethod, public PassTracing {
 
   void trace_passes(PassTrace trace) override { full_.trace = std::move(trace); }
   PassTracing* pass_tracing() override { return this; }
-  bool depends_on_clock() const override { return budget_.budget > 0; }
+  bool depends_on_clock() const override {
+    return budget_.budget > 0 || std::any_of(asked_.begin(), asked_.end(), [](const XpbdSettings& settings) {
+             return settings.stop_milliseconds > 0;
+           });
+  }
   std::string remark() const override { return remark_on(budgets_); }
 
   void write(Frame& frame) const override {
