@@ -3,7 +3,7 @@
 #include <gracilis/anatomy/activation/tendon.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/pose_sequence.hpp>
-#include <gracilis/core/errors.hpp>
+#include <gracilis/core/failure.hpp>
 #include <gracilis/core/stop.hpp>
 #include <gracilis/methods/pass_tracing.hpp>
 #include <gracilis/methods/registry.hpp>
@@ -252,6 +252,7 @@ LiveSimulation::Task LiveSimulation::next_task() {
     if (std::exchange(look_again_, false)) return Task::look_again;
     if (std::exchange(reset_, false)) {
       reached_ = wanted_;
+      status_ = "moving";  // also from where it had stopped
       return Task::reset;
     }
     if (may_step()) {
@@ -280,10 +281,11 @@ void LiveSimulation::work() {
       if (task == Task::look_again) history_.replace(last, shown(*simulation_->frame()));
     } catch (const Interrupted&) {
       return;
-    } catch (const Error& error) {
-      spdlog::error("the simulation has stopped: {}", error.what());
+    } catch (const std::exception&) {
+      const std::string reason = current_failure().text;
+      spdlog::error("the simulation has stopped: {}", reason);
       std::unique_lock lock(mutex_);
-      status_ = std::string("stopped: ") + error.what();
+      status_ = "stopped: " + reason;
       changed_.wait(lock, [this] { return stop_ || (reset_ && simulation_); });
     }
   }

@@ -1,6 +1,6 @@
 #include <gracilis/view/window/run_loader.hpp>
 
-#include <gracilis/core/errors.hpp>
+#include <gracilis/core/failure.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/rotations.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
@@ -70,8 +70,9 @@ void RunLoader::work() {
       else
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-  } catch (const Error& error) {
-    spdlog::warn("what comes after frame {} cannot be shown: {}", history_.end() - 1, error.what());
+  } catch (const std::exception&) {
+    // Whatever it is, such as a folder that is gone, what was read stays in sight.
+    spdlog::warn("what comes after frame {} cannot be shown: {}", history_.end() - 1, current_failure().text);
   }
 }
 
