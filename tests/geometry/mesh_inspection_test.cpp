@@ -210,6 +210,52 @@ TEST(MeshRepair, an_inside_out_surface_is_turned_outwards) {
   expect_identical(repair_mesh(mesh).mesh, torus(8));
 }
 
+TEST(MeshRepair, a_piece_that_is_inside_out_is_turned_outwards_beside_a_larger_one) {
+  TriangleMesh small = tetrahedron();
+  small.vertices = (0.5 * small.vertices).eval();
+  TriangleMesh turned = small;
+  turned.faces.row(1).swap(turned.faces.row(2));
+  for (const Vec3& place : {Vec3(5, 0, 0), Vec3(0, 0, 0)}) {  // beside the ring, and in its hole
+    const RepairedMesh repaired = repair_mesh(together(torus(8), turned, place));
+    expect_identical(repaired.mesh, together(torus(8), small, place));
+    ASSERT_EQ(repaired.repairs.size(), 1u);
+    EXPECT_EQ(repaired.repairs[0], "turned 1 piece that was inside out");
+  }
+}
+
+TEST(MeshRepair, a_large_piece_that_is_inside_out_turns_no_small_one_beside_it) {
+  TriangleMesh large = torus(8);
+  large.faces.row(1).swap(large.faces.row(2));
+  const Vec3 place(5, 0, 0);
+  expect_identical(repair_mesh(together(large, tetrahedron(), place)).mesh, together(torus(8), tetrahedron(), place));
+}
+
+TEST(MeshRepair, a_flat_piece_whose_volume_is_rounding_is_not_turned) {
+  TriangleMesh flat = tetrahedron();
+  flat.vertices.col(3) << 1, 1, -1e-15;
+  ASSERT_LT(inspect_mesh(flat).volume, 0);
+  const TriangleMesh mesh = together(torus(8), flat, Vec3(5, 0, 0));
+  const RepairedMesh repaired = repair_mesh(mesh);
+  expect_identical(repaired.mesh, mesh);
+  EXPECT_TRUE(repaired.repairs.empty());
+}
+
+TEST(MeshRepair, a_hollow_stays_one_and_turns_with_what_it_lies_in) {
+  TriangleMesh hollow = tetrahedron();
+  hollow.vertices = (0.2 * hollow.vertices).eval();
+  hollow.faces.row(1).swap(hollow.faces.row(2));
+  const TriangleMesh solid = together(tetrahedron(), hollow, Vec3(0.1, 0.1, 0.1));
+  const RepairedMesh untouched = repair_mesh(solid);
+  expect_identical(untouched.mesh, solid);
+  EXPECT_TRUE(untouched.repairs.empty());
+  TriangleMesh inside_out = solid;
+  inside_out.faces.row(1).swap(inside_out.faces.row(2));
+  const RepairedMesh turned = repair_mesh(inside_out);
+  expect_identical(turned.mesh, solid);
+  ASSERT_EQ(turned.repairs.size(), 1u);
+  EXPECT_EQ(turned.repairs[0], "turned all faces outwards");
+}
+
 TEST(MeshRepair, a_face_that_names_a_vertex_twice_is_dropped) {
   TriangleMesh mesh = tetrahedron();
   mesh.faces.conservativeResize(3, 5);

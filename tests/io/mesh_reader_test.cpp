@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <io/test_files.hpp>
+#include <shapes.hpp>
 
 #include <vtkNew.h>
 #include <vtkPolyData.h>
@@ -255,6 +256,17 @@ TEST(LoadSurface, a_muscle_with_a_hole_is_refused_and_a_bone_warned_about) {
   const LoadedMesh bone = load_surface(path, 1, SurfaceRole::bone);
   ASSERT_EQ(bone.warnings.size(), 1u);
   EXPECT_THAT(bone.warnings[0], HasSubstr("3 open edges (tolerated in a bone)"));
+}
+
+TEST(LoadSurface, the_command_that_mends_can_be_pasted_and_says_that_it_writes_metres) {
+  TriangleMesh open = shapes::sphere(Vec3::Zero(), 0.02, 2);
+  open.faces.conservativeResize(3, open.face_count() - 4);
+  const auto text_in = [&](Real unit) {
+    return message_of_input_error([&] { check_surface(open, unit, SurfaceRole::muscle, "My Leg/psoas.ply"); });
+  };
+  EXPECT_THAT(text_in(1), HasSubstr("(mend it with: gracilis prepare 'My Leg/psoas.ply' --out prepared)"));
+  EXPECT_THAT(text_in(0.001), HasSubstr("gracilis prepare 'My Leg/psoas.ply' --unit mm --out prepared; what that "
+                                        "writes is in metres: leave out 'unit' for it, or set unit = \"m\""));
 }
 
 TEST(LoadSurface, a_wrong_unit_shows_in_the_bounding_box) {

@@ -66,6 +66,42 @@ TEST(PreparationEstimates, surfaces_that_lie_in_each_other_are_named) {
               HasSubstr("psoas: lies for the most part (100 %) in femur"));
 }
 
+TEST(PreparationEstimates, what_can_be_prepared_is_where_the_rest_is_to_be_left_out) {
+  TriangleMesh flat = ball(), far = ball();
+  flat.vertices.row(2).setZero();
+  far.vertices(0, 5) = 2e9;
+  const std::vector<NamedSurface> muscles = {{"far", far},
+                                             {"psoas", ball()},
+                                             {"flat", flat},
+                                             {"iliacus", ball(Vec3::Zero(), 0.03)},
+                                             {"sartorius", ball(Vec3(0.2, 0, 0))}};
+  std::vector<Problem> problems;
+  const auto nothing = [](const std::string&) {};
+  const PreparedSurfaces prepared = prepare_possible(muscles, {}, {}, nothing, problems);
+  ASSERT_EQ(prepared.muscles.size(), 2u);
+  EXPECT_EQ(prepared.report.muscles[0].name, "iliacus");
+  EXPECT_EQ(prepared.report.muscles[1].name, "sartorius");
+  ASSERT_EQ(problems.size(), 3u);
+  EXPECT_THAT(to_string(problems[0]), HasSubstr("far: would have about"));
+  EXPECT_THAT(to_string(problems[1]), HasSubstr("flat: encloses no volume"));
+  EXPECT_THAT(to_string(problems[2]), HasSubstr("psoas: lies for the most part"));
+  far.vertices(0, 5) = std::numeric_limits<Real>::quiet_NaN();
+  EXPECT_THROW(prepare_possible(muscles, {{"femur", far}}, {}, nothing, problems), InputError);
+}
+
+TEST(PreparationEstimates, overlaps_that_are_to_stay_are_measured_and_nothing_moves) {
+  PrepareSettings settings;
+  settings.keep_overlaps = true;
+  const std::vector<NamedSurface> muscles = {{"psoas", ball()}, {"iliacus", ball(Vec3(0.035, 0, 0))}};
+  const PreparationReport report = prepare_surfaces(muscles, {}, settings, [](const std::string&) {}).report;
+  for (const PreparedMuscleReport& muscle : report.muscles) EXPECT_EQ(muscle.vertices_moved, 0);
+  ASSERT_EQ(report.pairs.size(), 1u);
+  EXPECT_GT(report.pairs[0].intersections_after, 0);
+  EXPECT_GT(report.largest_shortfall, 0.002);
+  EXPECT_TRUE(report.pulled_apart);  // as far as was asked for
+  EXPECT_EQ(refused({{"psoas", ball()}, {"iliacus", ball(Vec3::Zero(), 0.03)}}, {}, settings), "no problem");
+}
+
 TEST(PreparationEstimates, muscles_that_overlap_a_little_are_prepared) {
   EXPECT_EQ(refused({{"psoas", ball()}, {"iliacus", ball(Vec3(0.039, 0, 0))}}), "no problem");
 }

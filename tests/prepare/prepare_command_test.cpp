@@ -4,6 +4,7 @@
 #include <gracilis/io/mesh/mesh_writer.hpp>
 
 #include "app/program.hpp"
+#include "io/scene_folder.hpp"
 #include "shapes.hpp"
 
 #include <gmock/gmock.h>
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 using shapes::mm;
 using shapes::sphere;
 using testing::HasSubstr;
+using testing::Not;
 
 class PrepareCommand : public testing::Test {
  protected:
@@ -46,9 +48,8 @@ class PrepareCommand : public testing::Test {
     for (const auto& entry : fs::directory_iterator(folder / "out")) count += entry.path().extension() == ".vtp";
     return count;
   }
-  TriangleMesh result(const std::string& name) const {
-    return load_surface(folder / "out" / (name + ".vtp"), 1, SurfaceRole::muscle).mesh;
-  }
+  static TriangleMesh result_at(const fs::path& path) { return load_surface(path, 1, SurfaceRole::muscle).mesh; }
+  TriangleMesh result(const std::string& name) const { return result_at(folder / "out" / (name + ".vtp")); }
 };
 
 TriangleMesh round_muscle(Real x = 0, Real radius = 15 * mm) { return sphere(Vec3(x, 0, 0), radius, 3); }
@@ -74,6 +75,69 @@ TEST_F(PrepareCommand, refuses_by_name_what_encloses_nothing_and_writes_nothing)
   }
   std::ofstream(folder / "empty.ply").close();
   EXPECT_EQ(prepare((folder / "empty.ply").string()).exit_code, 3);
+}
+
+TEST_F(PrepareCommand, keeps_going_on_demand_and_names_what_it_leaves_out) {
+  std::ofstream(folder / "empty.ply").close();
+  const std::string triangle = file("triangle", shapes::mesh_of({{0, 0, 0}, {0.02, 0, 0}, {0, 0.02, 0}}, {{0, 1, 2}}));
+  const std::string bad = triangle + file("large", round_muscle(0, 15)) + (folder / "empty.ply").string() + " ";
+  const ProgramResult some = prepare(file("good", round_muscle()) + bad + "--keep-going");
+  EXPECT_EQ(some.exit_code, 3);
+  for (const char* name : {"triangle: encloses no volume", "large.vtp: is 51.96 m large", "empty.ply"})
+    EXPECT_THAT(some.err, HasSubstr(name));
+  EXPECT_EQ(written(), 1u);
+  EXPECT_NO_THROW(result("good"));
+  EXPECT_EQ(prepare(bad + "--keep-going").exit_code, 3);
+  EXPECT_EQ(written(), 0u);
+}
+
+TEST_F(PrepareCommand, does_not_keep_going_without_a_bone) {
+  std::ofstream(folder / "empty.ply").close();
+  const std::string bone = "--bone " + (folder / "empty.ply").string();
+  EXPECT_EQ(prepare(file("good", round_muscle()) + "--keep-going " + bone).exit_code, 3);
+  EXPECT_EQ(written(), 0u);
+}
+
+TEST_F(PrepareCommand, options_that_the_input_has_no_use_for_are_refused_by_name) {
+  std::ofstream(folder / "scene.toml") << good_scene();
+  const std::string scene = (folder / "scene.toml").string() + " ", muscle = file("muscle", round_muscle());
+  for (const std::string option : {"--split", "--merge", "--largest", "--bone", "--unit"}) {
+    const std::string value = option == "--bone" ? " hip.ply" : option == "--unit" ? " mm" : "";
+    const ProgramResult refused = prepare(scene + option + value);
+    EXPECT_EQ(refused.exit_code, 2) << option;
+    EXPECT_THAT(refused.err, HasSubstr(option + ": is for files of surfaces"));
+  }
+  for (const std::string option : {"--data", "--only"}) {
+    const ProgramResult refused = prepare(muscle + option + " muscle");
+    EXPECT_EQ(refused.exit_code, 2) << option;
+    EXPECT_THAT(refused.err, HasSubstr(option + ": is for a scene"));
+  }
+}
+
+TEST_F(PrepareCommand, never_writes_over_a_file_that_it_reads) {
+  const std::string muscle = file("muscle", round_muscle());
+  const auto refused_into = [](const std::string& input, const fs::path& out) {
+    const ProgramResult refused = run_program("prepare " + input + "--out " + out.string());
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("muscle.vtp: is read, and would be overwritten"));
+    EXPECT_THAT(refused.err, HasSubstr("name another folder"));
+    EXPECT_FALSE(fs::exists(out / "report.txt"));
+  };
+  refused_into(muscle, folder);
+  EXPECT_EQ(result_at(folder / "muscle.vtp").vertices, round_muscle().vertices);
+  const SceneFolder scene;
+  const TriangleMesh box = shapes::box(Vec3(0, 0, 11), Vec3(10, 10, 29));
+  write_surface(scene.path("muscle.vtp"), box.vertices, box.faces);
+  const fs::path text = scene.write("scene.toml", with(good_scene(), "muscle.ply", "muscle.vtp"));
+  refused_into(text.string() + " ", text.parent_path());
+}
+
+TEST_F(PrepareCommand, leaves_overlaps_on_demand) {
+  const std::string muscles = file("left", round_muscle()) + file("right", round_muscle(27 * mm));
+  const ProgramResult done = prepare(muscles + "--keep-overlaps");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_THAT(done.out, HasSubstr("left and right: "));
+  EXPECT_THAT(done.out, Not(HasSubstr("left and right: 0 pairs")));
 }
 
 TEST_F(PrepareCommand, a_wrong_unit_is_told_of_before_any_work) {

@@ -3,7 +3,13 @@
 #include <gracilis/geometry/half_edges.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
+#include <gracilis/geometry/winding_number.hpp>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -183,6 +189,72 @@ static Index make_patch_agree(Index seed, const std::vector<std::vector<std::pai
   return changed;
 }
 
+/// What hangs together of a closed surface.
+struct ClosedPiece {
+  std::vector<Index> faces;
+  Real volume = 0;  ///< m³, negative where it is inside out
+  Eigen::AlignedBox3d box;
+};
+
+static std::vector<ClosedPiece> closed_pieces(const TriangleMesh& mesh) {
+  const std::vector<Index> component = component_of_vertices(mesh);
+  std::vector<ClosedPiece> pieces(static_cast<std::size_t>(component_count(component)));
+  for (Index f = 0; f < mesh.face_count(); ++f) {
+    ClosedPiece& piece = pieces[static_cast<std::size_t>(component[static_cast<std::size_t>(mesh.faces(0, f))])];
+    piece.faces.push_back(f);
+    for (const Index v : mesh.faces.col(f)) piece.box.extend(mesh.vertices.col(v));
+  }
+  for (ClosedPiece& piece : pieces) piece.volume = enclosed_volume(mesh.vertices, mesh.faces(Eigen::all, piece.faces));
+  return pieces;
+}
+
+/// By the middles of its faces: corners may touch what is around.
+static bool lies_within(const ClosedPiece& piece, const TriangleMesh& mesh, const WindingNumber& around) {
+  return std::all_of(piece.faces.begin(), piece.faces.end(), [&](Index f) {
+    const Vec3 middle = mesh.vertices(Eigen::all, mesh.faces.col(f)).rowwise().mean();
+    return std::abs(around.query(middle)) > 0.5;
+  });
+}
+
+/// For every piece the largest one that it lies in; itself where there is none.
+static std::vector<std::size_t> outermost_pieces(const TriangleMesh& mesh, const std::vector<ClosedPiece>& pieces) {
+  std::vector<std::size_t> outermost(pieces.size());
+  std::iota(outermost.begin(), outermost.end(), std::size_t{0});
+  const auto size = [&](std::size_t p) { return std::abs(pieces[p].volume); };
+  for (std::size_t outer = 0; outer < pieces.size(); ++outer) {
+    std::optional<WindingNumber> around;
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      if (size(outer) <= size(outermost[p]) || !pieces[outer].box.contains(pieces[p].box)) continue;
+      if (!around) around.emplace(TriangleMesh{mesh.vertices, mesh.faces(Eigen::all, pieces[outer].faces)});
+      if (lies_within(pieces[p], mesh, *around)) outermost[p] = outer;
+    }
+  }
+  return outermost;
+}
+
+/// Each piece by its own volume, for that of all hides one that is inside out. Shells within a piece turn with it: they
+/// may be its hollows.
+static void turn_outwards(RepairedMesh& result) {
+  const std::vector<ClosedPiece> pieces = closed_pieces(result.mesh);
+  Real sum = 0;
+  for (const ClosedPiece& piece : pieces) sum += std::abs(piece.volume);
+  // Of a flat piece, which encloses nothing, rounding decides the sign.
+  const auto is_inside_out = [&](const ClosedPiece& piece) { return piece.volume < -1e-12 * sum; };
+  if (std::none_of(pieces.begin(), pieces.end(), is_inside_out)) return;
+  const std::vector<std::size_t> outermost = outermost_pieces(result.mesh, pieces);
+  std::size_t turned = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    if (!is_inside_out(pieces[outermost[p]])) continue;
+    for (const Index f : pieces[p].faces) std::swap(result.mesh.faces(1, f), result.mesh.faces(2, f));
+    ++turned;
+  }
+  if (turned == pieces.size())
+    result.repairs.push_back("turned all faces outwards");
+  else if (turned > 0)
+    result.repairs.push_back("turned " + std::to_string(turned) +
+                             (turned == 1 ? " piece that was inside out" : " pieces that were inside out"));
+}
+
 static void orient(RepairedMesh& result) {
   Eigen::Matrix3Xi& faces = result.mesh.faces;
   if (inspect_mesh(result.mesh).inconsistent_edges) {
@@ -198,10 +270,7 @@ static void orient(RepairedMesh& result) {
     }
   }
   const MeshReport report = inspect_mesh(result.mesh);
-  if (report.is_closed() && report.is_oriented() && report.volume < 0) {
-    faces.row(1).swap(faces.row(2));
-    result.repairs.push_back("turned all faces outwards");
-  }
+  if (report.is_closed() && report.is_oriented()) turn_outwards(result);
 }
 
 static bool is_sound(const MeshReport& report) {

@@ -21,7 +21,8 @@ struct RepairedMesh {
 /// - faces that name a vertex twice are dropped; where a face is a line, its longest edge is flipped;
 /// - components with less than `crumb_share` of the area are dropped (0: none);
 /// - vertices in no face are dropped;
-/// - faces are turned so that neighbors agree and closed surfaces face outwards (positive volume).
+/// - faces are turned so that neighbors agree and each piece of a closed surface faces outwards (positive volume); what
+///   lies within another piece turns with it.
 /// Indices must be in range and coordinates finite.
 RepairedMesh repair_mesh(const TriangleMesh& mesh, Real crumb_share = 0);
 

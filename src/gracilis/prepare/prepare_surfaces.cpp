@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 namespace gracilis {
 namespace {
@@ -106,19 +107,16 @@ Shaped shaped(const NamedSurface& muscle, const PrepareSettings& settings, const
   return result;
 }
 
-/// All muscles by themselves; what is wrong with any of them is told at once.
-std::vector<Shaped> shaped(const std::vector<NamedSurface>& muscles, const PrepareSettings& settings, const Say& say) {
-  std::vector<Shaped> result;
-  std::vector<Problem> problems;
-  for (const NamedSurface& muscle : muscles) try {
-      result.push_back(shaped(muscle, settings, say));
-    } catch (const OutOfTime&) {
-      problems.push_back(out_of_time(muscle.name, settings));
-    } catch (const InputError& error) {
-      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
-    }
-  if (!problems.empty()) throw InputError(std::move(problems));
-  return result;
+/// The same; where it cannot be prepared none, and what is wrong with it is added to `problems`.
+std::optional<Shaped> shaped_if_possible(const NamedSurface& muscle, const PrepareSettings& settings, const Say& say,
+                                         std::vector<Problem>& problems) try {
+  return shaped(muscle, settings, say);
+} catch (const OutOfTime&) {
+  problems.push_back(out_of_time(muscle.name, settings));
+  return std::nullopt;
+} catch (const InputError& error) {
+  problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  return std::nullopt;
 }
 
 /// How far separation took the surfaces: the distance of every vertex to the surface as it was before.
@@ -187,15 +185,19 @@ Real what_is_left(std::vector<TriangleMesh> muscles, const std::vector<TriangleM
   return separate_pieces(muscles, bones, apart, budget, TimeLimit());
 }
 
-/// Pulls overlaps apart. A muscle that this made swell stays as it was, and so do all where more triangles cut each
-/// other than before. Tells whether it succeeded.
+/// Pulls overlaps apart, unless they are to stay. A muscle that this made swell stays as it was, and so do all where
+/// more triangles cut each other than before. Tells whether it succeeded.
 bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurface>& names,
                 const std::vector<TriangleMesh>& bones, const PrepareSettings& settings, Real& shortfall) {
   std::size_t bodies = bones.size();
   for (const TriangleMesh& muscle : muscles) bodies += pieces_of(muscle).size();
   if (bodies < 2) return true;
-  const TimeLimit limit(settings.time_limit * static_cast<Real>(muscles.size()));
   const SeparationSettings apart{.muscle_gap = settings.muscle_gap, .bone_gap = settings.bone_gap};
+  if (settings.keep_overlaps) {
+    shortfall = what_is_left(muscles, bones, apart);
+    return true;
+  }
+  const TimeLimit limit(settings.time_limit * static_cast<Real>(muscles.size()));
   const std::vector<TriangleMesh> before = muscles;
   std::vector<Real> budget;
   try {
@@ -232,27 +234,26 @@ bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurfa
   return false;
 }
 
-}  // namespace
-
-PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
-                                  const PrepareSettings& settings, const Say& say) {
-  require_affordable(muscles, bones, settings);
+/// Muscles that are shaped, with the others among bones: pulled apart and measured. Throws InputError naming muscles
+/// that lie in other surfaces.
+PreparedSurfaces finished(const std::vector<NamedSurface>& muscles, std::vector<Shaped> shapes,
+                          const std::vector<NamedSurface>& bones, const PrepareSettings& settings, const Say& say) {
   PreparedSurfaces result;
   PreparationReport& report = result.report;
   const std::vector<TriangleMesh> obstacles = meshes_of(bones);
-  const Crossings before = count_crossings(meshes_of(muscles), obstacles);
   std::vector<TriangleMesh> repaired;
   std::vector<NamedSurface> closed;
-  for (Shaped& muscle : shaped(muscles, settings, say)) {
+  for (Shaped& muscle : shapes) {
     const std::string& name = muscles[repaired.size()].name;
     report.muscles.push_back({.name = name, .repairs = std::move(muscle.repairs)});
     repaired.push_back(muscle.repaired);
     closed.push_back({name, std::move(muscle.repaired)});
     result.muscles.push_back(std::move(muscle.mesh));
   }
-  require_apart(closed, bones);
+  if (!settings.keep_overlaps) require_apart(closed, bones);
+  const Crossings before = count_crossings(meshes_of(muscles), obstacles);
   const std::vector<TriangleMesh> apart_from = result.muscles;
-  if (muscles.size() + bones.size() > 1) say("pulling overlaps apart");
+  if (muscles.size() + bones.size() > 1 && !settings.keep_overlaps) say("pulling overlaps apart");
   report.pulled_apart = pull_apart(result.muscles, muscles, obstacles, settings, report.largest_shortfall);
   if (!report.pulled_apart) say("overlaps could not be pulled apart everywhere; check the places of the surfaces");
   report_displacements(apart_from, result.muscles, report);
@@ -289,6 +290,59 @@ PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, cons
     }
   }
   return result;
+}
+
+/// Takes out the muscles that the error names, and tells of them in `problems`. Throws it again where it names none.
+void leave_out(const InputError& error, std::vector<NamedSurface>& muscles, std::vector<Shaped>& shapes,
+               std::vector<Problem>& problems) {
+  std::vector<NamedSurface> others;
+  std::vector<Shaped> their_shapes;
+  for (std::size_t m = 0; m < muscles.size(); ++m) {
+    const auto is_meant = [&](const Problem& problem) { return problem.where == muscles[m].name; };
+    if (std::any_of(error.problems().begin(), error.problems().end(), is_meant)) continue;
+    others.push_back(std::move(muscles[m]));
+    their_shapes.push_back(std::move(shapes[m]));
+  }
+  if (others.size() == muscles.size()) throw InputError(error.problems());
+  problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+  muscles = std::move(others);
+  shapes = std::move(their_shapes);
+}
+
+}  // namespace
+
+PreparedSurfaces prepare_surfaces(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
+                                  const PrepareSettings& settings, const Say& say) {
+  require_affordable(muscles, bones, settings);
+  std::vector<Shaped> shapes;
+  std::vector<Problem> problems;
+  for (const NamedSurface& muscle : muscles)
+    if (std::optional<Shaped> shape = shaped_if_possible(muscle, settings, say, problems))
+      shapes.push_back(std::move(*shape));
+  if (!problems.empty()) throw InputError(std::move(problems));
+  return finished(muscles, std::move(shapes), bones, settings, say);
+}
+
+PreparedSurfaces prepare_possible(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones,
+                                  const PrepareSettings& settings, const Say& say, std::vector<Problem>& problems) {
+  require_affordable({}, bones, settings);
+  std::vector<NamedSurface> possible;
+  std::vector<Shaped> shapes;
+  for (const NamedSurface& muscle : muscles) try {
+      require_affordable({muscle}, {}, settings);
+      std::optional<Shaped> shape = shaped_if_possible(muscle, settings, say, problems);
+      if (!shape) continue;
+      shapes.push_back(std::move(*shape));
+      possible.push_back(muscle);
+    } catch (const InputError& error) {
+      problems.insert(problems.end(), error.problems().begin(), error.problems().end());
+    }
+  while (!possible.empty()) try {
+      return finished(possible, shapes, bones, settings, say);
+    } catch (const InputError& error) {
+      leave_out(error, possible, shapes, problems);
+    }
+  return {};
 }
 
 }  // namespace gracilis

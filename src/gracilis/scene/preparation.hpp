@@ -43,7 +43,7 @@ struct PreparationReport {
   std::vector<PreparedMuscleReport> muscles;
   std::vector<PreparedPairReport> pairs;  ///< those with intersections before or after
   Real largest_shortfall = 0;             ///< m by which the worst gap is missed in the end
-  bool pulled_apart = true;               ///< false: gaps are missed by more than 1 mm, or muscles stay as they were
+  bool pulled_apart = true;  ///< false: gaps are missed by more than 1 mm, or muscles stay as they were, unasked
 };
 
 struct PreparedSurfaces {

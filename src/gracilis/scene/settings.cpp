@@ -38,6 +38,8 @@ std::span<const Setting<PrepareSettings>> setting_table() {
        "Rounds of smoothing spikes and rims at which the surface turns by more than 80 degrees."},
       {"muscle_gap", &S::muscle_gap, "m", 0, 0.01, "Gap that is made between two muscles where they are closer."},
       {"bone_gap", &S::bone_gap, "m", 0, 0.01, "Gap that is made between a muscle and a bone where they are closer."},
+      {"keep_overlaps", &S::keep_overlaps, "", 0, 1,
+       "Leaves muscles in each other and in bones where they are; neither gap is made then."},
       {"volume_tolerance", &S::volume_tolerance, "", 0, 1,
        "Share of its volume by which remeshing and rounding may change a muscle; more is taken back. 1 takes none "
        "back."},

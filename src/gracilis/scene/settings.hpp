@@ -25,6 +25,7 @@ struct PrepareSettings {
   int rounding_rounds = 20;       ///< of sharp rims and spikes
   Real muscle_gap = 0.0003;       ///< m, kept between two muscles
   Real bone_gap = 0.0003;         ///< m, kept between a muscle and a bone
+  bool keep_overlaps = false;     ///< muscles stay where they are, in each other and in bones
   Real volume_tolerance = 0.005;  ///< share by which remeshing and rounding may change a volume; 1: as it comes
   Real time_limit = 40;           ///< s for each surface; 0: none
 };

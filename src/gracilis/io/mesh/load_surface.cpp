@@ -47,10 +47,12 @@ std::vector<Problem> fatal_problems(const MeshReport& report, Real unit, const s
   return {};
 }
 
-/// The command that mends a file; for surfaces from elsewhere its name stands as it is.
+/// The command that mends a file, to be pasted; for surfaces from elsewhere its name stands as it is. What it writes no
+/// longer has the unit that a scene says of the file.
 static std::string mending(Real unit, const std::string& file) {
   const char* in_unit = unit == 0.001 ? " --unit mm" : unit == 0.01 ? " --unit cm" : "";
-  return fmt::format("'gracilis prepare {}{} --out prepared' mends it", shell_word(file), in_unit);
+  const char* then = unit == 1 ? "" : "; what that writes is in metres: leave out 'unit' for it, or set unit = \"m\"";
+  return fmt::format("mend it with: gracilis prepare {}{} --out prepared{}", shell_word(file), in_unit, then);
 }
 
 /// What is wrong with the surface's shape after repair: an error for a muscle, a warning for a bone.
