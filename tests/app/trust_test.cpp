@@ -62,6 +62,18 @@ TEST_F(Trust, a_run_killed_between_surfaces_and_measures_resumes_to_the_same_fil
   EXPECT_EQ(run_program("report " + out()).exit_code, 0);
 }
 
+TEST_F(Trust, files_of_no_run_stay_and_what_a_run_leaves_alone_does_not_spoil_it) {
+  folder.write("out/measures.csv", "mine");
+  folder.write("out/plots/mine.txt", "");
+  const ProgramResult refused = run(good_scene());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("out/measures.csv: is not of a run"));
+  EXPECT_EQ(bytes("out/measures.csv"), "mine");
+  fs::remove(folder.path("out/measures.csv"));
+  EXPECT_EQ(run(good_scene()).exit_code, 0);
+  EXPECT_EQ(run_program("verify " + out()).exit_code, 0);
+}
+
 TEST_F(Trust, frames_without_number_are_refused_with_2_before_any_is_made) {
   const std::string far =
       with(with(good_scene(), "[[0], [10]]", "[[0], [1e9]]"), "[motion]", "[motion]\nstep_deg = 0.001");

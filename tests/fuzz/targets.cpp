@@ -119,6 +119,7 @@ const std::vector<Target>& targets() {
       mesh("obj"),
       mesh("vtk"),
       mesh("vtp"),
+      mesh("glb"),
       {"lines", [](std::string_view bytes) { read_polylines(folder().write("lines.vtk", bytes), 1); }},
       {"tck", [](std::string_view bytes) { read_polylines(folder().write("tracts.tck", bytes), 1); }},
       {"trk", [](std::string_view bytes) { read_polylines(folder().write("tracts.trk", bytes), 1); }},

@@ -57,6 +57,23 @@ TEST(ActionTables, tell_moments_about_the_origins_of_bodies) {
   EXPECT_EQ(value(lines, "tube_f001_doubtful"), 1);
 }
 
+TEST(ActionTables, of_coordinates_with_one_name_for_their_files_are_two) {
+  Scene scene = tube_scene();
+  FrameRecord record = record_of(scene, radians(30));
+  std::vector<JointAxis>& axes = scene.joints[0].axes;
+  ASSERT_EQ(axes.size(), 1u);
+  axes.push_back(axes[0]);
+  axes[0].coordinate = "a b", axes[1].coordinate = "a_b";
+  record.frame.pose.coordinates.push_back(0);
+  record.actions[0].arms = Eigen::MatrixXd::Ones(2, 2);
+  record.actions[0].mean_arms = Eigen::VectorXd::Ones(2);
+  const std::vector<RunTable> tables = action_tables(scene, record, 1);
+  EXPECT_EQ(tables.at(0).name, "moment_arms_a_b.sto");
+  EXPECT_EQ(tables.at(1).name, "moment_arms_a_b_2.sto");
+  EXPECT_EQ(moment_arm_file("a_b", {"a b", "a_b"}), tables.at(1).name) << "where readers look for it";
+  for (const RunTable& table : tables) EXPECT_THAT(table_names(scene), testing::Contains(table.name));
+}
+
 TEST(ActionTables, there_are_none_where_nothing_is_known) {
   const Scene scene = tube_scene();
   FrameRecord record;

@@ -6,6 +6,7 @@
 #include <gracilis/io/run/run_folder.hpp>
 #include <gracilis/io/run/run_size.hpp>
 #include <gracilis/io/run/verify_run.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/fiber_tracker.hpp>
 
 #include <gmock/gmock.h>
@@ -17,6 +18,9 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
+
+#include <cmath>
+#include <limits>
 
 using namespace gracilis;
 namespace fs = std::filesystem;
@@ -182,6 +186,70 @@ TEST(CompactFrames, a_run_goes_on_in_its_layout_and_one_of_the_other_replaces_it
   EXPECT_FALSE(fs::exists(folder.path() / "shapes"));
   EXPECT_FALSE(fs::exists(folder.path() / "bones"));
   EXPECT_EQ(count_frames(folder.path(), run.scene), 1);
+}
+
+TEST(CompactFrames, of_fewer_vertices_than_frame_0_carry_no_fibers) {
+  const BothLayouts runs{TubeRun()};
+  const TriangleMesh few = tetrahedron(Vec3::Zero());
+  write_vtp_pieces(shapes_file(runs.compact.folder, 2), {{"tube", few.vertices, few.faces}});
+  EXPECT_THAT(message_of_input_error([&] { recorded_fibers(runs.compact, "tube", 2); }),
+              testing::HasSubstr("shapes/0002.vtp: has 4 vertices, but frame 0 has"));
+}
+
+TEST(CompactFrames, with_numbers_that_are_not_finite_are_refused) {
+  const BothLayouts runs{TubeRun()};
+  TriangleMesh tube = recorded_surface(runs.compact, "tube", 2);
+  const std::string bone = runs.compact.bones[0];
+  tube.vertices(1, 3) = std::nan("");
+  write_vtp_pieces(shapes_file(runs.compact.folder, 2), {{"tube", tube.vertices, tube.faces}},
+                   {{"motion_of_" + bone, Eigen::VectorXd::Constant(12, std::numeric_limits<Real>::infinity())}});
+  const RecordedRun run = open_recorded_run(runs.compact.folder);
+  EXPECT_THAT(message_of_input_error([&] { recorded_surface(run, "tube", 2); }),
+              testing::HasSubstr("shapes/0002.vtp: has a vertex that is not finite"));
+  EXPECT_THAT(message_of_input_error([&] { recorded_surface(run, bone, 2); }),
+              testing::HasSubstr("shapes/0002.vtp: has a motion of " + bone + " that is not finite"));
+}
+
+TEST(VtpLines, of_fewer_than_two_points_out_of_turn_or_not_finite_are_refused) {
+  const TestFolder folder;
+  const auto refused = [&](const Points& points, const std::vector<Index>& offsets) {
+    write_vtp_pieces(folder.path() / "a.vtp", {{"a", points, Eigen::Matrix3Xi(3, 0), offsets}});
+    return message_of_input_error([&] { read_vtp_lines(folder.path() / "a.vtp", "a"); });
+  };
+  Points points = Points::Random(3, 4);
+  EXPECT_THAT(refused(points, {0, 1, 4}), testing::HasSubstr("a.vtp:a: has a line of 1 points"));
+  EXPECT_THAT(refused(points, {0, 0, 4}), testing::HasSubstr("has a line of 0 points"));
+  EXPECT_THAT(refused(points, {0, 2}), testing::HasSubstr("do not go through its points in turn"));
+  points(2, 1) = std::nan("");
+  EXPECT_THAT(refused(points, {0, 4}), testing::HasSubstr("has a point that is not finite"));
+  const fs::path file = folder.write(
+      "b.vtp",
+      "<VTKFile type=\"PolyData\"><PolyData><Piece Name=\"a\" NumberOfPoints=\"2\" NumberOfLines=\"1\">\n"
+      "<Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 1 1"
+      "</DataArray></Points>"
+      "<Lines><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">0 7</DataArray>"
+      "<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">2</DataArray></Lines></Piece></PolyData>"
+      "</VTKFile>");
+  EXPECT_THAT(message_of_input_error([&] { read_vtp_lines(file, "a"); }),
+              testing::HasSubstr("b.vtp:a: has lines that do not go through its points in turn"));
+}
+
+TEST(RunSize, of_compact_frames_has_fibers_in_each_where_the_method_moves_them) {
+  for (const MethodEntry& entry : methods()) {
+    Scene scene = tube_scene();
+    scene.method = {std::string(entry.name), {}, {}};
+    const auto bytes = [&](int frames, bool with_fibers) {
+      return estimated_size(scene, frames, with_fibers, RunLayout::compact).bytes;
+    };
+    const double of_frame = bytes(3, true) - bytes(2, true) - (bytes(3, false) - bytes(2, false));
+    const auto method = make_method(scene, [](const DistanceFieldSettings&) { return tube_fields(); });
+    const auto moved = static_cast<double>(frame_of(*method, flexed(scene, 0), 0).muscles[0].fibers.points.cols());
+    const double followed = scene.muscles[0].fibers.count * (scene.muscles[0].fibers.segments + 1.0);
+    if (moved > 0)
+      EXPECT_NEAR(of_frame / (24 * moved), 1.3, 0.3) << entry.name;
+    else
+      EXPECT_LT(of_frame, 24 * followed / 3) << entry.name;
+  }
 }
 
 TEST(RunSize, is_about_what_frames_take) {

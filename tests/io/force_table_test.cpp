@@ -1,8 +1,11 @@
+#include <gracilis/core/errors.hpp>
 #include <gracilis/io/tables/force_table.hpp>
 
 #include <scenes_for_tests.hpp>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "run_table_read_back.hpp"
 
@@ -42,6 +45,18 @@ TEST(ForceTable, names_bodies_bones_fibers_and_coordinates) {
   EXPECT_EQ(value(read, "tube_contact_on_lower_force_x"), 2);
   EXPECT_EQ(value(read, "tube_moment_flexion"), 1.5);
   EXPECT_EQ(value(read, "tube_moment_by_work_flexion"), 1.4);
+}
+
+TEST(ForceTable, what_is_not_finite_is_no_zero) {
+  const Scene scene = tube_scene();
+  FrameRecord record = record_with_forces(scene, 0);
+  record.forces[0].fiber_tensions[1] = std::nan("");
+  try {
+    force_table(scene, record, 1);
+    FAIL() << "took it for a force";
+  } catch (const QualityError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("tube_f001_tension is not finite at 0 s"));
+  }
 }
 
 TEST(ForceTable, there_is_none_where_no_method_knows_forces) {

@@ -209,6 +209,54 @@ TEST_F(GlbReader, a_file_cut_short_or_changed_anywhere_is_refused_or_read_but_ne
   EXPECT_GT(refused, tries / 4);
 }
 
+TEST_F(GlbReader, nodes_that_are_no_trees_are_refused_however_often_they_branch) {
+  Glb glb;
+  glb.add("muscle", shapes::box({0, 0, 0}, {0.1, 0.1, 0.1}));
+  for (int i = 0; i < 60; ++i) {
+    tinygltf::Node node;
+    node.children = {i, i};
+    glb.model.nodes.push_back(node);
+  }
+  glb.model.scenes[0].nodes = {60};
+  EXPECT_THAT(message_of_input_error([&] { read_mesh(glb.written(folder, "branches.glb"), 1); }),
+              HasSubstr("branches.glb: comes to node 0 twice"));
+  glb.model.nodes[1].children = {1};
+  glb.model.scenes[0].nodes = {1};
+  EXPECT_THAT(message_of_input_error([&] { read_mesh(glb.written(folder, "cycle.glb"), 1); }),
+              HasSubstr("cycle.glb: comes to node 1 twice"));
+}
+
+TEST_F(GlbReader, without_a_scene_each_node_is_placed_once) {
+  Glb glb;
+  glb.add("muscle", shapes::box({0, 0, 0}, {0.1, 0.1, 0.1}));
+  tinygltf::Node above;
+  above.children = {0};
+  above.translation = {1, 0, 0};
+  glb.model.nodes.push_back(above);
+  glb.model.scenes.clear();
+  glb.model.defaultScene = -1;
+  const TriangleMesh mesh = read_mesh(glb.written(folder, "bare.glb"), 1);
+  EXPECT_EQ(mesh.vertex_count(), 8);
+  EXPECT_GT(mesh.vertices.row(0).minCoeff(), 0.9);
+}
+
+TEST_F(GlbReader, a_mesh_may_be_placed_a_few_times_but_not_without_end) {
+  const auto placed = [&](int times) {
+    Glb glb;
+    glb.add("muscle", ball());
+    for (int i = 1; i < times; ++i) {
+      tinygltf::Node node;
+      node.mesh = 0;
+      glb.model.nodes.push_back(node);
+      glb.model.scenes[0].nodes.push_back(i);
+    }
+    return glb.written(folder, "placed.glb");
+  };
+  EXPECT_EQ(read_mesh(placed(20), 1).face_count(), 20 * ball().face_count());
+  const std::filesystem::path bomb = placed(3000);
+  EXPECT_THAT(message_of_input_error([&] { read_mesh(bomb, 1); }), HasSubstr("places more corners than a file"));
+}
+
 TEST_F(GlbReader, files_beside_it_are_not_looked_for) {
   // A .glb whose buffer is named by an address.
   std::string json = R"({"asset":{"version":"2.0"},"buffers":[{"uri":"secret.bin","byteLength":4}]})";

@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <io/test_files.hpp>
 
+#include <sys/resource.h>
+
+#include <csignal>
+
 namespace gracilis {
 
 using testing::HasSubstr;
@@ -26,6 +30,23 @@ TEST(PolylineFile, what_is_written_reads_back_with_the_same_bits) {
   const Polylines read = read_polylines(folder.path() / "lines.vtp", 1);
   EXPECT_TRUE(read.points == lines.points);
   EXPECT_EQ(read.offsets, lines.offsets);
+}
+
+TEST(PolylineFile, a_full_disk_is_one_clear_error) {
+  const TestFolder folder;
+  const Polylines lines = join({Points::Random(3, 20000)});
+  // A limit on the size of files fails like a disk without space.
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 10000;
+  setrlimit(RLIMIT_FSIZE, &small);
+  const std::string text = message_of_input_error([&] { write_polylines(folder.path() / "a.vtp", lines); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_THAT(text, HasSubstr("a.vtp: cannot be written: "));
+  EXPECT_THAT(text, testing::Not(HasSubstr("vtkInformation")));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(PolylineFile, segments_that_meet_end_to_end_are_one_line) {

@@ -1,10 +1,13 @@
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <io/test_files.hpp>
 #include <io/tiny_run.hpp>
+
+#include <cmath>
 
 using namespace gracilis;
 using testing::HasSubstr;
@@ -89,6 +92,33 @@ TEST_F(RecordedRuns, a_surface_keeps_its_vertices) {
               HasSubstr("has 5 vertices, but frame 0 has 4"));
 }
 
+TEST_F(RecordedRuns, surfaces_that_are_not_finite_are_refused) {
+  const RecordedRun recorded = open_recorded_run(folder.path());
+  TriangleMesh surface = tetrahedron(Vec3::Zero());
+  surface.vertices(2, 3) = std::nan("");
+  for (const char* name : {"femur_r", "gluteus_maximus_r"}) {
+    write_surface(frame_file(folder.path(), name, 1), surface.vertices, surface.faces);
+    EXPECT_THAT(message_of_input_error([&] { recorded_surface(recorded, name, 1); }),
+                HasSubstr(std::string(name) + "_0001.vtp: has a vertex that is not finite"));
+  }
+  EXPECT_THAT(message_of_input_error([&] { read_frame(folder.path(), run.scene, 1, run.poses[1]); }),
+              HasSubstr("gluteus_maximus_r_0001.vtp: has a vertex that is not finite"));
+}
+
+TEST_F(RecordedRuns, only_an_empty_cell_was_not_measured) {
+  const std::string head = "frame,time_s,knee_deg,muscle,spike,fiber_strain_mean,milliseconds\n";
+  const auto refused_row = [&](const std::string& row) { return refused(head + row + "\n"); };
+  EXPECT_THAT(refused_row("0,0,0,a,abc,0,1"), HasSubstr("measures.csv:2: 'abc' in column 'spike' is not a finite"));
+  EXPECT_THAT(refused_row("0,0,0,a,nan,0,1"), HasSubstr("'nan' in column 'spike'"));
+  EXPECT_THAT(refused_row("0,0,0,a,1,-inf,1"), HasSubstr("'-inf' in column 'fiber_strain_mean'"));
+  EXPECT_THAT(refused_row("0,nan,0,a,1,0,1"), HasSubstr("'nan' in column 'time_s'"));
+  EXPECT_THAT(refused_row("0,0,,a,1,0,1"), HasSubstr("'' in column 'knee_deg'"));
+  folder.write("measures.csv", head + "0,0,0,gluteus_maximus_r,,nan,1\n");  // nan as earlier versions wrote it
+  const RecordedRun recorded = open_recorded_run(folder.path());
+  EXPECT_TRUE(std::isnan(measure_of(recorded, "spike")(0, 0)));
+  EXPECT_TRUE(std::isnan(measure_of(recorded, "fiber_strain_mean")(0, 0)));
+}
+
 TEST_F(RecordedRuns, a_manifest_of_another_shape_is_told_of) {
   EXPECT_THAT(refused_manifest("[]"), HasSubstr("run.json: is no manifest"));
   EXPECT_THAT(refused_manifest("3"), HasSubstr("run.json: is no manifest"));
@@ -96,6 +126,14 @@ TEST_F(RecordedRuns, a_manifest_of_another_shape_is_told_of) {
   EXPECT_THAT(refused_manifest(R"({"warnings": [1]})"), HasSubstr("'warnings' must be a list of texts"));
   EXPECT_THAT(refused_manifest(R"({"action_lines": []})"), HasSubstr("'action_lines' must be an object"));
   EXPECT_THAT(refused_manifest("{"), HasSubstr("is not JSON"));
+  for (const char* joints : {R"([5])", R"([{"name": 5}])", R"([{"coordinates": {}}])", R"([{"coordinates": [5]}])",
+                             R"([{"coordinates": [{"name": 5}]}])", R"([{"coordinates": [{"translation": 0}]}])"})
+    EXPECT_THAT(refused_manifest(fmt::format(R"({{"joints": {}}})", joints)), HasSubstr("'joints' must be a list"));
+  EXPECT_THAT(refused_manifest(R"({"inputs": [{"file": 5}]})"), HasSubstr("'inputs' must be a list of files"));
+  EXPECT_THAT(refused_manifest(R"({"inputs": [{"sha256": []}]})"), HasSubstr("'inputs' must be a list of files"));
+  for (const char* number : {"1e300", "-1", "1.5", "2147483648", "18446744073709551615"})
+    for (const char* key : {"every", "first_motion_frame", "frames"})
+      EXPECT_THAT(refused_manifest(fmt::format(R"({{"{}": {}}})", key, number)), HasSubstr("must be a count"));
 }
 
 TEST_F(RecordedRuns, a_manifest_nested_without_end_is_no_stack_overflow) {

@@ -147,6 +147,43 @@ TEST(RunFolder, a_run_that_is_there_already_is_refused_or_replaced) {
   EXPECT_TRUE(fs::exists(folder.path() / "notes.txt"));
 }
 
+TEST(RunFolder, files_that_are_of_no_run_are_replaced_only_when_that_is_asked_for) {
+  const TestFolder folder;
+  const TinyRun run;
+  for (const std::string name : {"measures.csv", "forces.sto", "frames/mine_0003.vtp", "fibers/0000.vtp",
+                                 "shapes/0001.vtp", "bones/femur_r.vtp"}) {
+    const fs::path out = folder.path() / "run";
+    fs::create_directories((out / name).parent_path());
+    folder.write("run/" + name, "mine");
+    for (const ExistingRun existing : {ExistingRun::refuse, ExistingRun::resume}) {
+      try {
+        RunFolder(out, run.scene, run.poses, existing);
+        ADD_FAILURE() << name << " was taken for a run's";
+      } catch (const ConfigurationError& error) {
+        EXPECT_THAT(error.what(), HasSubstr((out / name).string() + ": is not of a run"));
+      }
+      EXPECT_EQ(content(out / name), "mine");
+      const auto entries = fs::recursive_directory_iterator(out);
+      EXPECT_EQ(std::count_if(begin(entries), end(entries), [](const auto& each) { return each.is_regular_file(); }), 1)
+          << "nothing was left beside " << name;
+    }
+    RunFolder(out, run.scene, run.poses, ExistingRun::replace);
+    EXPECT_NE(content(out / name), "mine");
+    fs::remove_all(out);
+  }
+}
+
+TEST(RunFolder, what_a_run_leaves_alone_does_not_keep_it_from_a_folder) {
+  const TestFolder folder;
+  const TinyRun run;
+  fs::create_directories(folder.path() / "frames");  // as a run killed before its index leaves it
+  folder.write("notes.txt", "mine");
+  folder.write("frames/mine.vtp", "mine");
+  RunFolder(folder.path(), run.scene, run.poses, ExistingRun::refuse).write_frame(run.record(0));
+  EXPECT_EQ(content(folder.path() / "notes.txt"), "mine");
+  EXPECT_EQ(content(folder.path() / "frames/mine.vtp"), "mine");
+}
+
 TEST(RunFolder, an_interrupted_run_goes_on_after_its_last_whole_frame) {
   const TestFolder folder;
   TinyRun run;

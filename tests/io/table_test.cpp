@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 #include <io/test_files.hpp>
 
+#include <cmath>
+#include <limits>
+
 using namespace gracilis;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -120,6 +123,24 @@ TEST(Table, what_is_written_is_read_back_with_the_same_bits) {
   EXPECT_EQ(read.times, table.times);
   EXPECT_TRUE((read.values.array() == table.values.array()).all());
   EXPECT_TRUE(read.warnings.empty());
+}
+
+TEST(Table, what_is_not_finite_is_not_written) {
+  const TestFolder folder;
+  const auto refused = [&](const Table& table) -> std::string {
+    try {
+      write_sto(folder.path() / "a.sto", table);
+    } catch (const QualityError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  Table table{"lengths", {"a", "b"}, {0, 0.1}, Eigen::MatrixXd::Ones(2, 2), false, {}};
+  table.values(1, 1) = std::nan("");
+  EXPECT_THAT(refused(table), HasSubstr("a.sto: would have nan in column 'b' of row 2"));
+  table.times[0] = -std::numeric_limits<Real>::infinity();
+  EXPECT_THAT(refused(table), HasSubstr("would have -inf in column 'time' of row 1"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "a.sto"));
 }
 
 TEST(Table, the_cadaver_s_motions_are_read) {

@@ -63,6 +63,18 @@ TEST_F(VerifyRun, the_list_is_one_that_sha256sum_checks) {
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
+TEST_F(VerifyRun, an_empty_file_is_one_like_others) {
+  fs::create_directories(folder.path() / "plots");
+  folder.write("plots/mine.txt", "");
+  seal_again();
+  EXPECT_THAT(findings(), IsEmpty());
+  folder.write("plots/mine.txt", "more");
+  EXPECT_THAT(findings(), ElementsAre("plots/mine.txt has changed"));
+  folder.write("plots/mine.txt", "");
+  fs::resize_file(folder.path() / "run.pvd", 0);
+  EXPECT_THAT(findings(), ElementsAre("run.pvd has changed"));
+}
+
 TEST_F(VerifyRun, what_is_missing_or_has_changed_is_named) {
   std::fstream(frame(2), std::ios::in | std::ios::out | std::ios::ate | std::ios::binary) << " ";
   EXPECT_THAT(findings(), ElementsAre("frames/gluteus_maximus_r_0002.vtp has changed"));

@@ -4,6 +4,7 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh/draco_mesh.hpp>
 #include <gracilis/io/mesh/glb_views.hpp>
+#include <gracilis/io/mesh/vtp_arrays.hpp>
 #include <gracilis/io/suggestions.hpp>
 
 #include <fmt/format.h>
@@ -21,6 +22,9 @@ namespace {
 
 constexpr int deepest_node = 256;
 
+/// Draco takes an eighth of a byte and more for each. What a file takes beyond that it places many times.
+constexpr std::size_t corners_per_byte = 8;
+
 /// Pictures say nothing about a surface.
 bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
   return true;
@@ -30,8 +34,8 @@ bool no_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const
   throw InputError({path.string(), "", what, remedy});
 }
 
-/// Everything is in the file: what a foreign file names elsewhere is not looked for.
-tinygltf::Model load_model(const std::filesystem::path& path) {
+/// Everything is in the file: what a foreign file names elsewhere is not looked for. `size`: of the file, bytes.
+tinygltf::Model load_model(const std::filesystem::path& path, std::size_t& size) {
   tinygltf::TinyGLTF reader;
   reader.SetImageLoader(no_image, nullptr);
   reader.SetFsCallbacks(
@@ -42,6 +46,7 @@ tinygltf::Model load_model(const std::filesystem::path& path) {
        },
        [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }, nullptr});
   const std::string bytes = with_views(path, read_text(path));
+  size = bytes.size();
   std::string error, warning;
   tinygltf::Model model;
   if (bytes.size() > std::numeric_limits<unsigned>::max())
@@ -55,18 +60,15 @@ tinygltf::Model load_model(const std::filesystem::path& path) {
 /// Collects the triangles of a part.
 class GlbReader {
  public:
-  GlbReader(const std::filesystem::path& path, const tinygltf::Model& model, std::string part)
-      : path_(path), part_(std::move(part)), model_(model) {}
+  GlbReader(const std::filesystem::path& path, const tinygltf::Model& model, std::size_t file_bytes, std::string part)
+      : path_(path),
+        part_(std::move(part)),
+        model_(model),
+        visited_(model.nodes.size(), false),
+        budget_(corners_per_byte * file_bytes) {}
 
   PolygonMesh read() {
-    std::vector<int> roots;
-    if (!model_.scenes.empty()) {
-      const int scene = model_.defaultScene >= 0 ? model_.defaultScene : 0;
-      roots = element(model_.scenes, scene, "scene").nodes;
-    } else {
-      for (std::size_t n = 0; n < model_.nodes.size(); ++n) roots.push_back(static_cast<int>(n));
-    }
-    for (const int root : roots) add_node(root, Eigen::Affine3d::Identity(), part_.empty(), 0);
+    for (const int root : roots()) add_node(root, Eigen::Affine3d::Identity(), part_.empty(), 0);
     if (!part_.empty() && !found_) fail("has no node or mesh '" + part_ + "'", suggestion(part_, names()));
     return std::move(mesh_);
   }
@@ -90,6 +92,24 @@ class GlbReader {
     return known;
   }
 
+  /// Nodes of the scene; without one, those that are below no other.
+  std::vector<int> roots() const {
+    if (!model_.scenes.empty()) {
+      const int scene = model_.defaultScene >= 0 ? model_.defaultScene : 0;
+      return element(model_.scenes, scene, "scene").nodes;
+    }
+    std::vector<bool> is_below(model_.nodes.size(), false);
+    for (const tinygltf::Node& node : model_.nodes)
+      for (const int child : node.children) {
+        element(model_.nodes, child, "node");
+        is_below[static_cast<std::size_t>(child)] = true;
+      }
+    std::vector<int> found;
+    for (std::size_t n = 0; n < is_below.size(); ++n)
+      if (!is_below[n]) found.push_back(static_cast<int>(n));
+    return found;
+  }
+
   static Eigen::Affine3d placement(const tinygltf::Node& node) {
     Eigen::Affine3d place = Eigen::Affine3d::Identity();
     if (node.matrix.size() == 16) {
@@ -108,6 +128,9 @@ class GlbReader {
   void add_node(int number, const Eigen::Affine3d& above, bool wanted, int depth) {
     if (depth > deepest_node) fail(fmt::format("has nodes more than {} deep", deepest_node));
     const tinygltf::Node& node = element(model_.nodes, number, "node");
+    if (visited_[static_cast<std::size_t>(number)])
+      fail(fmt::format("comes to node {} twice, but the nodes of glTF are trees", number));
+    visited_[static_cast<std::size_t>(number)] = true;
     const Eigen::Affine3d place = above * placement(node);
     wanted = wanted || node.name == part_;
     if (node.mesh >= 0) {
@@ -138,7 +161,13 @@ class GlbReader {
         for (std::size_t i = 0; i < positions.size() / 3; ++i) corners.push_back(static_cast<std::int64_t>(i));
       }
     }
+    spend(positions.size() / 3 + corners.size());
     add_triangles(vertices_at(positions, place), corners, mode, place.linear().determinant() < 0);
+  }
+
+  void spend(std::size_t corners) {
+    if (corners > budget_.left) fail("places more corners than a file of its size can honestly hold");
+    budget_.left -= corners;
   }
 
   void read_draco(const tinygltf::Value& extension, std::vector<double>& positions,
@@ -247,6 +276,8 @@ class GlbReader {
   const std::filesystem::path& path_;
   std::string part_;
   const tinygltf::Model& model_;
+  std::vector<bool> visited_;  ///< per node
+  NumberBudget budget_;        ///< of vertices and corners
   PolygonMesh mesh_;
   std::map<std::array<double, 3>, std::int64_t> vertex_at_;
   bool found_ = false;
@@ -256,13 +287,18 @@ class GlbReader {
 
 struct GlbFile::Model {
   tinygltf::Model model;
+  std::size_t file_bytes = 0;
 };
 
 GlbFile::GlbFile(const std::filesystem::path& path) : path_(path) {
-  model_ = std::make_unique<const Model>(Model{load_model(path)});
+  auto model = std::make_unique<Model>();
+  model->model = load_model(path, model->file_bytes);
+  model_ = std::move(model);
 }
 GlbFile::~GlbFile() = default;
 
-PolygonMesh GlbFile::read(const std::string& part) const { return GlbReader(path_, model_->model, part).read(); }
+PolygonMesh GlbFile::read(const std::string& part) const {
+  return GlbReader(path_, model_->model, model_->file_bytes, part).read();
+}
 
 }  // namespace gracilis

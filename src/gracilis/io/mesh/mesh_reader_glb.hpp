@@ -19,7 +19,8 @@ class GlbFile {
 
   /// The triangles, placed by the nodes; those of the node or mesh of this name and of the nodes below it, or all where
   /// it is empty. Compressed by Draco, too. Corners at the same place become one vertex: glTF splits them where normals
-  /// or textures break. Lines, points, skins and morphs are left out.
+  /// or textures break. Lines, points, skins and morphs are left out. Refused are nodes that are no trees and meshes
+  /// placed so often that the file could not honestly hold them: it would unpack to any size.
   PolygonMesh read(const std::string& part) const;
 
  private:

@@ -47,8 +47,12 @@ void write_polylines(const fs::path& path, const Polylines& lines, const std::ve
     writer->EncodeAppendedDataOff();
     writer->SetCompressorTypeToLZ4();
     writer->SetIdTypeToInt32();
-    if (writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError && !messages.has_errors()) return;
-    throw InputError({path.string(), "", "cannot be written: " + messages.first_error(),
+    const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
+    if (written && !messages.has_errors()) return;
+    const std::string reason = writer->GetErrorCode() != vtkErrorCode::NoError
+                                   ? vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())
+                                   : messages.first_error();
+    throw InputError({path.string(), "", "cannot be written: " + reason,
                       "check the folder's permissions and the free space of the disk"});
   });
 }

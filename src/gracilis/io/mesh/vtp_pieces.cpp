@@ -126,17 +126,23 @@ TriangleMesh read_vtp_piece(const VtpFile& file, const std::string& piece) {
 }
 
 Polylines read_vtp_lines(const std::filesystem::path& path, const std::string& piece) {
+  const auto fail = [&](const std::string& what) {
+    throw InputError({path.string(), piece, what, "run the scene again"});
+  };
   const VtpFile file(path);
   if (!file.has(piece)) return {};
   const PolygonMesh mesh = file.read(piece);
-  const Eigen::Map<const Points> points(mesh.coordinates.data(), 3, static_cast<Index>(mesh.coordinates.size() / 3));
   Polylines lines;
-  lines.points = points;
-  for (const std::vector<std::int64_t>& line : mesh.lines)
-    lines.offsets.push_back(lines.offsets.back() + static_cast<Index>(line.size()));
-  if (lines.offsets.back() != lines.points.cols())
-    throw InputError(
-        {path.string(), piece, "has lines that do not go through its points in turn", "run the scene again"});
+  lines.points = Eigen::Map<const Points>(mesh.coordinates.data(), 3, static_cast<Index>(mesh.coordinates.size() / 3));
+  if (!lines.points.allFinite()) fail("has a point that is not finite");
+  for (const std::vector<std::int64_t>& line : mesh.lines) {
+    if (line.size() < 2) fail(fmt::format("has a line of {} points; two are the fewest", line.size()));
+    std::int64_t next = lines.offsets.back();
+    for (const std::int64_t point : line)
+      if (point != next++) fail("has lines that do not go through its points in turn");
+    lines.offsets.push_back(static_cast<Index>(next));
+  }
+  if (lines.offsets.back() != lines.points.cols()) fail("has lines that do not go through its points in turn");
   return lines;
 }
 

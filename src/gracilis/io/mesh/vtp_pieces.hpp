@@ -34,7 +34,8 @@ void write_vtp_pieces(const std::filesystem::path& path, const std::vector<VtpPi
 /// The surface of one piece with the bits that were written. Throws InputError where the file or the piece is missing
 /// or damaged.
 TriangleMesh read_vtp_piece(const VtpFile& file, const std::string& piece);
-/// Its lines; none where the file has no such piece.
+/// Its lines; none where the file has no such piece. Throws InputError, too, where they have fewer than two points, one
+/// that is not finite, or do not go through the points in turn.
 Polylines read_vtp_lines(const std::filesystem::path& path, const std::string& piece);
 
 }  // namespace gracilis

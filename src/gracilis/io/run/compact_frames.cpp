@@ -116,7 +116,9 @@ std::shared_ptr<const VtpFile> CompactShapes::file(int frame) const {
 }
 
 TriangleMesh CompactShapes::muscle(const std::string& name, int frame) const {
-  return read_vtp_piece(*file(frame), name);
+  TriangleMesh surface = read_vtp_piece(*file(frame), name);
+  require_finite(surface.vertices, shapes_file(folder_, frame), "a vertex");
+  return surface;
 }
 
 TriangleMesh CompactShapes::bone(const std::string& name, int frame) const {
@@ -125,7 +127,10 @@ TriangleMesh CompactShapes::bone(const std::string& name, int frame) const {
     const std::lock_guard lock(kept_->mutex);
     bone = &kept_->bones[name];
   }
-  std::call_once(bone->once, [&] { bone->rest = read_mesh(bone_file(folder_, name), 1); });
+  std::call_once(bone->once, [&] {
+    bone->rest = read_mesh(bone_file(folder_, name), 1);
+    require_finite(bone->rest.vertices, bone_file(folder_, name), "a vertex");
+  });
   TriangleMesh surface = bone->rest;
   if (frame == 0) return surface;  // the input itself; arithmetic with the identity could turn a -0 into a 0
   const std::vector<double> values = file(frame)->field(motion_name(name));
@@ -134,6 +139,7 @@ TriangleMesh CompactShapes::bone(const std::string& name, int frame) const {
                       "run the scene again"});
   RigidTransform motion;
   motion.matrix().topRows<3>() = Eigen::Map<const Eigen::Matrix<Real, 3, 4>>(values.data());
+  require_finite(motion.matrix(), shapes_file(folder_, frame), "a motion of " + name);
   surface.vertices = motion * surface.vertices;
   return surface;
 }
@@ -143,6 +149,7 @@ struct CompactFibers::Bindings {
   struct Bound {
     std::once_flag once;
     Polylines rest;
+    Index vertices = 0;                       ///< of the surface
     std::unique_ptr<SurfaceBinding> binding;  ///< null: no fibers
   };
   std::mutex mutex;
@@ -167,10 +174,15 @@ Polylines CompactFibers::read(const std::string& muscle, int frame) const {
   std::call_once(bound->once, [&] {
     bound->rest = read_vtp_lines(fibers_file(folder, 0), muscle);
     if (bound->rest.count() == 0) return;
-    bound->binding = std::make_unique<SurfaceBinding>(shapes_->muscle(muscle, 0), bound->rest.points);
+    const TriangleMesh surface = shapes_->muscle(muscle, 0);
+    bound->vertices = surface.vertex_count();
+    bound->binding = std::make_unique<SurfaceBinding>(surface, bound->rest.points);
   });
   Polylines fibers = bound->rest;
-  if (bound->binding) fibers.points = bound->binding->evaluate(shapes_->muscle(muscle, frame).vertices);
+  if (!bound->binding) return fibers;
+  const Points now = shapes_->muscle(muscle, frame).vertices;
+  require_vertices(shapes_file(folder, frame), static_cast<Index>(now.cols()), bound->vertices);
+  fibers.points = bound->binding->evaluate(now);
   return fibers;
 }
 

@@ -69,8 +69,8 @@ static Json worst_measures(const fs::path& path) {
     for (std::size_t i = 0; i < worst.size(); ++i) {
       double value = 0;
       if (cells[worst[i].column].empty()) continue;  // not measured
-      if (!parse_number(cells[worst[i].column], value))
-        reader.fail("holds what is not a number", "run the scene again");
+      if (!parse_number(cells[worst[i].column], value) || !std::isfinite(value))
+        reader.fail("holds what is not a finite number", "run the scene again");
       Real& sofar = found[name][i];
       if (!(std::abs(value - worst[i].reference) <= std::abs(sofar - worst[i].reference))) sofar = value;
     }

@@ -13,9 +13,11 @@ namespace gracilis {
 
 namespace fs = std::filesystem;
 
+std::string output_hash(const fs::path& file) { return content_hash_of(text_if_there(file)); }
+
 std::vector<OutputHash> hash_outputs(const fs::path& folder) {
   std::vector<OutputHash> outputs;
-  for (const char* file : {"fiber_lengths.sto", "measures.csv", "paraview.py", "preview.png", "run.pvd"})
+  for (const char* file : {"fiber_lengths.sto", "forces.sto", "measures.csv", "paraview.py", "preview.png", "run.pvd"})
     if (is_there(folder / file)) outputs.push_back({file, ""});
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
@@ -30,7 +32,7 @@ std::vector<OutputHash> hash_outputs(const fs::path& folder) {
     }
   }
   std::sort(outputs.begin(), outputs.end(), [](const auto& a, const auto& b) { return a.file < b.file; });
-  parallel_for_each(outputs.size(), [&](std::size_t i) { outputs[i].sha256 = content_hash(folder / outputs[i].file); });
+  parallel_for_each(outputs.size(), [&](std::size_t i) { outputs[i].sha256 = output_hash(folder / outputs[i].file); });
   return outputs;
 }
 

@@ -15,6 +15,9 @@ struct OutputHash {
   std::string sha256;  ///< in hexadecimal digits
 };
 
+/// That of one file, which may be empty. Throws InputError where it cannot be read.
+std::string output_hash(const std::filesystem::path& file);
+
 /// Of all that a run writes into its folder, but for run.json: surfaces, fibers, plots, tables, index, preview; sorted
 /// by their names. Throws InputError where one cannot be read.
 std::vector<OutputHash> hash_outputs(const std::filesystem::path& folder);

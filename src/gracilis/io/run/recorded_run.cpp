@@ -58,20 +58,32 @@ struct Row {
 
 }  // namespace
 
-static Real number_or_nan(std::string_view cell) {
+static Real number_in(const ValueReader& reader, std::string_view cell, std::string_view column) {
   double value = 0;
-  return parse_number(cell, value) ? value : std::numeric_limits<Real>::quiet_NaN();
+  if (!parse_number(cell, value) || !std::isfinite(value))
+    reader.fail(fmt::format("'{}' in column '{}' is not a finite number", cell.substr(0, 40), column.substr(0, 40)),
+                "run the scene again");
+  return value;
+}
+
+/// nan where it was not measured: the cell is empty, or, in columns of fibers, nan as earlier versions wrote it.
+static Real measure_in(const ValueReader& reader, std::string_view cell, std::string_view column) {
+  const bool of_fibers = column == "fiber_strain_mean" || column.ends_with("cross_section_cm2");
+  if (cell.empty() || (of_fibers && cell == "nan")) return std::numeric_limits<Real>::quiet_NaN();
+  return number_in(reader, cell, column);
 }
 
 /// The rows of measures.csv.
-static std::vector<Row> read_rows(ValueReader& reader, std::size_t columns, std::size_t muscle_at, RecordedRun& run) {
+static std::vector<Row> read_rows(ValueReader& reader, const std::vector<std::string_view>& columns,
+                                  std::size_t muscle_at, RecordedRun& run) {
   std::vector<Row> rows;
   std::map<std::string, std::size_t, std::less<>> numbers;
   while (!reader.at_end()) {
     const std::vector<std::string_view> cells = cells_of(reader.line());
     Row row;
-    if (cells.size() != columns)
-      reader.fail(fmt::format("has {} cells where there are {} columns", cells.size(), columns), "run the scene again");
+    if (cells.size() != columns.size())
+      reader.fail(fmt::format("has {} cells where there are {} columns", cells.size(), columns.size()),
+                  "run the scene again");
     if (!parse_index(cells[0], row.frame))
       reader.fail(fmt::format("'{}' is not the number of a frame", cells[0].substr(0, 40)), "run the scene again");
     const auto [name, is_new] = numbers.emplace(cells[muscle_at], numbers.size());
@@ -82,8 +94,9 @@ static std::vector<Row> read_rows(ValueReader& reader, std::size_t columns, std:
                     "run the scene again");
       run.muscles.emplace_back(cells[muscle_at]);
     }
-    for (std::size_t i = 1; i < muscle_at; ++i) row.before.push_back(number_or_nan(cells[i]));
-    for (std::size_t i = muscle_at + 1; i < cells.size(); ++i) row.after.push_back(number_or_nan(cells[i]));
+    for (std::size_t i = 1; i < muscle_at; ++i) row.before.push_back(number_in(reader, cells[i], columns[i]));
+    for (std::size_t i = muscle_at + 1; i < cells.size(); ++i)
+      row.after.push_back(measure_in(reader, cells[i], columns[i]));
     rows.push_back(std::move(row));
   }
   return rows;
@@ -130,7 +143,7 @@ static void read_measures(const fs::path& path, RecordedRun& run) {
   run.coordinates.assign(columns.begin() + 2, columns.begin() + static_cast<std::ptrdiff_t>(muscle_at));
   run.measures.assign(columns.begin() + static_cast<std::ptrdiff_t>(muscle_at) + 1, columns.end());
 
-  const std::vector<Row> rows = read_rows(reader, columns.size(), muscle_at, run);
+  const std::vector<Row> rows = read_rows(reader, columns, muscle_at, run);
   run.frame_count = count_measured(reader, rows, run.muscles.size());
   const auto frames = static_cast<std::size_t>(run.frame_count);
   run.times.resize(frames);
@@ -187,22 +200,24 @@ Eigen::MatrixXd measure_of(const RecordedRun& run, const std::string& measure) {
 }
 
 /// Throws InputError unless there are as many of a surface's vertices as in frame 0.
-static void require_vertices(const RecordedRun& run, const std::string& name, int frame, Eigen::Index count) {
-  const auto found = run.vertex_counts.find(name);
-  if (found == run.vertex_counts.end() || found->second == count) return;
-  throw InputError({file_of_surface(run.folder, run.layout, name, frame).string(), "",
-                    fmt::format("has {} vertices, but frame 0 has {}", count, found->second), "run the scene again"});
+static void require_count(const RecordedRun& run, const std::string& name, int frame, Eigen::Index count) {
+  if (const auto found = run.vertex_counts.find(name); found != run.vertex_counts.end())
+    require_vertices(file_of_surface(run.folder, run.layout, name, frame), static_cast<Index>(count), found->second);
 }
 
 static TriangleMesh read_surface(const RecordedRun& run, const std::string& name, int frame) {
-  if (!run.compact_shapes) return read_mesh(frame_file(run.folder, name, frame), 1);
+  if (!run.compact_shapes) {
+    TriangleMesh surface = read_mesh(frame_file(run.folder, name, frame), 1);
+    require_finite(surface.vertices, frame_file(run.folder, name, frame), "a vertex");
+    return surface;
+  }
   const bool is_bone = std::find(run.bones.begin(), run.bones.end(), name) != run.bones.end();
   return is_bone ? run.compact_shapes->bone(name, frame) : run.compact_shapes->muscle(name, frame);
 }
 
 TriangleMesh recorded_surface(const RecordedRun& run, const std::string& name, int frame) {
   TriangleMesh surface = read_surface(run, name, frame);
-  require_vertices(run, name, frame, surface.vertex_count());
+  require_count(run, name, frame, surface.vertex_count());
   return surface;
 }
 
@@ -261,7 +276,8 @@ static std::shared_ptr<const VtpFile> file_of_muscle(const RecordedRun& run, con
 
 Points recorded_tissue(const RecordedRun& run, const std::string& muscle) {
   const Points tissue = file_of_muscle(run, muscle, 0)->vectors(tissue_name, piece_of_muscle(run.layout, muscle));
-  if (tissue.cols() > 0) require_vertices(run, muscle, 0, tissue.cols());
+  if (tissue.cols() > 0) require_count(run, muscle, 0, tissue.cols());
+  require_finite(tissue, file_of_surface(run.folder, run.layout, muscle, 0), "a share of tissue");
   return tissue;
 }
 
@@ -269,7 +285,8 @@ Eigen::VectorXd recorded_fiber_stresses(const RecordedRun& run, const std::strin
   if (!fs::exists(run.folder / force_file)) return {};  // the method knows none: no need to read every frame for that
   Eigen::VectorXd stresses =
       file_of_muscle(run, muscle, frame)->scalars(fiber_stress_name, piece_of_muscle(run.layout, muscle));
-  if (stresses.size() > 0) require_vertices(run, muscle, frame, static_cast<Index>(stresses.size()));
+  if (stresses.size() > 0) require_count(run, muscle, frame, stresses.size());
+  require_finite(stresses, file_of_surface(run.folder, run.layout, muscle, frame), "a stress");
   return stresses;
 }
 

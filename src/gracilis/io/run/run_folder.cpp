@@ -54,7 +54,12 @@ Frame read_frame(const fs::path& folder, const Scene& scene, int number, const P
                                     muscle.surface.vertex_count()),
                         "resume with the scene that the run was started with"});
     }
-    frame.muscles.push_back({mesh.vertices, file->vectors(velocity_name, piece_of_muscle(layout, muscle.name))});
+    const Points velocities = file->vectors(velocity_name, piece_of_muscle(layout, muscle.name));
+    require_finite(mesh.vertices, path, "a vertex");
+    require_finite(velocities, path, "a velocity");
+    if (velocities.cols() > 0 && velocities.cols() != mesh.vertices.cols())
+      throw InputError({path.string(), "", "does not have one velocity per vertex", "replace the run with --force"});
+    frame.muscles.push_back({mesh.vertices, velocities});
   }
   return frame;
 }
@@ -75,19 +80,18 @@ static VertexArray tissue_array(const Muscle& muscle, Real tendon_length) {
   return {tissue_name, tissue.reshaped(), 3};
 }
 
-void RunFolder::create_folders() {
-  const fs::path frames = folder_ / (layout_ == RunLayout::compact ? "shapes" : "frames");
+/// Of a run's folder `run`, which is named where the folder cannot be made.
+static void create_run_folder(const fs::path& folder, const fs::path& run) {
   std::error_code error;
-  fs::create_directories(frames, error);
-  if (error || !fs::is_directory(frames)) {
-    throw InputError(
-        {folder_.string(), "", "cannot be created: " + error.message(), "choose another folder with --out"});
-  }
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder))
+    throw InputError({run.string(), "", "cannot be created: " + error.message(), "choose another folder with --out"});
 }
 
-/// Removes what a run leaves behind in one of its folders from frame `first` on, and nothing else.
-static void remove_frames_from(const fs::path& folder, int first) {
-  if (!fs::exists(folder)) return;
+/// What a run leaves behind in one of its folders from frame `first` on, and nothing else.
+static std::vector<fs::path> frames_from(const fs::path& folder, int first) {
+  std::vector<fs::path> files;
+  if (!fs::is_directory(folder)) return files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string stem = entry.path().stem().string();
     if (entry.path().extension() != ".vtp") continue;
@@ -95,8 +99,26 @@ static void remove_frames_from(const fs::path& folder, int first) {
     const bool is_number = digits.size() >= 4 && digits.find_first_not_of("0123456789") == std::string::npos;
     Index number = 0;
     // A number beyond all indices is behind every frame.
-    if (is_number && (!parse_index(digits, number) || number >= first)) fs::remove(entry.path());
+    if (is_number && (!parse_index(digits, number) || number >= first)) files.push_back(entry.path());
   }
+  return files;
+}
+
+/// Throws ConfigurationError where files lie in the folder that a run would remove or write anew. A run that was killed
+/// has left run.pvd before any of them.
+static void require_no_files_of_others(const fs::path& folder, const Scene& scene) {
+  std::vector<fs::path> files;
+  for (const char* name : {"measures.csv", "paraview.py", "preview.png", output_hashes_name})
+    files.push_back(folder / name);
+  for (const std::string& name : table_names(scene)) files.push_back(folder / name);
+  for (const Bone& bone : scene.bones) files.push_back(bone_file(folder, bone.name));
+  std::erase_if(files, [](const fs::path& file) { return !fs::exists(fs::symlink_status(file)); });
+  for (const char* part : {"frames", "shapes", "fibers"})
+    for (fs::path& file : frames_from(folder / part, 0)) files.push_back(std::move(file));
+  if (files.empty()) return;
+  throw ConfigurationError({std::min_element(files.begin(), files.end())->string(), "",
+                            "is not of a run, and this run would replace it",
+                            "--out names another folder, --force replaces it"});
 }
 
 RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing,
@@ -106,13 +128,15 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
       scene_(scene),
       poses_(poses),
       opened_(std::chrono::steady_clock::now()) {
-  create_folders();
+  create_run_folder(folder_, folder_);
   lock_.emplace(folder_);
   const bool has_run = fs::exists(folder_ / "run.json") || fs::exists(folder_ / "run.pvd");
   if (has_run && existing == ExistingRun::refuse) {
     throw ConfigurationError({folder_.string(), "", "holds a run already",
                               "--resume goes on with it, --force replaces it, --out names another folder"});
   }
+  if (!has_run && existing != ExistingRun::replace) require_no_files_of_others(folder_, scene);
+  create_run_folder(folder_ / (layout_ == RunLayout::compact ? "shapes" : "frames"), folder_);
   for (const char* part : {"", "frames", "shapes", "bones", "fibers", "plots"})
     remove_left_temporaries(folder_ / part, LeftBy::any_machine);
   if (existing == ExistingRun::resume) {
@@ -144,7 +168,8 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
 
 /// What comes after the frames that stay, and all of a run of the other layout.
 void RunFolder::remove_frames() const {
-  for (const char* part : {"frames", "shapes", "fibers"}) remove_frames_from(folder_ / part, frame_count_);
+  for (const char* part : {"frames", "shapes", "fibers"})
+    for (const fs::path& file : frames_from(folder_ / part, frame_count_)) fs::remove(file);
   std::error_code ignored;  // what else lies in it keeps a folder
   fs::remove(folder_ / (layout_ == RunLayout::compact ? "frames" : "shapes"), ignored);
   if (layout_ == RunLayout::compact) return;

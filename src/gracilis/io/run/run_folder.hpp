@@ -44,9 +44,10 @@ class RunFolder {
   /// Creates the folder and locks it while this lives, and removes what killed runs left half-written. `poses` are
   /// those of all frames to come (their times and coordinates). With `resume`, what comes after the last whole frame
   /// (count_frames) is dropped, and what comes after the last that a run can go on from (resume_period), unless the run
-  /// is complete. Throws ConfigurationError when there is a run already and `existing` says refuse, and when another
-  /// process writes there; InputError when the folder cannot be written. Scene and poses must outlive this. A run that
-  /// goes on keeps its layout.
+  /// is complete. Throws ConfigurationError when there is a run already and `existing` says refuse, when there is none
+  /// but a file that this one would replace and `existing` does not say so, and when another process writes there;
+  /// InputError when the folder cannot be written. Scene and poses must outlive this. A run that goes on keeps its
+  /// layout.
   RunFolder(std::filesystem::path folder, const Scene& scene, const std::vector<Pose>& poses, ExistingRun existing,
             RunLayout layout = RunLayout::surfaces);
   /// Writes run.pvd if it is behind; failures are lost here, call finish() to see them.
@@ -71,7 +72,6 @@ class RunFolder {
 
  private:
   void write_index();
-  void create_folders();
   void write_compact(const FrameRecord& record) const;
   std::vector<VertexArray> arrays_of(std::size_t muscle, const Frame& frame) const;
   void remove_frames() const;

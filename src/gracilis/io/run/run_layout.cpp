@@ -1,5 +1,7 @@
 #include <gracilis/io/run/run_layout.hpp>
 
+#include <gracilis/core/errors.hpp>
+
 #include <fmt/format.h>
 
 namespace gracilis {
@@ -41,6 +43,17 @@ fs::path file_of_surface(const fs::path& folder, RunLayout layout, const std::st
 
 std::string piece_of_muscle(RunLayout layout, const std::string& muscle) {
   return layout == RunLayout::compact ? muscle : "";
+}
+
+void require_finite(const Eigen::Ref<const Eigen::MatrixXd>& numbers, const fs::path& file, const std::string& what) {
+  if (numbers.allFinite()) return;
+  throw InputError({file.string(), "", "has " + what + " that is not finite", "run the scene again"});
+}
+
+void require_vertices(const fs::path& file, Index count, Index of_frame_0) {
+  if (count == of_frame_0) return;
+  throw InputError({file.string(), "", fmt::format("has {} vertices, but frame 0 has {}", count, of_frame_0),
+                    "run the scene again"});
 }
 
 }  // namespace gracilis

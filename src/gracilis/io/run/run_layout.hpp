@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gracilis/core/types.hpp>
+
 #include <array>
 #include <filesystem>
 #include <optional>
@@ -35,5 +37,13 @@ std::filesystem::path file_of_surface(const std::filesystem::path& folder, RunLa
                                       int number);
 /// Which piece of that file a muscle is; empty: the only one.
 std::string piece_of_muscle(RunLayout layout, const std::string& muscle);
+
+/// Throws InputError, which names the file, where one of the numbers read from it is not finite; `what` is what they
+/// are, as in "a vertex".
+void require_finite(const Eigen::Ref<const Eigen::MatrixXd>& numbers, const std::filesystem::path& file,
+                    const std::string& what);
+
+/// Throws InputError, which names the file, unless it has as many of a surface's vertices as frame 0.
+void require_vertices(const std::filesystem::path& file, Index count, Index of_frame_0);
 
 }  // namespace gracilis

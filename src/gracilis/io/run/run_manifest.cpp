@@ -1,6 +1,7 @@
 #include <gracilis/io/run/run_manifest.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/whole_number.hpp>
 #include <gracilis/dynamics/simd/instruction_set.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
@@ -113,6 +114,44 @@ nlohmann::ordered_json overlaps_json(const OverlapReport& report) {
           {"in_bones", in_bones}};
 }
 
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+bool is_text(const Json& json) { return json.is_string(); }
+bool is_real(const Json& json) { return json.is_number(); }
+bool is_flag(const Json& json) { return json.is_boolean(); }
+bool is_object(const Json& json) { return json.is_object(); }
+
+bool is_count(const Json& json) { return json.is_number() && whole_number<Index>(json.get<Real>(), 0).has_value(); }
+
+bool is_list_of(const Json& json, bool (*fits)(const Json&)) {
+  return json.is_array() && std::all_of(json.begin(), json.end(), fits);
+}
+
+bool is_texts(const Json& json) { return is_list_of(json, is_text); }
+
+/// Whether what is known of an object fits; it need not be there.
+bool fits_at(const Json& json, const char* key, bool (*fits)(const Json&)) {
+  const auto found = json.find(key);
+  return found == json.end() || fits(*found);
+}
+
+bool is_coordinate(const Json& json) {
+  return json.is_object() && fits_at(json, "name", is_text) && fits_at(json, "translation", is_flag);
+}
+
+bool is_joint(const Json& json) {
+  return json.is_object() && fits_at(json, "name", is_text) &&
+         fits_at(json, "coordinates", [](const Json& list) { return is_list_of(list, is_coordinate); });
+}
+
+bool is_input(const Json& json) {
+  return json.is_object() && fits_at(json, "file", is_text) && fits_at(json, "sha256", is_text);
+}
+
+}  // namespace
+
 nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "run.json";
   if (!is_there(path))
@@ -122,31 +161,22 @@ nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
     throw InputError({path.string(), "", what, "run the scene again"});
   };
   if (!manifest.is_object()) fail("is no manifest of a run");
-  const auto require = [&](std::initializer_list<const char*> keys, auto&& fits, const char* expected) {
+  const auto require = [&](std::initializer_list<const char*> keys, bool (*fits)(const Json&), const char* expected) {
     for (const char* key : keys)
-      if (const auto found = manifest.find(key); found != manifest.end() && !fits(*found))
-        fail(fmt::format("'{}' must be {}", key, expected));
-  };
-  using Json = nlohmann::ordered_json;
-  const auto is_texts = [](const Json& json) {
-    return json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& each) { return each.is_string(); });
-  };
-  const auto is_objects = [](const Json& json) {
-    return json.is_array() && std::all_of(json.begin(), json.end(), [](const Json& each) { return each.is_object(); });
+      if (!fits_at(manifest, key, fits)) fail(fmt::format("'{}' must be {}", key, expected));
   };
   require(
       {"gracilis", "status", "scene", "preset", "written", "instruction_set", "settings", "outputs_sha256", "metrics"},
-      [](const Json& json) { return json.is_string(); }, "a text");
-  require(
-      {"frames", "seconds", "threads", "processors", "every", "first_motion_frame"},
-      [](const Json& json) { return json.is_number(); }, "a number");
-  require(
-      {"ramps", "fibers"}, [](const Json& json) { return json.is_boolean(); }, "true or false");
+      is_text, "a text");
+  require({"seconds"}, is_real, "a number");
+  require({"frames", "threads", "processors", "every", "first_motion_frame"}, is_count, "a count");
+  require({"ramps", "fibers"}, is_flag, "true or false");
   require({"command", "guessed", "warnings"}, is_texts, "a list of texts");
-  require({"inputs", "joints"}, is_objects, "a list of objects");
   require(
-      {"axes", "action_lines", "rest_overlaps", "libraries", "counters", "preview"},
-      [](const Json& json) { return json.is_object(); }, "an object");
+      {"inputs"}, [](const Json& json) { return is_list_of(json, is_input); }, "a list of files and hashes");
+  require(
+      {"joints"}, [](const Json& json) { return is_list_of(json, is_joint); }, "a list of joints");
+  require({"axes", "action_lines", "rest_overlaps", "libraries", "counters", "preview"}, is_object, "an object");
   return manifest;
 }
 

@@ -55,8 +55,8 @@ nlohmann::ordered_json overlaps_json(const OverlapReport& report);
 /// Writes `path` (RUN/run.json), whole or not at all.
 void write_manifest(const std::filesystem::path& path, const RunManifest& manifest);
 
-/// FOLDER/run.json. What is known of it has the type that write_manifest gives it. Throws InputError where it is
-/// missing, not JSON or of another shape.
+/// FOLDER/run.json. What readers ask it for has the type that write_manifest gives it, to its depth but for action
+/// lines. Throws InputError where it is missing, not JSON or of another shape.
 nlohmann::ordered_json read_manifest(const std::filesystem::path& folder);
 
 }  // namespace gracilis

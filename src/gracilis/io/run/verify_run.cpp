@@ -42,7 +42,7 @@ static void compare_hashes(const RecordedRun& run, Verification& result) {
       const fs::path file = run.folder / outputs[i].file;
       if (!is_there(file))
         findings[i] = outputs[i].file + " is missing";
-      else if (content_hash(file) != outputs[i].sha256)
+      else if (output_hash(file) != outputs[i].sha256)
         findings[i] = outputs[i].file + " has changed";
     } catch (const InputError& error) {
       findings[i] = error.what();

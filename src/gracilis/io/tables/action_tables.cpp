@@ -5,6 +5,7 @@
 #include <gracilis/scene/names.hpp>
 
 #include <algorithm>
+#include <set>
 
 namespace gracilis {
 
@@ -39,13 +40,19 @@ bool any_arms(const std::vector<FiberActions>& actions) {
 
 }  // namespace
 
-std::string moment_arm_file(const std::string& coordinate) {
-  return "moment_arms_" + file_name_of(coordinate) + ".sto";
+std::string moment_arm_file(const std::string& coordinate, const std::vector<std::string>& coordinates) {
+  std::set<std::string> taken;
+  for (const std::string& each : coordinates) {
+    if (each == coordinate) break;
+    file_name_of(each, taken);
+  }
+  return "moment_arms_" + file_name_of(coordinate, taken) + ".sto";
 }
 
 std::vector<std::string> table_names(const Scene& scene) {
   std::vector<std::string> names = {"fiber_lengths.sto", lines_of_action_file, force_file};
-  for (const std::string& coordinate : coordinate_names(scene)) names.push_back(moment_arm_file(coordinate));
+  const std::vector<std::string> coordinates = coordinate_names(scene);
+  for (const std::string& each : coordinates) names.push_back(moment_arm_file(each, coordinates));
   return names;
 }
 
@@ -58,7 +65,7 @@ std::vector<RunTable> moment_arm_tables(const Scene& scene, const FrameRecord& r
     RowColumns columns = begin_row(scene, record.frame.pose);
     for (std::size_t m = 0; m < actions.size(); ++m)
       if (actions[m].arms.rows() > 0) add_arms(scene.muscles[m].name, actions[m], static_cast<Index>(c), columns);
-    tables.push_back(run_table(moment_arm_file(coordinates[c]), rows, columns));
+    tables.push_back(run_table(moment_arm_file(coordinates[c], coordinates), rows, columns));
   }
   return tables;
 }

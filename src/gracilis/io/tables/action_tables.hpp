@@ -27,7 +27,7 @@ std::vector<RunTable> moment_arm_tables(const Scene& scene, const FrameRecord& r
 /// The names of all .sto tables that a run of the scene may have.
 std::vector<std::string> table_names(const Scene& scene);
 
-/// `moment_arms_<coordinate>.sto`
-std::string moment_arm_file(const std::string& coordinate);
+/// `moment_arms_<coordinate>.sto`, a name of its own among all of the run's coordinates, which come in their order.
+std::string moment_arm_file(const std::string& coordinate, const std::vector<std::string>& coordinates = {});
 
 }  // namespace gracilis

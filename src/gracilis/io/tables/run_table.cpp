@@ -1,5 +1,7 @@
 #include <gracilis/io/tables/run_table.hpp>
 
+#include <gracilis/core/errors.hpp>
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -7,8 +9,10 @@
 namespace gracilis {
 
 void RowColumns::add(const std::string& label, Real value) {
+  if (!std::isfinite(value))
+    throw QualityError(fmt::format("{} is not finite at {} s; check the pose", label, row.substr(0, row.find('\t'))));
   labels += "\t" + label;
-  row += fmt::format("\t{:.9g}", std::isfinite(value) ? value : 0);
+  row += fmt::format("\t{:.9g}", value);
   ++count;
 }
 

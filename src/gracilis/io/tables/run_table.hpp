@@ -14,7 +14,8 @@ struct RunTable {
   std::string head, row;  ///< text, with line breaks
 };
 
-/// Labels and numbers of one row, which grow together.
+/// Labels and numbers of one row, which grow together. Tables have no empty cells, so that a number that is not finite
+/// throws QualityError.
 struct RowColumns {
   std::string labels = "time", row;
   std::size_t count = 1;

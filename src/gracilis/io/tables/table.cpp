@@ -220,7 +220,22 @@ Table read_table(const std::filesystem::path& path) {
   return TableReader(path, text).read();
 }
 
+/// Nobody could read such a table again, read_table included.
+static void require_finite_table(const std::filesystem::path& path, const Table& table) {
+  const auto require = [&](Real value, std::size_t row, const std::string& column) {
+    if (!std::isfinite(value))
+      throw QualityError(
+          fmt::format("{}: would have {} in column '{}' of row {}", path.string(), value, column, row + 1));
+  };
+  for (std::size_t row = 0; row < table.times.size(); ++row) {
+    require(table.times[row], row, "time");
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
+      require(table.values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(i)), row, table.columns[i]);
+  }
+}
+
 void write_sto(const std::filesystem::path& path, const Table& table) {
+  require_finite_table(path, table);
   std::string text = fmt::format("{}\nversion=1\nnRows={}\nnColumns={}\ninDegrees={}\nendheader\ntime", table.name,
                                  table.times.size(), table.columns.size() + 1, table.in_degrees ? "yes" : "no");
   for (const std::string& column : table.columns) text += "\t" + column;

@@ -33,7 +33,8 @@ std::optional<Eigen::Index> column_of(const Table& table, const std::string& nam
 /// that are not finite numbers, times that decrease, no rows.
 Table read_table(const std::filesystem::path& path);
 
-/// Writes a table with the header that OpenSim 4 reads (version 1, inDegrees), whole or not at all.
+/// Writes a table with the header that OpenSim 4 reads (version 1, inDegrees), whole or not at all. Throws
+/// QualityError, which names column and row, where a number is not finite.
 void write_sto(const std::filesystem::path& path, const Table& table);
 
 /// The coordinate that a column holds: the column's name, cut from OpenSim's state names

@@ -67,7 +67,7 @@ LengthSamples run_lengths(const std::filesystem::path& run, const Model& model) 
                                Eigen::MatrixXd(samples.coordinates.rows(), 0)});
   for (const Joint& joint : model.joints)
     for (const SceneAxis& axis : scene_axes(model, joint))
-      if (const auto file = run / moment_arm_file(axis.coordinate); std::filesystem::exists(file))
+      if (const auto file = run / moment_arm_file(axis.coordinate, table.columns); std::filesystem::exists(file))
         add_axis_arms(read_table(file), axis, samples);
   return samples;
 }

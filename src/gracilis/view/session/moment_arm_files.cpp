@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace gracilis {
 
@@ -165,11 +166,12 @@ MomentArmReport write_grids(const std::filesystem::path& folder, const Scene& sc
   MomentArmReport report;
   if (has_no_fibers(folder, scene, report)) return report;
   create_folder(folder / "plots");
+  std::set<std::string> taken;
   for (const MovedCoordinate& each : moved) {
     const Table table = moment_arm_table(folder, scene, each);
     const Lines lines = lines_along(table, scene, each);
     const Eigen::VectorXd values = values_of(table, each);
-    const std::string stem = "moment_arms_about_" + file_name_of(each.name);
+    const std::string stem = "moment_arms_about_" + file_name_of(each.name, taken);
     write_sto(folder / (stem + ".sto"), table);
     for (const Muscle& muscle : scene.muscles) {
       const std::optional<Eigen::Index> column = column_of(table, muscle.name);

@@ -41,7 +41,7 @@ std::vector<std::vector<Index>> lines_along(const Table& table, const Scene& sce
 }
 
 Table moment_arm_table(const std::filesystem::path& folder, const Scene& scene, const MovedCoordinate& moved) {
-  if (const auto known = folder / moment_arm_file(moved.name); is_there(known))
+  if (const auto known = folder / moment_arm_file(moved.name, coordinate_names(scene)); is_there(known))
     return rows_of_range(read_table(known), scene);
   Table table = rows_of_range(read_table(folder / "fiber_lengths.sto"), scene);
   const auto coordinates = static_cast<Eigen::Index>(coordinate_names(scene).size());
