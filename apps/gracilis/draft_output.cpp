@@ -25,16 +25,26 @@ static std::set<std::string> doubtful_ends(const SceneDraft& draft) {
   return ends;
 }
 
+static fs::path landmark_table(const fs::path& out) {
+  return out.parent_path() / (out.stem().string() + "_landmarks.csv");
+}
+
 void require_new_scene(const fs::path& out, bool force) {
   if (out.extension() != ".toml")
     throw ConfigurationError({"--out", "", "'" + out.string() + "' is no name of a scene file", "name a .toml file"});
-  if (is_there(out) && !force)
+  if (force) return;
+  if (is_there(out))
     throw ConfigurationError({out.string(), "", "is there already", "give another name, or --force to replace it"});
+  // The files that a draft puts beside the scene may be somebody's own.
+  for (const fs::path& beside : {landmark_table(out), fs::path(out).replace_extension(".png")})
+    if (is_there(beside))
+      throw ConfigurationError({beside.string(), "", "is there already, and would be written beside " + out.string(),
+                                "give another name, or --force to replace it"});
 }
 
 void write_draft_files(const SceneDraft& draft, const fs::path& out) {
   const std::string clouds = draft_landmarks(draft);
-  const fs::path table = clouds.empty() ? fs::path() : out.parent_path() / (out.stem().string() + "_landmarks.csv");
+  const fs::path table = clouds.empty() ? fs::path() : landmark_table(out);
   if (!clouds.empty()) write_text_atomically(table, clouds);
   write_text_atomically(out, draft_text(draft, out, table));
 }

@@ -7,7 +7,8 @@
 /// What 'gracilis scene' and 'gracilis new' do with a drafted scene.
 namespace gracilis {
 
-/// Throws ConfigurationError where `out` is no name of a scene file, or is there already and not to be replaced.
+/// Throws ConfigurationError where `out` is no name of a scene file, or where it, its landmarks' table or its picture
+/// is there already and not to be replaced.
 void require_new_scene(const std::filesystem::path& out, bool force);
 
 /// Writes the scene file, and its landmarks beside it.

@@ -37,7 +37,12 @@ LoadedScene scene_of_run(const std::filesystem::path& run) {
   parser.allow_extras();
   words.erase(words.begin(), words.begin() + 2);
   std::reverse(words.begin(), words.end());
-  parser.parse(words);
+  try {
+    parser.parse(words);
+  } catch (const CLI::ParseError& error) {
+    throw InputError({(run / "run.json").string(), "command", std::string("is damaged: ") + error.what(),
+                      "run the scene again"});
+  }
   return is_demo ? load_demo(demo, options) : read_scene(file, options);
 }
 

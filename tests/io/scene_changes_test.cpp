@@ -67,4 +67,30 @@ TEST(SceneChanges, an_unknown_preset_or_method_is_named) {
   }
 }
 
+TEST(SceneChanges, that_ask_for_more_memory_than_there_is_are_refused) {
+  const auto refused = [](const std::vector<std::string>& set) -> std::string {
+    LoadedScene loaded = hip();
+    try {
+      change_scene(loaded, set, {});
+    } catch (const ConfigurationError& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(refused({"fibers.count=10001"}), testing::HasSubstr("'count' asks for 10001 fibers"));
+  EXPECT_THAT(refused({"distance_field.cell_size=1e-5"}), testing::HasSubstr("'cell_size' asks for grids of"));
+}
+
+TEST(SceneChanges, fields_for_strings_are_estimated_too) {
+  LoadedScene loaded = hip();
+  // A hip of tens of meters, as of wrong units; coarse cells are right for the fields that the scene describes itself.
+  for (Bone& bone : loaded.scene.bones) bone.surface.vertices *= 100;
+  try {
+    change_scene(loaded, {"method=strings", "distance_field.resolution=64"}, {});
+    FAIL() << "no error";
+  } catch (const ConfigurationError& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("pulling fibers tight asks for grids of"));
+  }
+}
+
 }  // namespace gracilis

@@ -43,6 +43,28 @@ TEST(QuinticSpline, five_rows_are_too_few) {
   EXPECT_NE(message_of_input_error([&] { quintic_spline(times, values); }).find("less than 6 rows"), std::string::npos);
 }
 
+TEST(QuinticSpline, two_rows_that_almost_coincide_are_refused_by_name) {
+  const Eigen::MatrixXd values = Eigen::VectorXd::LinSpaced(7, 0, 0.06);
+  for (const Real second : {1e-300, 1e-9}) {
+    const std::vector<Real> times = {0, second, 0.01, 0.02, 0.03, 0.04, 0.05};
+    const std::string message = message_of_input_error([&] { quintic_spline(times, values); });
+    EXPECT_NE(message.find("rows 1 and 2"), std::string::npos) << message;
+  }
+}
+
+TEST(QuinticSpline, values_beyond_all_numbers_are_refused) {
+  auto [times, values] = samples(9, 1e-3, 0, [](Real t) { return t; });
+  values(4, 0) = 1e308;
+  EXPECT_NE(message_of_input_error([&] { quintic_spline(times, values); }).find("not finite"), std::string::npos);
+}
+
+TEST(LowPass, uneven_rows_that_need_millions_of_even_ones_are_refused_by_their_times) {
+  auto [times, values] = samples(400, 0.01, 0, [](Real t) { return t; });
+  times[7] = times[6] + 2e-8;  // more than the millionth of the mean step that splines take
+  const std::string message = message_of_input_error([&] { low_pass(times, values, 6); });
+  EXPECT_NE(message.find("rows 7 and 8 of the motion, at 0.06 s and 0.06"), std::string::npos) << message;
+}
+
 TEST(LowPass, a_straight_line_goes_through_unchanged) {
   const auto [times, values] = samples(200, 0.01, 0, [](Real t) { return 1 + 4 * t; });
   EXPECT_LT((low_pass(times, values, 6) - values).cwiseAbs().maxCoeff(), 1e-3);

@@ -82,6 +82,16 @@ TEST(Validate, surfaces_must_have_triangles_of_finite_existing_vertices) {
   EXPECT_PROBLEM(s.bones[0].surface.faces(1, 5) = -1, "triangle 5 refers to a vertex that does not exist");
 }
 
+TEST(Validate, surfaces_stand_where_numbers_tell_micrometers_apart) {
+  EXPECT_PROBLEM(s.bones[1].surface.vertices.array() += 1e9, "bone 'femur': vertex 0 lies more than 10,000 km from");
+  EXPECT_THAT(problems_after([](Scene& s) {
+                for (Bone& bone : s.bones) bone.surface.vertices.array() += 1e4;
+                for (Muscle& muscle : s.muscles) muscle.surface.vertices.array() += 1e4;
+              }),
+              ElementsAre())
+      << "kilometres away";
+}
+
 TEST(Validate, names_must_be_unique_and_fit_for_files) {
   EXPECT_PROBLEM(s.bones[1].name = "pelvis", "bone 'pelvis': duplicate name");
   EXPECT_PROBLEM(s.muscles[0].name = "../muscle", "is not fit for a file's name");
@@ -129,6 +139,18 @@ TEST(Validate, the_motion_must_be_a_finite_table_of_known_coordinates_with_incre
   EXPECT_PROBLEM(s.motion.times[0] = nan, "row 0 is not finite");
   EXPECT_PROBLEM(s.motion.times.push_back(2), "its table has 2 rows and 1 columns, but there are 3 times");
   EXPECT_THAT(problems_after([](Scene& s) { s.motion = {}; }), ElementsAre()) << "no motion at all is fine";
+}
+
+TEST(Validate, a_translation_that_jumps_by_hundreds_of_meters_is_named_with_its_rows) {
+  Scene scene = good_scene();
+  scene.joints[0].axes.push_back({"shift", Vec3::UnitZ(), 0, -1, 1, true});
+  scene.motion.coordinates.push_back("shift");
+  scene.motion.values = Eigen::Matrix2d::Zero();
+  scene.motion.values(1, 1) = 90;
+  EXPECT_THAT(problems(scene), ElementsAre());
+  scene.motion.values(1, 1) = 1e4;
+  EXPECT_THAT(problems(scene),
+              ElementsAre(HasSubstr("motion 'motion': the coordinate 'shift' jumps by 1e+04 m from row 0 to row 1")));
 }
 
 TEST(Validate, what_becomes_a_file_has_a_name_of_its_own) {

@@ -1,4 +1,6 @@
+#include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/stop.hpp>
 #include <gracilis/simulate/measures.hpp>
 #include <gracilis/simulate/pose_steps.hpp>
 #include <gracilis/simulate/run.hpp>
@@ -8,6 +10,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
 
 namespace gracilis {
 namespace {
@@ -271,6 +276,18 @@ TEST(PoseSteps, turn_bodies_about_their_joint) {
   EXPECT_TRUE(steps[14][1].isApprox(flexed(scene, radians(-30)).bodies[1], 1e-12));
   EXPECT_TRUE(steps.back()[1].isApprox(flexed(scene, radians(-60)).bodies[1], 0));
   EXPECT_EQ(pose_steps(steps[3], steps[3], radians(2), 0.005).size(), 1u);
+}
+
+TEST(PoseSteps, of_bodies_that_jump_by_kilometres_are_refused_and_can_be_stopped) {
+  const std::vector<RigidTransform> near(2, RigidTransform::Identity());
+  for (const Real jump : {1e4, 1e12, 1e300, std::numeric_limits<Real>::quiet_NaN()}) {
+    std::vector<RigidTransform> away = near;
+    away[1].translation().x() = jump;
+    EXPECT_THROW(pose_steps(near, away, radians(2), 0.005), QualityError) << jump;
+  }
+  const std::atomic<bool> stop = true;
+  const StopScope scope(&stop);
+  EXPECT_THROW(pose_steps(near, near, radians(2), 0.005), Interrupted);
 }
 
 }  // namespace gracilis

@@ -5,6 +5,7 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/scene/scene_layers.hpp>
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/value_reader.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <fmt/format.h>
@@ -217,7 +218,10 @@ SceneMatch match_from_text(const std::string& text) {
       match.absent.push_back(rest);
       continue;
     }
-    match.starts.push_back(std::stod(rest));
+    double start = 0;
+    if (!parse_number(rest, start))
+      throw InputError({"", "", "'" + shortened(rest) + "' is no start of a parameter", "calibrate again"});
+    match.starts.push_back(start);
     match.whole.push_back(word == "whole");
   }
   match.inputs = text.substr(std::min(text.find("inputs\n") + 7, text.size()));

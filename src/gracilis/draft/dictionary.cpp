@@ -1,6 +1,7 @@
 #include <gracilis/draft/dictionary.hpp>
 
 #include <gracilis/io/parse_toml.hpp>
+#include <gracilis/io/value_reader.hpp>
 
 #include <fmt/format.h>
 
@@ -92,9 +93,12 @@ Site read_site(const std::string& text, bool or_before) {
   site.or_before = or_before;
   const std::size_t at = text.find('@'), dash = text.find('-', at == std::string::npos ? text.size() : at);
   if (at == std::string::npos || dash == std::string::npos) return site;
+  const std::string_view range = std::string_view(text).substr(at + 1);
+  double from = 0, to = 0;
+  if (!parse_number(range.substr(0, dash - at - 1), from) || !parse_number(range.substr(dash - at), to)) return site;
   site.bone = text.substr(0, at);
-  site.from = std::stod(text.substr(at + 1, dash - at - 1));
-  site.to = std::stod(text.substr(dash + 1));
+  site.from = from;
+  site.to = to;
   return site;
 }
 

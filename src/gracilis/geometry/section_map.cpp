@@ -1,5 +1,6 @@
 #include <gracilis/geometry/section_map.hpp>
 
+#include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/isocontours.hpp>
 
 #include <Eigen/Eigenvalues>
@@ -92,6 +93,10 @@ Eigen::MatrixXd harmonic_inside(const PlanePoints& points, const Eigen::Matrix3X
   Eigen::SparseMatrix<Real> matrix(unknown, unknown);
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization(matrix);
+  if (factorization.info() != Eigen::Success)
+    throw QualityError(
+        "a cross-section's map has no solution: its outline has coordinates that are not finite, or far "
+        "too large or small");
   values.bottomRows(unknown) = factorization.solve(right);
   return values;
 }

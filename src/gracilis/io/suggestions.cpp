@@ -1,8 +1,12 @@
 #include <gracilis/io/suggestions.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace gracilis {
+
+// What a person types and reads stays far below; the distance of longer words takes the product of their lengths.
+static constexpr std::size_t longest_word = 120, most_words = 40;
 
 int edit_distance(std::string_view a, std::string_view b) {
   // Three rows of the table of distances between beginnings of a and b.
@@ -22,9 +26,13 @@ int edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates) {
+  if (word.size() > longest_word) return "";
   int nearest = std::max<int>(2, static_cast<int>(word.size() / 3)) + 1;
   std::string result;
   for (const std::string& candidate : candidates) {
+    // At least so many letters are put in or left out.
+    if (std::abs(static_cast<long>(word.size()) - static_cast<long>(candidate.size())) >= nearest) continue;
+    if (candidate.size() > longest_word) continue;
     const int distance = edit_distance(word, candidate);
     // A word of three letters is not a misspelling of any other word of three letters.
     if (distance >= nearest || distance >= static_cast<int>(std::max(word.size(), candidate.size()))) continue;
@@ -42,14 +50,21 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   return result;
 }
 
+std::string shortened(std::string_view name) {
+  if (name.size() <= longest_word) return std::string(name);
+  std::size_t end = longest_word;
+  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // not within a letter of UTF-8
+  return std::string(name.substr(0, end)) + "...";
+}
+
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string nearest = nearest_word(word, candidates);
-  if (!nearest.empty()) return "did you mean '" + nearest + "'?";
+  if (!nearest.empty()) return "did you mean '" + shortened(nearest) + "'?";
   if (candidates.empty()) return "none is known here";
   std::string text = "known are";
-  for (const std::string& candidate : candidates)
-    text += (&candidate == &candidates.front() ? " '" : ", '") + candidate + "'";
-  return text;
+  const std::size_t listed = std::min(candidates.size(), most_words);
+  for (std::size_t i = 0; i < listed; ++i) text += (i == 0 ? " '" : ", '") + shortened(candidates[i]) + "'";
+  return listed < candidates.size() ? text + " and " + std::to_string(candidates.size() - listed) + " more" : text;
 }
 
 }  // namespace gracilis

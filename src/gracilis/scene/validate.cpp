@@ -2,6 +2,7 @@
 
 #include <gracilis/scene/section_line.hpp>
 #include <gracilis/scene/setting_table.hpp>
+#include <gracilis/scene/validate_jumps.hpp>
 #include <gracilis/scene/validate_muscle_bodies.hpp>
 #include <gracilis/scene/validate_names.hpp>
 #include <gracilis/scene/validate_sizes.hpp>
@@ -14,6 +15,8 @@
 
 namespace gracilis {
 namespace {
+
+constexpr Real farthest = 1e7;  ///< m from the origin; beyond, numbers differ by nanometers, and volumes are noise
 
 /// Collects problems of one scene.
 struct Validation {
@@ -36,8 +39,14 @@ struct Validation {
   void check_surface(const std::string& where, const TriangleMesh& surface) {
     if (surface.face_count() == 0) add(where, "the surface has no triangles");
     for (Index i = 0; i < surface.vertex_count(); ++i) {
-      if (surface.vertices.col(i).allFinite()) continue;
-      add(where, "vertex " + std::to_string(i) + " is not finite");
+      const Vec3 place = surface.vertices.col(i);
+      if (!place.allFinite())
+        add(where, "vertex " + std::to_string(i) + " is not finite");
+      else if (place.cwiseAbs().maxCoeff() > farthest)
+        add(where, "vertex " + std::to_string(i) + " lies more than 10,000 km from the origin",
+            "check its unit, or move the whole scene to the origin");
+      else
+        continue;
       break;
     }
     for (Index i = 0; i < surface.face_count(); ++i) {
@@ -311,6 +320,7 @@ struct Validation {
       add(where, "the time does not increase at row " + std::to_string(row));
       return;
     }
+    for (Problem& problem : jump_problems(scene)) problems.push_back(std::move(problem));
   }
 };
 

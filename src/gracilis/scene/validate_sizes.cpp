@@ -26,19 +26,24 @@ static Real field_nodes(const Bone& bone, const DistanceFieldSettings& settings)
   return ((extent.array() + 2 * settings.domain_margin) / settings.cell_size + 1).prod();
 }
 
+std::optional<Problem> grid_problem(const Scene& scene, const DistanceFieldSettings& settings, Problem asked) {
+  Real nodes = 0;
+  for (const Bone& bone : scene.bones) nodes += field_nodes(bone, settings);
+  if (nodes <= most_nodes) return std::nullopt;
+  asked.what += " asks for grids of " + rounded(nodes) + " nodes in all, " +
+                rounded(nodes * sizeof(float) / (1 << 30)) + " GiB; " + rounded(most_nodes) +
+                " are the most that are made";
+  return asked;
+}
+
 static void check_fields(const Scene& scene, std::vector<Problem>& problems) {
   const DistanceFieldSettings& settings = scene.distance_fields;
   const bool by_resolution = settings.resolution > 0;
   if (!by_resolution && !(settings.cell_size > 0)) return;  // reported with the settings
-  Real nodes = 0;
-  for (const Bone& bone : scene.bones) nodes += field_nodes(bone, settings);
-  if (nodes <= most_nodes) return;
-  const std::string key = by_resolution ? "resolution" : "cell_size";
-  problems.push_back({"", "distance_field",
-                      "'" + key + "' asks for grids of " + rounded(nodes) + " nodes in all, " +
-                          rounded(nodes * sizeof(float) / (1 << 30)) + " GiB; " + rounded(most_nodes) +
-                          " are the most that are made",
-                      by_resolution ? "give a lower one" : "give larger cells or a smaller 'domain_margin'"});
+  const Problem asked =
+      by_resolution ? Problem{"", "distance_field", "'resolution'", "give a lower one"}
+                    : Problem{"", "distance_field", "'cell_size'", "give larger cells or a smaller 'domain_margin'"};
+  if (std::optional<Problem> problem = grid_problem(scene, settings, asked)) problems.push_back(std::move(*problem));
 }
 
 static void check_fibers(const Scene& scene, std::vector<Problem>& problems) {

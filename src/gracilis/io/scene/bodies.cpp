@@ -3,6 +3,10 @@
 #include <gracilis/io/scene/files.hpp>
 
 #include <algorithm>
+#include <functional>
+#include <optional>
+#include <queue>
+#include <unordered_map>
 
 namespace gracilis::sections {
 
@@ -63,36 +67,96 @@ Index body_index(Scene& scene, const std::string& name) {
   return static_cast<Index>(bodies.size()) - 1;
 }
 
+namespace {
+
+/// The scene's bodies while they are told of one by one.
+class BodyList {
+ public:
+  explicit BodyList(std::vector<std::string>& bodies) : bodies_(bodies) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) indices_.emplace(bodies[i], static_cast<Index>(i));
+  }
+  Index index(const std::string& name) {
+    const auto [found, is_new] = indices_.emplace(name, static_cast<Index>(bodies_.size()));
+    if (is_new) bodies_.push_back(name);
+    return found->second;
+  }
+
+ private:
+  std::vector<std::string>& bodies_;
+  std::unordered_map<std::string, Index> indices_;
+};
+
+/// Joints that wait for those that move their parents; of those that wait no more the first in the file comes first.
+class JointOrder {
+ public:
+  explicit JointOrder(const std::vector<JointDescription>& joints) : joints_(joints), done_(joints.size()) {
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      ++movers_[joints[j].child];
+      on_parent_[joints[j].parent].push_back(j);
+    }
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      if (!is_moved(joints[j].parent)) ready_.push(j);
+  }
+
+  bool is_moved(const std::string& body) const { return movers_.contains(body); }
+
+  /// Empty where all that are left wait for each other.
+  std::optional<std::size_t> next() {
+    if (ready_.empty()) return std::nullopt;
+    const std::size_t joint = ready_.top();
+    ready_.pop();
+    done_[joint] = true;
+    const std::string& child = joints_[joint].child;
+    if (--movers_[child] > 0) return joint;
+    movers_.erase(child);
+    for (const std::size_t each : on_parent_[child]) ready_.push(each);
+    return joint;
+  }
+
+  /// The first in the file that still waits; empty where none does.
+  std::optional<std::size_t> first_waiting() const {
+    const auto found = std::find(done_.begin(), done_.end(), false);
+    if (found == done_.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - done_.begin());
+  }
+
+ private:
+  const std::vector<JointDescription>& joints_;
+  std::vector<bool> done_;
+  std::unordered_map<std::string, int> movers_;  ///< waiting joints that move each body
+  std::unordered_map<std::string, std::vector<std::size_t>> on_parent_;
+  std::priority_queue<std::size_t, std::vector<std::size_t>, std::greater<>> ready_;
+};
+
+}  // namespace
+
 void place_bodies(SceneInProgress& progress) {
   Scene& scene = progress.loaded.scene;
-  std::vector<const JointDescription*> waiting;
-  for (const JointDescription& joint : progress.description.joints) waiting.push_back(&joint);
-  const auto moved = [&](const std::string& body) {
-    return std::any_of(waiting.begin(), waiting.end(), [&](const JointDescription* j) { return j->child == body; });
-  };
-  for (const JointDescription& joint : progress.description.joints)
-    if (!moved(joint.parent)) body_index(scene, joint.parent);
-  while (!waiting.empty()) {
-    const auto next = std::find_if(waiting.begin(), waiting.end(),
-                                   [&](const JointDescription* joint) { return !moved(joint->parent); });
-    if (next == waiting.end()) {
-      const JointDescription& first = *waiting.front();
-      progress.add_problem(first.place, "joint '" + first.joint.name + "' moves its own parent '" + first.parent + "'",
-                           "joints must not form a circle");
-      return;
-    }
-    Joint joint = (*next)->joint;
-    joint.parent_body = body_index(scene, (*next)->parent);
-    joint.child_body = body_index(scene, (*next)->child);
+  const std::vector<JointDescription>& joints = progress.description.joints;
+  BodyList bodies(scene.bodies);
+  JointOrder order(joints);
+  for (const JointDescription& joint : joints)
+    if (!order.is_moved(joint.parent)) bodies.index(joint.parent);
+  while (const std::optional<std::size_t> next = order.next()) {
+    const JointDescription& description = joints[*next];
+    Joint joint = description.joint;
+    joint.parent_body = bodies.index(description.parent);
+    joint.child_body = bodies.index(description.child);
     scene.joints.push_back(std::move(joint));
-    waiting.erase(next);
   }
-  for (const BoneDescription& bone : progress.description.bones) body_index(scene, bone.body);
+  if (const std::optional<std::size_t> waiting = order.first_waiting()) {
+    const JointDescription& first = joints[*waiting];
+    progress.add_problem(first.place, "joint '" + first.joint.name + "' moves its own parent '" + first.parent + "'",
+                         "joints must not form a circle");
+    return;
+  }
+  for (const BoneDescription& bone : progress.description.bones)
+    progress.bone_bodies.push_back(bodies.index(bone.body));
 }
 
 void add_bone(SceneInProgress& progress, SurfaceLoader& surfaces, const BoneDescription& description) {
   Scene& scene = progress.loaded.scene;
-  scene.bones.push_back({description.name, body_index(scene, description.body), {}});
+  scene.bones.push_back({description.name, progress.bone_bodies[scene.bones.size()], {}});
   surfaces.take(description.surface, SurfaceRole::bone, scene.bones.back().surface);
 }
 

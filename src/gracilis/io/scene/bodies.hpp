@@ -19,7 +19,7 @@ Index body_index(Scene& scene, const std::string& name);
 /// Joints in a circle are a problem.
 void place_bodies(SceneInProgress& progress);
 
-/// Adds a bone with its surface.
+/// Adds the next bone with its surface. Precondition: bodies are placed, and it is the next of the description.
 void add_bone(SceneInProgress& progress, SurfaceLoader& surfaces, const BoneDescription& description);
 
 }  // namespace gracilis::sections

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <unordered_set>
 
 namespace gracilis::sections {
 
@@ -26,22 +27,40 @@ static void reject_duplicates(const std::vector<Description>& list, const std::s
     const auto [found, inserted] = first.emplace(name, element.place);
     if (inserted || name.empty()) continue;
     Problem problem = element.place;
-    problem.what = "duplicate " + kind + " name '" + name + "'";
+    problem.what = "duplicate " + kind + " name '" + shortened(name) + "'";
     problem.remedy = "the first one is at " + found->second.file + ":" + found->second.where;
     problems.push_back(problem);
   }
 }
 
-static void require_known(const std::string& name, const Names& known, const std::string& kind, const Problem& place,
+namespace {
+
+/// Names in the order in which they were first told, each once.
+struct NameList {
+  Names names;
+  std::unordered_set<std::string> all;
+
+  NameList() = default;
+  explicit NameList(const Names& list) {
+    for (const std::string& name : list) add(name);
+  }
+  void add(const std::string& name) {
+    if (all.insert(name).second) names.push_back(name);
+  }
+};
+
+}  // namespace
+
+static void require_known(const std::string& name, const NameList& known, const std::string& kind, const Problem& place,
                           std::vector<Problem>& problems) {
-  if (name.empty() || among(known, name)) return;
+  if (name.empty() || known.all.contains(name)) return;
   Problem problem = place;
-  problem.what = "there is no " + kind + " '" + name + "'";
-  problem.remedy = suggestion(name, known);
+  problem.what = "there is no " + kind + " '" + shortened(name) + "'";
+  problem.remedy = suggestion(name, known.names);
   problems.push_back(problem);
 }
 
-static void require_known(const Names& names, const Names& known, const std::string& kind, const Problem& place,
+static void require_known(const Names& names, const NameList& known, const std::string& kind, const Problem& place,
                           std::vector<Problem>& problems) {
   for (const std::string& name : names) require_known(name, known, kind, place, problems);
 }
@@ -56,8 +75,8 @@ namespace {
 
 /// All that elements of a scene may be referred to by.
 struct KnownNames {
-  Names bones, bodies, joints, coordinates;
-  Names muscles;  ///< also those that --only leaves out
+  NameList bones, bodies, joints, coordinates;
+  NameList muscles;  ///< also those that --only leaves out
 };
 
 }  // namespace
@@ -65,18 +84,18 @@ struct KnownNames {
 static KnownNames names_in(const SceneDescription& scene) {
   KnownNames known;
   for (const BoneDescription& bone : scene.bones) {
-    known.bones.push_back(bone.name);
-    if (!among(known.bodies, bone.body)) known.bodies.push_back(bone.body);
+    known.bones.add(bone.name);
+    known.bodies.add(bone.body);
   }
   // A body without a bone is known by the joint that moves it or that it carries; a misspelled one then hangs on
   // nothing, which the scene's validation finds.
   for (const JointDescription& description : scene.joints) {
-    known.joints.push_back(description.joint.name);
-    known.bodies.push_back(description.parent);
-    known.bodies.push_back(description.child);
-    for (const JointAxis& axis : description.joint.axes) known.coordinates.push_back(axis.coordinate);
+    known.joints.add(description.joint.name);
+    known.bodies.add(description.parent);
+    known.bodies.add(description.child);
+    for (const JointAxis& axis : description.joint.axes) known.coordinates.add(axis.coordinate);
   }
-  known.muscles = names_of(scene.muscles);
+  known.muscles = NameList(names_of(scene.muscles));
   return known;
 }
 
@@ -162,7 +181,7 @@ void check_given(const SceneDescription& scene, Index surfaces, std::vector<Prob
 void keep_only(std::vector<MuscleDescription>& muscles, const std::vector<std::string>& only, const Problem& place,
                std::vector<Problem>& problems) {
   if (only.empty()) return;
-  require_known(only, names_of(muscles), "muscle", place, problems);
+  require_known(only, NameList(names_of(muscles)), "muscle", place, problems);
   std::erase_if(muscles, [&](const MuscleDescription& description) { return !among(only, description.muscle.name); });
   const Names kept = names_of(muscles);
   for (const MuscleDescription& description : muscles)

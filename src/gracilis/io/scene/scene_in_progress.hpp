@@ -21,6 +21,7 @@ struct SceneInProgress {
   const SceneOptions& options;
   std::filesystem::path data_root;  ///< empty: there is none
   LoadedScene loaded = {};
+  std::vector<Index> bone_bodies = {};        ///< of each bone of the description
   std::vector<TriangleMesh> surfaces = {};    ///< that came with the description, m
   std::vector<VerticesBetween> divided = {};  ///< what came into each muscle of the scene; empty: none was looked at
   std::vector<Problem> problems = {};         ///< of the stage under way

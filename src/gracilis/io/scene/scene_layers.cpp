@@ -7,6 +7,7 @@
 #include <gracilis/io/toml_reader.hpp>
 
 #include <algorithm>
+#include <unordered_map>
 
 namespace gracilis {
 
@@ -31,13 +32,14 @@ static bool is_named_list(const toml::node& node) {
 static void lay_over(toml::table& lower, toml::table& upper);
 
 static void lay_list_over(toml::array& lower, toml::array& upper) {
+  std::unordered_map<std::string, std::size_t> places;  // of the first element of each name
+  for (std::size_t i = 0; i < lower.size(); ++i) places.emplace(name_of(lower[i]), i);
   for (toml::node& element : upper) {
-    const auto same = std::find_if(lower.begin(), lower.end(),
-                                   [&](const toml::node& other) { return name_of(other) == name_of(element); });
-    if (same != lower.end()) {
-      lay_over(*same->as_table(), *element.as_table());
-    } else {
+    const auto [same, is_new] = places.emplace(name_of(element), lower.size());
+    if (is_new) {
       lower.push_back(std::move(*element.as_table()));
+    } else {
+      lay_over(*lower[same->second].as_table(), *element.as_table());
     }
   }
 }

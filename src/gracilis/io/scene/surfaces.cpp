@@ -21,14 +21,14 @@ static BoxDescription read_box(TomlReader table) {
   const Vec3 size = table.required_vector("size_mm").value_or(Vec3::Ones()) / 1000;
   const Vec3 cells = table.vector("cells").value_or(Vec3::Ones());
   if (!(size.minCoeff() > 0)) table.add_problem("size_mm", "'size_mm' must be three numbers above 0");
-  if (!(cells.minCoeff() >= 1 && cells.maxCoeff() <= 1000 && cells == cells.array().round().matrix()))
-    table.add_problem("cells", "'cells' must be three integers from 1 to 1000");
+  const bool are_counts = cells.minCoeff() >= 1 && cells.maxCoeff() <= 1000 && cells == cells.array().round().matrix();
+  if (!are_counts) table.add_problem("cells", "'cells' must be three integers from 1 to 1000");
   const Real triangles = 4 * (cells[0] * cells[1] + cells[1] * cells[2] + cells[2] * cells[0]);
-  if (triangles > most_box_triangles)
+  if (are_counts && triangles > most_box_triangles)
     table.add_problem("cells", "'cells' asks for " + std::to_string(static_cast<long>(triangles)) + " triangles",
                       std::to_string(most_box_triangles) + " are the most that are made");
   table.reject_unknown_keys();
-  const auto count = [&](int k) { return std::clamp(static_cast<int>(cells[k]), 1, 1000); };
+  const auto count = [&](int k) { return are_counts ? static_cast<int>(cells[k]) : 1; };
   return {center - size / 2, center + size / 2, {count(0), count(1), count(2)}};
 }
 

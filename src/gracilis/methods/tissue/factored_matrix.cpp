@@ -1,14 +1,17 @@
 #include <gracilis/methods/tissue/factored_matrix.hpp>
 
-#include <Eigen/SparseCholesky>
+#include <gracilis/core/errors.hpp>
 
-#include <cassert>
+#include <Eigen/SparseCholesky>
 
 namespace gracilis::tissue {
 
 FactoredMatrix::FactoredMatrix(const Eigen::SparseMatrix<Real>& matrix) {
   const Eigen::SimplicialLLT<Eigen::SparseMatrix<Real>> factorization(matrix);
-  assert(factorization.info() == Eigen::Success);
+  if (factorization.info() != Eigen::Success)
+    throw QualityError(
+        "the stiffness of a muscle's tissue is not positive definite, so no step can be solved for: its "
+        "settings leave it without stiffness somewhere, or its shape is not finite");
   lower_ = Eigen::SparseMatrix<Real>(factorization.matrixL()).cast<float>();
   lower_.makeCompressed();
   const auto& to_matrix = factorization.permutationPinv().indices();

@@ -13,6 +13,7 @@ namespace gracilis::tissue {
 class FactoredMatrix {
  public:
   FactoredMatrix() = default;
+  /// Throws QualityError where the matrix is not positive definite.
   explicit FactoredMatrix(const Eigen::SparseMatrix<Real>& matrix);
 
   bool empty() const { return order_.empty(); }

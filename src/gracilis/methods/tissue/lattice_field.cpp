@@ -1,5 +1,7 @@
 #include <gracilis/methods/tissue/lattice_field.hpp>
 
+#include <gracilis/core/errors.hpp>
+
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
@@ -48,6 +50,10 @@ Eigen::MatrixXd harmonic_lattice_fields(const Lattice& lattice, const std::vecto
   Eigen::SparseMatrix<Real> matrix(lattice.node_count(), lattice.node_count());
   matrix.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization(matrix);
+  if (factorization.info() != Eigen::Success)
+    throw QualityError(
+        "the harmonic fields of a tissue lattice have no solution: its cells or what grips it are not "
+        "finite, or far too large or small");
   return factorization.solve(right);
 }
 

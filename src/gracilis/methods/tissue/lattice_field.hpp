@@ -15,7 +15,7 @@ struct FieldGrip {
 
 /// Discrete harmonic fields on the lattice, weighted by how full its cells are: nodes × `columns`. Inside the surface
 /// they are within 0 and 1, at nodes beyond it they may go on. A grip with a column outside of them draws all to 0.
-/// Parts of the lattice that nothing grips get 0.
+/// Parts of the lattice that nothing grips get 0. Throws QualityError where the fields have no solution.
 Eigen::MatrixXd harmonic_lattice_fields(const Lattice& lattice, const std::vector<FieldGrip>& grips, Index columns);
 
 /// Gradient of a field in the middle of every cell: 3 × cells, 1/m.

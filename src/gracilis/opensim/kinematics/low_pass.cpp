@@ -1,6 +1,7 @@
 #include <gracilis/opensim/kinematics/low_pass.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/whole_number.hpp>
 #include <gracilis/opensim/kinematics/quintic_spline.hpp>
 
 #include <fmt/format.h>
@@ -44,18 +45,37 @@ static Eigen::MatrixXd filter_even(const Eigen::MatrixXd& values, Real step, Rea
   return padded.middleRows(pad, n);
 }
 
+/// Rows that uneven times are evened out to.
+static constexpr Eigen::Index most_even_rows = 1'000'000;
+
+/// How many rows lie so close that the shortest step, the one that begins at row `shortest`, is kept.
+static Eigen::Index even_count(const std::vector<Real>& times, std::size_t shortest) {
+  const Real span = times.back() - times.front(), least = times[shortest + 1] - times[shortest];
+  const auto steps = whole_number<Eigen::Index>(std::ceil(span / least), 1, most_even_rows - 1);
+  if (!steps)
+    throw InputError({"", "",
+                      fmt::format("rows {} and {} of the motion, at {} s and {} s, lie so close that more than {} even "
+                                  "rows were needed to filter it",
+                                  shortest + 1, shortest + 2, times[shortest], times[shortest + 1], most_even_rows),
+                      "leave out rows that almost coincide"});
+  return *steps + 1;
+}
+
 Eigen::MatrixXd low_pass(const std::vector<Real>& times, const Eigen::MatrixXd& values, Real cutoff) {
   Real least = times.back() - times.front(), most = 0;
-  for (std::size_t i = 1; i < times.size(); ++i) {
-    least = std::min(least, times[i] - times[i - 1]);
-    most = std::max(most, times[i] - times[i - 1]);
+  std::size_t shortest = 0;
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    const Real step = times[i + 1] - times[i];
+    if (step < least) shortest = i;
+    least = std::min(least, step);
+    most = std::max(most, step);
   }
   if (!(cutoff > 0 && cutoff < 0.5 / most))
     throw ConfigurationError({"", "", fmt::format("the cutoff frequency of {} Hz cannot be kept", cutoff),
                               fmt::format("choose one between 0 and {} Hz", 0.5 / most)});
   if (most - least < 1e-3 * least) return filter_even(values, (least + most) / 2, cutoff);
+  const Eigen::Index count = even_count(times, shortest);
   const QuinticSpline spline = quintic_spline(times, values);
-  const auto count = static_cast<Eigen::Index>(std::ceil((times.back() - times.front()) / least)) + 1;
   const Real step = (times.back() - times.front()) / static_cast<Real>(count - 1);
   std::vector<Real> even;
   Eigen::MatrixXd sampled(count, values.cols());

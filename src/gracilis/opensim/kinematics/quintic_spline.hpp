@@ -14,7 +14,8 @@ struct QuinticSpline {
   Eigen::MatrixXd slopes, curvatures;  ///< first and second derivatives at the times
 };
 
-/// Through `values` (a row per time). Throws InputError for less than 6 rows.
+/// Through `values` (a row per time). Throws InputError for less than 6 rows, for two rows closer than a millionth of
+/// the mean step, and where speeds or accelerations come out not finite.
 QuinticSpline quintic_spline(const std::vector<Real>& times, const Eigen::MatrixXd& values);
 
 /// All functions at `time`; beyond the samples the outermost piece goes on.

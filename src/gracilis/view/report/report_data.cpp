@@ -2,6 +2,7 @@
 
 #include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/io/tables/table.hpp>
+#include <gracilis/io/value_reader.hpp>
 #include <gracilis/simulate/measures.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 
@@ -64,7 +65,9 @@ std::vector<ShownMeasure> shown_measures() {
 /// Rounded to what can be seen, so that the file stays small.
 static Json rounded(Real value) {
   if (!std::isfinite(value)) return nullptr;
-  return value == 0 ? 0.0 : std::stod(fmt::format("{:.5g}", value));
+  double seen = 0;
+  // The largest and the least of all numbers have no neighbor of five digits; they stay as they are.
+  return value == 0 || parse_number(fmt::format("{:.5g}", value), seen) ? seen : value;
 }
 
 static Json rounded(const Eigen::VectorXd& values) {
