@@ -3,7 +3,9 @@
 #include "drafted_scene.hpp"
 
 #include <gracilis/anatomy/attachments/muscle_bodies.hpp>
+#include <gracilis/anatomy/resolution/divided_muscle.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/scene/demo_scene.hpp>
 
 #include <gmock/gmock.h>
@@ -33,9 +35,9 @@ const Named& named(const std::vector<Named>& all, const std::string& name) {
   throw std::runtime_error("nothing is called " + name);
 }
 
-/// A straight muscle, 5 mm thick.
-TriangleMesh tube(const Vec3& from, const Vec3& to) {
-  TriangleMesh mesh = shapes::cylinder(0.005, (to - from).norm(), 12, 40);
+/// A straight muscle.
+TriangleMesh tube(const Vec3& from, const Vec3& to, Real radius = 0.005, int around = 12, int along = 40) {
+  TriangleMesh mesh = shapes::cylinder(radius, (to - from).norm(), around, along);
   const Eigen::Matrix3d turn = Eigen::Quaternion<Real>::FromTwoVectors(Vec3::UnitZ(), to - from).toRotationMatrix();
   mesh.vertices = (turn * mesh.vertices).colwise() + from;
   return mesh;
@@ -151,6 +153,48 @@ TEST_F(EndsOnMuscles, an_end_much_nearer_to_its_tendon_than_to_its_bone_lies_on_
         EXPECT_TRUE(std::isfinite(each.from_bone)) << "it does reach its bone";
         EXPECT_LT(each.guess.certainty, doubtful);
       }
+}
+
+TEST_F(EndsOnMuscles, an_end_of_needles_holds_what_the_reader_puts_between_its_vertices) {
+  // Rings 25 mm apart, of so few vertices that an end needs two of them; it reaches no bone and no muscle.
+  const Vec3 tip = on("biceps_brachii_long_r", {0.036, 0.06, -0.008}) + Vec3(0.02, 0, 0);
+  add("biceps_brachii_short_r", tube(coracoid, tip, 0.002, 6, 10));
+  const Muscle head = named(drafted().scene.muscles, "biceps_brachii_short_r");
+  std::vector<Muscle> of_file(1);
+  of_file[0].surface = load_surface(arm() / "biceps_brachii_short_r.vtp", 1, SurfaceRole::muscle).mesh;
+  const VerticesBetween added = divide_needles(of_file).front();
+  ASSERT_EQ(head.surface.vertex_count(), of_file[0].surface.vertex_count());
+  std::vector<Index> held;
+  for (const Attachment& each : head.attachments)
+    if (each.end == AttachmentEnd::insertion) held = each.vertices;
+  std::vector<Index> whole = held;
+  std::erase_if(whole, [&](Index v) { return v >= added.first; });
+  const std::size_t of_the_file = whole.size();
+  add_vertices_between(added, whole);
+  EXPECT_GT(whole.size(), of_the_file);
+  EXPECT_EQ(held, whole);
+}
+
+TEST_F(EndsOnMuscles, two_ends_of_the_same_vertices_share_them) {
+  // Both patches reach over the whole of a small muscle beside the joint, and from there along a bone each.
+  const Vec3 place(0, 0, 0.03), aside(0.004, 0, 0);
+  add("brachialis_r", shapes::sphere(place, 0.002, 2));
+  const auto add_patch = [&](const std::string& end, const std::string& bone, const Vec3& towards) {
+    const Vec3 on_bone = NearestTriangle(named(whole_elbow().bones, bone).surface).query(towards).point;
+    std::filesystem::create_directories(arm() / "patches");
+    add("patches/brachialis_r_" + end, shapes::mesh_of({place - aside, place + aside, on_bone}, {{0, 1, 2}}));
+  };
+  add_patch("origin", "humerus_r", {0, 0.15, 0});
+  add_patch("insertion", "ulna_r", {0, -0.15, 0});
+  const SceneDraft draft = draft_scene(arm());
+  ASSERT_EQ(draft.muscles.size(), 3u) << testing::PrintToString(draft.left_out);
+  for (const DraftMuscle& muscle : draft.muscles) {
+    if (muscle.found->name != "brachialis_r") continue;
+    ASSERT_EQ(muscle.attachments.size(), 2u);
+    const std::vector<Index>&first = muscle.attachments[0].vertices, &second = muscle.attachments[1].vertices;
+    EXPECT_EQ(first.size() + second.size(), 66u);
+    EXPECT_GE(std::min(first.size(), second.size()), 22u);
+  }
 }
 
 TEST_F(EndsOnMuscles, tendons_join_muscles_that_the_dictionary_knows) {

@@ -1,46 +1,12 @@
 #include "agreement.hpp"
-#include "body_folder.hpp"
-#include "drafted_scene.hpp"
+#include "made_body.hpp"
 
 #include <gracilis/draft/name_search.hpp>
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/io/scene/demo_scene.hpp>
 
 #include <gmock/gmock.h>
 
-/// Folders of the built-in bodies, under the names that people give to files.
 namespace gracilis {
-namespace {
-
-namespace fs = std::filesystem;
-
-const Scene& hip() {
-  static const Scene scene = demo_scene("hip");
-  return scene;
-}
-
-const Scene& elbow() {
-  static const Scene scene = demo_scene("elbow");
-  return scene;
-}
-
-const std::map<std::string, std::string> hip_names = {{"hip_bone_r", "bones/Os coxae dextrum.vtp"},
-                                                      {"sacrum", "bones/Sacrum.vtp"},
-                                                      {"femur_r", "bones/RightFemur.vtp"},
-                                                      {"gluteus_maximus_r", "muscles/Musculus gluteus maximus.R.vtp"},
-                                                      {"gluteus_medius_r", "muscles/GlutMed_right.vtp"},
-                                                      {"iliacus_r", "muscles/iliacus muscle (right).vtp"},
-                                                      {"adductor_longus_r", "muscles/addlong_r.vtp"}};
-
-const Joint& joint_named(const Scene& scene, const std::string& name) {
-  for (const Joint& joint : scene.joints)
-    if (joint.name == name) return joint;
-  throw std::runtime_error("no joint " + name);
-}
-
-Vec3 direction(const Joint& joint, std::size_t axis) { return joint.frame.linear() * joint.axes[axis].axis; }
-
-}  // namespace
 
 TEST(FolderOfMadeBody, names_of_people_s_files_are_understood) {
   const auto bone = [](const char* name) {
@@ -156,26 +122,6 @@ TEST(FolderOfMadeBody, a_left_arm_turned_in_its_frame_becomes_a_scene) {
   EXPECT_EQ(drafted.scene.muscles.size(), 3u);
 }
 
-TEST(FolderOfMadeBody, the_radius_turns_about_the_ulna_where_a_supinator_is_there) {
-  const TestFolder folder;
-  const std::map<std::string, std::string> names = {{"humerus_r", "humerus_r.vtp"},
-                                                    {"ulna_r", "ulna_r.vtp"},
-                                                    {"radius_r", "radius_r.vtp"},
-                                                    {"brachialis_r", "brachialis_r.vtp"},
-                                                    {"brachioradialis_r", "supinator_r.vtp"}};
-  write_body(folder.path() / "arm", elbow(), names);
-  const LoadedScene drafted = drafted_scene(folder.path() / "arm");
-  const Joint &found = joint_named(drafted.scene, "radioulnar_r"), &made = joint_named(elbow(), "radioulnar_r");
-  EXPECT_LT((found.frame.translation() - made.frame.translation()).cross(direction(made, 0)).norm(), 0.006);
-  EXPECT_GT(direction(found, 0).dot(direction(made, 0)), std::cos(radians(5)));
-  EXPECT_EQ(found.axes[0].coordinate, "pro_sup_r");
-  EXPECT_NEAR(found.axes[0].capture_value, made.axes[0].capture_value, radians(25)) << "the palm looks forward";
-  std::map<std::string, std::string> without = names;
-  without["brachioradialis_r"] = "brachioradialis_r.vtp";
-  write_body(folder.path() / "other" / "arm", elbow(), without);
-  EXPECT_EQ(drafted_scene(folder.path() / "other" / "arm").scene.joints.size(), 1u);
-}
-
 TEST(FolderOfMadeBody, a_muscle_of_an_unknown_name_attaches_where_it_touches) {
   const TestFolder folder;
   std::map<std::string, std::string> names = hip_names;
@@ -251,14 +197,36 @@ TEST(FolderOfMadeBody, bones_of_no_possible_size_are_refused) {
               testing::HasSubstr("times as large"));
 }
 
-TEST(FolderOfMadeBody, landmarks_say_where_a_joint_is_where_they_are_named) {
+TEST(FolderOfMadeBody, a_patch_goes_to_pieces_and_heads_of_its_muscle_or_is_left_out_and_named) {
+  const TestFolder folder;
+  std::map<std::string, std::string> names = hip_names;
+  names["gluteus_medius_r"] = "muscles/gluteus_medius_r_1.vtp";
+  write_body(folder.path() / "hip", hip(), names);
+  write_patch(folder.path() / "hip" / "patches" / "gluteus_medius_r.vtp", hip(), "gluteus_medius_r");
+  write_patch(folder.path() / "hip" / "patches" / "piriformis_r.vtp", hip(), "gluteus_maximus_r");
+  const SceneDraft draft = draft_scene(folder.path() / "hip");
+  EXPECT_EQ(ends_by_patch(draft, "gluteus_medius_1_r"), 2u);
+  EXPECT_THAT(draft.left_out, testing::ElementsAre(testing::AllOf(testing::HasSubstr("patches/piriformis_r.vtp"),
+                                                                  testing::HasSubstr("no muscle takes"))));
+
+  names = forearm_names;
+  names["scapula_r"] = "scapula_r.vtp";
+  names["biceps_brachii_long_r"] = "biceps_brachii_long_r.vtp";
+  write_body(folder.path() / "arm", elbow(), names);
+  write_patch(folder.path() / "arm" / "patches" / "biceps_brachii_r.vtp", elbow(), "biceps_brachii_long_r");
+  EXPECT_GE(ends_by_patch(draft_scene(folder.path() / "arm"), "biceps_brachii_long_r"), 1u);
+}
+
+TEST(FolderOfMadeBody, every_end_stands_in_the_scene_s_list_of_guesses) {
   const TestFolder folder;
   write_body(folder.path() / "hip", hip(), hip_names);
-  std::ofstream(folder.path() / "hip" / "points.csv") << "cloud,index,x_mm,y_mm,z_mm\nthigh,HJC,1,2,3\n";
-  const LoadedScene drafted = drafted_scene(folder.path() / "hip", {{{"hip_r", {"HJC"}}}});
-  EXPECT_LT((joint_named(drafted.scene, "hip_r").frame.translation() - Vec3(0.001, 0.002, 0.003)).norm(), 1e-5);
-  EXPECT_THROW(draft_scene(folder.path() / "hip", {{{"hip_r", {"HJ"}}}}), ConfigurationError);
-  EXPECT_THROW(draft_scene(folder.path() / "hip", {{{"hop_r", {"HJC"}}}}), ConfigurationError);
+  write_patch(folder.path() / "hip" / "patches" / "gluteus_medius_r.vtp", hip(), "gluteus_medius_r");
+  const SceneDraft draft = draft_scene(folder.path() / "hip");
+  const std::vector<std::string> guessed = drafted_scene(folder.path() / "hip").guessed;
+  EXPECT_EQ(ends_by_patch(draft, "gluteus_medius_r"), 2u);
+  for (const DraftMuscle& muscle : draft.muscles)
+    for (const DraftAttachment& each : muscle.attachments)
+      EXPECT_THAT(guessed, testing::Contains(each.guess.subject + ": " + to_string(each.guess)));
 }
 
 }  // namespace gracilis

@@ -2,6 +2,7 @@
 
 #include <gracilis/draft/end_contact.hpp>
 #include <gracilis/draft/given_attachments.hpp>
+#include <gracilis/draft/surface_as_read.hpp>
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace gracilis {
 namespace {
@@ -142,11 +144,42 @@ struct EndsDraft {
     drafted = std::move(touched);
   }
 
+  /// How far the body's nearest bone is.
+  Real to_body(const std::string& body, const Vec3& p) const {
+    Real least = std::numeric_limits<Real>::max();
+    for (std::size_t b = 0; b < bones.count(); ++b)
+      if (bones.body(b) == body) least = std::min(least, bones.tree(b).query(p).distance);
+    return least;
+  }
+
+  /// Of two that hold the same vertices each keeps those nearer to its body, a third of them at least.
+  void divide(DraftAttachment& first, DraftAttachment& second) const {
+    std::vector<std::pair<Real, Index>> order;  // by how much farther the first's body is
+    for (const Index v : first.vertices) {
+      const Vec3 p = ends.surface().vertices.col(v);
+      order.emplace_back(to_body(first.body, p) - to_body(second.body, p), v);
+    }
+    std::sort(order.begin(), order.end());
+    const auto nearer = std::count_if(order.begin(), order.end(), [](const auto& each) { return each.first < 0; });
+    const std::size_t least = (order.size() + 1) / 3;
+    const std::size_t cut = std::clamp(static_cast<std::size_t>(nearer), least, order.size() - least);
+    first.vertices.clear(), second.vertices.clear();
+    for (std::size_t i = 0; i < order.size(); ++i) (i < cut ? first : second).vertices.push_back(order[i].second);
+    for (DraftAttachment* each : {&first, &second}) {
+      std::sort(each->vertices.begin(), each->vertices.end());
+      each->trimmed = true;
+    }
+  }
+
   /// A vertex moves with one body: with that of the smaller attachment, which can spare none.
   void keep_apart() {
     for (std::size_t i = 0; i < drafted.size(); ++i)
       for (std::size_t j = i + 1; j < drafted.size(); ++j) {
         if (drafted[i].body == drafted[j].body) continue;
+        if (drafted[i].vertices == drafted[j].vertices) {
+          divide(drafted[i], drafted[j]);
+          continue;
+        }
         DraftAttachment *larger = &drafted[i], *smaller = &drafted[j];
         if (larger->vertices.size() < smaller->vertices.size()) std::swap(larger, smaller);
         const auto taken = std::erase_if(larger->vertices, [&](Index v) {
@@ -157,13 +190,17 @@ struct EndsDraft {
     std::erase_if(drafted, [](const DraftAttachment& each) { return each.vertices.empty(); });
   }
 
-  /// The vertices that a scene's reader would take by the attachment's distances.
-  std::vector<Index> by_rule(const DraftAttachment& attachment) const {
+  std::vector<const NearestTriangle*> trees_under(const DraftAttachment& attachment) const {
     std::vector<const NearestTriangle*> trees;
     for (std::size_t b = 0; b < bones.count(); ++b)
       if (std::find(attachment.bones.begin(), attachment.bones.end(), bones.bone(b).name) != attachment.bones.end())
         trees.push_back(&bones.tree(b));
-    return select_vertices(ends.surface(), trees, NearBone{attachment.bone_distance});
+    return trees;
+  }
+
+  /// The vertices that a scene's reader would take by the attachment's distances.
+  std::vector<Index> by_rule(const DraftAttachment& attachment) const {
+    return select_vertices(ends.surface(), trees_under(attachment), NearBone{attachment.bone_distance});
   }
 
   /// Names the vertices by a cloud at their places, where distances alone would take others.
@@ -177,9 +214,11 @@ struct EndsDraft {
       return;
     }
     attachment.cloud = muscle.name + "_" + attachment.name;
-    attachment.points = positions(ends.surface(), attachment.vertices);
+    attachment.points = SurfaceAsRead(ends.surface()).places(attachment.vertices);
     attachment.landmark_distance = own_vertices;
-    if (attachment.bone_distance == 0) attachment.bones.clear();
+    if (attachment.bone_distance == 0) return attachment.bones.clear();
+    // What came between two vertices may lie farther from a hollow bone than both.
+    attachment.bone_distance = distance_to_all(attachment.points, trees_under(attachment), attachment.bone_distance);
   }
 
   void name_all() {
@@ -218,16 +257,20 @@ std::vector<DraftAttachment> draft_attachments(const FoundMuscle& muscle, const 
   } else if (draft.drafted.empty()) {
     draft.touch_any();
   }
+  const auto lacks = [&](AttachmentEnd end) { return !draft.has_end(end); };
+  if (const auto end = std::find_if(both.begin(), both.end(), lacks); end != both.end()) {
+    why = muscle.known
+              ? "no bone is here for its " + std::string(*end == AttachmentEnd::origin ? "origin" : "insertion") +
+                    " (" + draft.sites.at(*end).wanted + ")"
+              : "its name is unknown and it touches fewer than two bones that move against each other; rename "
+                "it to a muscle's name";
+    return {};
+  }
   draft.keep_apart();
-  for (const AttachmentEnd end : both)
-    if (!draft.has_end(end)) {
-      why = muscle.known
-                ? "no bone is here for its " + std::string(end == AttachmentEnd::origin ? "origin" : "insertion") +
-                      " (" + draft.sites.at(end).wanted + ")"
-                : "its name is unknown and it touches fewer than two bones that move against each other; rename "
-                  "it to a muscle's name";
-      return {};
-    }
+  if (std::any_of(both.begin(), both.end(), lacks)) {
+    why = "its origin and insertion hold the same few vertices; give them patches, or its surface more triangles";
+    return {};
+  }
   draft.name_all();
   for (DraftAttachment& each : draft.drafted) draft.write_down(each);
   return std::move(draft.drafted);

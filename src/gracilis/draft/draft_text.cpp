@@ -52,6 +52,8 @@ struct Writing {
            (draft.found.is_mirrored ? "mirror = true\n" : "");
   }
 
+  void in_list(const Guess& guess) { line("  " + quoted_text(guess.subject + ": " + to_string(guess)) + ","); }
+
   void head(const std::string& name, const fs::path& landmarks) {
     if (is_whole()) {
       line(
@@ -79,7 +81,9 @@ struct Writing {
     line("anterior = " + vector_text(frame.anterior, 6));
     line("superior = " + vector_text(frame.superior, 6));
     line("guessed = [ # repeated in each run's manifest");
-    for (const Guess& guess : draft.guesses) line("  " + quoted_text(guess.subject + ": " + to_string(guess)) + ",");
+    for (const Guess& guess : draft.guesses) in_list(guess);
+    for (const DraftMuscle& muscle : draft.muscles)
+      for (const DraftAttachment& each : muscle.attachments) in_list(each.guess);
     line("]");
     if (landmarks.empty()) return;
     line("\n[landmarks]");

@@ -194,8 +194,8 @@ struct Taking {
       return;
     }
     try {
-      found.patches.push_back(
-          {each.file, muscle_name(each, false), each.muscle.rest, read_mesh(each.file, found.unit_length)});
+      found.patches.push_back({each.file, muscle_name(each, false), each.muscle.known, side_of(each, true),
+                               each.muscle.rest, read_mesh(each.file, found.unit_length)});
     } catch (const InputError& error) {
       found.left_out.push_back(error.what());
     }
@@ -217,6 +217,7 @@ void mirror_body(FoundFolder& found, const Vec3& right) {
   for (FoundPatch& patch : found.patches) {
     if (patch.muscle.ends_with("_r") || patch.muscle.ends_with("_l"))
       patch.muscle.back() = patch.muscle.back() == 'r' ? 'l' : 'r';
+    patch.side = other_side(patch.side);
     patch.mesh = mirrored(patch.mesh, right);
   }
   found.side = other_side(found.side);

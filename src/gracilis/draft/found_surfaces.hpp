@@ -34,6 +34,8 @@ struct FoundMuscle {
 struct FoundPatch {
   std::filesystem::path file;
   std::string muscle;  ///< name in the scene
+  const KnownMuscle* known = nullptr;
+  BodySide side = BodySide::none;
   std::vector<std::string> words;
   TriangleMesh mesh = {};
 };

@@ -15,6 +15,7 @@ namespace gracilis {
 namespace {
 
 constexpr std::array<Real, 7> patch_reaches = {0.003, 0.004, 0.005, 0.006, 0.008, 0.01, 0.015};
+constexpr Real near_part = 0.006;                           // m, of a patch from a part of its muscle
 constexpr Real far_from_muscle = 0.025, near_bone = 0.008;  // m, of landmarks
 
 bool has(const std::vector<Zone>& zones, std::size_t bone) {
@@ -81,6 +82,38 @@ bool lies_near(const Points& points, const NearestTriangle& muscle) {
   return median(distances) < far_from_muscle;
 }
 
+/// Whether a muscle is a part of another: it has that one's name and more, and one of its tendons.
+bool is_head_of(const KnownMuscle& head, const KnownMuscle& whole) {
+  const std::vector<KnownTendon>& tendons = dictionary().tendons;
+  return head.name.starts_with(whole.name + "_") && std::any_of(tendons.begin(), tendons.end(), [&](const auto& each) {
+           return each.joins(head) && each.joins(whole);
+         });
+}
+
+/// m, how far from a muscle a patch may lie; 0: it is another's. Where no muscle has the patch's name, pieces and heads
+/// of what it is named after take it, or the whole, if they are near.
+Real farthest_from(const FoundPatch& patch, const FoundMuscle& muscle, const FoundFolder& found) {
+  if (patch.muscle == muscle.name) return patch_reaches.back();
+  if (!patch.known || !muscle.known || patch.side != muscle.side) return 0;
+  if (std::any_of(found.muscles.begin(), found.muscles.end(), [&](const auto& m) { return m.name == patch.muscle; }))
+    return 0;
+  const bool is_related =
+      muscle.known == patch.known || is_head_of(*muscle.known, *patch.known) || is_head_of(*patch.known, *muscle.known);
+  return is_related ? near_part : 0;
+}
+
+/// Widens the distance to the patch until it holds enough.
+void hold_by_patch(DraftAttachment& attachment, const TriangleMesh& patch, Real farthest, const MuscleEnds& ends) {
+  const NearestTriangle tree(patch);
+  const std::vector<const NearestTriangle*> of_patch = {&tree};
+  for (const Real reach : patch_reaches) {
+    if (reach > farthest) return;
+    attachment.landmark_distance = reach;
+    attachment.vertices = select_vertices(ends.surface(), of_patch, NearBone{reach});
+    if (ends.is_enough(attachment.vertices)) return;
+  }
+}
+
 /// Widens the rule's distances until it holds enough.
 void hold_by_landmarks(DraftAttachment& attachment, const std::optional<std::size_t>& bone, const BoneParts& bones,
                        const MuscleEnds& ends) {
@@ -121,7 +154,8 @@ std::vector<DraftAttachment> from_patches(const FoundMuscle& muscle, const Found
   std::vector<DraftAttachment> result;
   const std::vector<const NearestTriangle*> trees = all_trees(bones);
   for (const FoundPatch& patch : found.patches) {
-    if (patch.muscle != muscle.name || patch.mesh.face_count() == 0) continue;
+    const Real farthest = farthest_from(patch, muscle, found);
+    if (farthest == 0 || patch.mesh.face_count() == 0) continue;
     const std::vector<std::size_t> under = bones_under(patch.mesh, trees);
     const std::optional<AttachmentEnd> said = end_in(patch.words);
     std::map<std::pair<AttachmentEnd, std::string>, std::set<std::size_t>> groups;
@@ -130,23 +164,19 @@ std::vector<DraftAttachment> from_patches(const FoundMuscle& muscle, const Found
     for (const auto& [place, on] : groups) {
       std::vector<char> keep;
       for (const std::size_t bone : under) keep.push_back(on.contains(bone));
-      const NearestTriangle tree(kept_faces(patch.mesh, keep));
-      const std::vector<const NearestTriangle*> of_patch = {&tree};
       DraftAttachment attachment;
       attachment.end = place.first;
       attachment.body = place.second;
       for (const std::size_t bone : on) attachment.bones.push_back(bones.bone(bone).name);
-      attachment.patch = patch.file;
-      for (const Real reach : patch_reaches) {
-        attachment.landmark_distance = reach;
-        attachment.vertices = select_vertices(ends.surface(), of_patch, NearBone{reach});
-        if (ends.is_enough(attachment.vertices)) break;
-      }
-      if (attachment.vertices.empty()) continue;
+      attachment.patch = attachment.given_by = patch.file;
+      hold_by_patch(attachment, kept_faces(patch.mesh, keep), farthest, ends);
+      const bool is_part = patch.muscle != muscle.name;
+      if (attachment.vertices.empty() || (is_part && !ends.is_enough(attachment.vertices))) continue;
       attachment.guess = {"",
-                          fmt::format("the patch's pieces on {}, within {:g} mm", fmt::join(attachment.bones, ", "),
-                                      1000 * attachment.landmark_distance),
-                          attachment.landmark_distance < 0.007 ? 0.95 : 0.7};
+                          fmt::format("{} on {}, within {:g} mm",
+                                      is_part ? "pieces of the patch of " + patch.muscle : "the patch's pieces",
+                                      fmt::join(attachment.bones, ", "), 1000 * attachment.landmark_distance),
+                          attachment.landmark_distance < 0.007 && !is_part ? 0.95 : 0.7};
       result.push_back(std::move(attachment));
     }
   }

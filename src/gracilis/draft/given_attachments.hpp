@@ -17,7 +17,8 @@ struct MuscleSites {
 /// The end at which a bone lies: by the dictionary, else the origin where its body is nearer to the trunk.
 AttachmentEnd end_on(std::size_t bone, const MuscleSites& sites, const BoneParts& bones, const Skeleton& skeleton);
 
-/// Ends that patches named after the muscle give: one for each end and body.
+/// Ends that patches named after the muscle give: one for each end and body. Patches whose names no muscle here has
+/// give those of what is near of the same muscle: pieces, heads, or the whole of a head.
 std::vector<DraftAttachment> from_patches(const FoundMuscle& muscle, const FoundFolder& found, const MuscleSites& sites,
                                           const BoneParts& bones, const Skeleton& skeleton, const MuscleEnds& ends);
 

@@ -18,12 +18,6 @@ constexpr Real farthest_axis = radians(35);  // from where anatomy expects it
 
 Vec3 across(const Vec3& direction, const Vec3& axis) { return (direction - direction.dot(axis) * axis).normalized(); }
 
-std::vector<Vec3> body_axes(const JointQuestion& q) {
-  std::vector<Vec3> axes;
-  for (const KnownCoordinate& coordinate : q.joint.coordinates) axes.push_back(q.frame.named(coordinate.about, q.side));
-  return axes;
-}
-
 /// The nearest of several surfaces.
 class Surroundings {
  public:
@@ -56,10 +50,11 @@ SurfaceSamples joined(const SurfaceSamples& a, const SurfaceSamples& b) {
 SurfaceSamples nothing() { return {Points(3, 0), Points(3, 0), Eigen::VectorXd(0)}; }
 
 /// Parts of the bones' surfaces that face others which are near: within 4 mm more than the nearest are, or, where the
-/// triangles are large, within as much as it takes to see a few.
+/// triangles are large, within as much as it takes to see a few. Nothing where all others are farther than 3 cm.
 SurfaceSamples facing(const JointQuestion& q, const std::vector<std::size_t>& bones, const Surroundings& others) {
   SurfaceSamples all = nothing();
   for (const std::size_t b : bones) all = joined(all, surface_samples(q.found.bones[b].mesh));
+  if (all.count() == 0) return all;
   std::vector<Real> distances(static_cast<std::size_t>(all.count()), std::numeric_limits<Real>::infinity());
   std::vector<char> turned(distances.size(), 0);
   for (Index i = 0; i < all.count(); ++i) {
@@ -132,6 +127,7 @@ std::optional<JointFit> fit_hinge_of_condyles(const JointQuestion& q) {
   const Vec3 down = axis.direction();
   const SurfaceSamples all = surface_samples(q.found.bones[convex.front()].mesh);
   const SurfaceSamples end = all.kept([&](Index i) { return axis.share(all.points.col(i)) > 0.87; });
+  if (end.count() == 0) return std::nullopt;
   Vec3 right = across(q.frame.right(), down);
   Condyles condyles;
   for (int round = 0; round < 3; ++round) {
@@ -231,10 +227,13 @@ std::optional<JointFit> fit_roller(const JointQuestion& q) {
                   certainty};
 }
 
+Vec3 middle_by_area(const SurfaceSamples& samples) { return samples.points * samples.areas / samples.areas.sum(); }
+
+/// Of what `keep` says, else of the whole surface.
 Vec3 middle_where(const TriangleMesh& mesh, const std::function<bool(const Vec3&)>& keep) {
   const SurfaceSamples all = surface_samples(mesh);
   const SurfaceSamples part = all.kept([&](Index i) { return keep(all.points.col(i)); });
-  return part.count() > 0 ? Vec3(part.points * part.areas / part.areas.sum()) : Vec3(all.points.rowwise().mean());
+  return part.count() > 0 ? middle_by_area(part) : Vec3(mesh.vertices.rowwise().mean());
 }
 
 std::optional<JointFit> fit_pivot(const JointQuestion& q) {
@@ -245,6 +244,7 @@ std::optional<JointFit> fit_pivot(const JointQuestion& q) {
   const Vec3 near = middle_where(radius.mesh, [&](const Vec3& p) { return q.axes[moving.front()]->share(p) < 0.06; });
   const Vec3 far = middle_where(ulna.mesh, [&](const Vec3& p) { return q.axes[resting.front()]->share(p) > 0.95; });
   Vec3 axis = (near - far).normalized();
+  if (axis.isZero()) return std::nullopt;
   if (q.side == BodySide::left) axis = -axis;
   return JointFit{near, {axis}, fmt::format("from the head of {} to the far end of {}", radius.name, ulna.name), 0.8};
 }
@@ -255,10 +255,10 @@ std::optional<JointFit> fit_saddle(const JointQuestion& q) {
   if (convex.empty() || concave.empty() || !q.axes[concave.front()]) return std::nullopt;
   const BoneAxis& radius = *q.axes[concave.front()];
   const SurfaceSamples face = facing(q, convex, Surroundings(q.found, concave));
+  if (face.count() == 0) return std::nullopt;
   const SphereFit sphere = fit_sphere(face, q.joint.radius_min * q.found.size, q.joint.radius_max * q.found.size);
   const Vec3 up = -radius.direction();
-  const Vec3 surface = face.points * face.areas / face.areas.sum();
-  const Vec3 center = sphere.radius > 0 ? sphere.center : Vec3(surface - 0.015 * q.found.size * up);
+  const Vec3 center = sphere.radius > 0 ? sphere.center : Vec3(middle_by_area(face) - 0.015 * q.found.size * up);
   // In the anatomical position the radius lies outwards of the ulna, wherever the forearm is turned.
   Vec3 right = across(q.frame.right(), up);
   bool by_ulna = false;
@@ -291,6 +291,12 @@ std::vector<std::size_t> bones_named(const FoundFolder& found, const std::vector
   return result;
 }
 
+std::vector<Vec3> body_axes(const JointQuestion& q) {
+  std::vector<Vec3> axes;
+  for (const KnownCoordinate& coordinate : q.joint.coordinates) axes.push_back(q.frame.named(coordinate.about, q.side));
+  return axes;
+}
+
 std::optional<JointFit> fit_joint(const JointQuestion& question) {
   switch (question.joint.kind) {
     case JointKind::ball:
@@ -305,15 +311,6 @@ std::optional<JointFit> fit_joint(const JointQuestion& question) {
       return fit_saddle(question);
   }
   return std::nullopt;
-}
-
-JointFit joint_at(const Points& landmarks, const JointQuestion& question) {
-  JointFit fit{landmarks.rowwise().mean(), body_axes(question), "landmarks", 1};
-  if (landmarks.cols() < 2) return fit;
-  const Vec3 line = (landmarks.col(1) - landmarks.col(0)).normalized();
-  Vec3& first = fit.axes.front();
-  first = line.dot(first) < 0 ? Vec3(-line) : line;
-  return fit;
 }
 
 }  // namespace gracilis

@@ -2,7 +2,6 @@
 
 #include <gracilis/draft/body_frame.hpp>
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,9 +16,6 @@ struct JointFit {
   Real certainty = 0;
 };
 
-/// Landmarks that say where a joint is instead: one its center, two its axis.
-using JointOverrides = std::map<std::string, Points>;
-
 /// What a fit may ask of.
 struct JointQuestion {
   const FoundFolder& found;
@@ -32,8 +28,8 @@ struct JointQuestion {
 /// Nothing where the surfaces do not show the joint.
 std::optional<JointFit> fit_joint(const JointQuestion& question);
 
-/// The same from landmarks (1 or 2 points); without a direction in them the axes are the body's.
-JointFit joint_at(const Points& landmarks, const JointQuestion& question);
+/// Of each coordinate, the direction of the body that the dictionary names.
+std::vector<Vec3> body_axes(const JointQuestion& question);
 
 /// Numbers of the bones of these names on this side.
 std::vector<std::size_t> bones_named(const FoundFolder& found, const std::vector<std::string>& names, BodySide side);

@@ -4,6 +4,8 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/draft/tendon_ends.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
+#include <gracilis/io/csv_rows.hpp>
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/suggestions.hpp>
 
 #include <fmt/format.h>
@@ -16,14 +18,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Tables that are none of landmarks are passed over: folders hold many.
-Landmarks read_tables(const FoundFolder& found) {
+/// The first words of a table's columns, or nothing of what is no table.
+std::set<std::string> column_words(const fs::path& table) {
+  std::set<std::string> words;
+  try {
+    const std::string text = read_text(table);
+    const CsvRows rows(table, text);
+    for (const std::string_view label : rows.labels())
+      if (const NameWords name = read_name(label, {}); !name.words.empty()) words.insert(name.words.front());
+  } catch (const InputError&) {
+    return {};
+  }
+  return words;
+}
+
+/// Whether somebody may have meant the table as one of landmarks, by its name or its columns.
+bool looks_like_landmarks(const fs::path& table) {
+  const std::vector<std::string> name = read_name(table.stem().string(), {}).words;
+  if (std::any_of(name.begin(), name.end(), [](const std::string& word) { return word.starts_with("landmark"); }))
+    return true;
+  const std::set<std::string> columns = column_words(table);
+  return columns.contains("cloud") || (columns.contains("x") && columns.contains("y") && columns.contains("z"));
+}
+
+/// Tables that are none of landmarks are passed over, since folders hold many, unless they look like such.
+Landmarks read_tables(SceneDraft& draft) {
   Landmarks all;
-  for (const fs::path& table : found.tables) {
+  for (const fs::path& table : draft.found.tables) {
     try {
-      for (LandmarkCloud& cloud : read_landmarks(table, found.unit_length)) all.push_back(std::move(cloud));
-    } catch (const InputError&) {
-      continue;
+      for (LandmarkCloud& cloud : read_landmarks(table, draft.found.unit_length)) all.push_back(std::move(cloud));
+    } catch (const InputError& error) {
+      if (looks_like_landmarks(table)) draft.left_out.push_back(error.what());
     }
   }
   return all;
@@ -56,6 +81,20 @@ JointOverrides overrides_of(const DraftOptions& options, const Landmarks& landma
   return overrides;
 }
 
+bool uses(const DraftMuscle& muscle, const FoundPatch& patch) {
+  return std::any_of(muscle.attachments.begin(), muscle.attachments.end(),
+                     [&](const DraftAttachment& each) { return each.given_by == patch.file; });
+}
+
+void leave_out_unused_patches(SceneDraft& draft) {
+  for (const FoundPatch& patch : draft.found.patches)
+    if (std::none_of(draft.muscles.begin(), draft.muscles.end(), [&](const auto& each) { return uses(each, patch); }))
+      draft.left_out.push_back(
+          fmt::format("{}: no muscle takes this patch of {}: none that is here has that name, or lies near it; name it "
+                      "after its muscle",
+                      patch.file.string(), patch.muscle));
+}
+
 void draft_muscles(SceneDraft& draft, const Landmarks& landmarks) {
   const BoneParts bones(draft.found, draft.skeleton);
   const std::vector<FoundMuscle>& all = draft.found.muscles;
@@ -70,6 +109,7 @@ void draft_muscles(SceneDraft& draft, const Landmarks& landmarks) {
     else
       draft.muscles.push_back(std::move(drafted[m]));
   }
+  leave_out_unused_patches(draft);
   lay_on_muscles(draft.muscles, draft.found.size);
 }
 
@@ -152,7 +192,7 @@ SceneDraft draft_scene(const FolderFiles& files, const fs::path& folder, const D
   SceneDraft draft;
   draft.found = find_surfaces(files, folder, options.unit);
   draft.left_out = draft.found.left_out;
-  Landmarks landmarks = read_tables(draft.found);
+  Landmarks landmarks = read_tables(draft);
   if (options.mirror) {
     const Vec3 right = body_frame(draft.found, bone_axes(draft.found)).right();
     mirror_body(draft.found, right);

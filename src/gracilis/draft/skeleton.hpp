@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/draft/guess.hpp>
-#include <gracilis/draft/joint_fits.hpp>
+#include <gracilis/draft/joint_landmarks.hpp>
 
 #include <string>
 #include <vector>

@@ -1,6 +1,7 @@
 #include <gracilis/draft/tendon_ends.hpp>
 
 #include <gracilis/draft/end_contact.hpp>
+#include <gracilis/draft/surface_as_read.hpp>
 
 #include <fmt/format.h>
 
@@ -110,9 +111,11 @@ struct TendonDraft {
     laid.name = below.name;
     laid.body = at(place.host, end).front()->body;
     laid.vertices = place.vertices;
-    laid.points = above.mesh.vertices(Eigen::all, place.vertices);
+    laid.points = SurfaceAsRead(above.mesh).places(place.vertices);
     laid.cloud = above.name + "_" + laid.name;
-    laid.muscle_distance = place.distance;
+    const NearestTriangle host(SurfaceAsRead(below.mesh).mesh);
+    const NearestTriangle* hosts[] = {&host};
+    laid.muscle_distance = distance_to_all(laid.points, hosts, place.distance);
     laid.landmark_distance = own_vertices;
     laid.from_bone = bone;
     laid.guess = {
