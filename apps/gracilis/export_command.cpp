@@ -200,7 +200,8 @@ const std::vector<ExportFormat>& formats() {
          if (options.sampled > 0 && !samples.spread)
            spdlog::warn(
                "--sample: only a run by strings can be solved in other poses; points are fitted to the run's own");
-         const opensim::PointExport written = opensim::export_points(options.run, model, samples, options.points, out);
+         const opensim::PointExport written =
+             opensim::export_points(options.run, options.model, model, samples, options.points, out);
          for (const std::string& line : written.lines) spdlog::info("{}", line);
          say_left_out(written.left_out);
          if (options.check.empty() && options.page.empty()) return;

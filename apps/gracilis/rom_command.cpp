@@ -1,9 +1,11 @@
 #include "rom_command.hpp"
 
+#include "model_arms.hpp"
 #include "scene_options.hpp"
 #include "session.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/tables/arm_reference.hpp>
 #include <gracilis/view/session/coordinate_range.hpp>
 
@@ -49,7 +51,8 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
   command->add_option(
       "--reference", options->reference,
       "Published moment arms to compare with and to draw: a .csv with the columns muscle, angle_deg and "
-      "moment_arm_mm, and perhaps coordinate, source, min and max; or a moment_arms.sto of another 'rom'");
+      "moment_arm_mm, and perhaps coordinate, source, min and max; a moment_arms.sto of another 'rom'; or an OpenSim "
+      "model (.osim), whose muscles' arms are taken over the same range");
   add_session_options(*command, options->session);
   CLI::Option* tables_only = command->add_flag(
       "--tables-only", options->session.tables_only,
@@ -62,13 +65,16 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
       std::vector<CoordinateRange> ranges;
       for (const std::string& text : options->coordinates) ranges.push_back(parse_coordinate_range(text));
       std::vector<ArmCurve> references;
-      if (!options->reference.empty()) references = read_arm_reference(options->reference, moving_name(ranges));
+      const bool compares = !options->reference.empty();
+      const bool with_model = compares && lower_case_extension(options->reference) == ".osim";
+      if (compares && !with_model) references = read_arm_reference(options->reference, moving_name(ranges));
       LoadedScene loaded = read_scene(options->file, options->scene);
       if (options->session.out.empty()) options->session.out = range_folder(loaded.scene);
       const std::vector<MovedCoordinate> moved = move_through(ranges, loaded);
-      if (moved.size() > 1 && !references.empty())
+      if (moved.size() > 1 && compares)
         throw ConfigurationError(
             {"--reference", "", "is about one coordinate", "let one move and give the others one value"});
+      if (with_model) references = model_arms(options->reference, loaded.scene, ranges);
       options->session.fiber_actions = true;
       const int code = run_session(loaded, options->session);
       if (code != static_cast<int>(ExitCode::interrupted))

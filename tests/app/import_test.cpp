@@ -35,7 +35,8 @@ TEST(ImportCommand, an_imported_model_runs_its_motion) {
 /// A muscle from the ground to the rod, and a swing of three degrees.
 static ProgramResult import_swing(const TestFolder& folder, const std::string& options) {
   const auto model = folder.write(
-      "tiny.osim", pendulum(muscle("m", point("/ground", "0.1 0.1 0") + point("/bodyset/rod", "0.05 -0.3 0"))));
+      "tiny.osim", pendulum(muscle("m", point("/ground", "0.1 0.1 0") + point("/bodyset/rod", "0.05 -0.3 0"),
+                                   "<KshapeActive>0.7</KshapeActive>")));
   const auto motion = folder.write(
       "swing.mot",
       "m\nversion=1\nnRows=4\nnColumns=2\ninDegrees=yes\nendheader\ntime\tswing\n0\t0\n1\t1\n2\t2\n3\t3\n");
@@ -58,6 +59,20 @@ TEST(ImportCommand, an_imported_model_runs_by_sections_and_goes_back_to_opensim)
       run_program("export " + run + " --to osim-points --model " + (folder.path() / "tiny.osim").string());
   ASSERT_EQ(points.exit_code, 0) << points.err;
   EXPECT_THAT(points.err, testing::HasSubstr("m: it follows the model's line; it keeps its original path"));
+  EXPECT_THAT(read_text(folder.path() / "run/point_paths.osim"),
+              testing::HasSubstr("<KshapeActive>0.7</KshapeActive>"));
+  // A muscle whose path is a function stays in a set that may take the place of the model's forces.
+  const auto by_function = folder.write(
+      "function.osim",
+      pendulum(
+          "<Millard2012EquilibriumMuscle name=\"m\"><path><FunctionBasedPath><coordinate_paths>/jointset/hinge/swing"
+          "</coordinate_paths><length_function><MultivariatePolynomialFunction><dimension>1</dimension><order>1"
+          "</order><coefficients>0.5 -0.1</coefficients></MultivariatePolynomialFunction></length_function>"
+          "</FunctionBasedPath></path></Millard2012EquilibriumMuscle>"));
+  const ProgramResult kept = run_program("export " + run + " --to osim-points --model " + by_function.string());
+  ASSERT_EQ(kept.exit_code, 0) << kept.err;
+  EXPECT_THAT(kept.err, testing::HasSubstr("m: its path is a function; it keeps its original path"));
+  EXPECT_THAT(read_text(folder.path() / "run/point_paths.osim"), testing::HasSubstr("<FunctionBasedPath>"));
   EXPECT_EQ(run_program("export " + run + " --to osim-points").exit_code, 2);
 }
 
@@ -74,6 +89,8 @@ TEST(ImportCommand, points_are_fitted_to_strings_in_poses_that_fill_the_range) {
   EXPECT_THAT(result.err, testing::HasSubstr("points; lengths 0."));
   EXPECT_THAT(result.err, testing::Not(testing::HasSubstr("from the model's own")));
   EXPECT_THAT(read_text(folder.path() / "run/point_paths.osim"), testing::HasSubstr("PathPoint"));
+  EXPECT_THAT(read_text(folder.path() / "run/point_paths.osim"),
+              testing::HasSubstr("<KshapeActive>0.7</KshapeActive>"));
 }
 
 /// Fibers of sections lie beside the line that carries them: what they change by as it moves is no deforming of the

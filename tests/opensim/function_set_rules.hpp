@@ -106,12 +106,14 @@ inline Real ruled_value(const RuledPath& path, const std::vector<Real>& q) {
   return sum;
 }
 
-/// Absolute paths of the muscles and coordinates in a model's text, as it stands in its sets.
+/// Absolute paths of the muscles, coordinates and bodies in a model's text, as it stands in its sets.
 inline std::set<std::string> components_of(const std::string& model) {
   pugi::xml_document document;
   document.load_string(model.c_str());
   const pugi::xml_node root = document.child("OpenSimDocument").child("Model");
-  std::set<std::string> components;
+  std::set<std::string> components = {"/ground"};
+  for (const pugi::xml_node& body : root.child("BodySet").child("objects").children())
+    components.insert(std::string("/bodyset/") + body.attribute("name").as_string());
   for (const pugi::xml_node& force : root.child("ForceSet").child("objects").children())
     components.insert(std::string("/forceset/") + force.attribute("name").as_string());
   for (const pugi::xml_node& joint : root.child("JointSet").child("objects").children())

@@ -65,6 +65,27 @@ TEST(MusclePath, a_moving_point_works_with_its_coordinate) {
     EXPECT_NEAR(measure(model, {swing}).moment_arms[0], differences(model, {swing})[0], 1e-9);
 }
 
+TEST(MusclePath, a_moving_point_stays_beyond_the_range_of_its_coordinate) {
+  const std::string moving =
+      "<MovingPathPoint name=\"p\"><socket_parent_frame>/bodyset/rod</socket_parent_frame>"
+      "<socket_x_coordinate>/jointset/hinge/swing</socket_x_coordinate><x_location><LinearFunction><coefficients>0.2 "
+      "0.1"
+      "</coefficients></LinearFunction></x_location><y_location><Constant><value>-0.4</value></Constant></y_location>"
+      "</MovingPathPoint>";
+  const std::string narrow = "<Coordinate name=\"swing\"><range>-0.5 0.6</range></Coordinate>";
+  const Model model = model_from(document(set("BodySet", body("rod")) +
+                                          set("JointSet", joint("PinJoint", "hinge", "/ground", "rod", narrow)) +
+                                          set("ForceSet", muscle("m", point("/ground", "0.3 0 0") + moving))));
+  const PathPoint& point = model.muscles[0].path.points[1];
+  const auto x_at = [&](Real swing) { return location_of(model, point, Eigen::VectorXd::Constant(1, swing)).x(); };
+  EXPECT_NEAR(x_at(0.25), 0.15, 1e-15);
+  EXPECT_NEAR(x_at(1), 0.22, 1e-15);
+  EXPECT_NEAR(x_at(-2), 0, 1e-15);
+  // Its moment arm is the slope of its length, within the range and beyond.
+  for (const Real swing : {0.3, 1.0, -0.9})
+    EXPECT_NEAR(measure(model, {swing}).moment_arms[0], differences(model, {swing})[0], 1e-9) << swing;
+}
+
 static std::string cylinder(const std::string& more = "") {
   return set("WrapObjectSet",
              "<WrapCylinder name=\"around\"><radius>0.1</radius><length>1</length>" + more + "</WrapCylinder>");

@@ -179,4 +179,14 @@ TEST(RunLengths, a_run_that_does_not_move_is_refused) {
               testing::HasSubstr("no motion to fit"));
 }
 
+TEST(RunLengths, joints_of_another_shape_are_an_error_that_names_the_file) {
+  const TestFolder folder;
+  for (const char* wrong :
+       {"[{\"name\": 5}]", "[7]", "{\"hinge\": 1}", "[{\"coordinates\": 3}]", "[{\"coordinates\": [{\"name\": []}]}]",
+        "[{\"coordinates\": [{\"translation\": \"no\"}]}]"}) {
+    folder.write("run.json", std::string("{\"joints\": ") + wrong + "}");
+    EXPECT_THAT(message_of_input_error([&] { joints_of_run(folder.path()); }), testing::HasSubstr("run.json")) << wrong;
+  }
+}
+
 }  // namespace gracilis::opensim

@@ -1,4 +1,5 @@
 #include "opensim/model_texts.hpp"
+#include "opensim/path_point_rules.hpp"
 
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/opensim/export/fiber_points.hpp>
@@ -79,24 +80,78 @@ TEST(RunPoints, what_is_written_is_read_back_with_the_same_lengths_and_parameter
   EXPECT_NEAR(run.largest_error(read.muscles[0].path), run.largest_error(muscle.path), 1e-9);
 }
 
-TEST(RunPoints, components_of_a_point_follow_a_coordinate_each) {
+/// A point between two that stay: its x goes with the first coordinate, its y and z with the second, by more.
+struct TwoCoordinates {
+  FollowedCoordinate first{0, {}}, second{1, {}};
   std::vector<Points> fibers;
-  std::vector<std::vector<RigidTransform>> poses(40, {RigidTransform::Identity()});
-  FollowedCoordinate first{3, {}}, second{7, {}};
-  for (int f = 0; f < 40; ++f) {
-    first.values.push_back(0.02 * f);
-    second.values.push_back(0.5 * std::sin(1.7 * f));
-    Points fiber(3, 3);
-    fiber.col(0) = Vec3::Zero();
-    fiber.col(1) = Vec3(0.1 + 0.02 * first.values.back(), 0.03 * second.values.back(), 0.2);
-    fiber.col(2) = Vec3(0, 0, 0.4);
-    fibers.push_back(fiber);
+  std::vector<std::vector<RigidTransform>> poses =
+      std::vector<std::vector<RigidTransform>>(40, {RigidTransform::Identity()});
+  Real first_spread = 0;
+
+  TwoCoordinates() {
+    Eigen::VectorXd x(40);
+    for (int f = 0; f < 40; ++f) {
+      first.values.push_back(0.02 * f);
+      second.values.push_back(0.5 * std::sin(1.7 * f));
+      const Real turn = second.values.back();
+      x[f] = 0.1 + 0.02 * first.values.back();
+      Points fiber(3, 3);
+      fiber.col(0) = Vec3::Zero();
+      fiber.col(1) = Vec3(x[f], 0.03 * turn, 0.2 + 0.01 * turn * turn);
+      fiber.col(2) = Vec3(0, 0, 0.4);
+      fibers.push_back(fiber);
+    }
+    first_spread = std::sqrt((x.array() - x.mean()).square().mean());
   }
-  const std::vector<FiberPoint> points = fit_points(fibers, poses, {first, second});
-  EXPECT_EQ(points[1].follows[0].coordinate, 3);
-  EXPECT_EQ(points[1].follows[1].coordinate, 7);
-  EXPECT_EQ(points[1].follows[2].coordinate, -1);
-  EXPECT_LT(points[1].left, 1e-6);
+};
+
+TEST(RunPoints, all_components_of_a_point_follow_the_coordinate_that_leaves_least) {
+  const TwoCoordinates run;
+  const FiberPoint point = fit_points(run.fibers, run.poses, {run.first, run.second})[1];
+  EXPECT_EQ(point.coordinate, 1);
+  EXPECT_TRUE(point.follows[0].knots.empty());
+  EXPECT_FALSE(point.follows[1].knots.empty());
+  EXPECT_FALSE(point.follows[2].knots.empty());
+  EXPECT_NEAR(point.left, run.first_spread, 1e-6);
+  EXPECT_EQ(fit_points(run.fibers, run.poses, {run.first})[1].coordinate, 0);
+}
+
+/// Two hinges, to whose coordinates points can be moved.
+static std::string two_hinges() {
+  return document(set("BodySet", body("upper") + body("lower")) +
+                  set("JointSet", joint("PinJoint", "hip", "/ground", "upper", coordinate("swing")) +
+                                      joint("PinJoint", "knee", "/bodyset/upper", "lower", coordinate("bend"))));
+}
+
+static std::string force_set_of(const std::string& muscles) {
+  return "<OpenSimDocument Version=\"40000\">" + set("ForceSet", muscles) + "</OpenSimDocument>";
+}
+
+TEST(PathPointRules, points_that_we_write_break_none) {
+  const TwoCoordinates run;
+  const Model model = model_from(two_hinges());
+  Muscle muscle;
+  muscle.name = "m";
+  muscle.path = path_of(fit_points(run.fibers, run.poses, {run.first, run.second}));
+  ASSERT_TRUE(muscle.path.points[1].moving);
+  EXPECT_THAT(broken_point_rules(force_set_of(muscle_text(model, muscle)), components_of(two_hinges())),
+              testing::IsEmpty());
+}
+
+TEST(PathPointRules, a_point_with_two_coordinates_breaks_them) {
+  const Model model = model_from(two_hinges());
+  Muscle muscle;
+  muscle.name = "m";
+  muscle.path.points.resize(2);
+  muscle.path.points[1].moving = true;
+  muscle.path.points[1].moves_with = {0, 1, -1};
+  muscle.path.points[1].moves_to = {simm_spline({0, 1}, {0, 1}), simm_spline({0, 1}, {0, 1}), constant(0.1)};
+  const auto broken = [&] {
+    return broken_point_rules(force_set_of(muscle_text(model, muscle)), components_of(two_hinges()));
+  };
+  EXPECT_THAT(broken(), testing::ElementsAre(testing::HasSubstr("moves with one coordinate")));
+  muscle.path.points[1].moves_with[1] = 0;
+  EXPECT_THAT(broken(), testing::IsEmpty());
 }
 
 TEST(RunPoints, a_path_that_stays_the_model_s_is_written_with_its_conditions_and_wraps) {

@@ -25,28 +25,43 @@ static Real movement(const Points& places) {
   return std::sqrt(off.squaredNorm() / static_cast<Real>(places.cols()));
 }
 
-/// Lets one component of the point's place follow the coordinate that predicts it best, as a polynomial that becomes a
-/// spline through some of its values, unless none explains enough of its movement.
-static void follow(const std::vector<FollowedCoordinate>& candidates, const Eigen::VectorXd& component, Real least_move,
-                   FollowedComponent& followed) {
-  const Real moves =
-      std::sqrt((component.array() - component.mean()).square().sum() / static_cast<Real>(component.size()));
-  if (moves < least_move) return;
-  followed.left = moves;
+/// One component of the point's place by a coordinate, as a polynomial that becomes a spline through some of its
+/// values, unless that does not explain enough of its movement.
+static FollowedComponent followed_component(const FollowedCoordinate& candidate, const Eigen::VectorXd& component) {
+  FollowedComponent followed;
+  followed.left = std::sqrt((component.array() - component.mean()).square().mean());
+  const Eigen::Map<const Eigen::VectorXd> values(candidate.values.data(), component.size());
+  const Real least = values.minCoeff(), most = values.maxCoeff();
+  if (followed.left < 1e-5 || most - least < 1e-4) return followed;
+  PathFitSettings settings;
+  settings.largest_order = 6;
+  const PathFit fit = fit_path({values, component}, settings);
+  if (fit.left_out > 0.7 * followed.left) return followed;
+  followed.left = fit.left_out;
+  const int knots = 2 * fit.function.order + 1;
+  for (int k = 0; k < knots; ++k) {
+    const Real share = static_cast<Real>(k) / (knots - 1);
+    followed.knots.push_back((1 - share) * least + share * most);
+    followed.values.push_back(value(fit.function, {followed.knots.back()}));
+  }
+  return followed;
+}
+
+/// Lets the point follow the coordinate that predicts its place best. OpenSim refuses a point whose components depend
+/// on several (MovingPathPoint), so that all of them take the same.
+static void follow(const std::vector<FollowedCoordinate>& candidates, const Points& places, FiberPoint& point) {
   for (const FollowedCoordinate& candidate : candidates) {
-    const Eigen::Map<const Eigen::VectorXd> values(candidate.values.data(), component.size());
-    if (values.maxCoeff() - values.minCoeff() < 1e-4) continue;
-    PathFitSettings settings;
-    settings.largest_order = 6;
-    const PathFit fit = fit_path({values, component}, settings);
-    if (fit.left_out > 0.7 * moves || fit.left_out > 0.95 * followed.left) continue;
-    const int knots = 2 * fit.function.order + 1;
-    followed = {candidate.coordinate, {}, {}, fit.left_out};
-    for (int k = 0; k < knots; ++k) {
-      const Real share = static_cast<Real>(k) / (knots - 1);
-      followed.knots.push_back((1 - share) * values.minCoeff() + share * values.maxCoeff());
-      followed.values.push_back(value(fit.function, {followed.knots.back()}));
+    std::array<FollowedComponent, 3> follows;
+    Real left = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      follows[i] = followed_component(candidate, places.row(static_cast<Eigen::Index>(i)).transpose());
+      left = std::hypot(left, follows[i].left);
     }
+    const bool some = std::any_of(follows.begin(), follows.end(), [](const auto& each) { return !each.knots.empty(); });
+    if (!some || (point.coordinate >= 0 && left > 0.95 * point.left)) continue;
+    point.coordinate = candidate.coordinate;
+    point.follows = std::move(follows);
+    point.left = left;
   }
 }
 
@@ -69,14 +84,8 @@ std::vector<FiberPoint> fit_points(const std::vector<Points>& fibers, const std:
     }
     point.location = places.rowwise().mean();
     const bool end = p == 0 || p + 1 == count;
-    Real left = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Eigen::VectorXd component = places.row(static_cast<Eigen::Index>(i));
-      point.follows[i].left = std::sqrt((component.array() - component.mean()).square().mean());
-      if (point.moves > (end ? 5e-4 : 1e-5)) follow(moving, component, 1e-5, point.follows[i]);
-      left += point.follows[i].left * point.follows[i].left;
-    }
-    point.left = std::sqrt(left);
+    point.left = point.moves;
+    if (point.moves > (end ? 5e-4 : 1e-5)) follow(moving, places, point);
     result.push_back(std::move(point));
   }
   return result;
@@ -89,12 +98,13 @@ Path path_of(const std::vector<FiberPoint>& points) {
     point.name = fmt::format("p{}", path.points.size() + 1);
     point.body = fitted.body;
     point.location = fitted.location;
-    for (const FollowedComponent& component : fitted.follows) point.moving |= component.coordinate >= 0;
+    point.moving = fitted.coordinate >= 0;
     for (std::size_t i = 0; i < 3 && point.moving; ++i) {
       const FollowedComponent& component = fitted.follows[i];
-      point.moves_with[i] = component.coordinate;
-      point.moves_to[i] = component.coordinate < 0 ? constant(fitted.location[static_cast<Eigen::Index>(i)])
-                                                   : simm_spline(component.knots, component.values);
+      const bool stays = component.knots.empty();
+      point.moves_with[i] = stays ? -1 : fitted.coordinate;
+      point.moves_to[i] = stays ? constant(fitted.location[static_cast<Eigen::Index>(i)])
+                                : simm_spline(component.knots, component.values);
     }
     path.points.push_back(std::move(point));
   }

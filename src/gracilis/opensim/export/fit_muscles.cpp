@@ -21,9 +21,10 @@ static constexpr Real no_arm = 1e-6;  // m
 /// on them.
 static std::vector<Index> free_coordinates(const Model& model, const Path& path) {
   std::vector<Index> all = crossed_coordinates(model, path), free;
-  for (const Coupler& coupler : model.couplers)
-    if (std::find(all.begin(), all.end(), coupler.dependent) != all.end())
-      all.insert(all.end(), coupler.independent.begin(), coupler.independent.end());
+  // Last first: a coupler may drive another's independent coordinate.
+  for (auto coupler = model.couplers.rbegin(); coupler != model.couplers.rend(); ++coupler)
+    if (std::find(all.begin(), all.end(), coupler->dependent) != all.end())
+      all.insert(all.end(), coupler->independent.begin(), coupler->independent.end());
   sort_unique(all);
   std::copy_if(all.begin(), all.end(), std::back_inserter(free), [&](Index i) {
     return !model.coordinates[static_cast<std::size_t>(i)].locked && !is_dependent(model, i);

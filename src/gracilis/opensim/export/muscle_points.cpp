@@ -75,9 +75,9 @@ static std::vector<Points> fewer_points(const std::vector<Points>& lines, Eigen:
   return fewer;
 }
 
-/// As many points or fewer, which follow all of the coordinates, one of them or none: those with the smallest errors of
-/// lengths and arms together. In a motion in which coordinates go together, points that follow the wrong one have the
-/// right lengths and wrong arms.
+/// As many points or fewer, each of which follows any of the coordinates, all the same one, or none: those with the
+/// smallest errors of lengths and arms together. In a motion in which coordinates go together, points that follow the
+/// wrong one have the right lengths and wrong arms.
 static std::vector<FiberPoint> best_points(Skeleton& skeleton, const Path* own, const KnownFibers& known,
                                            const std::vector<FollowedCoordinate>& followed) {
   std::vector<std::vector<FollowedCoordinate>> choices = {followed, {}};

@@ -1,6 +1,8 @@
 #include <gracilis/opensim/export/muscle_text.hpp>
 
 #include <gracilis/opensim/export/run_lengths.hpp>
+#include <gracilis/opensim/export/xml_text.hpp>
+#include <gracilis/opensim/reader/xml.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,15 +24,24 @@ static std::string moved_component_text(const Function& function) {
   return fmt::format("<SimmSpline><x>{}</x><y>{}</y></SimmSpline>", fmt::join(function.knots, " "), fmt::join(y, " "));
 }
 
+/// What an element is linked to: 4.x has sockets with components' paths, 3.x elements with their names.
+static std::string link_text(const Model& model, const std::string& socket, const std::string& old_name,
+                             const std::string& path) {
+  const bool old = model.version < 40000;
+  return fmt::format("            <{0}>{1}</{0}>\n", old ? old_name : "socket_" + socket,
+                     xml_text(old ? last_name(path) : path));
+}
+
 static std::string moving_text(const Model& model, const PathPoint& point) {
   std::string text;
   const char* names[3] = {"x", "y", "z"};
-  for (std::size_t i = 0; i < 3; ++i)
-    text += fmt::format(
-        "            <socket_{0}_coordinate>{1}</socket_{0}_coordinate>\n"
-        "            <{0}_location>{2}</{0}_location>\n",
-        names[i], coordinate_path(model, point.moves_with[i] < 0 ? any_coordinate(point) : point.moves_with[i]),
-        moved_component_text(point.moves_to[i]));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string link = std::string(names[i]) + "_coordinate";
+    const Index with = point.moves_with[i] < 0 ? any_coordinate(point) : point.moves_with[i];
+    text += link_text(model, link, link, coordinate_path(model, with)) +
+            fmt::format("            <{0}_location>{1}</{0}_location>\n", names[i],
+                        moved_component_text(point.moves_to[i]));
+  }
   return text;
 }
 
@@ -38,15 +49,14 @@ static std::string point_text(const Model& model, const PathPoint& point) {
   const std::string& body = model.bodies[static_cast<std::size_t>(point.body)].name;
   const std::string frame = point.body == 0 ? "/ground" : "/bodyset/" + body;
   const char* kind = point.moving ? "MovingPathPoint" : point.condition >= 0 ? "ConditionalPathPoint" : "PathPoint";
-  std::string text =
-      fmt::format("          <{} name=\"{}\">\n            <socket_parent_frame>{}</socket_parent_frame>\n", kind,
-                  point.name, frame);
+  std::string text = fmt::format("          <{} name=\"{}\">\n", kind, xml_text(point.name)) +
+                     link_text(model, "parent_frame", "body", frame);
   text += point.moving ? moving_text(model, point)
                        : fmt::format("            <location>{} {} {}</location>\n", point.location.x(),
                                      point.location.y(), point.location.z());
   if (!point.moving && point.condition >= 0)
-    text += fmt::format("            <socket_coordinate>{}</socket_coordinate>\n            <range>{} {}</range>\n",
-                        coordinate_path(model, point.condition), point.range_min, point.range_max);
+    text += link_text(model, "coordinate", "coordinate", coordinate_path(model, point.condition)) +
+            fmt::format("            <range>{} {}</range>\n", point.range_min, point.range_max);
   return text + fmt::format("          </{}>\n", kind);
 }
 
@@ -59,7 +69,13 @@ static std::string path_wrap_text(const Model& model, const PathWrap& wrap, std:
   return fmt::format(
       "          <PathWrap name=\"wrap{}\"><wrap_object>{}</wrap_object><method>{}</method><range>{} "
       "{}</range></PathWrap>\n",
-      number, object, plane, wrap.first_point, wrap.last_point);
+      number, xml_text(object), plane, wrap.first_point, wrap.last_point);
+}
+
+std::string point_set_text(const Model& model, const Path& path) {
+  std::string text = "          <PathPointSet><objects>\n";
+  for (const PathPoint& point : path.points) text += point_text(model, point);
+  return text + "          </objects></PathPointSet>\n";
 }
 
 std::string muscle_text(const Model& model, const Muscle& muscle) {
@@ -69,12 +85,10 @@ std::string muscle_text(const Model& model, const Muscle& muscle) {
       "        <optimal_fiber_length>{}</optimal_fiber_length>\n"
       "        <tendon_slack_length>{}</tendon_slack_length>\n"
       "        <pennation_angle_at_optimal>{}</pennation_angle_at_optimal>\n"
-      "        <max_contraction_velocity>{}</max_contraction_velocity>\n        <GeometryPath name=\"path\">\n"
-      "          <PathPointSet><objects>\n",
-      type, muscle.name, muscle.max_isometric_force, muscle.optimal_fiber_length, muscle.tendon_slack_length,
+      "        <max_contraction_velocity>{}</max_contraction_velocity>\n        <GeometryPath name=\"path\">\n",
+      type, xml_text(muscle.name), muscle.max_isometric_force, muscle.optimal_fiber_length, muscle.tendon_slack_length,
       muscle.pennation_angle_at_optimal, muscle.max_contraction_velocity);
-  for (const PathPoint& point : muscle.path.points) text += point_text(model, point);
-  text += "          </objects></PathPointSet>\n";
+  text += point_set_text(model, muscle.path);
   if (!muscle.path.wraps.empty()) {
     text += "          <PathWrapSet><objects>\n";
     for (std::size_t i = 0; i < muscle.path.wraps.size(); ++i)

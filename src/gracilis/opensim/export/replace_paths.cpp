@@ -25,7 +25,7 @@ static Path function_path(const XmlContext& context, const pugi::xml_node& node,
   const std::string names = context.text(node, "coordinate_paths");
   for (const std::string_view name : words_of(names))
     path.function_coordinates.push_back(component_coordinate(context, node, model, std::string(name)));
-  const pugi::xml_node function = function_below(node.child("length_function"));
+  const pugi::xml_node function = function_of(node, "length_function");
   if (!function || path.function_coordinates.empty())
     context.fail(node, "needs <coordinate_paths> and a <length_function>", "give both");
   path.length_function = read_function(context, function, path.function_coordinates.size(), model.unsupported);

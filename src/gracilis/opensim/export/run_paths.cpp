@@ -1,6 +1,7 @@
 #include <gracilis/opensim/export/run_paths.hpp>
 
 #include <gracilis/core/median.hpp>
+#include <gracilis/opensim/export/xml_text.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,15 +16,15 @@ std::string function_path_set(const Model& model, const std::vector<FittedMuscle
       "  <Set_FunctionBasedPath_>\n    <objects>\n";
   for (const FittedMuscle& muscle : muscles) {
     std::vector<std::string> coordinates;
-    for (const Index i : muscle.coordinates) coordinates.push_back(coordinate_path(model, i));
+    for (const Index i : muscle.coordinates) coordinates.push_back(xml_text(coordinate_path(model, i)));
     text += fmt::format(
         "      <FunctionBasedPath name=\"/forceset/{}\">\n        <coordinate_paths>{}</coordinate_paths>\n"
         "        <length_function>\n          <MultivariatePolynomialFunction>\n"
         "            <coefficients>{}</coefficients>\n            <dimension>{}</dimension>\n"
         "            <order>{}</order>\n          </MultivariatePolynomialFunction>\n        </length_function>\n"
         "      </FunctionBasedPath>\n",
-        muscle.name, fmt::join(coordinates, " "), fmt::join(muscle.length.coefficients, " "), muscle.length.dimension,
-        muscle.length.order);
+        xml_text(muscle.name), fmt::join(coordinates, " "), fmt::join(muscle.length.coefficients, " "),
+        muscle.length.dimension, muscle.length.order);
   }
   return text + "    </objects>\n  </Set_FunctionBasedPath_>\n</OpenSimDocument>\n";
 }

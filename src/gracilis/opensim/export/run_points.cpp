@@ -3,13 +3,16 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
+#include <gracilis/opensim/export/muscle_element.hpp>
 #include <gracilis/opensim/export/muscle_points.hpp>
 #include <gracilis/opensim/export/muscle_text.hpp>
+#include <gracilis/opensim/export/xml_text.hpp>
 #include <gracilis/opensim/reader/crossed_coordinates.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -50,8 +53,10 @@ static std::vector<Index> bodies_for(const Model& model, const Muscle* own) {
   return all;
 }
 
-PointExport export_points(const std::filesystem::path& folder, const Model& model, const LengthSamples& samples,
-                          Index count, const std::filesystem::path& out) {
+PointExport export_points(const std::filesystem::path& folder, const std::filesystem::path& model_file,
+                          const Model& model, const LengthSamples& samples, Index count,
+                          const std::filesystem::path& out) {
+  const XmlFile file = read_xml(model_file);
   const RecordedRun run = open_recorded_run(folder);
   const Eigen::Index pose_count = samples.spread ? samples.coordinates.rows() : run.frame_count;
   if (samples.coordinates.rows() < pose_count)
@@ -70,6 +75,7 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
     const Muscle* own = index < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(index)];
     if (own && own->path.points.empty()) {
       result.left_out.push_back(fmt::format("{}: its path is a function", each.name));
+      text += own_muscle_text(file, each.name);
       continue;
     }
     std::vector<FiberPoint> points;
@@ -81,17 +87,18 @@ PointExport export_points(const std::filesystem::path& folder, const Model& mode
     }
     if (points.empty()) {
       result.left_out.push_back(fmt::format("{}: {}", each.name, why));
-      if (own) text += muscle_text(model, *own);
+      if (own) text += own_muscle_text(file, each.name);
       continue;
     }
-    text += muscle_text(model, muscle_along(skeleton, points, each.name, own, samples.coordinates.row(0)));
+    const Muscle along = muscle_along(skeleton, points, each.name, own, samples.coordinates.row(0));
+    text += own ? own_muscle_text_along(file, model, along) : muscle_text(model, along);
     written.push_back(std::move(known));
   }
   if (text.empty()) throw InputError({folder.string(), "", "has no fibers", "run the scene with fibers"});
   write_text_atomically(out, fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<OpenSimDocument "
-                                         "Version=\"40000\">\n  <ForceSet name=\"{}\">\n    <objects>\n{}    "
+                                         "Version=\"{}\">\n  <ForceSet name=\"{}\">\n    <objects>\n{}    "
                                          "</objects>\n  </ForceSet>\n</OpenSimDocument>\n",
-                                         folder.filename().string(), text));
+                                         std::max(model.version, 30000), xml_text(folder.filename().string()), text));
   Model read = model;
   read_force_set(out, true, read);
   Skeleton read_skeleton(read);

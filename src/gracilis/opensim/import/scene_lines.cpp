@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gracilis::opensim {
 
@@ -18,7 +19,8 @@ static std::string frame_text(const char* place, const RigidTransform& frame) {
 
 /// Places at which cubic pieces between them, with the function's slopes, are the function, or hardly differ from it.
 static std::vector<Real> knots_of(const Function& function, const Coordinate& coordinate) {
-  if (function.kind == Function::Kind::spline) return function.knots;
+  if (function.kind == Function::Kind::spline || function.kind == Function::Kind::piecewise_linear)
+    return function.knots;
   std::vector<Real> knots;
   const int parts = function.kind == Function::Kind::linear ? 1 : 64;
   const Real low = std::max(coordinate.range_min, -10.0), high = std::min(coordinate.range_max, 10.0);
@@ -26,20 +28,34 @@ static std::vector<Real> knots_of(const Function& function, const Coordinate& co
   return knots;
 }
 
-/// Rows of a curve: place, value, slope; of pieces that are straight, both slopes at each bend.
+/// Those of them within the coordinate's range, and the range's ends.
+static std::vector<Real> places_of(const Function& function, const Coordinate& coordinate) {
+  const Real least = coordinate.range_min, most = coordinate.range_max;
+  std::vector<Real> places = knots_of(function, coordinate);
+  std::erase_if(places, [&](Real place) { return !(place > least && place < most); });
+  if (std::isfinite(least)) places.insert(places.begin(), least);
+  if (std::isfinite(most) && most > least) places.push_back(most);
+  return places;
+}
+
+/// Rows of a curve: place, value, slope; of pieces that are straight, both slopes at each bend. Where the coordinate's
+/// range ends the curve becomes level: there the point stays.
 static std::vector<Vec3> curve_of(const Function& function, const Coordinate& coordinate) {
+  const std::vector<Real> places = places_of(function, coordinate);
   std::vector<Vec3> rows;
+  const auto add = [&](Real place, Real slope) { rows.emplace_back(place, value(function, {place}), slope); };
+  if (std::isfinite(coordinate.range_min)) add(places.front(), 0);
   if (function.kind == Function::Kind::piecewise_linear) {
-    for (std::size_t i = 0; i + 1 < function.knots.size(); ++i) {
-      const Real left = function.knots[i], right = function.knots[i + 1];
-      const Real from = value(function, {left}), to = value(function, {right}), slope = (to - from) / (right - left);
-      rows.emplace_back(left, from, slope);
-      rows.emplace_back(right, to, slope);
+    for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+      const Real left = places[i], right = places[i + 1];
+      const Real slope = (value(function, {right}) - value(function, {left})) / (right - left);
+      add(left, slope);
+      add(right, slope);
     }
-    return rows;
+  } else {
+    for (const Real place : places) add(place, derivative(function, {place}, {0}));
   }
-  for (const Real knot : knots_of(function, coordinate))
-    rows.emplace_back(knot, value(function, {knot}), derivative(function, {knot}, {0}));
+  if (std::isfinite(coordinate.range_max)) add(places.back(), 0);
   return rows;
 }
 
@@ -120,7 +136,7 @@ std::string line_path_text(const Model& model, const Muscle& muscle, const std::
     }
     const auto body = static_cast<std::size_t>(point.body);
     text += fmt::format("\n[[muscles.action_line.path]]\nbody = {}\n", toml_text(model.bodies[body].name)) + condition;
-    const Vec3 location = location_of(point, coordinates);
+    const Vec3 location = location_of(model, point, coordinates);
     if (!point.moving) {
       text += fmt::format("point_mm = {}\n", toml_vector(1000 * (poses[body] * location)));
       continue;

@@ -74,7 +74,7 @@ static bool is_obstacle(const PlacedWrap& wrap) { return wrap.surface.hand != 0;
 Real length_by_opensim(const Skeleton& skeleton, const Path& path, const Eigen::VectorXd& coordinates) {
   if (!path.function_coordinates.empty()) return measure_path(skeleton, path, coordinates).length;
   const std::vector<PlacedWrap> wraps = placed_wraps(skeleton.model(), path, skeleton.poses());
-  std::vector<PathStop> points = own_points(path, skeleton.poses(), coordinates);
+  std::vector<PathStop> points = own_points(skeleton.model(), path, skeleton.poses(), coordinates);
   SumOfRounds sum;
   PathSolver solver;
   if (std::none_of(wraps.begin(), wraps.end(), is_obstacle)) {

@@ -9,13 +9,18 @@ using Poses = std::vector<RigidTransform>;
 
 static const RigidTransform& pose_of(const Poses& poses, Index body) { return poses[static_cast<std::size_t>(body)]; }
 
-Vec3 location_of(const PathPoint& point, const Eigen::VectorXd& coordinates) {
+static Real within_range(const Model& model, Index index, const Eigen::VectorXd& coordinates) {
+  const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
+  return std::min(std::max(coordinates[index], coordinate.range_min), coordinate.range_max);
+}
+
+Vec3 location_of(const Model& model, const PathPoint& point, const Eigen::VectorXd& coordinates) {
   if (!point.moving) return point.location;
   Vec3 location;
   for (int i = 0; i < 3; ++i) {
     const auto component = static_cast<std::size_t>(i);
     const Index with = point.moves_with[component];
-    location[i] = value(point.moves_to[component], {with < 0 ? 0 : coordinates[with]});
+    location[i] = value(point.moves_to[component], {with < 0 ? 0 : within_range(model, with, coordinates)});
   }
   return location;
 }
@@ -39,14 +44,15 @@ std::vector<PlacedWrap> placed_wraps(const Model& model, const Path& path, const
   return wraps;
 }
 
-std::vector<PathStop> own_points(const Path& path, const Poses& poses, const Eigen::VectorXd& coordinates) {
+std::vector<PathStop> own_points(const Model& model, const Path& path, const Poses& poses,
+                                 const Eigen::VectorXd& coordinates) {
   std::vector<PathStop> points;
   for (std::size_t i = 0; i < path.points.size(); ++i) {
     const PathPoint& point = path.points[i];
     if (!is_active(point, coordinates)) continue;
     PathStop current;
     current.body = point.body;
-    current.place = pose_of(poses, point.body) * location_of(point, coordinates);
+    current.place = pose_of(poses, point.body) * location_of(model, point, coordinates);
     current.given = static_cast<int>(i);
     points.push_back(current);
   }
@@ -55,22 +61,23 @@ std::vector<PathStop> own_points(const Path& path, const Poses& poses, const Eig
 
 std::vector<PathStop> current_points(const Model& model, const Path& path, const Poses& poses,
                                      const Eigen::VectorXd& coordinates) {
-  std::vector<PathStop> points = own_points(path, poses, coordinates);
+  std::vector<PathStop> points = own_points(model, path, poses, coordinates);
   solve_path(placed_wraps(model, path, poses), points);
   return points;
 }
 
 /// How the moving point's place in the ground frame changes with each coordinate, times a force on it.
-static void add_moving_work(const Path& path, const PathStop& current, const Vec3& force, const Poses& poses,
+static void add_moving_work(const Skeleton& skeleton, const Path& path, const PathStop& current, const Vec3& force,
                             const Eigen::VectorXd& coordinates, Eigen::VectorXd& arms) {
   if (current.given < 0) return;
   const PathPoint& point = path.points[static_cast<std::size_t>(current.given)];
   if (!point.moving) return;
-  const Vec3 in_body = pose_of(poses, point.body).linear().transpose() * force;
+  const Vec3 in_body = pose_of(skeleton.poses(), point.body).linear().transpose() * force;
   for (int i = 0; i < 3; ++i) {
     const auto component = static_cast<std::size_t>(i);
     const Index with = point.moves_with[component];
-    if (with >= 0) arms[with] += in_body[i] * derivative(point.moves_to[component], {coordinates[with]}, {0});
+    if (with >= 0 && within_range(skeleton.model(), with, coordinates) == coordinates[with])
+      arms[with] += in_body[i] * derivative(point.moves_to[component], {coordinates[with]}, {0});
   }
 }
 
@@ -95,7 +102,7 @@ static AppliedForces pull_through(const Skeleton& skeleton, const Path& path, co
   AppliedForces forces(skeleton.model());
   const auto pull = [&](const PathStop& point, const Vec3& force) {
     add_force(forces.bodies, point.body, pose_of(poses, point.body), point.place, force);
-    add_moving_work(path, point, force, poses, coordinates, forces.coordinates);
+    add_moving_work(skeleton, path, point, force, coordinates, forces.coordinates);
   };
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (points[i].wrap >= 0 && points[i].wrap == points[i - 1].wrap) continue;  // pulls on one body only

@@ -75,7 +75,7 @@ void read_frames(ModelReading& reading, const pugi::xml_node& holder, const char
     PlacedFrame frame = reading.frame(node, reading.context.socket(node, "parent", "parent"), owner);
     frame.in_body = frame.in_body * body_fixed_xyz(reading.context.vector(node, "orientation", Vec3::Zero()),
                                                    reading.context.vector(node, "translation", Vec3::Zero()));
-    reading.frames[owner + "/" + name_of(node)] = frame;
+    reading.model.frames[owner + "/" + name_of(node)] = frame;
     read_geometry(reading, node, frame);
     read_wrap_objects(reading, node, frame);
   }

@@ -19,8 +19,7 @@ static void read_coupler(ModelReading& reading, const pugi::xml_node& node) {
   for (const std::string_view name : words_of(independent))
     coupler.independent.push_back(reading.coordinate(node, std::string(name)));
   coupler.dependent = reading.coordinate(node, reading.context.text(node, "dependent_coordinate_name"));
-  const pugi::xml_node holder = node.child("coupled_coordinates_function");
-  const pugi::xml_node function = function_below(holder ? holder : node);
+  const pugi::xml_node function = function_of(node, "coupled_coordinates_function");
   if (!function || coupler.independent.empty())
     reading.context.fail(node, "needs a function and a coordinate that it depends on", "give both");
   if (std::find(coupler.independent.begin(), coupler.independent.end(), coupler.dependent) != coupler.independent.end())
@@ -72,6 +71,28 @@ static void read_loop(ModelReading& reading, const pugi::xml_node& node, LoopCon
   }
 }
 
+/// Couplers after those that set what they depend on. A circle of them stays as it is written, and is told.
+static void sort_couplers(ModelReading& reading, const pugi::xml_node& model) {
+  std::vector<Coupler>& couplers = reading.model.couplers;
+  std::vector<Coupler> sorted;
+  while (!couplers.empty()) {
+    const auto waits = [&](const Coupler& coupler) {
+      return std::any_of(couplers.begin(), couplers.end(), [&](const Coupler& other) {
+        return std::find(coupler.independent.begin(), coupler.independent.end(), other.dependent) !=
+               coupler.independent.end();
+      });
+    };
+    auto next = std::find_if_not(couplers.begin(), couplers.end(), waits);
+    if (next == couplers.end()) {
+      next = couplers.begin();
+      reading.leave_out(model, fmt::format("the coupler '{}' is part of a circle; it is not kept exactly", next->name));
+    }
+    sorted.push_back(std::move(*next));
+    couplers.erase(next);
+  }
+  couplers = std::move(sorted);
+}
+
 void read_constraints(ModelReading& reading, const pugi::xml_node& model) {
   for (const pugi::xml_node& node : objects_of(model, "ConstraintSet")) {
     const std::string_view kind = node.name();
@@ -89,6 +110,7 @@ void read_constraints(ModelReading& reading, const pugi::xml_node& model) {
     else
       reading.leave_out(node, "constraint left out");
   }
+  sort_couplers(reading, model);
 }
 
 }  // namespace gracilis::opensim

@@ -6,7 +6,17 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace gracilis::opensim {
+
+/// What a force's kind is called now; OpenSim knows the old names in every version.
+static std::string_view kind_of(const pugi::xml_node& node) {
+  const std::string_view kind = node.name();
+  if (kind == "GeneralizedForce") return "CoordinateActuator";
+  if (kind == "Force") return "PointActuator";
+  return kind == "Torque" ? "TorqueActuator" : kind;
+}
 
 static Index body_of(const ModelReading& reading, const pugi::xml_node& node, const char* name) {
   const std::string body = reading.context.text(node, name);
@@ -15,7 +25,7 @@ static Index body_of(const ModelReading& reading, const pugi::xml_node& node, co
 
 static Actuator read_actuator(ModelReading& reading, const pugi::xml_node& node) {
   const XmlContext& context = reading.context;
-  const std::string_view kind = node.name();
+  const std::string_view kind = kind_of(node);
   Actuator actuator;
   actuator.name = name_of(node);
   actuator.applies_force = applies_force(context, node);
@@ -50,8 +60,12 @@ static bool forget(Model& model, const std::string& name) {
 /// A force that takes no part.
 static void leave_force_out(ModelReading& reading, const pugi::xml_node& node, const std::string& why) {
   reading.leave_out(node, why);
-  if (applies_force(reading.context, node))
-    reading.model.missing_forces.push_back(name_of(node).empty() ? node.name() : name_of(node));
+  bool acts = true;
+  try {
+    acts = applies_force(reading.context, node);
+  } catch (const InputError&) {  // what cannot be read may well be why it is left out
+  }
+  if (acts) reading.model.missing_forces.push_back(name_of(node).empty() ? node.name() : name_of(node));
 }
 
 /// The first body that a muscle's points name and the model does not have; empty: it has all.
@@ -64,37 +78,47 @@ static std::string missing_body(const ModelReading& reading, const pugi::xml_nod
   return "";
 }
 
-/// One that lacks what it needs is left out.
-static void add_passive_force(ModelReading& reading, const pugi::xml_node& node) {
+static bool is_muscle(const pugi::xml_node& node) {
+  return std::string_view(node.name()).find("Muscle") != std::string_view::npos || node.child("max_isometric_force");
+}
+
+static bool is_actuator(const pugi::xml_node& node) {
+  const std::string_view kind = kind_of(node);
+  return kind == "CoordinateActuator" || kind == "PointActuator" || kind == "TorqueActuator";
+}
+
+/// Adds it to the forces of its kind. One of its name that was there before goes, once this one is known to be whole.
+static void add_whole_force(ModelReading& reading, const pugi::xml_node& node) {
+  const auto add = [&](auto force, auto& forces) {
+    if (!force.name.empty() && forget(reading.model, force.name))
+      reading.leave_out(node, "replaces the force of this name that was there before");
+    forces.push_back(std::move(force));
+  };
+  const bool passive = !is_muscle(node) && is_passive_force(node);
+  if (name_of(node).empty() && !passive) reading.context.fail(node, "has no name", "give every force its own name");
+  if (is_muscle(node))
+    add(read_muscle(reading, node), reading.model.muscles);
+  else if (passive)
+    add(read_passive_force(reading, node), reading.model.passive_forces);
+  else
+    add(read_actuator(reading, node), reading.model.actuators);
+}
+
+/// One that lacks what it needs is left out, and the others are read.
+static void read_force(ModelReading& reading, const pugi::xml_node& node) {
+  if (!is_muscle(node) && !is_passive_force(node) && !is_actuator(node))
+    return leave_force_out(reading, node, "kind of force not known; left out");
+  if (const std::string body = is_actuator(node) ? "" : missing_body(reading, node); !body.empty())
+    return leave_force_out(reading, node, fmt::format("has a point on '{}', which does not exist; left out", body));
   try {
-    reading.model.passive_forces.push_back(read_passive_force(reading, node));
+    add_whole_force(reading, node);
   } catch (const InputError& error) {
     leave_force_out(reading, node, fmt::format("left out: {}", error.problems().front().what));
   }
 }
 
 void read_forces(ModelReading& reading, const pugi::xml_node& holder, const char* set) {
-  for (const pugi::xml_node& node : objects_of(holder, set)) {
-    const std::string_view kind = node.name();
-    const std::string name = name_of(node);
-    const bool muscle = kind.find("Muscle") != std::string_view::npos || node.child("max_isometric_force");
-    const bool passive = !muscle && is_passive_force(node);
-    if (!muscle && !passive && kind != "CoordinateActuator" && kind != "PointActuator" && kind != "TorqueActuator") {
-      leave_force_out(reading, node, "kind of force not known; left out");
-      continue;
-    }
-    if (name.empty() && !passive) reading.context.fail(node, "has no name", "give every force its own name");
-    if (!name.empty() && forget(reading.model, name))
-      reading.leave_out(node, "replaces the force of this name that was there before");
-    if (const std::string body = muscle || passive ? missing_body(reading, node) : ""; !body.empty())
-      leave_force_out(reading, node, fmt::format("has a point on '{}', which does not exist; left out", body));
-    else if (muscle)
-      reading.model.muscles.push_back(read_muscle(reading, node));
-    else if (passive)
-      add_passive_force(reading, node);
-    else
-      reading.model.actuators.push_back(read_actuator(reading, node));
-  }
+  for (const pugi::xml_node& node : objects_of(holder, set)) read_force(reading, node);
 }
 
 }  // namespace gracilis::opensim

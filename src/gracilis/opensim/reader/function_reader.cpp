@@ -19,6 +19,14 @@ pugi::xml_node function_below(const pugi::xml_node& node) {
   return {};
 }
 
+pugi::xml_node function_of(const pugi::xml_node& node, const char* property) {
+  if (const pugi::xml_node holder = node.child(property)) return function_below(holder);
+  for (const std::string_view name : {std::string_view(property), std::string_view()})
+    for (const pugi::xml_node& child : node.children())
+      if (is_function(child.name()) && name_of(child) == name) return child;
+  return {};
+}
+
 static void check_coefficients(const XmlContext& context, const pugi::xml_node& node, const std::vector<Real>& values,
                                std::size_t count) {
   if (values.size() == count) return;
@@ -52,8 +60,9 @@ static Function read_knots(const XmlContext& context, const pugi::xml_node& node
     if (x[i] <= x[i - 1]) context.fail(node, fmt::format("x does not increase after {}", x[i - 1]), "sort the points");
   const std::string_view kind = node.name();
   if (kind == "GCVSpline") return read_smoothing_spline(context, node, x, y);
-  if (kind == "SimmSpline") return simm_spline(x, y);
-  return kind == "NaturalCubicSpline" ? natural_spline(x, y) : piecewise_linear(x, y);
+  // What is called NaturalCubicSpline never was one: OpenSim reads it as its new name, SimmSpline.
+  if (kind == "SimmSpline" || kind == "NaturalCubicSpline") return simm_spline(x, y);
+  return piecewise_linear(x, y);
 }
 
 static Function read_multivariate(const XmlContext& context, const pugi::xml_node& node, std::size_t arguments) {

@@ -5,8 +5,10 @@
 #include <gracilis/opensim/reader/function_reader.hpp>
 
 #include <gracilis/io/text_cells.hpp>
+#include <gracilis/io/value_reader.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -20,6 +22,45 @@ static const std::map<std::string, std::vector<int>> plain_joints = {
     {"BallJoint", {0, 1, 2}},   {"GimbalJoint", {0, 1, 2}}, {"FreeJoint", {0, 1, 2, 3, 4, 5}},
     {"PlanarJoint", {2, 3, 4}}, {"WeldJoint", {}}};
 
+static void add_coordinate(ModelReading& reading, const pugi::xml_node& node, Coordinate coordinate, Joint& joint) {
+  if (coordinate.name.empty() || index_of(reading.model.coordinates, coordinate.name) >= 0)
+    reading.context.fail(node, "occurs twice or has no name", "give every coordinate its own name");
+  coordinate.joint = static_cast<Index>(reading.model.joints.size());
+  joint.coordinates.push_back(static_cast<Index>(reading.model.coordinates.size()));
+  reading.model.coordinates.push_back(std::move(coordinate));
+}
+
+/// Coordinates that a joint of this kind has and the file leaves out get the names that OpenSim gives them, which are
+/// returned.
+static std::vector<std::string> add_missing_coordinates(ModelReading& reading, const pugi::xml_node& node,
+                                                        Joint& joint) {
+  std::vector<std::string> names;
+  const auto plain = plain_joints.find(joint.type);
+  if (plain == plain_joints.end()) return names;
+  for (std::size_t i = joint.coordinates.size(); i < plain->second.size(); ++i) {
+    Coordinate coordinate;
+    coordinate.name = fmt::format("{}_coord_{}", joint.name, i);
+    coordinate.rotation = plain->second[i] < 3;
+    names.push_back(coordinate.name);
+    add_coordinate(reading, node, std::move(coordinate), joint);
+  }
+  return names;
+}
+
+/// OpenSim counts a coordinate that follows a function of time with the locked ones; a lock goes before the function.
+static void read_prescribed(ModelReading& reading, const pugi::xml_node& node, Coordinate& coordinate) {
+  const pugi::xml_node given = function_of(node, "prescribed_function");
+  if (coordinate.locked || !given || !reading.context.boolean(node, "prescribed", false)) return;
+  coordinate.locked = true;
+  const std::size_t told = reading.model.unsupported.size();
+  const Function function = read_function(reading.context, given, 1, reading.model.unsupported);
+  if (reading.model.unsupported.size() > told) return;
+  coordinate.default_value = value(function, {0});
+  if (function.kind != Function::Kind::constant)
+    reading.leave_out(node,
+                      "follows a function of time, of which the value at 0 s is taken; give its values by a motion");
+}
+
 static void read_coordinates(ModelReading& reading, const pugi::xml_node& node, Joint& joint) {
   const XmlContext& context = reading.context;
   std::vector<pugi::xml_node> nodes = objects_of(node, "coordinates");
@@ -27,9 +68,6 @@ static void read_coordinates(ModelReading& reading, const pugi::xml_node& node, 
   for (const pugi::xml_node& each : nodes) {
     Coordinate coordinate;
     coordinate.name = name_of(each);
-    if (coordinate.name.empty() || index_of(reading.model.coordinates, coordinate.name) >= 0)
-      context.fail(each, "occurs twice or has no name", "give every coordinate its own name");
-    coordinate.joint = static_cast<Index>(reading.model.joints.size());
     coordinate.rotation = context.text(each, "motion_type") != "translational";
     coordinate.default_value = context.number(each, "default_value", 0);
     const std::vector<Real> range = context.numbers(each, "range");
@@ -39,9 +77,12 @@ static void read_coordinates(ModelReading& reading, const pugi::xml_node& node, 
     }
     coordinate.locked = context.boolean(each, "locked", false);
     coordinate.clamped = context.boolean(each, "clamped", false);
-    joint.coordinates.push_back(static_cast<Index>(reading.model.coordinates.size()));
-    reading.model.coordinates.push_back(std::move(coordinate));
+    read_prescribed(reading, each, coordinate);
+    add_coordinate(reading, each, std::move(coordinate), joint);
   }
+  const std::vector<std::string> missing = add_missing_coordinates(reading, node, joint);
+  if (!missing.empty())
+    reading.leave_out(node, fmt::format("leaves out coordinates, which are called {}", fmt::join(missing, ", ")));
 }
 
 static bool moves(const TransformAxis& axis) { return !axis.coordinates.empty(); }
@@ -75,6 +116,8 @@ void complete_axes(const ModelReading& reading, const pugi::xml_node& joint, Tra
 }
 
 static void read_spatial_transform(ModelReading& reading, const pugi::xml_node& node, Joint& joint) {
+  if (!node.child("SpatialTransform"))
+    reading.leave_out(node, "has no <SpatialTransform>; its bodies are fixed to each other");
   const char* order[6] = {"rotation1", "rotation2", "rotation3", "translation1", "translation2", "translation3"};
   for (int i = 0; i < 6; ++i) joint.axes[static_cast<std::size_t>(i)].axis = Vec3::Unit(i % 3);
   for (const pugi::xml_node& each : node.child("SpatialTransform").children("TransformAxis")) {
@@ -139,7 +182,9 @@ static RigidTransform old_frame(const XmlContext& context, const pugi::xml_node&
                                 const char* location) {
   const auto rounded = [&](const char* name) -> Vec3 {
     return context.vector(node, name, Vec3::Zero()).unaryExpr([](Real x) {
-      return std::stod(fmt::format("{:.6g}", x));
+      Real short_x = x;
+      parse_number(fmt::format("{:.6g}", x), short_x);
+      return short_x;
     });
   };
   return body_fixed_xyz(rounded(orientation), rounded(location));
@@ -182,6 +227,26 @@ static void read_joint(ModelReading& reading, const pugi::xml_node& node, const 
   reading.model.joints.push_back(std::move(joint));
 }
 
+/// As OpenSim does, a body that no joint moves gets a free one.
+static void free_bodies(ModelReading& reading, const pugi::xml_node& node) {
+  Model& model = reading.model;
+  for (std::size_t i = 1; i < model.bodies.size(); ++i) {
+    const auto body = static_cast<Index>(i);
+    if (std::any_of(model.joints.begin(), model.joints.end(),
+                    [&](const Joint& joint) { return joint.child_body == body; }))
+      continue;
+    Joint joint;
+    joint.name = "free_" + model.bodies[i].name;
+    joint.type = "FreeJoint";
+    joint.child_body = body;
+    reading.leave_out(node, fmt::format("body '{}' hangs on no joint; a FreeJoint to the ground, '{}', is added",
+                                        model.bodies[i].name, joint.name));
+    add_missing_coordinates(reading, node, joint);
+    read_axes(reading, node, joint);
+    model.joints.push_back(std::move(joint));
+  }
+}
+
 /// Parents before children. What remains when no joint's parent hangs on the ground is a circle.
 static void sort_joints(ModelReading& reading, const pugi::xml_node& node) {
   Model& model = reading.model;
@@ -196,9 +261,6 @@ static void sort_joints(ModelReading& reading, const pugi::xml_node& node) {
           "every body hangs on one joint; close loops by constraints");
     child[body] = true;
   }
-  for (std::size_t i = 1; i < child.size(); ++i)
-    if (!child[i])
-      reading.context.fail(node, fmt::format("body '{}' hangs on no joint", model.bodies[i].name), "add a FreeJoint");
   for (bool any = true; any;) {
     any = false;
     for (Joint& joint : model.joints) {
@@ -223,6 +285,7 @@ void read_joints(ModelReading& reading, const pugi::xml_node& model) {
   for (const pugi::xml_node& body : objects_of(model, "BodySet"))
     for (const pugi::xml_node& joint : body.child("Joint").children())
       if (name_of(body) != "ground") read_joint(reading, joint, name_of(body));
+  free_bodies(reading, model);
   sort_joints(reading, model);
 }
 

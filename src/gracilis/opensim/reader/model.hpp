@@ -6,6 +6,7 @@
 
 #include <array>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct Coordinate {
   Index joint = 0;
   bool rotation = true;  ///< an angle: tables that say inDegrees hold it in degrees
   Real default_value = 0, range_min = -pi, range_max = pi;
-  bool locked = false, clamped = false;
+  bool locked = false, clamped = false;  ///< locked: or prescribed by a function, the value of which is the default one
 };
 
 /// Three rotations about axes that turn with those before, then three translations along axes of the parent frame.
@@ -58,6 +59,12 @@ struct Coupler {
   Function function;
 };
 
+/// A frame fixed to a body.
+struct PlacedFrame {
+  Index body = 0;
+  RigidTransform in_body = RigidTransform::Identity();
+};
+
 /// Closes a loop of bodies.
 struct LoopConstraint {
   enum class Kind {
@@ -77,6 +84,7 @@ struct WrapObject {
   Index body = 0;
   RigidTransform frame = RigidTransform::Identity();
   WrapSurface surface;
+  bool active = true;  ///< no path runs around one that is not, though a path names it
 };
 
 /// A point that a path goes through: always, within a range of a coordinate, or moving with coordinates.
@@ -179,10 +187,12 @@ struct Model {
   std::string name;
   int version = 0;  ///< of the document: 30000, 40000 ...
   Vec3 gravity = {0, -9.80665, 0};
-  std::vector<Body> bodies;   ///< bodies[0] is the ground
+  std::vector<Body> bodies;  ///< bodies[0] is the ground
+  /// By "owner/name", where the owner is the joint or body that holds them: what points of force sets may name, too.
+  std::map<std::string, PlacedFrame> frames;
   std::vector<Joint> joints;  ///< parents before children; every body but the ground is a child once
   std::vector<Coordinate> coordinates;
-  std::vector<Coupler> couplers;
+  std::vector<Coupler> couplers;  ///< behind those that set what they depend on
   std::vector<LoopConstraint> loops;
   std::vector<WrapObject> wrap_objects;
   std::vector<Muscle> muscles;

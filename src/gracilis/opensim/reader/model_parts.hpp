@@ -3,25 +3,17 @@
 #include <gracilis/opensim/reader/model.hpp>
 #include <gracilis/opensim/reader/xml.hpp>
 
-#include <map>
+#include <set>
+#include <string>
 
 /// What the readers of a model's parts share.
 namespace gracilis::opensim {
-
-/// A frame fixed to a body.
-struct PlacedFrame {
-  Index body = 0;
-  RigidTransform in_body = RigidTransform::Identity();
-};
-
-/// Frames by "owner/name", where the owner is the joint or body that holds them.
-using Frames = std::map<std::string, PlacedFrame>;
 
 /// A file being read into a model.
 struct ModelReading {
   XmlContext context;
   Model& model;
-  Frames frames = {};
+  std::set<std::string> told{model.unsupported.begin(), model.unsupported.end()};  ///< so that nothing is told twice
 
   /// What a path such as "/bodyset/femur_r" or "femur_r_offset" names, seen from inside `owner`.
   PlacedFrame frame(const pugi::xml_node& node, const std::string& reference, const std::string& owner) const;

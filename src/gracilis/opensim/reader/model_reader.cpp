@@ -45,12 +45,12 @@ PlacedFrame ModelReading::frame(const pugi::xml_node& node, const std::string& g
   const std::string name = last_name(reference);
   const std::string above = reference.substr(0, reference.size() - name.size());
   if (above.size() > 1)
-    if (const auto found = frames.find(last_name(above.substr(0, above.size() - 1)) + "/" + name);
-        found != frames.end())
+    if (const auto found = model.frames.find(last_name(above.substr(0, above.size() - 1)) + "/" + name);
+        found != model.frames.end())
       return found->second;
-  if (const auto found = frames.find(owner + "/" + name); found != frames.end()) return found->second;
+  if (const auto found = model.frames.find(owner + "/" + name); found != model.frames.end()) return found->second;
   if (const Index body = index_of(model.bodies, name); body >= 0) return {body, RigidTransform::Identity()};
-  for (const auto& [key, placed] : frames)
+  for (const auto& [key, placed] : model.frames)
     if (last_name(key) == name) return placed;
   context.fail(node, fmt::format("names the body '{}', which does not exist", reference),
                suggestion(name, names(model.bodies)));
@@ -75,8 +75,7 @@ Index ModelReading::coordinate(const pugi::xml_node& node, const std::string& re
 
 void ModelReading::leave_out(const pugi::xml_node& node, const std::string& what) {
   std::string line = fmt::format("{} '{}': {}", node.name(), name_of(node), what);
-  if (std::find(model.unsupported.begin(), model.unsupported.end(), line) == model.unsupported.end())
-    model.unsupported.push_back(std::move(line));
+  if (told.insert(line).second) model.unsupported.push_back(std::move(line));
 }
 
 /// Sets of a model that stand beside bodies, joints, constraints and forces. What is in them takes no part.

@@ -101,6 +101,12 @@ static void read_curves(ModelReading& reading, const pugi::xml_node& node, Muscl
   }
 }
 
+/// Before 30513 OpenSim wrote 0 where it meant nothing, and takes it so.
+static Real read_min_control(const XmlContext& context, const pugi::xml_node& node, Real otherwise) {
+  const Real least = context.number(node, "min_control", otherwise);
+  return context.version < 30513 && least == 0 ? otherwise : least;
+}
+
 Muscle read_muscle(ModelReading& reading, const pugi::xml_node& node) {
   const XmlContext& context = reading.context;
   Muscle muscle;
@@ -122,7 +128,7 @@ Muscle read_muscle(ModelReading& reading, const pugi::xml_node& node) {
   else
     reading.leave_out(
         node, fmt::format("<max_contraction_velocity> is {}; {} is taken", velocity, muscle.max_contraction_velocity));
-  muscle.min_control = context.number(node, "min_control", muscle.min_control);
+  muscle.min_control = read_min_control(context, node, muscle.min_control);
   muscle.max_control = context.number(node, "max_control", muscle.max_control);
   read_curves(reading, node, muscle);
   if (!(std::abs(muscle.pennation_angle_at_optimal) < pi / 2))

@@ -124,9 +124,8 @@ static void read_path_force(ModelReading& reading, const pugi::xml_node& node, P
   force.transition_strain = context.number(node, "transition_strain", 0.06);
   force.pcsa_force = context.number(node, "pcsa_force", 0);
   force.curve = ligament_curve();
-  if (const pugi::xml_node holder = node.child("force_length_curve"))
-    if (const pugi::xml_node curve = function_below(holder))
-      force.curve = read_function(context, curve, 1, reading.model.unsupported);
+  if (const pugi::xml_node curve = function_of(node, "force_length_curve"))
+    force.curve = read_function(context, curve, 1, reading.model.unsupported);
 }
 
 PassiveForce read_passive_force(ModelReading& reading, const pugi::xml_node& node) {

@@ -15,8 +15,8 @@ static const char* const second_cylinder = "/V";
 
 /// "+x", "-y" ...: the side a path stays on; "all" is both.
 static void read_quadrant(const XmlContext& context, const pugi::xml_node& node, WrapSurface& surface) {
-  const std::string quadrant = context.text(node, "quadrant");
-  if (quadrant.empty() || quadrant == "all" || quadrant == "Unassigned") return;
+  const std::string quadrant = lower_case(context.text(node, "quadrant"));
+  if (quadrant.empty() || quadrant == "all" || quadrant == "unassigned") return;
   const char axis = quadrant.back();
   if (quadrant.size() > 2 || axis < 'x' || axis > 'z')
     context.fail(node, fmt::format("<quadrant> is '{}'", quadrant), "use all, +x, -x, +y, -y, +z or -z");
@@ -83,12 +83,6 @@ static bool read_shape(const XmlContext& context, const pugi::xml_node& node, Wr
   return true;
 }
 
-static void add_wrap_object(ModelReading& reading, const pugi::xml_node& node, WrapObject object) {
-  if (index_of(reading.model.wrap_objects, object.name) >= 0)
-    reading.context.fail(node, "occurs twice", "give every wrap object its own name");
-  reading.model.wrap_objects.push_back(std::move(object));
-}
-
 /// The second cylinder of a double obstacle may be on another body.
 static void add_second_cylinder(ModelReading& reading, const pugi::xml_node& node, WrapObject object) {
   const XmlContext& context = reading.context;
@@ -98,7 +92,7 @@ static void add_second_cylinder(ModelReading& reading, const pugi::xml_node& nod
   if (!body.empty() && body != "Unassigned") object.body = reading.frame(node, body, "").body;
   object.frame = body_fixed_xyz(context.vector(node, "xyz_body_rotationVcyl", Vec3::Zero()),
                                 context.vector(node, "translationVcyl", Vec3::Zero()));
-  add_wrap_object(reading, node, std::move(object));
+  reading.model.wrap_objects.push_back(std::move(object));
 }
 
 void read_wrap_objects(ModelReading& reading, const pugi::xml_node& holder, const PlacedFrame& frame) {
@@ -113,9 +107,13 @@ void read_wrap_objects(ModelReading& reading, const pugi::xml_node& holder, cons
       reading.leave_out(node, "kind of wrap object not known; paths pass through it");
       continue;
     }
-    if (!context.boolean(node, "active", true)) continue;
+    object.active = context.boolean(node, "active", true);
     read_quadrant(context, node, object.surface);
-    add_wrap_object(reading, node, object);
+    if (index_of(reading.model.wrap_objects, object.name) >= 0) {
+      reading.leave_out(node, "has the name of another wrap object; paths run around the first, as in OpenSim");
+      continue;
+    }
+    reading.model.wrap_objects.push_back(object);
     if (std::string_view(node.name()) == "WrapDoubleCylinderObst") add_second_cylinder(reading, node, object);
   }
 }
@@ -134,7 +132,7 @@ static void read_motion(ModelReading& reading, const pugi::xml_node& node, PathP
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = names[i];
     const std::string coordinate = reading.context.socket(node, name + "_coordinate", (name + "_coordinate").c_str());
-    const pugi::xml_node function = function_below(node.child((name + "_location").c_str()));
+    const pugi::xml_node function = function_of(node, (name + "_location").c_str());
     if (!function) continue;
     point.moves_to[i] = read_function(reading.context, function, coordinate.empty() ? 0 : 1, reading.model.unsupported);
     if (!coordinate.empty() && point.moves_to[i].kind != Function::Kind::constant)
@@ -160,8 +158,8 @@ static PathPoint read_point(ModelReading& reading, const pugi::xml_node& node) {
 }
 
 static WrapSurface::Plane read_plane(const XmlContext& context, const pugi::xml_node& node) {
-  const std::string method = context.text(node, "method");
-  if (method.empty() || method == "hybrid" || method == "Unassigned") return WrapSurface::Plane::hybrid;
+  const std::string method = lower_case(context.text(node, "method"));
+  if (method.empty() || method == "hybrid" || method == "unassigned") return WrapSurface::Plane::hybrid;
   if (method == "midpoint") return WrapSurface::Plane::midpoint;
   if (method == "axial") return WrapSurface::Plane::axial;
   context.fail(node, fmt::format("<method> is '{}'", method), "use hybrid, midpoint or axial");
@@ -177,6 +175,7 @@ static void read_wraps(ModelReading& reading, const pugi::xml_node& node, Path& 
       path.approximate = true;
       continue;
     }
+    if (!reading.model.wrap_objects[static_cast<std::size_t>(wrap.object)].active) continue;
     const std::vector<Real> range = reading.context.numbers(each, "range");
     if (range.size() == 2) {
       const auto number = [&](Real place) { return static_cast<int>(std::clamp(place, -1.0, 1e6)); };
@@ -198,7 +197,7 @@ static Path read_function_path(ModelReading& reading, const pugi::xml_node& node
   const std::string coordinates = reading.context.text(node, "coordinate_paths");
   for (const std::string_view name : words_of(coordinates))
     path.function_coordinates.push_back(reading.coordinate(node, std::string(name)));
-  const pugi::xml_node function = function_below(node.child("length_function"));
+  const pugi::xml_node function = function_of(node, "length_function");
   if (!function || path.function_coordinates.empty())
     reading.context.fail(node, "needs <coordinate_paths> and a <length_function>", "give both");
   path.length_function =

@@ -64,7 +64,7 @@ XmlFile read_xml(const std::filesystem::path& path) {
                       fmt::format("has document version '{}'; 10000 (OpenSim 1.0) is the oldest that can be read",
                                   file.root.attribute("Version").value()),
                       "open it in OpenSim 3 or 4 and save it"});
-  if (file.version < 30000) bring_to_version_3(file.root);
+  if (file.version < 30000) bring_to_version_3(file.root, file.version);
   return file;
 }
 
