@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Every publication's figures and tables again, published beside ours, and one page with a thumbnail of each figure and its command.
 #   reproductions/run.sh [--thin] [--only NAME,...] [--data FOLDER] [--out FOLDER]
-# Leaves OUT/NAME for each and OUT/index.html. --thin: few frames, coarse copies.
+# Leaves OUT/NAME for each and OUT/index.html. --thin: few frames, coarse copies. Killed, the same line goes on; with other options or
+# another version of the program it begins anew.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/.." && pwd)

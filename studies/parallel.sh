@@ -4,5 +4,6 @@
 study=$1
 shift
 shards=${SHARDS:-$(nproc)}
-seq "$shards" | parallel --will-cite --halt never --line-buffer --tagstring 'shard {}' "$@" \
+# --quote: paths may have spaces.
+seq "$shards" | parallel --will-cite --halt never --line-buffer --quote --tagstring 'shard {}' "$@" \
   "${GRACILIS:-gracilis}" study run "$study" --shard "{}/$shards"

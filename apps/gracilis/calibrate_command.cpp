@@ -115,9 +115,11 @@ void print_result(const CalibrationResult& result) {
   for (std::size_t t = 0; t < result.calibration.targets.size(); ++t) {
     const CalibrationTarget& target = result.calibration.targets[t];
     const Real factor = shown_factor(target.kind);
-    fmt::print("{}{}: {:.3g} {} RMS before, {:.3g} after (tolerance {:g})\n", target.name,
+    const Real after = factor * target_rms(target, result.after[t]);
+    fmt::print("{}{}: {:.3g} {} RMS before, {} after (tolerance {:g})\n", target.name,
                target.held_out ? ", held out" : "", factor * target_rms(target, result.before[t]),
-               shown_unit(target.kind), factor * target_rms(target, result.after[t]), factor * target.tolerance);
+               shown_unit(target.kind), std::isfinite(after) ? fmt::format("{:.3g}", after) : "unknown",
+               factor * target.tolerance);
   }
 }
 

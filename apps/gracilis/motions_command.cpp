@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -28,20 +29,45 @@ struct MotionsOptions {
   opensim::SampleSettings settings;
 };
 
+bool is_asked_for(const MotionsOptions& options, const opensim::Joint& joint) {
+  const std::vector<std::string>& asked = options.joints;
+  return asked.empty() || std::find(asked.begin(), asked.end(), joint.name) != asked.end();
+}
+
+/// A range of what is not sampled would be passed over without a word.
+void require_sampled(const opensim::Model& model, Index index, const MotionsOptions& options) {
+  const opensim::Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(index)];
+  const auto fail = [&](const std::string& why, const std::string& remedy) {
+    throw ConfigurationError({"--range", "", fmt::format("'{}' {}", coordinate.name, why), remedy});
+  };
+  if (!coordinate.rotation) fail("is no angle", "only angles are sampled");
+  const bool is_dependent = std::any_of(model.couplers.begin(), model.couplers.end(),
+                                        [&](const auto& coupler) { return coupler.dependent == index; });
+  if (coordinate.locked || is_dependent)
+    fail("is locked or depends on others, and is not sampled", "leave its range out");
+  const opensim::Joint& joint = model.joints[static_cast<std::size_t>(coordinate.joint)];
+  if (!is_asked_for(options, joint))
+    fail(fmt::format("is a coordinate of the joint '{}', which --joint leaves out", joint.name),
+         fmt::format("add --joint {}, or leave the range out", joint.name));
+}
+
 /// "hip_flexion_r=-10:60", in degrees.
-void read_range(const opensim::Model& model, const std::string& text, opensim::SampleSettings& settings) {
+void read_range(const opensim::Model& model, const std::string& text, const MotionsOptions& options,
+                opensim::SampleSettings& settings) {
   const std::size_t equals = text.find('='), colon = text.find(':', equals + 1);
   double low = 0, high = 0;
   if (equals == std::string::npos || colon == std::string::npos ||
       !parse_number(text.substr(equals + 1, colon - equals - 1), low) || !parse_number(text.substr(colon + 1), high))
     throw ConfigurationError({"--range", "", fmt::format("'{}' is not of the form NAME=FROM:TO", text), ""});
+  if (!std::isfinite(low) || !std::isfinite(high))
+    throw ConfigurationError(
+        {"--range", "", fmt::format("'{}' is no range", text), "FROM and TO are finite numbers of degrees"});
   const std::string name = text.substr(0, equals);
   const Index index = opensim::index_of(model.coordinates, name);
   if (index < 0)
     throw ConfigurationError({"--range", "", fmt::format("the model has no coordinate '{}'", name),
                               suggestion(name, opensim::names_of(model.coordinates))});
-  if (!model.coordinates[static_cast<std::size_t>(index)].rotation)
-    throw ConfigurationError({"--range", "", fmt::format("'{}' is no angle", name), "only angles are sampled"});
+  require_sampled(model, index, options);
   settings.ranges[name] = {radians(low), radians(high)};
 }
 
@@ -49,18 +75,17 @@ int write_motions(const MotionsOptions& options) {
   const opensim::Model model = read_opensim_model(options.model, false);
   opensim::SampleSettings settings = options.settings;
   settings.speed = radians(options.speed_deg);
-  for (const std::string& range : options.ranges) read_range(model, range, settings);
   std::vector<std::string> known;
   for (const opensim::Joint& joint : model.joints) known.push_back(joint.name);
   for (const std::string& name : options.joints)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw ConfigurationError(
           {"--joint", "", fmt::format("the model has no joint '{}'", name), suggestion(name, known)});
+  for (const std::string& range : options.ranges) read_range(model, range, options, settings);
   fs::create_directories(options.out);
   std::set<std::string> taken;
   for (const opensim::Joint& joint : model.joints) {
-    const bool asked = std::find(options.joints.begin(), options.joints.end(), joint.name) != options.joints.end();
-    if (!asked && !options.joints.empty()) continue;
+    if (!is_asked_for(options, joint)) continue;
     for (const opensim::SampleMotion& sample : opensim::sample_motions(model, joint, settings)) {
       const fs::path path = options.out / (file_name_of(sample.name, taken) + ".mot");
       write_sto(path, opensim::coordinate_table(model, sample.motion));

@@ -164,6 +164,7 @@ int collect(const StudyOptions& options) {
   const CollectEnd end = collect_study(study, GRACILIS_VERSION);
   spdlog::info("{} runs, {:.0f} numbers; {} failed, {} are not complete yet", end.collected, end.rows, end.failed,
                end.left);
+  if (!end.remark.empty()) spdlog::warn("{}", end.remark);
   for (const char* file : {"measures.csv", "frames.csv", "runs.csv", "failures.csv"})
     fmt::print("{}\n", (study.folder / file).string());
   if (!options.hdf5) return static_cast<int>(ExitCode::done);

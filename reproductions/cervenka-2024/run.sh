@@ -30,7 +30,7 @@ mkdir -p "$out/tables"
 hip() {
   local name=$1
   shift
-  [[ -f $out/$name/fiber_lengths.sto ]] || quietly "$out/$name.txt" "$gracilis" demo "${motion[@]}" "$@" "${more[@]}" \
+  is_finished "$out/$name" || quietly "$out/$name.txt" "$gracilis" demo "${motion[@]}" "$@" "${more[@]}" \
     --metrics light --out "$out/$name" --force
 }
 hip published --preset rbf-2024

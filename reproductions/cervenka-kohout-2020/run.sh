@@ -15,7 +15,7 @@ from=()
 
 # run NAME SCENE: a missed gate (exit code 5) is no reason to stop, the curves are there all the same.
 run() {
-  [[ -f $out/$1/run.json && -f $out/$1/plots/angles.svg ]] && return
+  is_finished "$out/$1" && return
   "$gracilis" run "$2" "${from[@]}" "${more[@]}" --out "$out/$1" --layout surfaces --force >"$out/$1.txt" 2>&1 ||
     [[ -f $out/$1/plots/angles.svg ]] || {
     echo "$1: failed, see $out/$1.txt" >&2

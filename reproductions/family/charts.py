@@ -1,6 +1,7 @@
 """Charts as SVG, all of one family: axes with units, what was published in gray, ours in color, no scripts."""
 import base64
 import html
+import math
 import struct
 import zlib
 
@@ -13,7 +14,8 @@ ABOUT_ZERO = [(33, 102, 172), (247, 247, 247), (178, 24, 43)]
 
 
 class Series:
-    """Points (x, y) joined by a line, or apart (`marks`); `band`: a second row of points, the area between is filled."""
+    """Points (x, y) joined by a line, or apart (`marks`); `band`: a second row of points, the area between is filled.
+    Points that are not finite are left out, and a line is broken there."""
 
     def __init__(self, name, points, color=None, marks=False, dash=False, band=None, size=3):
         self.name, self.points, self.color = name, points, color
@@ -60,8 +62,33 @@ def published(name, points, **more):
     return Series(name, points, PUBLISHED, **more)
 
 
+def pieces(points):
+    """Runs of points (of several numbers each) between those that are not finite, where a line is broken."""
+    found = [[]]
+    for point in points:
+        if all(map(math.isfinite, point)):
+            found[-1].append(point)
+        elif found[-1]:
+            found.append([])
+    return [piece for piece in found if piece]
+
+
+def finite(points):
+    return [point for piece in pieces(points) for point in piece]
+
+
+def areas(points, band):
+    """Corners of what lies between two lines, apart where a point of either is not finite."""
+    if len(points) != len(band):
+        return [finite(points) + finite(band)[::-1]]
+    both = pieces((*a, *b) for a, b in zip(points, band))
+    return [[point[:2] for point in piece] + [point[2:] for point in reversed(piece)] for piece in both]
+
+
 def ticks(low, high, most=7):
-    """Round numbers from low to high, `most` at most."""
+    """Round numbers from low to high, `most` at most; none where either is not finite."""
+    if not math.isfinite(high - low):
+        return []
     span = max(high - low, 1e-12)
     step = 10.0 ** -9
     while True:
@@ -84,7 +111,7 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
     """An SVG's text. `square`: a unit is as long on both axes. `field`: what lies under the curves."""
     if field:
         x_range, y_range = x_range or field.x_range, y_range or field.y_range
-    every = [p for s in series for p in list(s.points) + list(s.band or [])]
+    every = [p for s in series for p in finite(s.points) + finite(s.band or [])]
     every += [(field.x_range[0], field.y_range[0])] if field else []
     if not every:
         return ""
@@ -127,15 +154,16 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
     for s in series:
         color = s.color or next(colors)
         if s.band:
-            corners = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(at, list(s.points) + list(reversed(s.band))))
-            inside.append(f'<polygon points="{corners}" fill="{color}" opacity="0.25"/>')
+            for area in areas(s.points, s.band):
+                corners = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(at, area))
+                inside.append(f'<polygon points="{corners}" fill="{color}" opacity="0.25"/>')
         elif s.marks:
             rim = ' stroke="#fff" stroke-width="0.8"' if field and s.size > 2 else ""
-            inside += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{s.size}" fill="{color}"{rim}/>' for x, y in map(at, s.points)]
+            inside += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{s.size}" fill="{color}"{rim}/>' for x, y in map(at, finite(s.points))]
         else:
             dash = ' stroke-dasharray="5 3"' if s.dash else ""
-            inside.append(line(s.points, f'stroke="{color}" stroke-width="1.8"{dash}'))
-        if s.name and s.points:
+            inside += [line(piece, f'stroke="{color}" stroke-width="1.8"{dash}') for piece in pieces(s.points)]
+        if s.name and s.points and not s.band:  # the curve through a band tells of it
             legend.append(f'<tspan fill="{color}">■ {html.escape(s.name)}</tspan>')
     clip = f"c{zlib.crc32(repr((title, x_label, y_label, width, height)).encode()):x}"
     parts.append(f'<clipPath id="{clip}"><rect x="{LEFT}" y="{TOP}" width="{across}" height="{high}"/></clipPath>'

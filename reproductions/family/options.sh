@@ -1,6 +1,7 @@
 # What the reproductions' scripts share: sourced with their own name and options.
 #   source family/options.sh NAME "$@"
-# Sets root, here, data, out, thin (empty, or --thin), gracilis, and more (what is left of the options).
+# Sets root, here, data, out, thin (empty, or --thin), gracilis, and more (what is left of the options). What OUT has from a pass with
+# other options, data or another version goes.
 name=$1
 shift
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../$name" && pwd)
@@ -23,7 +24,8 @@ while (($#)); do
   esac
   shift
 done
-mkdir -p "$out"
+source "$root/reproductions/family/stamp.sh"
+begin_in "$out" "$gracilis" "${thin:-full}" --data "$data" "${more[@]}"
 
 # quietly LOG COMMAND...: what it says goes to the log; an exit code but 0 and 5 (a missed gate) is told and ends the script.
 quietly() {

@@ -76,7 +76,8 @@ class Page:
         self.figures, self.rows, self.missing = [], [], []
 
     def chart(self, name, title, remark, series, x_label, y_label, **more):
-        """A chart, OUT/figures/NAME.svg, and its points, NAME.csv (NAME_field.csv: what lies under them)."""
+        """A chart, OUT/figures/NAME.svg, and its points, NAME.csv (NAME_field.csv: what lies under them); of a band the lower
+        ones as "CURVE (low)" and the upper ones as "CURVE (high)"."""
         svg = charts.chart(title, series, x_label, y_label, **more)
         if not svg:
             return
@@ -85,7 +86,9 @@ class Page:
             writer = csv.writer(file)
             writer.writerow(["curve", x_label, y_label])
             for s in series:
-                writer.writerows([s.name, f"{x:.6g}", f"{y:.6g}"] for x, y in list(s.points) + list(s.band or []))
+                curves = {f"{s.name} (low)": s.points, f"{s.name} (high)": s.band} if s.band else {s.name: s.points}
+                for curve, points in curves.items():
+                    writer.writerows([curve.strip(), f"{x:.6g}", f"{y:.6g}"] for x, y in points)
         field = more.get("field")
         if field:
             self._field(name, field, x_label, y_label)

@@ -72,7 +72,7 @@ def fiber_charts(page, out):
             rows = by_run[name][muscle]
             low = [(angle, 1000 * min(lengths)) for angle, lengths in rows]
             high = [(angle, 1000 * max(lengths)) for angle, lengths in rows]
-            series += [Series("", low, color, band=high),
+            series += [Series(label, low, color, band=high),
                        Series(label, [(angle, 1000 * mean(lengths)) for angle, lengths in rows], color)]
         page.chart(f"fibers_{muscle}", f"As Figures 7.10 and 7.11: {muscle.replace('_', ' ')}",
                    "Lengths of 100 fibers: their mean, and from the least to the largest.", series, "hip flexion, degrees", "fiber length, mm")

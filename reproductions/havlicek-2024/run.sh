@@ -30,7 +30,7 @@ sample_activations() {
 # hip NAME PRESET passive|active STEP OPTION...: flexion of the hip into OUT/NAME. One that explodes ends with exit code 5, after the frames before.
 hip() {
   local name=$1 preset=$2 kind=$3 step=$4 scene=$here/hip.toml
-  [[ -f $out/$name/preview.png ]] && return
+  is_finished "$out/$name" && return
   shift 4
   mkdir -p "$(dirname "$out/$name")"
   if [[ -n $cadaver ]]; then

@@ -16,7 +16,7 @@ steps=(25 50 75 100 150 200)
 # hip NAME KEY=VALUE...: one frame of the published preset with these settings, on one thread: times are processor time.
 hip() {
   local folder=$out/runs/$1 set=() setting
-  [[ -f $folder/measures.csv ]] && return
+  is_finished "$folder" && return
   shift
   for setting in "$@"; do set+=(--set "$setting"); done
   quietly "$folder.txt" "$gracilis" run "$root/scenes/lhdl_hip/flexion_at_once.toml" --data "$data" --set preset=janak-2012 \

@@ -73,7 +73,7 @@ into "$out/ten" --muscles "$ten" "${walk[@]}" "${geometry[@]}" --rays 8
 cp "$here/transversals.toml" "$out/ten"
 # frames NAME SCENE
 frames() {
-  [[ -f $out/run_$1/measures.csv ]] ||
+  is_finished "$out/run_$1" ||
     quietly "$out/run_$1.txt" "$gracilis" run "$2" --set method=cylinder "${more[@]}" --every "$every" --no-ramp --no-fibers --yes \
       --out "$out/run_$1" --force
 }

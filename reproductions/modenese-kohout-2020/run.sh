@@ -29,14 +29,15 @@ gracilis=${GRACILIS:-$root/build/release/bin/gracilis}
   echo "skipped: there is no $data/validation" >&2
   exit 0
 }
-mkdir -p "$out"
+source "$root/reproductions/family/stamp.sh"
+begin_in "$out" "$gracilis" "${thin[*]:-full}" --data "$data"
 "$root/reproductions/moment_arms/run.sh" --methods "$methods" --data "$data" --out "$out/sweeps" "${thin[@]}" >/dev/null
 
 # Arms about one coordinate while another is changed: short sweeps about 0 (Dostal 1986).
 short() {
   local method=$1 coordinate=$2 flexion=$3 other=$4
   local folder=$out/sweeps/$method/${coordinate}_at_$flexion
-  [[ -f $folder/moment_arms.sto ]] && return
+  is_finished "$folder" && [[ -f $folder/moment_arms.sto ]] && return
   mkdir -p "${folder%/*}"
   "$gracilis" rom "$root/scenes/lhdl_hip/hip.toml" --data "$data" --coord "$coordinate=-4:4:2" --coord "hip_flexion_r=$flexion" \
     --coord "$other=0" --set method="$method" --out "$folder" --force >"$folder.txt" 2>&1 ||

@@ -29,7 +29,8 @@ validation=$data/validation
   echo "skipped: there is no $validation" >&2
   exit 0
 }
-mkdir -p "$out"
+source "$root/reproductions/family/stamp.sh"
+begin_in "$out" "$gracilis" --step "$step" --data "$data"
 summary=$out/summary.csv
 
 # sweep METHOD NAME SCENE DATA COORDINATE=FROM:TO:STEP REFERENCE [more options of rom]
@@ -37,7 +38,7 @@ sweep() {
   local method=$1 name=$2 scene=$3 scene_data=$4 coordinate=$5 reference=$6
   shift 6
   local folder=$out/$method/$name
-  if [[ ! -f $folder/reference.csv ]]; then
+  if ! { is_finished "$folder" && [[ -f $folder/reference.csv ]]; }; then
     # A missed gate (exit code 5) is no reason to stop: arms are there all the same.
     "$gracilis" rom "$scene" --data "$scene_data" --coord "$coordinate" --reference "$reference" --set method="$method" \
       --out "$folder" --force "$@" >"$out/$method-$name.txt" 2>&1 || [[ -f $folder/reference.csv ]] || {

@@ -38,4 +38,33 @@ TEST(MotionsCommand, wrong_ranges_are_named) {
   EXPECT_THAT(sampled(folder, "--speed 0.001 --time-step 0.00001").err, testing::HasSubstr("more than a million rows"));
 }
 
+TEST(MotionsCommand, ranges_that_would_be_passed_over_are_refused_with_the_reason) {
+  using namespace opensim;
+  const TestFolder folder;
+  const std::string locked =
+      "<Coordinate name=\"twist\"><default_value>0</default_value><locked>true</locked></Coordinate>";
+  const auto model = folder.write(
+      "leg.osim",
+      document(set("BodySet", body("thigh") + body("shank") + body("foot")) +
+               set("JointSet", joint("PinJoint", "hip_r", "/ground", "thigh", coordinate("hip_flexion_r")) +
+                                   joint("PinJoint", "knee_r", "/bodyset/thigh", "shank", coordinate("knee_angle_r")) +
+                                   joint("PinJoint", "ankle_r", "/bodyset/shank", "foot", locked))));
+  const auto motions = [&](const std::string& options) {
+    return run_program("motions " + model.string() + " --steps 1 --out " + (folder.path() / "out").string() + " " +
+                       options);
+  };
+  const ProgramResult other = motions("--joint hip_r --range knee_angle_r=-20:0");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, testing::HasSubstr("'knee_angle_r' is a coordinate of the joint 'knee_r'"));
+  EXPECT_EQ(motions("--joint hip_r --joint knee_r --range knee_angle_r=-20:0").exit_code, 0);
+  for (const std::string range : {"nan:10", "0:inf"}) {
+    const ProgramResult result = motions("--range hip_flexion_r=" + range);
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, testing::HasSubstr("--range: 'hip_flexion_r=" + range + "' is no range"));
+  }
+  const ProgramResult held = motions("--range twist=0:10");
+  EXPECT_EQ(held.exit_code, 2);
+  EXPECT_THAT(held.err, testing::HasSubstr("'twist' is locked"));
+}
+
 }  // namespace gracilis

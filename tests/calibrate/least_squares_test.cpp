@@ -74,6 +74,14 @@ TEST(LeastSquares, points_that_cannot_be_evaluated_are_gone_around) {
   EXPECT_NEAR(end.best[0], 0.7, 1e-3);
 }
 
+TEST(LeastSquares, a_start_that_cannot_be_evaluated_is_told_by_every_search) {
+  const ResidualFunction none = [](const std::vector<Eigen::VectorXd>& points) {
+    return std::vector<std::optional<Eigen::VectorXd>>(points.size());
+  };
+  EXPECT_THROW(least_squares(none, middle, {}), QualityError);
+  EXPECT_THROW(direct_search(SearchMethod::bobyqa, none, middle, {}), QualityError);
+}
+
 TEST(LeastSquares, it_stops_where_nothing_changes_and_when_points_are_spent) {
   Index count = 0;
   const auto flat = [](const Eigen::VectorXd&) -> Eigen::VectorXd { return Eigen::VectorXd::Ones(3); };

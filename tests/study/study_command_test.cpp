@@ -145,6 +145,9 @@ TEST(StudyCommand, a_run_that_fails_leaves_its_reason_and_the_others_go_on) {
   EXPECT_THAT(failures, HasSubstr("\nb,2,"));
   EXPECT_THAT(failures, HasSubstr("pressure"));
   EXPECT_THAT(failures, HasSubstr("\nc,3,"));
+  ASSERT_EQ(run_program("study report " + study.string() + " --worst 0").exit_code, 0);
+  const std::string page = read_text(folder.path("rows/report.html"));
+  for (const char* run : {"b", "c"}) EXPECT_THAT(page, HasSubstr("<td>" + std::string(run) + "</td>"));
 }
 
 TEST(StudyCommand, a_run_over_its_time_is_ended_and_told) {

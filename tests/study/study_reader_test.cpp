@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -80,6 +81,24 @@ TEST(StudyReader, a_table_is_a_run_per_row_and_empty_cells_leave_keys_as_they_ar
   EXPECT_THAT(study.runs[0].set, ElementsAre("preset=fast"));
   EXPECT_THAT(study.runs[1].set, ElementsAre("psoas_r.pressure=1.1"));
   EXPECT_EQ(scene_file(study, study.runs[1]), std::filesystem::temp_directory_path() / "legs/a.toml");
+}
+
+TEST(StudyReader, data_named_from_the_folder_that_one_stands_in_are_found_from_every_other) {
+  const std::filesystem::path file = file_with("gracilis_study_data_test.toml", "scene = \"demo\"\ndata = \"data\"\n");
+  EXPECT_EQ(read_study(std::filesystem::relative(file)).data, file.parent_path() / "data");
+
+  const char* variable = std::getenv("GRACILIS_DATA");
+  const std::string before = variable ? variable : "";
+  setenv("GRACILIS_DATA", ".", 1);
+  const std::filesystem::path data = study_in("scene = \"demo\"\n").data;
+  setenv("GRACILIS_DATA", "/", 1);
+  EXPECT_EQ(study_in("scene = \"demo\"\n").data, "") << "scenes find it by themselves";
+  if (variable)
+    setenv("GRACILIS_DATA", before.c_str(), 1);
+  else
+    unsetenv("GRACILIS_DATA");
+  EXPECT_TRUE(data.is_absolute()) << data;
+  EXPECT_TRUE(std::filesystem::equivalent(data, std::filesystem::current_path())) << data;
 }
 
 TEST(StudyReader, what_is_wrong_is_told_once_with_its_place) {

@@ -99,6 +99,9 @@ void write_scene(const fs::path& folder, const CalibratedScene& scene) {
   write_text_atomically(folder / "calibrated_scene.toml", text);
 }
 
+/// Behind the point; empty where it is not known.
+std::string four_digits(Real value) { return std::isnan(value) ? "" : fmt::format("{:.4f}", value); }
+
 std::string number_or_nothing(Real value) { return std::isnan(value) ? "" : fmt::format("{:.6g}", value); }
 
 void write_parameters(const fs::path& file, const CalibrationResult& result) {
@@ -115,7 +118,7 @@ void write_parameters(const fs::path& file, const CalibrationResult& result) {
 }
 
 void write_fit(const fs::path& file, const CalibrationResult& result) {
-  std::string text = "target,held_out,muscle,source,angle_deg,aim,before,after,unit\n";
+  std::string text = "target,held_out,muscle,source,angle_deg,aim,before,after,unit,remark\n";
   for (std::size_t t = 0; t < result.calibration.targets.size(); ++t) {
     const CalibrationTarget& target = result.calibration.targets[t];
     const Real factor = shown_factor(target.kind);
@@ -123,15 +126,15 @@ void write_fit(const fs::path& file, const CalibrationResult& result) {
       const TargetPart& part = target.parts[p];
       const std::string begin = fmt::format("{},{},{},{}", csv_cell(target.name), target.held_out ? "yes" : "no",
                                             csv_cell(part.muscle), csv_cell(part.source));
-      const std::string unit = shown_unit(target.kind);
+      const std::string end = fmt::format("{},{}\n", shown_unit(target.kind), csv_cell(result.remarks[t]));
       const std::vector<Real>&before = result.before[t][p], &after = result.after[t][p];
       if (part.shape)
-        text += fmt::format("{},,0,{:.4f},{:.4f},{}\n", begin, factor * part_rms(target, part, before),
-                            factor * part_rms(target, part, after), unit);
+        text += fmt::format("{},,0,{},{},{}", begin, four_digits(factor * part_rms(target, part, before)),
+                            four_digits(factor * part_rms(target, part, after)), end);
       for (std::size_t i = 0; i < part.values.size(); ++i)
-        text += fmt::format("{},{},{:.4f},{:.4f},{:.4f},{}\n", begin,
+        text += fmt::format("{},{},{:.4f},{},{},{}", begin,
                             part.at.empty() ? "" : fmt::format("{:.4f}", degrees(part.at[i])), factor * part.values[i],
-                            factor * before[i], factor * after[i], unit);
+                            four_digits(factor * before[i]), four_digits(factor * after[i]), end);
     }
   }
   write_text_atomically(file, text);

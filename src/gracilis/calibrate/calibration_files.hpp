@@ -23,8 +23,8 @@ struct CalibratedScene {
 ///   calibrated.toml        the values found, and what --set said, for scenes to include
 ///   calibrated_scene.toml  the scene with them, to run; none of built-in scenes
 ///   parameters.csv         parameter,start,calibrated,low,high,scale,standard_error,from_95,to_95,remark
-///   fit.csv                target,held_out,muscle,source,angle_deg,aim,before,after,unit: a row per value; of shapes
-///                          the root mean square distance
+///   fit.csv                target,held_out,muscle,source,angle_deg,aim,before,after,unit,remark: a row per value; of
+///                          shapes the root mean square distance; nothing before or after where it is not known
 void write_calibration_files(const std::filesystem::path& folder, const CalibrationResult& result,
                              const CalibratedScene& scene);
 

@@ -66,7 +66,9 @@ SearchEnd direct_search(SearchMethod method, const ResidualFunction& residuals, 
                         const LeastSquaresOptions& options) {
   const auto count = static_cast<unsigned>(start.size());
   DirectSearch search{residuals, start, 0, 0};
-  search.objective = search.worst = residuals({start}).front()->squaredNorm();
+  const std::optional<Eigen::VectorXd> first = residuals({start}).front();
+  if (!first) throw QualityError("nothing can be evaluated where the search begins");
+  search.objective = search.worst = first->squaredNorm();
   nlopt::opt optimizer(algorithm_of(method), count);
   optimizer.set_lower_bounds(0);
   optimizer.set_upper_bounds(1);

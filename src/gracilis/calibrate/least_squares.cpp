@@ -1,5 +1,7 @@
 #include <gracilis/calibrate/least_squares.hpp>
 
+#include <gracilis/core/errors.hpp>
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -39,7 +41,9 @@ class Search {
 
   SearchEnd go(const Eigen::VectorXd& start) {
     place_ = start;
-    at_ = *ask({start}).front();
+    const std::optional<Eigen::VectorXd> first = ask({start}).front();
+    if (!first) throw QualityError("nothing can be evaluated where the search begins");
+    at_ = *first;
     for (;;) {
       const Real before = objective();
       if (before < nothing_left) return end("the targets are met");

@@ -28,7 +28,7 @@ struct SearchEnd {
 
 /// Levenberg and Marquardt's method within the unit cube from `start`: slopes by one-sided differences, all columns
 /// side by side; two dampings are tried side by side. The points that it asks for do not depend on how many are
-/// evaluated at once. Precondition: the start can be evaluated.
+/// evaluated at once. Throws QualityError where the start cannot be evaluated.
 SearchEnd least_squares(const ResidualFunction& residuals, const Eigen::VectorXd& start,
                         const LeastSquaresOptions& options);
 

@@ -16,6 +16,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// A target of which nothing was seen.
+std::vector<std::vector<Real>> not_seen(const CalibrationTarget& target) {
+  std::vector<std::vector<Real>> parts;
+  for (const TargetPart& part : target.parts) parts.emplace_back(part.shape ? 1 : part.values.size(), std::nan(""));
+  return parts;
+}
+
+/// Of evaluations at the start and at the best point; empty where both are known.
+std::string why_not_seen(const Evaluation& start, const Evaluation& best) {
+  if (!start.observed) return "cannot be evaluated at the start: " + start.reason;
+  return best.observed ? "" : "cannot be evaluated at the best point: " + best.reason;
+}
+
 class CalibrationRun {
  public:
   CalibrationRun(Calibration calibration, const SceneMatch& match, const ObserveFunction& observe,
@@ -38,6 +51,8 @@ class CalibrationRun {
     const ResidualFunction ask = [this](const std::vector<Eigen::VectorXd>& points) { return residuals_at(points); };
     const std::vector<Evaluation> first = evaluator_->evaluate({result_.start});
     if (!first[0].observed) throw QualityError("the scene cannot be evaluated at the start: " + first[0].reason);
+    if (!residuals(aimed_, *first[0].observed).allFinite())
+      throw QualityError("what the scene has at the start is not finite");
     search(ask);
     const Eigen::VectorXd at = *residuals_at({result_.best}).front();
     result_.uncertainty =
@@ -111,9 +126,10 @@ class CalibrationRun {
     std::vector<Eigen::VectorXd> places = {result_.start};
     for (Index row = 0; row < points.rows(); ++row) places.emplace_back(points.row(row).transpose());
     const auto seen = ask(places);
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < seen.size(); ++i)
-      if (seen[i] && seen[i]->squaredNorm() < seen[best]->squaredNorm()) best = i;
+    std::size_t best = seen.size();
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      if (seen[i] && (best == seen.size() || seen[i]->squaredNorm() < seen[best]->squaredNorm())) best = i;
+    if (best == seen.size()) throw QualityError("the scene can be evaluated at none of the samples");
     return places[best];
   }
 
@@ -126,10 +142,10 @@ class CalibrationRun {
     for (const CalibrationTarget& target : calibration_.targets) {
       const std::vector<Evaluation>& from = target.held_out ? judged : aimed;
       const std::size_t at = target.held_out ? next_judged++ : next_aimed++;
-      for (const auto& [evaluation, to] : {std::pair{&from[0], &result_.before}, {&from[1], &result_.after}}) {
-        if (!evaluation->observed) throw QualityError("what is held out cannot be evaluated: " + evaluation->reason);
-        to->push_back((*evaluation->observed)[at]);
-      }
+      for (const auto& [evaluation, to] : {std::pair{&from[0], &result_.before}, {&from[1], &result_.after}})
+        to->push_back(evaluation->observed ? (*evaluation->observed)[at] : not_seen(target));
+      const std::string& remark = result_.remarks.emplace_back(why_not_seen(from[0], from[1]));
+      if (!remark.empty() && options_.say) options_.say(target.name + " is left blank, for it " + remark);
     }
     result_.start_values = aimed[0].values;
     result_.best_values = aimed[1].values;

@@ -30,6 +30,7 @@ struct CalibrationResult {
   std::vector<std::string> start_values, best_values;  ///< as settings
   Real start_objective = 0, objective = 0;
   std::vector<std::vector<std::vector<Real>>> before, after;  ///< per target of the calibration, held out or not
+  std::vector<std::string> remarks;  ///< per target: why it is not known before or after (nan); empty: it is
   Uncertainty uncertainty;
   std::vector<HistoryRow> history;
   std::string stopped;  ///< why the search ended
@@ -44,8 +45,8 @@ struct CalibrationResult {
 ///   log.txt           what processes said
 ///
 /// The search goes the same way again over what is known, so that one that was killed comes to the same history and
-/// answer. Throws ConfigurationError where the folder holds another calibration, QualityError where the scene cannot be
-/// evaluated at the start, Interrupted when asked to stop.
+/// answer. What is held out and fails is left unknown. Throws ConfigurationError where the folder holds another
+/// calibration, QualityError where the scene cannot be evaluated at the start, Interrupted when asked to stop.
 CalibrationResult run_calibration(Calibration calibration, const SceneMatch& match, const ObserveFunction& observe,
                                   const CalibrationOptions& options);
 

@@ -93,7 +93,7 @@ CollectEnd collect_study(const Study& study, const std::string& version) {
       TableFile measures(measures_file, temporary, "run,muscle,frame,metric,value,unit");
       TableFile frames(frames_file, frames_temporary, "run,frame,coordinate,value,unit");
       for (const StudyRun& run : study.runs) {
-        RunStanding standing = standing_of(study, run, version, hashes);
+        RunStanding standing = standing_of(study, run, version, hashes, AbsentInput::is_passed_over);
         if (standing.state == RunState::complete) {
           try {
             const RunMeasures found = read_run_measures(complete_folder(study, run));
@@ -107,11 +107,12 @@ CollectEnd collect_study(const Study& study, const std::string& version) {
           }
         }
         runs += run_row(run, standing);
-        const bool has_failed = standing.record && standing.record->code != 0;
-        if (has_failed)
+        if (has_failed(standing)) {
           failures += fmt::format("{},{},{}\n", run.name, standing.record->code, csv_cell(standing.reason));
-        if (has_failed) ++end.failed;
-        if (!has_failed && standing.state != RunState::complete) ++end.left;
+          ++end.failed;
+        } else if (standing.state != RunState::complete) {
+          ++end.left;
+        }
       }
       measures.close();
       frames.close();
@@ -119,6 +120,7 @@ CollectEnd collect_study(const Study& study, const std::string& version) {
   });
   write_text_atomically(study.folder / "runs.csv", runs);
   write_text_atomically(study.folder / "failures.csv", failures);
+  end.remark = remark_on_absent(hashes);
   return end;
 }
 

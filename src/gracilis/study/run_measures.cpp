@@ -6,6 +6,7 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/run/output_hashes.hpp>
 #include <gracilis/io/tables/table.hpp>
+#include <gracilis/io/value_reader.hpp>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace gracilis {
 
@@ -37,15 +39,16 @@ MetricName metric_name(const std::string& column) {
   return {column, "1"};
 }
 
-/// What a file's content must be.
+/// The text of a file, which must be what the run's list of hashes tells of.
 static std::string read_sealed(const fs::path& folder, const std::vector<OutputHash>& outputs,
                                const std::string& name) {
   const fs::path file = folder / name;
   std::string text = read_text(file);
-  for (const OutputHash& output : outputs)
-    if (output.file == name && output.sha256 != content_hash_of(text))
-      throw InputError(
-          {file.string(), "", "has changed since the run ended", "remove the run's folder and run it again"});
+  const auto sealed = std::find_if(outputs.begin(), outputs.end(), [&](const auto& each) { return each.file == name; });
+  const char* trouble = sealed == outputs.end()                   ? "is not in the run's list of hashes"
+                        : sealed->sha256 != content_hash_of(text) ? "has changed since the run ended"
+                                                                  : nullptr;
+  if (trouble) throw InputError({file.string(), "", trouble, "remove the run's folder and run it again"});
   return text;
 }
 
@@ -75,14 +78,18 @@ RunMeasures read_run_measures(const fs::path& folder) {
   for (std::size_t c = *muscle + 1; c < rows.labels().size(); ++c)
     measures.metrics.push_back(metric_name(std::string(rows.labels()[c])));
   std::map<std::string, std::size_t, std::less<>> numbers;
+  std::set<std::pair<Index, std::size_t>> seen;
   while (rows.next()) {
     RunMeasures::Row row;
-    row.frame = static_cast<int>(rows.number(*frame, "the number of a frame"));
+    if (!parse_index(rows.cell(*frame), row.frame))
+      rows.fail("'" + std::string(rows.cell(*frame)) + "' is not the number of a frame", "run the scene again");
     row.time = rows.number(*time, "a time");
     const std::string name(rows.cell(*muscle));
     const auto [found, is_new] = numbers.try_emplace(name, numbers.size());
     if (is_new) measures.muscles.push_back(name);
     row.muscle = found->second;
+    if (!seen.emplace(row.frame, row.muscle).second)
+      rows.fail(fmt::format("frame {} has two rows of '{}'", row.frame, name), "run the scene again");
     for (std::size_t c = *time + 1; c < *muscle; ++c) row.pose.emplace_back(rows.cell(c));
     for (std::size_t c = *muscle + 1; c < rows.labels().size(); ++c) row.cells.emplace_back(rows.cell(c));
     measures.rows.push_back(std::move(row));

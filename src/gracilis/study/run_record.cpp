@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace gracilis {
 
 namespace fs = std::filesystem;
@@ -78,16 +80,29 @@ bool is_final(const RunRecord& failure) {
   return failure.code == static_cast<int>(ExitCode::usage) || failure.code == static_cast<int>(ExitCode::quality);
 }
 
-/// The file's hash; empty where it is not there.
+bool has_failed(const RunStanding& standing) {
+  return standing.state == RunState::failed || (standing.record && standing.record->code != 0);
+}
+
+std::string remark_on_absent(const InputHashes& hashes) {
+  const auto is_absent = [](const auto& input) { return input.second.empty(); };
+  const auto first = std::find_if(hashes.begin(), hashes.end(), is_absent);
+  if (first == hashes.end()) return "";
+  return fmt::format("{} of {} files that runs read are not there ({}): whether they have changed is not known",
+                     std::count_if(first, hashes.end(), is_absent), hashes.size(), first->first.string());
+}
+
+/// The file's hash; empty where it is not there. One that cannot be read is told of each time.
 static const std::string& input_hash(const fs::path& file, InputHashes& hashes) {
-  const auto [found, is_new] = hashes.try_emplace(file);
-  if (is_new && is_there(file)) found->second = content_hash(file);
-  return found->second;
+  if (const auto known = hashes.find(file); known != hashes.end()) return known->second;
+  std::error_code ignored;
+  std::string hash = fs::exists(file, ignored) ? content_hash(file) : std::string();
+  return hashes.emplace(file, std::move(hash)).first->second;
 }
 
 /// Why a run folder is not what the run would make now; empty where it is.
 static std::string why_stale(const fs::path& folder, const std::string& definition,
-                             const std::optional<RunRecord>& record, InputHashes& hashes) {
+                             const std::optional<RunRecord>& record, InputHashes& hashes, AbsentInput absent) {
   if (!record) return "study.json is missing or damaged";
   if (record->definition != definition) return "the study defines it otherwise now";
   try {
@@ -97,8 +112,9 @@ static std::string why_stale(const fs::path& folder, const std::string& definiti
         manifest.value("outputs_sha256", "") != content_hash(folder / output_hashes_name))
       return std::string(output_hashes_name) + " is missing or has changed";
     for (const nlohmann::ordered_json& input : manifest.value("inputs", nlohmann::ordered_json::array())) {
-      const std::string file = input.value("file", "");
-      if (input_hash(file, hashes) != input.value("sha256", "")) return file + " is missing or has changed since";
+      const std::string file = input.value("file", ""), hash = input_hash(file, hashes);
+      if (hash.empty() && absent == AbsentInput::is_passed_over) continue;
+      if (hash != input.value("sha256", "")) return file + " is missing or has changed since";
     }
   } catch (const InputError& error) {
     return error.what();
@@ -106,13 +122,14 @@ static std::string why_stale(const fs::path& folder, const std::string& definiti
   return "";
 }
 
-RunStanding standing_of(const Study& study, const StudyRun& run, const std::string& version, InputHashes& hashes) {
+RunStanding standing_of(const Study& study, const StudyRun& run, const std::string& version, InputHashes& hashes,
+                        AbsentInput absent) {
   RunStanding standing;
   const std::string definition = run_definition(study, run, version);
   const fs::path complete = complete_folder(study, run), working = working_folder(study, run);
   if (is_there(complete)) {
     standing.record = read_run_record(complete / "study.json");
-    standing.reason = why_stale(complete, definition, standing.record, hashes);
+    standing.reason = why_stale(complete, definition, standing.record, hashes, absent);
     standing.state = standing.reason.empty() ? RunState::complete : RunState::stale;
     if (standing.state == RunState::complete) return standing;
   }

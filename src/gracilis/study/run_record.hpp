@@ -43,8 +43,15 @@ enum class RunState { to_do, interrupted, under_way, stale, failed, complete };
 /// "to do", "interrupted", "under way", "stale", "failed", "complete".
 std::string name_of(RunState state);
 
-/// Hashes of files that runs read, each computed once.
+/// Hashes of files that runs read, each computed once; empty of those that are not there.
 using InputHashes = std::map<std::filesystem::path, std::string>;
+
+/// What a user should know of those that are not there; empty where all are.
+std::string remark_on_absent(const InputHashes& hashes);
+
+/// What it means for a run that a file which it read is not there now. It is passed over where runs are only looked at:
+/// results may have been copied without what they were made from.
+enum class AbsentInput { makes_stale, is_passed_over };
 
 struct RunStanding {
   RunState state = RunState::to_do;
@@ -56,7 +63,11 @@ struct RunStanding {
 /// it is now and read files that have not changed since; failed is what cannot come out otherwise, since the definition
 /// alone is to blame (exit codes 2 and 5, and the study's limit of time): other failures are to be tried again
 /// (to do), and keep their reason.
-RunStanding standing_of(const Study& study, const StudyRun& run, const std::string& version, InputHashes& hashes);
+RunStanding standing_of(const Study& study, const StudyRun& run, const std::string& version, InputHashes& hashes,
+                        AbsentInput absent = AbsentInput::makes_stale);
+
+/// Whether it was tried last without success, for good or not.
+bool has_failed(const RunStanding& standing);
 
 /// Whether a failure comes back however often it is tried.
 bool is_final(const RunRecord& failure);

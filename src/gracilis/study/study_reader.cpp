@@ -10,12 +10,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <set>
 
 namespace gracilis {
 
 namespace fs = std::filesystem;
+
+/// Runs record paths of their files, which have to be found again from whatever folder one asks about them.
+static fs::path from_anywhere(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
+
+/// The data folder that the environment names, where it is named from the folder that one stands in.
+static fs::path relative_data_root() {
+  const char* variable = std::getenv("GRACILIS_DATA");
+  std::error_code ignored;
+  const bool is_relative = variable && *variable && fs::path(variable).is_relative();
+  return is_relative && fs::is_directory(variable, ignored) ? from_anywhere(variable) : fs::path();
+}
 
 static std::vector<std::string> names_of_samplings() {
   std::vector<std::string> names = {"table"};
@@ -152,7 +164,8 @@ static void read_description(TomlReader& top, Study& study, std::vector<Problem>
     common.set.push_back(word);
   }
   if (const std::optional<std::string> out = top.text("out")) study.folder = study.file.parent_path() / *out;
-  if (const std::optional<std::string> data = top.text("data")) study.data = study.file.parent_path() / *data;
+  if (const std::optional<std::string> data = top.text("data"))
+    study.data = from_anywhere(study.file.parent_path() / *data);
   study.only = top.texts("only");
   study.most_seconds = top.number("most_seconds", {0, 1e7, "s"}).value_or(0);
   read_recording(top, study.recording);
@@ -209,6 +222,7 @@ Study read_study(const fs::path& file) {
   if (problems.empty()) require_flexion_of_builtins(study, problems);
   if (problems.empty() && study.runs.empty())
     problems.push_back({file.string(), "", "has no runs", "name [[parameters]], or rows"});
+  if (study.data.empty()) study.data = relative_data_root();
   sort_by_place(problems);
   if (!problems.empty()) throw ConfigurationError(problems);
   return study;

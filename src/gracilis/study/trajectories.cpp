@@ -112,7 +112,8 @@ TrajectoryEnd write_trajectories(const Study& study, const std::string& version)
     file.describe("/", "written_by", "Gracilis " + version);
     file.make_group("/runs");
     for (const StudyRun& run : study.runs) {
-      if (standing_of(study, run, version, hashes).state != RunState::complete) continue;
+      const RunStanding standing = standing_of(study, run, version, hashes, AbsentInput::is_passed_over);
+      if (standing.state != RunState::complete) continue;
       const std::string group = "/runs/" + run.name;
       try {
         write_run(file, study, run, group);

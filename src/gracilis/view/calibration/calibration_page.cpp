@@ -21,7 +21,9 @@ extern const std::string_view calibration_html;  // the file beside this one
 
 namespace {
 
-std::string cell(Real value) { return std::isfinite(value) ? fmt::format("<td>{:.4g}</td>", value) : "<td>–</td>"; }
+std::string cell(Real value, const char* kind = "") {
+  return std::isfinite(value) ? fmt::format("<td{}>{:.4g}</td>", kind, value) : "<td>–</td>";
+}
 
 std::string five(Real value) { return std::isfinite(value) ? fmt::format("<td>{:.5g}</td>", value) : "<td>–</td>"; }
 
@@ -90,8 +92,7 @@ std::string target_table(const CalibrationResult& result) {
       text += "<tr>" + text_cell(target.name) +
               text_cell(words_of(target.kind) + (target.held_out ? ", held out" : "")) + text_cell(muscle) +
               fmt::format("<td>{}</td>", values) + text_cell(shown_unit(target.kind)) + cell(factor * before) +
-              fmt::format("<td{}>{:.4g}</td>", kind, factor * after) +
-              fmt::format("<td>{:g}</td>", factor * target.tolerance) +
+              cell(factor * after, kind) + fmt::format("<td>{:g}</td>", factor * target.tolerance) +
               (target.held_out ? "<td>–</td>" : fmt::format("<td>{:g}</td>", target.weight)) + "</tr>\n";
     };
     std::size_t values = 0;

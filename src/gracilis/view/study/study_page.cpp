@@ -120,8 +120,7 @@ std::string parameters_of(const Study& study, std::size_t run) {
 std::string failure_table(const Study& study, const std::vector<RunStanding>& standings) {
   std::string rows;
   for (std::size_t r = 0; r < standings.size(); ++r) {
-    const bool has_failed = standings[r].state == RunState::failed;
-    if (has_failed)
+    if (has_failed(standings[r]))
       rows += "<tr><td>" + in_element(study.runs[r].name) + "</td><td class=\"text\">" +
               in_element(parameters_of(study, r)) + "</td><td class=\"text trouble\">" +
               in_element(standings[r].reason) + "</td></tr>\n";
@@ -141,7 +140,7 @@ void write_study_page(const std::filesystem::path& path, const Study& study, con
   OutcomeTable table(study);
   WorstRuns worst_runs(static_cast<std::size_t>(worst));
   for (std::size_t r = 0; r < study.runs.size(); ++r) {
-    RunStanding standing = standing_of(study, study.runs[r], version, hashes);
+    RunStanding standing = standing_of(study, study.runs[r], version, hashes, AbsentInput::is_passed_over);
     if (standing.state == RunState::complete) {
       try {
         const RunMeasures measures = read_run_measures(complete_folder(study, study.runs[r]));
@@ -155,6 +154,7 @@ void write_study_page(const std::filesystem::path& path, const Study& study, con
     ++counts[standing.state];
     standings.push_back(std::move(standing));
   }
+  if (const std::string remark = remark_on_absent(hashes); !remark.empty()) warn(remark);
   const std::vector<OutcomeValues> outcomes = table.finish();
   std::string summary = fmt::format("{} runs:", study.runs.size());
   for (const auto& [state, count] : counts) summary += fmt::format(" {} {},", count, name_of(state));

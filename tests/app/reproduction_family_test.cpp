@@ -1,0 +1,113 @@
+#include "app/program.hpp"
+#include "io/scene_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+/// What the reproductions' scripts share.
+namespace gracilis {
+
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+/// A folder with a stand-in for gracilis that tells its version.
+struct FamilyFolder : SceneFolder {
+  FamilyFolder() { program("1.0"); }
+  void program(const std::string& version) const {
+    write("gracilis", "#!/bin/sh\necho gracilis " + version + "\n");
+    fs::permissions(path("gracilis"), fs::perms::owner_all);
+  }
+  std::string family() const { return std::string(build_paths::source_folder) + "/reproductions/family"; }
+
+  /// A pass of a reproduction with these options that leaves a file of this name in OUT; then what OUT has.
+  std::string pass(const std::string& options, const std::string& leaves) const {
+    const std::string out = path("out").string();
+    write("pass.sh", "set -euo pipefail\nsource " + family() + "/options.sh lacle-2014 \"$@\"\ntouch \"$out/" + leaves +
+                         "\"\nls \"$out\" | tr '\\n' ' '\n");
+    return said_by("GRACILIS=" + path("gracilis").string() + " bash " + path("pass.sh").string() + " --out " + out +
+                   " " + options + "; echo \"code $?\"");
+  }
+
+  std::string python(const std::string& text) const {
+    write("script.py", "import sys\nsys.path.insert(0, '" + family() + "')\n" + text);
+    return said_by("cd " + path("").string() + " && timeout 20 python3 -B script.py; echo \"code $?\"");
+  }
+};
+
+}  // namespace
+
+TEST(ReproductionFamily, a_pass_goes_on_where_the_same_one_ended_and_another_begins_anew) {
+  const FamilyFolder folder;
+  EXPECT_EQ(folder.pass("--thin", "thin"), "made_by.txt thin code 0\n");
+  EXPECT_EQ(folder.pass("--thin", "more"), "made_by.txt more thin code 0\n");
+  for (const std::string options : {"", "--set iterations=3", "--data elsewhere"}) {
+    const std::string said = folder.pass(options, "another");
+    EXPECT_THAT(said, HasSubstr("made anew")) << options;
+    EXPECT_THAT(said, HasSubstr("\nanother made_by.txt code 0\n")) << options;
+    EXPECT_THAT(folder.pass(options, "again"), HasSubstr("again another made_by.txt code 0")) << options;
+  }
+  folder.program("1.1");
+  EXPECT_THAT(folder.pass("--data elsewhere", "newer"), HasSubstr("\nmade_by.txt newer code 0\n"));
+}
+
+TEST(ReproductionFamily, a_folder_of_other_files_is_left_alone) {
+  const FamilyFolder folder;
+  folder.write("out/thesis.txt", "ten years");
+  const std::string said = folder.pass("", "made");
+  EXPECT_THAT(said, HasSubstr("holds files that are not from here"));
+  EXPECT_THAT(said, HasSubstr("code 2"));
+  EXPECT_TRUE(fs::exists(folder.path("out/thesis.txt")));
+  EXPECT_FALSE(fs::exists(folder.path("out/made")));
+}
+
+TEST(ReproductionFamily, a_run_is_finished_when_it_says_that_it_is_complete) {
+  const FamilyFolder folder;
+  const auto is_finished = [&] {
+    return said_by("bash -c '. " + folder.family() + "/stamp.sh; is_finished " + folder.path("run").string() +
+                   "'; echo $?") == "0\n";
+  };
+  EXPECT_FALSE(is_finished());
+  folder.write("run/measures.csv", "frame\n");
+  for (const std::string status : {"running", "interrupted", "failed: complete"}) {
+    folder.write("run/run.json", "{\n  \"gracilis\": \"1\",\n  \"status\": \"" + status + "\"\n}\n");
+    EXPECT_FALSE(is_finished()) << status;
+  }
+  folder.write("run/run.json", "{\n  \"gracilis\": \"1\",\n  \"status\": \"complete\",\n  \"frames\": 3\n}\n");
+  EXPECT_TRUE(is_finished());
+}
+
+TEST(ReproductionFamily, lines_are_broken_where_points_are_not_finite) {
+  const FamilyFolder folder;
+  const std::string said = folder.python(R"(from charts import Series, chart, ticks
+nan, inf = float("nan"), float("inf")
+svg = chart("a", [Series("line", [(0, 1), (1, 2), (2, nan), (3, inf), (4, 1), (5, 2)])], "x", "y")
+print(svg.count("<polyline"), "lines")
+svg = chart("a", [Series("marks", [(0, 1), (nan, 2), (2, 3)], marks=True)], "x", "y")
+print(svg.count("<circle"), "marks")
+low, high = [(x, 0 if x != 2 else nan) for x in range(5)], [(x, 1) for x in range(5)]
+svg = chart("a", [Series("band", low, band=high)], "x", "y")
+print(svg.count("<polygon"), "areas;", "nan" in svg)
+print(repr(chart("a", [Series("nothing", [(0, nan)])], "x", "y")), ticks(0, inf), ticks(nan, 1), ticks(0, 1, 3))
+)");
+  EXPECT_EQ(said, "2 lines\n2 marks\n2 areas; False\n'' [] [] [0.0, 0.5, 1.0]\ncode 0\n");
+}
+
+TEST(ReproductionFamily, the_two_edges_of_a_band_are_named_in_the_table) {
+  const FamilyFolder folder;
+  const std::string said = folder.python(R"(import publication
+from charts import Series
+page = publication.Page("out", "t", "a", "c")
+page.chart("f", "t", "r", [Series("XPBD, passive", [(0, 1), (1, 2)], band=[(0, 3), (1, 4)]), Series("XPBD, passive", [(0, 2)])], "x", "y")
+print(open("out/figures/f.csv").read())
+print(open("out/figures/f.svg").read().count("■"), "in the legend")
+)");
+  EXPECT_THAT(said, HasSubstr("\"XPBD, passive (low)\",1,2\n\"XPBD, passive (high)\",0,3\n"));
+  EXPECT_THAT(said, HasSubstr("\"XPBD, passive (high)\",1,4\n\"XPBD, passive\",0,2\n"));
+  EXPECT_THAT(said, HasSubstr("1 in the legend"));
+  EXPECT_THAT(said, Not(HasSubstr("\n,")));
+}
+
+}  // namespace gracilis
