@@ -28,10 +28,11 @@ def tag():
 
 
 def metadata():
+    # Without NumPy, which pip would ask the network for: 'import gracilis' says where it is missing.
     return (
         f"Metadata-Version: 2.1\nName: gracilis\nVersion: {version()}\n"
         "Summary: Muscle deformation in musculoskeletal models\nLicense: Apache-2.0\n"
-        "Requires-Python: >=3.9\nRequires-Dist: numpy\n"
+        "Requires-Python: >=3.9\n"
     )
 
 

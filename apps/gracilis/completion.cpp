@@ -47,7 +47,9 @@ Place place_at_end(const CLI::App& program, const std::vector<std::string>& word
       if (!is_repeated(*taking) || !taking->get_allow_extra_args()) taking = nullptr;
     } else if (word.starts_with("-") && word != "-") {
       const CLI::Option* option = option_called(*place.command, word.substr(0, word.find('=')));
-      taking = option && option->get_type_size() != 0 && word.find('=') == std::string::npos ? option : nullptr;
+      // A flag is an option that expects nothing; its type may have a size all the same.
+      const bool wants = option && option->get_items_expected_max() > 0 && word.find('=') == std::string::npos;
+      taking = wants ? option : nullptr;
       must = taking;
     } else if (const CLI::App* sub = taking ? nullptr : command_called(*place.command, word)) {
       place.command = sub;

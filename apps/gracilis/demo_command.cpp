@@ -41,6 +41,11 @@ void add_demo_options(CLI::App& command, DemoOptions& demo, SceneOptions& change
   command.add_option("--step", demo.step_deg, "How far to flex in a frame, degrees (hip 1, elbow 2)")
       ->check(CLI::Range(0.01, 130.0));
   add_setting_options(command, changes);
+  // Its motion is made by --flexion and --step, and its surfaces need no preparing: it takes no motion.KEY or
+  // prepare.KEY.
+  command.get_option("--set")->description(
+      "KEY=VALUE, MUSCLE.KEY=VALUE, preset=NAME, method=NAME, distance_field.KEY=VALUE, contact.KEY=VALUE, "
+      "sequence.KEY=VALUE, fibers.KEY=VALUE or contraction.KEY=VALUE; may be repeated");
 }
 
 void add_demo_command(CLI::App& program, const std::vector<std::string>& words, Command& chosen) {

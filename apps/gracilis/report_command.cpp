@@ -34,8 +34,9 @@ std::filesystem::path usual_page() {
 
 /// Returns the file that it writes.
 std::filesystem::path write_live(const Options& options, const std::filesystem::path& report) {
-  const std::filesystem::path out = report.parent_path() / "live.html";
-  write_live_page(out, options.page.empty() ? usual_page() : options.page, scene_of_run(options.runs[0]).scene);
+  const std::filesystem::path out = report.parent_path() / "live.html",
+                              page = options.page.empty() ? usual_page() : options.page;
+  write_live_page(out, page, scene_of_run(options.runs[0]).scene);
   return out;
 }
 
@@ -60,9 +61,11 @@ void add_report_command(CLI::App& program, Command& chosen) {
       std::vector<RecordedRun> runs;
       for (const std::filesystem::path& folder : options->runs) runs.push_back(open_recorded_run(folder));
       const std::filesystem::path out = options->out.empty() ? options->runs[0] / "report.html" : options->out;
+      // The live page first: where there is no page or no scene any more, nothing is written.
+      const std::filesystem::path page = options->live ? write_live(*options, out) : "";
       write_report(out, runs);
       fmt::print("{}\n", out.string());
-      if (options->live) fmt::print("{}\n", write_live(*options, out).string());
+      if (options->live) fmt::print("{}\n", page.string());
       return static_cast<int>(ExitCode::done);
     };
   });

@@ -9,6 +9,15 @@ A scene is constant, a simulation is what changes. Lengths are metres; coordinat
 where they are written by hand, and radians (m) where a name says so.
 """
 
+_cure = "install Debian's python3-numpy, or by pip 'numpy<2'"
+try:
+    from numpy import __version__ as _numpy
+except ImportError as _error:
+    raise ImportError(f"gracilis needs NumPy 1, and there is none for this Python: {_cure}") from _error
+if int(_numpy.split(".")[0]) >= 2:
+    raise ImportError(f"gracilis is built for NumPy 1, and this Python has {_numpy}: {_cure}")
+del _cure, _numpy
+
 from .errors import ConfigurationError, Error, InputError, QualityError, SceneWarning
 from .arms import MomentArms
 from .tables import Table
@@ -30,6 +39,7 @@ from ._core import (
     paths,
     prepare,
     read_sto,
+    report,
     rom,
     run,
     static_optimization,
@@ -37,7 +47,7 @@ from ._core import (
 )
 
 for _each in (Activations, Bone, Checkpoint, Muscle, Pose, Run, Scene, Simulation, demo, import_model, limit_threads, load,
-              moment_arms, paths, prepare, read_sto, rom, run, static_optimization, write_sto):  # fmt: skip
+              moment_arms, paths, prepare, read_sto, report, rom, run, static_optimization, write_sto):  # fmt: skip
     _each.__module__ = "gracilis"
 del _each
 

@@ -15,7 +15,9 @@ namespace py = pybind11;
 
 namespace gracilis::python {
 
-LiveState::LiveState(std::shared_ptr<const LoadedScene> loaded) : loaded_(std::move(loaded)) {
+LiveState::LiveState(LoadedScene loaded) : loaded_(std::move(loaded)) {
+  for (const Muscle& muscle : scene().muscles) planned.push_back(drives(scene().activation, muscle.name));
+  drive_all(loaded_.scene);
   simulation_ = released([this] {
     const auto fields = [this](const DistanceFieldSettings& settings) { return cached_bone_fields(scene(), settings); };
     return std::make_unique<Simulation>(scene(), make_method(scene(), fields));

@@ -26,9 +26,9 @@ struct FrameFacts {
 /// `simulation`, which whoever holds `working` moves without it.
 class LiveState {
  public:
-  explicit LiveState(std::shared_ptr<const LoadedScene> loaded);
+  explicit LiveState(LoadedScene loaded);
 
-  const Scene& scene() const { return loaded_->scene; }
+  const Scene& scene() const { return loaded_.scene; }
   const Frame& frame() const { return *facts_.frame; }
 
   void advance(Pose pose, Real time_step);
@@ -42,6 +42,7 @@ class LiveState {
 
   std::vector<Real> coordinates;  ///< rad (m), where the next step begins to ask from
   std::vector<Real> activations;
+  std::vector<bool> planned;  ///< per muscle: whether the scene itself says how active it is
 
  private:
   /// Has the simulation do something without the interpreter's lock.
@@ -49,7 +50,7 @@ class LiveState {
   auto work(const Work& act);
   void look_at(std::shared_ptr<const Frame> frame);
 
-  std::shared_ptr<const LoadedScene> loaded_;
+  LoadedScene loaded_;
   std::mutex working_;
   std::unique_ptr<Simulation> simulation_;
   std::optional<ContactDepth> contact_;  ///< made when it is asked for

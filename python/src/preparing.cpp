@@ -11,6 +11,7 @@
 #endif
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,16 +30,22 @@ std::vector<NamedSurface> surfaces_of(const py::dict& given) {
   return surfaces;
 }
 
+/// None where no setting can be of that kind. A Python bool is an int, too.
+std::optional<SettingValue> setting_value(const py::handle& value) {
+  if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
+  if (py::isinstance<py::int_>(value)) return value.cast<int>();
+  if (py::isinstance<py::float_>(value)) return value.cast<Real>();
+  return {};
+}
+
 PrepareSettings settings_from(const py::kwargs& keywords) {
   PrepareSettings settings;
   for (const auto& [key, value] : keywords) {
     const std::string name = py::str(key).cast<std::string>();
     const Setting<PrepareSettings>* setting = find_setting<PrepareSettings>(name);
     if (!setting) throw ConfigurationError({"", "", "there is no setting '" + name + "' of prepare", ""});
-    const bool is_int = py::isinstance<py::int_>(value), is_number = is_int || py::isinstance<py::float_>(value);
-    const SettingValue given =
-        is_int ? SettingValue(value.cast<int>()) : SettingValue(is_number ? value.cast<Real>() : 0);
-    const std::string problem = is_number ? assign(settings, *setting, given) : "must be " + expectation(*setting);
+    const std::optional<SettingValue> given = setting_value(value);
+    const std::string problem = given ? assign(settings, *setting, *given) : "must be " + expectation(*setting);
     if (!problem.empty()) throw ConfigurationError({"", "", "'" + name + "' " + problem, ""});
   }
   return settings;

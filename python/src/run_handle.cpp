@@ -3,9 +3,11 @@
 #include "arrays.hpp"
 #include "errors.hpp"
 #include "released.hpp"
+#include "tables.hpp"
 
 #include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/tables/table.hpp>
 #include <gracilis/view/report/report.hpp>
 
 #include <pybind11/stl.h>
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <variant>
 
 namespace py = pybind11;
 
@@ -81,8 +84,34 @@ py::dict measures(const Run& self) {
   return columns;
 }
 
-std::filesystem::path report(const Run& self, const std::filesystem::path& path) {
-  released([&] { write_report(path, {*self}); });
+/// Names of the .sto tables in the folder.
+std::vector<std::string> table_names(const RecordedRun& run) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(run.folder))
+    if (entry.path().extension() == ".sto") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+py::object table_called(const RecordedRun& self, const std::string& name) {
+  require_among(table_names(self), name, "table");
+  return as_python(released([&] { return read_table(self.folder / (name + ".sto")); }));
+}
+
+/// A run, or the folder of one.
+using RunOrFolder = std::variant<Run, std::filesystem::path>;
+
+std::filesystem::path report(const std::vector<RunOrFolder>& runs, const std::filesystem::path& path) {
+  if (runs.empty()) refuse("runs", "a report needs a run");
+  released([&] {
+    std::vector<RecordedRun> shown;
+    for (const RunOrFolder& each : runs) {
+      const Run* run = std::get_if<Run>(&each);
+      if (run && !*run) refuse("runs", "None is no run");
+      shown.push_back(run ? **run : open_recorded_run(std::get<std::filesystem::path>(each)));
+    }
+    write_report(path, shown);
+  });
   return path;
 }
 
@@ -113,11 +142,20 @@ len(run) is the number of frames; frame 0 is the capture pose. Frames are counte
            "(vertices, faces) of a muscle or bone: float64 (n, 3) in m, int32 (m, 3)")
       .def("fibers", &fibers, py::arg("muscle"), py::arg("frame"),
            "List of (k, 3) float64, m, from origin to insertion; empty where the run has none.")
-      .def("report", &report, py::arg("path"), "Writes the HTML report of 'gracilis report'; returns the path.")
+      .def_property_readonly("tables", &table_names, "Names of the tables (.sto) in its folder, as fiber_lengths.")
+      .def("table", &table_called, py::arg("name"),
+           "One of them, as read_sto reads it: a dict of columns, with \"time\" (s) first.")
+      .def(
+          "report", [](const Run& self, const std::filesystem::path& path) { return report({self}, path); },
+          py::arg("path"), "Writes the HTML report of 'gracilis report'; returns the path.")
       .def("__repr__", [](const RecordedRun& self) {
         return fmt::format("<gracilis.Run '{}': {} frames, {} muscles>", self.folder.string(), self.frame_count,
                            self.muscles.size());
       });
+  module.def("report", &report, py::arg("runs"), py::arg("path"),
+             R"(Writes the HTML report of 'gracilis report': one file that compares several runs; returns the path.
+
+runs: list of Run or of their folders; the first leads.)");
 }
 
 }  // namespace gracilis::python

@@ -118,7 +118,7 @@ std::vector<MotionPose> motion_poses(const SceneHandle& scene) {
   const std::vector<Pose> poses = pose_sequence(scene.loaded->scene, scene.loaded->max_frames);
   std::vector<MotionPose> timed;
   for (std::size_t i = 0; i < poses.size(); ++i)
-    timed.push_back({poses[i], i > 0 ? time_before(poses, static_cast<int>(i)) : usual_time_step});
+    timed.push_back({poses[i], i > 0 ? time_before(poses, static_cast<int>(i)) : usual_time_step, scene.loaded});
   return timed;
 }
 
@@ -136,6 +136,17 @@ std::shared_ptr<const LoadedScene> changed(const SceneHandle& scene, const std::
   return copy;
 }
 
+py::dict coordinates_by_name(const Scene& scene, const std::vector<Real>& values, bool in_degrees) {
+  py::dict named;
+  std::size_t number = 0;
+  for (const Joint& joint : scene.joints)
+    for (const JointAxis& axis : joint.axes) {
+      named[py::str(axis.coordinate)] = in_degrees ? shown_value(axis, values[number]) : values[number];
+      ++number;
+    }
+  return named;
+}
+
 void bind_scene(py::module_& module) {
   py::class_<MotionPose>(module, "Pose", "A pose of a scene's own motion.")
       .def_property_readonly(
@@ -144,6 +155,10 @@ void bind_scene(py::module_& module) {
       .def_property_readonly(
           "coordinates", [](const MotionPose& self) { return copied(self.pose.coordinates); },
           "(c,) float64, rad (m for translations), in the order of Scene.coordinates")
+      .def_property_readonly(
+          "degrees",
+          [](const MotionPose& self) { return coordinates_by_name(self.of->scene, self.pose.coordinates, true); },
+          "name -> the coordinate, degrees (mm for translations)")
       .def_property_readonly(
           "activations", [](const MotionPose& self) { return copied(self.pose.activations); },
           "(m,) float64, 0 to 1, in the order of Scene.muscles; empty: all are relaxed");

@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace gracilis::python {
 
@@ -20,11 +21,15 @@ struct SceneHandle {
 struct MotionPose {
   Pose pose;
   Real time_step = 0;
+  std::shared_ptr<const LoadedScene> of;
 };
 
 /// The same scene by another method (empty: its own), with other settings. What there is to warn about is warned about.
 std::shared_ptr<const LoadedScene> changed(const SceneHandle& scene, const std::string& method,
                                            const pybind11::dict& settings);
+
+/// name -> value of all coordinates, which are in rad and m: in degrees and mm, or as they are.
+pybind11::dict coordinates_by_name(const Scene& scene, const std::vector<Real>& values, bool in_degrees);
 
 void bind_scene(pybind11::module_& module);
 

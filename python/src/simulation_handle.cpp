@@ -1,11 +1,11 @@
 #include "simulation_handle.hpp"
 
 #include "arrays.hpp"
+#include "asked_step.hpp"
 #include "errors.hpp"
 #include "live_state.hpp"
 #include "scene_handle.hpp"
 
-#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/state_hash.hpp>
 #include <gracilis/geometry/measures.hpp>
@@ -15,7 +15,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <optional>
 
 namespace py = pybind11;
 
@@ -57,22 +57,6 @@ struct CheckpointHandle {
   Checkpoint checkpoint;
 };
 
-struct CoordinateAxis {
-  std::size_t number;
-  const JointAxis* axis;
-};
-
-CoordinateAxis axis_named(const Scene& scene, const std::string& name) {
-  std::size_t number = 0;
-  for (const Joint& joint : scene.joints)
-    for (const JointAxis& axis : joint.axes) {
-      if (axis.coordinate == name) return {number, &axis};
-      ++number;
-    }
-  throw ConfigurationError(
-      {"", "", "there is no coordinate '" + name + "'", suggestion(name, coordinate_names(scene))});
-}
-
 std::size_t muscle_named(const Scene& scene, const std::string& name) {
   std::vector<std::string> names;
   for (const Muscle& muscle : scene.muscles) names.push_back(muscle.name);
@@ -81,62 +65,18 @@ std::size_t muscle_named(const Scene& scene, const std::string& name) {
   throw ConfigurationError({"", "", "there is no muscle '" + name + "'", suggestion(name, names)});
 }
 
-Real number_of(const py::handle& value, const std::string& name) {
-  const double number = PyFloat_AsDouble(value.ptr());
-  if (PyErr_Occurred()) {
-    PyErr_Clear();
-    refuse(name, "must be a number");
-  }
-  if (!std::isfinite(number)) refuse(name, "must be finite");
-  return number;
-}
-
-/// Puts what a dict says of coordinates into `coordinates`, in degrees and mm or else in rad and m.
-void ask(const Scene& scene, const py::dict& values, bool in_degrees, std::vector<Real>& coordinates) {
-  for (const auto& [key, value] : values) {
-    const std::string name = py::str(key).cast<std::string>();
-    const CoordinateAxis found = axis_named(scene, name);
-    const Real unit = !in_degrees ? 1 : found.axis->translation ? 0.001 : radians(1);
-    coordinates[found.number] = number_of(value, name) * unit;
-  }
-}
-
-void advance(const SimulationHandle& self, const py::object& degrees, const py::dict& radians_, Real time_step) {
+void advance(const SimulationHandle& self, const py::object& pose, const py::dict& radians,
+             std::optional<Real> time_step) {
   LiveState& state = *self.state;
-  if (!(time_step > 0) || !std::isfinite(time_step)) refuse("time_step", "must be above 0 s");
-  if (py::isinstance<MotionPose>(degrees)) {
-    const auto& asked = degrees.cast<const MotionPose&>();
-    if (asked.pose.coordinates.size() != state.coordinates.size() ||
-        asked.pose.bodies.size() != state.scene().bodies.size())
-      refuse("pose", "is of another scene");
-    state.advance(asked.pose, asked.time_step);
-    state.coordinates = asked.pose.coordinates;
-    if (!asked.pose.activations.empty()) state.activations = asked.pose.activations;
-    return;
-  }
-  if (!degrees.is_none() && !py::isinstance<py::dict>(degrees))
-    refuse("pose", "must be a dict of degrees (mm for translations) by coordinates' names, or one of Scene.poses");
-  Pose pose;
-  pose.coordinates = state.coordinates;
-  if (!degrees.is_none()) ask(state.scene(), py::reinterpret_borrow<py::dict>(degrees), true, pose.coordinates);
-  ask(state.scene(), radians_, false, pose.coordinates);
-  pose.activations = state.activations;
-  pose.time = state.frame().pose.time + time_step;
-  state.advance(pose, time_step);
-  state.coordinates = pose.coordinates;
+  const AskedStep asked = asked_step(state, pose, radians, time_step);
+  state.advance(asked.pose, asked.time_step);
+  state.coordinates = asked.pose.coordinates;
+  for (std::size_t m = 0; m < state.activations.size(); ++m)
+    if (state.planned[m]) state.activations[m] = asked.pose.activations[m];
 }
 
-/// What the present frame's coordinates are, in degrees and mm or else in rad and m.
 py::dict coordinates_of(const SimulationHandle& self, bool in_degrees) {
-  const std::vector<Real>& values = self.state->frame().pose.coordinates;
-  py::dict result;
-  std::size_t number = 0;
-  for (const Joint& joint : self.state->scene().joints)
-    for (const JointAxis& axis : joint.axes) {
-      result[py::str(axis.coordinate)] = in_degrees ? shown_value(axis, values[number]) : values[number];
-      ++number;
-    }
-  return result;
+  return coordinates_by_name(self.state->scene(), self.state->frame().pose.coordinates, in_degrees);
 }
 
 template <class Part, class Live>
@@ -147,9 +87,7 @@ py::object by_name(const State& state, const std::vector<Part>& parts, Live) {
 }
 
 SimulationHandle simulation_of(const SceneHandle& scene, const std::string& method, const py::kwargs& settings) {
-  auto loaded = std::make_shared<LoadedScene>(*changed(scene, method, settings));
-  drive_all(loaded->scene);
-  const auto state = std::make_shared<LiveState>(std::move(loaded));
+  const auto state = std::make_shared<LiveState>(*changed(scene, method, settings));
   return {state, by_name(state, state->scene().muscles, LiveMuscle{}),
           by_name(state, state->scene().bones, LiveBone{})};
 }
@@ -238,7 +176,9 @@ void bind_activations(py::module_& module) {
     if (!(activation >= 0 && activation <= 1)) refuse(name, "an activation must be from 0 to 1");
     self.state->activations[muscle] = activation;
   };
-  py::class_<Activations>(module, "Activations", "How active each muscle shall be, 0 to 1, from the next step on.")
+  py::class_<Activations>(module, "Activations", R"(How active each muscle shall be, 0 to 1, from the next step on.
+
+A step to one of Scene.poses sets those of the muscles that the scene itself drives.)")
       .def("__getitem__", get)
       .def("__setitem__", set)
       .def("__len__", [](const Activations& self) { return self.state->activations.size(); })
@@ -275,11 +215,13 @@ method: how muscles deform ('xpbd', 'tissue', 'strings', ...; default: the scene
 load(). Preparing takes a second or more. Several simulations may run in several threads at the same time.)")
       .def(py::init(&simulation_of), py::arg("scene"), py::arg("method") = "")
       .def("advance", &advance, py::arg("pose") = py::none(), py::kw_only(), py::arg("radians") = py::dict(),
-           py::arg("time_step") = usual_time_step, R"(One frame on, to where the coordinates shall be.
+           py::arg("time_step") = py::none(), R"(One frame on, to where the coordinates shall be.
 
 pose: degrees (mm for translations) by coordinates' names; those not named stay. Or one of Scene.poses, which brings all
-coordinates, its time and, where the scene has a plan of them, activations: then frames have the same bits as those of a
-run of the scene. radians: rad (m) by names. time_step: s since the last frame.
+coordinates, its time and the activations of the muscles that the scene drives: then frames have the same bits as those
+of a run of the scene. Other muscles are as active as Simulation.activations says.
+radians: rad (m) by names; not beside one of Scene.poses. time_step: s since the last frame (1/60; of one of
+Scene.poses, its own).
 
 Raises QualityError where a shape stops being finite; the frame is then the last one. Ctrl-C stops it within the frame.)")
       .def(

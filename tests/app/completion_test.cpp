@@ -91,6 +91,18 @@ TEST_F(Completion, commands_and_options_come_from_the_tables_of_help) {
   EXPECT_THAT(words("gracilis demo "), ElementsAre("hip", "elbow"));
 }
 
+TEST_F(Completion, settings_of_the_demo_are_those_that_it_takes) {
+  const std::string complete = std::string(build_paths::program) + " complete ";
+  EXPECT_THAT(said_here(complete + "'gracilis demo --set'"), Not(HasSubstr("motion.KEY")));
+  EXPECT_THAT(said_here(complete + "'gracilis run --set'"), HasSubstr("motion.KEY"));
+}
+
+TEST_F(Completion, a_flag_takes_no_word) {
+  EXPECT_THAT(words("gracilis run leg.toml --no-ramp --no-f"), ElementsAre("--no-fibers"));
+  EXPECT_THAT(words("gracilis run --no-ramp l"), ElementsAre("leg.toml"));
+  EXPECT_THAT(words("gracilis run --no-ramp leg.toml --metrics f"), ElementsAre("full"));
+}
+
 TEST_F(Completion, files_are_those_that_an_argument_takes) {
   EXPECT_THAT(words("gracilis run "), ElementsAre("base.toml", "done/", "drafts/", "leg.toml", "my scene.toml"));
   EXPECT_THAT(words("gracilis report d"), ElementsAre("done", "drafts/"));

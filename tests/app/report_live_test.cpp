@@ -59,20 +59,36 @@ TEST(ReportLive, of_the_built_in_elbow_has_the_elbow) {
   EXPECT_THAT(read_text(folder.path("run/live.html")), HasSubstr(base64(scene_bytes(load_demo(demo, {}).scene))));
 }
 
-TEST(ReportLive, says_what_is_wrong_and_writes_no_page) {
+TEST(ReportLive, says_what_is_wrong_and_writes_nothing) {
   const LiveFolder folder;
   ASSERT_EQ(
       run_program("run " + folder.path("boxes.toml").string() + " --out " + folder.path("run").string()).exit_code, 0);
   const ProgramResult other = folder.report(folder.with_page("boxes.toml"));
   EXPECT_EQ(other.exit_code, 3);
   EXPECT_THAT(other.err, HasSubstr("boxes.toml: is no page that takes a scene"));
+  EXPECT_EQ(other.out, "");
   EXPECT_EQ(folder.report(folder.with_page("nothing.html")).exit_code, 3);
   EXPECT_EQ(folder.report(" --page " + folder.path("page.html").string()).exit_code, 2) << "without --live";
   std::filesystem::remove(folder.path("boxes.toml"));
   const ProgramResult gone = folder.report(folder.with_page("page.html"));
   EXPECT_EQ(gone.exit_code, 3);
   EXPECT_THAT(gone.err, HasSubstr("boxes.toml"));
-  EXPECT_FALSE(std::filesystem::exists(folder.path("run/live.html")));
+  for (const char* page : {"run/live.html", "run/report.html"})
+    EXPECT_FALSE(std::filesystem::exists(folder.path(page))) << page;
+}
+
+TEST(ReportLive, of_a_damaged_command_line_is_an_error_of_the_file) {
+  const LiveFolder folder;
+  ASSERT_EQ(
+      run_program("run " + folder.path("boxes.toml").string() + " --out " + folder.path("run").string()).exit_code, 0);
+  std::string manifest = read_text(folder.path("run/run.json"));
+  const std::size_t at = manifest.find("\"--out\"");
+  ASSERT_NE(at, std::string::npos);
+  manifest.insert(at, "\"--set\", ");
+  folder.write("run/run.json", manifest);
+  const ProgramResult result = folder.report(folder.with_page("page.html"));
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("run.json:command: is damaged"));
 }
 
 }  // namespace gracilis

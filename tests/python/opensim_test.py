@@ -74,8 +74,13 @@ class Preparing(unittest.TestCase):
         for vertex in inner:  # above it, the other surface's nearest vertices
             nearest = np.argsort(np.linalg.norm(bottom[:, :2] - vertex[:2], axis=1))[:3]
             self.assertGreater(bottom[nearest, 2].min(), vertex[2])
-        with self.assertRaisesRegex(gracilis.ConfigurationError, "'edge_length' must be"):
-            gracilis.prepare(given, edge_length=-1)
+        overlapping = gracilis.prepare(given, edge_length=0.006, keep_overlaps=True)
+        self.assertGreater(overlapping["low"][0][:, 2].max(), overlapping["high"][0][:, 2].min())
+        for wrong in (-1, True, "small"):
+            with self.assertRaisesRegex(gracilis.ConfigurationError, "'edge_length' must be"):
+                gracilis.prepare(given, edge_length=wrong)
+        with self.assertRaisesRegex(gracilis.ConfigurationError, "'keep_overlaps' must be"):
+            gracilis.prepare(given, keep_overlaps=1)
         with self.assertRaisesRegex(gracilis.ConfigurationError, "no setting 'edge'"):
             gracilis.prepare(given, edge=1)
 

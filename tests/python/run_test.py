@@ -31,6 +31,29 @@ class Runs(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(gracilis.InputError, "run.json"):
             gracilis.Run(folder)
 
+    def test_tables_are_those_of_the_folder(self):
+        scene = gracilis.demo(flexion=2, only=["iliacus_r"], iterations=1)
+        with tempfile.TemporaryDirectory() as folder:
+            run = gracilis.run(scene, Path(folder) / "run", metrics="none")
+            self.assertEqual(run.tables, sorted(file.stem for file in run.folder.glob("*.sto")))
+            self.assertIn("fiber_lengths", run.tables)
+            lengths = run.table("fiber_lengths")
+            self.assertEqual(lengths["time"].shape, (len(run),))
+            self.assertTrue(((lengths["iliacus_r"] > 0.01) & (lengths["iliacus_r"] < 0.3)).all())
+            with self.assertRaisesRegex(gracilis.ConfigurationError, "did you mean 'fiber_lengths'"):
+                run.table("fiber_length")
+
+    def test_a_report_compares_runs_and_folders_of_runs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "report.html"
+            self.assertEqual(gracilis.report([gracilis.Run(demo_run()), demo_run()], path), path)
+            both = path.stat().st_size
+            gracilis.report([str(demo_run())], path)
+            self.assertGreater(both, path.stat().st_size)
+            for none, message in (([], "needs a run"), ([None], "None is no run")):
+                with self.assertRaisesRegex(gracilis.InputError, message):
+                    gracilis.report(none, path)
+
     def test_a_report_is_a_page_and_stands_in_a_notebook(self):
         run = gracilis.Run(demo_run())
         with tempfile.TemporaryDirectory() as folder:

@@ -13,6 +13,9 @@ from scenes import bar, demo, demo_run, small_demo
 import gracilis
 
 
+bending = dict(motion=dict(coordinates=["bend"], key_poses_deg=[[0], [5]]))
+
+
 def memory():
     """Bytes that this process holds."""
     with open("/proc/self/statm") as file:
@@ -98,7 +101,47 @@ class Moving(unittest.TestCase):
         self.sim.reset()
         self.assertEqual(self.sim.activations["iliacus_r"], 0)
 
+    def test_poses_leave_muscles_as_active_as_was_asked_where_the_scene_drives_none(self):
+        def hash_after(advance, activation):
+            self.sim.reset()
+            self.sim.activations["iliacus_r"] = activation
+            for pose in small_demo().poses[1:4]:
+                advance(pose)
+            self.assertEqual(self.sim.activations["iliacus_r"], activation)
+            return self.sim.state_hash()
+
+        def by_radians(pose):
+            self.sim.advance(radians=dict(zip(small_demo().coordinates, pose.coordinates)), time_step=pose.time_step)
+
+        active = hash_after(self.sim.advance, 0.4)
+        self.assertEqual(hash_after(by_radians, 0.4), active)
+        self.assertNotEqual(hash_after(self.sim.advance, 0), active)
+
+    def test_poses_bring_the_activations_of_muscles_that_the_scene_drives(self):
+        scene = gracilis.Scene(**bar(**bending, activations=[dict(muscle="muscle", value=0.3)]))
+        sim = gracilis.Simulation(scene, method="skinning")
+        sim.activations["muscle"] = 0.8
+        sim.advance(scene.poses[1])
+        self.assertEqual(sim.activations["muscle"], 0.3)
+
+    def test_a_time_step_beside_a_pose_takes_the_place_of_its_own(self):
+        self.sim.advance(small_demo().poses[1], time_step=0.25)
+        self.assertEqual(self.sim.time, 0.25)
+        self.assertAlmostEqual(self.sim.degrees["hip_flexion_r"], 1)
+
+    def test_a_pose_of_another_scene_is_refused(self):
+        higher = bar(**bending)
+        higher["joints"][0]["center"] = [0, 0, 0.06]
+        sim = gracilis.Simulation(gracilis.Scene(**bar(**bending)), method="skinning")
+        sim.advance(gracilis.Scene(**bar(**bending)).poses[1])  # the same, made again
+        for pose in (gracilis.Scene(**higher).poses[1], small_demo().poses[1]):
+            with self.assertRaisesRegex(gracilis.InputError, "of another scene"):
+                sim.advance(pose)
+        with self.assertRaisesRegex(gracilis.InputError, "of another scene"):
+            self.sim.advance(demo().poses[1])  # the same joints, other muscles
+
     def test_wrong_requests_have_messages_and_change_nothing(self):
+        pose = small_demo().poses[1]
         for request, kind, message in (
             (lambda: self.sim.advance({"hip_flexion": 3}), gracilis.ConfigurationError, "did you mean 'hip_flexion_r'"),
             (lambda: self.sim.advance({"hip_flexion_r": "far"}), gracilis.InputError, "must be a number"),
@@ -106,6 +149,8 @@ class Moving(unittest.TestCase):
             (lambda: self.sim.advance([1, 2, 3]), gracilis.InputError, "must be a dict"),
             (lambda: self.sim.advance(time_step=0), gracilis.InputError, "above 0 s"),
             (lambda: self.sim.advance(gracilis.Scene(**bar()).poses[0]), gracilis.InputError, "of another scene"),
+            (lambda: self.sim.advance(pose, radians={"hip_flexion_r": 1}), gracilis.InputError, "radians: has no place"),
+            (lambda: self.sim.advance(pose, time_step=-1), gracilis.InputError, "above 0 s"),
             (lambda: self.sim.activations["iliacus"], gracilis.ConfigurationError, "did you mean 'iliacus_r'"),
             (lambda: self.sim.activations.update({"iliacus_r": 1.5}), gracilis.InputError, "from 0 to 1"),
             (lambda: gracilis.Simulation(small_demo(), method="xpdb"), gracilis.ConfigurationError, "did you mean 'xpbd'"),

@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/anatomy/overlap/bone_field.hpp>
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/simulation.hpp>
@@ -130,6 +131,18 @@ TEST_F(LivePage, moves_a_scene_that_was_put_into_it) {
   wait_for("page.frame.coordinates[1] === 40 / unitOf({}).factor");
   EXPECT_LT(largest_difference(shapes_of_this_machine(scene, scene.method, 1, radians(40))), 1e-4);
   EXPECT_THAT(browser_.complaints, IsEmpty());
+}
+
+TEST_F(LivePage, says_that_its_program_does_not_start) {
+  const TestFolder folder;
+  std::string text = read_text(live_page());
+  const std::string place = "id=\"program\">";
+  const std::size_t begin = text.find(place) + place.size(), end = text.find("</script>", begin);
+  folder.write("page.html", text.replace(begin, end - begin, "AAAA"));
+  browser_.open(folder.path() / "page.html");
+  wait_for("page.failures === 1");
+  EXPECT_THAT(browser_.evaluate("element('status').textContent").get<std::string>(), StartsWith("stopped: "));
+  EXPECT_EQ(browser_.evaluate("element('status').classList.contains('failed')"), true);
 }
 
 }  // namespace

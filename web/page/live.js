@@ -269,11 +269,14 @@ const heard = {
       page.coordinates[c].say();
     });
   },
-  failure({text}) {
+  // A final one leaves it to the user what to try next, if there is anything to choose from.
+  failure({text, final}) {
     ++page.failures;
     page.pause();
-    page.tell(`stopped: ${text}; starting again`, true);
-    if (page.scene) setSliders();
+    page.tell(`stopped: ${text}${!final ? '; starting again' : page.scene ? '; another method may do' : ''}`, true);
+    if (!page.scene) return;
+    setSliders();
+    if (final) for (const id of ['method', 'reset']) element(id).disabled = false;
   },
 };
 

@@ -2,7 +2,8 @@
 // in steps that methods take, and sends every step's shapes.
 const TURN = 1.25 * Math.PI / 180, SHIFT = 0.002, ACTIVATION = 0.05, STEP = 1000 / 60;
 const ARMS_INTERVAL = 400;  // ms; moment arms of strings take longer than the strings
-let module, own, program, scene, reached, wanted, coordinates, activations, places, pulled, chosen = 0, armsAt = 0, running = false;
+let module, own, program, scene, reached, wanted, asked, coordinates, activations, places, pulled, chosen = 0, armsAt = 0;
+let ready = false, running = false;  // whether the program can be asked, and whether it is going somewhere
 
 const text = (at, length) => new TextDecoder().decode(new Uint8Array(program.memory.buffer, at, length));
 
@@ -37,6 +38,7 @@ async function start() {
   activations = program.malloc(8 * scene.muscles.length);
   places = program.malloc(8 * 9);
   pulled = program.malloc(8 * scene.coordinates.length);
+  ready = true;
 }
 
 // The scene that the page brings along.
@@ -109,29 +111,51 @@ function step() {
   show(milliseconds, there || performance.now() - armsAt > ARMS_INTERVAL);
 }
 
+// A bone's point (at rest) is wanted at `target`, seen along `looking`: the page is told what that means for sliders.
+function follow() {
+  if (!asked) return;
+  const {bone, point, target, looking} = asked;
+  asked = null;
+  new Float64Array(program.memory.buffer, places, 9).set([...point, ...target, ...looking]);
+  const values = new Float64Array(program.memory.buffer, pulled, wanted.coordinates.length);
+  values.set(wanted.coordinates);
+  if (!program.pull(bone, places, pulled)) return;
+  wanted.coordinates = [...new Float64Array(program.memory.buffer, pulled, wanted.coordinates.length)];
+  postMessage({kind: 'aim', coordinates: wanted.coordinates});
+}
+
 async function run() {
-  if (running) return;
+  if (running || !ready) return;
   running = true;
   try {
-    while (approach()) {
+    for (follow(); approach(); follow()) {
       const began = performance.now();
       step();
       // Messages come in between; and no faster than 60 steps a second, which is a time step.
       await new Promise(done => setTimeout(done, Math.max(0, STEP - (performance.now() - began))));
     }
     postMessage({kind: 'status', text: 'ready'});
+    running = false;
   } catch (error) {
     await recover(error);
+    running = false;
+    await run();  // to where it was aimed at meanwhile
   }
-  running = false;
 }
 
 // After a failure nothing in the program's memory can be relied on.
 async function recover(error) {
   postMessage({kind: 'failure', text: error.message});
-  wanted = null;
+  ready = false;
+  wanted = asked = null;
   await start();
   choose(chosen);
+}
+
+// What a new program does not mend either: whoever asks for a method next begins with another one.
+function giveUp(error) {
+  ready = running = false;
+  postMessage({kind: 'failure', text: error.message, final: true});
 }
 
 const tasks = {
@@ -141,39 +165,33 @@ const tasks = {
     postMessage({kind: 'status', text: own ? 'reading the scene' : 'making the hip'});
     await start();
     constants();
-    choose(method);
-    run();
+    await tasks.choose({method});
   },
   async choose({method}) {
     while (running) await new Promise(done => setTimeout(done, 5));
     running = true;
     try {
+      if (!ready) await start();
       choose(method);
     } catch (error) {
       chosen = 0;
       await recover(error);
     }
     running = false;
-    run();
+    await run();
   },
-  aim(values) {
+  async aim(values) {
     wanted = {coordinates: values.coordinates, activations: values.activations};
-    run();
+    await run();
   },
-  // A bone's point (at rest) is wanted at `target`, seen along `looking`: the page is told what that means for sliders.
-  pull({bone, point, target, looking}) {
-    if (!wanted) return;
-    new Float64Array(program.memory.buffer, places, 9).set([...point, ...target, ...looking]);
-    const values = new Float64Array(program.memory.buffer, pulled, wanted.coordinates.length);
-    values.set(wanted.coordinates);
-    if (!program.pull(bone, places, pulled)) return;
-    wanted.coordinates = [...new Float64Array(program.memory.buffer, pulled, wanted.coordinates.length)];
-    postMessage({kind: 'aim', coordinates: wanted.coordinates});
-    run();
+  async pull(what) {
+    if (!ready) return;
+    asked = what;
+    await run();
   },
   async reset() {
     wanted = {coordinates: scene.coordinates.map(each => each.capture), activations: scene.muscles.map(() => 0)};
     await tasks.choose({method: chosen});
   },
 };
-onmessage = ({data}) => tasks[data.task](data);
+onmessage = ({data}) => tasks[data.task](data).catch(giveUp);
