@@ -3,6 +3,7 @@
 #include "prepare_command.hpp"
 #include "scene_options.hpp"
 #include "session.hpp"
+#include "size_question.hpp"
 
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
@@ -123,11 +124,23 @@ void write_comparison(const CompareOptions& options, const std::string& scene, c
   fmt::print("{}\n{}\n", (folder / "comparison.html").string(), (folder / "comparison.csv").string());
 }
 
+/// Of all runs at once: nobody wants to be asked in the midst of them.
+void confirm_sizes(const std::vector<LoadedScene>& scenes, const SessionOptions& options) {
+  RunPlan all = plan_run(scenes[0], options);
+  for (std::size_t i = 1; i < scenes.size(); ++i) {
+    const RunSize size = plan_run(scenes[i], options).size;
+    all.size.bytes += size.bytes;
+    all.size.files += size.files;
+  }
+  confirm_size(all, options, "fewer --methods write less");
+}
+
 int compare(const CompareOptions& options) {
   check_names(options.methods);
   const LoadedScene loaded = load_scene(options.scene, options.scene_options, options.flexion_deg);
   check_frames(options.frames, loaded);
   const std::vector<LoadedScene> scenes = scenes_of(options.methods, loaded);
+  confirm_sizes(scenes, options.session);
   std::vector<ComparedRun> runs;
   int code = static_cast<int>(ExitCode::done);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -135,6 +148,7 @@ int compare(const CompareOptions& options) {
     SessionOptions session = options.session;
     session.out = options.session.out / name;
     session.print_folder = false;
+    session.yes = true;
     spdlog::info("---- {}", name);
     std::string trouble;
     try {
@@ -187,6 +201,7 @@ void add_compare_command(CLI::App& program, const std::vector<std::string>& word
   CLI::Option* resume = command->add_flag("--resume", options->session.resume,
                                           "Keep the runs that are in the folder, and go on where one was interrupted");
   command->add_flag("--force", options->session.force, "Replace the runs that are in the folder")->excludes(resume);
+  command->add_flag("--yes", options->session.yes, "Do not ask before runs that take more than 2 GB together");
   command->footer(
       "Exit codes: 0 all methods ran; 2 an unknown method, or one that cannot take the scene; 3 a file is missing or "
       "cannot be written; 5 a method failed (the page says which, and shows what it did until then); 130 interrupted.");

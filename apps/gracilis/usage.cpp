@@ -1,9 +1,12 @@
 #include "usage.hpp"
 
+#include "option_text.hpp"
+
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/suggestions.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -43,9 +46,9 @@ constexpr Example examples[] = {
     {"static-optimization", "gracilis static-optimization setup.xml --out activations"},
 };
 
-std::vector<std::string> command_names(const CLI::App& program) {
+std::vector<std::string> command_names(const CLI::App& command) {
   std::vector<std::string> names;
-  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  for (const CLI::App* part : command.get_subcommands({})) names.push_back(part->get_name());
   return names;
 }
 
@@ -56,11 +59,24 @@ std::vector<std::string> option_names(const CLI::App& command) {
   return names;
 }
 
-/// The command in which parsing ended.
-const CLI::App& innermost(const CLI::App& program) {
-  const CLI::App* command = &program;
-  while (!command->get_subcommands().empty()) command = command->get_subcommands().back();
-  return *command;
+/// The commands that were read, as study and run, down to the one in which parsing ended.
+std::vector<const CLI::App*> commands_read(const CLI::App& program) {
+  std::vector<const CLI::App*> commands;
+  for (const CLI::App* command = &program; !command->get_subcommands().empty();)
+    commands.push_back(command = command->get_subcommands().back());
+  return commands;
+}
+
+/// Of an option that takes only some values and got another; empty: the error is about something else.
+std::string value_problem(const CLI::App& command, const CLI::ParseError& error) {
+  for (const CLI::Option* option : named_options(command)) {
+    const std::vector<std::string> choices = choices_of(*option);
+    if (choices.empty() || !std::string_view(error.what()).starts_with(option->get_name() + ":")) continue;
+    for (const std::string& value : option->results())
+      if (std::find(choices.begin(), choices.end(), value) == choices.end())
+        return fmt::format("{} does not know '{}' ({}", option->get_name(), value, suggestion(value, choices));
+  }
+  return "";
 }
 
 bool is_option(const std::string& word) { return word.starts_with("-") && word != "-"; }
@@ -107,12 +123,17 @@ void add_examples(CLI::App& program) {
 
 std::string usage_problem(const CLI::App& program, const CLI::ParseError& error,
                           const std::vector<std::string>& words) {
-  const CLI::App& command = innermost(program);
-  const std::string begin = &command == &program ? "" : command.get_name() + ": ";
-  const std::string help = "`gracilis" + (&command == &program ? "" : " " + command.get_name()) + " --help` ";
-  if (&command == &program && words.size() > 1 && !is_option(words[1]))
-    return "there is no command '" + words[1] + "' (" + suggestion(words[1], command_names(program)) + "; " + help +
-           "lists all)";
+  const std::vector<const CLI::App*> commands = commands_read(program);
+  const CLI::App& command = commands.empty() ? program : *commands.back();
+  std::vector<std::string> names;
+  for (const CLI::App* each : commands) names.push_back(each->get_name());
+  const std::string path = fmt::format("{}", fmt::join(names, " "));
+  const std::string begin = path.empty() ? "" : path + ": ";
+  const std::string help = "`gracilis " + (path.empty() ? "" : path + " ") + "--help` ";
+  const std::vector<std::string> parts = command_names(command);
+  if (const std::size_t next = commands.size() + 1; !parts.empty() && next < words.size() && !is_option(words[next]))
+    return fmt::format("{}there is no command '{}' ({}; {}lists all)", begin, words[next],
+                       suggestion(words[next], parts), help);
   const std::vector<std::string> known = option_names(command);
   for (const std::string& word : words) {
     const std::string option = word.substr(0, word.find('='));
@@ -120,6 +141,8 @@ std::string usage_problem(const CLI::App& program, const CLI::ParseError& error,
       return fmt::format("{}there is no option '{}' ({}; {}explains all)", begin, option, suggestion(option, known),
                          help);
   }
+  if (const std::string problem = value_problem(command, error); !problem.empty())
+    return begin + problem + "; " + help + "explains all)";
   return begin + error.what() + " (" + help + "explains)";
 }
 

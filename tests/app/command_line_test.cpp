@@ -45,6 +45,20 @@ TEST(CommandLine, what_was_probably_meant_is_suggested) {
   EXPECT_THAT(problem("run"), HasSubstr("`gracilis run --help`"));
 }
 
+TEST(CommandLine, what_was_probably_meant_is_suggested_within_commands_and_among_choices_too) {
+  const auto problem = [](const char* arguments) { return run_program(arguments).err; };
+  EXPECT_THAT(problem("study rnu x"), HasSubstr("study: there is no command 'rnu' (did you mean 'run'?; "
+                                                "`gracilis study --help` lists all)"));
+  EXPECT_THAT(problem("activations jion"), HasSubstr("there is no command 'jion' (did you mean 'join'?"));
+  EXPECT_THAT(problem("study run x --trheads 2"), HasSubstr("study run: there is no option '--trheads' (did you mean "
+                                                            "'--threads'?; `gracilis study run --help`"));
+  EXPECT_THAT(problem("render leg --out a.png --view laterl"),
+              HasSubstr("render: --view does not know 'laterl' (did you mean 'lateral'?; `gracilis render --help`"));
+  EXPECT_THAT(problem("run leg.toml --metrics ligth --layout compact"),
+              HasSubstr("--metrics does not know 'ligth' (did you mean 'light'?"));
+  EXPECT_THAT(problem("run leg.toml --layout compact --metrics ligth"), HasSubstr("did you mean 'light'?"));
+}
+
 /// Every command and its options as their help has them.
 TEST(CommandLine, every_help_ends_with_an_example_that_uses_its_own_options) {
   std::istringstream lines(run_program("--help").out);

@@ -1,4 +1,5 @@
 #include "app/program.hpp"
+#include "io/scene_folder.hpp"
 
 #include <gracilis/io/input_file.hpp>
 
@@ -15,6 +16,7 @@ namespace gracilis {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 std::vector<std::string> split(const std::string& text, char at) {
   std::vector<std::string> parts;
@@ -88,6 +90,21 @@ TEST(CompareCommand, a_frame_that_is_not_there_is_a_usage_error_before_anything_
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("there is no frame 9"));
   EXPECT_THAT(result.err, HasSubstr("frames 0 to 4"));
+}
+
+TEST(CompareCommand, runs_beyond_2_GB_together_need_a_yes_and_name_no_option_that_there_is_not) {
+  const SceneFolder folder;
+  // 1.5 GB a run.
+  const std::string scene = good_scene() + "step_deg = 0.001\n[fibers]\ncount = 10000\nsegments = 20\n";
+  const ProgramResult refused =
+      run_program("compare '" + folder.write("scene.toml", scene).string() + "' --methods skinning,pbd --out '" +
+                  folder.path("out").string() + "' < /dev/null");
+  EXPECT_EQ(refused.exit_code, 2) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr("GB in "));
+  EXPECT_THAT(refused.err, HasSubstr("--yes"));
+  for (const std::string missing : {"--every", "--no-fibers"}) EXPECT_THAT(refused.err, Not(HasSubstr(missing)));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("out")));
+  EXPECT_THAT(run_program("compare --help").out, HasSubstr("--yes"));
 }
 
 TEST(CompareCommand, help_says_what_exit_codes_mean) {

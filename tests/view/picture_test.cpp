@@ -1,5 +1,4 @@
 #include <gracilis/core/errors.hpp>
-#include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/picture.hpp>
 #include <gracilis/view/pictures/picture_layout.hpp>
 
@@ -55,6 +54,48 @@ TEST(Picture, panels_stand_side_by_side_above_the_legend) {
   EXPECT_EQ(layout.panels[1].x, 200);
   ASSERT_EQ(layout.legend_entries.size(), 2u);
   EXPECT_EQ(layout.legend_entries[1].first, "b");
+}
+
+/// One panel with a surface per name, the last one's purple.
+static Picture picture_of_names(int count) {
+  Picture picture;
+  picture.panel_width = 480;
+  picture.panel_height = 520;
+  picture.panels.resize(1);
+  for (int i = 0; i < count; ++i)
+    picture.panels[0].surfaces.push_back(
+        {"semimembranosus right " + std::to_string(10 + i), cube(Vec3(2 * i, 0, 0)), Color(0.2, 0.6, 0.2)});
+  picture.panels[0].surfaces.back().color = Color(0.8, 0, 0.8);
+  return picture;
+}
+
+TEST(Picture, a_legend_of_many_names_has_rows_in_which_each_can_be_read) {
+  const PictureLayout layout = lay_out(picture_of_names(26));
+  ASSERT_EQ(layout.legend_entries.size(), 26u);
+  const LegendGrid& grid = layout.legend_grid;
+  EXPECT_EQ(grid.columns, 2);
+  EXPECT_GE(grid.font, 11);
+  EXPECT_GE(layout.legend.width / grid.columns, 40 + 24 * 0.6 * grid.font - 1) << "names do not overlap";
+  EXPECT_GE(layout.legend.height, (26 + grid.columns - 1) / grid.columns * grid.row_height);
+  EXPECT_EQ(layout.panels[0].y, layout.legend.height);
+  const PictureLayout few = lay_out(two_panels());
+  EXPECT_EQ(few.legend_grid.columns, 2);
+  EXPECT_EQ(few.legend_grid.font, 20);
+  EXPECT_LT(few.legend.height, layout.legend.height);
+}
+
+TEST(Picture, a_legend_never_takes_more_than_half_of_what_a_panel_does) {
+  EXPECT_TRUE(lay_out(picture_of_names(92)).legend_entries.empty());
+}
+
+TEST(Picture, a_legend_stands_above_a_color_bar_that_leaves_it_no_room) {
+  Picture picture = picture_of_names(3);
+  picture.color_bar = ColorBar{"a", {Color::Zero(), Color::Ones()}, {"0", "1"}};
+  const PictureLayout layout = lay_out(picture);
+  EXPECT_EQ(layout.legend.y, layout.color_bar.height);
+  EXPECT_EQ(layout.panels[0].y, layout.legend.y + layout.legend.height);
+  picture.panel_width = 1800;
+  EXPECT_EQ(lay_out(picture).legend.y, 0) << "beside it";
 }
 
 TEST(Picture, panels_that_look_the_same_way_share_one_camera_that_sees_everything) {
@@ -123,6 +164,20 @@ TEST_F(DrawnPicture, surfaces_appear_in_their_colors_on_the_background) {
   EXPECT_EQ(pixel(image(), 5, layout.height - 5), Vec3(255, 255, 255));
 }
 
+TEST_F(DrawnPicture, the_last_of_many_names_stands_in_the_legend) {
+  const Picture picture = picture_of_names(26);
+  draw(picture);
+  if (IsSkipped()) return;
+  const Rectangle legend = lay_out(picture).legend;
+  int purple = 0;
+  for (int y = legend.y; y < legend.y + legend.height; ++y)
+    for (int x = 0; x < legend.width; ++x) {
+      const Vec3 seen = pixel(image(), x, y);
+      purple += seen.x() > 180 && seen.y() < 60 && seen.z() > 180 ? 1 : 0;
+    }
+  EXPECT_GT(purple, 80);
+}
+
 TEST_F(DrawnPicture, a_long_caption_becomes_smaller_instead_of_being_cut_off) {
   Picture picture = two_panels();
   picture.panels[1].caption = "hip_flexion_r -21°, hip_adduction_r 5°, hip_rotation_r -12°";
@@ -146,27 +201,6 @@ TEST(Picture, a_folder_that_cannot_be_written_is_named) {
     if (error.code() == ExitCode::unsupported) GTEST_SKIP() << error.what();
     EXPECT_NE(std::string(error.what()).find("/proc/no_such_folder/picture.png"), std::string::npos) << error.what();
   }
-}
-
-TEST(MuscleColors, are_of_names_and_the_same_on_both_sides) {
-  EXPECT_EQ(muscle_color("gluteus_maximus_r"), muscle_color("gluteus_maximus_l"));
-  EXPECT_EQ(muscle_color("Gluteus maximus"), muscle_color("gluteus_maximus_r"));
-  EXPECT_EQ(muscle_color("nobody_knows_r"), muscle_color("nobody_knows_r"));
-  EXPECT_NE(muscle_color("nobody_knows_1"), muscle_color("nobody_knows_2"));
-  EXPECT_NE(muscle_color("biceps_femoris_long_r"), muscle_color("biceps_brachii_long_r"));
-}
-
-TEST(MuscleColors, of_neighbors_differ_in_lightness) {
-  const auto lightness = [](const char* name) { return Vec3(0.2126, 0.7152, 0.0722).dot(muscle_color(name)); };
-  const std::pair<const char*, const char*> neighbors[] = {{"gluteus_maximus_r", "gluteus_medius_r"},
-                                                           {"iliacus_r", "psoas_major_r"},
-                                                           {"adductor_brevis_r", "adductor_longus_r"},
-                                                           {"glut_max1_r", "glut_max2_r"},
-                                                           {"vas_lat_r", "vas_int_r"},
-                                                           {"biceps_long", "biceps_short"},
-                                                           {"triceps_long", "triceps_lateral"},
-                                                           {"triceps_lateral", "triceps_medial"}};
-  for (const auto& [one, other] : neighbors) EXPECT_GT(std::abs(lightness(one) - lightness(other)), 0.05) << one;
 }
 
 TEST(Picture, makes_room_for_lines_and_grows_with_the_zoom) {

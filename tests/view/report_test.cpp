@@ -2,8 +2,8 @@
 #include <gracilis/view/report/report_data.hpp>
 #include <gracilis/view/report/report_shapes.hpp>
 
-#include "view/browser.hpp"
 #include "view/recorded_runs.hpp"
+#include "view/report_in_browser.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,6 @@
 using namespace gracilis;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -132,43 +131,6 @@ TEST(Report, what_runs_say_cannot_break_the_page) {
   EXPECT_THAT(page.str(), testing::Not(HasSubstr("<b>suspicious")));
   EXPECT_EQ(page.str().find("{{"), std::string::npos);
 }
-
-/// The page in a browser, as people use it.
-class ReportInBrowser : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!Browser::is_there()) GTEST_SKIP() << "there is no /usr/bin/chromium";
-    browser.emplace(1400, 900);
-  }
-
-  void open(const std::vector<RecordedRun>& runs) {
-    write_report(folder.path() / "report.html", runs);
-    browser->open(folder.path() / "report.html");
-    ASSERT_EQ(js("document.getElementById('canvas').getContext('webgl') !== null"), true) << "no WebGL";
-  }
-
-  nlohmann::json js(const std::string& expression) { return browser->evaluate(expression); }
-  void expect_peace() {
-    EXPECT_THAT(browser->complaints, IsEmpty());
-    EXPECT_THAT(browser->requests, IsEmpty());
-  }
-  /// The middle of an element on the screen.
-  Eigen::Vector2d middle(const std::string& selector) {
-    const auto box = js("(b => [b.x + b.width / 2, b.y + b.height / 2])(document.querySelector('" + selector +
-                        "').getBoundingClientRect())");
-    return {box[0].get<double>(), box[1].get<double>()};
-  }
-  void click(const std::string& selector) {
-    js("document.querySelector('" + selector + "').scrollIntoView({block: 'center'})");
-    const Eigen::Vector2d at = middle(selector);
-    browser->click(at.x(), at.y());
-  }
-  /// What the view shows, as one number per picture.
-  std::string picture() { return js("document.getElementById('canvas').toDataURL()"); }
-
-  TestFolder folder;
-  std::optional<Browser> browser;
-};
 
 /// One after the first, when it is shown, however long a busy machine draws; 0 after 20 s.
 static constexpr const char* later_frame =

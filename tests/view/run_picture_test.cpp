@@ -185,6 +185,23 @@ TEST_F(RunPicture, a_scale_that_values_go_beyond_says_so) {
   EXPECT_EQ(swollen.ticks.front(), "-1");
 }
 
+TEST_F(RunPicture, scales_of_stress_and_tension_say_so_too) {
+  FlexingLeg leg(8);  // 10 to 1280 kPa, 0.1 to 12.8 N
+  leg.knows_forces = true;
+  runs = {leg.written(folder.path() / "run")};
+  const auto bar = [&](ColorBy by, int frame) {
+    RunPictureOptions options;
+    options.color_by = by;
+    std::vector<RunPainter> painters;
+    painters.emplace_back(runs[0], options);
+    return *run_picture(runs, painters, {frame}, options).color_bar;
+  };
+  EXPECT_EQ(bar(ColorBy::stress, 5).ticks.back(), "1000");
+  EXPECT_EQ(bar(ColorBy::stress, 7).ticks.back(), "≥ 1000");
+  EXPECT_EQ(bar(ColorBy::tension, 5).ticks.back(), "10");
+  EXPECT_EQ(bar(ColorBy::tension, 7).ticks.back(), "≥ 10");
+}
+
 TEST_F(RunPicture, looks_as_the_preview_does_unless_it_is_told_otherwise) {
   RecordedRun run = FlexingLeg(2).written(folder.path());
   run.preview_looking = Vec3(0, 0, 2);

@@ -1,5 +1,9 @@
 #include <gracilis/io/run/run_size.hpp>
 
+#include <gracilis/methods/mass_spring/settings.hpp>
+#include <gracilis/methods/method_entry.hpp>
+#include <gracilis/methods/strings/settings.hpp>
+
 #include <fmt/format.h>
 
 namespace gracilis {
@@ -20,12 +24,27 @@ double surface_bytes(const TriangleMesh& surface) {
   return header_bytes + vertex_bytes * surface.vertex_count() + triangle_bytes * surface.face_count();
 }
 
-double fibers_bytes(const Muscle& muscle) {
+/// What a method writes of a muscle's fibers.
+struct WrittenFibers {
+  double count = 0, points_of_each = 0;
+  bool follow_surface = true;  ///< otherwise a compact run has them in every frame
+
+  double bytes() const { return header_bytes + (line_point_bytes * points_of_each + fiber_bytes) * count; }
+};
+
+WrittenFibers written_fibers(const Scene& scene, const Muscle& muscle) {
+  WrittenFibers fibers{static_cast<double>(muscle.fibers.count), muscle.fibers.segments + 1.0};
+  // Two methods move fibers, and as many as their own settings say.
+  if (scene.method.name == "strings") {
+    const auto settings = muscle_settings<strings::StringSettings>(scene, muscle);
+    fibers = {static_cast<double>(settings.count), settings.segments + 1.0, false};
+  } else if (scene.method.name == "mass-spring") {
+    const auto settings = muscle_settings<MassSpringSettings>(scene, muscle);
+    fibers = {static_cast<double>(settings.fiber_count), static_cast<double>(settings.particles_per_fiber), false};
+  }
   const bool given = muscle.given_fibers.count() > 0 && !muscle.given_are_superficial;
-  const double count = given ? muscle.given_fibers.count() : muscle.fibers.count;
-  const double points =
-      given ? static_cast<double>(muscle.given_fibers.points.cols()) : count * (muscle.fibers.segments + 1);
-  return header_bytes + line_point_bytes * points + fiber_bytes * count;
+  if (given) fibers.count = static_cast<double>(muscle.given_fibers.count());
+  return fibers;
 }
 
 }  // namespace
@@ -38,8 +57,9 @@ static RunSize compact_size(const Scene& scene, int frames, bool with_fibers) {
     frame += piece_bytes + vertex_bytes * muscle.surface.vertex_count() +
              packed_triangle_bytes * muscle.surface.face_count() + measures_bytes;
     if (!has_fibers) continue;
-    once += fibers_bytes(muscle);
-    frame += length_bytes * muscle.fibers.count;
+    const WrittenFibers fibers = written_fibers(scene, muscle);
+    (fibers.follow_surface ? once : frame) += fibers.bytes();
+    frame += length_bytes * fibers.count;
   }
   return {once + frame * frames, frames + static_cast<std::int64_t>(scene.bones.size()) + 1};
 }
@@ -53,7 +73,7 @@ RunSize estimated_size(const Scene& scene, int frames, bool with_fibers, RunLayo
     frame.bytes += surface_bytes(muscle.surface) + measures_bytes;
     ++frame.files;
     if (!with_fibers || muscle.fibers.count == 0) continue;
-    frame.bytes += fibers_bytes(muscle);
+    frame.bytes += written_fibers(scene, muscle).bytes();
     ++frame.files;
   }
   return {frame.bytes * frames, frame.files * frames};

@@ -141,23 +141,42 @@ FoundMuscleColor find(std::string_view name) {
   return found;
 }
 
+/// Of what follows the muscle's name: 1 to 9 by a number or by words; 0: the whole muscle.
+std::size_t part_number(std::string_view words) {
+  if (words.empty()) return 0;
+  if (std::isdigit(static_cast<unsigned char>(words.back())) != 0) return static_cast<std::size_t>(words.back() - '0');
+  return 1 + hash_of(words) % 9;  // the same on every machine, unlike std::hash
+}
+
+struct PartShift {
+  Real lightness = 0, turn = 0;  ///< of the HSL color, degrees
+};
+
+/// Parts stay within their muscle's own step, or they would take colors of the muscles beside it. Light and dark
+/// alternate, too.
+PartShift shift_of_part(std::size_t number) {
+  constexpr std::array<Real, 3> steps = {0.06, -0.06, 0};
+  if (number == 0) return {};
+  return {steps[(number - 1) % 3], 3 * static_cast<Real>((number - 1) / 3)};
+}
+
 }  // namespace
 
 Color muscle_color(std::string_view name) {
   const std::string plain = plain_name(name);
   const FoundMuscleColor found = find(plain);
-  const std::string_view part = std::string_view(plain).substr(found.length);
-  const std::uint64_t hash = hash_of(part);  // the same on every machine, unlike std::hash
-  if (!found.group) return from_hsl(Real(hash % 12) * 30, 0.45, lightnesses[hash / 12 % lightnesses.size()]);
-  const std::size_t shift = part.empty() ? 0
-                            : std::isdigit(static_cast<unsigned char>(part.back())) != 0
-                                ? static_cast<std::size_t>(part.back() - '0')
-                                : hash % lightnesses.size();
-  const std::size_t shade = (found.place + shift) % lightnesses.size();
+  const std::string_view words = std::string_view(plain).substr(found.length);
+  if (!found.group) {
+    const std::uint64_t hash = hash_of(words);
+    return from_hsl(Real(hash % 12) * 30, 0.45, lightnesses[hash / 12 % lightnesses.size()]);
+  }
+  const PartShift part = shift_of_part(part_number(words));
+  const std::size_t shade = found.place % lightnesses.size();
   // Every third leans to the side in hue, and so do those of a large group for which lightnesses begin again.
-  const std::size_t turns = (found.place + shift) % 3 + 2 * ((found.place + shift) / lightnesses.size() % 3);
-  const Real turn = 9 * static_cast<Real>(turns);
-  return from_hsl(std::fmod(found.group->hue + turn, 360), found.group->saturation, lightnesses[shade]);
+  const std::size_t turns = found.place % 3 + 2 * (found.place / lightnesses.size() % 3);
+  const Real turn = 9 * static_cast<Real>(turns) + part.turn;
+  return from_hsl(std::fmod(found.group->hue + turn, 360), found.group->saturation,
+                  lightnesses[shade] + part.lightness);
 }
 
 }  // namespace gracilis

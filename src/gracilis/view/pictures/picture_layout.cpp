@@ -3,14 +3,15 @@
 #include <gracilis/core/errors.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace gracilis {
 
-static constexpr int strip_height = 56;      // pixels: title, legend or caption
-static constexpr int color_bar_width = 460;  // pixels
-static constexpr int entry_width = 100;      // pixels, least for a legend's entry
-static constexpr Real border = 1.06;         // free space around what is seen
+static constexpr int strip_height = 56;                // pixels: title, legend or caption
+static constexpr int color_bar_width = 460;            // pixels
+static constexpr int least_font = 11, most_font = 20;  // pixels, of a legend
+static constexpr Real border = 1.06;                   // free space around what is seen
 
 static void require_drawable(bool ok, const char* what) {
   if (!ok) throw ConfigurationError({"", "picture", what, ""});
@@ -28,8 +29,8 @@ static Extent extent_seen_by(const CameraView& camera, const Panel& own, const P
   axes << camera.right.transpose(), camera.up.transpose(), camera.looking.transpose();
   Extent extent;
   for (const Panel& panel : picture.panels) {
-    const bool shares_camera = !own.has_own_camera && !panel.has_own_camera &&
-                               panel.looking.normalized().isApprox(camera.looking, 1e-9);
+    const bool shares_camera =
+        !own.has_own_camera && !panel.has_own_camera && panel.looking.normalized().isApprox(camera.looking, 1e-9);
     if (!shares_camera && &panel != &own) continue;
     const auto add = [&](const Points& points) {
       if (points.cols() == 0) return;
@@ -86,6 +87,42 @@ static std::vector<std::pair<std::string, Color>> legend_of(const Picture& pictu
   return entries;
 }
 
+/// A swatch, gaps and a name whose letters are as wide as the wide ones of most names.
+static int entry_width(std::size_t letters, int font) {
+  return 40 + static_cast<int>(std::ceil(0.6 * font * static_cast<Real>(letters)));
+}
+
+/// In as few rows as leave every name its room, and in as large a font as these have room for.
+static LegendGrid legend_grid(int count, std::size_t letters, int width) {
+  const int most_columns = std::clamp(width / entry_width(letters, least_font), 1, count);
+  const int rows = (count + most_columns - 1) / most_columns;
+  LegendGrid grid{(count + rows - 1) / rows, most_font, 0};
+  while (grid.font > least_font && entry_width(letters, grid.font) > width / grid.columns) --grid.font;
+  grid.row_height = grid.font + 8;
+  return grid;
+}
+
+/// What stands below the panels. Returns where that ends.
+static int place_legend(const Picture& picture, int panel_height, PictureLayout& layout) {
+  const int bar_width = picture.color_bar ? std::min(layout.width, color_bar_width) : 0;
+  layout.color_bar = {layout.width - bar_width, 0, bar_width, bar_width > 0 ? strip_height : 0};
+  if (layout.legend_entries.empty()) return layout.color_bar.height;
+  std::size_t letters = 1;
+  for (const auto& [name, color] : layout.legend_entries) letters = std::max(letters, name.size());
+  const int count = static_cast<int>(layout.legend_entries.size()), beside = layout.width - bar_width;
+  const bool above = bar_width > 0 && beside < std::min(count, 2) * entry_width(letters, least_font);
+  const int width = above ? layout.width : beside;
+  layout.legend_grid = legend_grid(count, letters, width);
+  const int rows = (count + layout.legend_grid.columns - 1) / layout.legend_grid.columns;
+  if (2 * rows * layout.legend_grid.row_height > panel_height) {
+    // Nobody tells a body's hundred muscles apart by color.
+    layout.legend_entries.clear();
+    return layout.color_bar.height;
+  }
+  layout.legend = {0, above ? strip_height : 0, width, strip_height + (rows - 1) * layout.legend_grid.row_height};
+  return layout.legend.y + layout.legend.height;
+}
+
 PictureLayout lay_out(const Picture& picture) {
   require_drawable(!picture.panels.empty(), "a picture needs at least one panel");
   require_drawable(picture.panel_width > 0 && picture.panel_height >= 0, "a panel needs a width and a height");
@@ -104,18 +141,12 @@ PictureLayout lay_out(const Picture& picture) {
   const int row_height = panel_height + caption_height;
   layout.legend_entries = legend_of(picture);
   layout.width = columns * picture.panel_width;
-  const int bar_width = picture.color_bar ? std::min(layout.width, color_bar_width) : 0;
-  // Nobody tells a body's hundred muscles apart by color; names that do not fit would hide each other.
-  if (static_cast<int>(layout.legend_entries.size()) * entry_width > layout.width - bar_width)
-    layout.legend_entries.clear();
-  const int legend_width = layout.legend_entries.empty() ? 0 : layout.width - bar_width;
-  layout.legend = {0, 0, legend_width, legend_width > 0 || bar_width > 0 ? strip_height : 0};
-  layout.color_bar = {layout.width - bar_width, 0, bar_width, bar_width > 0 ? strip_height : 0};
-  layout.title = {0, layout.legend.height + rows * row_height, layout.width, picture.title.empty() ? 0 : strip_height};
+  const int below = place_legend(picture, panel_height, layout);
+  layout.title = {0, below + rows * row_height, layout.width, picture.title.empty() ? 0 : strip_height};
   layout.height = layout.title.y + layout.title.height;
   for (int i = 0; i < count; ++i) {
     const int x = (i % columns) * picture.panel_width;
-    const int y = layout.legend.height + (rows - 1 - i / columns) * row_height;
+    const int y = below + (rows - 1 - i / columns) * row_height;
     layout.captions.push_back({x, y, picture.panel_width, caption_height});
     layout.panels.push_back({x, y + caption_height, picture.panel_width, panel_height});
   }

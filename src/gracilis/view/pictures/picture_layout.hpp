@@ -19,11 +19,17 @@ struct CameraView {
   Vec3 looking, up, right;     ///< orthonormal
 };
 
+/// How a legend's entries stand, row by row from the left.
+struct LegendGrid {
+  int columns = 1, font = 0, row_height = 0;  ///< pixels
+};
+
 /// Where everything of a picture goes.
 struct PictureLayout {
-  int width = 0, height = 0;        ///< of the whole picture, pixels
-  Rectangle title, legend;          ///< height 0 (legend also width 0): none
-  Rectangle color_bar;              ///< beside the legend; height 0: none
+  int width = 0, height = 0;  ///< of the whole picture, pixels
+  Rectangle title, legend;    ///< height 0: none
+  Rectangle color_bar;        ///< beside the legend, or below it where that had no room; height 0: none
+  LegendGrid legend_grid;
   std::vector<Rectangle> panels;    ///< one per panel, the caption's strip excluded
   std::vector<Rectangle> captions;  ///< one per panel, below it
   std::vector<CameraView> cameras;  ///< one per panel

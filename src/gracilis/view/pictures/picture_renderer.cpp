@@ -198,17 +198,13 @@ static void add_rectangle(const Color& color, const Rectangle& part, vtkRenderer
 
 /// Swatch and name of every entry, in cells of equal width.
 static void add_legend(const PictureLayout& layout, int scale, vtkRenderer& renderer) {
-  const int count = static_cast<int>(layout.legend_entries.size());
-  const int cell = layout.legend.width / count;
-  const int middle = layout.legend.height / 2;
-  const std::size_t longest =
-      std::max_element(layout.legend_entries.begin(), layout.legend_entries.end(), [](const auto& a, const auto& b) {
-        return a.first.size() < b.first.size();
-      })->first.size();
-  const int font = std::clamp(static_cast<int>((cell - 40) / (0.6 * static_cast<double>(longest))), 8, 20);
+  const auto& [columns, font, row_height] = layout.legend_grid;
+  const int count = static_cast<int>(layout.legend_entries.size()), rows = (count + columns - 1) / columns;
+  const int cell = layout.legend.width / columns;
   for (int i = 0; i < count; ++i) {
     const auto& [name, color] = layout.legend_entries[static_cast<std::size_t>(i)];
-    const int x = i * cell + 12;
+    const int x = i % columns * cell + 12;
+    const int middle = (layout.legend.height + (rows - 1 - 2 * (i / columns)) * row_height) / 2;
     add_rectangle(color, {x * scale, (middle - font / 2) * scale, font * scale, font * scale}, renderer);
     const vtkSmartPointer<vtkTextActor> text = text_actor(name, font * scale, false);
     text->SetPosition((x + font + 8) * scale, middle * scale);
@@ -293,8 +289,7 @@ std::vector<vtkRenderer*> add_renderers(const Picture& picture, const PictureLay
   if (layout.color_bar.height > 0) {
     add_color_bar(*picture.color_bar, layout.color_bar, scale, *renderer_in(layout.color_bar, picture, layout, window));
   }
-  if (layout.legend.height > 0 && layout.legend.width > 0)
-    add_legend(layout, scale, *renderer_in(layout.legend, picture, layout, window));
+  if (layout.legend.height > 0) add_legend(layout, scale, *renderer_in(layout.legend, picture, layout, window));
   return of_panels;
 }
 

@@ -172,12 +172,12 @@ Points RunPainter::vertex_colors(std::size_t muscle, const TriangleMesh& mesh, i
     case ColorBy::stress: {
       const Eigen::VectorXd stresses = recorded_fiber_stresses(run_, run_.muscles[muscle], frame);
       for (Index v = 0; v < colors.cols(); ++v)
-        colors.col(v) = color_at(scale, v < stresses.size() ? std::log10(std::max(1.0, stresses[v])) : std::nan(""));
+        colors.col(v) = color_of(v < stresses.size() ? std::log10(std::max(1.0, stresses[v])) : std::nan(""));
       break;
     }
     case ColorBy::tension:
     case ColorBy::fiber_strain:
-      colors.colwise() = Color(0.88, 0.76, 0.72);  // pale flesh: neither bone nor a color of the scale
+      colors.colwise() = flesh_color();
       break;
     case ColorBy::edge_stretch: {
       const std::vector<Real> ratios = stretches_[muscle].of(mesh.vertices);
@@ -210,7 +210,7 @@ PaintedLines RunPainter::fibers(std::size_t muscle, int frame) const {
   painted.radius = 0.0006;
   if (options_.color_by == ColorBy::tension && frame < tensions_[muscle].rows())
     for (const Real tension : tensions_[muscle].row(frame))
-      painted.colors.push_back(color_at(color_scale(ColorBy::tension), std::log10(std::max(1e-9, tension))));
+      painted.colors.push_back(color_of(std::log10(std::max(1e-9, tension))));
   if (options_.color_by != ColorBy::fiber_strain) return painted;
   const std::vector<Real> lengths = polyline_lengths(painted.lines);
   for (std::size_t i = 0; i < std::min(lengths.size(), lengths_[muscle].size()); ++i)

@@ -1,5 +1,6 @@
 // Lines against frames or a coordinate, with what a limit is, where the slider stands, and what the pointer is at.
-const CHART = {width: 620, height: 210, left: 52, right: 12, top: 10, bottom: 34};
+// As wide as there is room, so that a pixel is a pixel and text can be read on a phone, too.
+const CHART = {height: 210, left: 52, right: 12, top: 10, bottom: 34};
 const DASHES = ['', '7 4', '2 3', '9 3 2 3'];
 
 function svg(name, attributes, parent) {
@@ -33,7 +34,8 @@ class Chart {
     this.element.className = 'plot';
     const title = document.createElement('h3');
     title.textContent = chart.title + (chart.unit ? ` (${chart.unit})` : '');
-    this.svg = svg('svg', {viewBox: `0 0 ${CHART.width} ${CHART.height}`, role: 'img'});
+    this.svg = svg('svg', {height: CHART.height, role: 'img'});
+    this.width = 620;
     this.tooltip = document.createElement('div');
     this.tooltip.className = 'tooltip';
     this.tooltip.hidden = true;
@@ -41,11 +43,17 @@ class Chart {
     this.svg.addEventListener('pointermove', event => this.point(event));
     this.svg.addEventListener('pointerleave', () => { this.tooltip.hidden = true; this.moveCursor(); });
     this.svg.addEventListener('click', event => page.goTo(this.frameAt(event)));
+    new ResizeObserver(() => { if (this.cursor && this.room() !== this.width) this.draw(); }).observe(this.svg);
   }
+
+  // Pixels; as before where nothing is laid out.
+  room() { return Math.round(this.svg.getBoundingClientRect().width) || this.width; }
 
   shownLines() { return this.lines.filter(line => this.page.state.visible.has(line.muscle)); }
 
-  draw() {
+  draw(width = this.room()) {
+    this.width = width;
+    this.svg.setAttribute('viewBox', `0 0 ${width} ${CHART.height}`);
     this.svg.replaceChildren();
     const lines = this.shownLines();
     const numbers = key => lines.flatMap(line => line[key] || []).filter(value => value !== null);
@@ -73,7 +81,7 @@ class Chart {
 
   px(x) {
     const [low, high] = this.range.x;
-    return CHART.left + (x - low) / (high - low) * (CHART.width - CHART.left - CHART.right);
+    return CHART.left + (x - low) / (high - low) * (this.width - CHART.left - CHART.right);
   }
 
   py(y) {
@@ -82,12 +90,12 @@ class Chart {
   }
 
   drawAxes() {
-    const bottom = CHART.height - CHART.bottom, right = CHART.width - CHART.right;
+    const bottom = CHART.height - CHART.bottom, right = this.width - CHART.right;
     for (const y of ticks(...this.range.y, 5)) {
       svg('line', {x1: CHART.left, x2: right, y1: this.py(y), y2: this.py(y), stroke: '#e3e7ea'}, this.svg);
       svg('text', {x: CHART.left - 6, y: this.py(y) + 4, 'text-anchor': 'end'}, this.svg).textContent = shownNumber(y);
     }
-    for (const x of ticks(...this.range.x, 8)) {
+    for (const x of ticks(...this.range.x, Math.max(2, Math.round((right - CHART.left) / 70)))) {
       svg('line', {x1: this.px(x), x2: this.px(x), y1: bottom, y2: bottom + 4, stroke: '#56606a'}, this.svg);
       svg('text', {x: this.px(x), y: bottom + 16, 'text-anchor': 'middle'}, this.svg).textContent = shownNumber(x);
     }
@@ -96,7 +104,7 @@ class Chart {
   }
 
   drawLimit(limit) {
-    const y = this.py(limit), right = CHART.width - CHART.right;
+    const y = this.py(limit), right = this.width - CHART.right;
     svg('line', {x1: CHART.left, x2: right, y1: y, y2: y, stroke: '#a8200d', 'stroke-dasharray': '5 4'}, this.svg);
     svg('text', {x: right, y: y - 4, 'text-anchor': 'end', style: 'fill: #a8200d'}, this.svg).textContent = 'limit';
   }
@@ -140,7 +148,7 @@ class Chart {
   // The frame of the first run whose place is nearest to the pointer; of several, the one nearest to the slider.
   frameAt(event) {
     const box = this.svg.getBoundingClientRect();
-    const x = (event.clientX - box.left) / box.width * CHART.width;
+    const x = (event.clientX - box.left) / box.width * this.width;
     let best = 0, distance = Infinity;
     this.page.xOf(0).forEach((value, frame) => {
       const away = Math.abs(this.px(value) - x) + 1e-3 * Math.abs(frame - this.page.state.frame);

@@ -213,8 +213,12 @@ document.addEventListener('keydown', event => {
     element('views').children[Number(event.key) - 1].click();
   }
 });
-// Paper gets all settings.
-window.addEventListener('beforeprint', () => document.querySelectorAll('details').forEach(each => { each.open = true; }));
+// Paper gets all settings, and two columns of plots.
+window.addEventListener('beforeprint', () => {
+  document.querySelectorAll('details').forEach(each => { each.open = true; });
+  for (const chart of charts) chart.draw(330);
+});
+window.addEventListener('afterprint', () => { for (const chart of charts) chart.draw(); });
 
 if (runs.length > 1) {
   runs.forEach((run, i) => {

@@ -16,6 +16,9 @@ const SHAPE_COLORS = {
            high: 0.585, ticks: ['0.67', '1', '1.5'], fibers: true},
 };
 
+// Of muscles whose fibers carry the colors, as flesh_color() of palette.hpp: neither bone nor a color of a scale.
+const FLESH = [0.88, 0.76, 0.72];
+
 // A color of a list that is spread over [low, high]; components 0 ... 1.
 function colorAt(scale, value) {
   const colors = scale.colors;
@@ -102,8 +105,7 @@ class RunShapes extends LitScene {
     const result = {...surface, mesh, stored};
     if (muscle) {
       mesh.material.vertexColors = THREE.VertexColors;
-      const color = new THREE.Color(this.run.muscles.find(each => each.name === surface.name).color);
-      result.color = [color.r, color.g, color.b];
+      result.color = this.colorOf(surface.name);
       const bytes = at => new Uint8Array(this.buffer, at, surface.vertices * this.run.shapes.frames.length);
       result.stretch = bytes(surface.stretch_at);
       result.shape = bytes(surface.shape_at);
@@ -111,6 +113,10 @@ class RunShapes extends LitScene {
       result.motion = new Float32Array(this.buffer, surface.motion_at, 7 * this.run.shapes.frames.length);
     }
     return result;
+  }
+
+  colorOf(muscle) {
+    return new THREE.Color(this.run.muscles.find(each => each.name === muscle).color).toArray();
   }
 
   makeFibers(fibers) {
@@ -126,7 +132,9 @@ class RunShapes extends LitScene {
     geometry.setAttribute('color', new THREE.BufferAttribute(new Float32Array(3 * count), 3));
     const lines = this.addLines(geometry);
     const frames = this.run.shapes.frames.length;
-    return {...fibers, count, lines, stored: new Uint16Array(this.buffer, fibers.points_at, 3 * count * frames),
+    // Lines take no light, and are to stand out from their muscle.
+    const color = this.colorOf(fibers.muscle).map(each => 0.7 * each);
+    return {...fibers, color, count, lines, stored: new Uint16Array(this.buffer, fibers.points_at, 3 * count * frames),
             strain: new Uint8Array(this.buffer, fibers.strain_at, fibers.sizes.length * frames)};
   }
 
@@ -163,7 +171,7 @@ class RunShapes extends LitScene {
     const colors = geometry.attributes.color.array, scale = SHAPE_COLORS[state.colorBy];
     const chart = scale.chart && this.run.charts.find(each => each.id === scale.chart);
     const values = chart && chart.series.find(each => each.muscle === muscle.name).values;
-    const whole = values ? colorAt(scale, values[frame]) : scale.fibers ? [0.8, 0.8, 0.8] : muscle.color;
+    const whole = values ? colorAt(scale, values[frame]) : scale.fibers ? FLESH : muscle.color;
     for (let v = 0; v < muscle.vertices; ++v) {
       const [a, b, share] = at;
       const blended = bytes => (1 - share) * bytes[a * muscle.vertices + v] + share * bytes[b * muscle.vertices + v];
@@ -184,7 +192,7 @@ class RunShapes extends LitScene {
     let point = 0;
     fibers.sizes.forEach((size, line) => {
       const value = (fibers.strain[at[0] * fibers.sizes.length + line] - 128) / 127;
-      const shown = scale.fibers ? colorAt(scale, value) : [0.25, 0.04, 0.04];
+      const shown = scale.fibers ? colorAt(scale, value) : fibers.color;
       for (let i = 0; i < size; ++i) color.array.set(shown, 3 * point++);
     });
     position.needsUpdate = true;

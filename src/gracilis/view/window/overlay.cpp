@@ -84,14 +84,24 @@ vtkSmartPointer<vtkActor2D> Overlay::add_mark(const Rectangle& part, const Color
   return actor;
 }
 
-vtkSmartPointer<vtkTextActor> Overlay::add_text(int x, int y, const std::string& text, int size, const Color& color) {
+static vtkSmartPointer<vtkTextActor> make_text(const std::string& text, int size) {
   const auto actor = vtkSmartPointer<vtkTextActor>::New();
   actor->SetInput(text.c_str());
+  actor->GetTextProperty()->SetFontFamilyToArial();
+  actor->GetTextProperty()->SetFontSize(size);
+  return actor;
+}
+
+int Overlay::width_of(const std::string& text, int size) const {
+  double extent[2] = {0, 0};
+  make_text(text, size)->GetSize(&renderer_, extent);
+  return static_cast<int>(extent[0]);
+}
+
+vtkSmartPointer<vtkTextActor> Overlay::add_text(int x, int y, const std::string& text, int size, const Color& color) {
+  const vtkSmartPointer<vtkTextActor> actor = make_text(text, size);
   actor->SetPosition(x, y);
-  vtkTextProperty* property = actor->GetTextProperty();
-  property->SetFontFamilyToArial();
-  property->SetFontSize(size);
-  property->SetColor(color.x(), color.y(), color.z());
+  actor->GetTextProperty()->SetColor(color.x(), color.y(), color.z());
   renderer_.AddActor2D(actor);
   return actor;
 }

@@ -33,6 +33,8 @@ class Overlay {
   vtkSmartPointer<vtkTextActor> add_text(int x, int y, const std::string& text, int size, const Color& color);
   vtkSmartPointer<vtkTextActor> add_text_right(int x, int y, const std::string& text, int size, const Color& color);
   vtkSmartPointer<vtkTextActor> add_text_centered(int x, int y, const std::string& text, int size, const Color& color);
+  /// How wide a text is, pixels. Precondition: the renderer is in a window.
+  int width_of(const std::string& text, int size) const;
   /// `act` gets where in `scale` (the area itself) the mouse is, 0 to 1 from left to right: when it is pressed in the
   /// area, and, where `drags`, while it moves until it is released.
   void add_area(const Rectangle& area, bool drags, std::function<void(Real)> act);

@@ -14,19 +14,54 @@ std::string words_of(std::string name) {
   return name;
 }
 
-int add_list(int left, int top, int bottom, const std::vector<ListEntry>& entries, Overlay& overlay) {
-  static constexpr int pitch = 22, column_width = 190;
-  const int rows = std::max(1, (top - bottom) / pitch);
-  for (int i = 0; i < static_cast<int>(entries.size()); ++i) {
-    const ListEntry& entry = entries[static_cast<std::size_t>(i)];
-    const int x = left + column_width * (i / rows), y = top - pitch * (1 + i % rows);
-    overlay.add_rectangle({x, y, 14, 14}, Color::Constant(0.45), 1);
-    overlay.add_rectangle({x + 1, y + 1, 12, 12}, Color::Ones(), 1);
-    if (entry.strength > 0) overlay.add_rectangle({x + 1, y + 1, 12, 12}, entry.color, entry.strength);
-    overlay.add_text(x + 22, y - 2, entry.text, 15, entry.strength > 0 ? ink : Color(Color::Constant(0.5)));
-    overlay.add_area({x - 4, y - 4, column_width - 4, pitch}, false, [act = entry.act](Real) { act(); });
-  }
-  return top - pitch * std::min(rows, static_cast<int>(entries.size()));
+/// Which of several entries stand on a page.
+struct PageEntries {
+  std::size_t begin, end, pages;
+};
+
+/// With room for `most` entries, or one less and what turns the page.
+static PageEntries entries_on(std::size_t& page, std::size_t count, int most) {
+  const auto all = static_cast<std::size_t>(std::max(1, most));
+  const std::size_t each = count > all ? std::max<std::size_t>(1, all - 1) : all;
+  const std::size_t pages = std::max<std::size_t>(1, (count + each - 1) / each);
+  page %= pages;
+  return {page * each, std::min(count, (page + 1) * each), pages};
+}
+
+/// Below `y`, where there is more than one page. Returns where it ends.
+static int add_page_turner(int left, int y, int width, const std::string& what, std::size_t& page, std::size_t pages,
+                           const std::function<void()>& turned, Overlay& overlay) {
+  if (pages < 2) return y;
+  y -= 24;
+  overlay.add_text(left, y, fmt::format("{} {} of {}: more", what, page + 1, pages), 14, accent);
+  overlay.add_area({left - 6, y - 6, width, 24}, false, [turned, &page](Real) {
+    ++page;
+    turned();
+  });
+  return y;
+}
+
+static constexpr int list_pitch = 22, list_width = 186;
+
+static void add_entry(int x, int y, const ListEntry& entry, Overlay& overlay) {
+  overlay.add_rectangle({x, y, 14, 14}, Color::Constant(0.45), 1);
+  overlay.add_rectangle({x + 1, y + 1, 12, 12}, Color::Ones(), 1);
+  if (entry.strength > 0) overlay.add_rectangle({x + 1, y + 1, 12, 12}, entry.color, entry.strength);
+  overlay.add_text(x + list_indent, y - 2, entry.text, list_text_size,
+                   entry.strength > 0 ? ink : Color(Color::Constant(0.5)));
+  overlay.add_area({x - 4, y - 4, list_width, list_pitch}, false, [act = entry.act](Real) { act(); });
+}
+
+int add_list(int left, int top, const std::vector<ListEntry>& entries, Overlay& overlay) {
+  for (const ListEntry& entry : entries) add_entry(left, top -= list_pitch, entry, overlay);
+  return top;
+}
+
+int add_paged_list(int left, int top, int bottom, const std::string& what, std::size_t& page,
+                   const std::vector<ListEntry>& entries, const std::function<void()>& turned, Overlay& overlay) {
+  const PageEntries shown = entries_on(page, entries.size(), (top - bottom - 8) / list_pitch);
+  for (std::size_t i = shown.begin; i < shown.end; ++i) add_entry(left, top -= list_pitch, entries[i], overlay);
+  return add_page_turner(left, top, list_width, what, page, shown.pages, turned, overlay);
 }
 
 void add_options(int left, int top, const std::vector<OptionEntry>& entries, Overlay& overlay) {
@@ -61,28 +96,16 @@ int add_sliders(int left, int top, int bottom, int width, std::size_t& page, con
                 Overlay& overlay) {
   static constexpr int pitch = 36;
   if (sliders.empty()) return top;
-  const auto most = static_cast<std::size_t>(std::max(1, (top - bottom - 60) / pitch));
-  const bool paged = sliders.size() > most;
-  const std::size_t each = paged ? std::max<std::size_t>(1, most - 1) : most;
-  const std::size_t pages = (sliders.size() + each - 1) / each;
-  page %= pages;
+  const PageEntries shown = entries_on(page, sliders.size(), (top - bottom - 60) / pitch);
   int y = top;
-  for (std::size_t s = page * each; s < std::min(sliders.size(), (page + 1) * each); ++s) {
-    if (!sliders[s].group.empty() && (s == page * each || sliders[s].group != sliders[s - 1].group))
+  for (std::size_t s = shown.begin; s < shown.end; ++s) {
+    if (!sliders[s].group.empty() && (s == shown.begin || sliders[s].group != sliders[s - 1].group))
       overlay.add_text(left, y -= 20, sliders[s].group, 13, faint);
     y -= pitch;
     add_slider(
         sliders[s], {left, y + 6, width, 5}, [s, moved](Real share) { moved(s, share); }, overlay);
   }
-  if (paged) {
-    y -= 24;
-    overlay.add_text(left, y, fmt::format("sliders {} of {}: more", page + 1, pages), 14, accent);
-    overlay.add_area({left - 6, y - 6, width, 24}, false, [turned, &page](Real) {
-      ++page;
-      turned();
-    });
-  }
-  return y;
+  return add_page_turner(left, y, width, "sliders", page, shown.pages, turned, overlay);
 }
 
 void add_color_bar(const ColorScale& scale, const Rectangle& bar, Overlay& overlay) {

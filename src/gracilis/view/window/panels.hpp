@@ -25,8 +25,15 @@ struct ListEntry {
   Real strength = 1;  ///< of the swatch: 1 full, 0 empty
   std::function<void()> act;
 };
-/// Entries from `top` downwards, in as many columns as do not come below `bottom`. Returns where the list ends.
-int add_list(int left, int top, int bottom, const std::vector<ListEntry>& entries, Overlay& overlay);
+/// Where a list's texts begin, from its left end, and their size.
+inline constexpr int list_indent = 22, list_text_size = 15;
+
+/// Entries from `top` downwards. Returns where the list ends.
+int add_list(int left, int top, const std::vector<ListEntry>& entries, Overlay& overlay);
+
+/// The same; those that would come below `bottom` are on further pages, which `what` and their number name.
+int add_paged_list(int left, int top, int bottom, const std::string& what, std::size_t& page,
+                   const std::vector<ListEntry>& entries, const std::function<void()>& turned, Overlay& overlay);
 
 /// A key, what it switches, and how that stands.
 struct OptionEntry {

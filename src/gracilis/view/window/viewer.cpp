@@ -61,6 +61,7 @@ int Viewer::total_frames() const { return std::max(options_.expected_frames, his
 
 WindowReport Viewer::run() {
   interactor_->Initialize();
+  measure_names();
   look(view_);
   draw(true);
   report_.first_picture = now();

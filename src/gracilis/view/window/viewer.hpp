@@ -63,6 +63,7 @@ class Viewer {
 
   // viewer_layout.cpp: what stands over the picture
   void lay_out();
+  void measure_names();
   void look(const std::string& view);
   void keep_in_view();
   Rectangle room() const;
@@ -94,8 +95,9 @@ class Viewer {
   std::string view_, frame_number_;  ///< the number that is being typed, after a colon; empty: none
   bool help_ = false, changed_ = true, relaid_ = true, follows_ = false, depth_is_shown_ = false, is_smooth_ = false;
   int width_ = 0, height_ = 0, known_begin_ = 0, known_end_ = 1, picture_ = 0;
+  int left_width_ = 0;  ///< pixels that the texts on the left take
   std::string known_status_;
-  std::size_t slider_page_ = 0;
+  std::size_t slider_page_ = 0, muscle_page_ = 0;
 
   struct Grabbed {
     std::size_t bone = 0;

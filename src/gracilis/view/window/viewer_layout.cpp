@@ -18,7 +18,7 @@
 namespace gracilis {
 
 static const Color background(0.96, 0.965, 0.97);
-static constexpr int margin = 16, right_width = 210, track_height = 66;
+static constexpr int margin = 16, right_width = 210, options_width = 210, track_height = 66;
 
 void Viewer::lay_out() {
   width_ = window_->GetSize()[0];
@@ -42,11 +42,18 @@ void Viewer::look(const std::string& view) {
   look_from(view, shapes_, history_, state_, room(), *scene_renderer_);
 }
 
+/// All of them, or the room would change with the list's pages.
+void Viewer::measure_names() {
+  left_width_ = options_width;
+  for (const std::string& name : shapes_.muscles)
+    left_width_ = std::max(left_width_, list_indent + overlay_.width_of(words_of(name), list_text_size));
+}
+
 /// Between the texts.
 Rectangle Viewer::room() const {
   const int* size = window_->GetSize();
-  const int side = margin + right_width + 10;
-  return {side, track_height + 10, std::max(100, size[0] - 2 * side), std::max(100, size[1] - track_height - 56)};
+  const int left = margin + left_width_ + 10, right = margin + right_width + 10;
+  return {left, track_height + 10, std::max(100, size[0] - left - right), std::max(100, size[1] - track_height - 56)};
 }
 
 /// Until somebody turns the camera, what moves out of its room, as a femur under the sliders, gets more of it.
@@ -104,7 +111,9 @@ void Viewer::lay_out_left() {
   }
   const std::vector<OptionEntry> entries = options_shown();
   const int options_height = 20 * static_cast<int>(entries.size()) + 16;
-  const int end = add_list(margin, height_ - 46, track_height + options_height + 10, muscles, overlay_);
+  const int end = add_paged_list(
+      margin, height_ - 46, track_height + options_height + 10, "muscles", muscle_page_, muscles,
+      [this] { changed_ = relaid_ = true; }, overlay_);
   add_options(margin, end - 14, entries, overlay_);
 }
 
@@ -129,7 +138,7 @@ void Viewer::lay_out_right() {
     std::vector<ListEntry> entries;
     for (const TissueColor& tissue : tissue_colors()) entries.push_back({tissue.name, tissue.color, 1, [] {}});
     if (state_.color_by != WindowColor::tissue) entries.erase(entries.begin(), entries.begin() + 2);
-    add_list(left, bottom + 22 * static_cast<int>(entries.size()) + 4, bottom, entries, overlay_);
+    add_list(left, bottom + 22 * static_cast<int>(entries.size()) + 4, entries, overlay_);
     bottom += 22 * static_cast<int>(entries.size()) + 12;
   }
   if (state_.slice != Slice::none) bottom = lay_out_scale(slice_scale(), bottom);
@@ -143,7 +152,7 @@ void Viewer::lay_out_right() {
                            changed_ = relaid_ = true;
                          }});
     const int height = 22 * static_cast<int>(entries.size());
-    add_list(left, bottom + height + 4, bottom, entries, overlay_);
+    add_list(left, bottom + height + 4, entries, overlay_);
     overlay_.add_text(left, bottom + height + 10, fmt::format("moved by, {:g} times as long", scene_->arrow_scale()),
                       15, ink);
     bottom += height + 36;
@@ -226,9 +235,9 @@ void Viewer::lay_out_directions() {
   scene_renderer_->GetActiveCamera()->GetDirectionOfProjection(back);
   const Vec3 looking(back), above = (Vec3(up) - Vec3(up).dot(looking) * looking).normalized();
   const Vec3 right = looking.cross(above);
-  const int side = margin + right_width + 14, middle = (height_ + track_height) / 2;
-  overlay_.add_text(side, middle, direction_word(-right, shapes_.axes), 14, faint);
-  overlay_.add_text_right(width_ - side, middle, direction_word(right, shapes_.axes), 14, faint);
+  const int middle = (height_ + track_height) / 2;
+  overlay_.add_text(margin + left_width_ + 14, middle, direction_word(-right, shapes_.axes), 14, faint);
+  overlay_.add_text_right(width_ - margin - right_width - 14, middle, direction_word(right, shapes_.axes), 14, faint);
   overlay_.add_text_centered(width_ / 2, height_ - 24, direction_word(above, shapes_.axes), 14, faint);
   overlay_.add_text_centered(width_ / 2, track_height + 10, direction_word(-above, shapes_.axes), 14, faint);
 }

@@ -1,6 +1,7 @@
 #include <gracilis/view/window/window_scene.hpp>
 
 #include <gracilis/view/pictures/muscle_colors.hpp>
+#include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 #include <gracilis/view/window/arrows.hpp>
 #include <gracilis/view/window/picking.hpp>
@@ -38,7 +39,6 @@ WindowScene::WindowScene(const ShownShapes& shapes, const ShapeHistory& history,
         add_empty(true, renderer),
         add_empty(true, renderer),
         {}};
-    paint(Color(0.45, 0.08, 0.08), actors.fibers);
     for (std::size_t g = 0; g < actors.ghosts.size(); ++g) {
       actors.ghosts[g] = add_surface(first->muscles[m], shapes.muscle_faces[m], Color(0.30, 0.42, 0.62), renderer);
       actors.ghosts[g].actor->GetProperty()->SetOpacity(0.28 / static_cast<Real>(g + 1));
@@ -101,7 +101,7 @@ static std::vector<Color> vertex_colors(std::size_t muscle, const ShownShapes& s
                   [](float stress) { return std::log10(std::max(1.0, static_cast<Real>(stress))); });
     case WindowColor::tension:
     case WindowColor::fiber_strain:
-      return std::vector<Color>(count, Color::Constant(0.8));
+      return std::vector<Color>(count, flesh_color());
     case WindowColor::edge_stretch:
       return each(frame.stretch[muscle], [](float ratio) { return std::log2(static_cast<Real>(ratio)); });
     case WindowColor::contact_depth:
@@ -143,6 +143,8 @@ void WindowScene::show_fibers(std::size_t muscle, const ShownFrame& frame, const
   for (const Real strain : frame.strain[muscle])
     if (state.color_by == WindowColor::fiber_strain)
       colors.push_back(color_at(color_scale(ColorBy::fiber_strain), std::log2(strain)));
+  const std::string& name = shapes_.muscles[muscle];
+  paint(state.color_by == WindowColor::natural ? fiber_paint(name) : muscle_color(name), tubes);
   set_tubes(frame.fibers[muscle], fiber_radius, colors, tubes);
 }
 

@@ -1,0 +1,71 @@
+#include <gracilis/view/pictures/muscle_colors.hpp>
+#include <gracilis/view/pictures/muscle_look.hpp>
+#include <gracilis/view/window/frame_maker.hpp>
+#include <gracilis/view/window/window_scene.hpp>
+
+#include <shapes.hpp>
+
+#include <gtest/gtest.h>
+
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkDataArray.h>
+#include <vtkDataSet.h>
+#include <vtkMapper.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+namespace gracilis {
+
+/// One muscle with one fiber, whose actors are the renderer's first two.
+class OneMuscleScene : public testing::Test {
+ protected:
+  OneMuscleScene() {
+    const TriangleMesh muscle = shapes::sphere(Vec3::Zero(), 0.03, 2);
+    shown.muscles = {"gluteus_medius_r"};
+    FrameMaker maker({muscle}, {}, shown);
+    ShownFrame frame;
+    maker.fill({muscle.vertices}, {}, false, frame);
+    Points line(3, 3);
+    line << -0.02, 0, 0.02, 0, 0.001, 0, 0, 0, 0;
+    maker.fill_fibers({join({line})}, frame);
+    frame.activation = {0};
+    history.append(std::move(frame));
+    scene.emplace(shown, history, *renderer);
+    state.muscles = {MuscleState::solid};
+    state.fibers = true;
+  }
+
+  void show(WindowColor by) {
+    state.color_by = by;
+    scene->show(0, state, {}, true);
+  }
+  vtkActor& actor(int number) { return *vtkActor::SafeDownCast(renderer->GetActors()->GetItemAsObject(number)); }
+  Color fiber_color() { return Color(actor(1).GetProperty()->GetColor()); }
+
+  ShownShapes shown;
+  ShapeHistory history;
+  vtkNew<vtkRenderer> renderer;
+  std::optional<WindowScene> scene;
+  WindowState state;
+};
+
+TEST_F(OneMuscleScene, fibers_have_their_muscles_color_and_that_of_flesh_where_it_looks_like_flesh) {
+  show(WindowColor::muscle);
+  EXPECT_TRUE(fiber_color().isApprox(muscle_color("gluteus_medius_r"), 1e-12));
+  show(WindowColor::natural);
+  EXPECT_TRUE(fiber_color().isApprox(fiber_paint("gluteus_medius_r"), 1e-12));
+}
+
+TEST_F(OneMuscleScene, a_muscle_is_pale_and_unlike_bone_where_its_fibers_carry_the_colors) {
+  show(WindowColor::fiber_strain);
+  vtkDataArray* colors = actor(0).GetMapper()->GetInputAsDataSet()->GetPointData()->GetScalars();
+  ASSERT_NE(colors, nullptr);
+  const Color seen = Color(colors->GetTuple3(0)) / 255;
+  EXPECT_LT((seen - flesh_color()).cwiseAbs().maxCoeff(), 0.5 / 255 + 1e-9);
+  EXPECT_GT((seen - Color(0.72, 0.74, 0.75)).norm(), 0.1);
+}
+
+}  // namespace gracilis
