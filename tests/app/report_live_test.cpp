@@ -81,11 +81,9 @@ TEST(ReportLive, of_a_damaged_command_line_is_an_error_of_the_file) {
   const LiveFolder folder;
   ASSERT_EQ(
       run_program("run " + folder.path("boxes.toml").string() + " --out " + folder.path("run").string()).exit_code, 0);
-  std::string manifest = read_text(folder.path("run/run.json"));
-  const std::size_t at = manifest.find("\"--out\"");
-  ASSERT_NE(at, std::string::npos);
-  manifest.insert(at, "\"--set\", ");
-  folder.write("run/run.json", manifest);
+  const std::string manifest = read_text(folder.path("run/run.json"));
+  const std::string last = "\"" + folder.path("run").string() + "\"";
+  folder.write("run/run.json", with(manifest, last, last + ", \"--set\""));
   const ProgramResult result = folder.report(folder.with_page("page.html"));
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err, HasSubstr("run.json:command: is damaged"));

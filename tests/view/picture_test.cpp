@@ -60,7 +60,7 @@ TEST(Picture, panels_stand_side_by_side_above_the_legend) {
 static Picture picture_of_names(int count) {
   Picture picture;
   picture.panel_width = 480;
-  picture.panel_height = 520;
+  picture.panel_height = 800;
   picture.panels.resize(1);
   for (int i = 0; i < count; ++i)
     picture.panels[0].surfaces.push_back(

@@ -114,7 +114,7 @@ static std::string why_stale(const fs::path& folder, const std::string& definiti
     for (const nlohmann::ordered_json& input : manifest.value("inputs", nlohmann::ordered_json::array())) {
       const std::string file = input.value("file", ""), hash = input_hash(file, hashes);
       if (hash.empty() && absent == AbsentInput::is_passed_over) continue;
-      if (hash != input.value("sha256", "")) return file + " is missing or has changed since";
+      if (hash.empty() || hash != input.value("sha256", "")) return file + " is missing or has changed since";
     }
   } catch (const InputError& error) {
     return error.what();

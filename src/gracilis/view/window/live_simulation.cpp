@@ -131,6 +131,7 @@ void LiveSimulation::pause(bool on) {
   const std::lock_guard lock(mutex_);
   paused_ = on;
   single_steps_ = 0;
+  if (!on) expect_motion();
   changed_.notify_all();
 }
 
