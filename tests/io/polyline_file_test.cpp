@@ -4,10 +4,6 @@
 #include <gtest/gtest.h>
 #include <io/test_files.hpp>
 
-#include <sys/resource.h>
-
-#include <csignal>
-
 namespace gracilis {
 
 using testing::HasSubstr;
@@ -35,15 +31,7 @@ TEST(PolylineFile, what_is_written_reads_back_with_the_same_bits) {
 TEST(PolylineFile, a_full_disk_is_one_clear_error) {
   const TestFolder folder;
   const Polylines lines = join({Points::Random(3, 20000)});
-  // A limit on the size of files fails like a disk without space.
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_IGN);
-  rlimit small = before;
-  small.rlim_cur = 10000;
-  setrlimit(RLIMIT_FSIZE, &small);
-  const std::string text = message_of_input_error([&] { write_polylines(folder.path() / "a.vtp", lines); });
-  setrlimit(RLIMIT_FSIZE, &before);
+  const std::string text = message_on_a_full_disk([&] { write_polylines(folder.path() / "a.vtp", lines); });
   EXPECT_THAT(text, HasSubstr("a.vtp: cannot be written: "));
   EXPECT_THAT(text, testing::Not(HasSubstr("vtkInformation")));
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));

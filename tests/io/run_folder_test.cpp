@@ -11,9 +11,7 @@
 #include <io/tiny_run.hpp>
 #include <nlohmann/json.hpp>
 
-#include <sys/resource.h>
 
-#include <csignal>
 #include <sstream>
 
 using namespace gracilis;
@@ -53,15 +51,7 @@ TEST(MeshWriter, a_full_disk_is_one_clear_error_and_leaves_the_old_file) {
   const fs::path path = folder.write("a.vtp", "as it was");
   Points points = Points::Random(3, 20000);
   Eigen::Matrix3Xi faces = Eigen::Matrix3Xi::Zero(3, 1);
-  // A limit on the size of files fails like a disk without space.
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_IGN);
-  rlimit small = before;
-  small.rlim_cur = 10000;
-  setrlimit(RLIMIT_FSIZE, &small);
-  const std::string text = message_of_input_error([&] { write_surface(path, points, faces); });
-  setrlimit(RLIMIT_FSIZE, &before);
+  const std::string text = message_on_a_full_disk([&] { write_surface(path, points, faces); });
   EXPECT_THAT(text, HasSubstr("a.vtp: cannot be written"));
   EXPECT_EQ(content(path), "as it was");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -52,6 +55,19 @@ inline std::string message_of_input_error(const std::function<void()>& action) {
   }
   ADD_FAILURE() << "no InputError";
   return "";
+}
+
+/// The same where no file may become larger than 10 kB, which fails like a disk without space.
+inline std::string message_on_a_full_disk(const std::function<void()>& action) {
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit small = before;
+  small.rlim_cur = 10000;
+  setrlimit(RLIMIT_FSIZE, &small);
+  std::string text = message_of_input_error(action);
+  setrlimit(RLIMIT_FSIZE, &before);
+  return text;
 }
 
 }  // namespace gracilis

@@ -1,7 +1,6 @@
 #include <gracilis/io/mesh/polyline_file.hpp>
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh/line_reader_csv.hpp>
 #include <gracilis/io/mesh/line_reader_tck.hpp>
@@ -10,13 +9,12 @@
 #include <gracilis/io/mesh/mesh_reader_vtp.hpp>
 #include <gracilis/io/mesh/polygon_mesh.hpp>
 #include <gracilis/io/mesh/vtk_mesh.hpp>
-#include <gracilis/io/mesh/vtk_messages.hpp>
+#include <gracilis/io/mesh/vtk_writing.hpp>
 
 #include <fmt/format.h>
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataWriter.h>
@@ -38,23 +36,8 @@ void write_polylines(const fs::path& path, const Polylines& lines, const std::ve
     for (const Real value : each.values) array->InsertNextValue(value);
     data->GetCellData()->AddArray(array);
   }
-  write_file_atomically(path, [&](const fs::path& temporary) {
-    VtkMessages messages;
-    vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetFileName(temporary.c_str());
-    writer->SetInputData(data);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToLZ4();
-    writer->SetIdTypeToInt32();
-    const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
-    if (written && !messages.has_errors()) return;
-    const std::string reason = writer->GetErrorCode() != vtkErrorCode::NoError
-                                   ? vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())
-                                   : messages.first_error();
-    throw InputError({path.string(), "", "cannot be written: " + reason,
-                      "check the folder's permissions and the free space of the disk"});
-  });
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  write_by_vtk(path, *writer, *data);
 }
 
 namespace {

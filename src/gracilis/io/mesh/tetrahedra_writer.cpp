@@ -1,12 +1,9 @@
 #include <gracilis/io/mesh/tetrahedra_writer.hpp>
 
-#include <gracilis/core/errors.hpp>
-#include <gracilis/io/atomic_file.hpp>
-#include <gracilis/io/mesh/vtk_messages.hpp>
+#include <gracilis/io/mesh/vtk_writing.hpp>
 
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
@@ -47,17 +44,8 @@ void write_tetrahedra(const std::filesystem::path& path, const Tetrahedra& tetra
     grid->InsertNextCell(VTK_TETRA, 4, corners);
   }
   add_cell_arrays(tetrahedra, *grid);
-  write_file_atomically(path, [&](const std::filesystem::path& temporary) {
-    VtkMessages messages;
-    vtkNew<vtkXMLUnstructuredGridWriter> writer;
-    writer->SetFileName(temporary.c_str());
-    writer->SetInputData(grid);
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToLZ4();
-    if (writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError && !messages.has_errors()) return;
-    throw InputError({path.string(), "", "cannot be written", "check the folder's permissions and the free space"});
-  });
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  write_by_vtk(path, *writer, *grid);
 }
 
 }  // namespace gracilis
