@@ -6,6 +6,7 @@
 namespace gracilis {
 
 /// Log lines go to stderr, as "warning: ...", in color only on a terminal and only where NO_COLOR is not set.
+/// Control characters of texts from files, as those that move a terminal's cursor, become '?'.
 void set_up_logging();
 
 /// How far a run has come: one line that redraws itself on a terminal, a log line for every tenth of the run elsewhere.

@@ -3,7 +3,6 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/failure.hpp>
 
-#include <spdlog/pattern_formatter.h>
 #include <spdlog/spdlog.h>
 
 #include <fcntl.h>
@@ -13,9 +12,7 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
-#include <memory>
 #include <sstream>
-#include <string_view>
 
 namespace gracilis {
 
@@ -45,40 +42,6 @@ void open_closed_streams() {
     const int opened = open("/dev/null", stream == 2 ? O_WRONLY : O_RDONLY);  // gets the lowest number that is free
     (void)opened;
   }
-}
-
-/// Without control characters but ends of lines and tabulators; those of two bytes in UTF-8 count, too.
-static std::string printable(std::string_view text) {
-  std::string result;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(text[i]);
-    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
-    const bool is_pair = byte == 0xc2 && next >= 0x80 && next < 0xa0;
-    const bool is_control = (byte < 0x20 && byte != '\n' && byte != '\t') || byte == 0x7f || is_pair;
-    result += is_control ? '?' : text[i];
-    if (is_pair) ++i;
-  }
-  return result;
-}
-
-namespace {
-
-/// The message of a line of the log.
-class PrintableText : public spdlog::custom_flag_formatter {
- public:
-  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& line) override {
-    const std::string text = printable({message.payload.data(), message.payload.size()});
-    line.append(text.data(), text.data() + text.size());
-  }
-  std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<PrintableText>(); }
-};
-
-}  // namespace
-
-void log_printable_text() {
-  auto formatter = std::make_unique<spdlog::pattern_formatter>();
-  formatter->add_flag<PrintableText>('v').set_pattern("%^%l%$: %v");  // as set_up_logging has it
-  spdlog::set_formatter(std::move(formatter));
 }
 
 /// Logs a problem per line. A broken file may have tens of thousands, and a name in it any length.

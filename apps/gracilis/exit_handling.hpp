@@ -12,9 +12,6 @@ void ignore_size_signals();
 /// written into it. Writing to such a stdout fails as before.
 void open_closed_streams();
 
-/// Control characters of texts from files, as those that move a terminal's cursor, become '?' in the log.
-void log_printable_text();
-
 /// Runs a command and turns what it throws into log lines and the exit code that the documentation promises: Error
 /// knows its own, what the system refuses (as a path that cannot be looked at, or printing to a full disk) is 3,
 /// anything else is an internal error (1). Of many lines the first are logged, and how many more there were.

@@ -44,7 +44,6 @@ int main(int count, char** arguments) {
   using namespace gracilis;
   open_closed_streams();
   set_up_logging();
-  log_printable_text();
   ignore_size_signals();
   const std::vector<std::string> words(arguments, arguments + count);
 

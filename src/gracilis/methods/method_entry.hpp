@@ -47,6 +47,11 @@ class PhaseTimer {
   virtual PhaseTime time(std::size_t phase, int repeats) const = 0;
 };
 
+/// Fibers that a method makes of a muscle and moves by itself.
+struct OwnFibers {
+  int count = 0, points_of_each = 0;
+};
+
 /// A method as scenes, readers and programs see it: all that they need to know of it.
 struct MethodEntry {
   std::string_view name;
@@ -65,6 +70,10 @@ struct MethodEntry {
   /// Whether surfaces keep out of each other in this scene; none: never.
   bool (*has_surface_contact)(const Scene&) = nullptr;
   bool leaves_pairs_out = false;  ///< of muscles one of which passes through the other: no contact between them
+  /// Whether it asks for distance fields that reach far (strings::far_field_settings) in this scene; none: never.
+  bool (*has_far_fields)(const Scene&) = nullptr;
+  /// Of methods that make fibers of their own, which runs record in every frame; none: fibers follow the surface.
+  OwnFibers (*own_fibers)(const Scene&, const Muscle&) = nullptr;
   /// Of methods that iterate; none: it does not. Takes the muscle alone through the poses, to the middle of the last.
   /// The fields (of all bones, by the scene's settings) must outlive the timer.
   std::unique_ptr<PhaseTimer> (*phase_timer)(const Scene&, const Muscle&, const std::vector<DistanceField>& fields,

@@ -1,8 +1,11 @@
 #include <gracilis/methods/registry.hpp>
 
 #include <gracilis/methods/every_method.hpp>
+#include <gracilis/scene/validate_sizes.hpp>
+#include <gracilis/strings/bone_distances.hpp>
 
 #include <cassert>
+#include <optional>
 #include <string>
 
 namespace gracilis {
@@ -54,9 +57,13 @@ std::vector<Problem> validate_method(const Scene& scene) {
   if (!scene.transversals.empty() && !method->takes_transversals)
     problems.push_back({"", "[[transversals]]", "the method '" + scene.method.name + "' lets no sections give way",
                         "run it by method = \"cylinder\", or leave them out"});
-  if (!method->validate) return problems;
-  const std::vector<Problem> own = method->validate(scene);
-  problems.insert(problems.end(), own.begin(), own.end());
+  if (method->validate)
+    for (Problem& own : method->validate(scene)) problems.push_back(std::move(own));
+  if (!problems.empty() || !method->has_far_fields || !method->has_far_fields(scene)) return problems;
+  const Problem asked = {"", "strings", "pulling fibers tight",
+                         "check the units of the bones, or cut away what is far"};
+  if (std::optional<Problem> far = grid_problem(scene, strings::far_field_settings(), asked))
+    problems.push_back(std::move(*far));
   return problems;
 }
 

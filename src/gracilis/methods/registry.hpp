@@ -20,7 +20,8 @@ const MethodEntry* find_method(std::string_view name);
 const MethodEntry& method_of(const Scene& scene);
 
 /// All that makes a scene unfit for its method; empty when there is nothing: no such method, settings that it does not
-/// have or that are out of their range, and what the method itself asks for.
+/// have or that are out of their range, what the method itself asks for, and distance fields of its own that would take
+/// more memory than machines have.
 std::vector<Problem> validate_method(const Scene& scene);
 
 /// The scene's method, prepared. `fields` are asked for only where it looks at bones. Precondition: the scene is valid.

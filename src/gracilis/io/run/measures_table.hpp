@@ -16,7 +16,8 @@ std::string measures_header(const Scene& scene);
 std::string measures_rows(const Scene& scene, const FrameRecord& record);
 
 /// Calls act(record) for each frame before `end`, with its number, measures and metrics as the table rounds them.
-/// Throws InputError where the file is missing, damaged, or of another scene.
+/// Throws InputError where the file is missing or damaged. Precondition: it has the columns of this scene
+/// (require_same_columns).
 void read_measures(const std::filesystem::path& path, const Scene& scene, int end,
                    const std::function<void(const FrameRecord&)>& act);
 

@@ -1,8 +1,6 @@
 #include <gracilis/io/run/run_size.hpp>
 
-#include <gracilis/methods/mass_spring/settings.hpp>
-#include <gracilis/methods/method_entry.hpp>
-#include <gracilis/methods/strings/settings.hpp>
+#include <gracilis/methods/registry.hpp>
 
 #include <fmt/format.h>
 
@@ -34,13 +32,9 @@ struct WrittenFibers {
 
 WrittenFibers written_fibers(const Scene& scene, const Muscle& muscle) {
   WrittenFibers fibers{static_cast<double>(muscle.fibers.count), muscle.fibers.segments + 1.0};
-  // Two methods move fibers, and as many as their own settings say.
-  if (scene.method.name == "strings") {
-    const auto settings = muscle_settings<strings::StringSettings>(scene, muscle);
-    fibers = {static_cast<double>(settings.count), settings.segments + 1.0, false};
-  } else if (scene.method.name == "mass-spring") {
-    const auto settings = muscle_settings<MassSpringSettings>(scene, muscle);
-    fibers = {static_cast<double>(settings.fiber_count), static_cast<double>(settings.particles_per_fiber), false};
+  if (const auto own_fibers = method_of(scene).own_fibers) {
+    const OwnFibers own = own_fibers(scene, muscle);
+    fibers = {static_cast<double>(own.count), static_cast<double>(own.points_of_each), false};
   }
   const bool given = muscle.given_fibers.count() > 0 && !muscle.given_are_superficial;
   if (given) fibers.count = static_cast<double>(muscle.given_fibers.count());

@@ -7,7 +7,6 @@
 #include <gracilis/io/scene/bodies.hpp>
 #include <gracilis/io/scene/control_units.hpp>
 #include <gracilis/io/scene/data_root.hpp>
-#include <gracilis/io/scene/method_problems.hpp>
 #include <gracilis/io/scene/motion.hpp>
 #include <gracilis/io/scene/muscles.hpp>
 #include <gracilis/io/scene/preparation.hpp>
@@ -15,6 +14,7 @@
 #include <gracilis/io/scene/scene_in_progress.hpp>
 #include <gracilis/io/scene/surfaces.hpp>
 #include <gracilis/io/scene/transversals.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/validate.hpp>
 
 namespace gracilis::sections {
@@ -56,7 +56,7 @@ static AttachmentSelector read_files(SceneInProgress& progress, bool muscles_sta
 
 static void require_valid(const Scene& scene, const fs::path& file) {
   std::vector<Problem> problems = validate(scene);
-  for (Problem& problem : method_problems(scene)) problems.push_back(std::move(problem));
+  for (Problem& problem : validate_method(scene)) problems.push_back(std::move(problem));
   for (Problem& problem : problems) problem.file = file.string();
   if (!problems.empty()) throw ConfigurationError(std::move(problems));
 }

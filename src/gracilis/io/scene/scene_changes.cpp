@@ -1,6 +1,5 @@
 #include <gracilis/io/scene/scene_changes.hpp>
 
-#include <gracilis/io/scene/method_problems.hpp>
 #include <gracilis/io/scene/method_reader.hpp>
 #include <gracilis/io/scene/scene_layers.hpp>
 #include <gracilis/io/suggestions.hpp>
@@ -137,7 +136,7 @@ void change_scene(LoadedScene& loaded, const std::vector<std::string>& set, cons
   keep_only(scene, only, names, problems);
   top.reject_unknown_keys();
   if (problems.empty()) problems = size_problems(scene);
-  if (problems.empty()) problems = method_problems(scene);
+  if (problems.empty()) problems = validate_method(scene);
   if (!problems.empty()) throw ConfigurationError(problems);
   if (!others.empty()) loaded.warnings.push_back(note_on_others(scene.method.name, others));
 }

@@ -239,9 +239,14 @@ MethodEntry mass_spring_entry() {
                       {"displacement_mm", 6},
                       {"length_changes_mm", 3}},
           .validate = problems_of,
-          .make = [](const Scene& scene, const BoneFieldSource& fields) {
-            return make_mass_spring_method(
-                scene, asks_fields(scene) ? fields(scene.distance_fields) : std::vector<DistanceField>{});
+          .make =
+              [](const Scene& scene, const BoneFieldSource& fields) {
+                return make_mass_spring_method(
+                    scene, asks_fields(scene) ? fields(scene.distance_fields) : std::vector<DistanceField>{});
+              },
+          .own_fibers = [](const Scene& scene, const Muscle& muscle) -> OwnFibers {
+            const auto settings = muscle_settings<MassSpringSettings>(scene, muscle);
+            return {settings.fiber_count, settings.particles_per_fiber};
           }};
 }
 

@@ -180,8 +180,14 @@ MethodEntry strings_entry() {
   return {.name = "strings",
           .meaning = "their fibers, pulled tight among the bones, and the surface that follows them",
           .settings = describe_settings<strings::StringSettings>(),
-          .make = [](const Scene& scene, const BoneFieldSource& fields) {
-            return make_strings_method(scene, fields(strings::far_field_settings()));
+          .make =
+              [](const Scene& scene, const BoneFieldSource& fields) {
+                return make_strings_method(scene, fields(strings::far_field_settings()));
+              },
+          .has_far_fields = [](const Scene&) { return true; },
+          .own_fibers = [](const Scene& scene, const Muscle& muscle) -> OwnFibers {
+            const auto settings = muscle_settings<strings::StringSettings>(scene, muscle);
+            return {settings.count, settings.segments + 1};
           }};
 }
 
