@@ -5,6 +5,7 @@
 #include <gracilis/io/scene/data_root.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
+#include <gracilis/strings/bone_distances.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -17,7 +18,8 @@ namespace gracilis {
 /// checkout), otherwise the built-in one.
 struct BenchmarkHip {
   Scene scene;
-  std::vector<DistanceField> fields;
+  std::vector<DistanceField> fields, far_fields;
+  strings::BoneDistances bones;  ///< of the fields that reach far
 
   /// The hip flexed by so much, rad.
   Pose flexed(Real angle) const {
@@ -39,8 +41,11 @@ inline bool cadaver_is_there() {
 }
 
 inline BenchmarkHip with_fields(Scene scene) {
-  std::vector<DistanceField> fields = cached_bone_fields(scene);
-  return {std::move(scene), std::move(fields)};
+  BenchmarkHip hip{std::move(scene), {}, {}, {}};
+  hip.fields = cached_bone_fields(hip.scene);
+  hip.far_fields = cached_bone_fields(hip.scene, strings::far_field_settings());
+  hip.bones = strings::bone_distances(hip.scene, hip.far_fields);
+  return hip;
 }
 
 inline const BenchmarkHip& builtin_benchmark_hip() {

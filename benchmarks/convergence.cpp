@@ -59,7 +59,7 @@ Step step_of(std::size_t muscle) {
   step.scene.muscles = {benchmark_hip().scene.muscles[muscle]};
   step.scene.method.contact["muscle"] = "none";
   step.scene.method.settings["settling_rounds"] = 0;
-  const auto method = make_xpbd_method(step.scene, benchmark_hip().fields);
+  const auto method = make_xpbd_method(step.scene, benchmark_hip().fields, benchmark_hip().far_fields);
   step.poses = {benchmark_hip().flexed(0)};
   for (int degree = 2; degree <= 44; ++degree) {
     step.before = step.last;
@@ -77,7 +77,7 @@ Sample by_method(const Step& step, int count, const std::function<void(SettingVa
   Scene scene = step.scene;
   change(scene.method.settings);
   scene.muscles[0].settings.clear();
-  const auto method = make_xpbd_method(scene, benchmark_hip().fields);
+  const auto method = make_xpbd_method(scene, benchmark_hip().fields, benchmark_hip().far_fields);
   std::vector<Real> times;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     method->restore(step.poses, step.before, step.last);
@@ -102,10 +102,13 @@ struct Prediction {
 };
 
 Prediction predict(const Step& step) {
+  const BenchmarkHip& hip = benchmark_hip();
   const Muscle& muscle = step.scene.muscles[0];
-  Prediction p{xpbd::prepare_muscle(step.scene, muscle, benchmark_hip().fields), {}, {}, {}};
+  const xpbd::CarryingStrings carrying = xpbd::carrying_strings(step.scene, muscle, hip.bones);
+  Prediction p{xpbd::prepare_muscle(step.scene, muscle, hip.fields, carrying), {}, {}, {}};
   p.settings = xpbd::solve_settings(p.muscle.settings, p.muscle.settings.substeps);
   p.state = xpbd::make_muscle_state(p.muscle, step.scene.bodies.size());
+  for (const Pose& pose : step.poses) xpbd::follow_strings(p.muscle, pose, p.state);
   for (Index i = 0; i < p.state.particles.count(); ++i)
     p.state.particles.position(i) =
         (step.last.muscles[0].points.col(p.muscle.order[static_cast<std::size_t>(i)]) - p.muscle.origin).cast<float>();

@@ -41,7 +41,9 @@ xpbd::MidSolveSnapshot half_way(const Muscle& muscle) {
   constexpr int frames = 45;
   std::vector<Pose> poses;
   for (int frame = 0; frame <= frames; ++frame) poses.push_back(benchmark_hip().flexed(radians(frame)));
-  return xpbd::mid_solve_snapshot(benchmark_hip().scene, muscle, benchmark_hip().fields, poses);
+  const BenchmarkHip& hip = benchmark_hip();
+  return xpbd::mid_solve_snapshot(hip.scene, muscle, hip.fields, poses,
+                                  xpbd::carrying_strings(hip.scene, muscle, hip.bones));
 }
 
 /// Edges of the muscle: particles and target lengths.

@@ -26,7 +26,9 @@ MidSolveSnapshot half_way(const Muscle& muscle) {
   constexpr int frames = 45;
   std::vector<Pose> poses;
   for (int frame = 0; frame <= frames; ++frame) poses.push_back(benchmark_hip().flexed(middle * frame / frames));
-  return xpbd::mid_solve_snapshot(benchmark_hip().scene, muscle, benchmark_hip().fields, poses);
+  const BenchmarkHip& hip = benchmark_hip();
+  return xpbd::mid_solve_snapshot(hip.scene, muscle, hip.fields, poses,
+                                  xpbd::carrying_strings(hip.scene, muscle, hip.bones));
 }
 
 const MidSolveSnapshot& prepared(std::size_t muscle) {

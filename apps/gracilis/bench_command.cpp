@@ -13,6 +13,7 @@
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/methods/registry.hpp>
+#include <gracilis/strings/bone_distances.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -90,11 +91,25 @@ class MemoryGrowth {
   double before_ = 0;
 };
 
+/// Of all bones of a scene, as its method asks for them.
+struct BoneFields {
+  std::vector<DistanceField> near, far;
+};
+
+BoneFields bone_fields(const Scene& scene) {
+  const MethodEntry& method = method_of(scene);
+  BoneFields fields{cached_bone_fields(scene), {}};
+  if (method.has_far_fields && method.has_far_fields(scene))
+    fields.far = cached_bone_fields(scene, strings::far_field_settings());
+  return fields;
+}
+
 /// The iteration first, then its phases. Muscles are timed relaxed and alone.
-void time_muscle(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
-                 const std::vector<Pose>& poses, const BenchOptions& options, std::vector<BenchEntry>& entries) {
+void time_muscle(const Scene& scene, const Muscle& muscle, const BoneFields& fields, const std::vector<Pose>& poses,
+                 const BenchOptions& options, std::vector<BenchEntry>& entries) {
   const MemoryGrowth growth;
-  const std::unique_ptr<PhaseTimer> timer = method_of(scene).phase_timer(scene, muscle, fields, poses);
+  const std::unique_ptr<PhaseTimer> timer =
+      method_of(scene).phase_timer(scene, muscle, fields.near, fields.far, poses);
   const std::vector<std::string_view> phases = timer->phases();
   const double grown = growth.peak() / timer->triangles();
   for (const int threads : options.threads) {
@@ -200,7 +215,7 @@ int bench(Scene scene, BenchOptions options, Clock::time_point started) {
   }
   const std::vector<Pose> poses = poses_until(scene, options.frame);
   const Clock::duration reading = Clock::now() - started;
-  const std::vector<DistanceField> fields = iterates ? cached_bone_fields(scene) : std::vector<DistanceField>();
+  const BoneFields fields = iterates ? bone_fields(scene) : BoneFields();
   std::vector<BenchEntry> entries;
   if (iterates && options.muscles == 0)
     for (const Muscle& muscle : scene.muscles) time_muscle(scene, muscle, fields, poses, options, entries);

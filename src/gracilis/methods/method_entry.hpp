@@ -75,8 +75,10 @@ struct MethodEntry {
   /// Of methods that make fibers of their own, which runs record in every frame; none: fibers follow the surface.
   OwnFibers (*own_fibers)(const Scene&, const Muscle&) = nullptr;
   /// Of methods that iterate; none: it does not. Takes the muscle alone through the poses, to the middle of the last.
-  /// The fields (of all bones, by the scene's settings) must outlive the timer.
+  /// The fields of all bones, by the scene's settings and, where it `has_far_fields`, those that reach far, must outlive
+  /// the timer.
   std::unique_ptr<PhaseTimer> (*phase_timer)(const Scene&, const Muscle&, const std::vector<DistanceField>& fields,
+                                             const std::vector<DistanceField>& far_fields,
                                              const std::vector<Pose>&) = nullptr;
 };
 

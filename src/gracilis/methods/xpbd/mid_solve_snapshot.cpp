@@ -5,6 +5,7 @@
 #include <gracilis/dynamics/solver/solver.hpp>
 #include <gracilis/methods/xpbd/prediction.hpp>
 #include <gracilis/methods/xpbd/step.hpp>
+#include <gracilis/strings/bone_distances.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -12,8 +13,8 @@
 namespace gracilis::xpbd {
 
 MidSolveSnapshot mid_solve_snapshot(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
-                                    const std::vector<Pose>& poses) {
-  MidSolveSnapshot u{prepare_muscle(scene, muscle, fields), {}, {}, {}};
+                                    const std::vector<Pose>& poses, const CarryingStrings& carrying) {
+  MidSolveSnapshot u{prepare_muscle(scene, muscle, fields, carrying), {}, {}, {}};
   SolverSettings& asked = u.muscle.settings;
   if (!(asked.time_step > 0)) asked.time_step = usual_time_step;
   u.settings = solve_settings(u.muscle.settings, asked.substeps);
@@ -73,7 +74,10 @@ constexpr Phase phases_of_iteration[] = {{"iteration", std::nullopt},
 
 class MidSolveTimer final : public PhaseTimer {
  public:
-  explicit MidSolveTimer(MidSolveSnapshot muscle) : muscle_(std::move(muscle)) {}
+  MidSolveTimer(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
+                const std::vector<DistanceField>& far_fields, const std::vector<Pose>& poses)
+      : bones_(strings::bone_distances(scene, far_fields)),
+        muscle_(mid_solve_snapshot(scene, muscle, fields, poses, carrying_strings(scene, muscle, bones_))) {}
   Index triangles() const override { return static_cast<Index>(muscle_.muscle.faces.cols()); }
   std::vector<std::string_view> phases() const override {
     std::vector<std::string_view> names;
@@ -85,14 +89,16 @@ class MidSolveTimer final : public PhaseTimer {
   }
 
  private:
+  strings::BoneDistances bones_;
   MidSolveSnapshot muscle_;
 };
 
 }  // namespace
 
 std::unique_ptr<PhaseTimer> phase_timer(const Scene& scene, const Muscle& muscle,
-                                        const std::vector<DistanceField>& fields, const std::vector<Pose>& poses) {
-  return std::make_unique<MidSolveTimer>(mid_solve_snapshot(scene, muscle, fields, poses));
+                                        const std::vector<DistanceField>& fields,
+                                        const std::vector<DistanceField>& far_fields, const std::vector<Pose>& poses) {
+  return std::make_unique<MidSolveTimer>(scene, muscle, fields, far_fields, poses);
 }
 
 }  // namespace gracilis::xpbd

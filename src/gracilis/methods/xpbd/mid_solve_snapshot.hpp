@@ -19,16 +19,19 @@ struct MidSolveSnapshot {
 };
 
 /// Takes a muscle alone and relaxed through the poses, and stops after three iterations of the last. `fields` (one per
-/// bone) must outlive the result. Precondition: at least one pose; the scene is valid.
+/// bone) must outlive the result; `carrying` are the strings that runs would carry it by (carrying_strings), none: the
+/// bodies do. Precondition: at least one pose; the scene is valid.
 MidSolveSnapshot mid_solve_snapshot(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
-                                    const std::vector<Pose>& poses);
+                                    const std::vector<Pose>& poses, const CarryingStrings& carrying = {});
 
 /// Times one projection of all constraints of a kind, or, without a kind, one iteration with all of them: the mean of
 /// ten in a row from where the muscle is, the median over `repeats` such rows, each from the same state.
 PhaseTime time_projection(const MidSolveSnapshot& muscle, std::optional<ConstraintKind> kind, int repeats);
 
-/// The same for programs that know no constraints. A relaxed muscle has no phase of contraction.
+/// The same for programs that know no constraints, carried as in runs (MethodEntry::phase_timer). A relaxed muscle has
+/// no phase of contraction.
 std::unique_ptr<PhaseTimer> phase_timer(const Scene& scene, const Muscle& muscle,
-                                        const std::vector<DistanceField>& fields, const std::vector<Pose>& poses);
+                                        const std::vector<DistanceField>& fields,
+                                        const std::vector<DistanceField>& far_fields, const std::vector<Pose>& poses);
 
 }  // namespace gracilis::xpbd
