@@ -3,20 +3,9 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/rotations.hpp>
 
-#include <Eigen/SparseCholesky>
-
 #include <algorithm>
 
 namespace gracilis::arap {
-
-struct Surface::Solver {
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<Real>> factors;
-  Index count = 0;
-};
-
-Surface::~Surface() = default;
-Surface::Surface(Surface&&) noexcept = default;
-Surface& Surface::operator=(Surface&&) noexcept = default;
 
 namespace {
 
@@ -40,14 +29,14 @@ Real weight_of(const MeshEdge& edge, const Points& x) {
 }  // namespace
 
 Surface::Surface(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<char>& held)
-    : rest_(mesh.vertices), stars_(topology.stars), solver_(std::make_unique<Solver>()) {
+    : rest_(mesh.vertices), stars_(topology.stars) {
   weights_.resize(stars_.neighbors.size());
   const auto set_weight = [&](Index from, Index to, Real weight) {
     const auto begin = stars_.neighbors.begin() + stars_.offsets[static_cast<std::size_t>(from)];
     const auto end = stars_.neighbors.begin() + stars_.offsets[static_cast<std::size_t>(from) + 1];
     weights_[static_cast<std::size_t>(std::lower_bound(begin, end, to) - stars_.neighbors.begin())] = weight;
   };
-  for (const char each : held) unknown_.push_back(each ? -1 : solver_->count++);
+  for (const char each : held) unknown_.push_back(each ? -1 : unknown_count_++);
   std::vector<Eigen::Triplet<Real>> entries;
   for (const MeshEdge& edge : topology.edges) {
     const Real weight = weight_of(edge, rest_);
@@ -58,10 +47,12 @@ Surface::Surface(const TriangleMesh& mesh, const MeshTopology& topology, const s
     if (b >= 0) entries.emplace_back(b, b, weight);
     if (a >= 0 && b >= 0) entries.emplace_back(a, b, -weight), entries.emplace_back(b, a, -weight);
   }
-  if (solver_->count == 0) return;
-  Eigen::SparseMatrix<Real> matrix(solver_->count, solver_->count);
+  if (unknown_count_ == 0) return;
+  Eigen::SparseMatrix<Real> matrix(unknown_count_, unknown_count_);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  solver_->factors.compute(matrix);
+  factors_.factor(matrix,
+                  "an as-rigid-as-possible surface has no solution: its vertices are not finite, or far too large or "
+                  "small");
 }
 
 Rotations Surface::best_rotations(const Points& points) const {
@@ -81,21 +72,10 @@ Rotations Surface::best_rotations(const Points& points) const {
   return rotations;
 }
 
-Points Surface::solve(const Points& right_sides) const {
-  Points solution = Points::Zero(3, right_sides.cols());
-  parallel_for(3, 1, [&](Index begin, Index end) {
-    for (Index row = begin; row < end; ++row) {
-      const Eigen::VectorXd right = right_sides.row(row).transpose();
-      solution.row(row) = solver_->factors.solve(right).transpose();
-    }
-  });
-  return solution;
-}
-
 void Surface::place(const Rotations& rotations, Points& points) const {
-  if (solver_->count == 0) return;
+  if (unknown_count_ == 0) return;
   // Solved for the change: what fits already then stays to the last digits.
-  Points right = Points::Zero(3, solver_->count);
+  Points right = Points::Zero(3, unknown_count_);
   parallel_for(static_cast<Index>(unknown_.size()), grain, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -110,7 +90,7 @@ void Surface::place(const Rotations& rotations, Points& points) const {
       right.col(unknown_[at]) = sum;
     }
   });
-  const Points change = solve(right);
+  const Points change = factors_.solve_points(right);
   for (std::size_t i = 0; i < unknown_.size(); ++i)
     if (unknown_[i] >= 0) points.col(static_cast<Index>(i)) += change.col(unknown_[i]);
 }
@@ -121,11 +101,11 @@ void Surface::relax(int rounds, Points& points) const {
 
 Points Surface::response(const Points& forces) const {
   Points response = Points::Zero(3, forces.cols());
-  if (solver_->count == 0) return response;
-  Points right(3, solver_->count);
+  if (unknown_count_ == 0) return response;
+  Points right(3, unknown_count_);
   for (std::size_t i = 0; i < unknown_.size(); ++i)
     if (unknown_[i] >= 0) right.col(unknown_[i]) = forces.col(static_cast<Index>(i));
-  const Points solution = solve(right);
+  const Points solution = factors_.solve_points(right);
   for (std::size_t i = 0; i < unknown_.size(); ++i)
     if (unknown_[i] >= 0) response.col(static_cast<Index>(i)) = solution.col(unknown_[i]);
   return response;

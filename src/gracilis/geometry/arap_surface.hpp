@@ -1,9 +1,9 @@
 #pragma once
 
+#include <gracilis/geometry/sparse_ldlt.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
-#include <memory>
 #include <vector>
 
 /// As-rigid-as-possible surfaces (Sorkine and Alexa 2007): the sum over vertices i and their neighbors j of
@@ -16,11 +16,9 @@ using Rotations = std::vector<Eigen::Matrix3d>;
 class Surface {
  public:
   /// `held` is 1 for vertices whose places are given. Weights are cotangents, (cot α + cot β) / 2 of the two angles
-  /// opposite to an edge, at least `smallest_weight`. Precondition: every part of the surface has a held vertex.
+  /// opposite to an edge, at least `smallest_weight`. Precondition: every part of the surface has a held vertex. Throws
+  /// QualityError where the vertices leave no solution.
   Surface(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<char>& held);
-  ~Surface();
-  Surface(Surface&&) noexcept;
-  Surface& operator=(Surface&&) noexcept;
 
   /// Local step: for every vertex the rotation that turns its edges at rest best into those now.
   Rotations best_rotations(const Points& points) const;
@@ -40,14 +38,12 @@ class Surface {
   static constexpr Real smallest_weight = 0.01;
 
  private:
-  struct Solver;
-  Points solve(const Points& right_sides) const;
-
   Points rest_;
   VertexStars stars_;
   std::vector<Real> weights_;   ///< one per neighbor in stars_
   std::vector<Index> unknown_;  ///< per vertex: which of the free ones, or -1
-  std::unique_ptr<Solver> solver_;
+  Index unknown_count_ = 0;
+  SparseLdlt factors_;
 };
 
 }  // namespace gracilis::arap

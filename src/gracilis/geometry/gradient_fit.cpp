@@ -37,7 +37,10 @@ GradientFit::GradientFit(const TriangleMesh& rest, const std::vector<char>& is_f
   matrix_ = normal_matrix();
   is_factorized_ = unknowns_ <= largest_factorized;
   if (!is_factorized_) return;
-  factorization_.compute(matrix_);
+  factors_.factor(
+      matrix_,
+      "the surface that fits given gradients has no solution: its vertices are not finite, or far too large "
+      "or small");
   matrix_.resize(0, 0);
 }
 
@@ -78,30 +81,6 @@ Points GradientFit::right_side(const Points& places, const std::vector<Eigen::Ma
   return sum;
 }
 
-/// Both triangles of the factors for all three axes at once: entries come from memory once, not three times.
-Points GradientFit::solved(const Points& right_side) const {
-  const auto& lower = factorization_.matrixL().nestedExpression();
-  const auto* const begin = lower.outerIndexPtr();
-  const auto* const rows = lower.innerIndexPtr();
-  const Real* const values = lower.valuePtr();
-  const auto& order = factorization_.permutationP().indices();
-  const Eigen::VectorXd& diagonal = factorization_.vectorD();
-  Points x(3, unknowns_);
-  for (Index i = 0; i < unknowns_; ++i) x.col(order[i]) = right_side.col(i);
-  for (Index i = 0; i < unknowns_; ++i) {
-    const Vec3 own = x.col(i);
-    for (auto k = begin[i]; k < begin[i + 1]; ++k) x.col(rows[k]) -= values[k] * own;
-  }
-  for (Index i = unknowns_ - 1; i >= 0; --i) {
-    Vec3 own = x.col(i) * (1 / diagonal[i]);
-    for (auto k = begin[i]; k < begin[i + 1]; ++k) own -= values[k] * x.col(rows[k]);
-    x.col(i) = own;
-  }
-  Points solution(3, unknowns_);
-  for (Index i = 0; i < unknowns_; ++i) solution.col(i) = x.col(order[i]);
-  return solution;
-}
-
 Points GradientFit::iterated(const Points& right_side, const Points& guess) const {
   Eigen::ConjugateGradient<Eigen::SparseMatrix<Real>, Eigen::Lower | Eigen::Upper> iteration(matrix_);
   iteration.setTolerance(fit_residual);
@@ -121,7 +100,7 @@ Points GradientFit::fitted(const Points& places, const std::vector<Eigen::Matrix
   for (Index v = 0; v < places.cols(); ++v)
     if (const Index i = number_of(v); i >= 0) guess.col(i) = places.col(v);
   const Points sums = right_side(places, gradients);
-  const Points solution = is_factorized_ ? solved(sums) : iterated(sums, guess);
+  const Points solution = is_factorized_ ? factors_.solve_points(sums) : iterated(sums, guess);
   for (Index v = 0; v < places.cols(); ++v)
     if (const Index i = number_of(v); i >= 0) fitted.col(v) = solution.col(i);
   return fitted;

@@ -1,8 +1,7 @@
 #pragma once
 
+#include <gracilis/geometry/sparse_ldlt.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
-
-#include <Eigen/SparseCholesky>
 
 #include <vector>
 
@@ -21,7 +20,7 @@ class GradientFit {
  public:
   /// `is_fixed` and `trust` (0 to 1) per vertex. Surfaces with more free vertices than `largest_factorized` are solved
   /// by conjugate gradients, in a fraction of the memory. Preconditions: at least one face, all coordinates finite;
-  /// smoothing > 0 (m).
+  /// smoothing > 0 (m). Throws QualityError where the weights leave no solution.
   GradientFit(const TriangleMesh& rest, const std::vector<char>& is_fixed, const Eigen::VectorXd& trust, Real smoothing,
               Index largest_factorized = 30000);
 
@@ -38,14 +37,13 @@ class GradientFit {
   Eigen::VectorXd place_weights_;
   std::vector<Index> numbers_;        ///< of the unknowns; -1: fixed
   Eigen::SparseMatrix<Real> matrix_;  ///< for conjugate gradients
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization_;
+  SparseLdlt factors_;
   Index unknowns_ = 0;
   bool is_factorized_ = true;
 
   Index number_of(Index vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
   Eigen::SparseMatrix<Real> normal_matrix() const;
   Points right_side(const Points& places, const std::vector<Eigen::Matrix3d>& gradients) const;
-  Points solved(const Points& right_side) const;
   Points iterated(const Points& right_side, const Points& guess) const;
 };
 

@@ -53,14 +53,6 @@ Eigen::SparseMatrix<Real> HarmonicSolver::empty_laplacian() const {
   return laplacian;
 }
 
-Eigen::MatrixXd HarmonicSolver::factorized(const Eigen::SparseMatrix<Real>& laplacian,
-                                           const Eigen::MatrixXd& right_side) {
-  if (!is_analyzed_) factorization_.analyzePattern(laplacian);
-  is_analyzed_ = true;
-  factorization_.factorize(laplacian);
-  return factorization_.solve(right_side);
-}
-
 /// Each field from where the last one ended; where all sum to one, the last from what the others leave.
 Eigen::MatrixXd HarmonicSolver::iterated(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side,
                                          bool sums_to_one) {
@@ -104,9 +96,15 @@ Eigen::MatrixXd HarmonicSolver::solve(const Eigen::MatrixXd& fixed_values, const
     }
   }
   laplacian.makeCompressed();
-  Eigen::MatrixXd solution = is_factorized()
-                                 ? factorized(laplacian, right_side)
-                                 : iterated(laplacian, right_side, (fixed_values.rowwise().sum().array() == 1).all());
+  Eigen::MatrixXd solution;
+  if (is_factorized()) {
+    factors_.factor(laplacian,
+                    "harmonic fields of a surface have no solution: its vertices are not finite, or far too large or "
+                    "small");
+    solution = factors_.solve(right_side);
+  } else {
+    solution = iterated(laplacian, right_side, (fixed_values.rowwise().sum().array() == 1).all());
+  }
   keep_between(fixed_values, solution);
   for (Index v = 0; v < vertices_.cols(); ++v)
     if (number_of(v) >= 0) fields.row(v) = solution.row(number_of(v));

@@ -1,9 +1,8 @@
 #pragma once
 
 #include <gracilis/core/types.hpp>
+#include <gracilis/geometry/sparse_ldlt.hpp>
 #include <gracilis/geometry/topology.hpp>
-
-#include <Eigen/SparseCholesky>
 
 #include <vector>
 
@@ -18,6 +17,7 @@ class HarmonicSolver {
   HarmonicSolver(const Points& vertices, const MeshTopology& topology, std::vector<Index> fixed,
                  Index largest_factorized = 30000);
 
+  /// Throws QualityError where the vertices or conductances leave no solution.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance = {});
 
  private:
@@ -25,8 +25,7 @@ class HarmonicSolver {
   const MeshTopology& topology_;
   std::vector<Index> fixed_, numbers_;  ///< numbers: of the unknowns; -1 where nothing is to be found
   Index unknown_count_ = 0, largest_factorized_;
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization_;
-  bool is_analyzed_ = false;
+  SparseLdlt factors_;
   Eigen::MatrixXd last_;  ///< solution by conjugate gradients
 
   Index number_of(Index vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
@@ -34,7 +33,6 @@ class HarmonicSolver {
   /// The factorization reads no more than half of the matrix.
   bool is_read(Index row, Index column) const { return row >= column || !is_factorized(); }
   Eigen::SparseMatrix<Real> empty_laplacian() const;
-  Eigen::MatrixXd factorized(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side);
   Eigen::MatrixXd iterated(const Eigen::SparseMatrix<Real>& laplacian, const Eigen::MatrixXd& right_side,
                            bool sums_to_one);
 };

@@ -2,9 +2,9 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/isocontours.hpp>
+#include <gracilis/geometry/sparse_ldlt.hpp>
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -92,12 +92,11 @@ Eigen::MatrixXd harmonic_inside(const PlanePoints& points, const Eigen::Matrix3X
   }
   Eigen::SparseMatrix<Real> matrix(unknown, unknown);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization(matrix);
-  if (factorization.info() != Eigen::Success)
-    throw QualityError(
-        "a cross-section's map has no solution: its outline has coordinates that are not finite, or far "
-        "too large or small");
-  values.bottomRows(unknown) = factorization.solve(right);
+  SparseLdlt factors;
+  factors.factor(matrix,
+                 "a cross-section's map has no solution: its outline has coordinates that are not finite, or far too "
+                 "large or small");
+  values.bottomRows(unknown) = factors.solve(right);
   return values;
 }
 

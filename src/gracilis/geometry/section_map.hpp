@@ -22,8 +22,8 @@ SquareCorners square_corners(const Points& loop, Real& aspect);
 /// one (Tutte 1963, Floater 1997), whatever the shape of the cross-section. Heights above the plane are harmonic, too.
 class SectionMap {
  public:
-  /// Empty when the line has no area or crosses itself in its mean plane. Shape of `loop`: 3 × n, m. Throws QualityError
-  /// where the map has no solution.
+  /// Empty when the line has no area or crosses itself in its mean plane. Shape of `loop`: 3 × n, m. Throws
+  /// QualityError where the map has no solution.
   static std::optional<SectionMap> build(const Points& loop, const SquareCorners& corners);
 
   /// The point of the spanning surface at (a, b) in the unit square, m.

@@ -1,5 +1,6 @@
 #include <gracilis/geometry/thin_plate.hpp>
 
+#include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 
 #include <Eigen/Cholesky>
@@ -36,13 +37,22 @@ Eigen::MatrixXd weighted_square(const Eigen::MatrixXd& rows, const Eigen::Vector
 /// A little for the affine functions: points in a plane leave one of them free.
 constexpr Real least_stiffness = 1e-12;
 
+Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix) {
+  Eigen::LLT<Eigen::MatrixXd> factors(matrix);
+  if (factors.info() != Eigen::Success)
+    throw QualityError(
+        "a thin plate has no solution: points that it goes through coincide, are not finite, or lie far too "
+        "wide apart");
+  return factors;
+}
+
 /// Where all directions count alike the three coordinates are told one by one.
 Eigen::MatrixXd decoupled(const Eigen::MatrixXd& rows, const Eigen::VectorXd& shares, const Points& displacement,
                           Real stiffness) {
   Eigen::MatrixXd matrix = weighted_square(rows, shares);
   matrix.diagonal().array() += least_stiffness;
   matrix.diagonal().tail(rows.cols() - 4).array() += stiffness;
-  return Eigen::LLT<Eigen::MatrixXd>(matrix).solve(rows.transpose() * (shares.asDiagonal() * displacement.transpose()));
+  return cholesky(matrix).solve(rows.transpose() * (shares.asDiagonal() * displacement.transpose()));
 }
 
 /// Of the displacement in units of the size, the map.
@@ -66,7 +76,7 @@ ThinPlateBasis::ThinPlateBasis(const Points& centers) : centers_(centers) {
   const Eigen::MatrixXd blind = q.rightCols(n - 4);  // to affine maps
   // |x| is conditionally negative definite.
   const Eigen::MatrixXd energy = -(blind.transpose() * distances(unit, unit) * blind);
-  const Eigen::LLT<Eigen::MatrixXd> factors((energy + energy.transpose()) / 2);
+  const Eigen::LLT<Eigen::MatrixXd> factors = cholesky((energy + energy.transpose()) / 2);
   bending_ = factors.matrixL().solve(blind.transpose()).transpose();
 }
 
@@ -152,7 +162,7 @@ ThinPlateMap fit_thin_plate(const ThinPlateBasis& basis, const PlaceTargets& tar
     matrix.diagonal().segment(a * n + 4, n - 4).array() += stiffness;
     matrix.diagonal().segment(a * n, 4).array() += least_stiffness;
   }
-  const Eigen::VectorXd solution = Eigen::LLT<Eigen::MatrixXd>(matrix).solve(right);
+  const Eigen::VectorXd solution = cholesky(matrix).solve(right);
   Eigen::MatrixXd coefficients(n, 3);
   for (int a = 0; a < 3; ++a) coefficients.col(a) = solution.segment(a * n, n);
   return with_affine_part(basis, coefficients);

@@ -1,9 +1,6 @@
 #include <gracilis/methods/tissue/lattice_field.hpp>
 
-#include <gracilis/core/errors.hpp>
-
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <gracilis/geometry/sparse_ldlt.hpp>
 
 #include <algorithm>
 
@@ -49,12 +46,11 @@ Eigen::MatrixXd harmonic_lattice_fields(const Lattice& lattice, const std::vecto
   }
   Eigen::SparseMatrix<Real> matrix(lattice.node_count(), lattice.node_count());
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Real>> factorization(matrix);
-  if (factorization.info() != Eigen::Success)
-    throw QualityError(
-        "the harmonic fields of a tissue lattice have no solution: its cells or what grips it are not "
-        "finite, or far too large or small");
-  return factorization.solve(right);
+  SparseLdlt factors;
+  factors.factor(matrix,
+                 "the harmonic fields of a tissue lattice have no solution: its cells or what grips it are not finite, "
+                 "or far too large or small");
+  return factors.solve(right);
 }
 
 Points cell_gradients(const Lattice& lattice, const Eigen::VectorXd& field) {
