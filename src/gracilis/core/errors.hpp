@@ -24,7 +24,7 @@ std::string to_string(const Problem& problem);
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
-  ExitCode code() const { return code_; }
+  ExitCode code() const { return code_; }  ///< what the program ends with
 
  private:
   ExitCode code_;
@@ -33,9 +33,9 @@ class Error : public std::runtime_error {
 /// The command line or a configuration is wrong (exit code 2). Lists all problems, one per line.
 class ConfigurationError : public Error {
  public:
-  explicit ConfigurationError(std::vector<Problem> problems);
+  explicit ConfigurationError(std::vector<Problem> problems);  ///< a line of the message each
   explicit ConfigurationError(Problem problem) : ConfigurationError(std::vector<Problem>{std::move(problem)}) {}
-  const std::vector<Problem>& problems() const { return problems_; }
+  const std::vector<Problem>& problems() const { return problems_; }  ///< one by one, as in the message
 
  private:
   std::vector<Problem> problems_;
@@ -44,9 +44,9 @@ class ConfigurationError : public Error {
 /// A file is missing, malformed or holds what cannot be used (exit code 3). Lists all problems, one per line.
 class InputError : public Error {
  public:
-  explicit InputError(std::vector<Problem> problems);
+  explicit InputError(std::vector<Problem> problems);  ///< a line of the message each
   explicit InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
-  const std::vector<Problem>& problems() const { return problems_; }
+  const std::vector<Problem>& problems() const { return problems_; }  ///< one by one, as in the message
 
  private:
   std::vector<Problem> problems_;

@@ -39,7 +39,7 @@ std::vector<Item> collect_in_order(Index count, Index grain, const Body& body) {
 /// Caps the threads that parallel_for uses while it lives. 0 means all of the machine's.
 class ThreadLimit {
  public:
-  explicit ThreadLimit(int threads);
+  explicit ThreadLimit(int threads);  ///< 0 takes all of the machine
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;

@@ -14,12 +14,12 @@ struct Particles {
   AlignedVector<float> xyzw;  ///< 4 (n + idle_count)
   Index idle_count = 1;
 
-  Index count() const { return static_cast<Index>(xyzw.size() / 4) - idle_count; }
-  float* at(Index i) { return xyzw.data() + 4 * static_cast<std::size_t>(i); }
+  Index count() const { return static_cast<Index>(xyzw.size() / 4) - idle_count; }  ///< without idle ones
+  float* at(Index i) { return xyzw.data() + 4 * static_cast<std::size_t>(i); }  ///< x, y, z (m), inverse mass (1/kg)
   const float* at(Index i) const { return xyzw.data() + 4 * static_cast<std::size_t>(i); }
-  Eigen::Map<Eigen::Vector3f> position(Index i) { return Eigen::Map<Eigen::Vector3f>(at(i)); }
+  Eigen::Map<Eigen::Vector3f> position(Index i) { return Eigen::Map<Eigen::Vector3f>(at(i)); }  ///< m from the origin
   Eigen::Map<const Eigen::Vector3f> position(Index i) const { return Eigen::Map<const Eigen::Vector3f>(at(i)); }
-  float inverse_mass(Index i) const { return at(i)[3]; }
+  float inverse_mass(Index i) const { return at(i)[3]; }  ///< 1/kg; 0 of fixed ones
 };
 
 /// Particles at `positions` (m, relative to the chosen origin) with `inverse_masses` (1/kg).

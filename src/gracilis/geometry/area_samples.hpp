@@ -11,8 +11,8 @@ struct AreaSamples {
   std::vector<Index> faces;
   Points shares;  ///< barycentric, 3 × n
 
-  Index count() const { return static_cast<Index>(faces.size()); }
-  Points points(const Points& vertices, const Eigen::Matrix3Xi& of_faces) const;
+  Index count() const { return static_cast<Index>(faces.size()); }                ///< of samples
+  Points points(const Points& vertices, const Eigen::Matrix3Xi& of_faces) const;  ///< where they are now, m: 3 × n
   /// Unit normals of the samples' triangles; zero where a triangle has none.
   Points normals(const Points& vertices, const Eigen::Matrix3Xi& of_faces) const;
 };

@@ -16,7 +16,7 @@ namespace gracilis {
 /// finite.
 class BoxTree {
  public:
-  explicit BoxTree(const TriangleMesh& mesh);
+  explicit BoxTree(const TriangleMesh& mesh);  ///< copies the triangles
 
   /// Calls near(face) for triangles whose boxes come within `radius` of p; it answers with the radius from then on.
   template <class Near>
@@ -60,7 +60,7 @@ class BoxTree {
     }
   }
 
-  const Vec3& place() const { return place_; }
+  const Vec3& place() const { return place_; }  ///< m, about which coordinates are single
 
  private:
   struct Box {

@@ -17,7 +17,7 @@ class HarmonicSolver {
   HarmonicSolver(const Points& vertices, const MeshTopology& topology, std::vector<Index> fixed,
                  Index largest_factorized = 30000);
 
-  /// Throws QualityError where the vertices or conductances leave no solution.
+  /// The fields (n × m, one per column). Throws QualityError where the vertices or conductances leave no solution.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& fixed_values, const std::vector<Real>& conductance = {});
 
  private:

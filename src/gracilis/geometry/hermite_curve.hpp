@@ -12,6 +12,6 @@ struct HermiteCurve {
   std::vector<Real> knots, values, slopes;  ///< as many of each; knots do not fall
 };
 
-Real value_at(const HermiteCurve& curve, Real x);
+Real value_at(const HermiteCurve& curve, Real x);  ///< straight beyond the knots
 
 }  // namespace gracilis

@@ -32,7 +32,7 @@ class ThickSheet {
     Real across = 0;    ///< 0 at the first column, 1 at the last
   };
   Nearest nearest(const Vec3& point) const;
-  const Eigen::AlignedBox3d& bounds() const { return bounds_; }
+  const Eigen::AlignedBox3d& bounds() const { return bounds_; }  ///< m
 
  private:
   /// A ball that contains a part of the sheet with its thickness.

@@ -12,7 +12,7 @@ struct MeshDefect {
   Index count = 0;
   Index first = -1;  ///< a vertex for defects of vertices, otherwise a face; -1: none
 
-  explicit operator bool() const { return count > 0; }
+  explicit operator bool() const { return count > 0; }  ///< whether there is any
   void add(Index element) {
     if (count++ == 0) first = element;
   }
@@ -42,7 +42,7 @@ struct MeshReport {
   Real volume = 0;   ///< m³, signed; means something only for a closed surface
   Index genus = -1;  ///< number of handles, all components together; -1 unless closed and manifold
 
-  Real diagonal() const { return (high - low).norm(); }
+  Real diagonal() const { return (high - low).norm(); }  ///< m, of the bounding box
   bool is_finite() const { return !out_of_range_faces && !non_finite_vertices; }
   bool is_closed() const { return is_finite() && face_count > 0 && !open_edges && !non_manifold_edges; }
   bool is_manifold() const { return is_finite() && !non_manifold_edges && !pinched_vertices; }

@@ -10,7 +10,7 @@ namespace gracilis {
 /// Finds the nearest of many points by a k-d tree over a copy of them.
 class NearestPoints {
  public:
-  explicit NearestPoints(const Points& points);
+  explicit NearestPoints(const Points& points);  ///< copies them
   ~NearestPoints();
   NearestPoints(NearestPoints&&) noexcept;
   NearestPoints& operator=(NearestPoints&&) noexcept;

@@ -21,7 +21,7 @@ struct NearestPoint {
 /// Queries may run at the same time. Precondition: at least one face, all coordinates finite.
 class NearestTriangle {
  public:
-  explicit NearestTriangle(const TriangleMesh& mesh);
+  explicit NearestTriangle(const TriangleMesh& mesh);  ///< copies it
   ~NearestTriangle();
   NearestTriangle(NearestTriangle&&) noexcept;
   NearestTriangle& operator=(NearestTriangle&&) noexcept;

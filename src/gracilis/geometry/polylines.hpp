@@ -11,13 +11,13 @@ struct Polylines {
   Points points;                     ///< 3 × n, m
   std::vector<Index> offsets = {0};  ///< one more than there are lines
 
-  Index count() const { return static_cast<Index>(offsets.size()) - 1; }
-  Index begin(Index line) const { return offsets[static_cast<std::size_t>(line)]; }
-  Index end(Index line) const { return offsets[static_cast<std::size_t>(line) + 1]; }
-  Index size(Index line) const { return end(line) - begin(line); }
+  Index count() const { return static_cast<Index>(offsets.size()) - 1; }               ///< of lines
+  Index begin(Index line) const { return offsets[static_cast<std::size_t>(line)]; }    ///< column of its first point
+  Index end(Index line) const { return offsets[static_cast<std::size_t>(line) + 1]; }  ///< column after its last point
+  Index size(Index line) const { return end(line) - begin(line); }                     ///< of its points
   /// The points of one line, 3 × its size.
   Points line(Index line) const { return points.middleCols(begin(line), size(line)); }
-  void append(const Points& line);
+  void append(const Points& line);  ///< as the last one; 3 × its points
 };
 
 /// All lines in one, in their order.

@@ -9,8 +9,8 @@ struct PrincipalAxes {
   Vec3 values;
   Eigen::Matrix3d directions;  ///< orthonormal columns; signs are arbitrary
 
-  Vec3 least() const { return directions.col(0); }
-  Vec3 most() const { return directions.col(2); }
+  Vec3 least() const { return directions.col(0); }  ///< unit, where it extends least
+  Vec3 most() const { return directions.col(2); }   ///< unit, where it extends most
 };
 
 /// Precondition: symmetric and finite; the lower half is read.

@@ -20,7 +20,7 @@ struct RadialBasis {
   Real size = 1;                  ///< l, m
   int dimensions = 3;
 
-  Index count() const { return static_cast<Index>(centers.cols()); }
+  Index count() const { return static_cast<Index>(centers.cols()); }  ///< of centers
 };
 
 /// Value and derivatives of f.

@@ -19,7 +19,7 @@ class SparseKernelSolver {
 
   /// To 1e-14 of the right side, or as far as rounding lets it come.
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
-  Eigen::VectorXd times(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd times(const Eigen::VectorXd& x) const;  ///< A x
   /// In the 2-norm, estimated from below by powers of A and its inverse. Infinite where A is singular.
   Real condition() const { return condition_; }
 

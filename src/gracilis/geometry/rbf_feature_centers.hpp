@@ -14,10 +14,10 @@ struct HeightField {
   Real step = 1;  ///< m
   Eigen::VectorXd heights;
 
-  Real at(Index i, Index j) const { return heights[j * columns + i]; }
-  Vec3 node(Index i, Index j) const { return step * Vec3(i, j, 0); }
-  Points nodes() const;  ///< in the order of the heights
-  Eigen::AlignedBox3d box() const;
+  Real at(Index i, Index j) const { return heights[j * columns + i]; }  ///< m
+  Vec3 node(Index i, Index j) const { return step * Vec3(i, j, 0); }    ///< m, in the plane
+  Points nodes() const;                                                 ///< in the order of the heights
+  Eigen::AlignedBox3d box() const;                                      ///< m, with the heights
 };
 
 /// Nodes higher or lower than all eight around them.

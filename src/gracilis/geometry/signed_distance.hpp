@@ -30,7 +30,7 @@ class SignedDistance {
   /// The answer at any distance, found the faster the nearer the face `guess` is; the same with any.
   Answer query_from(Index guess, const Vec3& p) const;
 
-  bool closed() const { return closed_; }
+  bool closed() const { return closed_; }  ///< closed, and consistently oriented
 
  private:
   Vec3 pseudonormal(const NearestPoint& nearest) const;

@@ -40,13 +40,13 @@ class SolidGrid {
   SolidGrid(const TriangleMesh& surface, const SignedDistance& distance, const TriangleMesh& sheets,
             Index nodes_inside);
 
-  Index count() const { return static_cast<Index>(nodes_.cols()); }
-  Real step() const { return step_; }                          ///< m between neighbors
-  const Points& nodes() const { return nodes_; }               ///< 3 × count
-  const std::vector<Real>& depths() const { return depths_; }  ///< per node: how far inside, m; negative outside
-  const std::vector<Edge>& edges() const { return edges_; }
+  Index count() const { return static_cast<Index>(nodes_.cols()); }  ///< of nodes
+  Real step() const { return step_; }                                ///< m between neighbors
+  const Points& nodes() const { return nodes_; }                     ///< 3 × count
+  const std::vector<Real>& depths() const { return depths_; }        ///< per node: how far inside, m; negative outside
+  const std::vector<Edge>& edges() const { return edges_; }          ///< each once
 
-  Place place(const Vec3& p) const;
+  Place place(const Vec3& p) const;  ///< of a point, m
   /// How far inside a point is, by its nodes, m; -step where the grid does not reach. Errs by less than a step.
   Real depth(const Vec3& p) const;
 

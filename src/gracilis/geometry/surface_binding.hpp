@@ -25,7 +25,7 @@ class SurfaceBinding {
   /// threads.
   Points evaluate(const Points& vertices) const;
 
-  std::size_t term_count() const { return terms_.size(); }
+  std::size_t term_count() const { return terms_.size(); }  ///< of all points, what an evaluation takes
 
  private:
   /// A group of vertices: order_[begin] ... order_[end - 1], halved into two children that stand after it.

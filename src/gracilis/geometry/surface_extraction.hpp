@@ -15,8 +15,8 @@ struct SampledSolid {
   Eigen::Vector3i nodes = Eigen::Vector3i::Zero();  ///< per axis
   std::vector<Real> values;                         ///< m, negative inside
 
-  Index node_count() const { return nodes.prod(); }
-  Vec3 node(Index index) const;
+  Index node_count() const { return nodes.prod(); }  ///< of the whole grid
+  Vec3 node(Index index) const;                      ///< its place, m
 };
 
 /// Lays a grid over the solid's bounds plus a margin of two steps and evaluates the solid near its surface (over all

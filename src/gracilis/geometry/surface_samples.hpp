@@ -12,7 +12,7 @@ struct SurfaceSamples {
   Points points, normals;  ///< 3 × n; normals are unit
   Eigen::VectorXd areas;   ///< m²
 
-  Index count() const { return static_cast<Index>(points.cols()); }
+  Index count() const { return static_cast<Index>(points.cols()); }  ///< of samples
   /// Those that `keep` says, by their number.
   SurfaceSamples kept(const std::function<bool(Index)>& keep) const;
 };

@@ -19,9 +19,9 @@ class ThinPlateBasis {
   /// As kernels about the centers and affine functions: what an evaluation takes. (centers + 4) × k of count × k.
   Eigen::MatrixXd kernel_weights(const Eigen::MatrixXd& coefficients) const;
 
-  const Points& centers() const { return centers_; }
-  Real size() const { return size_; }
-  const Vec3& origin() const { return origin_; }
+  const Points& centers() const { return centers_; }  ///< m
+  Real size() const { return size_; }                 ///< m: the unit of places in the functions
+  const Vec3& origin() const { return origin_; }      ///< m: where these places are counted from
 
  private:
   Points centers_;
@@ -36,10 +36,10 @@ class ThinPlateMap {
   ThinPlateMap() = default;  ///< identity
   /// `coefficients`: count × 3 of the basis, m.
   ThinPlateMap(const ThinPlateBasis& basis, const Eigen::MatrixXd& coefficients);
-  static ThinPlateMap affine(const Eigen::Matrix3d& linear, const Vec3& shift);
+  static ThinPlateMap affine(const Eigen::Matrix3d& linear, const Vec3& shift);  ///< x ↦ linear x + shift (m)
 
-  Vec3 at(const Vec3& p) const;
-  Points at(const Points& points) const;
+  Vec3 at(const Vec3& p) const;           ///< where a point comes to, m
+  Points at(const Points& points) const;  ///< where points come to, m: 3 × n
   /// ∂ at(p) / ∂ p.
   Eigen::Matrix3d slope(const Vec3& p) const;
 

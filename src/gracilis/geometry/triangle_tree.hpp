@@ -13,7 +13,7 @@ namespace gracilis {
 /// coordinates finite.
 class TriangleTree {
  public:
-  explicit TriangleTree(const TriangleMesh& mesh);
+  explicit TriangleTree(const TriangleMesh& mesh);  ///< copies what it needs
   ~TriangleTree();
   TriangleTree(TriangleTree&&) noexcept;
   TriangleTree& operator=(TriangleTree&&) noexcept;

@@ -25,7 +25,7 @@ struct PlacedWrap {
   WrapSurface::Plane plane = WrapSurface::Plane::hybrid;
 };
 
-Real length_of(const std::vector<PathStop>& points);
+Real length_of(const std::vector<PathStop>& points);  ///< m, with the ways around wraps
 
 /// How a path is found: around one surface from a to b, in the surface's frame, and what is its length, by which the
 /// rounds end.

@@ -45,9 +45,9 @@ struct Wrap {
   Arc way;          ///< on the surface, in its frame
   Real length = 0;  ///< m, of `way`
 
-  bool touches() const { return kind == Kind::held || kind == Kind::needed; }
-  Vec3 first() const { return way.at(0); }
-  Vec3 last() const { return way.at(1); }
+  bool touches() const { return kind == Kind::held || kind == Kind::needed; }  ///< whether `way` means anything
+  Vec3 first() const { return way.at(0); }  ///< where it comes onto the surface, in its frame
+  Vec3 last() const { return way.at(1); }   ///< where it leaves it
 };
 
 /// The way from a to b (in the surface's frame) that OpenSim takes around it. Cylinder and sphere: the shortest, on the

@@ -32,6 +32,6 @@ inline Real contracted_share(const ContractionSettings& settings, Real activatio
 }
 
 template <>
-std::span<const Setting<ContractionSettings>> setting_table();
+std::span<const Setting<ContractionSettings>> setting_table();  ///< a row for each setting
 
 }  // namespace gracilis

@@ -34,6 +34,6 @@ struct FiberSettings {
 };
 
 template <>
-std::span<const Setting<FiberSettings>> setting_table();
+std::span<const Setting<FiberSettings>> setting_table();  ///< a row for each setting
 
 }  // namespace gracilis

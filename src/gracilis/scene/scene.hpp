@@ -170,7 +170,7 @@ struct Sequence {
 };
 
 template <>
-std::span<const Setting<Sequence>> setting_table();
+std::span<const Setting<Sequence>> setting_table();  ///< a row for each setting
 
 /// How the subject stands in the world frame; pictures look along these. Unit and perpendicular to each other. The
 /// defaults are those of OpenSim's models.

@@ -93,7 +93,7 @@ struct Setting : SettingInfo {
 
 /// The table of one struct, in the order in which it is shown. Defined for each struct of settings beside it.
 template <class Settings>
-std::span<const Setting<Settings>> setting_table();
+std::span<const Setting<Settings>> setting_table();  ///< a row for each setting
 
 /// The table's entry with this key, or null.
 template <class Settings>

@@ -31,10 +31,10 @@ struct PrepareSettings {
 };
 
 template <>
-std::span<const Setting<DistanceFieldSettings>> setting_table();
+std::span<const Setting<DistanceFieldSettings>> setting_table();  ///< a row for each setting
 template <>
-std::span<const Setting<SurfaceSettings>> setting_table();
+std::span<const Setting<SurfaceSettings>> setting_table();  ///< a row for each setting
 template <>
-std::span<const Setting<PrepareSettings>> setting_table();
+std::span<const Setting<PrepareSettings>> setting_table();  ///< a row for each setting
 
 }  // namespace gracilis

@@ -10,7 +10,7 @@ struct Twist {
   Vec3 velocity = Vec3::Zero();
   Vec3 turning = Vec3::Zero();
 
-  Vec3 velocity_at(const Vec3& place) const { return velocity + turning.cross(place); }
+  Vec3 velocity_at(const Vec3& place) const { return velocity + turning.cross(place); }  ///< m/s
 };
 
 }  // namespace gracilis

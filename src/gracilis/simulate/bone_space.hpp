@@ -14,8 +14,8 @@ class BoneSpace {
   /// `exact` are the distances to the scene's bones in their order. Both must outlive this.
   BoneSpace(const Scene& scene, const std::vector<SignedDistance>& exact);
 
-  std::size_t count() const { return fields_.size(); }
-  std::size_t body(std::size_t bone) const { return bodies_[bone]; }
+  std::size_t count() const { return fields_.size(); }                ///< of bones
+  std::size_t body(std::size_t bone) const { return bodies_[bone]; }  ///< number of its body in the scene
 
   /// See LazyField; at a point in the bone's frame, that of the capture pose.
   FieldSample sample(std::size_t bone, const Vec3& local) const { return fields_[bone].sample(local); }

@@ -44,12 +44,12 @@ class Simulation {
   /// To a pose, `time_step` (s, above 0) later. Throws as DeformationMethod::advance; the frame is then the last one.
   /// After Interrupted, only reset and restore are possible: `is_broken`.
   StepReport advance(const Pose& pose, Real time_step);
-  bool is_broken() const { return broken_; }
+  bool is_broken() const { return broken_; }  ///< stopped within a frame: reset or restore it
 
-  const std::shared_ptr<const Frame>& frame() const { return frame_; }
+  const std::shared_ptr<const Frame>& frame() const { return frame_; }  ///< the present one; it never changes
   /// Follows fibers through frames of this. Made when it is first asked for, which takes seconds.
   const FiberTracker& tracker();
-  DeformationMethod& method() const { return *method_; }
+  DeformationMethod& method() const { return *method_; }  ///< the one that moves the muscles
 
   /// Precondition: it keeps all steps.
   Checkpoint checkpoint() const;

@@ -12,7 +12,7 @@ namespace gracilis {
 /// the scene, which must outlive this.
 class ActivationDriver {
  public:
-  explicit ActivationDriver(const Scene& scene);
+  explicit ActivationDriver(const Scene& scene);  ///< keeps a reference to the scene
 
   /// One activation per muscle of the scene, within 0 and 1, at the pose's time and coordinates.
   std::vector<Real> at(const Pose& pose) const;

@@ -24,8 +24,8 @@ class FiberField {
 
   /// Unit; zero where nothing is known.
   Vec3 direction(const Vec3& p) const;
-  const Points& vectors() const { return vectors_; }
-  Real smoothing() const { return smoothing_; }
+  const Points& vectors() const { return vectors_; }  ///< at the nodes, as given: 3 × their count
+  Real smoothing() const { return smoothing_; }       ///< m: how far each sample spoke
 
  private:
   const SolidGrid* grid_;

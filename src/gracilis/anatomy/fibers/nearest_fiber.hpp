@@ -14,7 +14,7 @@ class NearestFiber {
  public:
   /// No fiber.
   NearestFiber() = default;
-  explicit NearestFiber(const Polylines& fibers);
+  explicit NearestFiber(const Polylines& fibers);  ///< copies what it needs of them
 
   /// Whether any fiber has a length.
   bool any() const { return nearest_.has_value(); }

@@ -26,7 +26,7 @@ class JointControl {
 
   /// F, 1/deg².
   Real falloff() const { return falloff_; }
-  Index sample_count() const;
+  Index sample_count() const;  ///< those of the same angles are one
 
  private:
   struct Tree;

@@ -32,7 +32,7 @@ struct PlacedSections {
   Points centers;
   SectionFrames frames;
 
-  RigidTransform frame(Eigen::Index k) const;
+  RigidTransform frame(Eigen::Index k) const;  ///< from the axes of section k to the world
 };
 
 /// On the line as it runs in this pose (line_at). In the tendons, which keep their lengths, sections keep their

@@ -19,7 +19,7 @@ class SectionCut {
   /// The plane through `center` along the unit vectors `x` and `y`, perpendicular to each other.
   SectionCut(const TriangleMesh& surface, const Vec3& center, const Vec3& x, const Vec3& y);
 
-  bool empty() const { return segments_.empty(); }
+  bool empty() const { return segments_.empty(); }  ///< the plane misses the surface
 
   /// All hits of the ray from `from` in the unit direction `along` (plane coordinates), nearest first. Surfaces without
   /// holes are met as often from the front as from the back by a ray that begins outside.

@@ -10,9 +10,9 @@ struct SectionRings {
   Points centers;
   Points corners;  ///< those of all sections; without the two ends
 
-  Index sections() const { return static_cast<Index>(centers.cols()); }
-  auto corner(Index k, Index ray) { return corners.col(k * rays + ray); }
-  Vec3 corner(Index k, Index ray) const { return corners.col(k * rays + ray); }
+  Index sections() const { return static_cast<Index>(centers.cols()); }          ///< their number
+  auto corner(Index k, Index ray) { return corners.col(k * rays + ray); }        ///< m; may be written to
+  Vec3 corner(Index k, Index ray) const { return corners.col(k * rays + ray); }  ///< m
 };
 
 /// Area of the triangle of the center, a corner and the next one, m².

@@ -22,7 +22,7 @@ struct ColorOrder {
   std::vector<ColorRange> colors;
   std::vector<Index> clusters = {0};
 
-  Index cluster_count() const { return static_cast<Index>(clusters.size()) - 1; }
+  Index cluster_count() const { return static_cast<Index>(clusters.size()) - 1; }  ///< of those that run side by side
 };
 
 /// Where constraints stand in the tables of their kind.

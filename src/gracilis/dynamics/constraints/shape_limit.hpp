@@ -12,7 +12,7 @@ struct ShapeLimits {
   float spike = 0;      ///< that a vertex stands out from its neighbors, beyond rest, over the length of its edges
   float thickness = 0;  ///< distance to the vertex that it faces through the surface, over that at rest
 
-  bool any() const { return spike > 0 || thickness > 0; }
+  bool any() const { return spike > 0 || thickness > 0; }  ///< whether anything is limited
 };
 
 /// A SurfaceShape at rest, per particle, in single precision. Lengths in m.

@@ -26,7 +26,7 @@ struct ArapSettings {
 };
 
 template <>
-std::span<const Setting<ArapSettings>> setting_table();
+std::span<const Setting<ArapSettings>> setting_table();  ///< a row for each setting
 
 /// The method `arap`.
 MethodEntry arap_entry();

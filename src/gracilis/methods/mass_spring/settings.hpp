@@ -86,6 +86,6 @@ struct MassSpringSettings {
 };
 
 template <>
-std::span<const Setting<MassSpringSettings>> setting_table();
+std::span<const Setting<MassSpringSettings>> setting_table();  ///< a row for each setting
 
 }  // namespace gracilis

@@ -37,6 +37,6 @@ struct PbdSettings {
 };
 
 template <>
-std::span<const Setting<PbdSettings>> setting_table();
+std::span<const Setting<PbdSettings>> setting_table();  ///< a row for each setting
 
 }  // namespace gracilis

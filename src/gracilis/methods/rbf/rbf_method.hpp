@@ -44,7 +44,7 @@ struct RbfSettings {
 };
 
 template <>
-std::span<const Setting<RbfSettings>> setting_table();
+std::span<const Setting<RbfSettings>> setting_table();  ///< a row for each setting
 
 /// The method `rbf`, with the preset `rbf-2024`.
 MethodEntry rbf_entry();

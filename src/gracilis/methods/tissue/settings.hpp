@@ -35,7 +35,7 @@ struct TissueSettings {
 };
 
 template <>
-std::span<const Setting<TissueSettings>> setting_table();
+std::span<const Setting<TissueSettings>> setting_table();  ///< a row for each setting
 
 /// A muscle's settings: its own, else the scene's, else the defaults.
 TissueSettings tissue_settings(const Scene& scene, const Muscle& muscle);

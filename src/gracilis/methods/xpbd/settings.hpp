@@ -98,7 +98,7 @@ struct PredictorSettings {
 struct XpbdSettings : SolverSettings, DetailSettings, MaterialSettings, BoneContactSettings, PredictorSettings {};
 
 template <>
-std::span<const Setting<XpbdSettings>> setting_table();
+std::span<const Setting<XpbdSettings>> setting_table();  ///< a row for each setting
 
 /// The settings of one muscle of a scene: its own, else the scene's, else the defaults.
 XpbdSettings xpbd_settings(const Scene& scene, const Muscle& muscle);
@@ -119,11 +119,11 @@ struct ContactSettings {
 };
 
 template <>
-std::span<const Setting<ContactSettings>> setting_table();
+std::span<const Setting<ContactSettings>> setting_table();  ///< a row for each setting
 template <>
-std::span<const Setting<SurfaceContactSettings>> setting_table();
+std::span<const Setting<SurfaceContactSettings>> setting_table();  ///< a row for each setting
 template <>
-std::span<const Setting<VirtualEdgeSettings>> setting_table();
+std::span<const Setting<VirtualEdgeSettings>> setting_table();  ///< a row for each setting
 
 /// The scene's, else the defaults.
 ContactSettings contact_settings(const Scene& scene);

@@ -21,9 +21,9 @@ struct MomentArmReport {
 /// before it only led there.
 /// - Of one coordinate: moment_arms.sto, where the method knows forces with `<muscle>_by_force`, moment over tension,
 ///   too; plots/moment_arms*.svg; and beside `references`, as far as they are of this coordinate, reference.csv.
-/// - Of several, whose values are all combined, without references: for each moment_arms_about_<coordinate>.sto and,
-/// per
-///   muscle, plots/moment_arms_about_<coordinate>_<muscle>.svg.
+/// - Of several, whose values are all combined, without references:
+///   for each `moment_arms_about_<coordinate>.sto`,
+///   and per muscle `plots/moment_arms_about_<coordinate>_<muscle>.svg`.
 /// Precondition: at least one. Throws InputError.
 MomentArmReport write_moment_arms(const std::filesystem::path& folder, const Scene& scene,
                                   const std::vector<MovedCoordinate>& moved, const std::vector<ArmCurve>& references);

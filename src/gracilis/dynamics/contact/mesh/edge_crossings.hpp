@@ -8,7 +8,7 @@ namespace gracilis {
 struct Segment {
   Eigen::Vector3f from, to;
 
-  float length2() const { return (to - from).squaredNorm(); }
+  float length2() const { return (to - from).squaredNorm(); }  ///< m², of its square
 };
 
 /// Leaves of `candidates`, edges of the surface, those that come nearer than `within` (m) to the edge where both lie

@@ -30,7 +30,7 @@ struct SurfacePair {
                                              ///< where it is nearest; empty: none
   float release = 0;  ///< m per step, how fast those come out that do: all alike, so that nothing bends on its way
   std::vector<char> first_touches, second_touches;  ///< which particles touch the other at rest; for cohesion
-  bool is_self() const { return first == second; }
+  bool is_self() const { return first == second; }  ///< a surface with itself
 };
 
 /// All surfaces that keep out of each other, and their pairs; constant. Self-contact needs the shape at rest, to tell
@@ -74,7 +74,7 @@ struct PairCandidates {
   float drift = std::numeric_limits<float>::infinity();  ///< m, at most, from the search to the last look: of what is
                                                          ///< near against what it is near to
   int steps = 0;                                         ///< since the search
-  bool none_listed() const { return on_second.empty() && on_first.empty() && edges.empty(); }
+  bool none_listed() const { return on_second.empty() && on_first.empty() && edges.empty(); }  ///< no candidates
 };
 struct ContactWorldState {
   std::vector<Particles> before;        ///< per surface, where its particles were before the step
