@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/opensim/kinematics/loop_closer.hpp>
+#include <gracilis/opensim/reader/model_notes.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@ namespace gracilis {
 
 opensim::Model read_opensim_model(const std::filesystem::path& path, bool strict) {
   opensim::Model model = opensim::read_model(path);
+  for (const std::string& note : opensim::approximate_path_notes(model)) spdlog::warn("{}", note);
   report_unsupported(model, 0, strict);
   close_default_pose(model);
   return model;
@@ -22,13 +24,7 @@ void close_default_pose(opensim::Model& model, const std::vector<bool>& held) {
 }
 
 void report_unsupported(const opensim::Model& model, std::size_t first, bool strict) {
-  for (std::size_t i = first; i < model.unsupported.size(); ++i)
-    spdlog::warn("{}: not supported: {}", model.name, model.unsupported[i]);
-  for (const opensim::Muscle& muscle : model.muscles)
-    if (first == 0 && muscle.path.approximate)
-      spdlog::warn(
-          "{}: the path of {} wraps around several objects or one that is no cylinder: its length is approximate",
-          model.name, muscle.name);
+  for (const std::string& note : opensim::unsupported_notes(model, first)) spdlog::warn("{}", note);
   if (strict && model.unsupported.size() > first)
     throw Error(ExitCode::unsupported, fmt::format("{} of the model's elements are not supported (--strict)",
                                                    model.unsupported.size() - first));

@@ -83,18 +83,14 @@ opensim::CoordinateMotion parse_sweep(const opensim::Model& model, const std::st
 
 /// Names the muscles whose length by OpenSim is not that of the way that the moment arms are of.
 void warn_of_other_ways(const opensim::PathTables& tables, bool ways) {
-  const Eigen::RowVectorXd apart = (tables.lengths.values - tables.way_lengths.values).cwiseAbs().colwise().maxCoeff();
-  for (std::size_t i = 0; i < tables.lengths.columns.size(); ++i) {
-    const Real most = apart[static_cast<Eigen::Index>(i)];
-    if (most > 1e-4)
-      spdlog::warn(
-          "{}: {}, up to {:.1f} mm off {}", tables.lengths.columns[i],
-          ways ? "lengths are those of the way around its wraps, of which the moment arms are"
-               : "lengths are as OpenSim computes them (--lengths opensim)",
-          1000 * most,
-          ways ? "what OpenSim computes; --lengths opensim gives that"
-               : "those of the way around its wraps, of which the moment arms are; --lengths geodesic gives these");
-  }
+  for (const opensim::LengthsApart& each : opensim::lengths_apart(tables))
+    spdlog::warn(
+        "{}: {}, up to {:.1f} mm off {}", each.muscle,
+        ways ? "lengths are those of the way around its wraps, of which the moment arms are"
+             : "lengths are as OpenSim computes them (--lengths opensim)",
+        1000 * each.most,
+        ways ? "what OpenSim computes; --lengths opensim gives that"
+             : "those of the way around its wraps, of which the moment arms are; --lengths geodesic gives these");
 }
 
 int write_paths(const PathsOptions& options) {

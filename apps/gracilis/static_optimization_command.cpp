@@ -6,15 +6,15 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/opensim/kinematics/low_pass.hpp>
+#include <gracilis/opensim/reader/model_notes.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
+#include <gracilis/opensim/static_optimization/optimization_notes.hpp>
 #include <gracilis/opensim/static_optimization/setup_reader.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -93,15 +93,6 @@ opensim::CoordinateMotion motion_of(const opensim::Model& model, const opensim::
   return motion;
 }
 
-void report(const opensim::StaticOptimizationResult& result) {
-  for (const opensim::InfeasibleInstant& instant : result.infeasible) {
-    std::string missing;
-    for (std::size_t i = 0; i < std::min<std::size_t>(instant.missing.size(), 3); ++i)
-      missing += fmt::format("{}{} {:.3g}", i ? ", " : "", instant.missing[i].first, instant.missing[i].second);
-    spdlog::warn("at {} s the muscles and actuators are too weak; missing (N m or N): {}", instant.time, missing);
-  }
-}
-
 void write_table(const opensim::StaticOptimizationSetup& setup, const fs::path& out, const std::string& what,
                  const Table& table) {
   const fs::path path = out / fmt::format("{}_{}.sto", file_name_of(setup.name), file_name_of(what));
@@ -117,13 +108,6 @@ void write_results(const opensim::StaticOptimizationSetup& setup, const fs::path
     write_table(setup, out, setup.analysis + "_fiber_length", result.fiber_lengths);
 }
 
-/// Last, so that nobody takes the results for those of the whole model.
-void say_missing_forces(const opensim::Model& model) {
-  if (!model.missing_forces.empty())
-    spdlog::warn("{} of the model's forces took no part, so results are not those of the whole model: {}",
-                 model.missing_forces.size(), fmt::join(model.missing_forces, ", "));
-}
-
 int optimize(const OptimizationOptions& options) {
   const opensim::StaticOptimizationSetup setup = setup_from(options);
   for (const std::string& note : setup.notes) spdlog::warn("{}: {}", options.setup.string(), note);
@@ -134,9 +118,9 @@ int optimize(const OptimizationOptions& options) {
   const std::vector<std::size_t> rows = opensim::rows_of(setup, motion.times);
   if (rows.empty())
     throw ConfigurationError({setup.coordinates.string(), "", "has no row between the times asked for", ""});
-  if (!loads.forces.empty() && (motion.times[rows.front()] < loads.begin || motion.times[rows.back()] > loads.end))
-    spdlog::warn("{}: the loads are measured from {} to {} s only", setup.external_loads.string(), loads.begin,
-                 loads.end);
+  const std::string unmeasured =
+      opensim::unmeasured_loads_note(loads, motion.times[rows.front()], motion.times[rows.back()]);
+  if (!unmeasured.empty()) spdlog::warn("{}: {}", setup.external_loads.string(), unmeasured);
   fs::create_directories(options.out);
   bool weak = false;
   Table forces;
@@ -145,7 +129,7 @@ int optimize(const OptimizationOptions& options) {
     const opensim::StaticOptimizationResult result = opensim::static_optimization(
         model, motion, loads, rows, setup.settings, [&](std::size_t done) { progress.show(static_cast<int>(done)); });
     progress.clear();
-    report(result);
+    for (const std::string& note : opensim::weakness_notes(result)) spdlog::warn("{}", note);
     weak = !result.infeasible.empty();
     forces = result.forces;
     write_results(setup, options.out, result);
@@ -155,7 +139,8 @@ int optimize(const OptimizationOptions& options) {
     write_table(setup, options.out, setup.reactions->name + "_ReactionLoads",
                 opensim::joint_reactions(model, motion, loads, rows, forces, setup.reactions->settings));
   }
-  say_missing_forces(model);
+  // Last, so that nobody takes the results for those of the whole model.
+  if (const std::string note = opensim::missing_forces_note(model); !note.empty()) spdlog::warn("{}", note);
   const bool failed = options.strict && weak;
   return static_cast<int>(failed ? ExitCode::quality : ExitCode::done);
 }

@@ -9,12 +9,15 @@
 #include <gracilis/opensim/kinematics/loop_closer.hpp>
 #include <gracilis/opensim/kinematics/low_pass.hpp>
 #include <gracilis/opensim/paths/path_tables.hpp>
+#include <gracilis/opensim/reader/model_notes.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
-#include <gracilis/opensim/static_optimization/static_optimization.hpp>
+#include <gracilis/opensim/static_optimization/optimization_notes.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <numeric>
@@ -37,10 +40,14 @@ void warn_of(const Notes& notes) {
     if (PyErr_WarnEx(kind.ptr(), note.c_str(), 1) != 0) throw py::error_already_set();
 }
 
+void add(const Notes& more, Notes& notes) { notes.insert(notes.end(), more.begin(), more.end()); }
+
 opensim::Model closed_model(const fs::path& path, Notes& notes) {
   opensim::Model model = opensim::read_model(path);
-  for (const std::string& each : model.unsupported) notes.push_back(model.name + ": not supported: " + each);
-  opensim::assemble_defaults(model);
+  add(opensim::approximate_path_notes(model), notes);
+  add(opensim::unsupported_notes(model), notes);
+  if (const Real open = opensim::assemble_defaults(model).open; open > 1e-5)
+    notes.push_back(fmt::format("{}: its loops stay open by {:.3g} (m or rad) in its default pose", model.name, open));
   return model;
 }
 
@@ -53,7 +60,9 @@ struct GivenMotion {
 GivenMotion given_motion(const py::object& motion) {
   if (py::isinstance<py::dict>(motion)) {
     const bool in_degrees = py::getattr(motion, "in_degrees", py::bool_(false)).cast<bool>();
-    return {{}, as_table(py::reinterpret_borrow<py::dict>(motion), "motion", in_degrees)};
+    GivenMotion given{{}, as_table(py::reinterpret_borrow<py::dict>(motion), "motion", in_degrees)};
+    if (given.table.times.empty()) refuse("motion", "has no rows");
+    return given;
   }
   return {motion.cast<fs::path>(), {}};
 }
@@ -61,8 +70,8 @@ GivenMotion given_motion(const py::object& motion) {
 opensim::CoordinateMotion motion_of(const opensim::Model& model, const GivenMotion& given, Notes& notes) {
   const Table table = given.file.empty() ? given.table : read_table(given.file);
   opensim::CoordinateMotion motion = opensim::coordinate_motion(model, table);
-  notes.insert(notes.end(), table.warnings.begin(), table.warnings.end());
-  notes.insert(notes.end(), motion.notes.begin(), motion.notes.end());
+  add(table.warnings, notes);
+  add(motion.notes, notes);
   return motion;
 }
 
@@ -83,9 +92,7 @@ std::vector<fs::path> import_model(const fs::path& path, const fs::path& out, co
     opensim::SceneFolderSettings settings;
     settings.muscles = muscles;
     settings.apart = apart;
-    for (std::string& line :
-         opensim::write_scene_folder(model, {path.parent_path(), geometry, {}}, named, settings, out))
-      notes.push_back(std::move(line));
+    add(opensim::write_scene_folder(model, {path.parent_path(), geometry, {}}, named, settings, out), notes);
     for (const opensim::NamedMotion& motion : named)
       scenes.push_back(out / (opensim::motion_file_name(motion) + ".toml"));
   });
@@ -101,6 +108,11 @@ py::tuple paths(const fs::path& path, const py::object& motion) {
     if (model.muscles.empty()) throw InputError({path.string(), "", "has no muscles", "name another model"});
     return opensim::path_tables(model, motion_of(model, given, notes));
   });
+  for (const opensim::LengthsApart& each : opensim::lengths_apart(tables))
+    notes.push_back(
+        fmt::format("{}: lengths are those of the way around its wraps, of which the moment arms are, up to "
+                    "{:.1f} mm off what OpenSim computes",
+                    each.muscle, 1000 * each.most));
   warn_of(notes);
   py::dict arms;
   for (const auto& [coordinate, table] : tables.moment_arms) arms[py::str(coordinate)] = as_python(table);
@@ -128,22 +140,28 @@ py::tuple static_optimization(const fs::path& path, const py::object& motion, co
     opensim::Model model = closed_model(path, notes);
     bool first = replace;
     for (const fs::path& file : forces) {
+      const std::size_t known = model.unsupported.size();
       opensim::read_force_set(file, first, model);
+      add(opensim::unsupported_notes(model, known), notes);
       first = false;
     }
     opensim::CoordinateMotion moved = motion_of(model, given, notes);
     if (cutoff > 0) moved.values = opensim::low_pass(moved.times, moved.values, cutoff);
     opensim::ExternalLoads external;
     if (!loads.empty()) external = opensim::read_external_loads(model, loads);
+    const std::string unmeasured = opensim::unmeasured_loads_note(external, moved.times.front(), moved.times.back());
+    if (!unmeasured.empty()) notes.push_back(loads.string() + ": " + unmeasured);
     std::vector<std::size_t> rows(moved.times.size());
     std::iota(rows.begin(), rows.end(), 0);
     all = rows.size();
     opensim::StaticOptimizationSettings settings;
     settings.exponent = exponent;
-    return opensim::static_optimization(model, moved, external, rows, settings, told(progress, all));
+    opensim::StaticOptimizationResult found =
+        opensim::static_optimization(model, moved, external, rows, settings, told(progress, all));
+    add(opensim::weakness_notes(found), notes);
+    if (const std::string note = opensim::missing_forces_note(model); !note.empty()) notes.push_back(note);
+    return found;
   });
-  for (const opensim::InfeasibleInstant& instant : result.infeasible)
-    notes.push_back("at " + to_text(instant.time) + " s the muscles and actuators are too weak");
   warn_of(notes);
   return py::make_tuple(as_python(result.activations), as_python(result.forces));
 }

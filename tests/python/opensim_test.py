@@ -1,6 +1,8 @@
+import re
 import subprocess
 import tempfile
 import unittest
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -47,6 +49,57 @@ class OpenSim(unittest.TestCase):
 
         with self.assertRaises(KeyError):
             gracilis.static_optimization(model, self.motion, progress=fail)
+
+    def warnings_of(self, call):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            call()
+        self.assertTrue(all(issubclass(each.category, gracilis.SceneWarning) for each in caught))
+        return [str(each.message) for each in caught]
+
+    def test_forces_that_take_no_part_and_loads_of_a_part_of_the_time_are_told(self):
+        text = model.read_text()
+        body = re.search(r'<Body name="(r_[^"]*)"', text).group(1)
+        with_heel = self.folder / "heel.osim"
+        head, tail = text.split("<ForceSet", 1)
+        before, after = tail.split("<objects>", 1)
+        with_heel.write_text(f'{head}<ForceSet{before}<objects><HuntCrossleyForce name="heel"/>{after}')
+        forces = self.folder / "forces.xml"
+        forces.write_text('<OpenSimDocument Version="40000"><ForceSet name="more"><objects><CoordinateActuator name="reserve">'
+                          "<coordinate>r_elbow_flex</coordinate><optimal_force>10</optimal_force></CoordinateActuator>"
+                          '<Spaceship name="odd"/></objects></ForceSet></OpenSimDocument>')  # fmt: skip
+        pull = {f"pull_v{axis}": np.zeros(5) for axis in "xyz"}
+        gracilis.write_sto(self.folder / "loads.sto", dict(time=np.arange(5) / 10, **pull))
+        loads = self.folder / "loads.xml"
+        loads.write_text('<OpenSimDocument Version="40000"><ExternalLoads name="loads"><objects><ExternalForce name="pull">'
+                         f"<applied_to_body>{body}</applied_to_body><force_expressed_in_body>ground</force_expressed_in_body>"
+                         "<force_identifier>pull_v</force_identifier></ExternalForce></objects>"
+                         "<datafile>loads.sto</datafile></ExternalLoads></OpenSimDocument>")  # fmt: skip
+        said = self.warnings_of(lambda: gracilis.static_optimization(with_heel, self.motion, loads=loads, forces=[forces]))
+        for expected in ("not supported: .*odd", f"{loads}: the loads are measured from 0 to 0.4 s only",
+                         r"1 of the model's forces took no part.*: heel"):  # fmt: skip
+            self.assertTrue(any(re.search(expected, each) for each in said), f"{expected} is not in {said}")
+
+    def test_weakness_says_what_is_missing(self):
+        heavy = self.folder / "heavy.osim"
+        heavy.write_text(re.sub(r"<mass>([\d.]+)</mass>", lambda found: f"<mass>{1000 * float(found[1])}</mass>",
+                                model.read_text()))  # fmt: skip
+        said = self.warnings_of(lambda: gracilis.static_optimization(heavy, self.motion))
+        self.assertTrue(any("too weak; missing (N m or N): r_" in each for each in said), said)
+
+    def test_lengths_that_opensim_has_otherwise_are_told(self):
+        said = [each for each in self.warnings_of(lambda: gracilis.paths(model, self.motion)) if "what OpenSim computes" in each]
+        done = subprocess.run([program, "paths", str(model), "--coord", "r_elbow_flex=10:100:10", "--out", str(self.folder)],
+                              check=True, capture_output=True, text=True)  # fmt: skip
+        by_command = [line for line in done.stderr.splitlines() if "what OpenSim computes" in line]
+        self.assertEqual(len(said), len(by_command))
+        for mine, theirs in zip(said, by_command):
+            self.assertIn(mine, theirs)
+
+    def test_a_motion_without_rows_is_refused(self):
+        for function in (gracilis.paths, gracilis.static_optimization):
+            with self.assertRaisesRegex(gracilis.InputError, "has no rows"):
+                function(model, dict(time=np.zeros(0), r_elbow_flex=np.zeros(0)))
 
     def test_a_model_becomes_a_scene(self):
         (scene,) = gracilis.import_model(model, self.folder / "scene", muscles=["BIClong"])

@@ -38,4 +38,13 @@ PathTables path_tables(const Model& model, const CoordinateMotion& motion) {
   return tables;
 }
 
+std::vector<LengthsApart> lengths_apart(const PathTables& tables) {
+  const Eigen::RowVectorXd most = (tables.lengths.values - tables.way_lengths.values).cwiseAbs().colwise().maxCoeff();
+  std::vector<LengthsApart> apart;
+  for (std::size_t i = 0; i < tables.lengths.columns.size(); ++i)
+    if (const Real difference = most[static_cast<Eigen::Index>(i)]; difference > 1e-4)
+      apart.push_back({tables.lengths.columns[i], difference});
+  return apart;
+}
+
 }  // namespace gracilis::opensim

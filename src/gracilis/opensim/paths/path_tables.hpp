@@ -2,7 +2,9 @@
 
 #include <gracilis/opensim/kinematics/coordinate_motion.hpp>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace gracilis::opensim {
 
@@ -15,5 +17,14 @@ struct PathTables {
 
 /// The model must have muscles, the motion rows.
 PathTables path_tables(const Model& model, const CoordinateMotion& motion);
+
+/// A muscle whose length by OpenSim is not that of its way.
+struct LengthsApart {
+  std::string muscle;
+  Real most = 0;  ///< m, the largest difference in any row
+};
+
+/// The muscles whose two lengths differ by more than 0.1 mm in some row, in the tables' order.
+std::vector<LengthsApart> lengths_apart(const PathTables& tables);
 
 }  // namespace gracilis::opensim
