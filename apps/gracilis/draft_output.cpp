@@ -3,7 +3,9 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/draft/draft_text.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/counted.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/view/pictures/scene_picture.hpp>
 
@@ -49,9 +51,8 @@ void write_draft_files(const SceneDraft& draft, const fs::path& out) {
   write_text_atomically(out, draft_text(draft, out, table));
 }
 
-void tell(const SceneDraft& draft) {
-  fmt::print("{} bones, {} joints, {} muscles\n", draft.found.bones.size(), draft.skeleton.joints.size(),
-             draft.muscles.size());
+/// Those of the muscles' ends, too, with how many vertices they hold; doubtful ones first.
+static std::vector<Guess> guesses_of(const SceneDraft& draft) {
   std::vector<Guess> guesses = draft.guesses;
   for (const DraftMuscle& muscle : draft.muscles)
     for (const DraftAttachment& each : muscle.attachments) {
@@ -61,26 +62,57 @@ void tell(const SceneDraft& draft) {
     }
   std::stable_sort(guesses.begin(), guesses.end(),
                    [](const Guess& a, const Guess& b) { return (a.certainty < doubtful) > (b.certainty < doubtful); });
-  for (const Guess& guess : guesses)
+  return guesses;
+}
+
+void tell(const SceneDraft& draft) {
+  fmt::print("{}, {}, {}\n", counted(draft.found.bones.size(), "bone"), counted(draft.skeleton.joints.size(), "joint"),
+             counted(draft.muscles.size(), "muscle"));
+  for (const Guess& guess : guesses_of(draft))
     fmt::print("{} {}: {}\n", guess.certainty < doubtful ? "look at" : "guessed", guess.subject, to_string(guess));
   for (const std::string& line : draft.left_out) fmt::print("left out {}\n", line);
 }
 
-static void draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
+static nlohmann::ordered_json names_in(const auto& parts) {
+  nlohmann::ordered_json names = nlohmann::json::array();
+  for (const auto& each : parts) names.push_back(each.name);
+  return names;
+}
+
+static void tell_as_json(const SceneDraft& draft, const Scene& scene, const fs::path& out, const fs::path& picture) {
+  nlohmann::ordered_json guesses = nlohmann::json::array();
+  for (const Guess& guess : guesses_of(draft))
+    guesses.push_back({{"subject", guess.subject}, {"how", guess.how}, {"certainty", guess.certainty}});
+  const nlohmann::ordered_json told = {
+      {"scene", out.string()},
+      {"picture", picture.empty() ? nlohmann::json() : nlohmann::json(picture.string())},
+      {"bones", names_in(scene.bones)},
+      {"joints", names_in(scene.joints)},
+      {"muscles", names_in(scene.muscles)},
+      {"guesses", guesses},
+      {"left_out", draft.left_out}};
+  fmt::print("{}", json_text(told));
+}
+
+/// Says whether there is a picture.
+static bool draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
   try {
     render_picture(scene_picture(scene, doubtful_ends(draft)), path);
-    fmt::print("{}\n", path.string());
+    return true;
   } catch (const Error& error) {
     spdlog::warn("no picture: {}", error.what());
+    return false;
   }
 }
 
-void write_and_show(const SceneDraft& draft, const fs::path& out, const fs::path& picture) {
+void write_and_show(const SceneDraft& draft, const fs::path& out, const fs::path& picture, bool as_json) {
   write_draft_files(draft, out);
   const LoadedScene loaded = read_scene(out);
-  tell(draft);
+  if (!as_json) tell(draft);
   for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
-  draw(draft, loaded.scene, picture);
+  const bool is_drawn = draw(draft, loaded.scene, picture);
+  if (as_json) return tell_as_json(draft, loaded.scene, out, is_drawn ? picture : fs::path());
+  if (is_drawn) fmt::print("{}\n", picture.string());
   fmt::print("{}\n", out.string());
 }
 

@@ -18,7 +18,9 @@ void write_draft_files(const SceneDraft& draft, const std::filesystem::path& out
 void tell(const SceneDraft& draft);
 
 /// Writes the scene, reads it again as a run would, tells what stands in it and what the reader says of it, and draws
-/// it. It is of use without its picture, too: then there is a warning. Prints the scene's name last.
-void write_and_show(const SceneDraft& draft, const std::filesystem::path& out, const std::filesystem::path& picture);
+/// it. It is of use without its picture, too: then there is a warning. Prints the scene's name last, or all of it as one
+/// object of JSON.
+void write_and_show(const SceneDraft& draft, const std::filesystem::path& out, const std::filesystem::path& picture,
+                    bool as_json = false);
 
 }  // namespace gracilis

@@ -7,15 +7,18 @@
 #include <gracilis/anatomy/fibers/surface_fibers.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/mesh/polyline_file.hpp>
 #include <gracilis/view/pictures/fiber_picture.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 namespace gracilis {
 
@@ -24,39 +27,55 @@ static std::vector<Real> in_degrees(std::vector<Real> angles) {
   return angles;
 }
 
-static void describe(const Muscle& muscle, const Polylines& fibers, const FiberMeasures& measures) {
-  if (fibers.count() == 0) {
-    fmt::print("{}: no fibers\n", muscle.name);
-    return;
-  }
-  const auto [shortest, longest] = std::minmax_element(measures.lengths.begin(), measures.lengths.end());
-  const auto mean = [](const std::vector<Real>& values) {
-    Real sum = 0;
-    for (const Real value : values) sum += value;
-    return sum / Real(values.size());
-  };
-  const Containment inside = containment(SignedDistance(muscle.surface), fibers);
-  const Real volume = enclosed_volume(muscle.surface.vertices, muscle.surface.faces);
-  fmt::print(
-      "{}: {} fibers, {:.1f} mm long on average ({:.1f} to {:.1f}), pennation {:.1f}° at the origin and {:.1f}° at the "
-      "insertion, physiological cross-section {:.2f} cm², {:.2f} % of the points outside by up to {:.3f} mm\n",
-      muscle.name, fibers.count(), 1e3 * mean(measures.lengths), 1e3 * *shortest, 1e3 * *longest,
-      degrees(mean(measures.origin_pennation)), degrees(mean(measures.insertion_pennation)),
-      1e4 * physiological_cross_section(volume, fibers), 100.0 * inside.outside / std::max(inside.points, 1),
-      1e3 * inside.farthest);
+static Real mean(const std::vector<Real>& values) {
+  return std::accumulate(values.begin(), values.end(), Real(0)) / Real(values.size());
 }
 
-/// Writes the fibers carried onto the surface, and says how well they cover it.
-static void write_surface_fibers(const Muscle& muscle, const Polylines& fibers, const std::filesystem::path& out) {
-  if (fibers.count() == 0) return;
+/// What is known of a muscle's fibers.
+static nlohmann::ordered_json description(const Muscle& muscle, const Polylines& fibers,
+                                          const FiberMeasures& measures) {
+  nlohmann::ordered_json told = {{"muscle", muscle.name}, {"fibers", fibers.count()}};
+  if (fibers.count() == 0) return told;
+  const auto [shortest, longest] = std::minmax_element(measures.lengths.begin(), measures.lengths.end());
+  const Containment inside = containment(SignedDistance(muscle.surface), fibers);
+  const Real volume = enclosed_volume(muscle.surface.vertices, muscle.surface.faces);
+  told["mean_length_m"] = mean(measures.lengths);
+  told["shortest_m"] = *shortest;
+  told["longest_m"] = *longest;
+  told["origin_pennation_deg"] = degrees(mean(measures.origin_pennation));
+  told["insertion_pennation_deg"] = degrees(mean(measures.insertion_pennation));
+  told["physiological_cross_section_m2"] = physiological_cross_section(volume, fibers);
+  told["share_outside"] = Real(inside.outside) / std::max(inside.points, 1);
+  told["farthest_outside_m"] = inside.farthest;
+  return told;
+}
+
+/// The same as a sentence.
+static std::string sentence(const nlohmann::ordered_json& told) {
+  const std::string muscle = told["muscle"];
+  if (told["fibers"] == 0) return muscle + ": no fibers";
+  const auto value = [&](const char* key) { return told[key].get<Real>(); };
+  return fmt::format(
+      "{}: {} fibers, {:.1f} mm long on average ({:.1f} to {:.1f}), pennation {:.1f}° at the origin and {:.1f}° at the "
+      "insertion, physiological cross-section {:.2f} cm², {:.2f} % of the points outside by up to {:.3f} mm",
+      muscle, told["fibers"].get<Index>(), 1e3 * value("mean_length_m"), 1e3 * value("shortest_m"),
+      1e3 * value("longest_m"), value("origin_pennation_deg"), value("insertion_pennation_deg"),
+      1e4 * value("physiological_cross_section_m2"), 100 * value("share_outside"), 1e3 * value("farthest_outside_m"));
+}
+
+/// Writes the fibers carried onto the surface; returns how well they cover it, by both ways to carry them.
+static nlohmann::ordered_json write_surface_fibers(const Muscle& muscle, const Polylines& fibers,
+                                                   const std::filesystem::path& out) {
+  nlohmann::ordered_json told = nlohmann::json::array();
+  if (fibers.count() == 0) return told;
   for (const SurfacePaths kind : {SurfacePaths::along_fibers, SurfacePaths::nearest_joined}) {
     const SurfaceFibers found = surface_fibers(muscle, fibers, kind);
     const std::size_t edges = found.segments.size() + static_cast<std::size_t>(found.rejected);
     const bool published = kind == SurfacePaths::nearest_joined;
-    fmt::print(
-        "  on the surface, {}: {} segments, {:.1f} % rejected as more than 60° off, {:.0f} % of the surface covered\n",
-        published ? "nearest vertices joined" : "along the fibers", found.segments.size(),
-        100.0 * found.rejected / std::max<std::size_t>(edges, 1), 100 * found.coverage);
+    told.push_back({{"carried", published ? "nearest vertices joined" : "along the fibers"},
+                    {"segments", found.segments.size()},
+                    {"share_rejected", Real(found.rejected) / Real(std::max<std::size_t>(edges, 1))},
+                    {"share_covered", found.coverage}});
     if (published) continue;
     std::vector<Points> lines;
     LineScalars shared{"fibers", {}};
@@ -67,6 +86,17 @@ static void write_surface_fibers(const Muscle& muscle, const Polylines& fibers, 
     }
     write_polylines(out / (muscle.name + "_surface_fibers.vtp"), join(lines), {shared});
   }
+  return told;
+}
+
+static void print(const nlohmann::ordered_json& told) {
+  fmt::print("{}\n", sentence(told));
+  for (const auto& carried : told["on_surface"])
+    fmt::print(
+        "  on the surface, {}: {} segments, {:.1f} % rejected as more than 60° off, {:.0f} % of the surface "
+        "covered\n",
+        carried["carried"].get<std::string>(), carried["segments"].get<std::size_t>(),
+        100 * carried["share_rejected"].get<Real>(), 100 * carried["share_covered"].get<Real>());
 }
 
 static void draw(const Scene& scene, const std::vector<Polylines>& fibers, const std::filesystem::path& out) {
@@ -82,21 +112,24 @@ static void draw(const Scene& scene, const std::vector<Polylines>& fibers, const
   }
 }
 
-static int write_fibers(const LoadedScene& loaded, const std::filesystem::path& out) {
+static int write_fibers(const LoadedScene& loaded, const std::filesystem::path& out, bool as_json) {
   for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
   std::error_code error;
   std::filesystem::create_directories(out, error);
   std::vector<Polylines> fibers;
+  nlohmann::ordered_json all = nlohmann::json::array();
   for (const Muscle& muscle : loaded.scene.muscles) {
     fibers.push_back(fibers_of(muscle));
     const FiberMeasures measures = measure_fibers(fibers.back());
-    describe(muscle, fibers.back(), measures);
     write_polylines(out / (muscle.name + "_fibers.vtp"), fibers.back(),
                     {{"length_m", measures.lengths},
                      {"origin_pennation_deg", in_degrees(measures.origin_pennation)},
                      {"insertion_pennation_deg", in_degrees(measures.insertion_pennation)}});
-    write_surface_fibers(muscle, fibers.back(), out);
+    all.push_back(description(muscle, fibers.back(), measures));
+    all.back()["on_surface"] = write_surface_fibers(muscle, fibers.back(), out);
+    if (!as_json) print(all.back());
   }
+  if (as_json) fmt::print("{}", json_text(all));
   draw(loaded.scene, fibers, out);
   return static_cast<int>(ExitCode::done);
 }
@@ -105,14 +138,16 @@ void add_fibers_command(CLI::App& program, Command& chosen) {
   struct Options {
     std::filesystem::path file, out;
     SceneOptions scene;
+    bool json = false;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command =
       program.add_subcommand("fibers", "Write the fibers of a scene's muscles with lengths, pennation and pictures");
   add_scene_options(*command, options->file, options->scene);
   command->add_option("--out", options->out, "Folder to write")->required();
+  command->add_flag("--json", options->json, "Print a list with an object per muscle, for programs");
   command->callback([&chosen, options] {
-    chosen = [options] { return write_fibers(read_scene(options->file, options->scene), options->out); };
+    chosen = [options] { return write_fibers(read_scene(options->file, options->scene), options->out, options->json); };
   });
 }
 

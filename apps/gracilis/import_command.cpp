@@ -4,6 +4,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/shell_word.hpp>
+#include <gracilis/io/counted.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/opensim/import/scene_folder.hpp>
@@ -72,14 +73,14 @@ std::map<std::string, TriangleMesh> muscle_surfaces(const opensim::Model& model,
   return opensim::load_muscle_surfaces(model, skeleton.poses(), opensim::read_geometry_map(path));
 }
 
-std::ptrdiff_t files_in(const fs::path& folder) {
-  return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
 /// What was made of the model, and what to do with it.
 void say_next(const opensim::Model& model, const std::vector<opensim::NamedMotion>& motions, const fs::path& folder) {
-  spdlog::info("{}: {} muscles, {} bones, {} coordinates", folder.string(), files_in(folder / "muscles"),
-               files_in(folder / "bones"), model.coordinates.size());
+  spdlog::info("{}: {}, {}, {}", folder.string(), counted(files_in(folder / "muscles"), "muscle"),
+               counted(files_in(folder / "bones"), "bone"), counted(model.coordinates.size(), "coordinate"));
   for (const opensim::NamedMotion& motion : motions) {
     const fs::path scene = folder / (opensim::motion_file_name(motion) + ".toml");
     const std::size_t rows = motion.motion.times.size();

@@ -20,7 +20,7 @@ namespace {
 struct SceneCommandOptions {
   fs::path folder, out, picture;
   std::vector<std::string> joints;
-  bool force = false, mirror = false;
+  bool force = false, mirror = false, json = false;
 };
 
 /// "knee_r=R_Med_Epi,R_Lat_Epi" as a joint and its landmarks.
@@ -52,7 +52,7 @@ int make_scene(const SceneCommandOptions& options) {
   const SceneDraft draft = draft_scene(options.folder, draft_options);
 
   const fs::path beside = fs::path(options.out).replace_extension(".png");
-  write_and_show(draft, options.out, options.picture.empty() ? beside : options.picture);
+  write_and_show(draft, options.out, options.picture.empty() ? beside : options.picture, options.json);
   return static_cast<int>(ExitCode::done);
 }
 
@@ -73,6 +73,7 @@ void add_scene_command(CLI::App& program, Command& chosen) {
                       "Where to draw what was guessed (.png; default: beside the scene file)");
   command->add_flag("--mirror", options->mirror, "Make the body's other half: a left leg of a right one");
   command->add_flag("--force", options->force, "Replace the scene file");
+  command->add_flag("--json", options->json, "Print what was found and guessed as JSON, for programs");
   command->callback([&chosen, options] { chosen = [options] { return make_scene(*options); }; });
 }
 

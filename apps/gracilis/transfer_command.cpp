@@ -7,6 +7,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/shell_word.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/counted.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/transfer/transfer_folder.hpp>
 #include <gracilis/view/transfer/transfer_page.hpp>
@@ -50,8 +51,9 @@ void require_new_folder(const TransferCommandOptions& options) {
 }
 
 void tell(const Transferred& transferred, const std::vector<std::string>& left_out) {
-  fmt::print("{} bones, {} joints, {} muscles\n", transferred.scene.bones.size(), transferred.scene.joints.size(),
-             transferred.scene.muscles.size());
+  const Scene& scene = transferred.scene;
+  fmt::print("{}, {}, {}\n", counted(scene.bones.size(), "bone"), counted(scene.joints.size(), "joint"),
+             counted(scene.muscles.size(), "muscle"));
   if (transferred.is_mirrored) fmt::print("the template is mirrored to the subject's side\n");
   for (const FittedBone& bone : transferred.skeleton.bones) {
     const BoneFit& fit = bone.registered.fit;

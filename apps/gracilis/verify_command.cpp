@@ -1,6 +1,7 @@
 #include "verify_command.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/counted.hpp>
 #include <gracilis/io/json_file.hpp>
 #include <gracilis/io/run/verify_run.hpp>
 
@@ -35,8 +36,9 @@ static int verify(const std::filesystem::path& run, bool json) {
     spdlog::error("{}: {} things are missing, changed or inconsistent", run.string(), result.findings.size());
     return static_cast<int>(code_of(result));
   }
-  fmt::print("{}: {}, {} frames, {} files as they were written\n", run.string(), result.status, result.frames,
-             result.files);
+  fmt::print("{}: {}, {}, {} as they were written\n", run.string(), result.status,
+             counted(static_cast<std::size_t>(result.frames), "frame"),
+             counted(static_cast<std::size_t>(result.files), "file"));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -4,8 +4,10 @@
 #include "app/program.hpp"
 #include "io/scene_folder.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -33,9 +35,24 @@ TEST_F(FiberCommands, fibers_writes_lines_and_says_how_long_they_are) {
   const ProgramResult result = run("fibers", good_scene(), "--set fibers.count=7 --set fibers.segments=4");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("muscle: 7 fibers, 1"));
+  EXPECT_THAT(result.out, HasSubstr("  on the surface, nearest vertices joined: "));
   const Polylines lines = read_polylines(folder.path("out/muscle_fibers.vtp"), 1);
   ASSERT_EQ(lines.count(), 7);
   EXPECT_EQ(lines.size(0), 5);
+}
+
+TEST_F(FiberCommands, fibers_tells_programs_the_same_in_si_units) {
+  const std::string more = "--set fibers.count=7 --set fibers.segments=4";
+  const ProgramResult result = run("fibers", good_scene(), more + " --json");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json told = nlohmann::json::parse(result.out);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0]["muscle"], "muscle");
+  EXPECT_EQ(told[0]["fibers"], 7);
+  const double length = told[0]["mean_length_m"];
+  EXPECT_THAT(run("fibers", good_scene(), more).out, HasSubstr(fmt::format("{:.1f} mm long", 1000 * length)));
+  EXPECT_EQ(told[0]["on_surface"].size(), 2u);
+  EXPECT_GT(told[0]["on_surface"][0]["share_covered"], 0);
 }
 
 TEST_F(FiberCommands, a_muscle_may_bring_fibers_of_its_own) {

@@ -141,7 +141,7 @@ TEST(ImportCommand, a_motion_of_many_rows_a_second_is_thinned_and_the_next_comma
   const ProgramResult imported =
       run_program("import " + model.string() + " --motion " + motion.string() + " --out '" + out + "'");
   ASSERT_EQ(imported.exit_code, 0) << imported.err;
-  EXPECT_THAT(imported.err, testing::HasSubstr("1 muscles, 0 bones, 1 coordinates"));
+  EXPECT_THAT(imported.err, testing::HasSubstr("1 muscle, 0 bones, 1 coordinate"));
   EXPECT_THAT(imported.err, testing::HasSubstr("of 31 rows 4 are taken, 0.01 s apart"));
   EXPECT_THAT(imported.err, testing::HasSubstr("next: gracilis run '" + out + "/swing.toml' --out runs/swing"));
   const ProgramResult ran = run_program("run '" + out + "/swing.toml' --out " + (folder.path() / "run").string());

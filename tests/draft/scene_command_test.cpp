@@ -7,7 +7,9 @@
 #include <gracilis/io/scene/demo_scene.hpp>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <sstream>
 
 /// The program itself, from a folder to a run.
@@ -25,7 +27,7 @@ TEST(SceneCommand, a_folder_becomes_a_scene_with_a_picture_that_runs_and_tells_i
   const std::string in = (folder.path() / "hip").string(), scene = (folder.path() / "hip" / "made.toml").string();
   const ProgramResult made = run_program("scene " + in + " --out " + scene);
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("3 bones, 1 joints, 1 muscles"));
+  EXPECT_THAT(made.out, HasSubstr("3 bones, 1 joint, 1 muscle"));
   EXPECT_THAT(made.out, HasSubstr("guessed joint hip_r: a sphere"));
   EXPECT_THAT(made.out, HasSubstr("guessed adductor_longus_r insertion"));
   const bool no_picture = made.err.find("no picture") != std::string::npos;
@@ -42,6 +44,18 @@ TEST(SceneCommand, a_folder_becomes_a_scene_with_a_picture_that_runs_and_tells_i
   EXPECT_THAT(read_text(out + "/run.json"), HasSubstr("joint hip_r: a sphere"));
 
   EXPECT_EQ(run_program("scene " + in + " --out " + scene).exit_code, 2) << "it is there already";
+  const ProgramResult for_programs = run_program("scene " + in + " --force --json --out " + scene);
+  ASSERT_EQ(for_programs.exit_code, 0) << for_programs.err;
+  const nlohmann::json told = nlohmann::json::parse(for_programs.out);
+  EXPECT_EQ(told["scene"], scene);
+  EXPECT_EQ(told["bones"].size(), 3u);
+  EXPECT_EQ(told["joints"], nlohmann::json({"hip_r"}));
+  EXPECT_EQ(told["muscles"], nlohmann::json({"adductor_longus_r"}));
+  const auto is_of_joint = [](const nlohmann::json& guess) { return guess["subject"] == "joint hip_r"; };
+  const auto of_joint = std::find_if(told["guesses"].begin(), told["guesses"].end(), is_of_joint);
+  ASSERT_NE(of_joint, told["guesses"].end());
+  EXPECT_THAT((*of_joint)["how"].get<std::string>(), HasSubstr("a sphere"));
+  EXPECT_GT((*of_joint)["certainty"], 0.5);
   EXPECT_EQ(run_program("scene " + in + " --force --out " + scene).exit_code, 0)
       << "the scene's own table is none of the folder's landmarks";
   std::filesystem::create_directories(folder.path() / "empty");
@@ -55,7 +69,7 @@ TEST(NewCommand, surfaces_become_a_commented_scene_that_runs) {
   const std::string scene = (folder.path() / "hip.toml").string();
   const ProgramResult made = run_program("new " + (folder.path() / "hip").string() + "/*.vtp --out " + scene);
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("2 bones, 1 joints, 1 muscles"));
+  EXPECT_THAT(made.out, HasSubstr("2 bones, 1 joint, 1 muscle"));
   EXPECT_THAT(made.out, HasSubstr("next: gracilis run " + scene));
   const std::string text = read_text(scene);
   for (const char* table : {"[[bones]] # ", "[[joints]] # ", "[[joints.axes]] # ", "[[muscles]] # ",
@@ -72,7 +86,7 @@ TEST(NewCommand, surfaces_of_unknown_names_become_a_scene_to_fill_in) {
   const ProgramResult made =
       run_program("new " + in + "/three.vtp --bone " + in + "/one.vtp " + in + "/two.vtp --out " + scene);
   ASSERT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_THAT(made.out, HasSubstr("2 bones, 0 joints, 1 muscles"));
+  EXPECT_THAT(made.out, HasSubstr("2 bones, 0 joints, 1 muscle"));
   EXPECT_THAT(made.out, HasSubstr("missing: joints"));
   EXPECT_NE(run_program("inspect " + scene).exit_code, 0) << "a second bone that nothing moves";
 

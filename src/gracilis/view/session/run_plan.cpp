@@ -1,6 +1,7 @@
 #include <gracilis/view/session/run_plan.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/counted.hpp>
 
 #include <fmt/format.h>
 
@@ -57,7 +58,7 @@ std::string describe_plan(const RunPlan& plan) {
   if (parts.count() > parts.motion) add(parts.motion, "of the motion");
   add(parts.hold, "that hold its last pose");
   add(parts.back, "back to the capture pose");
-  return fmt::format("{} frames{}; about {}", plan.frames, what, room_text(plan));
+  return fmt::format("{}{}; about {}", counted(static_cast<std::size_t>(plan.frames), "frame"), what, room_text(plan));
 }
 
 }  // namespace gracilis

@@ -7,6 +7,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/shell_word.hpp>
 #include <gracilis/core/stop.hpp>
+#include <gracilis/io/counted.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/run/measures_table.hpp>
 #include <gracilis/io/run/run_folder.hpp>
@@ -134,8 +135,8 @@ class Session {
 
   void describe_scene() {
     const Scene& scene = loaded_.scene;
-    note(fmt::format("scene {}: {} bones, {} muscles, preset {}", scene.name, scene.bones.size(), scene.muscles.size(),
-                     loaded_.preset));
+    note(fmt::format("scene {}: {}, {}, preset {}", scene.name, counted(scene.bones.size(), "bone"),
+                     counted(scene.muscles.size(), "muscle"), loaded_.preset));
     note(describe_plan(plan_));
     for (const Muscle& muscle : scene.muscles) {
       detail(fmt::format("{}: {} triangles", muscle.name, muscle.surface.face_count()));
@@ -168,7 +169,8 @@ class Session {
     }
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
     if (const int frames = folder_.frame_count() - 1 - first_; frames > 0)
-      note(fmt::format("time: {} for {} frames, {:.2f} s each", duration_text(seconds), frames, seconds / frames));
+      note(fmt::format("time: {} for {}, {:.2f} s each", duration_text(seconds),
+                       counted(static_cast<std::size_t>(frames), "frame"), seconds / frames));
     summary_.all_gates_met() ? note(summary_.gates_line()) : caution(summary_.gates_line());
     if (const std::string worst = summary_.worst_line(); !worst.empty()) caution(worst);
   }
