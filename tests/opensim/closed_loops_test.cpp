@@ -59,6 +59,47 @@ TEST(ClosedLoops, a_four_bar_linkages_rocker_goes_where_circles_meet) {
   }
 }
 
+/// A joint that moves the rocker, which hangs on the ground already, at the coupler's end.
+static std::string second_joint(const std::string& type, const std::string& place) {
+  return "<" + type +
+         " name=\"pin\"><socket_parent_frame>from</socket_parent_frame><socket_child_frame>to"
+         "</socket_child_frame><frames><PhysicalOffsetFrame name=\"from\"><socket_parent>/bodyset/coupler"
+         "</socket_parent><translation>0 -1 0</translation></PhysicalOffsetFrame><PhysicalOffsetFrame name=\"to\">"
+         "<socket_parent>/bodyset/rocker</socket_parent><translation>" +
+         place + "</translation></PhysicalOffsetFrame></frames></" + type + ">";
+}
+
+TEST(ClosedLoops, a_joint_to_a_body_that_another_joint_holds_closes_the_linkage) {
+  std::string text = four_bar("");
+  text.insert(text.find("</objects></JointSet>"), second_joint("PinJoint", "0 -0.8 0"));
+  Model model = model_from(text);
+  EXPECT_THAT(names_of(model.bodies), testing::ElementsAre("ground", "crank", "coupler", "rocker", "rocker_copy"));
+  EXPECT_EQ(model.bodies[4].mass, 0);
+  EXPECT_THAT(model.unsupported, testing::Contains(testing::HasSubstr("moves 'rocker', which another joint holds")));
+  ASSERT_LT(assemble_defaults(model, {true, false, false, false}).open, 1e-9);
+  const CoordinateMotion motion = sweep(model, 0, radians(-150), radians(200), radians(10));
+  for (Eigen::Index row = 0; row < motion.values.rows(); ++row) {
+    const Real turn = motion.values(row, 0);
+    EXPECT_NEAR(std::remainder(motion.values(row, 2) - rocker_angle(turn), 2 * pi), 0, 1e-7) << degrees(turn);
+  }
+}
+
+TEST(ClosedLoops, a_second_joint_without_coordinates_holds_the_body_without_a_copy) {
+  std::string text = four_bar("");
+  text.insert(text.find("</objects></JointSet>"), second_joint("WeldJoint", "0 0.1 0"));
+  Model model = model_from(text);
+  EXPECT_EQ(model.bodies.size(), 4u);
+  ASSERT_EQ(model.loops.size(), 1u);
+  // Coupler and rocker are one body now, so that the linkage is a triangle: it stands still.
+  ASSERT_LT(assemble_defaults(model).open, 1e-9);
+  Skeleton skeleton(model);
+  EXPECT_EQ(free_motions(skeleton, default_coordinates(model)).cols(), 0);
+  const RigidTransform& coupler = skeleton.poses()[2];
+  const RigidTransform& rocker = skeleton.poses()[3];
+  EXPECT_LT((coupler * Vec3(0, -1, 0) - rocker * Vec3(0, 0.1, 0)).norm(), 1e-8);
+  EXPECT_LT((coupler.linear() - rocker.linear()).norm(), 1e-8);
+}
+
 TEST(ClosedLoops, tables_that_give_the_crank_alone_move_the_rest) {
   Model model = model_from(four_bar(pin));
   assemble_defaults(model, {true, false, false});

@@ -31,6 +31,24 @@ TEST(LenientReading, a_body_on_no_joint_gets_a_free_one_to_the_ground) {
   EXPECT_TRUE(skeleton.poses()[1].translation().isApprox(Vec3(0, 0.3, 0), 1e-14));
 }
 
+TEST(LenientReading, coordinates_that_only_axes_of_a_joint_name_move_it_all_the_same) {
+  const std::string axes =
+      "<SpatialTransform><TransformAxis name=\"rotation1\"><coordinates>swing</coordinates><axis>0 0 1</axis>"
+      "</TransformAxis><TransformAxis name=\"translation2\"><coordinates>way swing</coordinates><axis>0 1 0</axis>"
+      "<MultivariatePolynomialFunction><dimension>2</dimension><order>1</order><coefficients>0 0.5 1</coefficients>"
+      "</MultivariatePolynomialFunction></TransformAxis></SpatialTransform>";
+  const Model model = model_from(document(set("BodySet", body("rod")) +
+                                          set("JointSet", joint("CustomJoint", "hinge", "/ground", "rod", "", axes))));
+  EXPECT_THAT(names_of(model.coordinates), testing::ElementsAre("swing", "way"));
+  EXPECT_TRUE(model.coordinates[0].rotation);
+  EXPECT_FALSE(model.coordinates[1].rotation);
+  EXPECT_THAT(model.joints[0].axes[4].coordinates, testing::ElementsAre(1, 0));
+  EXPECT_THAT(model.unsupported, Contains(HasSubstr("leaves out coordinates, which are called swing, way")));
+  Skeleton skeleton(model);
+  skeleton.place(Eigen::Vector2d(pi / 2, 0.1));
+  EXPECT_TRUE((skeleton.poses()[1].linear() * Vec3::UnitX()).isApprox(Vec3::UnitY(), 1e-12));
+}
+
 TEST(LenientReading, coordinates_that_a_joint_leaves_out_move_it_all_the_same) {
   const Model model =
       model_from(document(set("BodySet", body("rod") + body("tip")) +

@@ -121,11 +121,23 @@ TEST(ModelReader, refuses_joints_in_a_circle) {
   EXPECT_THAT(complaint_about(text), HasSubstr("part of a circle that never meets the ground"));
 }
 
-TEST(ModelReader, refuses_a_body_on_two_joints) {
-  const std::string twice =
-      joint("PinJoint", "one", "/ground", "rod", "") + joint("PinJoint", "two", "/ground", "rod", "");
-  EXPECT_THAT(complaint_about(document(set("BodySet", body("rod")) + set("JointSet", twice))),
-              HasSubstr("moves 'rod', which another joint holds"));
+TEST(ModelReader, refuses_a_joint_that_moves_the_ground) {
+  const std::string text =
+      document(set("BodySet", body("rod")) + set("JointSet",
+                                                 "<WeldJoint name=\"w\"><socket_parent_frame>/bodyset/rod"
+                                                 "</socket_parent_frame><socket_child_frame>/ground"
+                                                 "</socket_child_frame></WeldJoint>"));
+  EXPECT_THAT(complaint_about(text), HasSubstr("joint 'w' moves the ground"));
+}
+
+TEST(ModelReader, refuses_axes_that_follow_another_joints_coordinate) {
+  const std::string text = document(
+      set("BodySet", body("rod") + body("tip")) +
+      set("JointSet", joint("PinJoint", "hinge", "/ground", "rod", coordinate("swing")) +
+                          joint("CustomJoint", "bend", "/bodyset/rod", "tip", "",
+                                "<SpatialTransform><TransformAxis name=\"rotation1\"><coordinates>swing</coordinates>"
+                                "<axis>0 0 1</axis></TransformAxis></SpatialTransform>")));
+  EXPECT_THAT(complaint_about(text), HasSubstr("uses the coordinate 'swing' of another joint"));
 }
 
 /// A custom joint about the given axis.

@@ -3,6 +3,7 @@
 #include <gracilis/opensim/reader/body_reader.hpp>
 #include <gracilis/opensim/reader/curved_joints.hpp>
 #include <gracilis/opensim/reader/function_reader.hpp>
+#include <gracilis/opensim/reader/joint_tree.hpp>
 
 #include <gracilis/io/text_cells.hpp>
 #include <gracilis/io/value_reader.hpp>
@@ -30,11 +31,34 @@ static void add_coordinate(ModelReading& reading, const pugi::xml_node& node, Co
   reading.model.coordinates.push_back(std::move(coordinate));
 }
 
+/// The coordinates that a CustomJoint's axes name and nothing else in the file does. Those of other joints are none:
+/// who reads the axes refuses them.
+static std::vector<std::string> named_by_axes_alone(const ModelReading& reading, const pugi::xml_node& node) {
+  std::vector<std::string> names;
+  for (const pugi::xml_node& axis : node.child("SpatialTransform").children("TransformAxis")) {
+    const std::string coordinates = reading.context.text(axis, "coordinates");
+    for (const std::string_view name : words_of(coordinates))
+      if (index_of(reading.model.coordinates, std::string(name)) < 0 &&
+          std::find(names.begin(), names.end(), name) == names.end())
+        names.emplace_back(name);
+  }
+  return names;
+}
+
 /// Coordinates that a joint of this kind has and the file leaves out get the names that OpenSim gives them, which are
-/// returned.
+/// returned: numbers, or of a CustomJoint those that its axes have.
 static std::vector<std::string> add_missing_coordinates(ModelReading& reading, const pugi::xml_node& node,
                                                         Joint& joint) {
   std::vector<std::string> names;
+  if (joint.type == "CustomJoint") {
+    names = named_by_axes_alone(reading, node);
+    for (const std::string& name : names) {
+      Coordinate coordinate;
+      coordinate.name = name;
+      add_coordinate(reading, node, std::move(coordinate), joint);
+    }
+    return names;
+  }
   const auto plain = plain_joints.find(joint.type);
   if (plain == plain_joints.end()) return names;
   for (std::size_t i = joint.coordinates.size(); i < plain->second.size(); ++i) {
@@ -245,38 +269,6 @@ static void free_bodies(ModelReading& reading, const pugi::xml_node& node) {
     read_axes(reading, node, joint);
     model.joints.push_back(std::move(joint));
   }
-}
-
-/// Parents before children. What remains when no joint's parent hangs on the ground is a circle.
-static void sort_joints(ModelReading& reading, const pugi::xml_node& node) {
-  Model& model = reading.model;
-  std::vector<Joint> sorted;
-  std::vector<bool> reached(model.bodies.size(), false), child(model.bodies.size(), false);
-  reached[0] = true;
-  for (const Joint& joint : model.joints) {
-    const auto body = static_cast<std::size_t>(joint.child_body);
-    if (body == 0 || child[body])
-      reading.context.fail(
-          node, fmt::format("joint '{}' moves '{}', which another joint holds", joint.name, model.bodies[body].name),
-          "every body hangs on one joint; close loops by constraints");
-    child[body] = true;
-  }
-  for (bool any = true; any;) {
-    any = false;
-    for (Joint& joint : model.joints) {
-      const auto body = static_cast<std::size_t>(joint.child_body);
-      if (reached[body] || !reached[static_cast<std::size_t>(joint.parent_body)]) continue;
-      reached[body] = any = true;
-      for (const Index i : joint.coordinates)
-        model.coordinates[static_cast<std::size_t>(i)].joint = static_cast<Index>(sorted.size());
-      sorted.push_back(joint);
-    }
-  }
-  for (const Joint& joint : model.joints)
-    if (!reached[static_cast<std::size_t>(joint.child_body)])
-      reading.context.fail(node, fmt::format("joint '{}' is part of a circle that never meets the ground", joint.name),
-                           "let one of its bodies hang on the ground");
-  model.joints = std::move(sorted);
 }
 
 void read_joints(ModelReading& reading, const pugi::xml_node& model) {
