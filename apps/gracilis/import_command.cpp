@@ -153,13 +153,15 @@ void add_import_command(CLI::App& program, Command& chosen) {
                    "default), or where Laclé's heuristic puts them (published)")
       ->transform(CLI::CheckedTransformer(centers));
   static const std::map<std::string, opensim::TendonPlace> tendons = {
+      {"belly", opensim::TendonPlace::beyond_belly},
       {"half", opensim::TendonPlace::half_at_insertion},
       {"whole", opensim::TendonPlace::whole_at_insertion},
       {"both-ends", opensim::TendonPlace::both_ends}};
   command
       ->add_option(
           "--tendon", options->settings.volumes.tendon,
-          "Where the tendon lies: half of its length at the insertion (default), the whole, or half at both ends")
+          "What of the line is tendon: what a belly of published length leaves (belly, default), half of the tendon's "
+          "slack length at the insertion (half), the whole, or half at both ends")
       ->transform(CLI::CheckedTransformer(tendons));
   command->add_option("--rays", options->settings.volumes.rays, "Corners of a muscle's cross-section, 6 or more")
       ->check(CLI::Range(6, 100))

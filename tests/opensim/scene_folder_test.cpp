@@ -136,7 +136,7 @@ TEST(SceneFolder, a_muscle_has_its_volume_and_is_held_at_its_ends) {
   EXPECT_EQ(volume.held[1].vertices.size(), 13u);
   // Belly and tendon; twelve corners instead of a circle take 4.5 % away.
   const MuscleSize size{800, 0.1, 0, 6.1e5};
-  const Real tendon = pi * tendon_radius(size) * tendon_radius(size) * 0.2;
+  const Real tendon = pi * tendon_radius(size) * tendon_radius(size) * volume.line.tendon;
   EXPECT_NEAR(report.volume, 0.955 * (gracilis::muscle_volume(size) + tendon), 0.1 * gracilis::muscle_volume(size));
 }
 

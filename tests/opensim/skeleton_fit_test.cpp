@@ -107,12 +107,14 @@ static ActionLine imported_line(const Model& model, const VolumeSettings& settin
 
 TEST(SkeletonFit, a_half_tendon_is_as_long_as_published) {  // Laclé 2014, table 3.3
   const Model model = tibialis_anterior();
-  EXPECT_NEAR(imported_line(model).tendon, 0.223 / 2, 1e-12);  // eqs. 3.9 and 3.10 change nothing without a fit
+  VolumeSettings half;
+  half.tendon = TendonPlace::half_at_insertion;
+  EXPECT_NEAR(imported_line(model, half).tendon, 0.223 / 2, 1e-12);  // eqs. 3.9 and 3.10 change nothing without a fit
   BodyFit fit;
   fit.body = "upper";
   fit.start = Vec3::Zero();
   fit.end = Vec3(0, -0.5 * 0.292 / 0.303, 0);
-  const ActionLine line = imported_line(fit_to_skeleton(model, {fit}));
+  const ActionLine line = imported_line(fit_to_skeleton(model, {fit}), half);
   EXPECT_NEAR(polyline_length(line.points), 0.292, 1e-9);
   EXPECT_NEAR(line.tendon, 0.107, 5e-4);
   EXPECT_NEAR(line.tendon, 0.223 * 0.292 / 0.303 / 2, 1e-9);  // scaled once

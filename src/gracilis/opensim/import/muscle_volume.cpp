@@ -5,6 +5,7 @@
 #include <gracilis/anatomy/sections/spindle.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/polylines.hpp>
+#include <gracilis/opensim/import/belly_length.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 #include <gracilis/scene/section_line.hpp>
 
@@ -45,11 +46,13 @@ static std::vector<Index> section(Index k, Index rays) {
   return vertices;
 }
 
-/// Origin's and insertion's tendon lengths, m: parts of the slack length, which is stiff and which fit_to_skeleton has
-/// scaled where the model was brought into another skeleton.
-static std::pair<Real, Real> tendons_of(const Muscle& muscle, TendonPlace place) {
+/// Origin's and insertion's tendon lengths on a line of this length, m. Slack lengths, and rest lengths by which
+/// bellies grow, are those that fit_to_skeleton has scaled where the model was brought into another skeleton.
+static std::pair<Real, Real> tendons_of(const Muscle& muscle, const VolumeSettings& settings, Real line) {
   const Real slack = muscle.tendon_slack_length;
-  switch (place) {
+  switch (settings.tendon) {
+    case TendonPlace::beyond_belly:
+      return {0, line - belly_on_line(muscle, settings.specific_tension, line)};
     case TendonPlace::half_at_insertion:
       return {0, slack / 2};
     case TendonPlace::whole_at_insertion:
@@ -129,7 +132,7 @@ static Spindle spindle_of(const Model& model, const Muscle& muscle, const std::v
     throw InputError({model.name, muscle.name,
                       fmt::format("has a force of {:.3g} N on a line of {:.3g} m", muscle.max_isometric_force, length),
                       "its tendon would be thicker than long: check the force"});
-  auto [origin_tendon, tendon] = tendons_of(muscle, settings.tendon);
+  auto [origin_tendon, tendon] = tendons_of(muscle, settings, length);
   // A fifth of the line at least is belly.
   const Real share = std::min(1.0, 0.8 * length / std::max(tendon + origin_tendon, 1e-9));
   origin_tendon *= share;

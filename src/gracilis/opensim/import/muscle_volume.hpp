@@ -14,9 +14,11 @@
 
 namespace gracilis::opensim {
 
-/// Where a muscle's tendon lies along its line (Laclé 2014, section 3.4.3).
+/// What of a muscle's line is tendon: what its belly leaves, or parts of the tendon's slack length (Laclé 2014, section
+/// 3.4.3).
 enum class TendonPlace {
-  half_at_insertion,  ///< half of its slack length, as published
+  beyond_belly,       ///< at the insertion, as much as a belly of belly_on_line leaves
+  half_at_insertion,  ///< half of its slack length, as Laclé has it
   whole_at_insertion,
   both_ends  ///< half of it at each
 };
@@ -27,7 +29,7 @@ struct VolumeSettings {
   Real section_distance = 0.012;  ///< m, at most this far apart on average
   std::optional<int> scaling;     ///< instead: how often each part of the line is halved (Laclé's LSS), 0 to 16
   Real specific_tension = 6.1e5;  ///< N/m²
-  TendonPlace tendon = TendonPlace::half_at_insertion;
+  TendonPlace tendon = TendonPlace::beyond_belly;
   bool tendon_sections = false;  ///< a section more where each tendon ends, between its neighbors in shape
   /// Surfaces that are known, by the muscles' names, closed, in the ground frame: sections are brought onto them.
   std::map<std::string, TriangleMesh> surfaces;

@@ -1,0 +1,64 @@
+#include <gracilis/opensim/import/belly_length.hpp>
+
+#include <gracilis/io/parse_toml.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <vector>
+
+namespace gracilis::embedded {
+extern const std::string_view belly_lengths_toml;
+}
+
+namespace gracilis::opensim {
+
+/// What a length is as a share of the muscle's rest length.
+static std::map<std::string, Real> read_shares() {
+  std::map<std::string, Real> shares;
+  const toml::table table = parse_toml(std::string(embedded::belly_lengths_toml), "belly_lengths.toml");
+  for (const toml::node& row : *table["muscles"].as_array()) {
+    const toml::node_view<const toml::node> muscle(row);
+    const Real share = *muscle["muscle_mm"].value<double>() / *muscle["rest_mm"].value<double>();
+    for (const toml::node& name : *muscle["names"].as_array()) shares[*name.value<std::string>()] = share;
+  }
+  return shares;
+}
+
+std::string plain_muscle_name(const std::string& name) {
+  std::string text;
+  for (const char c : name) text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const std::string_view side : {"right_", "left_", "r_", "l_"})
+    if (text.starts_with(side)) {
+      text.erase(0, side.size());
+      break;
+    }
+  for (const std::string_view side : {"_right", "_left", "_r", "_l"})
+    if (text.ends_with(side)) {
+      text.erase(text.size() - side.size());
+      break;
+    }
+  std::erase_if(text, [](char c) { return c < 'a' || c > 'z'; });
+  return text;
+}
+
+static Real rest_length(const Muscle& muscle) {
+  return muscle.optimal_fiber_length * std::cos(muscle.pennation_angle_at_optimal) + muscle.tendon_slack_length;
+}
+
+Real belly_length(const Muscle& muscle, Real specific_tension) {
+  static const std::map<std::string, Real> shares = read_shares();
+  const auto known = shares.find(plain_muscle_name(muscle.name));
+  if (known != shares.end()) return known->second * rest_length(muscle);
+  const Real pennation = muscle.pennation_angle_at_optimal;
+  const Real width = std::sqrt(muscle.max_isometric_force / specific_tension);
+  return muscle.optimal_fiber_length * std::cos(pennation) + width / std::sin(std::max(pennation, radians(10)));
+}
+
+Real belly_on_line(const Muscle& muscle, Real specific_tension, Real line) {
+  return std::clamp(belly_length(muscle, specific_tension), 0.2 * line, 0.9 * line);
+}
+
+}  // namespace gracilis::opensim
