@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
+#include <gracilis/opensim/import/belly_length.hpp>
 #include <gracilis/opensim/import/scene_joints.hpp>
 #include <gracilis/opensim/import/scene_lines.hpp>
 #include <gracilis/opensim/import/toml_text.hpp>
@@ -42,8 +43,15 @@ static std::string joint_text(const Model& model, const Joint& joint, const Skel
   return text;
 }
 
+/// Where the length of a muscle's belly is from, as a comment.
+static const char* belly_text(const Muscle& muscle, const VolumeSettings& settings) {
+  if (settings.tendon != TendonPlace::beyond_belly) return "";
+  return has_published_belly(muscle) ? "   # a belly as published (Ward et al. 2009), as far as the line allows"
+                                     : "   # a belly as pennation and cross-section have it, as far as the line allows";
+}
+
 static std::string muscle_text(const Model& model, const std::string& name, const MuscleVolume& volume,
-                               const std::string& path) {
+                               const char* belly, const std::string& path) {
   std::string text =
       fmt::format("\n[[muscles]]\nname = {}\nfile = {}\n", toml_text(name), toml_text("muscles/" + name + ".vtp"));
   std::vector<std::string> bodies, points;
@@ -53,9 +61,9 @@ static std::string muscle_text(const Model& model, const std::string& name, cons
     points.push_back(toml_vector(1000 * volume.line.points.col(i)));
   const ActionLine& line = volume.line;
   text += fmt::format(
-      "\n[muscles.action_line]\nrays = {}\nscaling = {}\ntendon_mm = {}\norigin_tendon_mm = {}\n{}"
+      "\n[muscles.action_line]\nrays = {}\nscaling = {}\ntendon_mm = {}{}\norigin_tendon_mm = {}\n{}"
       "optimal_fiber_mm = {}\npennation_deg = {}\nbodies = [{}]\npoints_mm = [{}]\n",
-      line.rays, line.scaling, 1000 * line.tendon, 1000 * line.origin_tendon,
+      line.rays, line.scaling, 1000 * line.tendon, belly, 1000 * line.origin_tendon,
       line.tendon_sections ? "tendon_sections = true\n" : "", 1000 * line.optimal_fiber, degrees(line.pennation),
       fmt::join(bodies, ", "), fmt::join(points, ", "));
   if (line.centers.cols() > 0) {
@@ -187,7 +195,8 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
             fmt::format("{},{},{},{}\n", muscle->name, (volume.surface.vertex_count() - 2) / volume.line.rays,
                         volume.sections_on_surface, volume.centers_outside);
       write_surface(folder / "muscles" / (name + ".vtp"), volume.surface.vertices, volume.surface.faces);
-      text += muscle_text(model, name, volume, line_path_text(model, *muscle, skeleton.poses(), coordinates, left_out));
+      text += muscle_text(model, name, volume, belly_text(*muscle, volumes),
+                          line_path_text(model, *muscle, skeleton.poses(), coordinates, left_out));
     } catch (const InputError& error) {
       left_out.push_back(error.what());
     }
