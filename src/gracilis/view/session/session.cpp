@@ -25,6 +25,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -69,7 +70,7 @@ class Session {
     RunEnd end = RunEnd::complete;
     const int last = plan_.frames - 1;
     const int first = resume ? resume->last.number : 0;
-    began_ = std::chrono::steady_clock::now();
+    began_ = timed_from_ = std::chrono::steady_clock::now();
     first_ = first;
     if (listener_.begin) listener_.begin(first, last);
     try {
@@ -78,7 +79,7 @@ class Session {
                         folder_.write_frame(record);
                         summary_.add(record);
                         if (listener_.progress) listener_.progress(record.frame.number, last);
-                        if (record.frame.number == first + frames_timed) say_how_long(last - record.frame.number);
+                        say_how_long(record.frame.number - first, last - record.frame.number);
                       },
                       tracker_ ? &*tracker_ : nullptr, {options_.fiber_actions, options_.measures, plan_.recorded});
     } catch (const Interrupted&) {
@@ -116,12 +117,18 @@ class Session {
                   [this](const FrameRecord& record) { summary_.add(record); });
   }
 
-  /// How long a run takes is known once some frames are done; told where it is worth waiting otherwise.
-  static constexpr int frames_timed = 3;
-  void say_how_long(int left) const {
-    const double each = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count() / frames_timed;
-    if (each * left < 20) return;
-    note(fmt::format("{:.2f} s a frame: about {} for the {} frames to come", each, duration_text(each * left), left));
+  /// How long a run takes is known once a frame is done, and better once ten are; told where it is worth waiting
+  /// otherwise, and again where the first frame was no good guide.
+  void say_how_long(int done, int left) {
+    const auto now = std::chrono::steady_clock::now();
+    if (done == 0) timed_from_ = now;  // the capture pose has nothing to solve
+    if (done != 1 && done != frames_timed) return;
+    const double each = std::chrono::duration<double>(now - timed_from_).count() / done;
+    const bool said_about_so = said_each_ > 0 && std::abs(each - said_each_) < 0.3 * said_each_;
+    if (said_about_so || (said_each_ == 0 && each * left < 20)) return;
+    note(fmt::format("{:.2f} s a frame, by the first {}: about {} for the {} frames to come", each,
+                     done == 1 ? "one" : std::to_string(done), duration_text(each * left), left));
+    said_each_ = each;
   }
 
   ExistingRun existing() const {
@@ -263,7 +270,9 @@ class Session {
   std::optional<FiberTracker> tracker_;
   std::unique_ptr<DeformationMethod> method_;
   std::vector<std::string> warnings_, guessed_;
-  std::chrono::steady_clock::time_point began_;
+  static constexpr int frames_timed = 10;
+  std::chrono::steady_clock::time_point began_, timed_from_;
+  double said_each_ = 0;  ///< s a frame, as it was told; 0: nothing was
   int first_ = 0;
 };
 

@@ -1,0 +1,64 @@
+#include <gracilis/view/session/session.hpp>
+
+#include "io/scene_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace gracilis {
+
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+/// What a run of 101 frames says until it is stopped, when each frame takes some time more.
+std::vector<std::string> said_by_run(int stopped_after, const std::function<std::chrono::milliseconds(int)>& pause) {
+  const SceneFolder folder;
+  SceneOptions scene;
+  scene.set = {"motion.step_deg=0.1"};
+  folder.write("boxes.toml", good_scene());
+  const LoadedScene loaded = read_scene(folder.path("boxes.toml"), scene);
+  SessionOptions options;
+  options.out = folder.path("run");
+  options.pictures = options.print_folder = false;
+  std::vector<std::string> said;
+  std::atomic<bool> stop{false};
+  SessionListener listener;
+  listener.stop = &stop;
+  listener.say = [&](MessageKind, const std::string& text) { said.push_back(text); };
+  listener.progress = [&](int done, int) {
+    std::this_thread::sleep_for(pause(done));
+    if (done == stopped_after) stop = true;
+  };
+  record_session(loaded, options, plan_run(loaded, options), listener);
+  return said;
+}
+
+}  // namespace
+
+TEST(SessionTime, is_told_after_the_first_frame) {
+  const auto said = said_by_run(1, [](int frame) { return std::chrono::milliseconds(frame == 1 ? 600 : 0); });
+  EXPECT_THAT(said, Contains(HasSubstr("by the first one: about")));
+}
+
+TEST(SessionTime, is_told_again_where_the_first_frame_was_no_good_guide) {
+  const auto said = said_by_run(10, [](int frame) { return std::chrono::milliseconds(frame == 1 ? 600 : 5); });
+  EXPECT_THAT(said, Contains(HasSubstr("by the first one: about")));
+  EXPECT_THAT(said, Contains(HasSubstr("by the first 10: about")));
+}
+
+TEST(SessionTime, is_not_told_of_a_short_run) {
+  const auto said = said_by_run(10, [](int) { return std::chrono::milliseconds(0); });
+  EXPECT_THAT(said, Not(Contains(HasSubstr("frames to come"))));
+}
+
+}  // namespace gracilis
