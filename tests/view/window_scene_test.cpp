@@ -5,6 +5,7 @@
 
 #include <shapes.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vtkActor.h>
@@ -32,15 +33,17 @@ class OneMuscleScene : public testing::Test {
     line << -0.02, 0, 0.02, 0, 0.001, 0, 0, 0, 0;
     maker.fill_fibers({join({line})}, frame);
     frame.activation = {0};
+    history.append(frame);
+    frame.volume = {1.02};
     history.append(std::move(frame));
     scene.emplace(shown, history, *renderer);
     state.muscles = {MuscleState::solid};
     state.fibers = true;
   }
 
-  void show(WindowColor by) {
+  void show(WindowColor by, int frame = 0) {
     state.color_by = by;
-    scene->show(0, state, {}, true);
+    scene->show(frame, state, {}, true);
   }
   vtkActor& actor(int number) { return *vtkActor::SafeDownCast(renderer->GetActors()->GetItemAsObject(number)); }
   Color fiber_color() { return Color(actor(1).GetProperty()->GetColor()); }
@@ -66,6 +69,16 @@ TEST_F(OneMuscleScene, a_muscle_is_pale_and_unlike_bone_where_its_fibers_carry_t
   const Color seen = Color(colors->GetTuple3(0)) / 255;
   EXPECT_LT((seen - flesh_color()).cwiseAbs().maxCoeff(), 0.5 / 255 + 1e-9);
   EXPECT_GT((seen - Color(0.72, 0.74, 0.75)).norm(), 0.1);
+}
+
+TEST_F(OneMuscleScene, a_scale_says_that_values_go_beyond_it_once_some_were_shown) {
+  show(WindowColor::volume);
+  EXPECT_THAT(scene->ticks(WindowColor::volume), testing::ElementsAre("-1", "0", "+1"));
+  show(WindowColor::volume, 1);
+  EXPECT_THAT(scene->ticks(WindowColor::volume), testing::ElementsAre("-1", "0", "≥ +1"));
+  show(WindowColor::volume);
+  EXPECT_THAT(scene->ticks(WindowColor::volume), testing::ElementsAre("-1", "0", "≥ +1")) << "as long as it is open";
+  EXPECT_THAT(scene->ticks(WindowColor::edge_stretch), testing::ElementsAre("0.5", "1", "2"));
 }
 
 }  // namespace gracilis

@@ -36,6 +36,16 @@ const std::vector<ColorScale>& color_scales() {
 
 const ColorScale& color_scale(ColorBy by) { return color_scales()[static_cast<std::size_t>(by)]; }
 
+std::vector<std::string> ticks_for(const ColorScale& scale, std::pair<Real, Real> seen) {
+  constexpr Real rounding = 1e-9;
+  std::vector<std::string> ticks = scale.ticks;
+  if (ticks.empty()) return ticks;
+  const auto says_so = [](const std::string& tick) { return tick.starts_with("≤") || tick.starts_with("≥"); };
+  if (seen.first < scale.low - rounding && !says_so(ticks.front())) ticks.front() = "≤ " + ticks.front();
+  if (seen.second > scale.high + rounding && !says_so(ticks.back())) ticks.back() = "≥ " + ticks.back();
+  return ticks;
+}
+
 Color color_at(const ColorScale& scale, Real value) {
   if (!std::isfinite(value)) return Color::Constant(0.6);
   const auto last = static_cast<Real>(scale.colors.size() - 1);

@@ -3,6 +3,7 @@
 #include <gracilis/view/pictures/palette.hpp>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gracilis {
@@ -26,6 +27,9 @@ struct ColorScale {
 const std::vector<ColorScale>& color_scales();
 
 const ColorScale& color_scale(ColorBy by);
+
+/// What stands beside the bar where values from the first to the second are shown: an end that they go beyond says so.
+std::vector<std::string> ticks_for(const ColorScale& scale, std::pair<Real, Real> seen);
 
 /// Blended between the scale's colors; values beyond its ends get the ends'.
 Color color_at(const ColorScale& scale, Real value);

@@ -18,7 +18,7 @@ const ColorScale& slice_scale() {
     std::reverse(result.colors.begin(), result.colors.end());
     result.low = -0.012;
     result.high = 0.012;
-    result.ticks = {"-12", "0", "12"};
+    result.ticks = {"≤ -12", "0", "12"};
     return result;
   }();
   return scale;

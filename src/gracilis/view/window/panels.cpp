@@ -108,7 +108,8 @@ int add_sliders(int left, int top, int bottom, int width, std::size_t& page, con
   return add_page_turner(left, y, width, "sliders", page, shown.pages, turned, overlay);
 }
 
-void add_color_bar(const ColorScale& scale, const Rectangle& bar, Overlay& overlay) {
+void add_color_bar(const ColorScale& scale, const std::vector<std::string>& ticks, const Rectangle& bar,
+                   Overlay& overlay) {
   static constexpr int pieces = 48;
   for (int i = 0; i < pieces; ++i) {
     const int begin = bar.width * i / pieces, end = bar.width * (i + 1) / pieces;
@@ -116,14 +117,14 @@ void add_color_bar(const ColorScale& scale, const Rectangle& bar, Overlay& overl
                           color_at(scale, scale.low + (scale.high - scale.low) * i / (pieces - 1)), 1);
   }
   overlay.add_text(bar.x, bar.y + bar.height + 7, scale.title, 15, ink);
-  for (std::size_t i = 0; i < scale.ticks.size(); ++i) {
-    const int x = bar.x + static_cast<int>(i) * bar.width / static_cast<int>(scale.ticks.size() - 1);
+  for (std::size_t i = 0; i < ticks.size(); ++i) {
+    const int x = bar.x + static_cast<int>(i) * bar.width / static_cast<int>(ticks.size() - 1);
     if (i == 0)
-      overlay.add_text(x, bar.y - 17, scale.ticks[i], 13, ink);
-    else if (i + 1 == scale.ticks.size())
-      overlay.add_text_right(x, bar.y - 17, scale.ticks[i], 13, ink);
+      overlay.add_text(x, bar.y - 17, ticks[i], 13, ink);
+    else if (i + 1 == ticks.size())
+      overlay.add_text_right(x, bar.y - 17, ticks[i], 13, ink);
     else
-      overlay.add_text_centered(x, bar.y - 17, scale.ticks[i], 13, ink);
+      overlay.add_text_centered(x, bar.y - 17, ticks[i], 13, ink);
   }
 }
 

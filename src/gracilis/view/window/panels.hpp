@@ -47,8 +47,9 @@ int add_sliders(int left, int top, int bottom, int width, std::size_t& page, con
                 const std::function<void(std::size_t slider, Real share)>& moved, const std::function<void()>& turned,
                 Overlay& overlay);
 
-/// A scale's colors in `bar` with its title above and its values below.
-void add_color_bar(const ColorScale& scale, const Rectangle& bar, Overlay& overlay);
+/// A scale's colors in `bar` with its title above and `ticks` below, at equal distances.
+void add_color_bar(const ColorScale& scale, const std::vector<std::string>& ticks, const Rectangle& bar,
+                   Overlay& overlay);
 
 /// A line of a round length, at most `most` pixels wide.
 void add_scale_bar(int left, int bottom, Real pixels_per_metre, int most, Overlay& overlay);

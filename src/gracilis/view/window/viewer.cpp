@@ -169,11 +169,13 @@ void Viewer::draw(bool smooth) {
   is_smooth_ = smooth;
   scene_renderer_->SetUseFXAA(smooth);
   keep_in_view();
-  if (relaid_) lay_out();
   const std::shared_ptr<const ShownFrame> frame = history_.at(player_.frame);
   depth_is_shown_ = !frame->contact_depth.empty();
   if (state_.slice != Slice::none) slice_ = bone_slice(shapes_, *frame, fields_, state_.slice, state_.slice_at);
+  const std::vector<std::string> ticks = scene_->ticks(state_.color_by);
   scene_->show(player_.frame, state_, slice_, !smooth);
+  // A scale says that values go beyond it as soon as some do.
+  if (relaid_ || scene_->ticks(state_.color_by) != ticks) lay_out();
   write_status();
   scene_renderer_->ResetCameraClippingRange();
   window_->Render();

@@ -71,7 +71,7 @@ class Viewer {
   void lay_out_right();
   void lay_out_track();
   void lay_out_directions();
-  int lay_out_scale(const ColorScale& scale, int bottom);
+  int lay_out_scale(const ColorScale& scale, const std::vector<std::string>& ticks, int bottom);
   std::vector<OptionEntry> options_shown();
   void write_status();
   void write_speed(const ShownFrame& frame);

@@ -118,9 +118,9 @@ void Viewer::lay_out_left() {
 }
 
 /// A scale above `bottom`; returns the next free height.
-int Viewer::lay_out_scale(const ColorScale& scale, int bottom) {
+int Viewer::lay_out_scale(const ColorScale& scale, const std::vector<std::string>& ticks, int bottom) {
   const Rectangle bar{width_ - margin - right_width, bottom + 20, right_width, 12};
-  add_color_bar(scale, bar, overlay_);
+  add_color_bar(scale, ticks, bar, overlay_);
   return bottom + 66;
 }
 
@@ -133,7 +133,8 @@ void Viewer::lay_out_right() {
     overlay_.add_rectangle({left - 10, track_height, right_width + margin + 10, height_ - track_height}, background,
                            0.7);
   int bottom = track_height + 8;
-  if (!window_scale(state_.color_by).colors.empty()) bottom = lay_out_scale(window_scale(state_.color_by), bottom);
+  if (const ColorScale& scale = window_scale(state_.color_by); !scale.colors.empty())
+    bottom = lay_out_scale(scale, scene_->ticks(state_.color_by), bottom);
   if (state_.color_by == WindowColor::tissue || state_.attachments) {
     std::vector<ListEntry> entries;
     for (const TissueColor& tissue : tissue_colors()) entries.push_back({tissue.name, tissue.color, 1, [] {}});
@@ -141,7 +142,7 @@ void Viewer::lay_out_right() {
     add_list(left, bottom + 22 * static_cast<int>(entries.size()) + 4, entries, overlay_);
     bottom += 22 * static_cast<int>(entries.size()) + 12;
   }
-  if (state_.slice != Slice::none) bottom = lay_out_scale(slice_scale(), bottom);
+  if (state_.slice != Slice::none) bottom = lay_out_scale(slice_scale(), slice_scale().ticks, bottom);
   if (state_.arrows != Arrows::none) {
     std::vector<ListEntry> entries;
     for (const ConstraintRow& row : constraint_table())

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gracilis {
 
@@ -30,6 +31,7 @@ static void paint(const Color& color, SurfaceActor& surface) {
 
 WindowScene::WindowScene(const ShownShapes& shapes, const ShapeHistory& history, vtkRenderer& renderer)
     : shapes_(shapes), history_(history), renderer_(renderer) {
+  seen_.fill({std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()});
   const std::shared_ptr<const ShownFrame> first = history.at(0);
   for (std::size_t b = 0; b < shapes.bones.size(); ++b)
     bones_.push_back(add_surface(shapes.bone_points[b], shapes.bone_faces[b], bone_color(), renderer));
@@ -75,27 +77,36 @@ static std::vector<Color> tissue_of(const ShownShapes& shapes, std::size_t muscl
   return result;
 }
 
+/// By the scale, and remembered for what stands beside its bar.
+Color WindowScene::color_of(Real value, WindowColor by) {
+  auto& [least, most] = seen_[static_cast<std::size_t>(by)];
+  if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
+  return color_at(window_scale(by), value);
+}
+
+std::vector<std::string> WindowScene::ticks(WindowColor color) const {
+  return ticks_for(window_scale(color), seen_[static_cast<std::size_t>(color)]);
+}
+
 /// The colors of a muscle's vertices; empty where its own color says all.
-static std::vector<Color> vertex_colors(std::size_t muscle, const ShownShapes& shapes, const ShownFrame& frame,
-                                        WindowColor by) {
+std::vector<Color> WindowScene::vertex_colors(std::size_t muscle, const ShownFrame& frame, WindowColor by) {
   const auto count = static_cast<std::size_t>(frame.muscles[muscle].cols());
-  const ColorScale& scale = window_scale(by);
   const auto each = [&](const std::vector<float>& values, const auto& shown) {
     std::vector<Color> colors(count, Color::Constant(0.8));
-    for (std::size_t v = 0; v < std::min(values.size(), count); ++v) colors[v] = color_at(scale, shown(values[v]));
+    for (std::size_t v = 0; v < std::min(values.size(), count); ++v) colors[v] = color_of(shown(values[v]), by);
     return colors;
   };
   switch (by) {
     case WindowColor::natural:
-      return shapes.natural[muscle];
+      return shapes_.natural[muscle];
     case WindowColor::muscle:
       return {};
     case WindowColor::tissue:
-      return tissue_of(shapes, muscle, count);
+      return tissue_of(shapes_, muscle, count);
     case WindowColor::activation:
-      return std::vector<Color>(count, color_at(scale, frame.activation[muscle]));
+      return std::vector<Color>(count, color_of(frame.activation[muscle], by));
     case WindowColor::volume:
-      return std::vector<Color>(count, color_at(scale, frame.volume[muscle] - 1));
+      return std::vector<Color>(count, color_of(frame.volume[muscle] - 1, by));
     case WindowColor::stress:
       return each(frame.stress.empty() ? std::vector<float>() : frame.stress[muscle],
                   [](float stress) { return std::log10(std::max(1.0, static_cast<Real>(stress))); });
@@ -117,7 +128,7 @@ void WindowScene::show_muscle(std::size_t muscle, const ShownFrame& frame, const
   surface.actor->SetVisibility(visible);
   if (!visible) return;
   move_points(frame.muscles[muscle], shapes_.muscle_faces[muscle], surface);
-  set_point_colors(vertex_colors(muscle, shapes_, frame, state.color_by), surface);
+  set_point_colors(vertex_colors(muscle, frame, state.color_by), surface);
   // They cost as much as half of all the rest.
   set_stripes(state.color_by == WindowColor::natural && !fast ? shapes_.stripes[muscle] : std::vector<Real>(),
               *stripe_texture_, surface);
@@ -139,10 +150,9 @@ void WindowScene::show_fibers(std::size_t muscle, const ShownFrame& frame, const
   std::vector<Color> colors;
   if (state.color_by == WindowColor::tension && !frame.tension.empty())
     for (const Real tension : frame.tension[muscle])
-      colors.push_back(color_at(color_scale(ColorBy::tension), std::log10(std::max(1e-9, tension))));
+      colors.push_back(color_of(std::log10(std::max(1e-9, tension)), state.color_by));
   for (const Real strain : frame.strain[muscle])
-    if (state.color_by == WindowColor::fiber_strain)
-      colors.push_back(color_at(color_scale(ColorBy::fiber_strain), std::log2(strain)));
+    if (state.color_by == WindowColor::fiber_strain) colors.push_back(color_of(std::log2(strain), state.color_by));
   const std::string& name = shapes_.muscles[muscle];
   paint(state.color_by == WindowColor::natural ? fiber_paint(name) : muscle_color(name), tubes);
   set_tubes(frame.fibers[muscle], fiber_radius, colors, tubes);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gracilis {
@@ -21,6 +22,8 @@ class WindowScene {
 
   /// Everything as it is in a frame; `fast`: of what one sees through, the nearest layer only, and no stripes.
   void show(int frame, const WindowState& state, const ColoredMesh& slice, bool fast);
+  /// What stands beside the scale of a coloring: an end says so once values beyond it have been shown.
+  std::vector<std::string> ticks(WindowColor color) const;
   /// How many times longer than the displacements the arrows are.
   Real arrow_scale() const { return arrow_scale_; }
 
@@ -29,6 +32,8 @@ class WindowScene {
     SurfaceActor surface, fibers, attachments;
     std::array<SurfaceActor, trail_steps.size()> ghosts;
   };
+  Color color_of(Real value, WindowColor by);
+  std::vector<Color> vertex_colors(std::size_t muscle, const ShownFrame& frame, WindowColor by);
   void show_bones(const ShownFrame& frame, const WindowState& state);
   void show_muscle(std::size_t muscle, const ShownFrame& frame, const WindowState& state, bool fast);
   void show_fibers(std::size_t muscle, const ShownFrame& frame, const WindowState& state);
@@ -45,6 +50,8 @@ class WindowScene {
   SurfaceActor slice_, arrows_, picked_;
   const vtkSmartPointer<vtkTexture> stripe_texture_ = stripe_texture();
   Real arrow_scale_ = 1;
+  /// Per coloring: the least and largest value shown so far.
+  std::array<std::pair<Real, Real>, window_color_count> seen_;
 };
 
 /// True when a muscle is shown so that one sees through it.

@@ -2,14 +2,15 @@
 
 namespace gracilis {
 
-/// What is apart stays pale, so that contact is what one sees.
+/// What is apart stays pale, so that contact is what one sees. Most of a muscle is farther apart than the scale
+/// reaches.
 static ColorScale depth_scale() {
   ColorScale scale = color_scale(ColorBy::activation);
   scale.name = "contact-depth";
   scale.title = "contact depth, mm";
   scale.low = -0.002;
   scale.high = 0.002;
-  scale.ticks = {"2 apart", "touching", "2 deep"};
+  scale.ticks = {"≥ 2 apart", "touching", "2 deep"};
   return scale;
 }
 
