@@ -1,4 +1,5 @@
 #include <gracilis/view/pictures/muscle_colors.hpp>
+#include <gracilis/view/pictures/recorded_look.hpp>
 
 #include "view/recorded_runs.hpp"
 #include "view/report_in_browser.hpp"
@@ -14,10 +15,41 @@ TEST_F(ReportInBrowser, fibers_have_their_muscles_colors_and_muscles_are_pale_wh
     EXPECT_LT((Vec3(seen.data()) - color).cwiseAbs().maxCoeff(), 0.005) << shape;
   };
   click("#fibers");
+  expect_color("stage.shapes[0].fibers[0].lines", 0.7 * fiber_paint("gluteus_maximus_r"));
+  js("chooseColor('muscle')");
   expect_color("stage.shapes[0].fibers[0].lines", 0.7 * muscle_color("gluteus_maximus_r"));
   expect_color("stage.shapes[0].fibers[1].lines", 0.7 * muscle_color("gluteus_medius_r"));
   js("chooseColor('strain')");
   expect_color("stage.shapes[0].surfaces.find(each => each.kind === 'muscle').mesh", flesh_color());
+  expect_peace();
+}
+
+TEST_F(ReportInBrowser, muscles_look_like_muscle_at_first_and_have_their_own_colors_on_demand) {
+  const RecordedRun run = FlexingLeg(2).written(folder.path() / "run");
+  open({run});
+  EXPECT_EQ(js("document.getElementById('color-by').value"), "tissue");
+  const Points painted = painted_tissue(recorded_look(run, "gluteus_maximus_r"), "gluteus_maximus_r");
+  const std::string mesh = "stage.shapes[0].surfaces.find(each => each.name === 'gluteus_maximus_r').mesh";
+  const auto colors = js("[..." + mesh + ".geometry.attributes.color.array]").get<std::vector<Real>>();
+  ASSERT_EQ(static_cast<Index>(colors.size()), painted.size());
+  EXPECT_LT((Eigen::Map<const Points>(colors.data(), 3, painted.cols()) - painted).cwiseAbs().maxCoeff(), 0.003);
+  EXPECT_EQ(js(mesh + ".material.map !== null"), true) << "stripes along the fibers";
+  js("chooseColor('muscle')");
+  EXPECT_EQ(js(mesh + ".material.map === null"), true);
+  const auto own = js("[..." + mesh + ".geometry.attributes.color.array.slice(0, 3)]").get<std::vector<Real>>();
+  EXPECT_LT((Vec3(own.data()) - muscle_color("gluteus_maximus_r")).cwiseAbs().maxCoeff(), 0.005);
+  expect_peace();
+}
+
+TEST_F(ReportInBrowser, a_scale_that_values_go_beyond_says_so) {
+  open({FlexingLeg(21).written(folder.path() / "run")});
+  const auto ticks = [&](const std::string& color) {
+    js("chooseColor('" + color + "')");
+    return js("[...document.querySelectorAll('#color-bar span span')].map(tick => tick.textContent).join()");
+  };
+  EXPECT_EQ(ticks("volume"), "−1,0,≥ +1");
+  EXPECT_EQ(ticks("stretch"), "0.5,1,2");
+  EXPECT_EQ(ticks("activation"), "0,0.5,1");
   expect_peace();
 }
 

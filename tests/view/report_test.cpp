@@ -1,3 +1,4 @@
+#include <gracilis/view/pictures/recorded_look.hpp>
 #include <gracilis/view/report/report.hpp>
 #include <gracilis/view/report/report_data.hpp>
 #include <gracilis/view/report/report_shapes.hpp>
@@ -108,7 +109,26 @@ TEST(ReportShapes, hold_recorded_points_to_a_hundredth_of_a_millimetre_and_the_s
   for (std::size_t v = 0; v < vertices; ++v)
     ASSERT_LT((stored_point(shapes, muscle, 20 * vertices + v) - truth.col(static_cast<Index>(v))).norm(), 1e-5);
   const auto byte = static_cast<unsigned char>(shapes.bytes[muscle["stretch_at"].get<std::size_t>() + 20 * vertices]);
-  EXPECT_NEAR(std::exp2((byte - 128) / 127.0), 1.2, 0.005);
+  EXPECT_NEAR(std::exp2((byte - 128) / 126.0), 1.2, 0.005);
+}
+
+TEST(ReportShapes, hold_what_a_muscle_looks_like) {
+  const TestFolder folder;
+  const RecordedRun run = FlexingLeg(2).written(folder.path());
+  const ReportShapes shapes = report_shapes(run, 8'000'000);
+  const Json& muscle = named(shapes.description["surfaces"], "name", "gluteus_maximus_r");
+  const MuscleLook look = recorded_look(run, "gluteus_maximus_r");
+  const Real low = muscle["stripes"][0], range = muscle["stripes"][1];
+  for (std::size_t v = 0; v < look.tendon.size(); ++v) {
+    const auto tendon = static_cast<unsigned char>(shapes.bytes[muscle["tendon_at"].get<std::size_t>() + v]);
+    std::uint16_t stripe = 0;
+    std::memcpy(&stripe, shapes.bytes.data() + muscle["stripes_at"].get<std::size_t>() + 2 * v, 2);
+    ASSERT_NEAR(tendon / 255.0, look.tendon[v], 0.5 / 255 + 1e-9);
+    ASSERT_NEAR(stripe_width * (low + range * stripe / 65535), look.stripes[v], 1e-5);
+  }
+  const auto brightest =
+      static_cast<unsigned char>(shapes.bytes[shapes.description["brightness_at"].get<std::size_t>()]);
+  EXPECT_NEAR(brightest / 255.0, stripe_brightness(512).front(), 0.5 / 255 + 1e-9);
 }
 
 TEST(ReportShapes, keep_to_their_budget_by_thinning_and_leaving_frames_out) {
@@ -180,13 +200,13 @@ TEST_F(ReportInBrowser, toggles_muscles_colors_and_fibers) {
   EXPECT_EQ(picture(), all);
   js("page.goTo(20)");
   std::set<std::string> pictures;
-  for (const std::string key : {"muscle", "stretch", "activation", "strain", "volume"}) {
+  for (const std::string key : {"tissue", "muscle", "stretch", "activation", "strain", "volume"}) {
     js("(s => { s.value = '" + key +
        "'; s.dispatchEvent(new Event('change')); })(document.getElementById('color-by'))");
     EXPECT_EQ(js("document.getElementById('color-by').value"), key);
     pictures.insert(picture());
   }
-  EXPECT_EQ(pictures.size(), 5u);
+  EXPECT_EQ(pictures.size(), 6u);
   expect_peace();
 }
 

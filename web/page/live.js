@@ -9,7 +9,7 @@ const ownScene = element('scene').textContent.trim() && bytesOf('scene');
 
 const page = {
   runCount: 1,
-  state: {visible: new Set(), colorBy: 'muscle', bones: true, fibers: false, wireframe: false, xAxis: 0, frame: 0},
+  state: {visible: new Set(), colorBy: 'tissue', bones: true, fibers: false, wireframe: false, xAxis: 0, frame: 0},
   frame: null,          // the last one
   charts: [],
   milliseconds: [],     // of the last steps
@@ -177,6 +177,12 @@ function plotSoon() {
   setTimeout(drawPlots, Math.max(0, (page.plotted || 0) + PLOT_INTERVAL - performance.now()));
 }
 
+// The least and the largest value that colors show now.
+function shownRange() {
+  if (page.state.colorBy === 'activation') return rangeOf(page.frame.activations);
+  return rangeOf(page.frame.muscles.flatMap(({strains}) => [...strains].map(Math.log2)));
+}
+
 function drawColorBar() {
   const scale = SHAPE_COLORS[page.state.colorBy], bar = element('color-bar');
   bar.hidden = !scale || !scale.ticks;
@@ -184,7 +190,7 @@ function drawColorBar() {
   bar.querySelector('b').textContent = scale.title;
   const stops = scale.colors.map(color => `rgb(${color})`);
   bar.querySelector('i').style.background = `linear-gradient(to right, ${stops})`;
-  bar.querySelector('span').replaceChildren(...scale.ticks.map(tick => make('span', tick)));
+  bar.querySelector('span').replaceChildren(...ticksOf(scale, shownRange()).map(tick => make('span', tick)));
 }
 
 function drawScale() {

@@ -1,11 +1,12 @@
 // What the worker sends, as three.js draws it: a Stage's shapes, as RunShapes is for a recorded run.
-const SURFACE_COLORS = {muscle: 'by muscle', activation: 'by activation', strain: 'by fiber length'};
+const SURFACE_COLORS = {tissue: 'as muscles look', muscle: 'by muscle', activation: 'by activation', strain: 'by fiber length'};
 
 class LiveShapes extends LitScene {
   constructor(description) {
     super();
     this.bones = description.bones.map(bone => ({...bone, mesh: this.surface(bone, 0xefe6d0)}));
-    this.muscles = description.muscles.map(muscle => ({...muscle, mesh: this.surface(muscle, new THREE.Color(...muscle.color)),
+    this.stripes = stripeTexture(description.brightness);
+    this.muscles = description.muscles.map(muscle => ({...muscle, mesh: this.muscleSurface(muscle),
                                                        lines: this.addLines(new THREE.BufferGeometry())}));
     for (const bone of this.bones) bone.mesh.matrixAutoUpdate = false;
   }
@@ -15,6 +16,14 @@ class LiveShapes extends LitScene {
     geometry.setIndex(new THREE.BufferAttribute(faces, 1));
     geometry.setAttribute('position', new THREE.BufferAttribute(points.slice(), 3));
     return this.addSurface(geometry, color);
+  }
+
+  muscleSurface(muscle) {
+    const mesh = this.surface(muscle, 0xffffff), uv = new Float32Array(2 * muscle.stripes.length).fill(0.5);
+    muscle.stripes.forEach((place, v) => { uv[2 * v] = place; });
+    mesh.geometry.setAttribute('uv', new THREE.BufferAttribute(uv, 2));
+    mesh.geometry.setAttribute('color', new THREE.BufferAttribute(tissueColors(muscle.belly, muscle.tendon, muscle.tendonShares), 3));
+    return mesh;
   }
 
   show(frame, state) {
@@ -37,8 +46,11 @@ class LiveShapes extends LitScene {
     geometry.computeVertexNormals();
     const opacity = fibersShown ? 0.25 : 1;
     Object.assign(material, {opacity, transparent: opacity < 1, depthWrite: opacity === 1, wireframe: state.wireframe});
-    material.color.setRGB(...(state.colorBy === 'activation' ? colorAt(SHAPE_COLORS.activation, activation) :
-                              state.colorBy === 'strain' ? [0.8, 0.8, 0.8] : muscle.color));
+    const natural = state.colorBy === 'tissue', map = natural ? this.stripes : null;
+    if (material.map !== map)
+      Object.assign(material, {map, vertexColors: natural ? THREE.VertexColors : THREE.NoColors, needsUpdate: true});
+    material.color.setRGB(...(natural ? [1, 1, 1] : state.colorBy === 'activation' ? colorAt(SHAPE_COLORS.activation, activation) :
+                              state.colorBy === 'strain' ? FLESH : muscle.color));
     if (fibersShown) this.showFibers(muscle, now, state);
   }
 

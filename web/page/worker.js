@@ -60,7 +60,10 @@ function constants() {
                             faces: copy(Uint32Array, each.faces, 3 * each.faceCount)});
   postMessage({kind: 'scene', name: scene.name, axes: scene.axes, methods: scene.methods, coordinates: scene.coordinates,
                bones: scene.bones.map(each => ({...surface(each), body: each.body})),
-               muscles: scene.muscles.map(each => ({...surface(each), color: each.color}))});
+               brightness: copy(Uint8Array, scene.brightness, 512),
+               muscles: scene.muscles.map(each => ({...surface(each), color: each.color, belly: each.belly, tendon: each.tendon,
+                                                    tendonShares: copy(Uint8Array, each.tendonShares, each.vertices),
+                                                    stripes: copy(Float32Array, each.stripes, each.vertices)}))});
 }
 
 function show(milliseconds, arms = true) {

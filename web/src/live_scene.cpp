@@ -8,10 +8,12 @@
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/setting_table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
+#include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/window/bone_pull.hpp>
 #include <gracilis/view/window/slider_range.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -25,6 +27,13 @@ std::vector<float> in_single_precision(const Points& points) {
   std::vector<float> values(static_cast<std::size_t>(points.size()));
   Eigen::Map<Eigen::Matrix3Xf>(values.data(), 3, points.cols()) = points.cast<float>();
   return values;
+}
+
+/// Of shares 0 ... 1.
+std::vector<std::uint8_t> in_bytes(const std::vector<Real>& shares) {
+  std::vector<std::uint8_t> bytes;
+  for (const Real share : shares) bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * share)));
+  return bytes;
 }
 
 std::string address(const void* at) { return std::to_string(reinterpret_cast<std::uintptr_t>(at)); }
@@ -79,11 +88,15 @@ LiveScene::LiveScene(Scene scene)
       coordinate_count_(coordinate_names(scene_).size()),
       bodies_(12 * scene_.bodies.size()),
       shown_(scene_.muscles.size()),
+      brightness_(in_bytes(stripe_brightness(512))),
       rest_lengths_(scene_.muscles.size()) {
   drive_all(scene_);
   for (std::size_t m = 0; m < shown_.size(); ++m) {
     shown_[m].points = in_single_precision(scene_.muscles[m].surface.vertices);
     shown_[m].facts.resize(2 + coordinate_count_);
+    const MuscleLook look = muscle_look(scene_.muscles[m]);
+    shown_[m].tendon = in_bytes(look.tendon);
+    for (const Real place : look.stripes) shown_[m].stripes.push_back(static_cast<float>(place / stripe_width));
     own_settings_.push_back(scene_.muscles[m].settings);
   }
   for (const Bone& bone : scene_.bones) bones_.push_back(in_single_precision(bone.surface.vertices));
@@ -105,16 +118,20 @@ std::string LiveScene::description() const {
                     ",\"body\":" + std::to_string(scene_.bones[b].body) + "}");
   for (std::size_t m = 0; m < scene_.muscles.size(); ++m) {
     const ShownMuscle& shown = shown_[m];
-    muscles.push_back("{" + surface_text(scene_.muscles[m].name, scene_.muscles[m].surface, shown.points.data()) +
-                      ",\"fibers\":" + address(shown.fibers.data()) + ",\"fiberOffsets\":" +
-                      address(shown.fiber_offsets.data()) + ",\"fiberCount\":" + std::to_string(shown.strains.size()) +
-                      ",\"strains\":" + address(shown.strains.data()) + ",\"facts\":" + address(shown.facts.data()) +
-                      ",\"color\":" + vector_text(muscle_color(scene_.muscles[m].name)) + "}");
+    muscles.push_back(
+        "{" + surface_text(scene_.muscles[m].name, scene_.muscles[m].surface, shown.points.data()) +
+        ",\"fibers\":" + address(shown.fibers.data()) + ",\"fiberOffsets\":" + address(shown.fiber_offsets.data()) +
+        ",\"fiberCount\":" + std::to_string(shown.strains.size()) + ",\"strains\":" + address(shown.strains.data()) +
+        ",\"facts\":" + address(shown.facts.data()) + ",\"tendonShares\":" + address(shown.tendon.data()) +
+        ",\"stripes\":" + address(shown.stripes.data()) + ",\"belly\":" +
+        vector_text(fiber_paint(scene_.muscles[m].name)) + ",\"tendon\":" + vector_text(tendon_paint()) +
+        ",\"color\":" + vector_text(muscle_color(scene_.muscles[m].name)) + "}");
   }
   return "{\"name\":" + quoted_text(scene_.name) + ",\"axes\":" + axes_text(scene_.axes) +
          ",\"methods\":" + joined(choices) + ",\"coordinates\":" + joined(coordinates) +
          ",\"bodies\":" + address(bodies_.data()) + ",\"bodyCount\":" + std::to_string(scene_.bodies.size()) +
-         ",\"bones\":" + joined(bones) + ",\"muscles\":" + joined(muscles) + "}";
+         ",\"brightness\":" + address(brightness_.data()) + ",\"bones\":" + joined(bones) +
+         ",\"muscles\":" + joined(muscles) + "}";
 }
 
 std::vector<DistanceField> LiveScene::fields(const DistanceFieldSettings& settings) {

@@ -4,6 +4,7 @@
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/simulate/simulation.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,8 @@ struct ShownMuscle {
   std::vector<float> fibers;         ///< 3 per point of all fibers, m
   std::vector<Index> fiber_offsets;  ///< where each fiber begins, and the last ends
   std::vector<float> strains;        ///< per fiber: length over that in the capture pose
+  std::vector<std::uint8_t> tendon;  ///< per vertex, 255 × how much of it is tendon
+  std::vector<float> stripes;        ///< per vertex: where it lies across the fibers, in widths of the stripes
   std::vector<double> facts;         ///< mean fiber length, m; volume, m³; then an arm per coordinate, m, or NaN
 };
 
@@ -59,6 +62,7 @@ class LiveScene {
   std::vector<float> bodies_;  ///< 12 per body: a 3 × 4 matrix by columns
   std::vector<ShownMuscle> shown_;
   std::vector<std::vector<float>> bones_;        ///< points, 3 per vertex, m
+  std::vector<std::uint8_t> brightness_;         ///< of the stripes, from one end of their width to the other
   std::vector<std::vector<Real>> rest_lengths_;  ///< of every muscle's fibers, m
 };
 

@@ -223,24 +223,15 @@ MuscleLook muscle_look(const Muscle& muscle) {
   return muscle_look(muscle.surface, ends[0], ends[1]);
 }
 
-MuscleLook recorded_look(const RecordedRun& run, const std::string& muscle) {
-  const TriangleMesh rest = recorded_surface(run, muscle, 0);
-  const Points tissue = recorded_tissue(run, muscle);
-  std::vector<Index> ends[2];
-  for (Index v = 0; v < tissue.cols(); ++v)
-    for (const int end : {0, 1})
-      if (tissue(end, v) > 0.5) ends[end].push_back(v);
-  if (ends[0].empty() || ends[1].empty()) return muscle_look(rest, recorded_fibers(run, muscle, 0));
-  return muscle_look(rest, ends[0], ends[1]);
-}
-
 Color fiber_paint(std::string_view name) {
   const Real lightness = muscle_color(name).dot(Color(0.30, 0.59, 0.11));
   return Color(0.70, 0.24, 0.20) * (0.8 + 0.5 * lightness);
 }
 
+Color tendon_paint() { return {0.97, 0.95, 0.90}; }
+
 Points painted_tissue(const MuscleLook& look, std::string_view name) {
-  const Color belly = fiber_paint(name), tendon(0.97, 0.95, 0.90);
+  const Color belly = fiber_paint(name), tendon = tendon_paint();
   Points colors(3, static_cast<Index>(look.tendon.size()));
   for (Index v = 0; v < colors.cols(); ++v) colors.col(v) = belly + look.tendon[at(v)] * (tendon - belly);
   return colors;

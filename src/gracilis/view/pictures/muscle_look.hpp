@@ -2,7 +2,6 @@
 
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
-#include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/view/pictures/palette.hpp>
 
@@ -29,13 +28,12 @@ MuscleLook muscle_look(const TriangleMesh& rest, const Polylines& fibers);
 
 /// By its attachments, where it has both ends.
 MuscleLook muscle_look(const Muscle& muscle);
-/// Of a recorded muscle: by its attachments, which newer runs tell, or else by where fibers end.
-MuscleLook recorded_look(const RecordedRun& run, const std::string& muscle);
 
 /// Colors per vertex. Muscles differ in lightness as their own colors do, so that neighbors can be told apart.
 Points painted_tissue(const MuscleLook& look, std::string_view name);
-/// The color of a muscle's fibers beside that.
+/// The color of a muscle's fibers beside that, and of its belly.
 Color fiber_paint(std::string_view name);
+Color tendon_paint();
 
 /// Of the texture of stripes: how bright it is (0 to 1) from one end of its width to the other, which is `stripe_width`
 /// long and repeats.

@@ -9,6 +9,7 @@
 #include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/preview.hpp>
+#include <gracilis/view/pictures/recorded_look.hpp>
 
 #include <fmt/format.h>
 
@@ -288,16 +289,11 @@ Points RunPainter::room(int first) const {
   return axes * room;
 }
 
-/// Ends of a scale that values go beyond say so.
 static ColorBar color_bar_of(const ColorScale& scale, const std::vector<RunPainter>& painters) {
-  ColorBar bar{scale.title, scale.colors, scale.ticks};
-  constexpr Real rounding = 1e-9;
-  const auto beyond = [&](auto&& is_beyond) { return std::any_of(painters.begin(), painters.end(), is_beyond); };
-  if (beyond([&](const RunPainter& painter) { return painter.values_seen().first < scale.low - rounding; }))
-    bar.ticks.front() = "≤ " + bar.ticks.front();
-  if (beyond([&](const RunPainter& painter) { return painter.values_seen().second > scale.high + rounding; }))
-    bar.ticks.back() = "≥ " + bar.ticks.back();
-  return bar;
+  std::pair<Real, Real> seen = painters.front().values_seen();
+  for (const RunPainter& painter : painters)
+    seen = {std::min(seen.first, painter.values_seen().first), std::max(seen.second, painter.values_seen().second)};
+  return {scale.title, scale.colors, ticks_for(scale, seen)};
 }
 
 Picture run_picture(const std::vector<RecordedRun>& runs, const std::vector<RunPainter>& painters,

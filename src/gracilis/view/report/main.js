@@ -12,7 +12,7 @@ for (const run of runs)
 
 const page = {
   runCount: runs.length,
-  state: {frame: 0, playing: false, visible: new Set(muscles.map(muscle => muscle.name)), colorBy: 'muscle', opacity: 1,
+  state: {frame: 0, playing: false, visible: new Set(muscles.map(muscle => muscle.name)), colorBy: 'tissue', opacity: 1,
           bones: true, fibers: false, xAxis: 'frame'},
 
   // The slider counts the first run's frames. Others show their frame in the most similar pose.
@@ -183,8 +183,9 @@ element('color-by').addEventListener('change', event => {
     const stops = scale.colors.map(color => `rgb(${color.join(',')})`).join(',');
     bar.querySelector('b').textContent = scale.title;
     bar.querySelector('i').style.background = `linear-gradient(90deg, ${stops})`;
-    bar.querySelector('span').replaceChildren(...scale.ticks.map(tick => make('span', tick)));
+    bar.querySelector('span').replaceChildren(...ticksOf(scale, rangeOf(stage.shapes.flatMap(shapes => shapes.range(page.state.colorBy)))).map(tick => make('span', tick)));
   }
+  element('muscles-title').textContent = page.state.colorBy === 'muscle' ? 'Muscles' : 'Muscles, with their colors in plots';
   page.update();
 });
 element('x-axis').append(make('option', 'frame', {value: 'frame'}));

@@ -4,6 +4,7 @@
 #include <gracilis/geometry/decimation.hpp>
 #include <gracilis/geometry/rotations.hpp>
 #include <gracilis/simulate/surface_flaws.hpp>
+#include <gracilis/view/pictures/recorded_look.hpp>
 #include <gracilis/view/pictures/vertex_stretch.hpp>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ static Json components(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 static std::uint8_t log_ratio_byte(Real ratio) {
   if (!(ratio > 0)) return 128;
-  return static_cast<std::uint8_t>(std::clamp(std::lround(128 + 127 * std::log2(ratio)), 0L, 255L));
+  return static_cast<std::uint8_t>(std::clamp(std::lround(128 + 126 * std::log2(ratio)), 0L, 255L));
 }
 
 /// 200 is at the bar.
@@ -67,6 +68,33 @@ static void append_faces(const Eigen::Matrix3Xi& faces, Json& description, std::
   description["faces_at"] = append(bytes, numbers);
 }
 
+/// What it looks like; the same in all frames.
+static void append_look(const MuscleLook& look, const std::vector<Index>& vertices, Json& surface, std::string& bytes) {
+  std::vector<Real> places;
+  std::vector<std::uint8_t> tendon;
+  for (const Index v : vertices) {
+    places.push_back(look.stripes[static_cast<std::size_t>(v)] / stripe_width);
+    tendon.push_back(static_cast<std::uint8_t>(std::lround(255 * look.tendon[static_cast<std::size_t>(v)])));
+  }
+  const auto [least, most] = std::minmax_element(places.begin(), places.end());
+  const Real low = *least, range = std::max(*most - low, 1e-9);
+  std::vector<std::uint16_t> stripes;
+  for (const Real place : places)
+    stripes.push_back(static_cast<std::uint16_t>(std::lround(65535 * (place - low) / range)));
+  surface["belly"] = components(fiber_paint(surface["name"].get<std::string>()));
+  surface["tendon"] = components(tendon_paint());
+  surface["tendon_at"] = append(bytes, tendon);
+  surface["stripes"] = {low, range};
+  surface["stripes_at"] = append(bytes, stripes);
+}
+
+static std::size_t append_brightness(std::string& bytes) {
+  std::vector<std::uint8_t> brightness;
+  for (const Real bright : stripe_brightness(512))
+    brightness.push_back(static_cast<std::uint8_t>(std::lround(255 * bright)));
+  return append(bytes, brightness);
+}
+
 static Json muscle_surface(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
                            Index most_vertices, std::string& bytes) {
   const TriangleMesh rest = placed_surface(run, name, 0);
@@ -93,6 +121,7 @@ static Json muscle_surface(const RecordedRun& run, const std::string& name, cons
   append_points(points, surface, bytes);
   surface["stretch_at"] = append(bytes, stretch);
   surface["shape_at"] = append(bytes, shape);
+  append_look(recorded_look(run, name), coarse.vertices, surface, bytes);
   return surface;
 }
 
@@ -152,13 +181,15 @@ ReportShapes report_shapes(const RecordedRun& run, std::size_t budget) {
     const Json lines = muscle_fibers(run, muscle, frames, shapes.bytes);
     if (!lines.is_null()) fibers.push_back(lines);
   }
-  // What is left is for the muscles: per vertex 8 bytes in each frame, and two faces.
+  const std::size_t brightness_at = append_brightness(shapes.bytes);
+  // What is left is for the muscles: per vertex 8 bytes in each frame, its look, and two faces.
   const std::size_t left = budget > shapes.bytes.size() ? budget - shapes.bytes.size() : 0;
-  const std::size_t per_vertex = run.muscles.size() * (8 * frames.size() + 12);
+  const std::size_t per_vertex = run.muscles.size() * (8 * frames.size() + 15);
   const Index muscle_vertices = std::clamp<Index>(static_cast<Index>(left / per_vertex), 200, most_muscle_vertices);
   for (const std::string& muscle : run.muscles)
     surfaces.push_back(muscle_surface(run, muscle, frames, muscle_vertices, shapes.bytes));
-  shapes.description = {{"frames", frames}, {"surfaces", surfaces}, {"fibers", fibers}};
+  shapes.description = {
+      {"frames", frames}, {"surfaces", surfaces}, {"fibers", fibers}, {"brightness_at", brightness_at}};
   return shapes;
 }
 

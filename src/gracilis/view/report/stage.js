@@ -1,32 +1,4 @@
 // The shapes of all runs side by side under one camera. See report_shapes.hpp for how they are stored.
-const DIVERGING = [[33, 102, 172], [146, 197, 222], [247, 244, 238], [244, 165, 130], [178, 24, 43]];
-const DIVERGING_LINES = [[20, 80, 170], [70, 120, 170], [110, 110, 110], [190, 90, 60], [178, 24, 43]];
-const RISING = [[250, 240, 225], [240, 170, 120], [205, 70, 60], [110, 10, 60]];
-const SHAPE_COLORS = {
-  muscle: {label: 'by muscle'},
-  stretch: {label: 'by edge stretch', title: 'edge length, × rest', colors: DIVERGING, low: -1, high: 1,
-            ticks: ['0.5', '1', '2']},
-  shape: {label: 'by gates of shape', title: 'spikes, thickness, edges: share of their bars', colors: RISING, low: 0, high: 1,
-          ticks: ['0', '0.5', '≥ 1']},
-  volume: {label: 'by volume', title: 'change of volume, %', colors: DIVERGING, low: -1, high: 1,
-           ticks: ['−1', '0', '+1'], chart: 'volume_ratio'},
-  activation: {label: 'by activation', title: 'activation', colors: RISING, low: 0, high: 1, ticks: ['0', '0.5', '1'],
-               chart: 'activation'},
-  strain: {label: 'by fiber length', title: 'fiber length, × rest', colors: DIVERGING_LINES, low: -0.585,
-           high: 0.585, ticks: ['0.67', '1', '1.5'], fibers: true},
-};
-
-// Of muscles whose fibers carry the colors, as flesh_color() of palette.hpp: neither bone nor a color of a scale.
-const FLESH = [0.88, 0.76, 0.72];
-
-// A color of a list that is spread over [low, high]; components 0 ... 1.
-function colorAt(scale, value) {
-  const colors = scale.colors;
-  const at = Math.min(Math.max((value - scale.low) / (scale.high - scale.low), 0), 1) * (colors.length - 1);
-  const i = Math.min(Math.floor(at), colors.length - 2);
-  return [0, 1, 2].map(k => (colors[i][k] + (at - i) * (colors[i + 1][k] - colors[i][k])) / 255);
-}
-
 function bytesOf(id) {
   const text = atob(document.getElementById(id).textContent);
   const bytes = new Uint8Array(text.length);
@@ -87,6 +59,7 @@ class RunShapes extends LitScene {
     super();
     this.run = run;
     this.buffer = bytesOf('shapes-' + index);
+    this.stripes = stripeTexture(new Uint8Array(this.buffer, run.shapes.brightness_at, 512));
     this.surfaces = run.shapes.surfaces.map(surface => this.makeSurface(surface));
     this.fibers = run.shapes.fibers.map(fibers => this.makeFibers(fibers));
   }
@@ -109,6 +82,11 @@ class RunShapes extends LitScene {
       const bytes = at => new Uint8Array(this.buffer, at, surface.vertices * this.run.shapes.frames.length);
       result.stretch = bytes(surface.stretch_at);
       result.shape = bytes(surface.shape_at);
+      result.look = tissueColors(surface.belly, surface.tendon, new Uint8Array(this.buffer, surface.tendon_at, surface.vertices));
+      const places = new Uint16Array(this.buffer, surface.stripes_at, surface.vertices), [low, range] = surface.stripes;
+      const uv = Float32Array.from({length: 2 * surface.vertices},
+                                   (_, i) => i % 2 ? 0.5 : low + range * places[i / 2] / 65535);
+      geometry.setAttribute('uv', new THREE.BufferAttribute(uv, 2));
     } else {
       result.motion = new Float32Array(this.buffer, surface.motion_at, 7 * this.run.shapes.frames.length);
     }
@@ -133,8 +111,9 @@ class RunShapes extends LitScene {
     const lines = this.addLines(geometry);
     const frames = this.run.shapes.frames.length;
     // Lines take no light, and are to stand out from their muscle.
-    const color = this.colorOf(fibers.muscle).map(each => 0.7 * each);
-    return {...fibers, color, count, lines, stored: new Uint16Array(this.buffer, fibers.points_at, 3 * count * frames),
+    const darker = color => color.map(each => 0.7 * each);
+    const {belly} = this.run.shapes.surfaces.find(each => each.name === fibers.muscle);
+    return {...fibers, color: darker(this.colorOf(fibers.muscle)), fleshColor: darker(belly), count, lines, stored: new Uint16Array(this.buffer, fibers.points_at, 3 * count * frames),
             strain: new Uint8Array(this.buffer, fibers.strain_at, fibers.sizes.length * frames)};
   }
 
@@ -164,11 +143,19 @@ class RunShapes extends LitScene {
     if (!muscle.mesh.visible) return;
     const fibersShown = state.fibers || SHAPE_COLORS[state.colorBy].fibers;
     const opacity = fibersShown ? Math.min(state.opacity, 0.25) : state.opacity;
+    const map = state.colorBy === 'tissue' ? this.stripes : null;
+    if (material.map !== map) Object.assign(material, {map, needsUpdate: true});
     Object.assign(material, {opacity, transparent: opacity < 1, depthWrite: opacity === 1});
     blendPoints(muscle.stored, muscle.vertices, muscle.low, muscle.size, at, geometry.attributes.position.array);
     geometry.attributes.position.needsUpdate = true;
     geometry.computeVertexNormals();
-    const colors = geometry.attributes.color.array, scale = SHAPE_COLORS[state.colorBy];
+    this.colorMuscle(muscle, at, frame, state);
+    geometry.attributes.color.needsUpdate = true;
+  }
+
+  colorMuscle(muscle, at, frame, state) {
+    const colors = muscle.mesh.geometry.attributes.color.array, scale = SHAPE_COLORS[state.colorBy];
+    if (state.colorBy === 'tissue') return colors.set(muscle.look);
     const chart = scale.chart && this.run.charts.find(each => each.id === scale.chart);
     const values = chart && chart.series.find(each => each.muscle === muscle.name).values;
     const whole = values ? colorAt(scale, values[frame]) : scale.fibers ? FLESH : muscle.color;
@@ -176,11 +163,21 @@ class RunShapes extends LitScene {
       const [a, b, share] = at;
       const blended = bytes => (1 - share) * bytes[a * muscle.vertices + v] + share * bytes[b * muscle.vertices + v];
       let color = whole;
-      if (state.colorBy === 'stretch') color = colorAt(scale, (blended(muscle.stretch) - 128) / 127);
-      if (state.colorBy === 'shape') color = colorAt(scale, blended(muscle.shape) / 200);
+      if (state.colorBy === 'stretch') color = colorAt(scale, logRatioOf(blended(muscle.stretch)));
+      if (state.colorBy === 'shape') color = colorAt(scale, shareOf(blended(muscle.shape)));
       colors.set(color, 3 * v);
     }
-    geometry.attributes.color.needsUpdate = true;
+  }
+
+  // The least and the largest value that a coloring shows, of all muscles in all frames.
+  range(key) {
+    const {chart, fibers} = SHAPE_COLORS[key];
+    if (fibers) return rangeOfBytes(this.fibers.map(each => each.strain), logRatioOf);
+    if (key === 'stretch' || key === 'shape')
+      return rangeOfBytes(this.surfaces.filter(each => each.kind === 'muscle').map(each => each[key]),
+                          key === 'shape' ? shareOf : logRatioOf);
+    const found = chart && this.run.charts.find(each => each.id === chart);
+    return rangeOf(found ? found.series.flatMap(each => each.values) : []);
   }
 
   showFibers(fibers, at, state) {
@@ -191,8 +188,8 @@ class RunShapes extends LitScene {
     blendPoints(fibers.stored, fibers.count, fibers.low, fibers.size, at, position.array);
     let point = 0;
     fibers.sizes.forEach((size, line) => {
-      const value = (fibers.strain[at[0] * fibers.sizes.length + line] - 128) / 127;
-      const shown = scale.fibers ? colorAt(scale, value) : fibers.color;
+      const value = logRatioOf(fibers.strain[at[0] * fibers.sizes.length + line]);
+      const shown = scale.fibers ? colorAt(scale, value) : state.colorBy === 'tissue' ? fibers.fleshColor : fibers.color;
       for (let i = 0; i < size; ++i) color.array.set(shown, 3 * point++);
     });
     position.needsUpdate = true;

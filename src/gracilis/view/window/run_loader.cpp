@@ -3,6 +3,7 @@
 #include <gracilis/core/failure.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/rotations.hpp>
+#include <gracilis/view/pictures/recorded_look.hpp>
 #include <gracilis/view/pictures/run_picture.hpp>
 
 #include <spdlog/spdlog.h>
