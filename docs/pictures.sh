@@ -20,14 +20,14 @@ $gracilis render out/demo --compare out/demo_thesis_2024 --out $pictures/stretch
   --view posterolateral --color-by edge-stretch
 
 $gracilis report out/demo out/demo_thesis_2024 --out out/report.html
-report_picture() { # NAME WIDTH HEIGHT
+report_picture() { # NAME WIDTH HEIGHT COLOR
   chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader \
     --hide-scrollbars "--window-size=$2,$3" --virtual-time-budget=4000 "--screenshot=$pictures/$1.png" \
-    "file://$PWD/out/report.html#frame=70&color=stretch" 2>/dev/null
+    "file://$PWD/out/report.html#frame=70&color=$4" 2>/dev/null
 }
-report_picture report 1400 860
-report_picture report_tablet 820 1180
-report_picture report_narrow 500 900 # the narrowest that this Chromium opens; the page is made for 390, too
+report_picture report 1400 860 tissue
+report_picture report_tablet 820 1180 stretch
+report_picture report_narrow 500 900 tissue # the narrowest that this Chromium opens; the page is made for 390, too
 
 # The window presses its keys by itself. As it opens, in three sizes, at the end of the run:
 rm -rf out/window

@@ -20,11 +20,12 @@ using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
 
-/// What a run of 101 frames says until it is stopped, when each frame takes some time more.
-std::vector<std::string> said_by_run(int stopped_after, const std::function<std::chrono::milliseconds(int)>& pause) {
+/// What a run through 10 degrees says until it is stopped, when each frame takes some time more.
+std::vector<std::string> said_by_run(const std::string& step_deg, int stopped_after,
+                                     const std::function<std::chrono::milliseconds(int)>& pause) {
   const SceneFolder folder;
   SceneOptions scene;
-  scene.set = {"motion.step_deg=0.1"};
+  scene.set = {"motion.step_deg=" + step_deg};
   folder.write("boxes.toml", good_scene());
   const LoadedScene loaded = read_scene(folder.path("boxes.toml"), scene);
   SessionOptions options;
@@ -46,18 +47,18 @@ std::vector<std::string> said_by_run(int stopped_after, const std::function<std:
 }  // namespace
 
 TEST(SessionTime, is_told_after_the_first_frame) {
-  const auto said = said_by_run(1, [](int frame) { return std::chrono::milliseconds(frame == 1 ? 600 : 0); });
+  const auto said = said_by_run("0.1", 1, [](int frame) { return std::chrono::milliseconds(frame == 1 ? 600 : 0); });
   EXPECT_THAT(said, Contains(HasSubstr("by the first one: about")));
 }
 
 TEST(SessionTime, is_told_again_where_the_first_frame_was_no_good_guide) {
-  const auto said = said_by_run(10, [](int frame) { return std::chrono::milliseconds(frame == 1 ? 600 : 5); });
+  const auto said = said_by_run("0.1", 10, [](int frame) { return std::chrono::milliseconds(frame == 1 ? 600 : 5); });
   EXPECT_THAT(said, Contains(HasSubstr("by the first one: about")));
   EXPECT_THAT(said, Contains(HasSubstr("by the first 10: about")));
 }
 
 TEST(SessionTime, is_not_told_of_a_short_run) {
-  const auto said = said_by_run(10, [](int) { return std::chrono::milliseconds(0); });
+  const auto said = said_by_run("2", 10, [](int) { return std::chrono::milliseconds(0); });
   EXPECT_THAT(said, Not(Contains(HasSubstr("frames to come"))));
 }
 
