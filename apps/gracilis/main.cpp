@@ -39,14 +39,12 @@
 #include <string>
 #include <vector>
 
-/// Exit codes: see ExitCode in core/errors.hpp.
-int main(int count, char** arguments) {
-  using namespace gracilis;
-  open_closed_streams();
-  set_up_logging();
-  ignore_size_signals();
-  const std::vector<std::string> words(arguments, arguments + count);
+namespace gracilis {
 
+/// What the words of the command line ask for; empty arguments ask for the first steps. Throws Error where they are no
+/// command.
+static int run_words(int count, char** arguments) {
+  const std::vector<std::string> words(arguments, arguments + count);
   CLI::App program("Gracilis: bones, muscle surfaces and a motion become deforming, contracting muscles.", "gracilis");
   program.formatter(std::make_shared<HelpText>());  // commands take theirs from the program
   bool as_json = false;
@@ -82,22 +80,32 @@ int main(int count, char** arguments) {
   add_paths_command(program, chosen);
   add_static_optimization_command(program, chosen);
   add_examples(program);
-  if (count < 2)
-    return run_guarded([] {
-      fmt::print("{}", first_steps());
-      return static_cast<int>(ExitCode::done);
-    });
-  if (Command hidden = hidden_command(program, words)) return run_guarded(hidden);
+  if (count < 2) {
+    fmt::print("{}", first_steps());
+    return static_cast<int>(ExitCode::done);
+  }
+  if (Command hidden = hidden_command(program, words)) return hidden();
   try {
     program.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     // Help and version are no errors; everything else is a usage error, whatever CLI11's own code for it.
     const bool asked_for = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    return run_guarded([&] {
-      if (!asked_for) throw Error(ExitCode::usage, usage_problem(program, error, words));
-      program.exit(error, std::cout, std::cerr);
-      return static_cast<int>(ExitCode::done);
-    });
+    if (!asked_for) throw Error(ExitCode::usage, usage_problem(program, error, words));
+    program.exit(error, std::cout, std::cerr);
+    return static_cast<int>(ExitCode::done);
   }
-  return run_guarded(chosen);
+  return chosen();
+}
+
+}  // namespace gracilis
+
+/// Exit codes: see ExitCode in core/errors.hpp.
+int main(int count, char** arguments) {
+  using namespace gracilis;
+  open_closed_streams();
+  ignore_size_signals();
+  return run_guarded([&] {
+    set_up_logging();
+    return run_words(count, arguments);
+  });
 }

@@ -31,10 +31,9 @@ class FailingCalls : public testing::Test {
   }
   /// The run into `out` whose call number `at` fails; 0: none does.
   ProgramResult run_failing(const std::string& out, long at) const {
-    return run_program(std::string("--version >/dev/null; LD_PRELOAD=") + build_paths::failing_calls +
-                       " GRACILIS_FAULT_FOLDER=" + out + " GRACILIS_FAULT_AT=" + std::to_string(at) +
-                       " GRACILIS_FAULT_COUNT=" + folder.path("count").string() + " " + build_paths::program +
-                       command(out));
+    return run_shell(std::string("LD_PRELOAD=") + build_paths::failing_calls + " GRACILIS_FAULT_FOLDER=" + out +
+                     " GRACILIS_FAULT_AT=" + std::to_string(at) + " GRACILIS_FAULT_COUNT=" +
+                     folder.path("count").string() + " " + build_paths::program + command(out));
   }
   /// All frames and fibers below a run folder.
   static std::map<std::string, std::string> shapes(const fs::path& out) {

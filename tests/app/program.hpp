@@ -32,11 +32,11 @@ inline std::string said_by(const std::string& command) {
   return text;
 }
 
-/// Runs the program with these arguments, as a shell would read them.
-inline ProgramResult run_program(const std::string& arguments) {
+/// Runs a shell's command line.
+inline ProgramResult run_shell(const std::string& line) {
   char errors[] = "/tmp/gracilis_stderr_XXXXXX";
   const int descriptor = mkstemp(errors);
-  const std::string command = std::string(build_paths::program) + " " + arguments + " 2>" + errors;
+  const std::string command = line + " 2>" + errors;
   ProgramResult result;
   std::FILE* pipe = popen(command.c_str(), "r");
   result.out = read_all(pipe);
@@ -47,6 +47,11 @@ inline ProgramResult run_program(const std::string& arguments) {
   std::fclose(file);
   std::remove(errors);
   return result;
+}
+
+/// Runs the program with these arguments, as a shell would read them.
+inline ProgramResult run_program(const std::string& arguments) {
+  return run_shell(std::string(build_paths::program) + " " + arguments);
 }
 
 }  // namespace gracilis

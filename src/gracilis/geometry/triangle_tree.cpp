@@ -4,6 +4,9 @@
 
 #include <embree3/rtcore.h>
 
+#include <new>
+#include <stdexcept>
+
 namespace gracilis {
 
 namespace {
@@ -50,31 +53,53 @@ RTCRay ray_along(const Vec3& a, const Vec3& b) {
   return ray;
 }
 
+struct Release {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+
+template <typename Object>
+using Owned = std::unique_ptr<std::remove_pointer_t<Object>, Release>;
+
+/// Embree's calls throw nothing; the device keeps what went wrong in this thread. Without one, it is kept beside it.
+void require_success(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (error != RTC_ERROR_NONE) throw std::runtime_error("Embree cannot build a tree of triangles");
+}
+
+/// Room for so many triples, which the geometry keeps.
+template <typename Number>
+Eigen::Map<Eigen::Matrix<Number, 3, Eigen::Dynamic>> new_buffer(RTCDevice device, RTCGeometry geometry,
+                                                                RTCBufferType type, RTCFormat format, Index count) {
+  void* const data =
+      rtcSetNewGeometryBuffer(geometry, type, 0, format, 3 * sizeof(Number), static_cast<std::size_t>(count));
+  require_success(device);
+  return {static_cast<Number*>(data), 3, count};
+}
+
 }  // namespace
 
 struct TriangleTree::Tree {
   explicit Tree(const TriangleMesh& mesh) : place(bounding_box(mesh.vertices).center()) {
-    device = rtcNewDevice(nullptr);  // any number of threads asked for here would hold for the whole program
-    scene = rtcNewScene(device);
-    rtcSetSceneFlags(scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices =
-        static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                    3 * sizeof(float), static_cast<std::size_t>(mesh.vertex_count())));
-    Eigen::Map<Eigen::Matrix3Xf>(vertices, 3, mesh.vertex_count()) = (mesh.vertices.colwise() - place).cast<float>();
-    auto* faces = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                 3 * sizeof(unsigned),
-                                                                 static_cast<std::size_t>(mesh.face_count())));
-    Eigen::Map<Eigen::Matrix<unsigned, 3, Eigen::Dynamic>>(faces, 3, mesh.face_count()) = mesh.faces.cast<unsigned>();
-    rtcSetGeometryPointQueryFunction(geometry, ask_near);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
-    rtcReleaseGeometry(geometry);  // the scene keeps it
-    rtcCommitScene(scene);
-  }
-  ~Tree() {
-    rtcReleaseScene(scene);
-    rtcReleaseDevice(device);
+    device.reset(rtcNewDevice(nullptr));  // any number of threads asked for here would hold for the whole program
+    require_success(device.get());
+    scene.reset(rtcNewScene(device.get()));
+    require_success(device.get());
+    rtcSetSceneFlags(scene.get(),
+                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
+    const Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+    require_success(device.get());
+    new_buffer<float>(device.get(), geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, mesh.vertex_count()) =
+        (mesh.vertices.colwise() - place).cast<float>();
+    new_buffer<unsigned>(device.get(), geometry.get(), RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, mesh.face_count()) =
+        mesh.faces.cast<unsigned>();
+    rtcSetGeometryPointQueryFunction(geometry.get(), ask_near);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometry(scene.get(), geometry.get());  // which keeps it
+    rtcCommitScene(scene.get());
+    require_success(device.get());
   }
   Tree(const Tree&) = delete;
   Tree& operator=(const Tree&) = delete;
@@ -82,8 +107,8 @@ struct TriangleTree::Tree {
   RTCRay ray(const Vec3& a, const Vec3& b) const { return ray_along(a - place, b - place); }
 
   Vec3 place;  ///< of Embree's origin, m
-  RTCDevice device = nullptr;
-  RTCScene scene = nullptr;
+  Owned<RTCDevice> device;
+  Owned<RTCScene> scene;
 };
 
 TriangleTree::TriangleTree(const TriangleMesh& mesh) : tree_(std::make_unique<Tree>(mesh)) {}
@@ -103,14 +128,14 @@ void TriangleTree::near(const Vec3& p, float radius, Near near, void* query) con
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
   PointQuestion question{near, query};
-  rtcPointQuery(tree_->scene, &sphere, &context, nullptr, &question);
+  rtcPointQuery(tree_->scene.get(), &sphere, &context, nullptr, &question);
 }
 
 bool TriangleTree::cut(const Vec3& a, const Vec3& b) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay ray = tree_->ray(a, b);
-  rtcOccluded1(tree_->scene, &context, &ray);
+  rtcOccluded1(tree_->scene.get(), &context, &ray);
   return ray.tfar < 0;
 }
 
@@ -120,7 +145,7 @@ std::optional<TriangleTree::Hit> TriangleTree::first(const Vec3& a, const Vec3& 
   RTCRayHit seen{};
   seen.ray = tree_->ray(a, b);
   seen.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(tree_->scene, &context, &seen);
+  rtcIntersect1(tree_->scene.get(), &context, &seen);
   if (seen.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   return Hit{static_cast<Index>(seen.hit.primID), a + static_cast<Real>(seen.ray.tfar) * (b - a)};
 }
@@ -130,7 +155,7 @@ void TriangleTree::all(const Vec3& a, const Vec3& b, Met met, void* query) const
   rtcInitIntersectContext(&question.context);
   question.context.filter = tell_met;
   RTCRay ray = tree_->ray(a, b);
-  rtcOccluded1(tree_->scene, &question.context, &ray);
+  rtcOccluded1(tree_->scene.get(), &question.context, &ray);
 }
 
 }  // namespace gracilis

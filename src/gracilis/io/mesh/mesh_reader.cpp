@@ -104,7 +104,8 @@ TriangleMesh MeshFiles::read(const fs::path& path, Real unit, const std::string&
     }
     return triangulated(file->read(part), unit, path);
   } catch (const std::bad_alloc&) {
-    throw_read_error(path, "announces more data than memory can hold: the file is damaged");
+    throw_read_error(path, "needs more memory than there is: the machine is short of it, or the file is damaged",
+                     "close other programs, or export the surface again");
   } catch (const std::length_error&) {
     throw_read_error(path, "announces more data than memory can hold: the file is damaged");
   }

@@ -1,0 +1,13 @@
+#include "app/failing_allocations.hpp"
+
+namespace gracilis {
+namespace {
+
+using SomeFailingAllocations = FailingAllocations;
+
+TEST_F(SomeFailingAllocations, each_is_one_message_leaves_nothing_half_written_and_can_be_resumed) {
+  expect_one_message_each(16384, 12);
+}
+
+}  // namespace
+}  // namespace gracilis

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""Tells how many small errors in the numerical core the tests would notice.
+
+    tools/mutation.py [--count N] [--seed S] [--module MODULE]... [--then PROGRAM]... [--before WORDS]
+
+Changes one sign, comparison, logical word or constant of src/gracilis/{dynamics,geometry,anatomy} at a time (a mutant),
+runs the module's tests until one fails (killed), then those of its neighbors and of every --then (such as methods_tests).
+Which mutants is a matter of the seed alone; the numbers of which the built-in bones and muscles are made
+(anatomy/builtin) are data and left alone. It stands on a release build with its tests (cmake --preset release), whose
+files it leaves as they are: a mutant is compiled with the sources that it is a batch with, and linked before the
+library. Results are kept in build/mutation/seed_S.jsonl; called again, it goes on behind them. --before: words before
+each compiler call, such as "nice".
+"""
+
+import argparse
+import json
+import random
+import re
+import resource
+import shlex
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build" / "release"
+WORK = ROOT / "build" / "mutation"
+MODULES = ["dynamics", "geometry", "anatomy"]
+MEMORY = 6 * 2**30  # a mutant that asks for more is killed by it
+
+WORDS = {
+    " + ": " - ", " - ": " + ", " += ": " -= ", " -= ": " += ", " * ": " / ", " / ": " * ",
+    " < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == ",
+    " && ": " || ", " || ": " && ", "std::min(": "std::max(", "std::max(": "std::min(",
+}
+WORD = re.compile("|".join(re.escape(word) for word in sorted(WORDS, key=len, reverse=True)))
+CONSTANT = re.compile(r"(?<![\w.])(\d+\.\d+(?:e-?\d+)?|\d+)(?![\w.\"'])")
+# Lines that compute nothing.
+IDLE = re.compile(r"^\s*(//|#|\*|static_assert|assert|using |template|namespace|throw )|\"|operator")
+
+
+def other_constant(text):
+    return repr(float(text) * 1.5) if "." in text or "e" in text else str(int(text) + 1)
+
+
+def mutants_of(path):
+    """All of a file: (path, line, column, old, new)."""
+    found = []
+    text = path.read_text()
+    if "foreach_target" in text:  # includes itself again, by its path
+        return found
+    for number, line in enumerate(text.splitlines(), 1):
+        if IDLE.search(line):
+            continue
+        code = line.split("//")[0]
+        name = str(path.relative_to(ROOT))
+        found += [(name, number, m.start(), m.group(), WORDS[m.group()]) for m in WORD.finditer(code)]
+        found += [(name, number, m.start(), m.group(), other_constant(m.group())) for m in CONSTANT.finditer(code)]
+    return found
+
+
+def drawn(modules, seed):
+    """All mutants in the order of the seed, the modules in turn."""
+    chance = random.Random(seed)
+    piles = []
+    for module in modules:
+        sources = sorted((ROOT / "src/gracilis" / module).rglob("*.cpp"))
+        pile = [mutant for path in sources if "builtin" not in path.parts for mutant in mutants_of(path)]
+        chance.shuffle(pile)
+        piles.append(pile)
+    while any(piles):
+        for pile in piles:
+            if pile:
+                yield pile.pop()
+
+
+class Build:
+    """What the release build did, to be done again with one source changed."""
+
+    def __init__(self, before):
+        commands = json.loads((BUILD / "compile_commands.json").read_text())
+        self.before = shlex.split(before)
+        self.of_source = {}
+        for entry in commands:
+            file = Path(entry["file"])
+            if "gracilis_core.dir" not in entry["command"]:
+                continue
+            batch = re.findall(r'#include "(/.*?)"', file.read_text()) if "/Unity/" in str(file) else [str(file)]
+            for source in batch:
+                self.of_source[source] = (entry["command"], file)
+        self.links = {}
+
+    def compile(self, mutant):
+        """The object with the mutant, or None where it does not compile or comes out as it was."""
+        name, number, column, old, new = mutant
+        source = ROOT / name
+        lines = source.read_text().split("\n")
+        line = lines[number - 1]
+        lines[number - 1] = line[:column] + new + line[column + len(old):]
+        mutated = WORK / source.name
+        mutated.write_text("\n".join(lines))
+        command, file = self.of_source[str(source)]
+        batch = WORK / "batch.cxx"
+        text = file.read_text() if file != source else f'#include "{source}"\n'
+        batch.write_text(text.replace(f'"{source}"', f'"{mutated}"'))
+        words = shlex.split(command)
+        at = words.index("-o") + 1
+        original, made = BUILD / words[at], WORK / "mutant.o"
+        words[at], words[-1] = str(made), str(batch)
+        words = [word for word in words if word not in ("-Werror",) and not word.endswith("ccache")]
+        made.unlink(missing_ok=True)
+        call = [*self.before, *words, "-w", "-iquote", str(source.parent)]
+        if subprocess.run(call, cwd=BUILD, capture_output=True).returncode != 0:
+            return None
+        return None if code_in(made) == code_in(original) else made
+
+    def link(self, program, made):
+        """The test program with the mutant in it."""
+        if program not in self.links:
+            every = subprocess.run(["ninja", "-t", "commands", "-s", f"bin/{program}"], cwd=BUILD, check=True,
+                                   capture_output=True, text=True).stdout
+            # What CMake does after linking (it lists tests) is not wanted.
+            self.links[program] = next(part for part in every.split(" && ") if f"-o bin/{program}" in part)
+        words = shlex.split(self.links[program])
+        words[words.index("-o") + 1] = str(WORK / program)
+        words.insert(next(i for i, word in enumerate(words) if word.endswith(".a")), str(made))
+        subprocess.run(words, cwd=BUILD, check=True)
+        return WORK / program
+
+
+def code_in(made):
+    """All sections of an object and what the linker fills in, without the file's name."""
+    said = subprocess.run(["objdump", "--full-contents", "--reloc", str(made)], capture_output=True, check=True).stdout
+    return said.split(b"\n", 3)[-1]
+
+
+def fails(program, seconds):
+    """Why its tests fail, or an empty text."""
+    def limited():
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+
+    call = [str(program), "--gtest_brief=1", "--gtest_fail_fast"]
+    try:
+        done = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, timeout=seconds, preexec_fn=limited,
+                              errors="replace")
+    except subprocess.TimeoutExpired:
+        return "does not end"
+    if done.returncode == 0:
+        return ""
+    failed = re.search(r"\[  FAILED  \] (\S+)", done.stdout)
+    return failed.group(1).rstrip(",") if failed else f"ends with {done.returncode}"
+
+
+def judge(build, mutant, programs, seconds):
+    made = build.compile(mutant)
+    if made is None:
+        return "no change", ""
+    for program in programs:
+        why = fails(build.link(program, made), 4 * seconds[program] + 30)
+        if why:
+            return "killed", f"{program}: {why}"
+    return "survived", ""
+
+
+def report(results):
+    judged = [r for r in results if r["result"] != "no change"]
+    killed = sum(r["result"] == "killed" for r in judged)
+    for r in judged:
+        if r["result"] == "survived":
+            print(f"survived: {r['file']}:{r['line']}: '{r['old'].strip()}' as '{r['new'].strip()}'")
+    print(f"{killed} of {len(judged)} mutants killed" + (f" ({100 * killed / len(judged):.0f} %)" if judged else ""))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--count", type=int, default=100, help="how many mutants are judged (100)")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--module", action="append", choices=MODULES, help="default: all three")
+    parser.add_argument("--then", action="append", default=[], metavar="PROGRAM", help="tests that survivors also meet")
+    parser.add_argument("--before", default="", metavar="WORDS", help="words before each compiler call")
+    options = parser.parse_args()
+    if not (BUILD / "compile_commands.json").exists():
+        sys.exit("there is no build/release: cmake --preset release && cmake --build --preset release")
+    WORK.mkdir(parents=True, exist_ok=True)
+    modules = options.module or MODULES
+    kept = WORK / f"seed_{options.seed}_{'_'.join(modules)}.jsonl"
+    results = [json.loads(line) for line in kept.read_text().splitlines()] if kept.exists() else []
+    known = {(r["file"], r["line"], r["column"], r["old"]) for r in results}
+    build = Build(options.before)
+    seconds = {}
+    for program in [f"{module}_tests" for module in MODULES] + options.then:
+        began = time.monotonic()
+        if why := fails(BUILD / "bin" / program, 3600):
+            sys.exit(f"{program} fails without any mutant: {why}")
+        seconds[program] = time.monotonic() - began
+    for mutant in drawn(modules, options.seed):
+        if sum(r["result"] != "no change" for r in results) >= options.count:
+            break
+        name, number, column, old, new = mutant
+        if (name, number, column, old) in known or str(ROOT / name) not in build.of_source:
+            continue
+        own = name.split("/")[2] + "_tests"
+        programs = [own] + [program for program in seconds if program != own]
+        result, why = judge(build, mutant, programs, seconds)
+        results.append(dict(file=name, line=number, column=column, old=old, new=new, result=result, why=why))
+        with kept.open("a") as file:
+            file.write(json.dumps(results[-1]) + "\n")
+        print(f"{name}:{number}: '{old.strip()}' as '{new.strip()}': {result} {why}", flush=True)
+    report(results)
+
+
+if __name__ == "__main__":
+    main()
