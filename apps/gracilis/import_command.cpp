@@ -152,6 +152,13 @@ void add_import_command(CLI::App& program, Command& chosen) {
                    "Where sections of such a surface have their centers: inside, where there is an inside (mended, "
                    "default), or where Laclé's heuristic puts them (published)")
       ->transform(CLI::CheckedTransformer(centers));
+  static const std::map<std::string, SectionPlanes> planes = {
+      {"centered", SectionPlanes::centered}, {"forward", SectionPlanes::forward}, {"fixed", SectionPlanes::fixed}};
+  command
+      ->add_option("--planes", options->settings.volumes.enhancement.planes,
+                   "Which way sections of such a surface look (Laclé 2014, Figure 3.9): by both neighbors of a point "
+                   "(centered, default), by the next one (forward) or down, whatever the line does (fixed)")
+      ->transform(CLI::CheckedTransformer(planes));
   static const std::map<std::string, opensim::TendonPlace> tendons = {
       {"belly", opensim::TendonPlace::beyond_belly},
       {"half", opensim::TendonPlace::half_at_insertion},

@@ -127,6 +127,15 @@ class Reproduction:
         self.page.rows.append({"source": "Table 5.3", "quantity": "the same with this project's mending, LSS 2, CSS 1, 6 corners",
                                "unit": "", "published": "", "ours": str(mended), "ratio": "", "remark": "import --centers mended"})
 
+    def planes(self):
+        """Figure 3.9 tells what each way is, without numbers."""
+        for planes, figure in (("fixed", "3.9a"), ("forward", "3.9b"), ("centered", "3.9c")):
+            table = rows(f"{self.out}/planes/{planes}/surfaces.csv")
+            cut, outside = (sum(int(r[c]) for r in table) for c in ("that_cut_the_surface", "of_these_centers_outside"))
+            self.page.rows.append({"source": f"Figure {figure}", "quantity": f"centers outside by {planes} planes, LSS 1, CSS 6, 12 corners",
+                                   "unit": "", "published": "", "ours": str(outside), "ratio": "",
+                                   "remark": f"of {cut} sections whose plane cuts the surface"})
+
     def speed(self):
         for key, run, remark in (("fps_all", "walk8", "calculation alone, one core, nothing is drawn"),
                                  ("fps_36", "walk36", "calculation alone"), ("fps_collision", "yielding", "calculation alone")):
@@ -162,7 +171,7 @@ class Reproduction:
 
     def make(self):
         self.published = publication.read_published(f"{self.here}/published.csv")
-        for part in (self.tendons, self.counts, self.slices, self.polygons, self.outside, self.speed, self.pictures):
+        for part in (self.tendons, self.counts, self.slices, self.polygons, self.outside, self.planes, self.speed, self.pictures):
             part()
         self.page.rows = publication.beside(self.published, self.ours, self.remarks) + self.page.rows
         self.page.cannot("Figures 3.5 to 3.7: the skeleton in the character Ralph", "the character's skin and bones")

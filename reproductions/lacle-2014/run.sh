@@ -59,6 +59,10 @@ for level in "${cast[@]}"; do
   done
 done
 into "$out/mended" "${fitted[@]}" "${onto[@]}" --scaling 2 --more-rays 1 --rays 6
+# Figure 3.9: the three ways to choose the plane that cuts the surface.
+for planes in fixed forward centered; do
+  into "$out/planes/$planes" "${fitted[@]}" "${onto[@]}" --scaling 1 --more-rays 6 --rays 12 --centers published --planes "$planes"
+done
 start=$(date +%s.%N)
 into "$out/enhanced36" "${fitted[@]}" "${onto[@]}" --scaling 1 --more-rays 1 --rays 36 --centers published
 awk -v a="$start" -v b="$(date +%s.%N)" 'BEGIN { print b - a }' >"$out/enhanced36.seconds"

@@ -77,6 +77,49 @@ TEST(SurfaceSlices, lie_across_the_longest_axis_and_know_their_shape) {
   EXPECT_NEAR(tube[0].outline.rowwise().mean().norm(), 0, 1e-3);
 }
 
+TEST(SectionFrames, planes_look_along_both_neighbors_or_the_next_one_or_down) {  // Figure 3.9
+  Points line(3, 3);
+  line.col(0) = Vec3(0, 0, 0);
+  line.col(1) = Vec3(0, -1, 0);
+  line.col(2) = Vec3(1, -1, 0);
+  const Vec3 down(0, -1, 0), across(1, 0, 0), between = Vec3(1, -1, 0).normalized();
+  const auto normals = [&](SectionPlanes planes) { return section_frames(line, Vec3::UnitZ(), planes).normals; };
+  Points centered(3, 3), forward(3, 3), fixed(3, 3);
+  centered << down, between, across;
+  forward << down, across, across;
+  fixed << down, down, down;
+  EXPECT_TRUE(normals(SectionPlanes::centered).isApprox(centered));
+  EXPECT_TRUE(normals(SectionPlanes::forward).isApprox(forward));
+  EXPECT_TRUE(normals(SectionPlanes::fixed).isApprox(fixed));
+  EXPECT_TRUE(section_frames(line, Vec3::UnitZ()).normals.isApprox(centered));
+}
+
+TEST(Enhancement, the_surface_is_cut_by_the_planes_that_are_asked_for) {
+  Points middle;
+  const TriangleMesh surface = bow(middle);
+  const auto corners_off_their_height = [&](SectionPlanes planes) {
+    EnhancementSettings settings;
+    settings.planes = planes;
+    Points turned(3, middle.cols());  // the bow goes down
+    turned << middle.row(0), -middle.row(2), middle.row(1);
+    TriangleMesh down = surface;
+    down.vertices << surface.vertices.row(0), -surface.vertices.row(2), surface.vertices.row(1);
+    const EnhancedSections sections =
+        enhance(turned, Vec3::UnitX(), Eigen::MatrixXd::Constant(8, turned.cols(), 0.005), down, settings);
+    Real most = 0;
+    for (Eigen::Index k = 1; k + 1 < turned.cols(); ++k)
+      for (Eigen::Index i = 0; i < 8; ++i)
+        most = std::max(most, std::abs(sections.radii(i, k) * sections.frames.ray(k, i, 8).y()));
+    return most;
+  };
+  EXPECT_LT(corners_off_their_height(SectionPlanes::fixed), 1e-12);
+  const Real centered = corners_off_their_height(SectionPlanes::centered),
+             forward = corners_off_their_height(SectionPlanes::forward);
+  EXPECT_GT(centered, 0.002);
+  EXPECT_GT(forward, 0.002);
+  EXPECT_GT(std::abs(centered - forward), 1e-6);
+}
+
 TEST(Enhancement, rays_prefer_far_backs_outwards_and_near_fronts_inwards) {
   // Two boxes on the right: outwards the far one's back, inwards from beyond them the near side of the far one.
   TriangleMesh boxes = shapes::box({0.02, -0.01, -0.05}, {0.03, 0.01, 0.05});

@@ -32,16 +32,20 @@ Eigen::Matrix3d SectionFrames::axes(Eigen::Index k) const {
   return axes;
 }
 
-SectionFrames section_frames(const Points& line, const Vec3& first) {
+/// Unit, of section `k`.
+static Vec3 plane_normal(const Points& line, Eigen::Index k, SectionPlanes planes) {
+  const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0), after = std::min(k + 1, line.cols() - 1);
+  if (planes == SectionPlanes::fixed) return -Vec3::UnitY();
+  const bool whole_part = planes == SectionPlanes::forward && after > k;
+  const Vec3 normal = line.col(after) - line.col(whole_part ? k : before);
+  // A line that turns back on itself has no difference there: the part before it stands in.
+  return normal.norm() < 1e-9 ? (line.col(k) - line.col(before)).normalized() : normal.normalized();
+}
+
+SectionFrames section_frames(const Points& line, const Vec3& first, SectionPlanes planes) {
   const Eigen::Index n = line.cols();
   SectionFrames frames{Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n)};
-  for (Eigen::Index k = 0; k < n; ++k) {
-    const Eigen::Index before = std::max<Eigen::Index>(k - 1, 0), after = std::min(k + 1, n - 1);
-    Vec3 normal = line.col(after) - line.col(before);
-    // A line that turns back on itself has no difference there: the part before it stands in.
-    if (normal.norm() < 1e-9) normal = line.col(k) - line.col(before);
-    frames.normals.col(k) = normal.normalized();
-  }
+  for (Eigen::Index k = 0; k < n; ++k) frames.normals.col(k) = plane_normal(line, k, planes);
   Vec3 ray = first;
   for (Eigen::Index k = 0; k < n; ++k) {
     const Vec3 normal = frames.normals.col(k);

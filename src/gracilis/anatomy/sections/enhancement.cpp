@@ -144,7 +144,7 @@ EnhancedSections enhance(const Points& line, const Vec3& first, const Eigen::Mat
   const Eigen::Index sections = line.cols();
   assert(radii.cols() == sections && radii.rows() >= 6 && radii.rows() % 2 == 0 && settings.more_rays >= 1);
   const std::vector<bool> none(static_cast<std::size_t>(sections));
-  EnhancedSections result{line, section_frames(line, first), radii, none, none};
+  EnhancedSections result{line, section_frames(line, first, settings.planes), radii, none, none};
   const SectionFrames planes = result.frames;
   for (Eigen::Index k = 0; k < sections; ++k) {
     const SectionCut cut = cut_of(surface, line, planes, k);
@@ -153,7 +153,7 @@ EnhancedSections enhance(const Points& line, const Vec3& first, const Eigen::Mat
     const Vec3 x = planes.first_rays.col(k), y = planes.normals.col(k).cross(x);
     result.centers.col(k) += inner.x() * x + inner.y() * y;
   }
-  result.frames = section_frames(result.centers, first);
+  result.frames = section_frames(result.centers, first, settings.planes);
   const Eigen::VectorXd angles = even_angles(static_cast<Index>(radii.rows()));
   for (Eigen::Index k = 0; k < sections; ++k) {
     const SectionCut cut = cut_of(surface, result.centers, result.frames, k);

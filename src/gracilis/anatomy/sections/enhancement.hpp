@@ -39,6 +39,7 @@ Eigen::Vector2d inner_point(const std::vector<RayMatch>& matches, const Eigen::V
 struct EnhancementSettings {
   int more_rays = 1;  ///< times as many rays as radii look for inner points (the publication's CSS)
   bool mend = true;   ///< where the published heuristic finds no point inside, another is looked for
+  SectionPlanes planes = SectionPlanes::centered;
 };
 
 struct EnhancedSections {
