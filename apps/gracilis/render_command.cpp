@@ -26,7 +26,7 @@ struct RenderOptions {
   std::vector<std::filesystem::path> compare;
   std::vector<int> frames;
   std::string color_by = "tissue", size, title;
-  bool transparent = false, gif = false, mp4 = false;
+  bool transparent = false, gif = false, mp4 = false, arrows = false;
   int rate = 25, step = 1;
   bool without_ramp = false;
   RunPictureOptions picture;
@@ -91,6 +91,7 @@ int render(const RenderOptions& options) {
       scales.begin());
   for (const RecordedRun& run : runs) warn_of_missing(run, chosen);
   if (chosen.bones == std::vector<std::string>{"none"}) chosen.bones.clear(), chosen.without_bones = true;
+  if (options.arrows) chosen.arrow_scale = force_arrow_scale(runs);
   std::vector<RunPainter> painters;
   for (const RecordedRun& run : runs) painters.emplace_back(run, chosen);
 
@@ -164,6 +165,8 @@ void add_render_command(CLI::App& program, Command& chosen) {
       ->check(CLI::Range(0.1, 50.0));
   command->add_option("--opacity", options->picture.opacity, "Of muscles, 0.05 to 1")->check(CLI::Range(0.05, 1.0));
   command->add_flag("--fibers", options->picture.fibers, "Show fibers inside muscles that one sees through");
+  command->add_flag("--arrows", options->arrows,
+                    "Show the forces at muscles' ends, by a scale that the legend tells (runs by tissue)");
   command->add_option("--title", options->title, "A line above");
   command->add_flag("--transparent", options->transparent, "No background (.png)");
   command->add_flag("--gif", options->gif, "A film as .gif, whatever the file is called");

@@ -20,6 +20,7 @@ struct FlexingLeg {
   /// Of "bulging_r", by a method whose muscles are under tension: 10 kPa and 0.1 N in frame 0, twice as much in each
   /// next.
   bool knows_forces = false;
+  bool pull = false;  ///< it pulls at its ends, too: 10 N in frame 0, twice as much in each next
 
   explicit FlexingLeg(int frames = 21) {
     scene.name = "flexing_leg";
@@ -77,6 +78,10 @@ struct FlexingLeg {
     forces.is_known = true;
     forces.tension = 0.1 * factor;
     forces.fiber_tensions = {0.1 * factor};
+    if (pull) {
+      forces.origin = {{0, {Vec3(0, -10 * factor, 0), Vec3::Zero()}}};
+      forces.insertion = {{1, {Vec3(0, 10 * factor, 0), Vec3::Zero()}}};
+    }
     forces.moments = forces.moments_by_work = {-0.01 * factor};
   }
 

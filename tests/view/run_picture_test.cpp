@@ -1,4 +1,5 @@
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/view/pictures/run_film.hpp>
@@ -116,6 +117,57 @@ TEST_F(RunPicture, stress_and_tension_are_seen_where_a_method_knows_them) {
   const RunPainter by_tension(run, options);
   EXPECT_TRUE(by_tension.panel(5).lines[0].colors.at(0).isApprox(expected(ColorBy::tension, 3.2)));
   EXPECT_FALSE(expected(ColorBy::tension, 3.2).isApprox(expected(ColorBy::tension, 0.1)));
+}
+
+/// A run in which a muscle pulls at its origin on the pelvis and, up to 320 N in frame 5, at its insertion.
+RecordedRun pulling_run(const std::filesystem::path& folder) {
+  FlexingLeg leg(6);
+  leg.knows_forces = true;
+  leg.scene.muscles[0].attachments = {{"o", AttachmentEnd::origin, 0, {0, 1, 2}},
+                                      {"i", AttachmentEnd::insertion, 1, {10, 11}}};
+  leg.pull = true;
+  return leg.written(folder);
+}
+
+TEST_F(RunPicture, arrows_are_as_long_as_forces_are_large_and_the_legend_tells_their_scale) {
+  runs = {pulling_run(folder.path() / "run")};
+  RunPictureOptions options;
+  options.arrow_scale = force_arrow_scale(runs);
+  EXPECT_NEAR(options.arrow_scale, 1e-4, 1e-12);  // 320 N are 32 mm; at 2e-4 they would be 64
+  const RunPainter painter(runs[0], options);
+  const Panel panel = painter.panel(5);
+  // A bone, a muscle with its two arrows, and one without forces.
+  ASSERT_EQ(panel.surfaces.size(), 5u);
+  const PaintedSurface& origin = panel.surfaces[2];
+  const PaintedSurface& insertion = panel.surfaces[3];
+  EXPECT_EQ(origin.name, "force on origins, 1 cm for 100 N");
+  EXPECT_EQ(insertion.name, "force on insertions, 1 cm for 100 N");
+  const Points& muscle = panel.surfaces[1].mesh.vertices;
+  const Vec3 root = (muscle.col(0) + muscle.col(1) + muscle.col(2)) / 3;
+  // The last two vertices close its ends.
+  const Points& arrow = origin.mesh.vertices;
+  EXPECT_TRUE(Vec3(arrow.col(arrow.cols() - 2)).isApprox(root, 1e-5));
+  EXPECT_TRUE(Vec3(arrow.col(arrow.cols() - 1) - arrow.col(arrow.cols() - 2)).isApprox(Vec3(0, -0.032, 0), 1e-5));
+  EXPECT_GT(enclosed_volume(origin.mesh.vertices, origin.mesh.faces), 0);
+  EXPECT_LE(panel.surfaces[1].opacity, 0.3);
+  // A sixteenth of that in frame 1.
+  const Points& weak = painter.panel(1).surfaces[2].mesh.vertices;
+  EXPECT_NEAR((weak.col(weak.cols() - 1) - weak.col(weak.cols() - 2)).norm(), 0.002, 1e-6);
+}
+
+TEST_F(RunPicture, arrows_of_a_run_without_forces_are_refused) {
+  const auto refused = [&](const RecordedRun& run, const char* why) {
+    try {
+      force_arrow_scale({run});
+      ADD_FAILURE() << why;
+    } catch (const ConfigurationError& error) {
+      EXPECT_THAT(error.what(), testing::HasSubstr(why));
+    }
+  };
+  FlexingLeg leg(2);
+  refused(leg.written(folder.path() / "without"), "the run knows no forces");
+  leg.knows_forces = true;
+  refused(leg.written(folder.path() / "no_ends"), "holds no force at a muscle's attachment");
 }
 
 TEST_F(RunPicture, a_transparent_background_is_transparent_and_shapes_are_not) {

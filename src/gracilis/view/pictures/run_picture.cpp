@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace gracilis {
 
@@ -100,6 +101,7 @@ RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options) : run_
   for (const std::string& bone : run.bones) bones_.push_back(recorded_surface(run, bone, 0));
   if (options_.color_by == ColorBy::bone_gap)
     for (const TriangleMesh& bone : bones_) distances_.emplace_back(bone);
+  if (options_.arrow_scale > 0) arrows_.emplace(run, options_.arrow_scale);
   if (options_.color_by == ColorBy::tension) tensions_ = recorded_tensions(run);
   for (const std::string& muscle : run.muscles) {
     if (options_.color_by == ColorBy::tissue) looks_.push_back(recorded_look(run, muscle));
@@ -240,11 +242,15 @@ Panel RunPainter::panel(int frame) const {
     PaintedSurface surface{name, recorded_surface(run_, run_.muscles[m], frame), muscle_color(run_.muscles[m])};
     surface.framed = framed(run_.muscles[m]);
     surface.solid = solids_.contains(run_.muscles[m]);
-    surface.opacity = options_.fibers ? std::min(options_.opacity, 0.3) : options_.opacity;
+    surface.opacity = options_.fibers || arrows_ ? std::min(options_.opacity, 0.3) : options_.opacity;
     if (!surface.framed) surface.opacity = std::min(surface.opacity, 0.25);  // the one in focus is seen through them
     surface.colors = vertex_colors(m, surface.mesh, frame);
     if (options_.color_by == ColorBy::tissue) surface.stripes = looks_[m].stripes;
+    std::vector<PaintedSurface> arrows;
+    if (arrows_) arrows = arrows_->of(m, surface.mesh, frame);
+    for (PaintedSurface& arrow : arrows) arrow.framed = surface.framed;
     panel.surfaces.push_back(std::move(surface));
+    std::move(arrows.begin(), arrows.end(), std::back_inserter(panel.surfaces));
     if (options_.fibers) panel.lines.push_back(fibers(m, frame));
     if (options_.fibers) panel.lines.back().framed = framed(run_.muscles[m]);
   }

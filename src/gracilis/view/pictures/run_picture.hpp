@@ -3,11 +3,13 @@
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/view/pictures/color_scale.hpp>
+#include <gracilis/view/pictures/force_arrows.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/picture.hpp>
 #include <gracilis/view/pictures/vertex_stretch.hpp>
 
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -26,6 +28,7 @@ struct RunPictureOptions {
   bool without_bones = false;
   std::string focus;  ///< the muscle or bone that fills the picture; empty: everything does
   Real zoom = 1;
+  Real arrow_scale = 0;  ///< m per N, of forces at muscles' ends, which one sees through then; 0: no arrows
 };
 
 /// anterior, posterior, lateral, medial, superior, inferior, and anteromedial ... posterolateral.
@@ -73,6 +76,7 @@ class RunPainter {
   std::vector<MuscleLook> looks_;           ///< per muscle, where colors need them
   std::vector<VertexStretch> stretches_;    ///< per muscle, where colors need them
   std::vector<std::vector<Real>> lengths_;  ///< per muscle and fiber at rest, m
+  std::optional<ForceArrows> arrows_;
   std::vector<Eigen::MatrixXd> tensions_;   ///< per muscle: frames × fibers, N, where colors need them
 };
 
