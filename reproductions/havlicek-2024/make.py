@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""make.py OUT HERE: the page, results.csv and figures from the runs OUT/passive, OUT/active, OUT/pbd and OUT/sweep/*."""
+"""make.py OUT HERE: the page, results.csv and figures from the runs OUT/passive, OUT/active, OUT/pbd,
+OUT/sweep/* and OUT/controlled/*, and OUT/samples.sto."""
 import csv
 import glob
 import json
+import math
 import os
 import re
 import sys
@@ -13,6 +15,11 @@ import publication  # noqa: E402
 from charts import COLORS, Series  # noqa: E402
 
 RUNS = {"passive": ("XPBD, passive", "#d55e00"), "active": ("XPBD, active", "#cc79a7"), "pbd": ("PBD, 3 iterations", "#0072b2")}
+MOTIONS = {"flexion": ("hip_flexion_r", "7.1"), "extension": ("hip_flexion_r", "7.4"), "abduction": ("hip_adduction_r", "7.5"),
+           "rotation": ("hip_rotation_r", "7.6")}
+SHOWN = {"flexion": "20, 50 and 90 degrees.", "extension": "10, 30 and 40 degrees.", "abduction": "10, 35 and 45 degrees.",
+         "rotation": "15, 45 and 60 degrees inwards."}
+COORDINATES = ["hip_flexion_r", "hip_adduction_r", "hip_rotation_r"]
 EXPLODED = 1.5  # a muscle's edges so many times as long as at rest, in the mean
 
 
@@ -26,14 +33,18 @@ def settings(folder):
     return found
 
 
+def table_rows(path):
+    """Columns and rows of a .sto file."""
+    with open(path) as file:
+        lines = file.read().split("endheader\n", 1)[1].splitlines()
+    return lines[0].split("\t"), [[float(cell) for cell in line.split("\t")] for line in lines[1:]]
+
+
 def fibers(folder):
     """Of each muscle its fibers' lengths, m, over the first coordinate, degrees: {muscle: [(angle, [length, ...])]}."""
-    with open(f"{folder}/fiber_lengths.sto") as file:
-        lines = file.read().split("endheader\n", 1)[1].splitlines()
-    columns = lines[0].split("\t")
+    columns, rows = table_rows(f"{folder}/fiber_lengths.sto")
     found = {}
-    for line in lines[1:]:
-        row = [float(cell) for cell in line.split("\t")]
+    for row in rows:
         by_muscle = {}
         for name, value in zip(columns, row):
             if name.rsplit("_f", 1)[-1].isdigit() and "_f" in name:
@@ -47,13 +58,20 @@ def mean(values):
     return sum(values) / len(values)
 
 
-def measures(folder, column):
-    """{muscle: [(flexion, value)]}, flexion in degrees."""
+def measures(folder, column, coordinate="hip_flexion_r"):
+    """{muscle: [(coordinate, value)]}, the coordinate in degrees."""
     found = {}
     with open(f"{folder}/measures.csv", newline="") as file:
         for row in csv.DictReader(file):
-            found.setdefault(row["muscle"], []).append((float(row["hip_flexion_r_deg"]), float(row[column])))
+            found.setdefault(row["muscle"], []).append((float(row[f"{coordinate}_deg"]), float(row[column])))
     return found
+
+
+def poses(folder):
+    """The joint's angles of each frame, degrees."""
+    with open(f"{folder}/measures.csv", newline="") as file:
+        rows = {row["frame"]: tuple(float(row[f"{name}_deg"]) for name in COORDINATES) for row in csv.DictReader(file)}
+    return list(rows.values())
 
 
 def worst(folder, column):
@@ -97,6 +115,46 @@ def sweeps(page, out):
     return found
 
 
+def controlled(page, out):
+    """Figures of the motions by the joint control unit: what it says of each muscle, and shapes."""
+    for motion, (coordinate, figure) in MOTIONS.items():
+        for preset in ("thesis-2024", "physical"):
+            folder = f"{out}/controlled/{motion}_{preset}"
+            if not os.path.exists(f"{folder}/measures.csv"):
+                continue
+            for column, label in (("activation", "activation"), ("volume_ratio", "volume over rest")):
+                series = [Series(muscle.replace("_", " "), rows) for muscle, rows in sorted(measures(folder, column, coordinate).items())]
+                page.chart(f"{motion}_{preset}_{column}", f"As Figure {figure}: {motion} by the joint control unit, {preset}",
+                           "Static optimization's samples, as the unit answers." if column == "activation" else "From the capture pose on.",
+                           series, f"{coordinate.replace('_', ' ')}, degrees", label)
+            page.picture(f"{motion}_{preset}", f"As Figure {figure}: {motion} by the joint control unit, {preset}",
+                         SHOWN[motion], f"{folder}.png")
+
+
+def neighbors(page, out, count):
+    """Section 6.5.1: the samples, and those that are among the `count` nearest of some frame of a motion."""
+    if not os.path.exists(f"{out}/samples.sto"):
+        return
+    columns, rows = table_rows(f"{out}/samples.sto")
+    places = [columns.index(name) for name in COORDINATES]
+    samples = sorted({tuple(row[i] for i in places) for row in rows})
+    for motion in MOTIONS:
+        folder = f"{out}/controlled/{motion}_thesis-2024"
+        if not os.path.exists(f"{folder}/measures.csv"):
+            continue
+        asked, used = poses(folder), set()
+        for pose in asked:
+            used.update(sorted(samples, key=lambda sample: math.dist(sample, pose))[:count])
+        for across in (1, 2):
+            def flat(points):
+                return [(point[0], point[across]) for point in points]
+            page.chart(f"neighbors_{motion}_{COORDINATES[across]}", f"Section 6.5.1: samples and neighbors, {motion}",
+                       f"{len(used)} of {len(samples)} samples are among the {count} nearest of some frame.",
+                       [Series("samples", flat(samples), "#bbbbbb", marks=True), Series("neighbors used", flat(sorted(used)), "#0072b2", marks=True),
+                        Series("the motion", flat(asked), "#d55e00")],
+                       "hip flexion, degrees", f"{COORDINATES[across].replace('_', ' ')}, degrees")
+
+
 def main(out, here):
     page = publication.Page(
         out, "Extended position based dynamics (Havlíček 2024)",
@@ -127,11 +185,17 @@ def main(out, here):
         remarks["explosion"] = "; ".join(f"{kind} {step:g}°: {at[1]} at {at[0]:.0f}" if at else f"{kind} {step:g}°: none"
                                          for (kind, step), at in exploded.items())
     page.rows = publication.beside(publication.read_published(f"{here}/published.csv"), ours, remarks)
-    page.cannot("Figures 7.4 to 7.6 and A.7 to A.14: extension, abduction and rotation", "scenes/lhdl_hip/extension.toml, abduction.toml and "
-                "rotation.toml run with --set preset=thesis-2024; nothing of them is a number")
+    controlled(page, out)
+    neighbors(page, out, int(ours["neighbors"]))
+    if not os.path.isdir(f"{out}/controlled"):
+        page.cannot("Figures 7.4 to 7.6 and A.7 to A.14: extension, abduction and rotation by the joint control unit", "the cadaver's hip and "
+                    "OpenSim's walking model (--data)")
+    page.cannot("Figures A.7 to A.14: the other views of those motions", "nothing: gracilis render OUT/controlled/MOTION_thesis-2024 --view VIEW")
+    page.cannot("Figures A.3 and A.4: surface fibers used for verification", "nothing: gracilis render OUT/passive --frames 0 --fibers")
+    page.cannot("Figures 6.4 and 6.5: what constraints move in each iteration", "gracilis view draws it of a live scene; runs do not hold it")
     page.cannot("Figures 7.7 to 7.9, A.1 and A.2: a hip and leg with twenty muscles", "the publication's set of muscles")
     page.cannot("Figures 7.2 and 7.3, of the publication of 2020", "see reproductions/cervenka-kohout-2020")
-    page.cannot("Figures 6.1 to 6.6: pictures of flaws", "the publication's muscles")
+    page.cannot("Figures 6.1 to 6.3 and 6.6: pictures of flaws", "the publication's muscles")
     page.write()
 
 

@@ -40,6 +40,9 @@ TEST(LacleReproduction, the_thin_pass_has_the_shape_of_the_published_results) {
              many = ours(made, "centers outside, LSS 1, CSS 6, 12");
   EXPECT_GT(few, many);
   EXPECT_LE(many, 0.1 * ours(made, "sections in all, LSS 1"));
+  // Figure 3.9: what was chosen follows the line, and leaves no more outside than planes that do not.
+  EXPECT_EQ(ours(made, "centers outside by centered planes"), many);
+  EXPECT_GT(ours(made, "centers outside by fixed planes"), many);
   // Ten muscles and 25 transversals, in real time, and what does not come free is told.
   EXPECT_GT(ours(made, "frames of 10 muscles with 25 transversals"), 60);
   const auto rounds = made.curve("figure_5_6", "rounds");
@@ -92,6 +95,33 @@ TEST(HavlicekReproduction, the_preset_has_the_published_parameters_and_an_active
   const auto sweep = made.curve("sweep_active", "5°");
   ASSERT_EQ(sweep.size(), 3U);
   for (const auto& [flexion, edge] : sweep) EXPECT_LT(edge, 3) << flexion;
+}
+
+TEST(HavlicekReproduction, all_four_motions_run_by_the_joint_control_unit) {
+  if (!Reproduction::has_data("lhdl-hip") || !Reproduction::has_data("opensim"))
+    GTEST_SKIP() << "the cadaver and the walking model are not here: set GRACILIS_DATA";
+  const Reproduction made("--thin", "havlicek-2024", "results.csv");
+  ASSERT_EQ(made.exit_code, 0);
+  const std::pair<const char*, Real> motions[] = {{"flexion", 10}, {"extension", -10}, {"abduction", -10}, {"rotation", 10}};
+  for (const auto& [motion, farthest] : motions) {
+    const std::string name = std::string(motion) + "_thesis-2024_";
+    const auto activation = made.curve(name + "activation", "iliacus r");
+    ASSERT_EQ(activation.size(), 9U) << motion;  // 6 on the way to the motion, then 0, 5 and 10 degrees
+    EXPECT_NEAR(activation.back().first, farthest, 1e-6) << motion;
+    const auto [least, most] = std::minmax_element(activation.begin(), activation.end(),
+                                                   [](const auto& a, const auto& b) { return a.second < b.second; });
+    EXPECT_GE(least->second, 0) << motion;
+    EXPECT_LE(most->second, 1) << motion;
+    EXPECT_GT(most->second - least->second, 0.001) << motion;  // it follows the pose
+    const auto volume = made.curve(name + "volume_ratio", "iliacus r");
+    ASSERT_EQ(volume.size(), 9U) << motion;
+    EXPECT_NEAR(volume.back().second, 1, 0.05) << motion;
+    const auto samples = made.curve(std::string("neighbors_") + motion + "_hip_adduction_r", "samples"),
+               used = made.curve(std::string("neighbors_") + motion + "_hip_adduction_r", "neighbors used");
+    EXPECT_GE(used.size(), 10U) << motion;
+    EXPECT_LT(used.size(), samples.size()) << motion;
+    for (const auto& each : used) EXPECT_EQ(std::count(samples.begin(), samples.end(), each) > 0, true) << motion;
+  }
 }
 
 /// What stands beside the published value whose quantity begins so.
