@@ -33,6 +33,13 @@ def read_published(path):
         return list(csv.DictReader(file))
 
 
+def sto_rows(path):
+    """Columns and rows of a .sto file."""
+    with open(path) as file:
+        lines = file.read().split("endheader\n", 1)[1].splitlines()
+    return lines[0].split("\t"), [[float(cell) for cell in line.split("\t")] for line in lines[1:]]
+
+
 def beside(published, ours, remarks=None):
     """Rows of results.csv. `ours` and `remarks` by the keys of the published rows."""
     rows = []

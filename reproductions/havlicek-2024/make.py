@@ -33,16 +33,9 @@ def settings(folder):
     return found
 
 
-def table_rows(path):
-    """Columns and rows of a .sto file."""
-    with open(path) as file:
-        lines = file.read().split("endheader\n", 1)[1].splitlines()
-    return lines[0].split("\t"), [[float(cell) for cell in line.split("\t")] for line in lines[1:]]
-
-
 def fibers(folder):
     """Of each muscle its fibers' lengths, m, over the first coordinate, degrees: {muscle: [(angle, [length, ...])]}."""
-    columns, rows = table_rows(f"{folder}/fiber_lengths.sto")
+    columns, rows = publication.sto_rows(f"{folder}/fiber_lengths.sto")
     found = {}
     for row in rows:
         by_muscle = {}
@@ -135,7 +128,7 @@ def neighbors(page, out, count):
     """Section 6.5.1: the samples, and those that are among the `count` nearest of some frame of a motion."""
     if not os.path.exists(f"{out}/samples.sto"):
         return
-    columns, rows = table_rows(f"{out}/samples.sto")
+    columns, rows = publication.sto_rows(f"{out}/samples.sto")
     places = [columns.index(name) for name in COORDINATES]
     samples = sorted({tuple(row[i] for i in places) for row in rows})
     for motion in MOTIONS:

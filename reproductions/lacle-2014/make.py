@@ -178,6 +178,7 @@ class Reproduction:
         self.page.cannot("Figures 5.2 and 5.3: the publication's own examples", "the surfaces of the Ultimate Human Model (commercial)")
         self.page.cannot("Figure 5.4: tibialis anterior in eight scales", "a surface of tibialis anterior; the shared leg ends at the knee")
         self.page.cannot("Figure 3.22's numbers", "the figure itself: its text does not tell them")
+        self.page.cannot("Tables 3.1, 3.2 and 3.4: parameters, kinds of constraints, the order of matches", "nothing: they are no results")
         self.page.cannot("Frames per second with drawing", "the publication's graphics card and character")
         self.page.write()
 
