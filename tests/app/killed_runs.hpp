@@ -56,7 +56,8 @@ class KilledRuns : public testing::Test {
     int kills = 0;
     for (; kills < std::min(most, 12); ++kills) {
       const ProgramResult result =
-          run_shell(fmt::format("timeout --signal=KILL {:.3f} {} {}", moments(random_), build_paths::program, command));
+          run_shell(fmt::format("timeout --foreground --signal=KILL {:.3f} {} {}",  // which waits for its end
+                                moments(random_), build_paths::program, command));
       if (result.exit_code == 0) return kills;
       if (result.exit_code != killed_code) {
         ADD_FAILURE() << "exit code " << result.exit_code << " after " << kills << " kills: " << result.err;

@@ -105,6 +105,18 @@ TEST(ProcessMark, tells_living_processes_from_dead_ones_and_their_successors) {
   EXPECT_FALSE(parse_mark("host 99999999999999 5").has_value());
 }
 
+TEST(ProcessMark, of_a_process_that_has_ended_and_nobody_has_waited_for_is_gone) {
+  ProcessMark mark = own_mark();
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  siginfo_t how;
+  waitid(P_PID, static_cast<id_t>(child), &how, WEXITED | WNOWAIT);
+  mark.process = child;
+  mark.started = 0;  // so that its beginning tells nothing
+  EXPECT_TRUE(is_gone(mark));
+  waitpid(child, nullptr, 0);
+}
+
 TEST(ProcessMark, of_a_process_that_ends_while_it_is_asked_for_is_no_error) {
   std::atomic<pid_t> process = getpid();
   std::atomic<bool> done = false;

@@ -26,22 +26,33 @@ static std::string host_name() {
   return host.substr(0, 64);
 }
 
-/// The 22nd number of /proc/PROCESS/stat; counted from the bracket that closes the program's name. 0 where the process
-/// ends meanwhile: then reading fails, which a stream's own functions take for an end and its iterators throw.
-static std::int64_t start_of(std::int64_t process) {
+namespace {
+
+/// What the system says of a process; nothing where there is none.
+struct SystemState {
+  char state = 0;          ///< 'Z' and 'X': it has ended, but nobody has asked how
+  std::int64_t start = 0;  ///< when it began, since the machine did
+};
+
+}  // namespace
+
+/// The third and the 22nd word of /proc/PROCESS/stat; counted from the bracket that closes the program's name. Where
+/// the process ends meanwhile, reading fails, which a stream's own functions take for an end and its iterators throw.
+static SystemState state_of(std::int64_t process) {
   std::ifstream file(fmt::format("/proc/{}/stat", process));
   std::string text;
   std::getline(file, text, '\0');
   const std::size_t bracket = text.rfind(')');
-  if (bracket == std::string::npos) return 0;
+  if (bracket == std::string::npos) return {};
   const std::vector<std::string_view> words = words_of(std::string_view(text).substr(bracket + 1));
   long long start = 0;
-  return words.size() > 19 && parse_integer(words[19], start) ? start : 0;
+  if (words.size() <= 19 || !parse_integer(words[19], start)) return {};
+  return {words[0].front(), start};
 }
 
 ProcessMark own_mark() {
   const std::int64_t process = ::getpid();
-  return {host_name(), process, start_of(process)};
+  return {host_name(), process, state_of(process).start};
 }
 
 std::string to_text(const ProcessMark& mark) { return fmt::format("{} {} {}", mark.host, mark.process, mark.started); }
@@ -57,8 +68,9 @@ std::optional<ProcessMark> parse_mark(std::string_view text) {
 bool is_gone(const ProcessMark& mark) {
   if (mark.host != host_name()) return false;
   if (::kill(static_cast<pid_t>(mark.process), 0) != 0 && errno == ESRCH) return true;
-  const std::int64_t started = start_of(mark.process);
-  return mark.started != 0 && started != 0 && started != mark.started;
+  const SystemState now = state_of(mark.process);
+  if (now.state == 'Z' || now.state == 'X') return true;  // in a container where the first process collects no others
+  return mark.started != 0 && now.start != 0 && now.start != mark.started;
 }
 
 }  // namespace gracilis
