@@ -140,6 +140,13 @@ class Session {
     warnings_.push_back(std::move(text));
   }
 
+  /// Whether the scene's own list of guesses tells of this end, as those of drafted scenes do.
+  bool is_listed(const Muscle& muscle, const Attachment& attachment) const {
+    const std::string end = attachment.end == AttachmentEnd::origin ? " origin:" : " insertion:";
+    return std::ranges::any_of(loaded_.guessed,
+                               [&](const std::string& line) { return line.starts_with(muscle.name + end); });
+  }
+
   void describe_scene() {
     const Scene& scene = loaded_.scene;
     note(fmt::format("scene {}: {}, {}, preset {}", scene.name, counted(scene.bones.size(), "bone"),
@@ -153,7 +160,8 @@ class Session {
                            attachment.end == AttachmentEnd::origin ? "origin" : "insertion", attachment.name,
                            scene.bodies[static_cast<std::size_t>(attachment.body)], attachment.vertices.size(),
                            area.area * 1e4, attachment.guessed ? ", guessed" : ""));
-        if (attachment.guessed) guessed_.push_back(muscle.name + " " + attachment.name);
+        if (attachment.guessed && !is_listed(muscle, attachment))
+          guessed_.push_back(muscle.name + " " + attachment.name);
       }
     }
     guessed_.insert(guessed_.end(), loaded_.guessed.begin(), loaded_.guessed.end());
