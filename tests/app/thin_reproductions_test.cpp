@@ -102,7 +102,8 @@ TEST(HavlicekReproduction, all_four_motions_run_by_the_joint_control_unit) {
     GTEST_SKIP() << "the cadaver and the walking model are not here: set GRACILIS_DATA";
   const Reproduction made("--thin", "havlicek-2024", "results.csv");
   ASSERT_EQ(made.exit_code, 0);
-  const std::pair<const char*, Real> motions[] = {{"flexion", 10}, {"extension", -10}, {"abduction", -10}, {"rotation", 10}};
+  const std::pair<const char*, Real> motions[] = {
+      {"flexion", 10}, {"extension", -10}, {"abduction", -10}, {"rotation", 10}};
   for (const auto& [motion, farthest] : motions) {
     const std::string name = std::string(motion) + "_thesis-2024_";
     const auto activation = made.curve(name + "activation", "iliacus r");

@@ -16,8 +16,8 @@ enum class SectionPlanes { fixed, forward, centered };
 
 /// The directions across the line: a column per section. The plane's normal is, centered, the difference of the
 /// neighboring points (at the ends, of the end and its neighbor), forward, that of the next point and the section's own
-/// (at the end, of the last two), and fixed, (0, -1, 0); the first ray is `first` in the first section's plane, carried on from
-/// section to section by the smallest rotation that takes one normal to the next.
+/// (at the end, of the last two), and fixed, (0, -1, 0); the first ray is `first` in the first section's plane, carried
+/// on from section to section by the smallest rotation that takes one normal to the next.
 struct SectionFrames {
   Eigen::Matrix3Xd normals, first_rays;  ///< unit
 

@@ -15,7 +15,7 @@ namespace gracilis {
 
 namespace {
 
-constexpr Real longest = 0.06, shortest = 0.0005;  // m, as drawn
+constexpr Real longest_arrow = 0.06, shortest_arrow = 0.0005;  // m, as drawn
 constexpr std::array<const char*, 2> end_names = {"origin", "insertion"};
 
 /// After Okabe and Ito (2008), and unlike muscles.
@@ -50,7 +50,7 @@ std::vector<Eigen::MatrixX3d> all_end_forces(const RecordedRun& run) {
   return forces;
 }
 
-std::string legend_of(std::size_t end, Real scale) {
+std::string arrow_legend(std::size_t end, Real scale) {
   return fmt::format("force on {}s, 1 cm for {:g} N", end_names[end], 0.01 / scale);
 }
 
@@ -67,7 +67,7 @@ Real force_arrow_scale(const std::vector<RecordedRun>& runs) {
                                 "draw the run without --arrows"});
     largest = std::max(largest, of_run);
   }
-  const Real exact = longest / largest, power = std::pow(10, std::floor(std::log10(exact)));
+  const Real exact = longest_arrow / largest, power = std::pow(10, std::floor(std::log10(exact)));
   return exact < 2 * power ? power : exact < 5 * power ? 2 * power : 5 * power;
 }
 
@@ -90,7 +90,7 @@ std::vector<PaintedSurface> ForceArrows::of(std::size_t muscle, const TriangleMe
     if (frame >= forces.rows() || attached.empty()) continue;
     const Vec3 root = surface.vertices(Eigen::all, attached).rowwise().mean();
     const TriangleMesh arrow = arrow_surface(root, scale_ * forces.row(frame).transpose());
-    if (arrow.vertex_count() > 0) arrows.push_back({legend_of(end, scale_), arrow, end_colors[end]});
+    if (arrow.vertex_count() > 0) arrows.push_back({arrow_legend(end, scale_), arrow, end_colors[end]});
   }
   return arrows;
 }
@@ -98,7 +98,7 @@ std::vector<PaintedSurface> ForceArrows::of(std::size_t muscle, const TriangleMe
 TriangleMesh arrow_surface(const Vec3& root, const Vec3& along) {
   constexpr Index sides = 16;
   const Real length = along.norm();
-  if (!(length >= shortest)) return {};
+  if (!(length >= shortest_arrow)) return {};
   const Real head = std::min(length / 2, 0.012), brim = head / 3, shaft = brim / 3, tip = brim / 50;
   // The brim stands a hair before the shaft's end, since sections of one place have no plane.
   const std::array<Real, 4> places = {0, length - head, length - head * 0.999, length};

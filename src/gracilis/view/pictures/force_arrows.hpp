@@ -11,8 +11,8 @@ namespace gracilis {
 /// The forces with which muscles pull at their ends, as arrows, of runs that have a forces.sto.
 
 /// How long arrows are, m per N: 1, 2 or 5 times a power of ten, the largest at which the largest force of these runs
-/// is no longer than 60 mm. Throws ConfigurationError where a run has no forces or none of an attachment, and InputError
-/// where its table is damaged.
+/// is no longer than 60 mm. Throws ConfigurationError where a run has no forces or none of an attachment, and
+/// InputError where its table is damaged.
 Real force_arrow_scale(const std::vector<RecordedRun>& runs);
 
 /// What the forces of a run do at muscles' ends.
@@ -31,7 +31,7 @@ class ForceArrows {
 
  private:
   Real scale_;
-  std::vector<Eigen::MatrixX3d> forces_;       ///< two per muscle
+  std::vector<Eigen::MatrixX3d> forces_;      ///< two per muscle
   std::vector<std::vector<Index>> attached_;  ///< two per muscle: vertices
 };
 

@@ -77,7 +77,7 @@ class RunPainter {
   std::vector<VertexStretch> stretches_;    ///< per muscle, where colors need them
   std::vector<std::vector<Real>> lengths_;  ///< per muscle and fiber at rest, m
   std::optional<ForceArrows> arrows_;
-  std::vector<Eigen::MatrixXd> tensions_;   ///< per muscle: frames × fibers, N, where colors need them
+  std::vector<Eigen::MatrixXd> tensions_;  ///< per muscle: frames × fibers, N, where colors need them
 };
 
 /// Frames of one or several runs: a row per run, a column per frame of the first one; other runs show the frame in the
