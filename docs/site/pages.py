@@ -25,7 +25,7 @@ def text_page(title, text):
 
 
 def copy_file(source, pages, waiting):
-    """A picture as it is, a folder as a list, any other text as a page that shows it; pages wait for their turn. Says what
+    """A picture or notebook as it is, a folder as a list, any other text as a page that shows it; pages wait for their turn. Says what
     a link leads to."""
     target = pages / source.relative_to(root)
     if source.is_dir():
@@ -39,7 +39,7 @@ def copy_file(source, pages, waiting):
     if source.suffix == ".md":
         waiting.append(source)
         return target
-    if source.suffix in (".png", ".svg", ".gif"):
+    if source.suffix in (".png", ".svg", ".gif", ".ipynb"):
         shutil.copyfile(source, target)
         return target
     target = target.with_name(target.name + ".md")

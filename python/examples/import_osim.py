@@ -6,10 +6,13 @@ import numpy as np
 
 import gracilis
 
+# %% A scene of the model
 model, folder = sys.argv[1:]
 (file,) = gracilis.import_model(model, folder)
 scene = gracilis.load(file)
 print(f"{len(scene.muscles)} muscles, {len(scene.bones)} bones, coordinates {', '.join(scene.coordinates)}")
+
+# %% The model's own moment arms
 angles = np.radians(np.arange(10, 101, 30))
 lengths, arms = gracilis.paths(model, dict(time=np.arange(len(angles)) / 100, r_elbow_flex=angles))
 for muscle in scene.muscles:

@@ -2,6 +2,7 @@
 
 import gracilis
 
+# %% Two muscles of the hip
 scene = gracilis.demo(only=["iliacus_r", "gluteus_maximus_r"])
 arms = gracilis.moment_arms(scene, "hip_flexion_r", range(0, 31, 10), method="skinning")
 print("degrees          ", *(f"{angle:6.0f}" for angle in arms.degrees))

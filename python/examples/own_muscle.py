@@ -4,6 +4,8 @@ import numpy as np
 
 import gracilis
 
+# %% Surfaces
+
 
 def tube(radius, length, around=16, along=24):
     """A closed tube along z: vertices (n, 3) in m, faces (m, 3), seen from outside."""
@@ -29,6 +31,7 @@ def block(low, high):
     return np.asarray(low) + corners * (np.asarray(high) - np.asarray(low)), np.array(faces, np.int32)
 
 
+# %% A scene of them
 vertices, faces = tube(0.015, 0.16)
 vertices[:, 0] += 0.04  # beside the bones
 scene = gracilis.Scene(
@@ -45,6 +48,8 @@ scene = gracilis.Scene(
     ])],
     iterations=20,
 )  # fmt: skip
+
+# %% It bends
 sim = gracilis.Simulation(scene)
 muscle = sim.muscles["muscle"]
 rest = muscle.volume
