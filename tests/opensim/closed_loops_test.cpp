@@ -76,8 +76,11 @@ TEST(ClosedLoops, a_joint_to_a_body_that_another_joint_holds_closes_the_linkage)
   EXPECT_THAT(names_of(model.bodies), testing::ElementsAre("ground", "crank", "coupler", "rocker", "rocker_copy"));
   EXPECT_EQ(model.bodies[4].mass, 0);
   EXPECT_THAT(model.unsupported, testing::Contains(testing::HasSubstr("moves 'rocker', which another joint holds")));
+  // Near the lower of the two ways in which it closes.
+  model.coordinates[2].default_value = rocker_angle(1.5);
+  model.coordinates[3].default_value = rocker_angle(1.5) - 1.8;
   ASSERT_LT(assemble_defaults(model, {true, false, false, false}).open, 1e-9);
-  const CoordinateMotion motion = sweep(model, 0, radians(-150), radians(200), radians(10));
+  const CoordinateMotion motion = sweep(model, 0, radians(-150), radians(200), radians(5));
   for (Eigen::Index row = 0; row < motion.values.rows(); ++row) {
     const Real turn = motion.values(row, 0);
     EXPECT_NEAR(std::remainder(motion.values(row, 2) - rocker_angle(turn), 2 * pi), 0, 1e-7) << degrees(turn);
@@ -90,7 +93,10 @@ TEST(ClosedLoops, a_second_joint_without_coordinates_holds_the_body_without_a_co
   Model model = model_from(text);
   EXPECT_EQ(model.bodies.size(), 4u);
   ASSERT_EQ(model.loops.size(), 1u);
-  // Coupler and rocker are one body now, so that the linkage is a triangle: it stands still.
+  // Coupler and rocker are one body now, so that the linkage is a triangle: it stands still. Begun near it.
+  model.coordinates[0].default_value = -0.6;
+  model.coordinates[1].default_value = 2.4;
+  model.coordinates[2].default_value = 1.8;
   ASSERT_LT(assemble_defaults(model).open, 1e-9);
   Skeleton skeleton(model);
   EXPECT_EQ(free_motions(skeleton, default_coordinates(model)).cols(), 0);

@@ -269,7 +269,7 @@ TEST(SceneFolder, the_cadaver_hip_becomes_a_scene_of_8_muscles) {
   const CoordinateMotion motion = coordinate_motion(model, read_table(data_root() / "lhdl-hip/motion/hip_flexion.mot"));
   const std::vector<std::string> left_out =
       write_scene_folder(model, {{}, {}, named}, {{"flexion", motion}}, {}, folder.path());
-  EXPECT_EQ(left_out.size(), 2u);  // tendons, as long as placeholders say
+  EXPECT_TRUE(left_out.empty());  // bellies leave room for tendons, though placeholders of slack lengths would not
   const LoadedScene loaded = read_scene(folder.path() / "flexion.toml");
   EXPECT_EQ(loaded.scene.muscles.size(), 8u);
   EXPECT_EQ(loaded.scene.motion.times.size(), 36u);
