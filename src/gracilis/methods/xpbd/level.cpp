@@ -159,8 +159,9 @@ void refine(const CoarserLevel& coarser, Level& full, const Pose& before, const 
   std::vector<Particles> placed(next_full.size());
   parallel_for_each(placed.size(), [&](std::size_t m) {
     placed[m] = next_full[m].particles;
+    // The copy is carried by the whole surface, which its strings have already taken along.
     next_full[m].strings = next_coarse[m].strings;
-    skin_by_strings(full.muscles[m], next_full[m]);
+    next_full[m].skinned = next_full[m].whole_skinned = next_coarse[m].whole_skinned;
     prolong(coarser.prolongations[m], coarser.level.muscles[m], next_coarse[m], full.muscles[m], next_full[m], now,
             placed[m]);
   });

@@ -54,7 +54,7 @@ static bool shares_of(const PreparedMuscle& muscle, Index particle, std::vector<
 }
 
 MuscleState make_muscle_state(const PreparedMuscle& muscle, std::size_t bodies) {
-  MuscleState state{make_state(muscle.system), {}, {}};
+  MuscleState state{make_state(muscle.system), {}, {}, {}};
   if (!muscle.carrying.strings) return state;
   state.strings = strings::capture_state(*muscle.carrying.strings, bodies);
   skin_by_strings(muscle, state);
@@ -64,11 +64,12 @@ MuscleState make_muscle_state(const PreparedMuscle& muscle, std::size_t bodies) 
 void skin_by_strings(const PreparedMuscle& muscle, MuscleState& state) {
   if (!muscle.carrying.strings) return;
   const StringSkinnedSurface& carried = *muscle.carried;
-  strings::SkinnedSurface skinned =
-      skinned_by_strings(*muscle.carrying.strings, carried.skin, carried.rest, carried.faces, state.strings);
-  if (!muscle.skinned_vertex.empty())
-    skinned = {skinned.vertices(Eigen::all, muscle.skinned_vertex), skinned.turns(Eigen::all, muscle.skinned_vertex)};
-  state.skinned = std::make_shared<const strings::SkinnedSurface>(std::move(skinned));
+  state.skinned = state.whole_skinned = std::make_shared<const strings::SkinnedSurface>(
+      skinned_by_strings(*muscle.carrying.strings, carried.skin, carried.rest, carried.faces, state.strings));
+  if (muscle.skinned_vertex.empty()) return;
+  const strings::SkinnedSurface& whole = *state.whole_skinned;
+  state.skinned = std::make_shared<const strings::SkinnedSurface>(strings::SkinnedSurface{
+      whole.vertices(Eigen::all, muscle.skinned_vertex), whole.turns(Eigen::all, muscle.skinned_vertex)});
 }
 
 void follow_strings(const PreparedMuscle& muscle, const Pose& pose, MuscleState& state) {

@@ -11,6 +11,7 @@ namespace gracilis::xpbd {
 struct MuscleState : SurfaceState {
   strings::StringState strings;
   std::shared_ptr<const strings::SkinnedSurface> skinned;  ///< by the strings; none: by bodies or a line
+  std::shared_ptr<const strings::SkinnedSurface> whole_skinned;  ///< that of which a coarser copy's is a part
 };
 
 /// The state in the capture pose of a scene with so many bodies.
