@@ -22,7 +22,7 @@ struct Slab {
       is_fixed.push_back(rest.vertices(0, v) < 1e-9 || rest.vertices(0, v) > 0.2 - 1e-9);
   }
   Points fitted(const Points& places, Real smoothing = 0.02, Index largest_factorized = 30000) const {
-    return GradientFit(rest, is_fixed, trust, smoothing, largest_factorized).fitted(places, gradients);
+    return GradientFit(rest, is_fixed, trust, smoothing, largest_factorized).fitted({places, gradients});
   }
   /// Places that waver by so much (m) from vertex to vertex.
   Points wavering(Real by) const {
@@ -95,6 +95,18 @@ TEST(GradientFit, conjugate_gradients_find_what_the_factorization_does) {
   const Slab slab;
   const Points places = slab.wavering(0.002);
   EXPECT_LT((slab.fitted(places) - slab.fitted(places, 0.02, 0)).cwiseAbs().maxCoeff(), 2e-6);
+}
+
+TEST(GradientFit, of_two_aims_each_is_fitted_as_alone) {
+  const Slab slab;
+  const GradientFit::Aim first{slab.wavering(0.002), slab.gradients}, second{1.1 * first.places, slab.gradients};
+  for (const Index largest_factorized : {30000, 0}) {
+    const GradientFit fit(slab.rest, slab.is_fixed, slab.trust, 0.02, largest_factorized);
+    const auto [one, other] = fit.fitted(first, second);
+    EXPECT_EQ(one, fit.fitted(first));
+    EXPECT_EQ(other, fit.fitted(second));
+    EXPECT_NE(one, other);
+  }
 }
 
 TEST(OppositeVertices, of_a_slab_lie_across_its_thickness) {

@@ -62,7 +62,9 @@ Eigen::SparseMatrix<Real> GradientFit::normal_matrix() const {
 }
 
 /// One column per unknown.
-Points GradientFit::right_side(const Points& places, const std::vector<Eigen::Matrix3d>& gradients) const {
+Points GradientFit::right_side(const Aim& aim) const {
+  const Points& places = aim.places;
+  const std::vector<Eigen::Matrix3d>& gradients = aim.gradients;
   Points sum(3, unknowns_);
   for (Index v = 0; v < places.cols(); ++v)
     if (const Index i = number_of(v); i >= 0) sum.col(i) = place_weights_[v] * places.col(v);
@@ -81,7 +83,11 @@ Points GradientFit::right_side(const Points& places, const std::vector<Eigen::Ma
   return sum;
 }
 
-Points GradientFit::iterated(const Points& right_side, const Points& guess) const {
+/// From the places on.
+Points GradientFit::iterated(const Points& right_side, const Points& places) const {
+  Points guess(3, unknowns_);
+  for (Index v = 0; v < places.cols(); ++v)
+    if (const Index i = number_of(v); i >= 0) guess.col(i) = places.col(v);
   Eigen::ConjugateGradient<Eigen::SparseMatrix<Real>, Eigen::Lower | Eigen::Upper> iteration(matrix_);
   iteration.setTolerance(fit_residual);
   Points solution(3, unknowns_);
@@ -93,17 +99,25 @@ Points GradientFit::iterated(const Points& right_side, const Points& guess) cons
   return solution;
 }
 
-Points GradientFit::fitted(const Points& places, const std::vector<Eigen::Matrix3d>& gradients) const {
+Points GradientFit::with_solution(const Points& places, const Points& solution) const {
   Points fitted = places;
-  if (unknowns_ == 0) return fitted;
-  Points guess(3, unknowns_);
-  for (Index v = 0; v < places.cols(); ++v)
-    if (const Index i = number_of(v); i >= 0) guess.col(i) = places.col(v);
-  const Points sums = right_side(places, gradients);
-  const Points solution = is_factorized_ ? factors_.solve_points(sums) : iterated(sums, guess);
   for (Index v = 0; v < places.cols(); ++v)
     if (const Index i = number_of(v); i >= 0) fitted.col(v) = solution.col(i);
   return fitted;
+}
+
+Points GradientFit::fitted(const Aim& aim) const {
+  if (unknowns_ == 0) return aim.places;
+  const Points sums = right_side(aim);
+  return with_solution(aim.places, is_factorized_ ? factors_.solve_points(sums) : iterated(sums, aim.places));
+}
+
+std::pair<Points, Points> GradientFit::fitted(const Aim& first, const Aim& second) const {
+  if (unknowns_ == 0 || !is_factorized_) return {fitted(first), fitted(second)};
+  Eigen::Matrix<Real, 6, Eigen::Dynamic> sums(6, unknowns_);
+  sums << right_side(first), right_side(second);
+  const Eigen::Matrix<Real, 6, Eigen::Dynamic> solution = factors_.solve_points(sums);
+  return {with_solution(first.places, solution.topRows<3>()), with_solution(second.places, solution.bottomRows<3>())};
 }
 
 }  // namespace gracilis

@@ -3,6 +3,7 @@
 #include <gracilis/geometry/sparse_ldlt.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
+#include <utility>
 #include <vector>
 
 namespace gracilis {
@@ -24,8 +25,16 @@ class GradientFit {
   GradientFit(const TriangleMesh& rest, const std::vector<char>& is_fixed, const Eigen::VectorXd& trust, Real smoothing,
               Index largest_factorized = 30000);
 
-  /// Fixed vertices are where `places` says. `gradients` per vertex, of the place now by the place at rest.
-  Points fitted(const Points& places, const std::vector<Eigen::Matrix3d>& gradients) const;
+  /// What one surface is to come near to.
+  struct Aim {
+    Points places;
+    std::vector<Eigen::Matrix3d> gradients;  ///< per vertex, of the place now by the place at rest
+  };
+
+  /// Fixed vertices are where the places say.
+  Points fitted(const Aim& aim) const;
+  /// Two surfaces, each as alone, in the time of little more than one: what takes the time is to read the factors.
+  std::pair<Points, Points> fitted(const Aim& first, const Aim& second) const;
 
  private:
   struct Link {
@@ -43,8 +52,9 @@ class GradientFit {
 
   Index number_of(Index vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
   Eigen::SparseMatrix<Real> normal_matrix() const;
-  Points right_side(const Points& places, const std::vector<Eigen::Matrix3d>& gradients) const;
-  Points iterated(const Points& right_side, const Points& guess) const;
+  Points right_side(const Aim& aim) const;
+  Points iterated(const Points& right_side, const Points& places) const;
+  Points with_solution(const Points& places, const Points& solution) const;
 };
 
 }  // namespace gracilis

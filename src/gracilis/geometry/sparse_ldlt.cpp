@@ -27,7 +27,10 @@ void SparseLdlt::factor(const Eigen::SparseMatrix<Real>& matrix, const char* fai
 
 Eigen::MatrixXd SparseLdlt::solve(const Eigen::MatrixXd& right) const { return factors_->ldlt.solve(right); }
 
-Points SparseLdlt::solve_points(const Points& right) const {
+template <int Rows>
+Eigen::Matrix<Real, Rows, Eigen::Dynamic> SparseLdlt::solve_points(
+    const Eigen::Matrix<Real, Rows, Eigen::Dynamic>& right) const {
+  using Column = Eigen::Matrix<Real, Rows, 1>;
   const auto& lower = factors_->ldlt.matrixL().nestedExpression();
   const auto* const begin = lower.outerIndexPtr();
   const auto* const rows = lower.innerIndexPtr();
@@ -35,20 +38,23 @@ Points SparseLdlt::solve_points(const Points& right) const {
   const auto& order = factors_->ldlt.permutationP().indices();
   const Eigen::VectorXd& diagonal = factors_->ldlt.vectorD();
   const auto n = static_cast<Index>(right.cols());
-  Points x(3, n);
+  Eigen::Matrix<Real, Rows, Eigen::Dynamic> x(Rows, n), solution(Rows, n);
   for (Index i = 0; i < n; ++i) x.col(order[i]) = right.col(i);
   for (Index i = 0; i < n; ++i) {
-    const Vec3 own = x.col(i);
+    const Column own = x.col(i);
     for (auto k = begin[i]; k < begin[i + 1]; ++k) x.col(rows[k]) -= values[k] * own;
   }
   for (Index i = n - 1; i >= 0; --i) {
-    Vec3 own = x.col(i) * (1 / diagonal[i]);
+    Column own = x.col(i) * (1 / diagonal[i]);
     for (auto k = begin[i]; k < begin[i + 1]; ++k) own -= values[k] * x.col(rows[k]);
     x.col(i) = own;
   }
-  Points solution(3, n);
   for (Index i = 0; i < n; ++i) solution.col(i) = x.col(order[i]);
   return solution;
 }
+
+template Points SparseLdlt::solve_points(const Points&) const;
+template Eigen::Matrix<Real, 6, Eigen::Dynamic> SparseLdlt::solve_points(
+    const Eigen::Matrix<Real, 6, Eigen::Dynamic>&) const;
 
 }  // namespace gracilis

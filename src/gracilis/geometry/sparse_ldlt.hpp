@@ -24,9 +24,10 @@ class SparseLdlt {
   /// x with matrix · x = right, column by column. Precondition: factored.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;
 
-  /// The same for points, one per unknown (3 × n). All axes at once: the factors come from memory once, not three
-  /// times.
-  Points solve_points(const Points& right) const;
+  /// The same for points, a column per unknown: of one surface (3 rows) or two (6). All rows at once: the factors come
+  /// from memory once, not once for each.
+  template <int Rows>
+  Eigen::Matrix<Real, Rows, Eigen::Dynamic> solve_points(const Eigen::Matrix<Real, Rows, Eigen::Dynamic>& right) const;
 
  private:
   struct Factors;

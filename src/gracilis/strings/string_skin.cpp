@@ -224,12 +224,9 @@ Followed follow_nodes(const MuscleStrings& muscle, const StringSkin& skin, Index
   return followed;
 }
 
-/// Places of vertices and gradients about them, in the capture pose's directions.
-struct Aim {
-  explicit Aim(Index count) : places(3, count), gradients(static_cast<std::size_t>(count)) {}
-  Points places;
-  std::vector<Eigen::Matrix3d> gradients;
-};
+GradientFit::Aim room_for(Index vertices) {
+  return {Points(3, vertices), std::vector<Eigen::Matrix3d>(static_cast<std::size_t>(vertices))};
+}
 
 }  // namespace
 
@@ -240,7 +237,7 @@ SkinnedSurface skinned_by_strings(const MuscleStrings& muscle, const StringSkin&
   const StringFrames now{std::move(frames), std::move(node_widths), string_stretches(muscle, state.places)};
   const Index count = static_cast<Index>(rest.cols());
   SkinnedSurface skinned{Points(3, count), Eigen::Matrix4Xd(4, count)};
-  Aim narrow(count), widening(count);
+  GradientFit::Aim narrow = room_for(count), widening = room_for(count);
   parallel_for(count, 512, [&](Index begin, Index end) {
     for (Index vertex = begin; vertex < end; ++vertex) {
       const auto v = static_cast<std::size_t>(vertex);
@@ -263,8 +260,8 @@ SkinnedSurface skinned_by_strings(const MuscleStrings& muscle, const StringSkin&
       widening.gradients[v] = share * turned_across;
     }
   });
-  const WidenedSurface widened{skin.fit->fitted(narrow.places, narrow.gradients),
-                               skin.fit->fitted(widening.places, widening.gradients)};
+  auto [narrow_fit, widening_fit] = skin.fit->fitted(narrow, widening);
+  const WidenedSurface widened{std::move(narrow_fit), std::move(widening_fit)};
   skinned.vertices = widened.at(widening_to_volume(widened, faces, skin.volume));
   return skinned;
 }
