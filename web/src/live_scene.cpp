@@ -9,6 +9,7 @@
 #include <gracilis/scene/setting_table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
+#include <gracilis/view/report/page_method.hpp>
 #include <gracilis/view/window/bone_pull.hpp>
 #include <gracilis/view/window/slider_range.hpp>
 
@@ -69,9 +70,11 @@ bool has_settings(const Scene& scene) {
 /// First what follows sliders as they are pulled, then the scene's own method where that is none of the others.
 std::vector<PageChoice> page_choices(const Scene& scene) {
   std::vector<PageChoice> choices;
-  for (const Preset& preset : presets())
-    if (preset.name == "fast")
-      choices.push_back({preset.method.name + ", fast", std::string(preset.meaning), preset.method});
+  const MethodChoice following = page_method(scene);
+  choices.push_back({following.name + ", fast",
+                     "Nearly the shapes of `" + following.name +
+                         "` in less time: fewer iterations, on coarser copies where muscles are large.",
+                     following});
   if (has_settings(scene) && find_method(scene.method.name))
     choices.push_back(
         {scene.method.name + ", as the scene says", "The method and the settings of this scene.", scene.method, true});
