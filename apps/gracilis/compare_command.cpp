@@ -1,6 +1,6 @@
 #include "compare_command.hpp"
 
-#include "prepare_command.hpp"
+#include "handed_preparation.hpp"
 #include "scene_options.hpp"
 #include "session.hpp"
 #include "size_question.hpp"

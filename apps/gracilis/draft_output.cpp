@@ -6,6 +6,7 @@
 #include <gracilis/io/counted.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/json_file.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/view/pictures/scene_picture.hpp>
 
@@ -38,16 +39,26 @@ void require_new_scene(const fs::path& out, bool force) {
   if (is_there(out))
     throw ConfigurationError({out.string(), "", "is there already", "give another name, or --force to replace it"});
   // The files that a draft puts beside the scene may be somebody's own.
-  for (const fs::path& beside : {landmark_table(out), fs::path(out).replace_extension(".png")})
+  for (const fs::path& beside : {landmark_table(out), mended_folder(out), fs::path(out).replace_extension(".png")})
     if (is_there(beside))
       throw ConfigurationError({beside.string(), "", "is there already, and would be written beside " + out.string(),
                                 "give another name, or --force to replace it"});
+}
+
+static void write_mended(const FoundMuscle& muscle) {
+  const fs::path& file = muscle.mended->file;
+  std::error_code failed;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), failed);
+  if (failed) throw InputError({file.parent_path().string(), "", "cannot be made a folder: " + failed.message(), ""});
+  write_surface(file, muscle.mesh.vertices, muscle.mesh.faces);
 }
 
 void write_draft_files(const SceneDraft& draft, const fs::path& out) {
   const std::string clouds = draft_landmarks(draft);
   const fs::path table = clouds.empty() ? fs::path() : landmark_table(out);
   if (!clouds.empty()) write_text_atomically(table, clouds);
+  for (const DraftMuscle& muscle : draft.muscles)
+    if (muscle.found->mended) write_mended(*muscle.found);
   write_text_atomically(out, draft_text(draft, out, table));
 }
 
@@ -70,6 +81,8 @@ void tell(const SceneDraft& draft) {
              counted(draft.muscles.size(), "muscle"));
   for (const Guess& guess : guesses_of(draft))
     fmt::print("{} {}: {}\n", guess.certainty < doubtful ? "look at" : "guessed", guess.subject, to_string(guess));
+  for (const DraftMuscle& muscle : draft.muscles)
+    if (muscle.found->mended) fmt::print("mended {}: {}\n", muscle.found->name, muscle.found->mended->file.string());
   for (const std::string& line : draft.left_out) fmt::print("left out {}\n", line);
 }
 

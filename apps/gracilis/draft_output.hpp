@@ -7,11 +7,11 @@
 /// What 'gracilis scene' and 'gracilis new' do with a drafted scene.
 namespace gracilis {
 
-/// Throws ConfigurationError where `out` is no name of a scene file, or where it, its landmarks' table or its picture
-/// is there already and not to be replaced.
+/// Throws ConfigurationError where `out` is no name of a scene file, or where it, its landmarks' table, its folder of
+/// mended surfaces or its picture is there already and not to be replaced.
 void require_new_scene(const std::filesystem::path& out, bool force);
 
-/// Writes the scene file, and its landmarks beside it.
+/// Writes the scene file, and its landmarks and mended surfaces beside it.
 void write_draft_files(const SceneDraft& draft, const std::filesystem::path& out);
 
 /// Prints what was found and what was guessed, doubtful things first.

@@ -1,6 +1,7 @@
 #include "scene_command.hpp"
 
 #include "draft_output.hpp"
+#include "handed_preparation.hpp"
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
@@ -20,7 +21,7 @@ namespace {
 struct SceneCommandOptions {
   fs::path folder, out, picture;
   std::vector<std::string> joints;
-  bool force = false, mirror = false, json = false;
+  bool force = false, mirror = false, prepare = false, json = false;
 };
 
 /// "knee_r=R_Med_Epi,R_Lat_Epi" as a joint and its landmarks.
@@ -48,6 +49,10 @@ int make_scene(const SceneCommandOptions& options) {
   require_new_scene(options.out, options.force);
   DraftOptions draft_options;
   draft_options.mirror = options.mirror;
+  if (options.prepare) {
+    draft_options.mend = surface_mending();
+    draft_options.mended_folder = mended_folder(options.out);
+  }
   for (const std::string& joint : options.joints) add_joint_landmarks(joint, draft_options);
   const SceneDraft draft = draft_scene(options.folder, draft_options);
 
@@ -71,6 +76,8 @@ void add_scene_command(CLI::App& program, Command& chosen) {
       ->allow_extra_args(false);
   command->add_option("--picture", options->picture,
                       "Where to draw what was guessed (.png; default: beside the scene file)");
+  command->add_flag("--prepare", options->prepare,
+                    "Mend muscles' surfaces that a run would refuse; they are written into a folder beside the scene");
   command->add_flag("--mirror", options->mirror, "Make the body's other half: a left leg of a right one");
   command->add_flag("--force", options->force, "Replace the scene file");
   command->add_flag("--json", options->json, "Print what was found and guessed as JSON, for programs");

@@ -1,5 +1,5 @@
 #include "scene_options.hpp"
-#include "prepare_command.hpp"
+#include "handed_preparation.hpp"
 
 namespace gracilis {
 

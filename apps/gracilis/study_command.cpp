@@ -2,7 +2,7 @@
 
 #include "console.hpp"
 #include "exit_handling.hpp"
-#include "prepare_command.hpp"
+#include "handed_preparation.hpp"
 #include "session.hpp"
 #include "study_listing.hpp"
 

@@ -1,7 +1,7 @@
 #include "transfer_command.hpp"
 
 #include "build_info.hpp"
-#include "prepare_command.hpp"
+#include "handed_preparation.hpp"
 #include "scene_options.hpp"
 
 #include <gracilis/core/errors.hpp>

@@ -1,7 +1,7 @@
 #include "view_command.hpp"
 
 #include "console.hpp"
-#include "prepare_command.hpp"
+#include "handed_preparation.hpp"
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/run/recorded_run.hpp>

@@ -1,6 +1,8 @@
 #include "agreement.hpp"
 #include "made_body.hpp"
 
+#include "io/glb_parts.hpp"
+
 #include <gracilis/draft/name_search.hpp>
 #include <gracilis/geometry/measures.hpp>
 
@@ -162,6 +164,57 @@ TEST(FolderOfMadeBody, a_right_hip_mirrored_is_a_left_one) {
     for (std::size_t i = 0; i < a.attachments.size(); ++i)
       EXPECT_EQ(a.attachments[i].vertices, b.attachments[i].vertices) << a.name;
   }
+}
+
+TEST(FolderOfMadeBody, each_mesh_of_a_glb_is_a_surface_of_its_name) {
+  const TestFolder folder;
+  std::vector<std::pair<std::string, TriangleMesh>> bones, muscles;
+  for (const Bone& bone : hip().bones) bones.emplace_back(bone.name, bone.surface);
+  for (const Muscle& muscle : hip().muscles)
+    if (muscle.name == "iliacus_r") muscles.emplace_back("Iliacus muscle.R", muscle.surface);
+  fs::create_directories(folder.path() / "hip" / "x");
+  write_parts(folder.path() / "hip" / "bones.glb", bones);
+  write_parts(folder.path() / "hip" / "x" / "muscles.glb", muscles);
+  folder.write("hip/damaged.glb", "glTF");
+  const SceneDraft draft = draft_scene(folder.path() / "hip");
+  EXPECT_THAT(draft.left_out, testing::ElementsAre(testing::HasSubstr("damaged.glb")));
+  const Scene scene = drafted_scene(folder.path() / "hip").scene;
+  ASSERT_EQ(scene.bones.size(), hip().bones.size());
+  ASSERT_EQ(scene.muscles.size(), 1u);
+  EXPECT_EQ(scene.muscles[0].name, "iliacus_r");
+  EXPECT_EQ(scene.muscles[0].attachments.size(), 2u);
+}
+
+TEST(FolderOfMadeBody, what_a_run_would_refuse_is_mended_where_that_is_asked_for) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names, 0.001);
+  const TriangleMesh whole = hip().muscles[0].surface;
+  TriangleMesh open = whole;
+  open.vertices *= 1000;
+  open.faces.conservativeResize(3, open.faces.cols() - 10);
+  const fs::path file = folder.path() / "hip" / "muscles" / "piriformis_r.vtp";
+  write_surface(file, open.vertices, open.faces);
+  DraftOptions options;
+  options.mended_folder = "beside";
+  std::string asked;
+  options.mend = [&](const std::string& name, const TriangleMesh& mesh) {
+    asked = name;
+    EXPECT_LT(mesh.vertices.cwiseAbs().maxCoeff(), 2) << "metres";
+    return MendedSurface{whole, {"hole filled"}};
+  };
+  const SceneDraft draft = draft_scene(folder.path() / "hip", options);
+  EXPECT_EQ(asked, "piriformis_r");
+  EXPECT_THAT(draft.left_out, testing::IsEmpty());
+  const std::string text = draft_text(draft, "scene.toml", {});
+  EXPECT_THAT(text, testing::HasSubstr("beside/piriformis_r.vtp\"\n"));
+  EXPECT_THAT(text, testing::HasSubstr("piriformis_r: its surface is mended"));
+  EXPECT_THAT(text, testing::HasSubstr("# mended, since a run would refuse"));
+
+  options.mend = [](const std::string&, const TriangleMesh&) -> MendedSurface {
+    throw InputError({"", "", "encloses nothing", ""});
+  };
+  EXPECT_THAT(draft_scene(folder.path() / "hip", options).left_out,
+              testing::ElementsAre(testing::HasSubstr("nor could it be mended: encloses nothing")));
 }
 
 TEST(FolderOfMadeBody, what_cannot_be_used_is_left_out_and_named) {

@@ -68,6 +68,36 @@ TEST(SceneCommand, a_folder_becomes_a_scene_with_a_picture_that_runs_and_tells_i
   EXPECT_EQ(run_program("scene " + (folder.path() / "empty").string() + " --out " + scene + " --force").exit_code, 3);
 }
 
+TEST(SceneCommand, mends_what_a_run_would_refuse_into_a_folder_beside_the_scene) {
+  const TestFolder folder;
+  Scene body = demo_scene("hip");
+  for (Muscle& muscle : body.muscles) {
+    Eigen::Matrix3Xi& faces = muscle.surface.faces;
+    faces.conservativeResize(3, faces.cols() - 4);
+  }
+  write_body(folder.path() / "hip", body,
+             {{"hip_bone_r", "hip_bone_r.vtp"}, {"femur_r", "femur_r.vtp"}, {"adductor_longus_r", "add_long_r.vtp"}});
+  const std::string in = (folder.path() / "hip").string(), scene = (folder.path() / "hip" / "made.toml").string();
+  const ProgramResult without = run_program("scene " + in + " --out " + scene);
+  EXPECT_EQ(without.exit_code, 3);
+  EXPECT_THAT(without.err, HasSubstr("gracilis prepare"));
+  const std::filesystem::path mended = folder.path() / "hip" / "made_mended" / "adductor_longus_r.vtp";
+  EXPECT_FALSE(std::filesystem::exists(mended));
+  const ProgramResult made = run_program("scene " + in + " --prepare --out " + scene);
+  if (made.err.find("built without 'prepare'") != std::string::npos) {
+    EXPECT_EQ(made.exit_code, 2);
+    return;
+  }
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("mended adductor_longus_r: " + mended.string()));
+  EXPECT_TRUE(std::filesystem::exists(mended));
+  EXPECT_EQ(run_program("inspect " + scene).exit_code, 0);
+  const ProgramResult again = run_program("scene " + in + " --prepare --force --out " + scene);
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("2 bones, 1 joints, 1 muscles")) << "what is mended is not found again";
+  EXPECT_THAT(again.out, testing::Not(HasSubstr("left out")));
+}
+
 TEST(NewCommand, surfaces_become_a_commented_scene_that_runs) {
   const TestFolder folder;
   write_body(folder.path() / "hip", demo_scene("hip"),

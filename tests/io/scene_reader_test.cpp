@@ -62,6 +62,29 @@ TEST_F(SceneReader, holds_what_comes_between_listed_vertices_when_needles_are_di
   EXPECT_THAT(problems(listing("0, 122")), HasSubstr("vertex 122 does not exist (the surface has vertices 0 to 121)"));
 }
 
+TEST_F(SceneReader, holds_what_comes_between_vertices_that_a_cloud_names_when_needles_are_divided) {
+  write_needles(folder, 60);
+  const TriangleMesh of_file = shapes::cylinder(4, 18, 60, 1);
+  std::string points;
+  for (const Index v : {0, 1, 2, 3, 60, 61, 62, 63}) {
+    const Vec3 p = of_file.vertices.col(v) + Vec3(5, 5, 11);
+    points += (points.empty() ? "[" : ", [") + std::to_string(p.x()) + ", " + std::to_string(p.y()) + ", " +
+              std::to_string(p.z()) + "]";
+  }
+  const std::string below =
+      with(good_scene(), "bone = \"femur\"\nbone_distance_mm = 2", "body = \"femur\"\nvertices = [30]");
+  const auto attached = [&](const std::string& how) {
+    const std::string scene = with(below, "bone = \"pelvis\"\nbone_distance_mm = 2", how);
+    return read(scene).scene.muscles.at(0).attachments.at(0).vertices;
+  };
+  const std::vector<Index> listed = attached("body = \"pelvis\"\nvertices = [0, 1, 2, 3, 60, 61, 62, 63]");
+  ASSERT_GT(listed.size(), 8u);
+  EXPECT_EQ(attached("body = \"pelvis\"\npoints_mm = [" + points + "]\nlandmark_distance_mm = 0.001"), listed);
+  EXPECT_EQ(
+      attached("bone = \"pelvis\"\nbone_distance_mm = 100\npoints_mm = [" + points + "]\nlandmark_distance_mm = 0.001"),
+      listed);
+}
+
 TEST_F(SceneReader, attachments_by_distance_to_a_bone_take_the_vertices_that_face_it) {
   const Muscle muscle = read(good_scene()).scene.muscles.at(0);
   ASSERT_EQ(muscle.attachments.size(), 2u);

@@ -4,6 +4,7 @@
 #include <gracilis/io/mesh/mesh_writer.hpp>
 
 #include "app/program.hpp"
+#include "io/glb_parts.hpp"
 #include "io/scene_folder.hpp"
 #include "shapes.hpp"
 
@@ -138,6 +139,34 @@ TEST_F(PrepareCommand, leaves_overlaps_on_demand) {
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_THAT(done.out, HasSubstr("left and right: "));
   EXPECT_THAT(done.out, Not(HasSubstr("left and right: 0 pairs")));
+}
+
+TEST_F(PrepareCommand, pulls_only_those_apart_that_are_named) {
+  const std::string files = file("a", round_muscle(-14 * mm)) + file("b", round_muscle(14 * mm)) +
+                            file("c", round_muscle(42 * mm)) + "--edge-length 0 ";
+  const ProgramResult one = prepare(files + "--apart a");
+  ASSERT_EQ(one.exit_code, 0) << one.err;
+  const auto low = [](const TriangleMesh& mesh) { return mesh.vertices.row(0).minCoeff(); };
+  const auto high = [](const TriangleMesh& mesh) { return mesh.vertices.row(0).maxCoeff(); };
+  EXPECT_GT(low(result("b")), high(result("a")));
+  EXPECT_NEAR(low(result("b")), -1 * mm, 0.01 * mm) << "it stays";
+  EXPECT_LT(low(result("c")), high(result("b"))) << "as asked for";
+  const ProgramResult unknown = prepare(files + "--apart a,d");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("no muscle is called 'd'"));
+  EXPECT_EQ(prepare(files + "--apart a --keep-overlaps").exit_code, 2);
+}
+
+TEST_F(PrepareCommand, takes_parts_of_a_glb_by_name) {
+  const std::string glb =
+      write_parts(folder / "both.glb", {{"left", round_muscle(-20 * mm)}, {"right one", round_muscle(20 * mm)}});
+  ASSERT_EQ(prepare(glb + " --part 'right one'").exit_code, 0);
+  EXPECT_EQ(written(), 1u);
+  EXPECT_GT(result("right_one").vertices.row(0).minCoeff(), 4 * mm);
+  const ProgramResult unknown = prepare(glb + " --part lefty");
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_THAT(unknown.err, HasSubstr("has no node or mesh 'lefty'"));
+  EXPECT_EQ(prepare(file("x", round_muscle()) + "--part left").exit_code, 3) << "no parts there";
 }
 
 TEST_F(PrepareCommand, a_wrong_unit_is_told_of_before_any_work) {

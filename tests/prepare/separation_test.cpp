@@ -101,6 +101,18 @@ TEST(Separation, moves_no_vertex_by_more_than_twice_the_worst_overlap_even_where
   EXPECT_NEAR(result.moved[0], farthest_moved(ball, muscles[0]), 1e-12);
 }
 
+TEST(Separation, what_stays_is_as_a_bone_and_lies_in_others_that_stay_unasked) {
+  const TriangleMesh left = sphere(Vec3(-18 * mm, 0, 0), 20 * mm, 4), middle = sphere(Vec3(18 * mm, 0, 0), 20 * mm, 4),
+                     right = sphere(Vec3(54 * mm, 0, 0), 20 * mm, 4);
+  std::vector<TriangleMesh> muscles = {left, middle, right};
+  const SeparationResult result = separate(muscles, {}, {.stays = {0, 1, 1}});
+  EXPECT_EQ(muscles[1].vertices, middle.vertices);
+  EXPECT_EQ(muscles[2].vertices, right.vertices);
+  EXPECT_GT(farthest_moved(left, muscles[0]), 3.9 * mm) << "the overlap is 4 mm deep";
+  EXPECT_EQ(result.missed, 0);
+  EXPECT_LT(result.shortfall, 0.05 * mm);
+}
+
 TEST(Separation, keeps_within_what_is_allowed) {
   const TriangleMesh bone = box(Vec3(-50, -50, -50) * mm, Vec3(50, 50, 0) * mm);
   const TriangleMesh ball = sphere(Vec3(0, 0, 18 * mm), 20 * mm, 4);

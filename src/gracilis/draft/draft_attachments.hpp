@@ -21,6 +21,7 @@ struct DraftAttachment {
   std::string muscle;              ///< or on this muscle, which moves with `body` there
   std::filesystem::path patch;     ///< or
   std::filesystem::path given_by;  ///< the patch's file, also where vertices are written down instead
+  std::string part;                ///< of that file, a .glb
   std::string cloud;               ///< or neither: near the bones alone
   Points points = Points(3, 0);    ///< of the cloud
   LineKind line = LineKind::cloud;

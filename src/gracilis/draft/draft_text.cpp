@@ -52,6 +52,18 @@ struct Writing {
            (draft.found.is_mirrored ? "mirror = true\n" : "");
   }
 
+  /// The lines that name a surface. What was mended is in metres, and mirrored already.
+  template <class Found>
+  std::string surface(const Found& found) const {
+    if constexpr (requires { found.mended; })
+      if (found.mended) return "file = " + path_text(found.mended->file, folder) + "\n";
+    return "file = " + path_text(found.file, folder) + "\n" + of_part(found.part) + unit();
+  }
+
+  static std::string of_part(const std::string& part) {
+    return part.empty() ? "" : "part = " + quoted_text(part) + "\n";
+  }
+
   void in_list(const Guess& guess) { line("  " + quoted_text(guess.subject + ": " + to_string(guess)) + ","); }
 
   void head(const std::string& name, const fs::path& landmarks) {
@@ -97,7 +109,7 @@ struct Writing {
       line("\n[[bones]] # rigid; 'body' is what it moves with (without: by itself)");
       line("name = " + quoted_text(bone.name));
       if (draft.skeleton.bodies[b] != bone.name) line("body = " + quoted_text(draft.skeleton.bodies[b]));
-      text += "file = " + path_text(bone.file, folder) + "\n" + unit();
+      text += surface(bone);
     }
   }
 
@@ -133,7 +145,7 @@ struct Writing {
       line("body = " + quoted_text(each.body));
     else
       line("bone = " + list(each.bones));
-    if (!each.patch.empty()) text += "patch = " + path_text(each.patch, folder) + "\n" + unit();
+    if (!each.patch.empty()) text += "patch = " + path_text(each.patch, folder) + "\n" + of_part(each.part) + unit();
     if (!each.cloud.empty()) line("cloud = " + quoted_text(each.cloud));
     if (each.line == LineKind::open) line("line = \"open\"");
     if (each.line == LineKind::closed) line("line = \"closed\"");
@@ -147,7 +159,11 @@ struct Writing {
     for (const DraftMuscle& muscle : draft.muscles) {
       line("\n[[muscles]] # a closed surface, held at one origin and one insertion or more");
       line("name = " + quoted_text(muscle.found->name));
-      text += "file = " + path_text(muscle.found->file, folder) + "\n" + unit();
+      if (muscle.found->mended)
+        line("# mended, since a run would refuse " + path_text(muscle.found->file, folder) +
+             (muscle.found->part.empty() ? "" : " part " + quoted_text(muscle.found->part)) + ": " +
+             muscle.found->mended->why);
+      text += surface(*muscle.found);
       for (const DraftAttachment& each : muscle.attachments) attachment(each);
       if (muscle.attachments.empty()) missing_attachments();
     }

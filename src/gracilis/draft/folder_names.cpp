@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::set<std::string> surface_endings = {".ply", ".stl", ".obj", ".vtk", ".vtp"};
+const std::set<std::string> surface_endings = {".ply", ".stl", ".obj", ".vtk", ".vtp", ".glb"};
 const std::set<std::string> bone_folders = {"bone", "bones", "os", "ossa", "skeleton", "bony"};
 const std::set<std::string> muscle_folders = {"muscle", "muscles", "musculus", "musculi", "musculature"};
 const std::set<std::string> patch_words = {"patch",     "patches",    "attachment", "attachments", "origin", "origins",
@@ -49,20 +49,20 @@ NamedKind kind_by_name(const NamedSurfaceFile& surface) {
   return other ? NamedKind::something_else : is_muscle ? NamedKind::muscle : NamedKind::bone;
 }
 
-NamedSurfaceFile named(const fs::path& file, const fs::path& folder) {
+/// What a name in these folders (of a part: its file's stem is the last of them) says.
+NamedSurfaceFile named(const std::string& name, const fs::path& folders) {
   NamedSurfaceFile surface;
-  surface.file = file;
-  surface.words = read_name(file.stem().string(), dictionary().words);
+  surface.words = read_name(name, dictionary().words);
   NamedKind hint = NamedKind::unknown;
-  for (const fs::path& part : file.parent_path().lexically_relative(folder)) {
-    if (part == ".") continue;
-    if (const NamedKind kind = kind_of_folder(part.string()); kind != NamedKind::unknown) hint = kind;
-    const BodySide side = read_name(part.string(), dictionary().words).side;
+  for (const fs::path& folder : folders) {
+    if (folder == ".") continue;
+    if (const NamedKind kind = kind_of_folder(folder.string()); kind != NamedKind::unknown) hint = kind;
+    const BodySide side = read_name(folder.string(), dictionary().words).side;
     if (surface.words.side == BodySide::none) surface.words.side = side;
   }
   surface.bone = find_bone(surface.words);
   surface.muscle = find_muscle(surface.words);
-  if (hint == NamedKind::unknown && any_in(plain_words(file.stem().string()), patch_words)) hint = NamedKind::patch;
+  if (hint == NamedKind::unknown && any_in(plain_words(name), patch_words)) hint = NamedKind::patch;
   surface.kind = hint == NamedKind::unknown ? kind_by_name(surface) : hint;
   const bool unwanted = hint == NamedKind::bone     ? says_other(surface.bone, surface.words)
                         : hint == NamedKind::muscle ? says_other(surface.muscle, surface.words)
@@ -71,15 +71,43 @@ NamedSurfaceFile named(const fs::path& file, const fs::path& folder) {
   return surface;
 }
 
-/// Whether a drafted scene beside it wrote this table of landmarks.
-bool is_of_a_scene(const fs::path& table) {
-  const std::string stem = table.stem().string(), ending = "_landmarks";
+const std::string table_ending = "_landmarks", mended_ending = "_mended";
+
+/// Whether a drafted scene beside it wrote this table of landmarks, or this folder of mended surfaces.
+bool is_of_a_scene(const fs::path& path, const std::string& ending) {
+  const std::string stem = path.stem().string();
   if (!stem.ends_with(ending)) return false;
   std::error_code ignored;
-  return fs::exists(table.parent_path() / (stem.substr(0, stem.size() - ending.size()) + ".toml"), ignored);
+  return fs::exists(path.parent_path() / (stem.substr(0, stem.size() - ending.size()) + ".toml"), ignored);
+}
+
+/// Adds the file's surfaces, whose names are looked at with the folders that they lie in. A .glb with one mesh that is
+/// called nothing in particular is called after its file.
+void add_surfaces(const fs::path& file, const fs::path& folders, FolderFiles& files) {
+  std::vector<std::string> parts;
+  try {
+    parts = files.meshes->parts(file);
+  } catch (const InputError& error) {
+    files.unreadable.push_back(error.what());
+    return;
+  }
+  const std::string stem = file.stem().string();
+  std::vector<NamedSurfaceFile> surfaces;
+  for (const std::string& part : parts) {
+    surfaces.push_back(named(part, folders / stem));
+    surfaces.back().part = part;
+  }
+  const auto is_known = [](const NamedSurfaceFile& each) { return each.bone.known || each.muscle.known; };
+  if (surfaces.empty() || (surfaces.size() == 1 && !is_known(surfaces.front()))) surfaces = {named(stem, folders)};
+  for (NamedSurfaceFile& surface : surfaces) {
+    surface.file = file;
+    files.surfaces.push_back(std::move(surface));
+  }
 }
 
 }  // namespace
+
+fs::path mended_folder(const fs::path& scene) { return scene.parent_path() / (scene.stem().string() + mended_ending); }
 
 FolderFiles list_folder(const fs::path& folder) {
   std::error_code failed;
@@ -92,29 +120,29 @@ FolderFiles list_folder(const fs::path& folder) {
     const fs::path& path = entry->path();
     const bool hidden = path.filename().string().starts_with(".");
     if (entry->is_directory(failed)) {
-      if (hidden || fs::exists(path / "run.json", failed)) entry.disable_recursion_pending();
+      if (hidden || fs::exists(path / "run.json", failed) || is_of_a_scene(path, mended_ending))
+        entry.disable_recursion_pending();
     } else if (!hidden && surface_endings.contains(lower_case_extension(path))) {
       surfaces.push_back(path);
-    } else if (!hidden && lower_case_extension(path) == ".csv" && !is_of_a_scene(path)) {
+    } else if (!hidden && lower_case_extension(path) == ".csv" && !is_of_a_scene(path, table_ending)) {
       files.tables.push_back(path);
     }
   }
   std::sort(surfaces.begin(), surfaces.end());
   std::sort(files.tables.begin(), files.tables.end());
-  for (const fs::path& path : surfaces) files.surfaces.push_back(named(path, folder));
+  for (const fs::path& path : surfaces) add_surfaces(path, path.parent_path().lexically_relative(folder), files);
   return files;
 }
 
 FolderFiles list_files(const std::vector<fs::path>& files, const std::vector<fs::path>& bones) {
   FolderFiles all;
-  const auto add = [&](const fs::path& file) -> NamedSurfaceFile& {
-    const fs::path whole = fs::absolute(file).lexically_normal();
-    all.surfaces.push_back(named(whole, whole.parent_path().parent_path()));
-    all.surfaces.back().file = file;
-    return all.surfaces.back();
+  const auto add = [&](const fs::path& file) {
+    add_surfaces(file, fs::absolute(file).lexically_normal().parent_path().filename(), all);
   };
   for (const fs::path& file : files) add(file);
-  for (const fs::path& file : bones) add(file).kind = NamedKind::bone;
+  const std::size_t first_bone = all.surfaces.size();
+  for (const fs::path& file : bones) add(file);
+  for (std::size_t s = first_bone; s < all.surfaces.size(); ++s) all.surfaces[s].kind = NamedKind::bone;
   return all;
 }
 

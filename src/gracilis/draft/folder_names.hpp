@@ -1,8 +1,10 @@
 #pragma once
 
 #include <gracilis/draft/name_search.hpp>
+#include <gracilis/io/mesh/mesh_reader.hpp>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,20 +13,27 @@ namespace gracilis {
 /// What a surface's file is, as far as its name and its folders tell.
 enum class NamedKind { bone, muscle, patch, unknown, something_else };
 
-/// A file of a surface, and what its name says.
+/// A file of a surface, or one of its parts, and what its name says.
 struct NamedSurfaceFile {
   std::filesystem::path file;
+  std::string part = {};  ///< of a .glb; empty: the whole file
   NamedKind kind = NamedKind::unknown;
   NameWords words;
   NameMatch<KnownBone> bone;
   NameMatch<KnownMuscle> muscle;
 };
 
-/// Files below a folder that are surfaces, and those that may be tables of landmarks; run folders are passed over.
+/// Surfaces below a folder, each mesh of a .glb by itself, and files that may be tables of landmarks; folders of runs,
+/// and of surfaces that a drafted scene had mended, are passed over.
 struct FolderFiles {
   std::vector<NamedSurfaceFile> surfaces;
   std::vector<std::filesystem::path> tables;
+  std::vector<std::string> unreadable = {};                           ///< a line for each file
+  std::shared_ptr<MeshFiles> meshes = std::make_shared<MeshFiles>();  ///< which the surfaces are read from
 };
+
+/// Where a drafted scene puts the surfaces that it had mended.
+std::filesystem::path mended_folder(const std::filesystem::path& scene);
 
 /// Throws InputError where the folder cannot be read.
 FolderFiles list_folder(const std::filesystem::path& folder);

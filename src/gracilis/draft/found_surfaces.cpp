@@ -6,7 +6,6 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
-#include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
@@ -45,7 +44,7 @@ Real median_size(const FolderFiles& files) {
   for (const NamedSurfaceFile& each : files.surfaces) {
     if (each.kind != NamedKind::bone || !each.bone.known || each.bone.certainty < 0.7) continue;
     try {
-      const Real ratio = largest_extent(read_mesh(each.file, 1).vertices) / each.bone.known->length;
+      const Real ratio = largest_extent(files.meshes->read(each.file, 1, each.part).vertices) / each.bone.known->length;
       if (ratio > 0 && std::isfinite(ratio)) ratios.push_back(ratio);
     } catch (const InputError&) {
       continue;  // said where the surface is read for its use
@@ -101,22 +100,28 @@ std::string scene_name(const std::string& known, const std::vector<std::string>&
   return file_name_of(name + side_ending(side));
 }
 
-std::string advice(const fs::path& file, const std::string& unit) {
-  return fmt::format("mend it with: gracilis prepare {} --unit {} --out prepared, and put what comes out in its place",
-                     shell_word(file.string()), unit);
+/// How messages name it.
+std::string title(const NamedSurfaceFile& surface) { return with_part(surface.file.string(), surface.part); }
+
+std::string advice(const NamedSurfaceFile& surface, const std::string& unit) {
+  return fmt::format(
+      "mend it by --prepare, or with: gracilis prepare {}{} --unit {} --out prepared, and put what comes out in its "
+      "place",
+      shell_word(surface.file.string()), surface.part.empty() ? "" : " --part " + shell_word(surface.part), unit);
 }
 
 /// Takes surfaces one by one.
 struct Taking {
   FoundFolder& found;
   const FolderFiles& files;
-  std::map<std::string, fs::path> taken = {};  ///< names
+  const MendFunction& mend;
+  std::map<std::string, std::string> taken = {};  ///< by names, from where
 
-  bool is_new(const std::string& name, const fs::path& file) {
-    const auto [at, inserted] = taken.emplace(name, file);
+  bool is_new(const std::string& name, const NamedSurfaceFile& each) {
+    const auto [at, inserted] = taken.emplace(name, title(each));
     if (!inserted)
-      found.left_out.push_back(fmt::format("{}: {} is there already, from {}; remove or rename one", file.string(),
-                                           name, at->second.string()));
+      found.left_out.push_back(
+          fmt::format("{}: {} is there already, from {}; remove or rename one", title(each), name, at->second));
     return inserted;
   }
 
@@ -129,16 +134,54 @@ struct Taking {
     return paired ? found.side : BodySide::none;
   }
 
+  TriangleMesh read(const NamedSurfaceFile& each) const {
+    return files.meshes->read(each.file, found.unit_length, each.part);
+  }
+
+  TriangleMesh load(const NamedSurfaceFile& each, SurfaceRole role) const {
+    return check_surface(read(each), found.unit_length, role, each.file.string(), each.part).mesh;
+  }
+
+  void leave_out(const NamedSurfaceFile& each, const Problem& refused, SurfaceRole role) {
+    const bool mends = role == SurfaceRole::muscle && !refused.remedy.starts_with("set unit");
+    found.left_out.push_back(fmt::format("{}: a run would refuse it: {}; {}", title(each), refused.what,
+                                         mends ? advice(each, found.unit) : refused.remedy));
+  }
+
   /// Nothing where a run would refuse it.
-  std::optional<TriangleMesh> load(const fs::path& file, SurfaceRole role) {
+  std::optional<TriangleMesh> load_bone(const NamedSurfaceFile& each) {
     try {
-      return load_surface(file, found.unit_length, role).mesh;
+      return load(each, SurfaceRole::bone);
+    } catch (const InputError& error) {
+      leave_out(each, error.problems().front(), SurfaceRole::bone);
+      return std::nullopt;
+    }
+  }
+
+  /// The muscle's surface, mended where a run would refuse it and that is asked for and possible.
+  bool load_muscle(const NamedSurfaceFile& each, FoundMuscle& muscle) {
+    Problem refused;
+    try {
+      muscle.mesh = load(each, SurfaceRole::muscle);
+      return true;
+    } catch (const InputError& error) {
+      refused = error.problems().front();
+    }
+    if (!mend) {
+      leave_out(each, refused, SurfaceRole::muscle);
+      return false;
+    }
+    try {
+      muscle.mended = mend(muscle.name, read(each));
+      muscle.mesh = check_surface(muscle.mended->mesh, 1, SurfaceRole::muscle, muscle.name).mesh;
+      muscle.mended->mesh = {};
+      muscle.mended->why = refused.what;
+      return true;
     } catch (const InputError& error) {
       const Problem& first = error.problems().front();
-      const bool mends = role == SurfaceRole::muscle && !first.remedy.starts_with("set unit");
-      found.left_out.push_back(fmt::format("{}: a run would refuse it: {}; {}", file.string(), first.what,
-                                           mends ? advice(file, found.unit) : first.remedy));
-      return std::nullopt;
+      found.left_out.push_back(fmt::format("{}: a run would refuse it: {}; nor could it be mended: {}{}", title(each),
+                                           refused.what, first.what, first.remedy.empty() ? "" : "; " + first.remedy));
+      return false;
     }
   }
 
@@ -147,9 +190,10 @@ struct Taking {
     const BodySide side = side_of(each, known && known->paired);
     const std::string name =
         known ? scene_name(known->name, each.bone.rest, side) : scene_name("", each.words.words, each.words.side);
-    std::optional<TriangleMesh> mesh = load(each.file, SurfaceRole::bone);
-    if (!mesh || !is_new(name, each.file)) return;
-    found.bones.push_back({name, each.file, known, side, known ? each.bone.certainty : 0.3, std::move(*mesh)});
+    std::optional<TriangleMesh> mesh = load_bone(each);
+    if (!mesh || !is_new(name, each)) return;
+    found.bones.push_back(
+        {name, each.file, each.part, known, side, known ? each.bone.certainty : 0.3, std::move(*mesh)});
   }
 
   std::string muscle_name(const NamedSurfaceFile& each, bool with_rest) const {
@@ -159,43 +203,41 @@ struct Taking {
   }
 
   void take_muscle(const NamedSurfaceFile& each) {
-    const std::string name = muscle_name(each, true);
-    std::optional<TriangleMesh> mesh = load(each.file, SurfaceRole::muscle);
-    if (!mesh || !is_new(name, each.file)) return;
     const KnownMuscle* known = each.muscle.known;
-    found.muscles.push_back(
-        {name, each.file, known, side_of(each, true), known ? each.muscle.certainty : 0.3, std::move(*mesh)});
+    FoundMuscle muscle{
+        muscle_name(each, true), each.file, each.part, known, side_of(each, true), known ? each.muscle.certainty : 0.3};
+    if (load_muscle(each, muscle) && is_new(muscle.name, each)) found.muscles.push_back(std::move(muscle));
   }
 
   /// By its shape: a closed surface no larger than a muscle may be one, which its ends on bones must show.
   void take_unknown(const NamedSurfaceFile& each) {
     std::optional<TriangleMesh> mesh;
     try {
-      mesh = load_surface(each.file, found.unit_length, SurfaceRole::muscle).mesh;
+      mesh = load(each, SurfaceRole::muscle);
     } catch (const InputError&) {
       mesh.reset();
     }
     const std::string name = scene_name("", each.words.words, each.words.side);
     const Real largest = largest_muscle * std::pow(found.size, 3);
-    if (mesh && enclosed_volume(mesh->vertices, mesh->faces) < largest && is_new(name, each.file)) {
-      found.muscles.push_back({name, each.file, nullptr, each.words.side, 0.2, std::move(*mesh)});
+    if (mesh && enclosed_volume(mesh->vertices, mesh->faces) < largest && is_new(name, each)) {
+      found.muscles.push_back({name, each.file, each.part, nullptr, each.words.side, 0.2, std::move(*mesh)});
       return;
     }
     found.left_out.push_back(
         fmt::format("{}: its name is unknown; rename it to a bone's or a muscle's, as femur_r or gluteus_maximus_r, or "
                     "put it into a folder 'bones' or 'muscles'",
-                    each.file.string()));
+                    title(each)));
   }
 
   void take_patch(const NamedSurfaceFile& each) {
     if (!each.muscle.known) {
       found.left_out.push_back(
-          fmt::format("{}: a patch of no muscle whose name is known; name it after its muscle", each.file.string()));
+          fmt::format("{}: a patch of no muscle whose name is known; name it after its muscle", title(each)));
       return;
     }
     try {
-      found.patches.push_back({each.file, muscle_name(each, false), each.muscle.known, side_of(each, true),
-                               each.muscle.rest, read_mesh(each.file, found.unit_length)});
+      found.patches.push_back({each.file, each.part, muscle_name(each, false), each.muscle.known, side_of(each, true),
+                               each.muscle.rest, read(each)});
     } catch (const InputError& error) {
       found.left_out.push_back(error.what());
     }
@@ -226,21 +268,23 @@ void mirror_body(FoundFolder& found, const Vec3& right) {
 
 FoundFolder find_surfaces(const fs::path& folder) { return find_surfaces(list_folder(folder), folder); }
 
-FoundFolder find_surfaces(const FolderFiles& files, const fs::path& subject, const std::string& unit) {
+FoundFolder find_surfaces(const FolderFiles& files, const fs::path& subject, const std::string& unit,
+                          const MendFunction& mend) {
   FoundFolder found;
+  found.left_out = files.unreadable;
   found.tables = files.tables;
   if (unit.empty())
     choose_unit(files, subject, found);
   else
     take_unit(files, unit, found);
   found.side = usual_side(files, found.side_is_guessed);
-  Taking taking{found, files};
+  Taking taking{found, files, mend};
   for (const NamedSurfaceFile& each : files.surfaces) {
     if (each.kind == NamedKind::bone) taking.take_bone(each);
     if (each.kind == NamedKind::muscle) taking.take_muscle(each);
     if (each.kind == NamedKind::patch) taking.take_patch(each);
     if (each.kind == NamedKind::something_else)
-      found.left_out.push_back(fmt::format("{}: by its name neither bone nor muscle", each.file.string()));
+      found.left_out.push_back(fmt::format("{}: by its name neither bone nor muscle", title(each)));
     if (each.kind == NamedKind::unknown) taking.take_unknown(each);
   }
   return found;

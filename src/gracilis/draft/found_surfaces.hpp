@@ -4,16 +4,30 @@
 #include <gracilis/geometry/triangle_mesh.hpp>
 
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 /// A folder of surfaces, told apart by their names and the folders they lie in.
 namespace gracilis {
 
+/// A surface in the place of one that a run would refuse.
+struct MendedSurface {
+  TriangleMesh mesh;
+  std::vector<std::string> repairs = {};  ///< a clause each
+  std::string why = {};                   ///< what a run would refuse
+  std::filesystem::path file = {};        ///< where it is written, in metres and, of a mirrored body, mirrored
+};
+
+/// Mends the surface (m) of a muscle of this name. Throws InputError where it cannot.
+using MendFunction = std::function<MendedSurface(const std::string& name, const TriangleMesh& mesh)>;
+
 /// A surface of a bone.
 struct FoundBone {
   std::string name;  ///< in the scene
   std::filesystem::path file;
+  std::string part = {};             ///< of a .glb; empty: the whole file
   const KnownBone* known = nullptr;  ///< null: a bone by its folder alone
   BodySide side = BodySide::none;
   Real certainty = 0;  ///< of its being that
@@ -24,15 +38,18 @@ struct FoundBone {
 struct FoundMuscle {
   std::string name;
   std::filesystem::path file;
+  std::string part = {};
   const KnownMuscle* known = nullptr;  ///< null: a muscle by its folder or its shape alone
   BodySide side = BodySide::none;
   Real certainty = 0;
   TriangleMesh mesh = {};
+  std::optional<MendedSurface> mended = {};  ///< without its mesh, which is `mesh`
 };
 
 /// An open surface on bones that says where a muscle attaches.
 struct FoundPatch {
   std::filesystem::path file;
+  std::string part = {};
   std::string muscle;  ///< name in the scene
   const KnownMuscle* known = nullptr;
   BodySide side = BodySide::none;
@@ -55,13 +72,14 @@ struct FoundFolder {
 };
 
 /// Reads all surfaces below the folder. The unit is that in which the known bones are about as large as a grown
-/// person's. What a run would refuse is left out. Throws InputError where the folder cannot be read, holds no bone
-/// whose name is known, or bones of no possible size.
+/// person's. What a run would refuse is mended, where there is `mend` and it can, or left out. Throws InputError where
+/// the folder cannot be read, holds no bone whose name is known, or bones of no possible size.
 FoundFolder find_surfaces(const std::filesystem::path& folder);
 
 /// The same of files listed; `subject` names them in messages. With a `unit` ("m", "cm" or "mm") sizes are not asked,
 /// and no bone need be known.
-FoundFolder find_surfaces(const FolderFiles& files, const std::filesystem::path& subject, const std::string& unit = "");
+FoundFolder find_surfaces(const FolderFiles& files, const std::filesystem::path& subject, const std::string& unit = "",
+                          const MendFunction& mend = {});
 
 /// Makes a left half of a right one, or the other way: surfaces, sides and names. `right` is the body's.
 void mirror_body(FoundFolder& found, const Vec3& right);

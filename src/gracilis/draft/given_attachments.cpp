@@ -169,6 +169,7 @@ std::vector<DraftAttachment> from_patches(const FoundMuscle& muscle, const Found
       attachment.body = place.second;
       for (const std::size_t bone : on) attachment.bones.push_back(bones.bone(bone).name);
       attachment.patch = attachment.given_by = patch.file;
+      attachment.part = patch.part;
       hold_by_patch(attachment, kept_faces(patch.mesh, keep), farthest, ends);
       const bool is_part = patch.muscle != muscle.name;
       if (attachment.vertices.empty() || (is_part && !ends.is_enough(attachment.vertices))) continue;

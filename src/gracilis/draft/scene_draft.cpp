@@ -6,9 +6,11 @@
 #include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/csv_rows.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/suggestions.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -82,8 +84,9 @@ JointOverrides overrides_of(const DraftOptions& options, const Landmarks& landma
 }
 
 bool uses(const DraftMuscle& muscle, const FoundPatch& patch) {
-  return std::any_of(muscle.attachments.begin(), muscle.attachments.end(),
-                     [&](const DraftAttachment& each) { return each.given_by == patch.file; });
+  return std::any_of(muscle.attachments.begin(), muscle.attachments.end(), [&](const DraftAttachment& each) {
+    return each.given_by == patch.file && each.part == patch.part;
+  });
 }
 
 void leave_out_unused_patches(SceneDraft& draft) {
@@ -92,7 +95,7 @@ void leave_out_unused_patches(SceneDraft& draft) {
       draft.left_out.push_back(
           fmt::format("{}: no muscle takes this patch of {}: none that is here has that name, or lies near it; name it "
                       "after its muscle",
-                      patch.file.string(), patch.muscle));
+                      with_part(patch.file.string(), patch.part), patch.muscle));
 }
 
 void draft_muscles(SceneDraft& draft, const Landmarks& landmarks) {
@@ -105,7 +108,7 @@ void draft_muscles(SceneDraft& draft, const Landmarks& landmarks) {
   });
   for (std::size_t m = 0; m < all.size(); ++m) {
     if (drafted[m].attachments.empty())
-      draft.left_out.push_back(fmt::format("{}: {}", all[m].file.string(), why[m]));
+      draft.left_out.push_back(fmt::format("{}: {}", with_part(all[m].file.string(), all[m].part), why[m]));
     else
       draft.muscles.push_back(std::move(drafted[m]));
   }
@@ -142,6 +145,20 @@ void draft_motion(SceneDraft& draft) {
   }
 }
 
+/// The name that it goes by in the folder.
+template <class Found>
+std::string title_of(const Found& found) {
+  return found.part.empty() ? found.file.stem().string() : found.part;
+}
+
+Guess mended_guess(const FoundMuscle& muscle) {
+  const MendedSurface& mended = *muscle.mended;
+  return {muscle.name,
+          fmt::format("its surface is mended, since a run would refuse that of {}: {}{}", title_of(muscle), mended.why,
+                      mended.repairs.empty() ? "" : fmt::format(" ({})", fmt::join(mended.repairs, "; "))),
+          0.7};
+}
+
 void collect_guesses(SceneDraft& draft) {
   const FoundFolder& found = draft.found;
   draft.guesses.push_back(
@@ -151,14 +168,14 @@ void collect_guesses(SceneDraft& draft) {
   draft.guesses.push_back({"directions", draft.skeleton.frame.how, draft.skeleton.frame.certainty});
   for (const FoundBone& bone : found.bones)
     if (bone.known && bone.certainty < 0.8)
-      draft.guesses.push_back({bone.name,
-                               "by a name that is nearly this, or has more words: " + bone.file.stem().string(),
-                               bone.certainty});
+      draft.guesses.push_back(
+          {bone.name, "by a name that is nearly this, or has more words: " + title_of(bone), bone.certainty});
   for (const DraftMuscle& muscle : draft.muscles)
     if (muscle.found->known && muscle.found->certainty < 0.8)
-      draft.guesses.push_back({muscle.found->name,
-                               "by a name that is nearly this: " + muscle.found->file.stem().string(),
-                               muscle.found->certainty});
+      draft.guesses.push_back(
+          {muscle.found->name, "by a name that is nearly this: " + title_of(*muscle.found), muscle.found->certainty});
+  for (const DraftMuscle& muscle : draft.muscles)
+    if (muscle.found->mended) draft.guesses.push_back(mended_guess(*muscle.found));
   for (const Guess& guess : draft.skeleton.guesses) draft.guesses.push_back(guess);
   for (const DraftJoint& joint : draft.skeleton.joints) {
     draft.guesses.push_back(joint.guess);
@@ -190,7 +207,7 @@ SceneDraft draft_scene(const fs::path& folder, const DraftOptions& options) {
 
 SceneDraft draft_scene(const FolderFiles& files, const fs::path& folder, const DraftOptions& options) {
   SceneDraft draft;
-  draft.found = find_surfaces(files, folder, options.unit);
+  draft.found = find_surfaces(files, folder, options.unit, options.mend);
   draft.left_out = draft.found.left_out;
   Landmarks landmarks = read_tables(draft);
   if (options.mirror) {
@@ -198,6 +215,8 @@ SceneDraft draft_scene(const FolderFiles& files, const fs::path& folder, const D
     mirror_body(draft.found, right);
     for (LandmarkCloud& cloud : landmarks) cloud.points = mirrored(cloud.points, right);
   }
+  for (FoundMuscle& muscle : draft.found.muscles)
+    if (muscle.mended) muscle.mended->file = options.mended_folder / (muscle.name + ".vtp");
   if (std::none_of(draft.found.bones.begin(), draft.found.bones.end(), [](const FoundBone& b) { return b.known; }))
     refuse(folder, draft, "holds no bone whose name is known", "name bones as in femur_r.ply or 'left scapula.stl'");
   draft.skeleton = find_skeleton(draft.found, overrides_of(options, landmarks));

@@ -53,15 +53,6 @@ RTCRay ray_along(const Vec3& a, const Vec3& b) {
   return ray;
 }
 
-struct Release {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-
-template <typename Object>
-using Owned = std::unique_ptr<std::remove_pointer_t<Object>, Release>;
-
 /// Embree's calls throw nothing; the device keeps what went wrong in this thread. Without one, it is kept beside it.
 void require_success(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
@@ -82,6 +73,15 @@ Eigen::Map<Eigen::Matrix<Number, 3, Eigen::Dynamic>> new_buffer(RTCDevice device
 }  // namespace
 
 struct TriangleTree::Tree {
+  struct Release {
+    void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+    void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+  };
+
+  template <typename Object>
+  using Owned = std::unique_ptr<std::remove_pointer_t<Object>, Release>;
+
   explicit Tree(const TriangleMesh& mesh) : place(bounding_box(mesh.vertices).center()) {
     device.reset(rtcNewDevice(nullptr));  // any number of threads asked for here would hold for the whole program
     require_success(device.get());

@@ -1,7 +1,7 @@
 #include <gracilis/prepare/prepare_surfaces.hpp>
 
 #include <gracilis/geometry/nearest_triangle.hpp>
-#include <gracilis/prepare/cgal.hpp>
+#include <gracilis/prepare/comparisons.hpp>
 #include <gracilis/prepare/estimates.hpp>
 #include <gracilis/prepare/reshaping.hpp>
 #include <gracilis/prepare/separation.hpp>
@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <optional>
 
@@ -25,43 +26,6 @@ constexpr Real farthest_rounding = 0.0012;  ///< m
 constexpr Real told_displacement = 0.0001;  ///< m; less is how triangles approximate a curved surface
 constexpr Real most_left = 0.001;           ///< m of a gap that may be missed
 constexpr Real most_growth = 0.05;          ///< of a volume by pulling apart; more is no overlap that was taken away
-
-/// Largest and mean distance from the vertices and face centers of one surface to another.
-struct SurfaceDistance {
-  Real largest = 0, mean = 0;
-};
-
-SurfaceDistance distance_from_to(const TriangleMesh& from, const TriangleMesh& to) {
-  const NearestTriangle nearest(to);
-  SurfaceDistance result;
-  Index count = 0;
-  const auto add = [&](const Vec3& p) {
-    const Real distance = nearest.query(p).distance;
-    result.largest = std::max(result.largest, distance);
-    result.mean += distance;
-    ++count;
-  };
-  for (Index v = 0; v < from.vertex_count(); ++v) add(from.vertices.col(v));
-  for (Index f = 0; f < from.face_count(); ++f)
-    add((from.vertices.col(from.faces(0, f)) + from.vertices.col(from.faces(1, f)) +
-         from.vertices.col(from.faces(2, f))) /
-        3);
-  result.mean /= count;
-  return result;
-}
-
-/// Pairs of intersecting triangles by pairs of surfaces; muscles come first, pairs of two bones are left out.
-using Crossings = std::map<std::pair<Index, Index>, Index>;
-
-Crossings count_crossings(const std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones) {
-  std::vector<const TriangleMesh*> all;
-  for (const TriangleMesh& mesh : muscles) all.push_back(&mesh);
-  for (const TriangleMesh& mesh : bones) all.push_back(&mesh);
-  Crossings crossings;
-  for (const FacePair& pair : intersecting_faces(all))
-    if (pair.mesh_a < static_cast<Index>(muscles.size())) ++crossings[{pair.mesh_a, pair.mesh_b}];
-  return crossings;
-}
 
 std::vector<TriangleMesh> meshes_of(const std::vector<NamedSurface>& surfaces) {
   std::vector<TriangleMesh> meshes;
@@ -141,24 +105,18 @@ std::string name_of(Index surface, const std::vector<NamedSurface>& muscles, con
   return s < muscles.size() ? muscles[s].name : bones[s - muscles.size()].name;
 }
 
-/// Intersecting triangles of muscles with other muscles and bones.
-Index crossings_between(const std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones) {
-  Index sum = 0;
-  for (const auto& [pair, count] : count_crossings(muscles, bones))
-    if (pair.first != pair.second) sum += count;
-  return sum;
-}
-
 /// One pass of separation of the muscles' pieces, each of which is a body. Takes what it moved off each muscle's
 /// `budget` (m), which the first pass makes.
 Real separate_pieces(std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones,
-                     SeparationSettings apart, std::vector<Real>& budget, const TimeLimit& limit) {
+                     SeparationSettings apart, const std::vector<NamedSurface>& names, std::vector<Real>& budget,
+                     const TimeLimit& limit) {
   std::vector<TriangleMesh> bodies;
   std::vector<std::size_t> muscle_of;
   for (std::size_t m = 0; m < muscles.size(); ++m)
     for (TriangleMesh& piece : pieces_of(muscles[m])) {
       bodies.push_back(std::move(piece));
       muscle_of.push_back(m);
+      apart.stays.push_back(names[m].stays);
       if (!budget.empty()) apart.at_most.push_back(budget[m]);
     }
   const SeparationResult result = separate(bodies, bones, apart, limit);
@@ -179,10 +137,11 @@ Real separate_pieces(std::vector<TriangleMesh>& muscles, const std::vector<Trian
 }
 
 /// By how much the worst gap is missed as things are, m.
-Real what_is_left(std::vector<TriangleMesh> muscles, const std::vector<TriangleMesh>& bones, SeparationSettings apart) {
+Real what_is_left(std::vector<TriangleMesh> muscles, const std::vector<NamedSurface>& names,
+                  const std::vector<TriangleMesh>& bones, SeparationSettings apart) {
   apart.rounds = 0;
   std::vector<Real> budget;
-  return separate_pieces(muscles, bones, apart, budget, TimeLimit());
+  return separate_pieces(muscles, bones, apart, names, budget, TimeLimit());
 }
 
 /// Pulls overlaps apart, unless they are to stay. A muscle that this made swell stays as it was, and so do all where
@@ -194,7 +153,7 @@ bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurfa
   if (bodies < 2) return true;
   const SeparationSettings apart{.muscle_gap = settings.muscle_gap, .bone_gap = settings.bone_gap};
   if (settings.keep_overlaps) {
-    shortfall = what_is_left(muscles, bones, apart);
+    shortfall = what_is_left(muscles, names, bones, apart);
     return true;
   }
   const TimeLimit limit(settings.time_limit * static_cast<Real>(muscles.size()));
@@ -202,7 +161,7 @@ bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurfa
   std::vector<Real> budget;
   try {
     for (int pass = 1;; ++pass) {
-      shortfall = separate_pieces(muscles, bones, apart, budget, limit);
+      shortfall = separate_pieces(muscles, bones, apart, names, budget, limit);
       if (pass == passes) break;
       // Triangles may have suffered; mending them may bring surfaces close again.
       bool mended = false;
@@ -223,15 +182,24 @@ bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurfa
       done = false;
     }
     if (crossings_between(muscles, bones) <= crossings_between(before, bones)) {
-      if (!done) shortfall = what_is_left(muscles, bones, apart);
+      if (!done) shortfall = what_is_left(muscles, names, bones, apart);
       return done;
     }
   } catch (const OutOfTime&) {
   } catch (const InputError&) {  // untangling left nothing
   }
   muscles = before;
-  shortfall = what_is_left(muscles, bones, apart);
+  shortfall = what_is_left(muscles, names, bones, apart);
   return false;
+}
+
+/// What stays is as a bone to the others.
+void require_separable(std::vector<NamedSurface> muscles, std::vector<NamedSurface> bones) {
+  const auto first_staying =
+      std::stable_partition(muscles.begin(), muscles.end(), [](const NamedSurface& each) { return !each.stays; });
+  std::move(first_staying, muscles.end(), std::back_inserter(bones));
+  muscles.erase(first_staying, muscles.end());
+  require_apart(muscles, bones);
 }
 
 /// Muscles that are shaped, with the others among bones: pulled apart and measured. Throws InputError naming muscles
@@ -245,12 +213,13 @@ PreparedSurfaces finished(const std::vector<NamedSurface>& muscles, std::vector<
   std::vector<NamedSurface> closed;
   for (Shaped& muscle : shapes) {
     const std::string& name = muscles[repaired.size()].name;
+    const bool stays = muscles[repaired.size()].stays;
     report.muscles.push_back({.name = name, .repairs = std::move(muscle.repairs)});
     repaired.push_back(muscle.repaired);
-    closed.push_back({name, std::move(muscle.repaired)});
+    closed.push_back({name, std::move(muscle.repaired), false, stays});
     result.muscles.push_back(std::move(muscle.mesh));
   }
-  if (!settings.keep_overlaps) require_apart(closed, bones);
+  if (!settings.keep_overlaps) require_separable(std::move(closed), bones);
   const Crossings before = count_crossings(meshes_of(muscles), obstacles);
   const std::vector<TriangleMesh> apart_from = result.muscles;
   if (muscles.size() + bones.size() > 1 && !settings.keep_overlaps) say("pulling overlaps apart");

@@ -34,7 +34,8 @@ struct Body {
   VertexStars stars;
   std::vector<Sample> samples;
   std::vector<Watch> watches;
-  Real lacked = 0;    ///< m by which its worst gap was missed before
+  Real lacked = 0;  ///< m by which its worst gap was missed before
+  bool stays = false;
   Real at_most = -1;  ///< m that a vertex may move; below 0: a multiple of that
 };
 
@@ -77,6 +78,7 @@ class Separation {
     for (const TriangleMesh& bone : bones) bones_.push_back(std::make_unique<SignedDistance>(bone));
     muscles_.resize(bodies_.size());
     for (std::size_t m = 0; m < settings.at_most.size(); ++m) bodies_[m].at_most = settings.at_most[m];
+    for (std::size_t m = 0; m < settings.stays.size(); ++m) bodies_[m].stays = settings.stays[m] != 0;
   }
 
   SeparationResult run(const TimeLimit& limit) {
@@ -103,6 +105,7 @@ class Separation {
  private:
   std::size_t surface_count() const { return bodies_.size() + bones_.size(); }
   bool is_muscle(Index surface) const { return static_cast<std::size_t>(surface) < bodies_.size(); }
+  bool moves(Index surface) const { return is_muscle(surface) && !bodies_[static_cast<std::size_t>(surface)].stays; }
   const SignedDistance& distance_to(Index surface) const {
     const auto s = static_cast<std::size_t>(surface);
     return is_muscle(surface) ? *muscles_[s] : *bones_[s - bodies_.size()];
@@ -113,6 +116,7 @@ class Separation {
   void look() {
     for (std::size_t m = 0; m < bodies_.size(); ++m) {
       Body& body = bodies_[m];
+      if (body.stays) continue;
       std::vector<std::vector<Watch>> found(body.samples.size());
       parallel_for(static_cast<Index>(body.samples.size()), 512, [&](Index begin, Index end) {
         for (Index s = begin; s < end; ++s) {
@@ -149,8 +153,8 @@ class Separation {
         if (at_first) body.lacked = std::max(body.lacked, size);
         if (size > settings_.tolerance) ++result.missed;
         const Sample& sample = body.samples[static_cast<std::size_t>(body.watches[w].sample)];
-        // A muscle moves halfway, for the other does as much. Stronger demands count more, so that they are met soon.
-        const Real share = is_muscle(body.watches[w].other) ? 0.5 : 1;
+        // A muscle moves halfway where the other does as much. Stronger demands count more, so that they are met soon.
+        const Real share = moves(body.watches[w].other) ? 0.5 : 1;
         for (int k = 0; k < sample.count; ++k) {
           sum.col(sample.vertices[k]) += share * size * asked[w];
           weight[sample.vertices[k]] += size;

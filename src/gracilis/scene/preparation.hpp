@@ -15,6 +15,7 @@ struct NamedSurface {
   std::string name;
   TriangleMesh mesh;
   bool largest_piece = false;  ///< of a muscle: only that of its closed pieces which encloses most is wanted
+  bool stays = false;          ///< of a muscle: others are pulled apart from it, and it stays where it is
 };
 
 /// What happened to one muscle.

@@ -25,8 +25,9 @@ void add_vertices_between(const VerticesBetween& added, std::vector<Index>& vert
   for (const Index v : vertices) is_there[static_cast<std::size_t>(v)] = 1;
   for (std::size_t i = 0; i < added.ends.size(); ++i) {
     const auto [a, b] = added.ends[i];
-    if (!is_there[static_cast<std::size_t>(a)] || !is_there[static_cast<std::size_t>(b)]) continue;
     const Index v = added.first + static_cast<Index>(i);
+    if (is_there[static_cast<std::size_t>(v)]) continue;
+    if (!is_there[static_cast<std::size_t>(a)] || !is_there[static_cast<std::size_t>(b)]) continue;
     is_there[static_cast<std::size_t>(v)] = 1;
     vertices.push_back(v);
   }

@@ -19,7 +19,7 @@ struct VerticesBetween {
 /// each.
 std::vector<VerticesBetween> divide_needles(std::vector<Muscle>& muscles);
 
-/// Adds to vertices of the old surface (ascending) the new ones that lie between two of them.
+/// Adds to vertices, behind them, those new ones that lie between two of them and are not there yet.
 void add_vertices_between(const VerticesBetween& added, std::vector<Index>& vertices);
 
 }  // namespace gracilis

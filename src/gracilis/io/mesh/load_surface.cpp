@@ -47,19 +47,28 @@ std::vector<Problem> fatal_problems(const MeshReport& report, Real unit, const s
   return {};
 }
 
+std::string with_part(const std::string& file, const std::string& part) {
+  return part.empty() ? file : file + " (" + part + ")";
+}
+
 /// The command that mends a file, to be pasted; for surfaces from elsewhere its name stands as it is. What it writes no
 /// longer has the unit that a scene says of the file.
-static std::string mending(Real unit, const std::string& file) {
+static std::string mending(Real unit, const std::string& file, const std::string& part) {
   const char* in_unit = unit == 0.001 ? " --unit mm" : unit == 0.01 ? " --unit cm" : "";
+  const std::string of_part = part.empty() ? "" : " --part " + shell_word(part);
   const char* then = unit == 1 ? "" : "; what that writes is in metres: leave out 'unit' for it, or set unit = \"m\"";
-  return fmt::format("mend it with: gracilis prepare {}{} --out prepared{}", shell_word(file), in_unit, then);
+  return fmt::format("mend it with: gracilis prepare {}{}{} --out prepared{}", shell_word(file), of_part, in_unit,
+                     then);
 }
 
 /// What is wrong with the surface's shape after repair: an error for a muscle, a warning for a bone.
-static std::vector<Problem> shape_problems(const MeshReport& report, Real unit, const std::string& file) {
+static std::vector<Problem> shape_problems(const MeshReport& report, Real unit, const std::string& file,
+                                           const std::string& part) {
   std::vector<Problem> problems;
   const auto add = [&](const MeshDefect& defect, const char* element, const std::string& what) {
-    if (defect) problems.push_back({file, fmt::format("{} {}", element, defect.first), what, mending(unit, file)});
+    if (defect)
+      problems.push_back(
+          {with_part(file, part), fmt::format("{} {}", element, defect.first), what, mending(unit, file, part)});
   };
   add(report.open_edges, "face", "lies at a hole: " + counted(report.open_edges, "open edge", "open edges"));
   add(report.non_manifold_edges, "face",
@@ -74,7 +83,9 @@ static std::vector<Problem> shape_problems(const MeshReport& report, Real unit, 
   return problems;
 }
 
-LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, const std::string& name) {
+LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, const std::string& file,
+                         const std::string& part) {
+  const std::string name = with_part(file, part);
   const MeshReport as_read = inspect_mesh(mesh);
   if (const auto problems = fatal_problems(as_read, unit, name); !problems.empty()) throw InputError(problems);
 
@@ -83,7 +94,7 @@ LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, 
   loaded.mesh = std::move(repaired.mesh);
   loaded.report = inspect_mesh(loaded.mesh);
   for (const std::string& repair : repaired.repairs) loaded.repairs.push_back(name + ": " + repair);
-  const std::vector<Problem> problems = shape_problems(loaded.report, unit, name);
+  const std::vector<Problem> problems = shape_problems(loaded.report, unit, file, part);
   if (role == SurfaceRole::muscle && !problems.empty()) throw InputError(problems);
   for (const Problem& problem : problems) {
     loaded.warnings.push_back(to_string({problem.file, problem.where, problem.what, "tolerated in a bone"}));
@@ -101,8 +112,8 @@ std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& surfaces,
     try {
       const SurfaceFile& file = surfaces[i];
       const TriangleMesh mesh = files.read(file.path, file.unit, file.part);
-      const std::string name = file.path.string() + (file.part.empty() ? "" : " (" + file.part + ")");
-      outcomes[i].loaded = check_surface(file.largest_piece ? largest_piece(mesh) : mesh, file.unit, file.role, name);
+      outcomes[i].loaded = check_surface(file.largest_piece ? largest_piece(mesh) : mesh, file.unit, file.role,
+                                         file.path.string(), file.part);
     } catch (const InputError& error) {
       outcomes[i].error = error;
     }

@@ -53,7 +53,12 @@ std::vector<LoadOutcome> load_surfaces(const std::vector<SurfaceFile>& surfaces,
 /// size that shows that `unit` is wrong. `file` stands in messages.
 std::vector<Problem> fatal_problems(const MeshReport& report, Real unit, const std::string& file);
 
-/// The same checks for a surface already in memory, whatever its origin; `name` stands for the file in messages.
-LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, const std::string& name);
+/// "file", or "file (part)": how messages name a surface.
+std::string with_part(const std::string& file, const std::string& part);
+
+/// The same checks for a surface already in memory, whatever its origin; `file`, of a .glb with its part, names it in
+/// messages.
+LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, const std::string& file,
+                         const std::string& part = {});
 
 }  // namespace gracilis

@@ -73,6 +73,13 @@ static PolygonMesh read_stl(const fs::path& path) {
 struct MeshFiles::Kept {
   std::mutex mutex;
   std::map<fs::path, std::unique_ptr<const GlbFile>> glb;
+
+  const GlbFile& file(const fs::path& path) {
+    const std::lock_guard lock(mutex);
+    std::unique_ptr<const GlbFile>& known = glb[path];
+    if (!known) known = std::make_unique<const GlbFile>(path);
+    return *known;
+  }
 };
 
 MeshFiles::MeshFiles() : kept_(std::make_unique<Kept>()) {}
@@ -91,24 +98,25 @@ static PolygonMesh read_polygons(const fs::path& path, const std::string& part) 
                    "use .ply, .stl, .obj, .vtk, .vtp or .glb");
 }
 
+static bool is_glb(const fs::path& path) { return lower_case_extension(path) == ".glb"; }
+
 TriangleMesh MeshFiles::read(const fs::path& path, Real unit, const std::string& part) {
   require_readable_file(path);
   try {
-    if (lower_case_extension(path) != ".glb") return triangulated(read_polygons(path, part), unit, path);
-    const GlbFile* file = nullptr;
-    {
-      const std::lock_guard lock(kept_->mutex);
-      std::unique_ptr<const GlbFile>& known = kept_->glb[path];
-      if (!known) known = std::make_unique<const GlbFile>(path);
-      file = known.get();
-    }
-    return triangulated(file->read(part), unit, path);
+    if (!is_glb(path)) return triangulated(read_polygons(path, part), unit, path);
+    return triangulated(kept_->file(path).read(part), unit, path);
   } catch (const std::bad_alloc&) {
     throw_read_error(path, "needs more memory than there is: the machine is short of it, or the file is damaged",
                      "close other programs, or export the surface again");
   } catch (const std::length_error&) {
     throw_read_error(path, "announces more data than memory can hold: the file is damaged");
   }
+}
+
+std::vector<std::string> MeshFiles::parts(const fs::path& path) {
+  if (!is_glb(path)) return {};
+  require_readable_file(path);
+  return kept_->file(path).parts();
 }
 
 TriangleMesh read_mesh(const fs::path& path, Real unit, const std::string& part) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace gracilis {
 
@@ -24,6 +25,9 @@ class MeshFiles {
   MeshFiles& operator=(const MeshFiles&) = delete;
 
   TriangleMesh read(const std::filesystem::path& path, Real unit, const std::string& part = {});
+
+  /// Names of the meshes that a .glb places (GlbFile::parts); none of any other file.
+  std::vector<std::string> parts(const std::filesystem::path& path);
 
  private:
   struct Kept;

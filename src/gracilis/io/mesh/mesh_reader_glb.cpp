@@ -11,6 +11,7 @@
 #include <tiny_gltf.h>
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <map>
@@ -296,6 +297,18 @@ GlbFile::GlbFile(const std::filesystem::path& path) : path_(path) {
   model_ = std::move(model);
 }
 GlbFile::~GlbFile() = default;
+
+std::vector<std::string> GlbFile::parts() const {
+  const tinygltf::Model& model = model_->model;
+  std::vector<std::string> names;
+  for (const tinygltf::Node& node : model.nodes) {
+    if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= model.meshes.size()) continue;
+    const std::string& of_mesh = model.meshes[static_cast<std::size_t>(node.mesh)].name;
+    const std::string& name = node.name.empty() || (!node.children.empty() && !of_mesh.empty()) ? of_mesh : node.name;
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  return names;
+}
 
 PolygonMesh GlbFile::read(const std::string& part) const {
   return GlbReader(path_, model_->model, model_->file_bytes, part).read();

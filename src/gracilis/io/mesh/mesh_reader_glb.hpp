@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace gracilis {
 
@@ -22,6 +23,10 @@ class GlbFile {
   /// or textures break. Lines, points, skins and morphs are left out. Refused are nodes that are no trees and meshes
   /// placed so often that the file could not honestly hold them: it would unpack to any size.
   PolygonMesh read(const std::string& part) const;
+
+  /// Names by which `read` gives what is placed, one mesh each: that of the node, or of the mesh where the node has no
+  /// name or others hang below it. In the file's order; what has no name is left out.
+  std::vector<std::string> parts() const;
 
  private:
   struct Model;

@@ -231,20 +231,22 @@ Index AttachmentSelector::body_on_muscle(const Muscle& muscle, const Attachment&
                          muscle.surface.vertices(Eigen::all, attachment.vertices));
 }
 
-/// Where a muscle's needles were divided, what lies between listed vertices is held, too.
-void AttachmentSelector::add_between_listed(const Muscle& muscle, const AttachmentDescription& description,
-                                            std::vector<Index>& listed) {
+/// Where a muscle's needles were divided, what lies between vertices that are listed, or that landmarks name one by
+/// one, is held, too: of the file's surface the whole edge between the two was.
+void AttachmentSelector::add_between(const Muscle& muscle, const AttachmentDescription& description,
+                                     std::vector<Index>& vertices) {
   if (progress_.divided.empty()) return;
   const auto number = static_cast<std::size_t>(&muscle - progress_.loaded.scene.muscles.data());
   const VerticesBetween& added = progress_.divided[number];
   if (added.ends.empty()) return;
-  for (const Index v : listed)
-    if (v < 0 || v >= added.first)
+  for (const Index v : vertices)
+    if (description.attachment.listed && (v < 0 || v >= added.first))
       return progress_.add_problem(description.place, "attachment '" + description.attachment.name + "' of " +
                                                           muscle.name + ": vertex " + std::to_string(v) +
                                                           " does not exist (the surface has vertices 0 to " +
                                                           std::to_string(added.first - 1) + ")");
-  add_vertices_between(added, listed);
+  add_vertices_between(added, vertices);
+  if (!description.attachment.listed) std::sort(vertices.begin(), vertices.end());
 }
 
 Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDescription& description) {
@@ -252,7 +254,8 @@ Attachment AttachmentSelector::selected(const Muscle& muscle, const AttachmentDe
   const std::vector<const NearestTriangle*> trees = trees_under(description);
   attachment.vertices = description.patch.path.empty() ? select_vertices(muscle.surface, trees, rule_of(description))
                                                        : held_by_patch(muscle, description, trees);
-  if (attachment.listed) add_between_listed(muscle, description, attachment.vertices);
+  const bool by_clouds = !description.clouds.empty() || !description.points.empty();
+  if (attachment.listed || by_clouds) add_between(muscle, description, attachment.vertices);
   if (attachment.vertices.empty()) {
     progress_.add_problem(description.place,
                           "attachment '" + attachment.name + "' of " + muscle.name + " holds no vertex",

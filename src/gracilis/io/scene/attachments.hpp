@@ -27,7 +27,7 @@ class AttachmentSelector {
  private:
   void attach(Muscle& muscle, const std::vector<AttachmentDescription>& attachments);
   void add_aponeurosis(Muscle& muscle, const AttachmentDescription& description, const NamedFile& file);
-  void add_between_listed(const Muscle& muscle, const AttachmentDescription& description, std::vector<Index>& listed);
+  void add_between(const Muscle& muscle, const AttachmentDescription& description, std::vector<Index>& vertices);
   Attachment selected(const Muscle& muscle, const AttachmentDescription& description);
   std::vector<Index> held_by_patch(const Muscle& muscle, const AttachmentDescription& description,
                                    const std::vector<const NearestTriangle*>& trees);
