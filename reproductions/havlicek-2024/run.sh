@@ -75,8 +75,6 @@ name = "hip_r"
 joint = "hip_r"
 samples = "$out/samples.sto"
 END
-fi
-if [[ -n $has_data ]]; then
   for motion in flexion extension abduction rotation; do
     for preset in thesis-2024 physical; do
       [[ -n $thin && $preset == physical ]] || controlled "$motion" "$preset"

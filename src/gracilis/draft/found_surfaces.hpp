@@ -81,6 +81,12 @@ FoundFolder find_surfaces(const std::filesystem::path& folder);
 FoundFolder find_surfaces(const FolderFiles& files, const std::filesystem::path& subject, const std::string& unit = "",
                           const MendFunction& mend = {});
 
+/// The name that a bone, muscle or patch goes by in its folder: that of its file, or of its part of one.
+template <class Found>
+std::string name_in_folder(const Found& found) {
+  return found.part.empty() ? found.file.stem().string() : found.part;
+}
+
 /// Makes a left half of a right one, or the other way: surfaces, sides and names. `right` is the body's.
 void mirror_body(FoundFolder& found, const Vec3& right);
 

@@ -145,17 +145,11 @@ void draft_motion(SceneDraft& draft) {
   }
 }
 
-/// The name that it goes by in the folder.
-template <class Found>
-std::string title_of(const Found& found) {
-  return found.part.empty() ? found.file.stem().string() : found.part;
-}
-
 Guess mended_guess(const FoundMuscle& muscle) {
   const MendedSurface& mended = *muscle.mended;
   return {muscle.name,
-          fmt::format("its surface is mended, since a run would refuse that of {}: {}{}", title_of(muscle), mended.why,
-                      mended.repairs.empty() ? "" : fmt::format(" ({})", fmt::join(mended.repairs, "; "))),
+          fmt::format("its surface is mended, since a run would refuse that of {}: {}{}", name_in_folder(muscle),
+                      mended.why, mended.repairs.empty() ? "" : fmt::format(" ({})", fmt::join(mended.repairs, "; "))),
           0.7};
 }
 
@@ -169,11 +163,11 @@ void collect_guesses(SceneDraft& draft) {
   for (const FoundBone& bone : found.bones)
     if (bone.known && bone.certainty < 0.8)
       draft.guesses.push_back(
-          {bone.name, "by a name that is nearly this, or has more words: " + title_of(bone), bone.certainty});
+          {bone.name, "by a name that is nearly this, or has more words: " + name_in_folder(bone), bone.certainty});
   for (const DraftMuscle& muscle : draft.muscles)
     if (muscle.found->known && muscle.found->certainty < 0.8)
-      draft.guesses.push_back(
-          {muscle.found->name, "by a name that is nearly this: " + title_of(*muscle.found), muscle.found->certainty});
+      draft.guesses.push_back({muscle.found->name, "by a name that is nearly this: " + name_in_folder(*muscle.found),
+                               muscle.found->certainty});
   for (const DraftMuscle& muscle : draft.muscles)
     if (muscle.found->mended) draft.guesses.push_back(mended_guess(*muscle.found));
   for (const Guess& guess : draft.skeleton.guesses) draft.guesses.push_back(guess);

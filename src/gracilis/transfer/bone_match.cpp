@@ -42,7 +42,7 @@ FoundFolder found_bones(const Scene& scene, Real size) {
   for (const Bone& bone : scene.bones) {
     const NameWords words = read_name(bone.name, dictionary().words);
     const NameMatch<KnownBone> match = find_bone(words);
-    found.bones.push_back({bone.name, bone.name, match.known, words.side, match.certainty, bone.surface});
+    found.bones.push_back({bone.name, bone.name, "", match.known, words.side, match.certainty, bone.surface});
   }
   return found;
 }
@@ -50,7 +50,7 @@ FoundFolder found_bones(const Scene& scene, Real size) {
 BoneMatches match_bones(const Scene& scene, const FoundFolder& subject) {
   std::vector<BoneName> names;
   for (const FoundBone& bone : subject.bones) {
-    names.push_back(name_of(bone.file.stem().string()));
+    names.push_back(name_of(name_in_folder(bone)));
     names.back().side = bone.side;
   }
   BoneMatches matches;

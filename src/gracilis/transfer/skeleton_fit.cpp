@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,9 @@
 
 namespace gracilis {
 namespace {
+
+/// How messages name a bone of the subject.
+std::string title_of(const FoundBone& bone) { return with_part(bone.file.string(), bone.part); }
 
 constexpr Index coarse_samples = 400, samples = 1500;
 /// A turn that nothing but a shape's symmetry speaks for must fit so much better than the one that the body's
@@ -83,12 +87,11 @@ void require_own_names(const Scene& scene, const FoundFolder& subject, const std
       if (errors[a] < doubtful_error || errors[b] < doubtful_error) continue;
       if (error_of(a, b) > clearly_better * errors[a] || error_of(b, a) > clearly_better * errors[b]) continue;
       const FoundBone &one = subject.bones[matches[a].of_subject], &other = subject.bones[matches[b].of_subject];
-      throw InputError(
-          {one.file.string(), "",
-           fmt::format("looks like {}, and {} like {}: their names seem to be exchanged",
-                       scene.bones[static_cast<std::size_t>(matches[b].of_template)].name, other.file.string(),
-                       scene.bones[static_cast<std::size_t>(matches[a].of_template)].name),
-           "rename the files"});
+      throw InputError({title_of(one), "",
+                        fmt::format("looks like {}, and {} like {}: their names seem to be exchanged",
+                                    scene.bones[static_cast<std::size_t>(matches[b].of_template)].name, title_of(other),
+                                    scene.bones[static_cast<std::size_t>(matches[a].of_template)].name),
+                        "rename them"});
     }
 }
 
@@ -146,7 +149,7 @@ SkeletonFit fit_skeleton(const Scene& scene, const FoundFolder& subject, const s
       fit.doubtful.push_back(
           fmt::format("{} and {} differ by {:.0f} % of their size before they are deformed: is it "
                       "the same bone, and whole?",
-                      fine[m].name(), subject.bones[matches[m].of_subject].file.string(), 100 * errors[m]));
+                      fine[m].name(), title_of(subject.bones[matches[m].of_subject]), 100 * errors[m]));
   fit.bones.resize(matches.size());
   parallel_for_each(matches.size(), [&](std::size_t m) {
     fit.bones[m] = {matches[m], register_bone(fine[m], named[m], starts[m])};

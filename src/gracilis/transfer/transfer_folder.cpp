@@ -5,6 +5,7 @@
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
 #include <gracilis/io/json_file.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/mesh/polyline_file.hpp>
 #include <gracilis/io/text_cells.hpp>
@@ -121,9 +122,11 @@ std::string manifest_text(const TemplateScene& origin, const Transferred& transf
   json["template"] = origin.name;
   json["mirrored"] = transferred.is_mirrored;
   json["unit_of_subject"] = transferred.subject.unit;
-  for (const FittedBone& bone : transferred.skeleton.bones)
-    json["bones"].push_back({{"template", template_bone(transferred, bone).name},
-                             {"subject", transferred.subject.bones[bone.match.of_subject].file.string()}});
+  for (const FittedBone& bone : transferred.skeleton.bones) {
+    const FoundBone& found = transferred.subject.bones[bone.match.of_subject];
+    json["bones"].push_back(
+        {{"template", template_bone(transferred, bone).name}, {"subject", with_part(found.file.string(), found.part)}});
+  }
   for (const Guess& guess : transferred.guesses) json["guessed"].push_back(guess.subject + ": " + to_string(guess));
   json["doubtful"] = transferred.skeleton.doubtful;
   json["left_out"] = left_out;
