@@ -94,7 +94,7 @@ TEST(SceneCommand, mends_what_a_run_would_refuse_into_a_folder_beside_the_scene)
   EXPECT_EQ(run_program("inspect " + scene).exit_code, 0);
   const ProgramResult again = run_program("scene " + in + " --prepare --force --out " + scene);
   EXPECT_EQ(again.exit_code, 0) << again.err;
-  EXPECT_THAT(again.out, HasSubstr("2 bones, 1 joints, 1 muscles")) << "what is mended is not found again";
+  EXPECT_THAT(again.out, HasSubstr("2 bones, 1 joint, 1 muscle\n")) << "what is mended is not found again";
   EXPECT_THAT(again.out, testing::Not(HasSubstr("left out")));
 }
 
