@@ -65,20 +65,33 @@ def cells_of(name):
     return cells
 
 
+def shown(value, count):
+    """A value as notebooks show that of a cell's last line."""
+    data = {"text/plain": repr(value).splitlines(keepends=True)}
+    if hasattr(value, "_repr_svg_"):
+        data["image/svg+xml"] = value._repr_svg_().splitlines(keepends=True)
+    return {"output_type": "execute_result", "execution_count": count, "data": data, "metadata": {}}
+
+
 def run(cells):
-    """Runs code cells one after the other and keeps with each what it printed."""
+    """Runs code cells one after the other and keeps with each what it printed and what its last line is."""
     names, count = {"__name__": "__main__"}, 0
     for cell in cells:
         if cell["cell_type"] != "code":
             continue
         count += 1
+        tree = ast.parse(code_of(cell))
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
         printed = io.StringIO()
         with contextlib.redirect_stdout(printed):
-            exec(compile(code_of(cell), "cell", "exec"), names)
+            exec(compile(tree, "cell", "exec"), names)
+            value = eval(compile(ast.Expression(last.value), "cell", "eval"), names) if last else None
         cell["execution_count"] = count
         if printed.getvalue():
             lines = printed.getvalue().splitlines(keepends=True)
             cell["outputs"].append({"output_type": "stream", "name": "stdout", "text": lines})
+        if value is not None:
+            cell["outputs"].append(shown(value, count))
     return cells
 
 

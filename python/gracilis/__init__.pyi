@@ -131,6 +131,8 @@ class Simulation:
     @property
     def time(self) -> float: ...
     @property
+    def solver_seconds(self) -> float: ...
+    @property
     def method(self) -> str: ...
     def state_hash(self) -> int: ...
 
@@ -139,6 +141,7 @@ class MomentArms(NamedTuple):
     degrees: _Floats
     arms: dict[str, _Floats]
     lengths: dict[str, _Floats]
+    unit: str = ...
 
 def moment_arms(
     scene: Scene, coordinate: str, range: ArrayLike, method: str = ..., **settings: Any

@@ -8,6 +8,7 @@
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/methods/registry.hpp>
 
+#include <chrono>
 #include <numeric>
 #include <utility>
 
@@ -40,13 +41,17 @@ void LiveState::look_at(std::shared_ptr<const Frame> frame) {
 }
 
 void LiveState::advance(Pose pose, Real time_step) {
+  std::chrono::steady_clock::duration taken{};
   look_at(work([&](Simulation& simulation) {
     if (simulation.is_broken())
       throw Error(ExitCode::usage, "the simulation was stopped within a frame: reset() or restore() it");
     if (pose.bodies.empty()) pose.bodies = pose_at(scene(), pose.coordinates).bodies;
+    const auto begin = std::chrono::steady_clock::now();
     simulation.advance(pose, time_step);
+    taken = std::chrono::steady_clock::now() - begin;
     return simulation.frame();
   }));
+  solver_seconds_ = std::chrono::duration<Real>(taken).count();
 }
 
 void LiveState::reset() {

@@ -30,6 +30,8 @@ class LiveState {
 
   const Scene& scene() const { return loaded_.scene; }
   const Frame& frame() const { return *facts_.frame; }
+  /// s that the last advance() was in the simulation, without what Python adds; 0 before the first.
+  Real solver_seconds() const { return solver_seconds_; }
 
   void advance(Pose pose, Real time_step);
   void reset();
@@ -55,6 +57,7 @@ class LiveState {
   std::unique_ptr<Simulation> simulation_;
   std::optional<ContactDepth> contact_;  ///< made when it is asked for
   FrameFacts facts_;
+  Real solver_seconds_ = 0;
 };
 
 }  // namespace gracilis::python

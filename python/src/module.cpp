@@ -1,3 +1,4 @@
+#include "charts.hpp"
 #include "errors.hpp"
 #include "moment_arms.hpp"
 #include "opensim_models.hpp"
@@ -39,6 +40,7 @@ PYBIND11_MODULE(_core, module) {
   translate_errors();
   module.def("limit_threads", &limit_threads, pybind11::arg("threads"),
              "How many threads this process uses at most; 0: all of the machine's. Results do not depend on it.");
+  bind_charts(module);
   bind_scene(module);
   bind_simulation(module);
   bind_moment_arms(module);

@@ -57,8 +57,8 @@ static py::object curves(const SceneHandle& given, const std::string& coordinate
     throw ConfigurationError({"", "", "there is no coordinate '" + coordinate + "'", suggestion(coordinate, names)});
   const Eigen::VectorXd shown = values_from(range, "range");
   if (shown.size() < 2 || !shown.allFinite()) refuse("range", "must be two finite numbers or more, degrees (mm)");
-  const Real unit = axis_of(loaded.scene, found).translation ? 0.001 : radians(1);
-  set_range(loaded.scene, range_of(coordinate, shown * unit));
+  const bool translates = axis_of(loaded.scene, found).translation;
+  set_range(loaded.scene, range_of(coordinate, shown * (translates ? 0.001 : radians(1))));
   const MomentArmCurves result = released([&] { return run_through(loaded, found); });
   py::dict arms, lengths;
   for (std::size_t m = 0; m < result.muscles.size(); ++m) {
@@ -67,7 +67,8 @@ static py::object curves(const SceneHandle& given, const std::string& coordinate
     arms[py::str(result.muscles[m])] = copied_column(arm);
     lengths[py::str(result.muscles[m])] = copied_column(length);
   }
-  return py::module_::import("gracilis.arms").attr("MomentArms")(coordinate, copied_column(shown), arms, lengths);
+  return py::module_::import("gracilis.arms")
+      .attr("MomentArms")(coordinate, copied_column(shown), arms, lengths, translates ? "mm" : "degrees");
 }
 
 void bind_moment_arms(py::module_& module) {
@@ -78,7 +79,7 @@ range: values that the coordinate goes through, degrees (mm for a translation), 
 range(-10, 61, 2) or a NumPy array; steps of some degrees at most. Others keep their value of the capture pose. Muscles settle at
 the first value before. method and other keywords: as of Simulation.
 
-Returns MomentArms: coordinate, degrees (n,), arms and lengths, each muscle -> (n,) float64 in m.)");
+Returns MomentArms: coordinate, degrees (n,), arms and lengths, each muscle -> (n,) float64 in m, and the unit of degrees.)");
 }
 
 }  // namespace gracilis::python

@@ -260,6 +260,9 @@ frames since the capture pose.)")
           "Number of the present frame; 0 is the capture pose.")
       .def_property_readonly(
           "time", [](const SimulationHandle& self) { return self.state->frame().pose.time; }, "s")
+      .def_property_readonly(
+          "solver_seconds", [](const SimulationHandle& self) { return self.state->solver_seconds(); },
+          "s of the clock that the last advance() spent in the solver; what it took beyond that is Python's.")
       .def_property_readonly("method", [](const SimulationHandle& self) { return self.state->scene().method.name; })
       .def("state_hash", &hash_of_state, "A number that is the same where all vertices have the same bits (FNV-1a).")
       .def("__repr__", [](const SimulationHandle& self) {
