@@ -50,9 +50,12 @@ TEST_F(FiberCommands, fibers_tells_programs_the_same_in_si_units) {
   EXPECT_EQ(told[0]["muscle"], "muscle");
   EXPECT_EQ(told[0]["fibers"], 7);
   const double length = told[0]["mean_length_m"];
-  EXPECT_THAT(run("fibers", good_scene(), more).out, HasSubstr(fmt::format("{:.1f} mm long", 1000 * length)));
+  const std::string in_words = run("fibers", good_scene(), more).out;
+  EXPECT_THAT(in_words, HasSubstr(fmt::format("{:.1f} mm long", 1000 * length)));
   EXPECT_EQ(told[0]["on_surface"].size(), 2u);
-  EXPECT_GT(told[0]["on_surface"][0]["share_covered"], 0);
+  for (const nlohmann::json& carried : told[0]["on_surface"])
+    EXPECT_THAT(in_words, HasSubstr(fmt::format("{}: {} segments", carried["carried"].get<std::string>(),
+                                                carried["segments"].get<std::size_t>())));
 }
 
 TEST_F(FiberCommands, a_muscle_may_bring_fibers_of_its_own) {
