@@ -7,6 +7,7 @@ import math
 import os
 import statistics
 import sys
+import tomllib
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "family"))
 import publication  # noqa: E402
@@ -16,8 +17,8 @@ RAYS, SCALARS = (6, 8, 10, 12), (1, 2, 3, 4, 5, 6)
 
 
 def tendon_mm(folder):
-    with open(f"{folder}/model.toml") as file:
-        return next(float(line.split("=")[1]) for line in file if line.startswith("tendon_mm"))
+    with open(f"{folder}/model.toml", "rb") as file:
+        return tomllib.load(file)["muscles"][0]["action_line"]["tendon_mm"]
 
 
 def vertices(path):

@@ -17,13 +17,13 @@ lines=add_mag2,bifemlh,bifemsh,glut_max1,glut_max2,glut_max3,glut_med1,glut_med2
 lines=$lines,rect_fem,sar,soleus,tfl,tib_ant,tib_post,vas_int
 both=$(tr , '\n' <<<"$lines" | sed 's/.*/&_r,&_l/' | paste -sd,)
 
-# into FOLDER [options of import]: a scene of the walking model.
+# into FOLDER [options of import]: a scene of the walking model, half of each tendon's slack length at the insertion, as published.
 into() {
   local folder=$1
   shift
   rm -rf "$folder"
   mkdir -p "${folder%/*}"
-  quietly "$folder.txt" "$gracilis" import "$model" "$@" --out "$folder"
+  quietly "$folder.txt" "$gracilis" import "$model" --tendon half "$@" --out "$folder"
 }
 
 # Table 3.3: half a tendon, and in a skeleton that is 0.292/0.303 as large.
