@@ -47,9 +47,7 @@ void require_new_scene(const fs::path& out, bool force) {
 
 static void write_mended(const FoundMuscle& muscle) {
   const fs::path& file = muscle.mended->file;
-  std::error_code failed;
-  if (file.has_parent_path()) fs::create_directories(file.parent_path(), failed);
-  if (failed) throw InputError({file.parent_path().string(), "", "cannot be made a folder: " + failed.message(), ""});
+  create_folder(file.parent_path());
   write_surface(file, muscle.mesh.vertices, muscle.mesh.faces);
 }
 

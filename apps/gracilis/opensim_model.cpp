@@ -19,8 +19,8 @@ opensim::Model read_opensim_model(const std::filesystem::path& path, bool strict
 }
 
 void close_default_pose(opensim::Model& model, const std::vector<bool>& held) {
-  if (const opensim::LoopClosure closure = opensim::assemble_defaults(model, held); closure.open > 1e-5)
-    spdlog::warn("{}: its loops stay open by {:.3g} (m or rad) in its default pose", model.name, closure.open);
+  const std::string note = opensim::open_loops_note(model, opensim::assemble_defaults(model, held));
+  if (!note.empty()) spdlog::warn("{}", note);
 }
 
 void report_unsupported(const opensim::Model& model, std::size_t first, bool strict) {

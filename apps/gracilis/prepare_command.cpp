@@ -104,9 +104,7 @@ PreparedSurfaces prepared_input(const SceneSurfaces& input, const PrepareOptions
 }
 
 void write_prepared(const PreparedSurfaces& prepared, const fs::path& folder) {
-  std::error_code failed;
-  fs::create_directories(folder, failed);
-  if (failed) throw InputError({folder.string(), "", "cannot be made a folder: " + failed.message(), ""});
+  create_folder(folder);
   std::vector<std::string> names;
   for (const PreparedMuscleReport& muscle : prepared.report.muscles) names.push_back(muscle.name);
   const std::vector<fs::path> files = output_files(names, folder);

@@ -46,8 +46,8 @@ opensim::Model closed_model(const fs::path& path, Notes& notes) {
   opensim::Model model = opensim::read_model(path);
   add(opensim::approximate_path_notes(model), notes);
   add(opensim::unsupported_notes(model), notes);
-  if (const Real open = opensim::assemble_defaults(model).open; open > 1e-5)
-    notes.push_back(fmt::format("{}: its loops stay open by {:.3g} (m or rad) in its default pose", model.name, open));
+  const opensim::LoopClosure closure = opensim::assemble_defaults(model);
+  if (const std::string note = opensim::open_loops_note(model, closure); !note.empty()) notes.push_back(note);
   return model;
 }
 

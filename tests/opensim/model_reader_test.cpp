@@ -310,28 +310,6 @@ TEST(ModelReader, documents_of_opensim_1_and_2_are_read_by_what_changed_since) {
   }
 }
 
-TEST(ModelReader, what_a_force_lacks_is_told_and_the_model_is_read) {
-  const std::string way = point("/ground", "1 0 0") + point("rod", "0 -1 0");
-  const Model model =
-      model_from(pendulum("<NobodysForce><strength>1</strength></NobodysForce>" +
-                          muscle("lost", point("/ground", "1 0 0") + point("/body", "0 -1 0")) +
-                          muscle("still", way, "<max_contraction_velocity>0</max_contraction_velocity>")));
-  ASSERT_EQ(model.muscles.size(), 1u);
-  EXPECT_EQ(model.muscles[0].name, "still");
-  EXPECT_EQ(model.muscles[0].max_contraction_velocity, 10);
-  ASSERT_EQ(model.unsupported.size(), 3u);
-  EXPECT_THAT(model.unsupported[1], HasSubstr("'lost': has a point on '/body', which does not exist"));
-}
-
-TEST(ModelReader, a_joint_of_no_bodies_is_left_out) {
-  const Model model = model_from(document(
-      set("BodySet", body("rod")) +
-      set("JointSet", joint("PinJoint", "hinge", "/ground", "rod", coordinate("swing")) +
-                          "<PinJoint name=\"nothing\"><socket_parent_frame></socket_parent_frame></PinJoint>")));
-  EXPECT_EQ(model.joints.size(), 1u);
-  EXPECT_THAT(model.unsupported.at(0), HasSubstr("'nothing': names no bodies"));
-}
-
 TEST(ModelReader, a_force_set_that_repeats_a_name_replaces_that_force_and_says_so) {
   Model model = model_from(pendulum(muscle("m", point("/ground", "1 0 0") + point("rod", "0 -1 0")) +
                                     "<CoordinateActuator name=\"swing_reserve\"><coordinate>swing</coordinate>"

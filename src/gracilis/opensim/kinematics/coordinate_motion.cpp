@@ -49,7 +49,7 @@ void complete_rows(const Model& model, const std::vector<bool>& held, Coordinate
         "to close the model's loops given coordinates had to give way, {} by {:.3g} {} at most", coordinate.name,
         worst.moved * (coordinate.rotation ? degrees(1) : 1), coordinate.rotation ? "degrees" : "m"));
   }
-  if (worst.open > 1e-5)
+  if (worst.open > closed_loop)
     motion.notes.push_back(fmt::format("the model's loops stay open by up to {:.3g} (m or rad)", worst.open));
 }
 

@@ -1,5 +1,6 @@
 #include <gracilis/opensim/kinematics/loop_closer.hpp>
 
+#include <fmt/format.h>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -105,6 +106,11 @@ LoopClosure assemble_defaults(Model& model, const std::vector<bool>& held) {
   for (std::size_t i = 0; i < model.coordinates.size(); ++i)
     model.coordinates[i].default_value = coordinates[static_cast<Eigen::Index>(i)];
   return closure;
+}
+
+std::string open_loops_note(const Model& model, const LoopClosure& closure) {
+  if (!(closure.open > closed_loop)) return {};
+  return fmt::format("{}: its loops stay open by {:.3g} (m or rad) in its default pose", model.name, closure.open);
 }
 
 }  // namespace gracilis::opensim

@@ -3,6 +3,7 @@
 #include <gracilis/opensim/kinematics/skeleton.hpp>
 
 #include <optional>
+#include <string>
 
 namespace gracilis::opensim {
 
@@ -49,5 +50,11 @@ Eigen::VectorXd arms_through_loops(const Eigen::MatrixXd& free_motions, const Ei
 /// Closes the loops of the model's default pose, with these coordinates held; OpenSim does the same when it loads a
 /// model.
 LoopClosure assemble_defaults(Model& model, const std::vector<bool>& held = {});
+
+/// Loops that are open by more stay so, m or rad.
+inline constexpr Real closed_loop = 1e-5;
+
+/// Says of the model's default pose that its loops stay open; empty where they close.
+std::string open_loops_note(const Model& model, const LoopClosure& closure);
 
 }  // namespace gracilis::opensim

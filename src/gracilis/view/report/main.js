@@ -183,7 +183,8 @@ element('color-by').addEventListener('change', event => {
     const stops = scale.colors.map(color => `rgb(${color.join(',')})`).join(',');
     bar.querySelector('b').textContent = scale.title;
     bar.querySelector('i').style.background = `linear-gradient(90deg, ${stops})`;
-    bar.querySelector('span').replaceChildren(...ticksOf(scale, rangeOf(stage.shapes.flatMap(shapes => shapes.range(page.state.colorBy)))).map(tick => make('span', tick)));
+    const shown = rangeOf(stage.shapes.flatMap(shapes => shapes.range(page.state.colorBy)));
+    bar.querySelector('span').replaceChildren(...ticksOf(scale, shown).map(tick => make('span', tick)));
   }
   element('muscles-title').textContent = page.state.colorBy === 'muscle' ? 'Muscles' : 'Muscles, with their colors in plots';
   page.update();
