@@ -31,7 +31,7 @@ TriangleMesh tube(const Vec3& center, const Vec3& along, Real radius = 0.01) {
 OverlapSides sides_of(const TriangleMesh& a, const TriangleMesh& b) {
   const std::vector<RestOverlap> overlaps = rest_overlaps({a, b});
   EXPECT_EQ(overlaps.size(), 1u);
-  return overlaps.empty() ? OverlapSides() : overlap_sides(overlaps.front(), a, b);
+  return overlaps.empty() ? OverlapSides() : overlap_sides(overlaps.front(), {a, {}}, {b, {}});
 }
 
 long count(const std::vector<char>& flags) { return std::accumulate(flags.begin(), flags.end(), 0L); }
@@ -87,7 +87,7 @@ TEST(OverlapSides, all_that_lies_inside_together_has_one_way_out) {
   const TriangleMesh a = tube(Vec3::Zero(), Vec3::UnitZ()), b = tube({0.015, 0, 0}, Vec3::UnitZ());
   const std::vector<RestOverlap> overlaps = rest_overlaps({a, b});
   ASSERT_EQ(overlaps.size(), 1u);
-  const OverlapSides sides = overlap_sides(overlaps.front(), a, b);
+  const OverlapSides sides = overlap_sides(overlaps.front(), {a, {}}, {b, {}});
   Points expected = Points::Zero(3, a.vertex_count());
   for (const Index v : overlaps.front().of_first.vertices) expected.col(v) = -Vec3::UnitX();
   EXPECT_LT((sides.first_ways - expected).cwiseAbs().maxCoeff(), 0.01) << "but for how the triangles lie";
@@ -100,6 +100,17 @@ TEST(OverlapSides, a_tube_through_another_has_none_however_thick_the_other_is) {
     EXPECT_TRUE(sides.is_through) << radius;
     EXPECT_GT(count(sides.first_astray), 0) << radius;
   }
+}
+
+TEST(OverlapSides, a_tendon_through_a_belly_has_none_but_leaves_the_rest_a_side) {
+  const TriangleMesh belly = tube(Vec3::Zero(), Vec3::UnitZ()), tendon = tube(Vec3::Zero(), Vec3::UnitX(), 0.004);
+  const std::vector<RestOverlap> overlaps = rest_overlaps({belly, tendon});
+  ASSERT_EQ(overlaps.size(), 1u);
+  const std::vector<char> all(static_cast<std::size_t>(tendon.vertex_count()), 1);
+  const OverlapSides sides = overlap_sides(overlaps.front(), {belly, {}}, {tendon, all});
+  EXPECT_FALSE(sides.is_through);
+  EXPECT_GE(count(sides.second_astray), static_cast<long>(overlaps.front().of_second.vertices.size()));
+  EXPECT_TRUE(overlap_sides(overlaps.front(), {belly, {}}, {tendon, {}}).is_through);
 }
 
 TEST(OverlapSides, a_tube_through_a_sheet_has_none) {

@@ -57,4 +57,41 @@ TEST(NeighborClearance, a_muscle_pressed_against_another_keeps_its_volume_and_ge
   EXPECT_LT(smallest, 0.006);
 }
 
+/// A belly between two tendons, 20 mm wide in the middle.
+static RoundMuscle spindle(Real x) {
+  RoundMuscle muscle = upright(x, 0.003);
+  muscle.radii << 0.003, 0.003, 0.008, 0.014, 0.018, 0.02, 0.018, 0.014, 0.008, 0.003, 0.003;
+  return muscle;
+}
+
+TEST(NeighborClearance, a_tendon_through_a_belly_goes_to_the_side_where_most_of_it_lies) {
+  RoundMuscle tendon = upright(0, 0.003);
+  tendon.centers(0, 5) = 0.006;  // on the other side of the belly's middle
+  const RoundMuscle belly = spindle(0.004);
+  const Points beside = beside_bellies(tendon, {belly});
+  EXPECT_EQ(beside.col(0), tendon.centers.col(0));
+  EXPECT_EQ(beside.col(10), tendon.centers.col(10));
+  for (Eigen::Index k = 3; k < 8; ++k) {
+    EXPECT_LT(beside(0, k), belly.centers(0, k) - 0.6 * belly.radii[k]) << k << ": the line stays soft";
+    EXPECT_NEAR(beside(1, k), 0, 1e-12);
+  }
+}
+
+TEST(NeighborClearance, a_tendon_leans_softly_out_of_a_belly_and_by_30_mm_at_most) {
+  const RoundMuscle tendon = upright(0, 0.003);
+  RoundMuscle belly = upright(0.004, 0.003);
+  belly.radii.segment(5, 3).setConstant(0.06);
+  const Points way = beside_bellies(tendon, {belly}) - tendon.centers;
+  EXPECT_GT(way.colwise().norm().maxCoeff(), 0.02);
+  EXPECT_LE(way.colwise().norm().maxCoeff(), 0.03 + 1e-9);
+  for (Eigen::Index k = 0; k < 10; ++k) EXPECT_LE((way.col(k + 1) - way.col(k)).norm(), 0.5 * 0.02 + 1e-9) << k;
+}
+
+TEST(NeighborClearance, bellies_of_like_size_and_tendons_beside_them_stay_on_their_lines) {
+  const RoundMuscle belly = spindle(0.004), other = spindle(0), tendon = upright(-0.03, 0.003);
+  EXPECT_EQ(beside_bellies(other, {belly}), other.centers);
+  EXPECT_EQ(beside_bellies(tendon, {belly}), tendon.centers);
+  EXPECT_EQ(beside_bellies(tendon, {}), tendon.centers);
+}
+
 }  // namespace gracilis::opensim

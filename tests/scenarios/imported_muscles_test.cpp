@@ -1,4 +1,5 @@
 #include <io/test_files.hpp>
+#include <opensim/model_texts.hpp>
 #include "scenario_runs.hpp"
 
 #include <gracilis/anatomy/joints/joint_pose.hpp>
@@ -97,12 +98,41 @@ TEST(ImportedWalk, muscles_miss_no_gate) {
   expect_gates(scene, run_whole(scene));
 }
 
-TEST(ImportedWalk, bellies_keep_out_of_each_other_while_tendons_run_past_and_miss_no_gate) {
+TEST(ImportedWalk, muscles_that_lie_apart_keep_out_of_each_other_and_miss_no_gate) {
   SKIP_WITHOUT_DATA();
   const Scene scene = walking({"semimem_l", "semiten_l", "bifemlh_l", "bifemsh_l", "glut_max1_l", "glut_max2_l",
                                "glut_max3_l", "glut_med1_l", "glut_med2_l", "glut_med3_l"},
                               true);
   ASSERT_EQ(scene.muscles.size(), 10u);
+  expect_gates(scene, run_whole(scene));
+}
+
+TEST(ImportedWalk, tendons_around_the_ankle_keep_out_of_bellies_and_miss_no_gate) {
+  SKIP_WITHOUT_DATA();
+  const Scene scene = walking({"med_gas_r", "lat_gas_r", "soleus_r", "tib_post_r", "flex_dig_r", "flex_hal_r",
+                               "per_long_r", "per_brev_r", "bifemlh_r", "bifemsh_r", "rect_fem_r", "vas_med_r"},
+                              true);
+  ASSERT_EQ(scene.muscles.size(), 12u);
+  expect_gates(scene, run_whole(scene));
+}
+
+TEST(ImportedPendulum, a_tendon_that_its_line_draws_through_a_belly_keeps_out_of_it) {
+  using namespace opensim;
+  const auto sized = [](int force, const char* fiber, const char* slack) {
+    return "<max_isometric_force>" + std::to_string(force) + "</max_isometric_force><optimal_fiber_length>" + fiber +
+           "</optimal_fiber_length><tendon_slack_length>" + slack + "</tendon_slack_length>";
+  };
+  // 10 mm beside each other; when the rod swings back, the line of the long one comes to that of the other.
+  const Model model = model_from(pendulum(
+      muscle("belly", point("/ground", "0.04 0.25 0") + point("rod", "0.04 -0.25 0"), sized(800, "0.3", "0.2")) +
+      muscle("tendon", point("/ground", "0.05 0.3 0") + point("rod", "0.05 -0.3 0"), sized(100, "0.05", "0.5"))));
+  CoordinateMotion swing{{}, Eigen::VectorXd::LinSpaced(26, 0, -radians(25)), {}};
+  for (int i = 0; i < 26; ++i) swing.times.push_back(0.02 * i);
+  SceneFolderSettings settings;
+  settings.apart = true;
+  const TestFolder folder;
+  const Scene scene = imported(model, {folder.path(), {}, {}}, {"swing", swing}, settings, {});
+  ASSERT_EQ(scene.muscles.size(), 2u);
   expect_gates(scene, run_whole(scene));
 }
 

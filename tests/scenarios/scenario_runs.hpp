@@ -50,9 +50,9 @@ inline Scene cadaver_scene(const std::string& name, const std::vector<std::strin
 
 /// The worst of a muscle over a whole run, and its last frame.
 struct MuscleRun {
-  Real volume_error = 0, vertex_depth = 0, midpoint_depth = 0, free_edge_ratio = 0;
+  Real volume_error = 0, vertex_depth = 0, midpoint_depth = 0, muscle_depth = 0, free_edge_ratio = 0;
   Real belly_off_place = 0, wrong_side = 0, slack = 0;
-  int volume_frame = 0, vertex_frame = 0, midpoint_frame = 0, edge_frame = 0;
+  int volume_frame = 0, vertex_frame = 0, midpoint_frame = 0, muscle_depth_frame = 0, edge_frame = 0;
   int belly_frame = 0, side_frame = 0, slack_frame = 0;
   MuscleMeasures last;
 };
@@ -89,6 +89,7 @@ inline WholeRun run_whole(const Scene& scene, int stride = 1,
       keep_worst(std::abs(now.volume_ratio - 1), frame, muscle.volume_error, muscle.volume_frame);
       keep_worst(now.vertex_depth_beyond_rest, frame, muscle.vertex_depth, muscle.vertex_frame);
       keep_worst(now.midpoint_depth_beyond_rest, frame, muscle.midpoint_depth, muscle.midpoint_frame);
+      keep_worst(now.muscle_depth_beyond_rest, frame, muscle.muscle_depth, muscle.muscle_depth_frame);
       keep_worst(now.edge_ratio_max_free, frame, muscle.free_edge_ratio, muscle.edge_frame);
       keep_worst(now.belly_off_place, frame, muscle.belly_off_place, muscle.belly_frame);
       keep_worst(now.wrong_side, frame, muscle.wrong_side, muscle.side_frame);
@@ -110,6 +111,7 @@ inline void expect_gates(const Scene& scene, const WholeRun& run) {
     EXPECT_LE(muscle.volume_error, 0.005) << name << ", frame " << muscle.volume_frame;
     EXPECT_LE(muscle.vertex_depth, 1e-4) << name << ", frame " << muscle.vertex_frame;
     EXPECT_LE(muscle.midpoint_depth, 5e-4) << name << ", frame " << muscle.midpoint_frame;
+    EXPECT_LE(muscle.muscle_depth, 1e-3) << name << ", frame " << muscle.muscle_depth_frame;
     EXPECT_LE(muscle.free_edge_ratio, 3) << name << ", frame " << muscle.edge_frame;
     // A muscle about a model's line goes where that line leads.
     if (scene.muscles[m].action_line.rays == 0) {

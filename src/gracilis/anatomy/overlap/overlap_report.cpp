@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/overlap/overlap_sides.hpp>
 #include <gracilis/anatomy/overlap/rest_overlap.hpp>
+#include <gracilis/anatomy/sections/line_sections.hpp>
 #include <gracilis/core/parallel.hpp>
 
 #include <algorithm>
@@ -36,7 +37,11 @@ OverlapReport report_overlaps(const Scene& scene) {
   const std::vector<RestOverlap> overlaps = rest_overlaps(scene);
   OverlapReport report;
   report.vertices = count_inside(overlaps);
-  for (const Muscle& muscle : scene.muscles) report.of_vertices += muscle.surface.vertex_count();
+  std::vector<std::vector<char>> in_tendon;
+  for (const Muscle& muscle : scene.muscles) {
+    report.of_vertices += muscle.surface.vertex_count();
+    in_tendon.push_back(tendon_vertices(muscle));
+  }
   report.pairs.resize(overlaps.size());
   parallel_for_each(overlaps.size(), [&](std::size_t i) {
     const RestOverlap& overlap = overlaps[i];
@@ -48,7 +53,9 @@ OverlapReport report_overlaps(const Scene& scene) {
                        static_cast<Index>(overlap.of_second.vertices.size()),
                        overlap.of_first.deepest(),
                        overlap.of_second.deepest(),
-                       overlap_sides(overlap, first.surface, second.surface).is_through};
+                       overlap_sides(overlap, {first.surface, in_tendon[static_cast<std::size_t>(overlap.first)]},
+                                     {second.surface, in_tendon[static_cast<std::size_t>(overlap.second)]})
+                           .is_through};
   });
   for (const BoneOverlap& overlap : rest_overlaps_with_bones(scene))
     report.in_bones.push_back({scene.muscles[static_cast<std::size_t>(overlap.muscle)].name,

@@ -41,7 +41,8 @@ struct Side {
   bool is_clear = true;
 };
 
-Side side_of(const InsideVertices& inside, const TriangleMesh& mesh) {
+Side side_of(const InsideVertices& inside, const OverlappingSurface& surface) {
+  const TriangleMesh& mesh = surface.mesh;
   const auto count = static_cast<std::size_t>(mesh.vertex_count());
   Side side{std::vector<char>(count, 0), Points::Zero(3, static_cast<Eigen::Index>(count)), true};
   if (inside.vertices.empty()) return side;
@@ -55,12 +56,13 @@ Side side_of(const InsideVertices& inside, const TriangleMesh& mesh) {
   const auto pieces = static_cast<std::size_t>(number_parts(stars, is_outside, piece));
 
   std::vector<Vec3> way(regions, Vec3::Zero());
-  std::vector<Real> region_area(regions, 0), piece_area(pieces, 0);
+  std::vector<Real> region_area(regions, 0), belly_area(regions, 0), piece_area(pieces, 0);
   for (std::size_t i = 0; i < inside.vertices.size(); ++i) {
     const Index v = inside.vertices[i];
     const auto at = static_cast<std::size_t>(region[static_cast<std::size_t>(v)]);
     way[at] += areas[v] * inside.outward.col(static_cast<Eigen::Index>(i));
     region_area[at] += areas[v];
+    if (surface.in_tendon.empty() || !surface.in_tendon[static_cast<std::size_t>(v)]) belly_area[at] += areas[v];
   }
   std::size_t largest = 0;
   for (std::size_t v = 0; v < count; ++v)
@@ -89,7 +91,7 @@ Side side_of(const InsideVertices& inside, const TriangleMesh& mesh) {
   });
 
   Real clear_area = 0, area = 0;
-  for (std::size_t r = 0; r < regions; ++r) area += region_area[r], clear_area += clear[r] ? region_area[r] : 0;
+  for (std::size_t r = 0; r < regions; ++r) area += belly_area[r], clear_area += clear[r] ? belly_area[r] : 0;
   side.is_clear = 2 * clear_area >= area;
   for (const Index v : inside.vertices)
     if (const auto r = static_cast<std::size_t>(region[static_cast<std::size_t>(v)]); clear[r])
@@ -102,7 +104,8 @@ Side side_of(const InsideVertices& inside, const TriangleMesh& mesh) {
 
 }  // namespace
 
-OverlapSides overlap_sides(const RestOverlap& overlap, const TriangleMesh& first, const TriangleMesh& second) {
+OverlapSides overlap_sides(const RestOverlap& overlap, const OverlappingSurface& first,
+                           const OverlappingSurface& second) {
   Side of_first = side_of(overlap.of_first, first), of_second = side_of(overlap.of_second, second);
   OverlapSides sides;
   sides.is_through = (overlap.of_first.vertices.empty() || !of_first.is_clear) &&

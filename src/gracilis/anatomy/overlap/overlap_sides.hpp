@@ -12,11 +12,18 @@ namespace gracilis {
 struct OverlapSides {
   std::vector<char> first_astray, second_astray;  ///< per vertex: in a region without a side, or cut off by one
   Points first_ways, second_ways;  ///< per vertex: of its region the mean of the ways out, unit; 0 without a side
-  bool is_through = false;  ///< neither surface has a side for at least half of what lies inside: one passes through
-                            ///< the other
+  bool is_through = false;  ///< neither surface has a side for at least half of what of its belly lies inside: one
+                            ///< passes through the other
 };
 
-/// `first` and `second` are the two surfaces of the overlap.
-OverlapSides overlap_sides(const RestOverlap& overlap, const TriangleMesh& first, const TriangleMesh& second);
+/// One of the two surfaces of an overlap.
+struct OverlappingSurface {
+  const TriangleMesh& mesh;
+  const std::vector<char>& in_tendon;  ///< per vertex; empty: none. That a tendon runs through a belly, or within
+                                       ///< another tendon, does not keep bellies from being taken apart
+};
+
+OverlapSides overlap_sides(const RestOverlap& overlap, const OverlappingSurface& first,
+                           const OverlappingSurface& second);
 
 }  // namespace gracilis

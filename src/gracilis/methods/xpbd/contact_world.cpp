@@ -26,21 +26,16 @@ float mean_edge(const SurfaceSystem& system) {
   return system.distances.count > 0 ? static_cast<float>(sum / system.distances.count) : 0;
 }
 
-/// The faces that others meet. The tendon of a muscle about a line is carried along that, through whatever the line
-/// runs through, so nothing could keep out of it.
-Eigen::Matrix3Xi met_faces(const PreparedMuscle& muscle) {
-  if (muscle.belly.empty()) return muscle.faces;
-  Eigen::Matrix3Xi met(3, muscle.faces.cols());
-  Eigen::Index count = 0;
-  for (const auto face : muscle.faces.colwise())
-    if (std::all_of(face.begin(), face.end(), [&](Index p) { return muscle.belly[static_cast<std::size_t>(p)] > 0.5; }))
-      met.col(count++) = face;
-  return met.leftCols(count);
+/// Which particles of a muscle about a line lie in its tendons; empty where there is no line.
+std::vector<char> tendon_particles(const PreparedMuscle& muscle) {
+  std::vector<char> in_tendon;
+  for (const Real belly : muscle.belly) in_tendon.push_back(!(belly > 0));
+  return in_tendon;
 }
 
 void add_surface(const PreparedMuscle& muscle, ContactWorld& world) {
   const Particles& rest = muscle.system.rest;
-  world.surfaces.push_back(build_contact_surface(met_faces(muscle), rest.count()));
+  world.surfaces.push_back(build_contact_surface(muscle.faces, rest.count()));
   Eigen::Matrix3Xf points(3, rest.count()), normals;
   for (Index p = 0; p < rest.count(); ++p) points.col(p) = rest.position(p);
   particle_normals(world.surfaces.back(), rest, normals);
@@ -70,12 +65,14 @@ ContactWorld surfaces_of(const ContactSettings& settings, const SurfaceContactSe
   const auto count = static_cast<Index>(muscles.size());
   std::vector<const Particles*> rest;
   std::vector<TriangleMesh> meshes;
+  std::vector<std::vector<char>> in_tendon;
   for (const PreparedMuscle& muscle : muscles) {
     add_surface(muscle, world);
     rest.push_back(&muscle.system.rest);
     meshes.push_back({muscle.rest, muscle.faces});
+    in_tendon.push_back(tendon_particles(muscle));
   }
-  const OverlapTable overlaps(meshes);
+  const OverlapTable overlaps(meshes, in_tendon);
   for (Index first = 0; first < count; ++first)
     for (Index second = first; second < count; ++second) {
       if (second == first && !muscles[static_cast<std::size_t>(first)].keeps_out_of_itself) continue;

@@ -27,6 +27,10 @@ constexpr Real smallest_mass_share = 1e-3;
 constexpr Real tendon_mobility = 0.05;
 /// Stiffness of a tendon's edges over that of the belly's.
 constexpr Real tendon_stiffness = 200;
+/// Share of its way beside the line that a tendon keeps where muscles meet: from its line alone it would begin each
+/// frame in what it was brought out of, and come out on the other side once the line is there. Less comes back to the
+/// line sooner.
+constexpr Real tendon_kept_in_contact = 0.8;
 /// A belly passes into its tendon over this length, m: in less its edges stretch there, over more it folds.
 constexpr Real tendon_border = 0.03;
 /// A triangle is a sliver when its tip is nearer to its longest side than this share of that, or of all sides' mean.
@@ -65,14 +69,11 @@ std::vector<Attachment> renumber(const Muscle& muscle, PreparedMuscle& prepared)
 void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepared) {
   prepared.line = line_sections(muscle);
   const PlacedSections sections = sections_at(*prepared.line, capture_pose(scene.bodies.size()));
-  const Points& centers = sections.centers;
-  for (Eigen::Index k = 0; k < centers.cols(); ++k) prepared.to_sections.push_back(sections.frame(k).inverse());
-  const bool own = static_cast<Eigen::Index>(prepared.order.size()) == muscle.action_line.rays * centers.cols() + 2;
-  for (Index p = 0; p < static_cast<Index>(prepared.order.size()); ++p) {
-    Eigen::Index nearest = 0;
-    (centers.colwise() - prepared.rest.col(p)).colwise().squaredNorm().minCoeff(&nearest);
-    prepared.section.push_back(own ? section_of_vertex(*prepared.line, prepared.order[static_cast<std::size_t>(p)])
-                                   : static_cast<Index>(nearest));
+  for (Eigen::Index k = 0; k < sections.centers.cols(); ++k)
+    prepared.to_sections.push_back(sections.frame(k).inverse());
+  const std::vector<Index> section = sections_of_vertices(*prepared.line, muscle.surface.vertices);
+  for (const Index vertex : prepared.order) {
+    prepared.section.push_back(section[static_cast<std::size_t>(vertex)]);
     const Real t = std::clamp(distance_from_tendon(*prepared.line, prepared.section.back()) / tendon_border, 0.0, 1.0);
     prepared.belly.push_back(t * t * (3 - 2 * t));
   }
@@ -259,6 +260,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(scene, prepared));
   // What takes the most memory while it is built comes first.
   const ContactSettings contact = contact_settings(scene);
+  if (contact.muscle != MuscleContact::none && scene.muscles.size() > 1) prepared.tendon_kept = tendon_kept_in_contact;
   prepared.keeps_out_of_itself = contact.self && contact.muscle == MuscleContact::surface && prepared.belly.empty();
   if (prepared.keeps_out_of_itself) {
     prepared.system.slivers = build_sliver_set(prepared.faces, prepared.system.rest, flattest);

@@ -125,12 +125,13 @@ void fade_release(const ContactSurface& surface, const Particles& rest, std::vec
 
 }  // namespace
 
-OverlapTable::OverlapTable(const std::vector<TriangleMesh>& meshes) {
+OverlapTable::OverlapTable(const std::vector<TriangleMesh>& meshes, const std::vector<std::vector<char>>& in_tendon) {
   std::vector<RestOverlap> overlaps = rest_overlaps(meshes);
   std::vector<OverlapSides> sides(overlaps.size());
   parallel_for_each(overlaps.size(), [&](std::size_t i) {
-    sides[i] = overlap_sides(overlaps[i], meshes[static_cast<std::size_t>(overlaps[i].first)],
-                             meshes[static_cast<std::size_t>(overlaps[i].second)]);
+    const auto first = static_cast<std::size_t>(overlaps[i].first),
+               second = static_cast<std::size_t>(overlaps[i].second);
+    sides[i] = overlap_sides(overlaps[i], {meshes[first], in_tendon[first]}, {meshes[second], in_tendon[second]});
   });
   for (std::size_t i = 0; i < overlaps.size(); ++i) {
     const std::pair<Index, Index> key(overlaps[i].first, overlaps[i].second);

@@ -13,8 +13,9 @@ namespace gracilis::xpbd {
 /// The muscles that overlap at rest, and what contact makes of that.
 class OverlapTable {
  public:
-  /// `meshes` are the muscles at rest, in particle order (m).
-  explicit OverlapTable(const std::vector<TriangleMesh>& meshes);
+  /// `meshes` are the muscles at rest, in particle order (m); `in_tendon` says of those about lines which particles
+  /// belong to tendons.
+  OverlapTable(const std::vector<TriangleMesh>& meshes, const std::vector<std::vector<char>>& in_tendon);
 
   /// Whether one of the two passes through the other, so that nothing tells how to take them apart.
   bool is_left_out(Index first, Index second) const;

@@ -4,8 +4,10 @@
 #include <gracilis/anatomy/sections/enhancement.hpp>
 #include <gracilis/anatomy/sections/spindle.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/opensim/import/belly_length.hpp>
+#include <gracilis/opensim/import/drawn_apart.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 #include <gracilis/scene/section_line.hpp>
 
@@ -63,12 +65,25 @@ static std::pair<Real, Real> tendons_of(const Muscle& muscle, const VolumeSettin
   return {0, slack / 2};
 }
 
+static std::vector<RoundMuscle> all_but(const std::string& name, const std::map<std::string, RoundMuscle>& muscles) {
+  std::vector<RoundMuscle> others;
+  for (const auto& [other, muscle] : muscles)
+    if (other != name) others.push_back(muscle);
+  return others;
+}
+
 /// What the others leave to a muscle.
 static RoomBeside room_of(const Muscle& muscle, const std::map<std::string, RoundMuscle>& beside) {
-  std::vector<RoundMuscle> others;
-  for (const auto& [name, other] : beside)
-    if (name != muscle.name) others.push_back(other);
+  std::vector<RoundMuscle> others = all_but(muscle.name, beside);
   return others.empty() ? RoomBeside{} : room_beside(std::move(others));
+}
+
+std::map<std::string, RoundMuscle> tendons_beside_bellies(const std::map<std::string, RoundMuscle>& muscles,
+                                                          const std::vector<SolidBone>& bones) {
+  std::map<std::string, RoundMuscle> beside = muscles;
+  for (auto& [name, muscle] : beside)
+    muscle.centers = clear_centers(beside_bellies(muscle, all_but(name, muscles)), muscle.radii, bones);
+  return beside;
 }
 
 /// Sections along the line, brought onto the muscle's own surface where it is known.
@@ -78,8 +93,10 @@ static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const 
   volume.surface.faces = section_faces(static_cast<Index>(fine.cols()), settings.rays);
   const auto known = settings.surfaces.find(muscle.name);
   if (known == settings.surfaces.end()) {
+    const auto placed = settings.beside.find(muscle.name);
+    const Points& line = placed == settings.beside.end() ? fine : placed->second.centers;
     const ClearSections clear =
-        settings.bones ? clear_of_bones(fine, radii, settings.rays, *settings.bones, room_of(muscle, settings.beside))
+        settings.bones ? clear_of_bones(line, radii, settings.rays, *settings.bones, room_of(muscle, settings.beside))
                        : ClearSections{fine, round};
     volume.volume_share = clear.volume_share;
     volume.surface.vertices =
@@ -207,6 +224,23 @@ MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::
   volume.held = {HeldVertices{AttachmentEnd::origin, spindle.line.bodies.front(), std::move(first_vertices)},
                  HeldVertices{AttachmentEnd::insertion, spindle.line.bodies.back(), std::move(last_vertices)}};
   return volume;
+}
+
+void draw_volumes_apart(std::vector<MuscleVolume>& volumes) {
+  std::vector<MuscleVolume*> drawn;
+  std::vector<SectionedSurface> surfaces;
+  for (MuscleVolume& volume : volumes)
+    if (volume.sections_on_surface == 0) {
+      drawn.push_back(&volume);
+      surfaces.push_back({volume.surface, section_line(volume.line).centers});
+    }
+  draw_apart(surfaces);
+  for (std::size_t m = 0; m < drawn.size(); ++m) {
+    TriangleMesh& before = drawn[m]->surface;
+    const TriangleMesh& now = surfaces[m].surface;
+    drawn[m]->volume_share *= enclosed_volume(now.vertices, now.faces) / enclosed_volume(before.vertices, before.faces);
+    before = now;
+  }
 }
 
 }  // namespace gracilis::opensim

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace gracilis::opensim {
 
@@ -35,7 +36,8 @@ struct VolumeSettings {
   std::map<std::string, TriangleMesh> surfaces;
   std::shared_ptr<const std::vector<SolidBone>> bones;  ///< that the others keep out of; none: they do not
   std::map<std::string, RoundMuscle>
-      beside;  ///< muscles by name that the others keep out of, too, where there are bones
+      beside;  ///< muscles by name that the others keep out of, too, where there are bones; sections of a muscle among
+               ///< them have these centers before they are brought out of the bones
   EnhancementSettings enhancement = {.more_rays = 6};
 };
 
@@ -63,9 +65,18 @@ struct MuscleVolume {
 MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                            const Eigen::VectorXd& coordinates, const VolumeSettings& settings);
 
+/// Draws the surfaces of muscles apart (draw_apart), but for those whose surfaces are known; tells in their
+/// volume_share what that takes.
+void draw_volumes_apart(std::vector<MuscleVolume>& volumes);
+
 /// The muscle as others find it that keep out of it: round sections about its line, their centers outside of the bones.
 /// Throws InputError as muscle_volume does.
 RoundMuscle round_muscle(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                          const Eigen::VectorXd& coordinates, const VolumeSettings& settings);
+
+/// Muscles by name whose thin parts lie beside the thicker parts of the others, not in them (beside_bellies), and
+/// outside of the bones.
+std::map<std::string, RoundMuscle> tendons_beside_bellies(const std::map<std::string, RoundMuscle>& muscles,
+                                                          const std::vector<SolidBone>& bones);
 
 }  // namespace gracilis::opensim

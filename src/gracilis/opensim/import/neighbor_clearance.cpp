@@ -1,26 +1,47 @@
 #include <gracilis/opensim/import/neighbor_clearance.hpp>
 
+#include <gracilis/geometry/polylines.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 namespace gracilis::opensim {
 
-static constexpr Real half_gap = 0.00025;  // m
-static constexpr int steps = 16;           // along a ray, and halvings of the step in which it leaves its own room
+static constexpr Real half_gap = 0.00025;     // m
+static constexpr Real thin = 0.5;             // times a belly's radius; what is thicker shares the room with it
+static constexpr Real most_lean = 0.5;        // mm per mm, of a line that gives way against where it ran
+static constexpr Real farthest_aside = 0.03;  // m, that a center goes
+static constexpr int rounds_of_softening = 3;
+static constexpr int steps = 16;  // along a ray, and halvings of the step in which it leaves its own room
 
-/// How far a point is from a muscle's line, in radii there.
-static Real radii_from(const RoundMuscle& muscle, const Vec3& p) {
-  Real least = std::numeric_limits<Real>::infinity();
+namespace {
+
+/// The place of a muscle's line that is nearest to a point in radii there.
+struct NearestPlace {
+  Real radii = std::numeric_limits<Real>::infinity();  ///< how far the point is from it, in radii
+  Vec3 foot = Vec3::Zero();
+  Real radius = 0;  ///< there, m
+};
+
+NearestPlace nearest_place(const RoundMuscle& muscle, const Vec3& p) {
+  NearestPlace nearest;
   for (Eigen::Index k = 0; k + 1 < muscle.centers.cols(); ++k) {
     const Vec3 a = muscle.centers.col(k), along = muscle.centers.col(k + 1) - a;
     const Real length2 = along.squaredNorm(),
                share = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0;
+    const Vec3 foot = a + share * along;
     const Real radius = muscle.radii[k] + share * (muscle.radii[k + 1] - muscle.radii[k]);
-    least = std::min(least, (p - a - share * along).norm() / radius);
+    if (const Real radii = (p - foot).norm() / radius; radii < nearest.radii) nearest = {radii, foot, radius};
   }
-  return least;
+  return nearest;
 }
+
+/// How far a point is from a muscle's line, in radii there.
+Real radii_from(const RoundMuscle& muscle, const Vec3& p) { return nearest_place(muscle, p).radii; }
+
+}  // namespace
 
 /// Whether any of the muscle may be nearer, in radii, to a point within `length` of the center.
 static bool reaches(const RoundMuscle& muscle, const Vec3& center, Real length) {
@@ -46,6 +67,79 @@ RoomBeside room_beside(std::vector<RoundMuscle> muscles) {
     }
     return own;
   };
+}
+
+/// Whether a section with this radius is thin beside a place of another muscle and lies in it.
+static bool is_thin_in(const NearestPlace& place, const Vec3& center, Real radius) {
+  return radius < thin * place.radius && (center - place.foot).norm() < place.radius + radius;
+}
+
+/// Along a unit direction from a point that is `from` a center, how far it is to where it is `distance` from that.
+static Real way_to_distance(const Vec3& from, const Vec3& direction, Real distance) {
+  const Real along = from.dot(direction);
+  return std::sqrt(std::max(along * along - from.squaredNorm() + distance * distance, 0.0)) - along;
+}
+
+/// The ways of a muscle's thin sections out of another; zero for those that lie in no thicker part of it. All that
+/// follow each other go to the side to which they lie from its line on the whole.
+static Points ways_out(const RoundMuscle& muscle, const RoundMuscle& other) {
+  const Eigen::Index count = muscle.centers.cols();
+  Points from(3, count), ways = Points::Zero(3, count);
+  Eigen::VectorXd touch(count);
+  Eigen::Index begin = 0;
+  for (Eigen::Index k = 0; k <= count; ++k) {
+    if (k < count) {
+      const Vec3 center = muscle.centers.col(k);
+      const NearestPlace place = nearest_place(other, center);
+      from.col(k) = center - place.foot;
+      touch[k] = place.radius + muscle.radii[k] + 2 * half_gap;
+      if (is_thin_in(place, center, muscle.radii[k])) continue;
+    }
+    const Vec3 side = from.middleCols(begin, k - begin).rowwise().sum();
+    for (Eigen::Index i = begin; i < k && side.norm() > 0; ++i)
+      ways.col(i) = way_to_distance(from.col(i), side.normalized(), touch[i]) * side.normalized();
+    begin = k + 1;
+  }
+  return ways;
+}
+
+/// Makes columns at least as long as their neighbors less what the line may lean over the distance between them.
+static void take_along(const Points& line, Points& shift) {
+  const auto follow = [&](Eigen::Index k, Eigen::Index leader) {
+    const Real led = shift.col(leader).norm() - most_lean * (line.col(k) - line.col(leader)).norm();
+    if (led > shift.col(k).norm()) shift.col(k) = led * shift.col(leader).normalized();
+  };
+  for (Eigen::Index k = 1; k < line.cols(); ++k) follow(k, k - 1);
+  for (Eigen::Index k = line.cols() - 1; k > 0; --k) follow(k - 1, k);
+}
+
+/// Makes columns no longer than what the line may lean from its ends, which stay, nor than `farthest_aside`.
+static void hold_ends(const Points& line, Points& shift) {
+  const std::vector<Real> places = distances_along(line);
+  for (Eigen::Index k = 0; k < line.cols(); ++k) {
+    const Real place = places[static_cast<std::size_t>(k)];
+    const Real most = std::min(most_lean * std::min(place, places.back() - place), farthest_aside);
+    if (shift.col(k).norm() > most) shift.col(k) *= most / shift.col(k).norm();
+  }
+}
+
+Points beside_bellies(const RoundMuscle& muscle, const std::vector<RoundMuscle>& others) {
+  const Points& line = muscle.centers;
+  Points shift = Points::Zero(3, line.cols());
+  for (const RoundMuscle& other : others) {
+    const Points ways = ways_out(muscle, other);
+    for (Eigen::Index k = 0; k < line.cols(); ++k)
+      if (ways.col(k).squaredNorm() > shift.col(k).squaredNorm()) shift.col(k) = ways.col(k);
+  }
+  if (shift.isZero(0)) return line;
+  take_along(line, shift);
+  for (int round = 0; round < rounds_of_softening; ++round) {
+    const Points before = shift;
+    for (Eigen::Index k = 1; k + 1 < line.cols(); ++k)
+      shift.col(k) = (before.col(k - 1) + 2 * before.col(k) + before.col(k + 1)) / 4;
+  }
+  hold_ends(line, shift);
+  return line + shift;
 }
 
 }  // namespace gracilis::opensim

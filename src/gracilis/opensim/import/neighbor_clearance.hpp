@@ -17,4 +17,10 @@ struct RoundMuscle {
 /// one more of it than a thin one, and half a millimetre is left between them.
 RoomBeside room_beside(std::vector<RoundMuscle> muscles);
 
+/// The muscle's centers with thin sections, as those of a tendon, brought out of thicker parts of the others: to where
+/// the two touch, those that lie in the same muscle one after the other to the same side, by 30 mm at most. Sections
+/// beside them go along, so that the line bends softly; the first and the last stay, since muscles may well have one
+/// place there.
+Points beside_bellies(const RoundMuscle& muscle, const std::vector<RoundMuscle>& others);
+
 }  // namespace gracilis::opensim

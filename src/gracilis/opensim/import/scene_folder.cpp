@@ -171,35 +171,44 @@ std::vector<std::string> write_scene_folder(const Model& model, const GeometryPl
   for (const ModelBone& bone : bones.bones) solid.emplace_back(bone.surface);
   volumes.bones = std::make_shared<const std::vector<SolidBone>>(std::move(solid));
   const std::vector<const Muscle*> muscles = chosen(model, settings.muscles);
-  if (settings.apart) volumes.beside = round_muscles(model, muscles, skeleton.poses(), coordinates, volumes);
+  if (settings.apart)
+    volumes.beside =
+        tendons_beside_bellies(round_muscles(model, muscles, skeleton.poses(), coordinates, volumes), *volumes.bones);
   // Muscles are files beside bones, and columns beside coordinates.
   std::set<std::string> names;
   for (const ModelBone& bone : bones.bones) names.insert(bone.name);
   for (const Joint& joint : model.joints)
     for (const SceneAxis& axis : scene_axes(model, joint)) names.insert(axis.coordinate);
   std::string on_surfaces = "muscle,sections,that_cut_the_surface,of_these_centers_outside\n";
+  std::vector<const Muscle*> made;
+  std::vector<MuscleVolume> surfaces;
   for (const Muscle* muscle : muscles) {
     try {
-      const MuscleVolume volume = muscle_volume(model, *muscle, skeleton.poses(), coordinates, volumes);
-      const std::string name = file_name_of(muscle->name, names);
-      if (settings.volumes.surfaces.count(muscle->name) > 0 && volume.sections_on_surface == 0)
-        left_out.push_back(fmt::format("muscle '{}': its surface is nowhere near its line", muscle->name));
-      if (settings.apart && volume.volume_share < told_share)
-        left_out.push_back(fmt::format("muscle '{}': between the others there is room for {:.0f} % of its volume",
-                                       muscle->name, 100 * volume.volume_share));
-      if (volume.tendon_share < 1)
-        left_out.push_back(fmt::format("muscle '{}': its line has room for {:.0f} % of the tendon", muscle->name,
-                                       100 * volume.tendon_share));
-      if (settings.volumes.surfaces.count(muscle->name) > 0)
-        on_surfaces +=
-            fmt::format("{},{},{},{}\n", muscle->name, (volume.surface.vertex_count() - 2) / volume.line.rays,
-                        volume.sections_on_surface, volume.centers_outside);
-      write_surface(folder / "muscles" / (name + ".vtp"), volume.surface.vertices, volume.surface.faces);
-      text += muscle_text(model, name, volume, belly_text(*muscle, volumes),
-                          line_path_text(model, *muscle, skeleton.poses(), coordinates, left_out));
+      surfaces.push_back(muscle_volume(model, *muscle, skeleton.poses(), coordinates, volumes));
+      made.push_back(muscle);
     } catch (const InputError& error) {
       left_out.push_back(error.what());
     }
+  }
+  if (settings.apart) draw_volumes_apart(surfaces);
+  for (std::size_t m = 0; m < made.size(); ++m) {
+    const Muscle& muscle = *made[m];
+    const MuscleVolume& volume = surfaces[m];
+    const std::string name = file_name_of(muscle.name, names);
+    if (settings.volumes.surfaces.count(muscle.name) > 0 && volume.sections_on_surface == 0)
+      left_out.push_back(fmt::format("muscle '{}': its surface is nowhere near its line", muscle.name));
+    if (settings.apart && volume.volume_share < told_share)
+      left_out.push_back(fmt::format("muscle '{}': between the others there is room for {:.0f} % of its volume",
+                                     muscle.name, 100 * volume.volume_share));
+    if (volume.tendon_share < 1)
+      left_out.push_back(fmt::format("muscle '{}': its line has room for {:.0f} % of the tendon", muscle.name,
+                                     100 * volume.tendon_share));
+    if (settings.volumes.surfaces.count(muscle.name) > 0)
+      on_surfaces += fmt::format("{},{},{},{}\n", muscle.name, (volume.surface.vertex_count() - 2) / volume.line.rays,
+                                 volume.sections_on_surface, volume.centers_outside);
+    write_surface(folder / "muscles" / (name + ".vtp"), volume.surface.vertices, volume.surface.faces);
+    text += muscle_text(model, name, volume, belly_text(muscle, volumes),
+                        line_path_text(model, muscle, skeleton.poses(), coordinates, left_out));
   }
   write_text_atomically(folder / "model.toml", text);
   if (!settings.volumes.surfaces.empty()) write_text_atomically(folder / "surfaces.csv", on_surfaces);
