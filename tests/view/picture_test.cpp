@@ -1,6 +1,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/view/pictures/picture.hpp>
 #include <gracilis/view/pictures/picture_layout.hpp>
+#include <gracilis/view/pictures/picture_renderer.hpp>
 
 #include "io/test_files.hpp"
 
@@ -118,6 +119,37 @@ TEST(Picture, panels_with_cameras_of_their_own_look_at_what_they_show_at_the_sam
   EXPECT_NEAR(layout.half_height, of_one, 1e-12);
 }
 
+/// Panels in two rows, of which the second is not full, with everything that stands around them.
+static Picture panels_in_rows() {
+  Picture picture = two_panels();
+  picture.panels.push_back(picture.panels[0]);
+  for (Panel& panel : picture.panels) panel.caption = "pose";
+  picture.columns = 2;
+  picture.title = "rows";
+  picture.background = Color(0.2, 0.4, 0.6);
+  picture.color_bar = ColorBar{"a", {Color::Zero(), Color::Ones()}, {"0", "1"}};
+  return picture;
+}
+
+TEST(Picture, several_panels_are_drawn_one_at_a_time_and_every_part_once) {
+  const PictureLayout layout = lay_out(panels_in_rows());
+  std::vector<Rectangle> parts = {layout.title, layout.legend, layout.color_bar};
+  for (const auto* list : {&layout.panels, &layout.captions}) parts.insert(parts.end(), list->begin(), list->end());
+  std::vector<int> found(parts.size(), 0);
+  for (const Rectangle& area : areas_to_draw(layout)) {
+    int panels = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const auto& [x, y, width, height] = parts[i];
+      EXPECT_GT(height, 0) << i;
+      if (x < area.x || y < area.y || x + width > area.x + area.width || y + height > area.y + area.height) continue;
+      ++found[i];
+      if (i >= 3 && i < 3 + layout.panels.size()) ++panels;
+    }
+    EXPECT_LE(panels, 1);
+  }
+  EXPECT_EQ(found, std::vector<int>(parts.size(), 1));
+}
+
 TEST(Picture, what_cannot_be_seen_is_a_configuration_error) {
   EXPECT_THROW(lay_out(Picture{}), ConfigurationError);
   Picture no_points = two_panels();
@@ -162,6 +194,22 @@ TEST_F(DrawnPicture, surfaces_appear_in_their_colors_on_the_background) {
   EXPECT_GT(pixel(image(), 100, middle).x(), 2 * pixel(image(), 100, middle).z());
   EXPECT_GT(pixel(image(), 300, middle).z(), 2 * pixel(image(), 300, middle).x());
   EXPECT_EQ(pixel(image(), 5, layout.height - 5), Vec3(255, 255, 255));
+}
+
+TEST_F(DrawnPicture, panels_stand_in_rows_and_the_background_where_there_is_none) {
+  const Picture picture = panels_in_rows();
+  const PictureLayout layout = lay_out(picture);
+  draw(picture);
+  if (IsSkipped()) return;
+  const auto middle_of = [&](const Rectangle& part) {
+    return pixel(image(), part.x + part.width / 2, part.y + part.height / 2);
+  };
+  for (const std::size_t red : {0, 2}) EXPECT_GT(middle_of(layout.panels[red]).x(), 100) << red;
+  EXPECT_GT(middle_of(layout.panels[1]).z(), 100);
+  Rectangle empty = layout.panels[1];
+  empty.y = layout.panels[2].y;
+  EXPECT_EQ(middle_of(empty), Vec3(51, 102, 153));
+  EXPECT_EQ(pixel(image(), layout.panels[2].x + 1, layout.panels[2].y + 1), Vec3(51, 102, 153));
 }
 
 TEST_F(DrawnPicture, the_last_of_many_names_stands_in_the_legend) {

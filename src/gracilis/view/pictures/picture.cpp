@@ -22,7 +22,9 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 namespace gracilis {
 
@@ -43,16 +45,26 @@ struct PictureDrawer::Window {
 PictureDrawer::PictureDrawer() : window_(std::make_unique<Window>()) {}
 PictureDrawer::~PictureDrawer() = default;
 
-/// Averages blocks of oversampling² pixels; `pixels` holds RGBA rows of the larger image, bottom row first.
-static PixelImage averaged_down(vtkUnsignedCharArray& pixels, int width, int height) {
-  const std::size_t of_row = 4 * static_cast<std::size_t>(width);
-  PixelImage image{width, height, std::vector<unsigned char>(of_row * static_cast<std::size_t>(height))};
-  parallel_for(height, 16, [&](Index begin, Index end) {
+static PixelImage empty_image(const PictureLayout& layout, const Color& background) {
+  PixelImage image{layout.width, layout.height, {}};
+  image.rgba.resize(4 * static_cast<std::size_t>(layout.width) * static_cast<std::size_t>(layout.height), 255);
+  for (std::size_t i = 0; i < image.rgba.size(); ++i)
+    if (i % 4 < 3) image.rgba[i] = static_cast<unsigned char>(std::lround(255 * background[static_cast<Index>(i % 4)]));
+  return image;
+}
+
+/// Averages blocks of oversampling² pixels into an area of the image; `pixels` holds RGBA rows of the area, enlarged,
+/// bottom row first.
+static void average_down(vtkUnsignedCharArray& pixels, const Rectangle& area, PixelImage& image) {
+  const std::size_t of_row = 4 * static_cast<std::size_t>(area.width);
+  parallel_for(area.height, 16, [&](Index begin, Index end) {
     for (Index row = begin; row < end; ++row) {
       const unsigned char* from =
           pixels.GetPointer(0) + static_cast<std::size_t>(row) * of_row * oversampling * oversampling;
-      unsigned char* to = image.rgba.data() + static_cast<std::size_t>(height - 1 - row) * of_row;
-      for (int column = 0; column < width; ++column, from += 4 * oversampling) {
+      unsigned char* to = image.rgba.data() + 4 * (static_cast<std::size_t>(image.height - 1 - area.y - row) *
+                                                       static_cast<std::size_t>(image.width) +
+                                                   static_cast<std::size_t>(area.x));
+      for (int column = 0; column < area.width; ++column, from += 4 * oversampling) {
         for (int channel = 0; channel < 3; ++channel) {
           int sum = 0;
           for (std::size_t j = 0; j < oversampling; ++j)
@@ -64,7 +76,6 @@ static PixelImage averaged_down(vtkUnsignedCharArray& pixels, int width, int hei
       }
     }
   });
-  return image;
 }
 
 /// What both images show over their own background, white and black: a pixel that differs lets that much through.
@@ -81,12 +92,13 @@ static PixelImage without_background(const PixelImage& on_white, const PixelImag
   return image;
 }
 
-/// Of one of `oversampling`² pixels each.
-static DepthImage depths_of(const Rectangle& part, vtkRenderer& renderer, vtkGenericOpenGLRenderWindow& window) {
+/// Of one of `oversampling`² pixels each; `area` is what the window shows.
+static DepthImage depths_of(const Rectangle& part, const Rectangle& area, vtkRenderer& renderer,
+                            vtkGenericOpenGLRenderWindow& window) {
   DepthImage image{part.width, part.height, {}};
   const int width = part.width * oversampling, height = part.height * oversampling;
   vtkNew<vtkFloatArray> all;
-  const int x = part.x * oversampling, y = part.y * oversampling;
+  const int x = (part.x - area.x) * oversampling, y = (part.y - area.y) * oversampling;
   window.GetZbufferData(x, y, x + width - 1, y + height - 1, all);
   const double* range = renderer.GetActiveCamera()->GetClippingRange();
   for (int row = 0; row < height; row += oversampling)
@@ -99,25 +111,28 @@ static DepthImage depths_of(const Rectangle& part, vtkRenderer& renderer, vtkGen
 }
 
 static PixelImage drawn(const Picture& picture, const PictureLayout& layout, vtkGenericOpenGLRenderWindow& window) {
-  while (window.GetRenderers()->GetFirstRenderer()) window.RemoveRenderer(window.GetRenderers()->GetFirstRenderer());
-  const std::vector<vtkRenderer*> of_panels = add_renderers(picture, layout, oversampling, window);
-  window.Render();
+  PixelImage image = empty_image(layout, picture.background);
   vtkNew<vtkUnsignedCharArray> pixels;  // with opacity, which nobody needs: what the driver need not repack is faster
-  window.GetRGBACharPixelData(0, 0, layout.width * oversampling - 1, layout.height * oversampling - 1, 0, pixels, 0);
-  PixelImage image = averaged_down(*pixels, layout.width, layout.height);
-  for (std::size_t i = 0; i < picture.panels.size(); ++i)
-    if (!is_seen_through(picture.panels[i]))
-      add_soft_shadows(depths_of(layout.panels[i], *of_panels[i], window), layout.panels[i], layout.half_height, image);
+  for (const Rectangle& area : areas_to_draw(layout)) {
+    while (window.GetRenderers()->GetFirstRenderer()) window.RemoveRenderer(window.GetRenderers()->GetFirstRenderer());
+    const int width = area.width * oversampling, height = area.height * oversampling;
+    window.SetSize(width, height);
+    const std::map<std::size_t, vtkRenderer*> of_panels = add_renderers(picture, layout, area, oversampling, window);
+    window.Render();
+    window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels, 0);
+    average_down(*pixels, area, image);
+    for (const auto& [i, renderer] : of_panels)
+      if (!is_seen_through(picture.panels[i]))
+        add_soft_shadows(depths_of(layout.panels[i], area, *renderer, window), layout.panels[i], layout.half_height,
+                         image);
+  }
   return image;
 }
 
 PixelImage PictureDrawer::draw(const Picture& picture, bool transparent) {
   const PictureLayout layout = lay_out(picture);
   VtkMessages messages;
-  const int width = layout.width * oversampling, height = layout.height * oversampling;
-  if (window_->window && (window_->window->GetSize()[0] != width || window_->window->GetSize()[1] != height))
-    window_->close();
-  if (!window_->window) window_->window = make_offscreen_window(width, height);
+  if (!window_->window) window_->window = make_offscreen_window(layout.width, layout.height);
   PixelImage image;
   if (transparent) {
     Picture copy = picture;

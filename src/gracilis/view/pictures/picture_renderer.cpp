@@ -139,12 +139,14 @@ static void place_camera(const CameraView& view, Real half_height, vtkRenderer& 
   renderer.ResetCameraClippingRange();
 }
 
-static vtkSmartPointer<vtkRenderer> renderer_in(const Rectangle& part, const Picture& picture,
-                                                const PictureLayout& layout, vtkRenderWindow& window) {
+/// `part` lies in `area`, which the window shows.
+static vtkSmartPointer<vtkRenderer> renderer_in(const Rectangle& part, const Rectangle& area, const Color& background,
+                                                vtkRenderWindow& window) {
   const auto renderer = vtkSmartPointer<vtkRenderer>::New();
-  renderer->SetViewport(Real(part.x) / layout.width, Real(part.y) / layout.height,
-                        Real(part.x + part.width) / layout.width, Real(part.y + part.height) / layout.height);
-  renderer->SetBackground(picture.background.x(), picture.background.y(), picture.background.z());
+  const int x = part.x - area.x, y = part.y - area.y;
+  renderer->SetViewport(Real(x) / area.width, Real(y) / area.height, Real(x + part.width) / area.width,
+                        Real(y + part.height) / area.height);
+  renderer->SetBackground(background.x(), background.y(), background.z());
   renderer->AutomaticLightCreationOff();
   window.AddRenderer(renderer);
   return renderer;
@@ -260,14 +262,35 @@ bool is_seen_through(const Panel& panel) {
   return std::any_of(panel.surfaces.begin(), panel.surfaces.end(), [](const auto& s) { return s.opacity < 1; });
 }
 
-std::vector<vtkRenderer*> add_renderers(const Picture& picture, const PictureLayout& layout, int scale,
-                                        vtkRenderWindow& window) {
-  renderer_in({0, 0, layout.width, layout.height}, picture, layout, window);  // the background of what stays empty
-  std::vector<vtkRenderer*> of_panels;
+/// Whether there is something in `part`, and in this area.
+static bool is_in(const Rectangle& part, const Rectangle& area) {
+  return part.height > 0 && part.x >= area.x && part.y >= area.y && part.x + part.width <= area.x + area.width &&
+         part.y + part.height <= area.y + area.height;
+}
+
+std::vector<Rectangle> areas_to_draw(const PictureLayout& layout) {
+  if (layout.panels.size() == 1) return {{0, 0, layout.width, layout.height}};
+  std::vector<Rectangle> areas;
+  for (std::size_t i = 0; i < layout.panels.size(); ++i) {
+    const Rectangle &panel = layout.panels[i], &caption = layout.captions[i];
+    areas.push_back({panel.x, caption.y, panel.width, caption.height + panel.height});
+  }
+  if (layout.title.height > 0) areas.push_back(layout.title);
+  const int below = std::max(layout.legend.y + layout.legend.height, layout.color_bar.y + layout.color_bar.height);
+  if (below > 0) areas.push_back({0, 0, layout.width, below});
+  return areas;
+}
+
+std::map<std::size_t, vtkRenderer*> add_renderers(const Picture& picture, const PictureLayout& layout,
+                                                  const Rectangle& area, int scale, vtkRenderWindow& window) {
+  const auto add_renderer = [&](const Rectangle& part) { return renderer_in(part, area, picture.background, window); };
+  add_renderer(area);  // the background of what stays empty
+  std::map<std::size_t, vtkRenderer*> of_panels;
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
+    if (!is_in(layout.panels[i], area)) continue;
     const Panel& panel = picture.panels[i];
-    const vtkSmartPointer<vtkRenderer> renderer = renderer_in(layout.panels[i], picture, layout, window);
-    of_panels.push_back(renderer);
+    const vtkSmartPointer<vtkRenderer> renderer = add_renderer(layout.panels[i]);
+    of_panels[i] = renderer;
     if (is_seen_through(panel)) {
       renderer->SetUseDepthPeeling(true);
       renderer->SetMaximumNumberOfPeels(8);
@@ -278,18 +301,15 @@ std::vector<vtkRenderer*> add_renderers(const Picture& picture, const PictureLay
     place_camera(layout.cameras[i], layout.half_height, *renderer);
     if (i == 0 && picture.scale_bar && layout.captions[i].height == 0) add_scale_bar(layout, scale, *renderer);
     if (layout.captions[i].height == 0) continue;
-    const auto caption = renderer_in(layout.captions[i], picture, layout, window);
+    const auto caption = add_renderer(layout.captions[i]);
     const int taken = i == 0 && picture.scale_bar ? add_scale_bar(layout, scale, *caption) : 0;
     add_centered_text(panel.caption, 24, false, layout.captions[i], scale, *caption, taken);
   }
-  if (layout.title.height > 0) {
-    add_centered_text(picture.title, 30, true, layout.title, scale,
-                      *renderer_in(layout.title, picture, layout, window));
-  }
-  if (layout.color_bar.height > 0) {
-    add_color_bar(*picture.color_bar, layout.color_bar, scale, *renderer_in(layout.color_bar, picture, layout, window));
-  }
-  if (layout.legend.height > 0) add_legend(layout, scale, *renderer_in(layout.legend, picture, layout, window));
+  if (is_in(layout.title, area))
+    add_centered_text(picture.title, 30, true, layout.title, scale, *add_renderer(layout.title));
+  if (is_in(layout.color_bar, area))
+    add_color_bar(*picture.color_bar, layout.color_bar, scale, *add_renderer(layout.color_bar));
+  if (is_in(layout.legend, area)) add_legend(layout, scale, *add_renderer(layout.legend));
   return of_panels;
 }
 
