@@ -4,7 +4,9 @@ set_tests_properties(view.ReadmeWalk.every_command_works_and_every_picture_looks
 foreach(test view.ViewCommand.a_scene_follows_its_sliders_and_tells_what_constraints_moved
              app.CompareCommand.runs_the_builtin_hip_by_several_methods_and_shows_them_side_by_side
              app.FailingCalls.each_is_one_message_leaves_nothing_half_written_and_can_be_resumed
-             app.FailingCalls.the_same_holds_for_compact_frames)
+             app.FailingCalls.the_same_holds_for_compact_frames
+             app.FiberCommands.activations_reach_the_measures_in_every_way
+             app.HavlicekReproduction.has_the_published_parameters_an_active_iliacus_is_the_shorter_and_motions_are_driven)
   set_tests_properties(${test} PROPERTIES COST 30)
 endforeach()
 foreach(test view.GuideWalk.every_command_works prepare.SurfaceRepair.random_triangles_give_a_solid_or_a_refusal

@@ -46,6 +46,19 @@ Browser::Browser(int width, int height) {
   for (const char* domain : {"Page", "Runtime", "Log", "Network"}) call(std::string(domain) + ".enable");
 }
 
+Browser& Browser::fresh() {
+  static Browser browser(1400, 900);
+  browser.forget();
+  return browser;
+}
+
+void Browser::forget() {
+  call("Emulation.clearDeviceMetricsOverride");
+  load("about:blank");
+  mouse("mouseMoved", 0, 0, 0);
+  complaints.clear(), requests.clear();
+}
+
 Browser::~Browser() {
   close(to_), close(from_);
   kill(-process_, SIGKILL);
@@ -107,8 +120,10 @@ void Browser::set_size(int width, int height) {
        {{"width", width}, {"height", height}, {"deviceScaleFactor", 1}, {"mobile", false}});
 }
 
-void Browser::open(const std::filesystem::path& file) {
-  address_ = "file://" + std::filesystem::absolute(file).string();
+void Browser::open(const std::filesystem::path& file) { load("file://" + std::filesystem::absolute(file).string()); }
+
+void Browser::load(const std::string& address) {
+  address_ = address;
   loaded_ = false;
   call("Page.navigate", {{"url", address_}});
   while (!loaded_) note(read_message());

@@ -14,8 +14,10 @@ class Browser {
   /// False where there is no Chromium: tests then say 'skipped'.
   static bool is_there();
 
-  /// Throws std::runtime_error when it does not start.
-  Browser(int width, int height);
+  /// The process's only one, with nothing in it: to start one takes longer than most tests. Throws std::runtime_error
+  /// when it does not start.
+  static Browser& fresh();
+
   ~Browser();
   Browser(const Browser&) = delete;
   Browser& operator=(const Browser&) = delete;
@@ -38,6 +40,9 @@ class Browser {
   std::vector<std::string> requests;    ///< everything that was asked for beside the file itself and data: addresses
 
  private:
+  Browser(int width, int height);
+  void load(const std::string& address);
+  void forget();  ///< the page, its size, where the mouse was, and what was heard
   nlohmann::json call(const std::string& method, const nlohmann::json& parameters = nlohmann::json::object());
   nlohmann::json read_message();
   void note(const nlohmann::json& event);

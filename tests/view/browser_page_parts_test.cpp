@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <optional>
 
 namespace gracilis {
 
@@ -21,7 +20,8 @@ class PageParts : public testing::Test {
  protected:
   void SetUp() override {
     if (!Browser::is_there()) GTEST_SKIP() << "there is no /usr/bin/chromium";
-    browser_.emplace(600, 400);
+    browser_ = &Browser::fresh();
+    browser_->set_size(600, 400);
   }
 
   static std::string part(const std::string& name) {
@@ -36,7 +36,7 @@ class PageParts : public testing::Test {
   nlohmann::json js(const std::string& expression) { return browser_->evaluate(expression); }
 
   TestFolder folder_;
-  std::optional<Browser> browser_;
+  Browser* browser_ = nullptr;
 };
 
 /// worker.js with a program in the place of the compiled one, which fails as `fails` says and has one coordinate.

@@ -82,7 +82,7 @@ TEST(Comparison, the_page_stands_alone_and_takes_no_text_for_markup) {
   const std::vector<ComparisonRow> rows = comparison_rows(two.runs, {0, 3});
   write_comparison_page(page, "leg <i>", two.runs, rows, {{3, "no picture"}});
   if (!Browser::is_there()) GTEST_SKIP() << "no Chromium";
-  Browser browser(1200, 900);
+  Browser& browser = Browser::fresh();
   browser.open(page);
   EXPECT_THAT(browser.requests, IsEmpty());
   EXPECT_EQ(browser.evaluate("document.querySelectorAll('#methods tr').length"), 3);

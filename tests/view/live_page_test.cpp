@@ -69,31 +69,32 @@ class LivePage : public testing::Test {
   void SetUp() override {
     if (!Browser::is_there()) GTEST_SKIP() << "there is no /usr/bin/chromium";
     if (!std::filesystem::exists(live_page())) GTEST_SKIP() << "the page was not built (ninja gracilis_web)";
+    browser_ = &Browser::fresh();
   }
 
   /// Until the expression is true.
   void wait_for(const std::string& expression) {
-    for (int i = 0; i < 1200 && browser_.evaluate("!!(" + expression + ")") != true; ++i)
+    for (int i = 0; i < 1200 && browser_->evaluate("!!(" + expression + ")") != true; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    ASSERT_EQ(browser_.evaluate("!!(" + expression + ")"), true)
-        << expression << ": " << browser_.evaluate("element('status').textContent")
-        << browser_.evaluate("[page.failures, page.frame.coordinates, page.frame.method]");
+    ASSERT_EQ(browser_->evaluate("!!(" + expression + ")"), true)
+        << expression << ": " << browser_->evaluate("element('status').textContent")
+        << browser_->evaluate("[page.failures, page.frame.coordinates, page.frame.method]");
   }
 
   void open(const std::filesystem::path& page = live_page()) {
-    browser_.open(page);
+    browser_->open(page);
     wait_for(is_ready);
   }
 
   void slide(const std::string& name, Real value) {
-    browser_.evaluate("{ const slider = element('" + name + "'); slider.value = " + std::to_string(value) +
-                      "; slider.dispatchEvent(new Event('input')); }");
+    browser_->evaluate("{ const slider = element('" + name + "'); slider.value = " + std::to_string(value) +
+                       "; slider.dispatchEvent(new Event('input')); }");
   }
 
   Real largest_difference(const std::vector<Points>& expected) {
     Real largest = 0;
     for (std::size_t m = 0; m < expected.size(); ++m) {
-      const PageJson points = browser_.evaluate("[...page.frame.muscles[" + std::to_string(m) + "].points]");
+      const PageJson points = browser_->evaluate("[...page.frame.muscles[" + std::to_string(m) + "].points]");
       EXPECT_EQ(points.size(), static_cast<std::size_t>(expected[m].size()));
       for (Index i = 0; i < expected[m].size(); ++i)
         largest = std::max(largest, std::abs(points[static_cast<std::size_t>(i)].get<Real>() - expected[m].data()[i]));
@@ -103,7 +104,7 @@ class LivePage : public testing::Test {
 
   static constexpr const char* is_ready =
       "page.frame && !element('method').disabled && element('status').textContent === ''";
-  Browser browser_{1280, 900};
+  Browser* browser_ = nullptr;
 };
 
 TEST_F(LivePage, shows_the_shapes_of_this_machine_without_a_word_on_the_console) {
@@ -112,10 +113,10 @@ TEST_F(LivePage, shows_the_shapes_of_this_machine_without_a_word_on_the_console)
   wait_for("page.frame.coordinates[0] === 30 / unitOf({}).factor");
   const Scene hip = without_own_settings(demo_scene("hip"));
   EXPECT_LT(largest_difference(shapes_of_this_machine(hip, page_method(hip), 0, radians(30))), 1e-4);
-  EXPECT_NE(browser_.evaluate("element('time').textContent"), "–");
-  EXPECT_GT(browser_.evaluate("page.history.frames.length").get<int>(), 20);
-  EXPECT_THAT(browser_.complaints, IsEmpty());
-  EXPECT_THAT(browser_.requests, Each(StartsWith("blob:null/"))) << "beside the worker, which stands in the page";
+  EXPECT_NE(browser_->evaluate("element('time').textContent"), "–");
+  EXPECT_GT(browser_->evaluate("page.history.frames.length").get<int>(), 20);
+  EXPECT_THAT(browser_->complaints, IsEmpty());
+  EXPECT_THAT(browser_->requests, Each(StartsWith("blob:null/"))) << "beside the worker, which stands in the page";
 }
 
 TEST_F(LivePage, moves_a_scene_that_was_put_into_it) {
@@ -126,19 +127,19 @@ TEST_F(LivePage, moves_a_scene_that_was_put_into_it) {
   scene.method = {"strings", {{"support_reach", 0.05}}};
   write_live_page(folder.path() / "live.html", live_page(), scene);
   open(folder.path() / "live.html");
-  EXPECT_EQ(browser_.evaluate("document.querySelector('h1').textContent"), scene.name);
-  EXPECT_EQ(browser_.evaluate("page.scene.methods[1].name"), "strings, as the scene says");
-  EXPECT_EQ(browser_.evaluate("page.scene.muscles.length").get<std::size_t>(), scene.muscles.size());
+  EXPECT_EQ(browser_->evaluate("document.querySelector('h1').textContent"), scene.name);
+  EXPECT_EQ(browser_->evaluate("page.scene.methods[1].name"), "strings, as the scene says");
+  EXPECT_EQ(browser_->evaluate("page.scene.muscles.length").get<std::size_t>(), scene.muscles.size());
   slide("elbow_flexion", 40);
   wait_for("page.frame.coordinates[1] === 40 / unitOf({}).factor");
   const Scene elbow = without_own_settings(scene);
   EXPECT_LT(largest_difference(shapes_of_this_machine(elbow, page_method(elbow), 1, radians(40))), 1e-4);
-  browser_.evaluate("{ const box = element('method'); box.value = 1; box.dispatchEvent(new Event('change')); }");
+  browser_->evaluate("{ const box = element('method'); box.value = 1; box.dispatchEvent(new Event('change')); }");
   wait_for(std::string("page.frame.method === 1 && ") + is_ready);
   slide("elbow_flexion", 40);
   wait_for("page.frame.coordinates[1] === 40 / unitOf({}).factor");
   EXPECT_LT(largest_difference(shapes_of_this_machine(scene, scene.method, 1, radians(40))), 1e-4);
-  EXPECT_THAT(browser_.complaints, IsEmpty());
+  EXPECT_THAT(browser_->complaints, IsEmpty());
 }
 
 TEST_F(LivePage, says_that_its_program_does_not_start) {
@@ -147,10 +148,10 @@ TEST_F(LivePage, says_that_its_program_does_not_start) {
   const std::string place = "id=\"program\">";
   const std::size_t begin = text.find(place) + place.size(), end = text.find("</script>", begin);
   folder.write("page.html", text.replace(begin, end - begin, "AAAA"));
-  browser_.open(folder.path() / "page.html");
+  browser_->open(folder.path() / "page.html");
   wait_for("page.failures === 1");
-  EXPECT_THAT(browser_.evaluate("element('status').textContent").get<std::string>(), StartsWith("stopped: "));
-  EXPECT_EQ(browser_.evaluate("element('status').classList.contains('failed')"), true);
+  EXPECT_THAT(browser_->evaluate("element('status').textContent").get<std::string>(), StartsWith("stopped: "));
+  EXPECT_EQ(browser_->evaluate("element('status').classList.contains('failed')"), true);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <io/test_files.hpp>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,7 @@ class ReportInBrowser : public testing::Test {
  protected:
   void SetUp() override {
     if (!Browser::is_there()) GTEST_SKIP() << "there is no /usr/bin/chromium";
-    browser.emplace(1400, 900);
+    browser = &Browser::fresh();
   }
 
   void open(const std::vector<RecordedRun>& runs) {
@@ -48,7 +47,7 @@ class ReportInBrowser : public testing::Test {
   std::string picture() { return js("document.getElementById('canvas').toDataURL()"); }
 
   TestFolder folder;
-  std::optional<Browser> browser;
+  Browser* browser = nullptr;
 };
 
 }  // namespace gracilis
