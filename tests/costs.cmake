@@ -9,7 +9,7 @@ foreach(test view.ViewCommand.a_scene_follows_its_sliders_and_tells_what_constra
              app.HavlicekReproduction.has_the_published_parameters_an_active_iliacus_is_the_shorter_and_motions_are_driven)
   set_tests_properties(${test} PROPERTIES COST 30)
 endforeach()
-foreach(test view.GuideWalk.every_command_works prepare.SurfaceRepair.random_triangles_give_a_solid_or_a_refusal
+foreach(test view.GuideWalk.every_command_works
              view.ViewCommand.a_bone_is_dragged_and_a_click_on_a_muscle_tells_its_numbers)
   set_tests_properties(${test} PROPERTIES COST 15)
 endforeach()
