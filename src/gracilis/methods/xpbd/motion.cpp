@@ -176,8 +176,7 @@ void skin_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now
       const Vec3 rest = muscle.rest.col(p) - muscle.origin;
       const Vec3 displaced = was.inverse() * particles.position(p).cast<Real>();
       const Real belly = muscle.line ? muscle.belly[static_cast<std::size_t>(p)] : 1;
-      const Real share = belly * kept + (1 - belly) * muscle.tendon_kept;
-      particles.position(p) = (is * Vec3(rest + share * (displaced - rest))).cast<float>();
+      particles.position(p) = (is * Vec3(rest + belly * kept * (displaced - rest))).cast<float>();
     }
   });
 }

@@ -27,10 +27,6 @@ constexpr Real smallest_mass_share = 1e-3;
 constexpr Real tendon_mobility = 0.05;
 /// Stiffness of a tendon's edges over that of the belly's.
 constexpr Real tendon_stiffness = 200;
-/// Share of its way beside the line that a tendon keeps where muscles meet: from its line alone it would begin each
-/// frame in what it was brought out of, and come out on the other side once the line is there. Less comes back to the
-/// line sooner.
-constexpr Real tendon_kept_in_contact = 0.8;
 /// A belly passes into its tendon over this length, m: in less its edges stretch there, over more it folds.
 constexpr Real tendon_border = 0.03;
 /// A triangle is a sliver when its tip is nearer to its longest side than this share of that, or of all sides' mean.
@@ -260,7 +256,6 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   prepared.system.rest = make_particles(prepared.rest.colwise() - prepared.origin, inverse_masses(scene, prepared));
   // What takes the most memory while it is built comes first.
   const ContactSettings contact = contact_settings(scene);
-  if (contact.muscle != MuscleContact::none && scene.muscles.size() > 1) prepared.tendon_kept = tendon_kept_in_contact;
   prepared.keeps_out_of_itself = contact.self && contact.muscle == MuscleContact::surface && prepared.belly.empty();
   if (prepared.keeps_out_of_itself) {
     prepared.system.slivers = build_sliver_set(prepared.faces, prepared.system.rest, flattest);

@@ -57,9 +57,7 @@ struct PreparedMuscle {
   std::vector<Index> section;               ///< per particle, where there is a line
   std::vector<RigidTransform> to_sections;  ///< from world to each section's frame, in the capture pose
   std::vector<Real> belly;                  ///< per particle, where there is a line: 0 in a tendon, 1 away from it
-  Real tendon_kept = 0;              ///< share of its way beside the line that a tendon keeps from frame to frame:
-                                     ///< none where no other muscle keeps it there
-  bool keeps_out_of_itself = false;  ///< not where there is a line: its sections run through each other
+  bool keeps_out_of_itself = false;         ///< not where there is a line: its sections run through each other
   ContractionSettings contraction;
   bool is_driven = false;             ///< the scene says how active it is
   AlignedVector<float> along_fibers;  ///< per tension slot: squared cosine between it and the fibers
