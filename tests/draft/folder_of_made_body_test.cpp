@@ -45,9 +45,25 @@ TEST(FolderOfMadeBody, names_of_people_s_files_are_understood) {
   EXPECT_EQ(muscle("Flexor hallucis longus.r"), "flexor_hallucis_longus");
   EXPECT_EQ(muscle("Oblique head of adductor hallucis"), "adductor_hallucis");
   EXPECT_EQ(muscle("First dorsal interosseus muscle of foot"), "interossei_foot");
+  EXPECT_EQ(muscle("Caput longum musculi bicipitis brachii dextri"), "biceps_brachii_long");
+  EXPECT_EQ(muscle("Caput mediale musculi gastrocnemii"), "gastrocnemius_medial");
+  EXPECT_EQ(muscle("Pars clavicularis musculi deltoidei"), "deltoid_anterior");
+  EXPECT_EQ(muscle("Pars clavicularis musculi pectoralis majoris"), "pectoralis_major_clavicular");
+  EXPECT_EQ(muscle("Caput humerale musculi pronatoris teretis"), "pronator_teres");
   EXPECT_EQ(muscle("notes"), "");
   EXPECT_EQ(read_name("femur_l", dictionary().words).side, BodySide::left);
   EXPECT_EQ(read_name("Tibialis anterior.R", dictionary().words).side, BodySide::right);
+}
+
+TEST(FolderOfMadeBody, a_bone_that_is_spelled_as_it_should_be_is_no_misspelled_muscle) {
+  const TestFolder folder;
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.01, 1);
+  for (const char* name : {"Trapezium.r.vtp", "trapezius_r.vtp"})
+    write_surface(folder.path() / name, ball.vertices, ball.faces);
+  const FolderFiles files = list_folder(folder.path());
+  ASSERT_EQ(files.surfaces.size(), 2u);
+  EXPECT_EQ(files.surfaces[0].kind, NamedKind::bone);
+  EXPECT_EQ(files.surfaces[1].kind, NamedKind::muscle);
 }
 
 TEST(FolderOfMadeBody, every_site_of_the_dictionary_is_a_bone_that_it_knows) {

@@ -214,8 +214,9 @@ struct EndsDraft {
       return;
     }
     attachment.cloud = muscle.name + "_" + attachment.name;
-    attachment.points = SurfaceAsRead(ends.surface()).places(attachment.vertices);
-    attachment.landmark_distance = own_vertices;
+    const SurfaceAsRead read(ends.surface());
+    attachment.points = read.places(attachment.vertices);
+    attachment.landmark_distance = read.reach_of(attachment.points, own_vertices);
     if (attachment.bone_distance == 0) return attachment.bones.clear();
     // What came between two vertices may lie farther from a hollow bone than both.
     attachment.bone_distance = distance_to_all(attachment.points, trees_under(attachment), attachment.bone_distance);

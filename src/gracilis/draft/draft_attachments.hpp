@@ -37,7 +37,7 @@ struct DraftMuscle {
   std::vector<DraftAttachment> attachments;
 };
 
-/// m; no vertex but the cloud's own lies so near to one of its points.
+/// m; no vertex but the cloud's own lies so near to one of its points, unless the surface is finer (reach_of).
 inline constexpr Real own_vertices = 0.0002;
 
 /// Landmarks of the folder's tables.

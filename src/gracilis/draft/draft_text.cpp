@@ -151,7 +151,7 @@ struct Writing {
     if (each.line == LineKind::closed) line("line = \"closed\"");
     if (each.bone_distance > 0) line("bone_distance_mm = " + number(1000 * each.bone_distance, 2));
     if (each.muscle_distance > 0) line("muscle_distance_mm = " + number(1000 * each.muscle_distance, 2));
-    if (each.landmark_distance > 0) line("landmark_distance_mm = " + number(1000 * each.landmark_distance, 2));
+    if (each.landmark_distance > 0) line("landmark_distance_mm = " + number(1000 * each.landmark_distance, 4));
     if (each.guess.certainty < 0.85) line("guessed = true");
   }
 

@@ -39,12 +39,20 @@ bool says_other(const NameMatch<Known>& match, const NameWords& words) {
   return names_something_else(rest);
 }
 
-/// By the names alone: the one that explains more of the words.
+/// Whether a name that could be both is a muscle's: by what explains more of the words, then by the spelling (a
+/// trapezium is a carpal bone, no misspelled trapezius). Muscles are often named after bones, as "lumbar part of the
+/// diaphragm", bones hardly after muscles.
+bool is_rather_muscle(const NamedSurfaceFile& surface) {
+  const std::size_t of_muscle = surface.muscle.rest.size(), of_bone = surface.bone.rest.size();
+  if (of_muscle != of_bone) return of_muscle < of_bone;
+  return surface.muscle.certainty >= surface.bone.certainty;
+}
+
+/// By the names alone.
 NamedKind kind_by_name(const NamedSurfaceFile& surface) {
   const bool bone = surface.bone.known != nullptr, muscle = surface.muscle.known != nullptr;
   if (!bone && !muscle) return says_other(surface.bone, surface.words) ? NamedKind::something_else : NamedKind::unknown;
-  // Muscles are often named after bones, as "lumbar part of the diaphragm", bones hardly after muscles.
-  const bool is_muscle = muscle && (!bone || surface.muscle.rest.size() <= surface.bone.rest.size());
+  const bool is_muscle = muscle && (!bone || is_rather_muscle(surface));
   const bool other = is_muscle ? says_other(surface.muscle, surface.words) : says_other(surface.bone, surface.words);
   return other ? NamedKind::something_else : is_muscle ? NamedKind::muscle : NamedKind::bone;
 }

@@ -1,5 +1,7 @@
 #include <gracilis/draft/surface_as_read.hpp>
 
+#include <gracilis/anatomy/attachments/attachments.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +19,17 @@ SurfaceAsRead::SurfaceAsRead(const TriangleMesh& of_file) {
 Points SurfaceAsRead::places(std::vector<Index> vertices) const {
   add_vertices_between(added, vertices);
   return mesh.vertices(Eigen::all, vertices);
+}
+
+Real SurfaceAsRead::reach_of(const Points& places, Real most) const {
+  constexpr Real written = 2e-6;  // m: tables have three decimals of a millimetre
+  const auto names_others = [&](Real reach) {
+    return static_cast<Index>(select_vertices(mesh, {}, NearPoints{{{places, LineKind::cloud}}, reach}).size()) >
+           places.cols();
+  };
+  Real reach = most;
+  while (reach / 2 > written && names_others(reach)) reach /= 2;
+  return reach;
 }
 
 Real distance_to_all(const Points& points, std::span<const NearestTriangle* const> surfaces, Real least) {

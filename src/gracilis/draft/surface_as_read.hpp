@@ -16,6 +16,10 @@ struct SurfaceAsRead {
   /// them all, whether the scene divides needles or not.
   Points places(std::vector<Index> vertices) const;
 
+  /// m, at most `most`: a distance within which such places are near to no other vertex. Fine surfaces have vertices
+  /// closer to each other than any fixed distance.
+  Real reach_of(const Points& places, Real most) const;
+
   TriangleMesh mesh;
   VerticesBetween added;
 };

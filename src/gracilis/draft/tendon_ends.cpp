@@ -111,12 +111,13 @@ struct TendonDraft {
     laid.name = below.name;
     laid.body = at(place.host, end).front()->body;
     laid.vertices = place.vertices;
-    laid.points = SurfaceAsRead(above.mesh).places(place.vertices);
+    const SurfaceAsRead read(above.mesh);
+    laid.points = read.places(place.vertices);
     laid.cloud = above.name + "_" + laid.name;
     const NearestTriangle host(SurfaceAsRead(below.mesh).mesh);
     const NearestTriangle* hosts[] = {&host};
     laid.muscle_distance = distance_to_all(laid.points, hosts, place.distance);
-    laid.landmark_distance = own_vertices;
+    laid.landmark_distance = read.reach_of(laid.points, own_vertices);
     laid.from_bone = bone;
     laid.guess = {
         above.name + (end == AttachmentEnd::origin ? " origin" : " insertion"),
