@@ -1,13 +1,16 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/prepare/prepare_surfaces.hpp>
+#include <gracilis/prepare/time_limit.hpp>
 
 #include "shapes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
 #include <limits>
+#include <thread>
 
 namespace gracilis {
 namespace {
@@ -50,6 +53,14 @@ TEST(PreparationEstimates, a_surface_that_would_take_too_long_is_told_of_before_
   EXPECT_THAT(refused({{"psoas", ball()}}, {}, hasty), HasSubstr("psoas: would take about"));
   hasty.edge_length = 0.003;
   EXPECT_EQ(refused({{"psoas", ball()}}, {}, hasty), "no problem");
+}
+
+TEST(PreparationEstimates, time_counts_while_there_is_a_processor) {
+  const TimeLimit limit(0.03);
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_FALSE(limit.is_over()) << "nothing was done meanwhile";
+  const auto begin = std::chrono::steady_clock::now();
+  while (!limit.is_over()) ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(1));
 }
 
 TEST(PreparationEstimates, everything_that_is_wrong_is_told_at_once) {

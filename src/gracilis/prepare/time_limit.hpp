@@ -13,7 +13,8 @@ class OutOfTime : public Error {
   OutOfTime() : Error(ExitCode::unreadable_input, "out of time") {}
 };
 
-/// How long work may take from now on. Long work asks now and then.
+/// How long work may take from now on. Long work asks now and then. Time counts while this process has a processor, so
+/// that a busy machine refuses nothing that an idle one does.
 class TimeLimit {
  public:
   /// Without seconds there is no limit.
@@ -29,6 +30,7 @@ class TimeLimit {
   using Clock = std::chrono::steady_clock;
   bool limited_;
   Clock::time_point end_;
+  Real processor_end_;  ///< s of this process, of all its threads
 };
 
 }  // namespace gracilis
