@@ -107,14 +107,15 @@ int import_model(ImportOptions options) {
     throw ConfigurationError(
         {options.out.string(), "", "holds a model already", "name another folder with --out, or remove this one"});
   const std::vector<opensim::NamedMotion> motions = motions_of(model, options);
-  const std::vector<std::string> left_out =
+  const opensim::SceneFolderNotes notes =
       opensim::write_scene_folder(model, places, motions, options.settings, options.out);
-  for (const std::string& line : left_out) spdlog::warn("{}", line);
+  for (const std::string& line : notes.left_out) spdlog::warn("{}", line);
+  for (const std::string& line : notes.sheets) spdlog::info("{}", line);
   for (const opensim::NamedMotion& motion : motions)
     fmt::print("{}\n", (options.out / (opensim::motion_file_name(motion) + ".toml")).string());
   say_next(model, motions, options.out);
-  if (options.strict && !left_out.empty())
-    throw Error(ExitCode::unsupported, fmt::format("{} elements were left out (--strict)", left_out.size()));
+  if (options.strict && !notes.left_out.empty())
+    throw Error(ExitCode::unsupported, fmt::format("{} elements were left out (--strict)", notes.left_out.size()));
   return static_cast<int>(ExitCode::done);
 }
 
@@ -193,6 +194,8 @@ void add_import_command(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   command->add_flag("--apart", options->settings.apart,
                     "Muscles keep out of each other in that pose: they share the room that lines leave them");
+  command->add_flag("--merge-heads", options->settings.merge_heads,
+                    "Heads of one muscle (glut_max1_r, glut_max2_r ...) become one sheet over their lines");
   command->add_option("--out", options->out, "Folder for the scene")->required();
   command->add_flag("--strict", options->strict, "Fail where something is left out (exit code 4)");
   command->callback([&chosen, options] { chosen = [options] { return import_model(*options); }; });

@@ -165,6 +165,7 @@ def import_model(
     motions: Sequence[_Path] = ...,
     muscles: Sequence[str] = ...,
     apart: bool = ...,
+    merge_heads: bool = ...,
 ) -> list[PathLike[str]]: ...
 def paths(model: _Path, motion: Union[_Path, Mapping[str, ArrayLike]]) -> tuple[Table, dict[str, Table]]: ...
 def static_optimization(

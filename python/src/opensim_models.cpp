@@ -77,7 +77,7 @@ opensim::CoordinateMotion motion_of(const opensim::Model& model, const GivenMoti
 
 std::vector<fs::path> import_model(const fs::path& path, const fs::path& out, const std::vector<fs::path>& geometry,
                                    const std::vector<fs::path>& motions, const std::vector<std::string>& muscles,
-                                   bool apart) {
+                                   bool apart, bool merge_heads) {
   Notes notes;
   std::vector<fs::path> scenes;
   released([&] {
@@ -92,7 +92,10 @@ std::vector<fs::path> import_model(const fs::path& path, const fs::path& out, co
     opensim::SceneFolderSettings settings;
     settings.muscles = muscles;
     settings.apart = apart;
-    add(opensim::write_scene_folder(model, {path.parent_path(), geometry, {}}, named, settings, out), notes);
+    settings.merge_heads = merge_heads;
+    const opensim::SceneFolderNotes written =
+        opensim::write_scene_folder(model, {path.parent_path(), geometry, {}}, named, settings, out);
+    add(written.left_out, notes);
     for (const opensim::NamedMotion& motion : named)
       scenes.push_back(out / (opensim::motion_file_name(motion) + ".toml"));
   });
@@ -171,11 +174,12 @@ py::tuple static_optimization(const fs::path& path, const py::object& motion, co
 void bind_opensim(py::module_& module) {
   module.def("import_model", &import_model, py::arg("model"), py::arg("out"), py::kw_only(),
              py::arg("geometry") = std::vector<fs::path>{}, py::arg("motions") = std::vector<fs::path>{},
-             py::arg("muscles") = std::vector<std::string>{}, py::arg("apart") = false,
+             py::arg("muscles") = std::vector<std::string>{}, py::arg("apart") = false, py::arg("merge_heads") = false,
              R"(Makes a folder with a scene of bones, joints and volumetric muscles of an OpenSim model (.osim).
 
 geometry: folders of the bones' surfaces. motions: files (.mot, .sto) to make a scene for. muscles: names to take (all).
-apart: muscles keep out of each other. Returns the scene files, for load(). What was left out is a SceneWarning.)");
+apart: muscles keep out of each other. merge_heads: heads of one muscle become one sheet. Returns the scene files, for
+load(). What was left out is a SceneWarning.)");
   module.def("paths", &paths, py::arg("model"), py::arg("motion"),
              R"(Lengths and moment arms of an OpenSim model's muscles through a motion.
 

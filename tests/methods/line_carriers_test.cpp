@@ -42,10 +42,10 @@ TEST(LineCarriers, sections_carry_the_surface_along_the_line) {
   const Scene scene = hinge_scene();
   ASSERT_THAT(validate(scene), testing::IsEmpty());
   const xpbd::PreparedMuscle prepared = xpbd::prepare_muscle(scene, scene.muscles[0], {});
-  ASSERT_TRUE(prepared.line);
+  ASSERT_EQ(prepared.lines.size(), 1u);
   const Pose pose = pose_at(scene, std::vector<Real>{1.2});
   const Points carried = xpbd::skinned_rest(prepared, pose, {}).colwise() + prepared.origin;
-  const PlacedSections sections = sections_at(*prepared.line, pose);
+  const PlacedSections sections = sections_at(prepared.lines[0], pose);
   Points middles = Points::Zero(3, 17);
   for (Index p = 0; p < carried.cols(); ++p)
     if (prepared.order[static_cast<std::size_t>(p)] < 136)

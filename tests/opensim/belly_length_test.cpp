@@ -2,6 +2,7 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/opensim/import/belly_length.hpp>
+#include <gracilis/opensim/import/muscle_names.hpp>
 #include <gracilis/opensim/import/muscle_volume.hpp>
 #include <gracilis/opensim/kinematics/skeleton.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>

@@ -90,7 +90,7 @@ TEST(SceneFolder, bones_lie_where_the_model_shows_them) {
   folder.write("thigh.obj", tetrahedron);
   const Model model = read_model(folder.write("m.osim", knee_model()));
   const std::vector<std::string> left_out =
-      write_scene_folder(model, {folder.path(), {}, {}}, {}, {}, folder.path() / "out");
+      write_scene_folder(model, {folder.path(), {}, {}}, {}, {}, folder.path() / "out").left_out;
   Skeleton skeleton(model);
   skeleton.place(default_coordinates(model));
   const LoadedScene loaded = read_scene(folder.path() / "out/model.toml");
@@ -165,9 +165,9 @@ TEST(SceneFolder, sections_are_brought_onto_a_surface_that_is_known) {
   const TestFolder folder;
   SceneFolderSettings settings;
   settings.volumes.surfaces["m"] = shapes::box({-0.01, -0.25, -0.02}, {0.03, 0.05, 0.02});
-  EXPECT_THAT(
-      write_scene_folder(model, {}, {{"rest", {{0}, Eigen::MatrixXd::Zero(1, 1), {}}}}, settings, folder.path()),
-      testing::IsEmpty());
+  EXPECT_THAT(write_scene_folder(model, {}, {{"rest", {{0}, Eigen::MatrixXd::Zero(1, 1), {}}}}, settings, folder.path())
+                  .left_out,
+              testing::IsEmpty());
   const Scene scene = read_scene(folder.path() / "rest.toml", {}).scene;
   EXPECT_THAT(validate(scene), testing::IsEmpty());
   const gracilis::Muscle& muscle = scene.muscles[0];
@@ -180,7 +180,7 @@ TEST(SceneFolder, sections_are_brought_onto_a_surface_that_is_known) {
   EXPECT_GT(on_box, 100);
   settings.volumes.surfaces["m"] = shapes::box({5, 5, 5}, {6, 6, 6});
   std::filesystem::remove(folder.path() / "model.toml");
-  EXPECT_THAT(write_scene_folder(model, {}, {}, settings, folder.path()),
+  EXPECT_THAT(write_scene_folder(model, {}, {}, settings, folder.path()).left_out,
               testing::ElementsAre(testing::HasSubstr("nowhere near its line")));
 }
 
@@ -241,8 +241,10 @@ TEST(SceneFolder, the_walking_model_becomes_a_scene_of_92_muscles) {
       coordinate_motion(model, read_table(data_root() / "opensim/subject01_walk1_Kinematics.sto"));
   motion.times.resize(3);
   motion.values.conservativeResize(3, Eigen::NoChange);
-  const std::vector<std::string> left_out = write_scene_folder(
-      model, {path.parent_path(), {data_root() / "opensim/geometry"}, {}}, {{"walk", motion}}, {}, folder.path());
+  const std::vector<std::string> left_out =
+      write_scene_folder(model, {path.parent_path(), {data_root() / "opensim/geometry"}, {}}, {{"walk", motion}}, {},
+                         folder.path())
+          .left_out;
   EXPECT_THAT(left_out, testing::IsEmpty());
   const LoadedScene loaded = read_scene(folder.path() / "walk.toml");
   EXPECT_EQ(loaded.scene.muscles.size(), 92u);
@@ -268,7 +270,7 @@ TEST(SceneFolder, the_cadaver_hip_becomes_a_scene_of_8_muscles) {
       {"LHDL_femur_r.vtp", {{coarse("femur_r.ply")}, 0.001}}};
   const CoordinateMotion motion = coordinate_motion(model, read_table(data_root() / "lhdl-hip/motion/hip_flexion.mot"));
   const std::vector<std::string> left_out =
-      write_scene_folder(model, {{}, {}, named}, {{"flexion", motion}}, {}, folder.path());
+      write_scene_folder(model, {{}, {}, named}, {{"flexion", motion}}, {}, folder.path()).left_out;
   EXPECT_TRUE(left_out.empty());  // bellies leave room for tendons, though placeholders of slack lengths would not
   const LoadedScene loaded = read_scene(folder.path() / "flexion.toml");
   EXPECT_EQ(loaded.scene.muscles.size(), 8u);
@@ -287,7 +289,8 @@ TEST(SceneFolder, muscles_that_no_volume_can_be_made_of_are_left_out_and_told) {
                                                  with("idle", "0 -0.4 0", "0") + with("thick", "0 -0.4 0", "1e12"))));
   const std::vector<std::string> left_out =
       write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", {{0}, default_coordinates(model).transpose(), {}}}},
-                         {}, folder.path() / "out");
+                         {}, folder.path() / "out")
+          .left_out;
   EXPECT_THAT(left_out,
               testing::ElementsAre(testing::HasSubstr("far: has a path of"), testing::HasSubstr("idle: has no force"),
                                    testing::HasSubstr("thick: has a force of")));
@@ -334,7 +337,7 @@ TEST(SceneFolder, muscles_apart_lie_side_by_side_and_keep_their_volumes) {
     SceneFolderSettings settings;
     settings.apart = apart;
     const std::filesystem::path out = folder.path() / (apart ? "apart" : "round");
-    EXPECT_THAT(write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", rest}}, settings, out),
+    EXPECT_THAT(write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", rest}}, settings, out).left_out,
                 testing::IsEmpty());
     return read_scene(out / "rest.toml", {}).scene;
   };

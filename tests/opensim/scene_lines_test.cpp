@@ -65,7 +65,7 @@ static std::string lines_model() {
 struct ImportedLines {
   explicit ImportedLines(const TestFolder& folder) : model(read_model(folder.write("m.osim", lines_model()))) {
     CoordinateMotion rest{{0}, default_coordinates(model).transpose(), {}};
-    left_out = write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", rest}}, {}, folder.path() / "out");
+    left_out = write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", rest}}, {}, folder.path() / "out").left_out;
     scene = read_scene(folder.path() / "out/rest.toml", {}).scene;
     scene.method.name = "cylinder";
   }
@@ -156,7 +156,7 @@ TEST(SceneLines, a_coordinate_that_no_axis_follows_alone_is_told_and_the_point_s
                          set("ForceSet",
                              muscle("m", point("/ground", "0.2 0 0") + moving + point("/bodyset/rod", "0 -0.4 0"))))));
   const std::vector<std::string> left_out =
-      write_scene_folder(model, {folder.path(), {}, {}}, {}, {}, folder.path() / "out");
+      write_scene_folder(model, {folder.path(), {}, {}}, {}, {}, folder.path() / "out").left_out;
   ASSERT_FALSE(left_out.empty());
   EXPECT_THAT(left_out[0], testing::HasSubstr("muscle 'm', point 'p': depends on the coordinate 'swing'"));
 }

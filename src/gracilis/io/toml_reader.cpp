@@ -134,6 +134,18 @@ std::optional<Eigen::MatrixXd> TomlReader::rows(const std::string& key, Index co
   return values;
 }
 
+std::vector<Real> TomlReader::numbers(const std::string& key) {
+  const toml::node* node = find(key);
+  if (!node) return {};
+  std::vector<Real> result;
+  if (const toml::array* array = node->as_array())
+    for (const toml::node& element : *array)
+      if (const std::optional<Real> value = number_of(element)) result.push_back(*value);
+  const bool whole = node->is_array() && !result.empty() && result.size() == node->as_array()->size();
+  if (!whole) wrong_type(*node, key, "an array of numbers");
+  return result;
+}
+
 std::vector<std::string> TomlReader::texts(const std::string& key) {
   const toml::node* node = find(key);
   if (!node) return {};

@@ -45,6 +45,7 @@ class TomlReader {
   std::optional<Vec3> vector(const std::string& key);
   std::optional<Eigen::Vector2d> pair(const std::string& key);
   std::optional<Eigen::MatrixXd> rows(const std::string& key, Index columns);  ///< array of arrays of numbers
+  std::vector<Real> numbers(const std::string& key);                           ///< array of numbers
   std::vector<std::string> texts(const std::string& key);                      ///< one string or an array of them
   std::vector<Index> indices(const std::string& key);                          ///< array of integers, not negative
   std::optional<TomlReader> table(const std::string& key);

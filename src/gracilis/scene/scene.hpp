@@ -93,7 +93,8 @@ struct LinePath {
   std::vector<PlacedWrap> wraps;
 };
 
-/// The line that a muscle pulls along, where its surface is made of sections across it (methods/cylinder).
+/// The line that a muscle pulls along, where its surface is made of sections across it (methods/cylinder); or the lines
+/// of several heads, whose sections are joined to those of one sheet (anatomy/sections/sheet.hpp).
 struct ActionLine {
   Points points = Points(3, 0);  ///< world frame of the capture pose, origin first
   std::vector<Index> bodies;     ///< of each point
@@ -108,6 +109,12 @@ struct ActionLine {
   Real pennation = 0;      ///< rad, at the optimal fiber length
   /// How the line runs in other poses; without points, `points` move with their bodies.
   LinePath path = {};
+  /// Of a head's sections along its line, from 0 to 1; none: where `scaling` puts them.
+  std::vector<Real> shares = {};
+  std::vector<ActionLine> heads = {};  ///< of a sheet, from edge to edge; it has no points of its own then
+  Index side = 0;                      ///< of a sheet: parts of each side of a section, between its outer heads
+  std::string name = {};               ///< of a head, in the model that it is from
+  Real max_isometric_force = 0;        ///< N, of a head; weighs it where heads are asked how active they are
 };
 
 /// A corner of a muscle's section.

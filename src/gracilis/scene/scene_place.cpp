@@ -29,6 +29,7 @@ static void shift(ActionLine& line, const Vec3& by) {
     point.frame.pretranslate(by);
   }
   for (PlacedWrap& wrap : line.path.wraps) wrap.frame.pretranslate(by);
+  for (ActionLine& head : line.heads) shift(head, by);
 }
 
 Scene shifted(Scene scene, const Vec3& by) {

@@ -24,7 +24,22 @@ static void add_section(SectionLine& sections, Real place) {
   sections.tendon_ends.push_back(static_cast<Index>(k));
 }
 
+/// Each head's sections, which are as many.
+static Points mean_of_heads(const std::vector<ActionLine>& heads) {
+  Points mean = section_line(heads[0]).centers;
+  for (std::size_t h = 1; h < heads.size(); ++h) mean += section_line(heads[h]).centers;
+  return mean / static_cast<Real>(heads.size());
+}
+
+static Points points_at_shares(const ActionLine& line) {
+  std::vector<Real> places = line.shares;
+  for (Real& place : places) place *= polyline_length(line.points);
+  return points_along(line.points, places);
+}
+
 SectionLine section_line(const ActionLine& line) {
+  if (!line.heads.empty()) return {mean_of_heads(line.heads), {}};
+  if (!line.shares.empty()) return {points_at_shares(line), {}};
   SectionLine sections{subdivide_line(line.points, line.scaling), {}};
   if (!line.tendon_sections) return sections;
   if (line.origin_tendon > 0) add_section(sections, line.origin_tendon);
@@ -33,6 +48,17 @@ SectionLine section_line(const ActionLine& line) {
   if (sections.tendon_ends.size() == 2 && sections.tendon_ends[1] <= sections.tendon_ends[0])
     sections.tendon_ends = {sections.tendon_ends[1], sections.tendon_ends[0] + 1};
   return sections;
+}
+
+ActionLine middle_line(const Muscle& muscle) {
+  ActionLine line = muscle.action_line;
+  if (line.heads.empty()) return line;
+  line.points = section_line(line).centers;
+  line.centers.resize(3, line.points.cols());
+  for (Eigen::Index k = 0; k < line.centers.cols(); ++k)
+    line.centers.col(k) = muscle.surface.vertices.middleCols(k * line.rays, line.rays).rowwise().mean();
+  line.heads.clear();
+  return line;
 }
 
 }  // namespace gracilis

@@ -1,15 +1,14 @@
 #include <gracilis/scene/validate.hpp>
 
-#include <gracilis/scene/section_line.hpp>
 #include <gracilis/scene/setting_table.hpp>
 #include <gracilis/scene/validate_jumps.hpp>
+#include <gracilis/scene/validate_lines.hpp>
 #include <gracilis/scene/validate_muscle_bodies.hpp>
 #include <gracilis/scene/validate_names.hpp>
 #include <gracilis/scene/validate_sizes.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <map>
 #include <set>
 
@@ -146,69 +145,6 @@ struct Validation {
     }
   }
 
-  void check_coordinate(const std::string& where, const LineCoordinate& coordinate) {
-    Index count = 0;
-    for (const Joint& joint : scene.joints) count += static_cast<Index>(joint.axes.size());
-    if (coordinate.index >= count || !std::isfinite(coordinate.capture))
-      add(where, "its line depends on a coordinate that does not exist");
-  }
-
-  void check_path(const std::string& where, const LinePath& path) {
-    if (path.points.size() == 1) add(where, "its line has a path of one point", "give two or more, or none");
-    for (const LinePoint& point : path.points) {
-      check_body(where, point.body);
-      check_coordinate(where, point.condition);
-      for (const LineCoordinate& coordinate : point.moves_with) check_coordinate(where, coordinate);
-      bool finite = point.place.allFinite() && point.frame.matrix().allFinite();
-      for (const HermiteCurve& curve : point.moves_to) {
-        const auto sound = [](Real x) { return std::isfinite(x); };
-        for (const auto* numbers : {&curve.knots, &curve.values, &curve.slopes})
-          finite =
-              finite && numbers->size() == curve.knots.size() && std::all_of(numbers->begin(), numbers->end(), sound);
-        finite = finite && std::is_sorted(curve.knots.begin(), curve.knots.end());
-      }
-      if (!finite) add(where, "a point of its line has no place", "correct [[muscles.action_line.path]]");
-    }
-    for (const PlacedWrap& wrap : path.wraps) {
-      check_body(where, wrap.body);
-      const WrapSurface& s = wrap.surface;
-      const bool ellipsoid = s.kind == WrapSurface::Kind::ellipsoid, torus = s.kind == WrapSurface::Kind::torus;
-      const Real least = ellipsoid ? s.radii.minCoeff()
-                         : torus   ? std::min(s.radius, s.ring_radius - s.radius)
-                                   : s.radius;
-      if (!wrap.frame.matrix().allFinite() || !(least > 0) || !s.radii.allFinite())
-        add(where, "a surface that its line runs around has no size", "correct [[muscles.action_line.wraps]]");
-    }
-  }
-
-  /// The surface must have as many vertices as its sections ask for.
-  void check_line(const std::string& where, const Muscle& muscle) {
-    const ActionLine& line = muscle.action_line;
-    if (line.rays == 0) return;
-    for (const Index body : line.bodies) check_body(where, body);
-    check_path(where, line.path);
-    if (line.rays < 6 || line.rays % 2 != 0) add(where, "its sections must have an even number of corners, 6 or more");
-    if (!line.points.allFinite() || line.points.cols() < 2 ||
-        line.points.cols() != static_cast<Index>(line.bodies.size()) || line.scaling < 0 || line.scaling > 16) {
-      add(where, "its action line needs two points or more with a body each", "correct [muscles.action_line]");
-      return;
-    }
-    // Counted before they are made: the file may ask for more than there is room for.
-    std::int64_t sections = (static_cast<std::int64_t>(line.points.cols() - 1) << line.scaling) + 1;
-    const std::int64_t vertices = muscle.surface.vertex_count();
-    if (line.tendon_sections && line.rays * sections + 2 <= vertices) sections = section_line(line).centers.cols();
-    if (vertices != line.rays * sections + 2)
-      add(where,
-          "its surface has " + std::to_string(muscle.surface.vertex_count()) + " vertices; " +
-              std::to_string(sections) + " sections and two ends have " + std::to_string(line.rays * sections + 2),
-          "give the surface that was made for this line");
-    if (line.centers.cols() > 0 && (line.centers.cols() != sections || !line.centers.allFinite()))
-      add(where,
-          "its action line has " + std::to_string(line.centers.cols()) + " centers for " + std::to_string(sections) +
-              " sections",
-          "give one for each, or none");
-  }
-
   void check_corner(const SectionCorner& corner) {
     const Muscle& muscle = scene.muscles[static_cast<std::size_t>(corner.muscle)];
     const ActionLine& line = muscle.action_line;
@@ -229,7 +165,6 @@ struct Validation {
     for (const Muscle& muscle : scene.muscles) {
       const std::string where = "muscle '" + muscle.name + "'";
       check_surface(where, muscle.surface);
-      check_line(where, muscle);
       check_settings(where, muscle.fibers);
       check_settings(where, muscle.contraction);
       for (const Polylines* lines : {&muscle.given_fibers, &muscle.tracts, &muscle.given_surface_fibers})
@@ -333,6 +268,7 @@ std::vector<Problem> validate(const Scene& scene) {
   validation.check_bones();
   validation.check_joints();
   validation.check_muscles();
+  for (Problem& problem : line_problems(scene)) validation.problems.push_back(std::move(problem));
   for (Problem& problem : muscle_body_problems(scene)) validation.problems.push_back(std::move(problem));
   validation.check_transversals();
   validation.check_activation();

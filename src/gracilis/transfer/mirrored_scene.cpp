@@ -28,6 +28,10 @@ void mirror_line(ActionLine& line, const Eigen::Matrix3d& mirror) {
   line.centers = mirror * line.centers;
   line.path.wraps.clear();
   for (LinePoint& point : line.path.points) point.place = mirror * point.place;
+  for (ActionLine& head : line.heads) {
+    head.name = other_side_name(head.name);
+    mirror_line(head, mirror);
+  }
 }
 
 }  // namespace

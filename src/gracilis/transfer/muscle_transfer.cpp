@@ -120,6 +120,13 @@ void reach_volume(const Held& held, Real volume, TriangleMesh& surface) {
 
 void warp_lines(const ThinPlateMap& warp, Polylines& lines) { lines.points = warp.at(lines.points); }
 
+void warp_action_line(const ThinPlateMap& warp, ActionLine& line) {
+  line.points = warp.at(line.points);
+  line.centers = warp.at(line.centers);
+  for (LinePoint& point : line.path.points) point.place = warp.at(point.place);
+  for (ActionLine& head : line.heads) warp_action_line(warp, head);
+}
+
 }  // namespace
 
 TransferredMuscles transfer_muscles(const Scene& scene, const std::vector<TriangleMesh>& subject,
@@ -145,9 +152,7 @@ TransferredMuscles transfer_muscles(const Scene& scene, const std::vector<Triang
     for (Aponeurosis& sheet : muscle.aponeuroses) sheet.surface.vertices = warp.at(sheet.surface.vertices);
     for (Polylines* lines : {&muscle.given_fibers, &muscle.tracts, &muscle.given_surface_fibers})
       warp_lines(warp, *lines);
-    muscle.action_line.points = warp.at(muscle.action_line.points);
-    muscle.action_line.centers = warp.at(muscle.action_line.centers);
-    for (LinePoint& point : muscle.action_line.path.points) point.place = warp.at(point.place);
+    warp_action_line(warp, muscle.action_line);
   });
   for (std::vector<AttachmentFit>& some : attachments)
     result.attachments.insert(result.attachments.end(), some.begin(), some.end());

@@ -123,7 +123,16 @@ struct Writing {
     lines(table, "fibers", "file", muscle->given_fibers, "fibers/" + muscle->name + ".vtp");
     lines(table, "fibers", "tracts", muscle->tracts, "fibers/" + muscle->name + "_tracts.vtp");
     lines(table, "contraction", "file", muscle->given_surface_fibers, "fibers/" + muscle->name + "_surface.vtp");
-    if (toml::table* line = table["action_line"].as_table()) action_line(*muscle, *line);
+    if (toml::table* line = table["action_line"].as_table()) {
+      action_line(muscle->name, muscle->action_line, *line);
+      std::size_t head = 0;
+      each(*line, "heads", [&](toml::table& own) {
+        const ActionLine& now = muscle->action_line.heads[head++];
+        own.insert_or_assign("name", now.name);
+        action_line(now.name, now, own);
+        return true;
+      });
+    }
     std::size_t number = 0, sheet = 0;
     each(table, "attachments", [&](toml::table& end) { return attachment(*muscle, number++, sheet, end); });
     return true;
@@ -137,13 +146,11 @@ struct Writing {
     table->erase("unit");
   }
 
-  void action_line(const Muscle& muscle, toml::table& table) const {
-    const ActionLine& line = muscle.action_line;
+  void action_line(const std::string& muscle, const ActionLine& line, toml::table& table) const {
     if (line.points.cols() > 0) set(table, "points_mm", rows_of(line.points, 0.001));
     if (line.centers.cols() > 0) set(table, "centers_mm", rows_of(line.centers, 0.001));
     if (!table.contains("path") && !table.contains("wraps")) return;
-    left_out.push_back("line of " + muscle.name +
-                       ": its points that come and go and the surfaces that it wraps around");
+    left_out.push_back("line of " + muscle + ": its points that come and go and the surfaces that it wraps around");
     erase(table, {"path", "wraps"});
   }
 

@@ -2,7 +2,7 @@
 
 #include <gracilis/anatomy/overlap/overlap_sides.hpp>
 #include <gracilis/anatomy/overlap/rest_overlap.hpp>
-#include <gracilis/anatomy/sections/line_sections.hpp>
+#include <gracilis/anatomy/sections/sheet.hpp>
 #include <gracilis/core/parallel.hpp>
 
 #include <algorithm>

@@ -18,17 +18,25 @@ static std::size_t body_count(const ActionLine& line) {
   return static_cast<std::size_t>(last) + 1;
 }
 
-LineSections line_sections(const Muscle& muscle) {
+LineSections line_sections(const ActionLine& line, const Vec3& first_corner) {
   LineSections result;
-  result.line = muscle.action_line;
-  const Points centers = section_line(muscle.action_line).centers;
-  result.places = distances_along(centers);
+  result.line = line;
+  const Points centers = section_line(line).centers;
   // The line's points may cut the corners of its path.
-  result.length = polyline_length(line_at(muscle.action_line, capture_pose(body_count(muscle.action_line))));
-  for (Real& place : result.places) place *= result.length / polyline_length(centers);
-  result.first_ray = muscle.surface.vertices.col(0) - centers.col(0);
+  result.length = polyline_length(line_at(line, capture_pose(body_count(line))));
+  result.places = line.shares;
+  for (Real& place : result.places) place *= result.length;
+  if (line.shares.empty()) {
+    result.places = distances_along(centers);
+    for (Real& place : result.places) place *= result.length / polyline_length(centers);
+  }
+  result.first_ray = first_corner - centers.col(0);
   if (result.first_ray.norm() < 1e-9) result.first_ray = Vec3::UnitX();
   return result;
+}
+
+LineSections line_sections(const Muscle& muscle) {
+  return line_sections(muscle.action_line, muscle.surface.vertices.col(0));
 }
 
 Index section_of_vertex(const LineSections& sections, Index vertex) {
@@ -37,33 +45,12 @@ Index section_of_vertex(const LineSections& sections, Index vertex) {
   return vertex == count * sections.line.rays ? 0 : count - 1;
 }
 
-std::vector<Index> sections_of_vertices(const LineSections& sections, const Points& vertices) {
-  const Points centers = section_line(sections.line).centers;
-  const bool own = vertices.cols() == sections.line.rays * centers.cols() + 2;
-  std::vector<Index> section;
-  for (Index v = 0; v < static_cast<Index>(vertices.cols()); ++v) {
-    Eigen::Index nearest = 0;
-    if (!own) (centers.colwise() - vertices.col(v)).colwise().squaredNorm().minCoeff(&nearest);
-    section.push_back(own ? section_of_vertex(sections, v) : static_cast<Index>(nearest));
-  }
-  return section;
-}
-
 Real distance_from_tendon(const LineSections& sections, Index section) {
   const Real place = sections.places[static_cast<std::size_t>(section)];
   Real distance = std::numeric_limits<Real>::infinity();
   if (sections.line.origin_tendon > 0) distance = place - sections.line.origin_tendon;
   if (sections.line.tendon > 0) distance = std::min(distance, sections.length - sections.line.tendon - place);
   return distance;
-}
-
-std::vector<char> tendon_vertices(const Muscle& muscle) {
-  std::vector<char> in_tendon;
-  if (muscle.action_line.rays == 0) return in_tendon;
-  const LineSections sections = line_sections(muscle);
-  for (const Index section : sections_of_vertices(sections, muscle.surface.vertices))
-    in_tendon.push_back(distance_from_tendon(sections, section) <= 0);
-  return in_tendon;
 }
 
 RigidTransform PlacedSections::frame(Eigen::Index k) const {

@@ -17,22 +17,18 @@ struct LineSections {
   Vec3 first_ray = Vec3::UnitX();  ///< of the first section, in the capture pose
 };
 
-/// Precondition: the muscle has an action line of which its surface was made.
+/// Of a line, or of a head of a sheet; the first ray leads from the first section's center to this corner of it.
+LineSections line_sections(const ActionLine& line, const Vec3& first_corner);
+
+/// Precondition: the muscle has an action line of which its surface was made, and that is one line.
 LineSections line_sections(const Muscle& muscle);
 
 /// The section that a vertex of the muscle's surface belongs to; the two that close the ends belong to theirs.
 Index section_of_vertex(const LineSections& sections, Index vertex);
 
-/// The section that each of these points belongs to: of the muscle's own vertices theirs, of those of a finer or
-/// coarser copy the nearest in the capture pose.
-std::vector<Index> sections_of_vertices(const LineSections& sections, const Points& vertices);
-
 /// How far a section is from the nearest tendon, along the line in the capture pose, m: 0 or less in one, whose
 /// sections keep their distance from the line's end; infinite where there is none.
 Real distance_from_tendon(const LineSections& sections, Index section);
-
-/// Which vertices of a muscle belong to sections in a tendon; empty where it has no line.
-std::vector<char> tendon_vertices(const Muscle& muscle);
 
 /// Where sections are, and their axes: first ray, the direction across it in the plane, the normal.
 struct PlacedSections {

@@ -43,18 +43,40 @@ ActivationDescription read_activation(TomlReader table) {
   return activation;
 }
 
-/// The column of that name, or of the muscle's.
+/// Of a muscle made of several heads, the mean of their columns, weighted by their largest forces; empty where the
+/// table lacks any, or no head has a force.
+static std::optional<Eigen::VectorXd> mean_of_heads(const Table& table, const Scene& scene, const std::string& name) {
+  const auto muscle =
+      std::find_if(scene.muscles.begin(), scene.muscles.end(), [&](const Muscle& each) { return each.name == name; });
+  if (muscle == scene.muscles.end()) return {};
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(table.values.rows());
+  Real force = 0;
+  for (const ActionLine& head : muscle->action_line.heads) {
+    const std::optional<Eigen::Index> found = column_of(table, head.name);
+    if (!found) return {};
+    sum += head.max_isometric_force * table.values.col(*found);
+    force += head.max_isometric_force;
+  }
+  if (!(force > 0)) return {};
+  return sum / force;
+}
+
+/// The column of that name, or of the muscle's, or of its heads'.
 static void add_column(SceneInProgress& progress, const std::filesystem::path& path, const std::string& muscle,
                        const std::string& column) {
   const Table table = read_table(path);
   const std::string& name = column.empty() ? muscle : column;
   const std::optional<Eigen::Index> found = column_of(table, name);
-  if (!found) {
+  std::optional<Eigen::VectorXd> values;
+  if (found)
+    values = table.values.col(*found);
+  else if (column.empty())
+    values = mean_of_heads(table, progress.loaded.scene, muscle);
+  if (!values) {
     progress.add_problem({path.string(), "", "", ""}, "has no column '" + name + "'", suggestion(name, table.columns));
     return;
   }
-  const Eigen::VectorXd values = table.values.col(*found);
-  progress.loaded.scene.activation.signals.push_back({muscle, table.times, {values.begin(), values.end()}});
+  progress.loaded.scene.activation.signals.push_back({muscle, table.times, {values->begin(), values->end()}});
 }
 
 void add_activation(SceneInProgress& progress, const ActivationDescription& description) {

@@ -47,23 +47,42 @@ static void read_contraction(TomlReader table, MuscleDescription& description) {
   table.reject_unknown_keys();
 }
 
+/// What the table of a line and that of a sheet's head have in common.
+static void read_line(TomlReader& table, ActionLine& line, LineDescription& description) {
+  const auto length = [&](const char* key) { return table.number(key, {0, 10'000, "mm"}).value_or(0) / 1000; };
+  line.tendon = length("tendon_mm");
+  line.origin_tendon = length("origin_tendon_mm");
+  line.optimal_fiber = length("optimal_fiber_mm");
+  line.pennation = radians(table.number("pennation_deg", {0, 89}).value_or(0));
+  description.bodies = table.texts("bodies");
+  if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3)) line.points = rows->transpose() / 1000;
+  if (line.points.cols() != static_cast<Index>(description.bodies.size()))
+    table.add_problem("bodies", "'bodies' must name a body for each of 'points_mm'");
+  description.path = read_line_path(table);
+}
+
+/// One of the lines of a sheet.
+static void read_head(TomlReader table, ActionLine& head, LineDescription& description) {
+  head.name = table.required_text("name");
+  head.max_isometric_force = table.number("max_isometric_force_n", {0, 1e6, "N"}).value_or(0);
+  head.shares = table.numbers("shares");
+  read_line(table, head, description);
+  table.reject_unknown_keys();
+}
+
 static void read_action_line(TomlReader table, MuscleDescription& description) {
   ActionLine& line = description.muscle.action_line;
   if (!table.has("rays")) table.required_number("rays");
   line.rays = table.integer("rays", 6, 1000).value_or(6);
+  line.side = table.integer("side", 1, 1000).value_or(0);
+  for (TomlReader& head : table.tables("heads")) {
+    line.heads.emplace_back().rays = line.rays;
+    read_head(std::move(head), line.heads.back(), description.heads.emplace_back());
+  }
   line.scaling = table.integer("scaling", 0, 16).value_or(0);
-  const auto length = [&](const char* key) { return table.number(key, {0, 10'000, "mm"}).value_or(0) / 1000; };
-  line.tendon = length("tendon_mm");
-  line.origin_tendon = length("origin_tendon_mm");
   line.tendon_sections = table.flag("tendon_sections").value_or(false);
-  line.optimal_fiber = length("optimal_fiber_mm");
-  line.pennation = radians(table.number("pennation_deg", {0, 89}).value_or(0));
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("centers_mm", 3)) line.centers = rows->transpose() / 1000;
-  description.line_bodies = table.texts("bodies");
-  if (const std::optional<Eigen::MatrixXd> rows = table.rows("points_mm", 3)) line.points = rows->transpose() / 1000;
-  if (line.points.cols() != static_cast<Index>(description.line_bodies.size()))
-    table.add_problem("bodies", "'bodies' must name a body for each of 'points_mm'");
-  description.line_path = read_line_path(table);
+  read_line(table, line, description.line);
   table.reject_unknown_keys();
 }
 
@@ -91,10 +110,10 @@ MuscleDescription read_muscle(TomlReader table, const MuscleDefaults& defaults, 
   return description;
 }
 
-static void place_line(ActionLine& line, const MuscleDescription& description, Scene& scene) {
+static void place_line(ActionLine& line, const LineDescription& description, Scene& scene) {
   const auto index = [&](const std::string& body) { return body_index(scene, body); };
-  for (const std::string& body : description.line_bodies) line.bodies.push_back(index(body));
-  line.path = place_line_path(description.line_path, scene, index);
+  for (const std::string& body : description.bodies) line.bodies.push_back(index(body));
+  line.path = place_line_path(description.path, scene, index);
 }
 
 /// Lines of a file; none where no file is named.
@@ -115,7 +134,9 @@ void add_muscle(SceneInProgress& progress, SurfaceLoader& surfaces, const Muscle
   Scene& scene = progress.loaded.scene;
   Muscle& muscle = scene.muscles.emplace_back(description.muscle);
   read_lines(progress, description.fiber_file, muscle.given_fibers);
-  place_line(muscle.action_line, description, scene);
+  place_line(muscle.action_line, description.line, scene);
+  for (std::size_t h = 0; h < description.heads.size(); ++h)
+    place_line(muscle.action_line.heads[h], description.heads[h], scene);
   read_lines(progress, description.tract_file, muscle.tracts);
   read_lines(progress, description.surface_fiber_file, muscle.given_surface_fibers);
   const bool is_repaired = surfaces.take(description.surface, SurfaceRole::muscle, muscle.surface);

@@ -111,15 +111,20 @@ static void check_attachment(const SceneDescription& scene, const AttachmentDesc
   problems.push_back(problem);
 }
 
+static void check_line(const MuscleDescription& muscle, const LineDescription& line, const KnownNames& known,
+                       std::vector<Problem>& problems) {
+  for (const Names* bodies : {&line.bodies, &line.path.point_bodies, &line.path.wrap_bodies})
+    require_known(*bodies, known.bodies, "body", muscle.place, problems);
+  for (const auto& of_point : line.path.coordinates)
+    for (const std::string& coordinate : of_point)
+      require_known(coordinate, known.coordinates, "coordinate", muscle.place, problems);
+}
+
 static void check_muscle(const SceneDescription& scene, const MuscleDescription& muscle, const KnownNames& known,
                          std::vector<Problem>& problems) {
   reject_duplicates(muscle.attachments, "attachment", problems);
-  const LinePathDescription& path = muscle.line_path;
-  for (const Names* bodies : {&muscle.line_bodies, &path.point_bodies, &path.wrap_bodies})
-    require_known(*bodies, known.bodies, "body", muscle.place, problems);
-  for (const auto& of_point : path.coordinates)
-    for (const std::string& coordinate : of_point)
-      require_known(coordinate, known.coordinates, "coordinate", muscle.place, problems);
+  check_line(muscle, muscle.line, known, problems);
+  for (const LineDescription& head : muscle.heads) check_line(muscle, head, known, problems);
   for (const AttachmentDescription& attachment : muscle.attachments)
     check_attachment(scene, attachment, known, problems);
 }

@@ -127,7 +127,8 @@ void serialize(Archive& archive, LinePath& path) {
 template <class Archive>
 void serialize(Archive& archive, ActionLine& line) {
   archive(line.points, line.bodies, line.rays, line.scaling, line.tendon, line.origin_tendon, line.tendon_sections,
-          line.centers, line.optimal_fiber, line.pennation, line.path);
+          line.centers, line.optimal_fiber, line.pennation, line.path, line.shares, line.heads, line.side, line.name,
+          line.max_isometric_force);
 }
 
 template <class Archive>

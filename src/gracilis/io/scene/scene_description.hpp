@@ -64,6 +64,12 @@ struct AttachmentDescription {
   Problem place;
 };
 
+/// What of an action line is said by names.
+struct LineDescription {
+  std::vector<std::string> bodies;  ///< of each point
+  LinePathDescription path;
+};
+
 struct MuscleDescription {
   Muscle muscle;  ///< without surface, attachments and given fibers; its action line without bodies and path
   SurfaceDescription surface;
@@ -71,8 +77,8 @@ struct MuscleDescription {
   NamedFile tract_file;          ///< empty path: none
   NamedFile surface_fiber_file;  ///< along which it contracts; empty path: none
   std::vector<AttachmentDescription> attachments;
-  std::vector<std::string> line_bodies;  ///< of each point of the action line
-  LinePathDescription line_path;
+  LineDescription line;                ///< of the action line
+  std::vector<LineDescription> heads;  ///< of those of a sheet's heads
   Problem place;
 };
 

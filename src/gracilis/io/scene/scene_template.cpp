@@ -158,6 +158,12 @@ threshold = 0.02
 # side = "+x"                   # optional: on this side only
 # first_point = 0
 # last_point = 3
+# Of a sheet over several heads' lines ('gracilis import --merge-heads') the table has rays and side alone, and each head
+# has its own points, tendons, path and wraps:
+# [[muscles.action_line.heads]]
+# name = "glut_max1_r"          # in the model; activations of a table are the mean of the heads' columns
+# max_isometric_force_n = 573   # weighs them
+# shares = [0, 0.1, 0.2, 1]     # where its sections lie along its line, as many in all heads
 
 # At least one origin and one insertion, or none at all. Which vertices are held follows from the keys given, in one of six ways:
 # 1. 'bone' and landmarks: within bone_distance_mm of the bone and landmark_distance_mm of the landmarks.

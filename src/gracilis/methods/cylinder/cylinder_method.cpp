@@ -5,6 +5,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/methods/cylinder/section_collision.hpp>
+#include <gracilis/methods/cylinder/sheet_sections.hpp>
 #include <gracilis/methods/cylinder/surface_sections.hpp>
 
 #include <algorithm>
@@ -61,6 +62,18 @@ static CylinderShape shape_at(const CylinderMuscle& muscle, const Pose& pose) {
     if (k == 0) result.ends.col(0) = axes * muscle.shape.col(count * muscle.rays) + center;
     if (k == count - 1) result.ends.col(1) = axes * muscle.shape.col(count * muscle.rays + 1) + center;
   }
+  return result;
+}
+
+/// The same of a sheet; its sections' centers are their middles.
+static CylinderShape shape_at(const SheetSections& sheet, const Pose& pose) {
+  const Points vertices = sheet_at(sheet, pose);
+  const Eigen::Index corners = vertices.cols() - 2;
+  CylinderShape result;
+  result.rings = {sheet.rays, Points(3, corners / sheet.rays), vertices.leftCols(corners)};
+  for (Eigen::Index k = 0; k < result.rings.centers.cols(); ++k)
+    result.rings.centers.col(k) = vertices.middleCols(k * sheet.rays, sheet.rays).rowwise().mean();
+  result.ends = vertices.rightCols(2);
   return result;
 }
 
@@ -182,8 +195,11 @@ class CylinderMethod final : public DeformationMethod {
     for (const Bone& bone : bones_) hits_.emplace_back(bone.surface);
     surfaces_.resize(lines_.size());
     muscles_.resize(lines_.size());
+    sheets_.resize(lines_.size());
     parallel_for_each(lines_.size(), [&](std::size_t m) {
-      if (lines_[m].action_line.rays > 0)
+      if (!lines_[m].action_line.heads.empty())
+        sheets_[m] = sheet_sections(lines_[m], capture);
+      else if (lines_[m].action_line.rays > 0)
         muscles_[m] = prepare(capture, lines_[m]);
       else
         surfaces_[m] = surface_sections(lines_[m]);
@@ -206,7 +222,7 @@ class CylinderMethod final : public DeformationMethod {
         if (surfaces_[m])
           next[m] = surface_at(*surfaces_[m], pose);
         else
-          shapes[m] = shape_at(muscles_[m], pose);
+          shapes[m] = sheets_[m] ? shape_at(*sheets_[m], pose) : shape_at(muscles_[m], pose);
         const std::chrono::duration<Real, std::milli> taken = std::chrono::steady_clock::now() - start;
         report.muscles[m].milliseconds = taken.count();
       }
@@ -235,6 +251,7 @@ class CylinderMethod final : public DeformationMethod {
   std::vector<Bone> bones_;
   std::vector<TriangleTree> hits_;                        ///< of each bone
   std::vector<CylinderMuscle> muscles_;                   ///< with an action line
+  std::vector<std::optional<SheetSections>> sheets_;      ///< with those of several heads
   std::vector<std::optional<SurfaceSections>> surfaces_;  ///< without
   std::vector<Points> shapes_;
 };

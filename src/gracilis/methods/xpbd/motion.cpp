@@ -88,15 +88,18 @@ class CarryingFrames {
   CarryingFrames(const PreparedMuscle& muscle, const Pose& pose, std::shared_ptr<const strings::SkinnedSurface> skinned)
       : muscle_(muscle), pose_(pose), skinned_(std::move(skinned)) {
     if (skinned_) return;
-    if (!muscle.line) {
+    if (muscle.lines.empty()) {
       blend_ = carrier_transforms(muscle, pose);
       return;
     }
     const Eigen::Translation3d to_world(muscle.origin);
-    const PlacedSections now = sections_at(*muscle.line, pose);
-    for (Eigen::Index k = 0; k < now.centers.cols(); ++k)
-      sections_.push_back(to_world.inverse() * now.frame(k) * muscle.to_sections[static_cast<std::size_t>(k)] *
-                          to_world);
+    for (std::size_t line = 0; line < muscle.lines.size(); ++line) {
+      const PlacedSections now = sections_at(muscle.lines[line], pose);
+      std::vector<RigidTransform>& sections = sections_.emplace_back();
+      for (Eigen::Index k = 0; k < now.centers.cols(); ++k)
+        sections.push_back(to_world.inverse() * now.frame(k) * muscle.to_sections[line][static_cast<std::size_t>(k)] *
+                           to_world);
+    }
   }
 
   /// Of one particle into `frame`; false where nothing carries it. `shares` is room to work in.
@@ -107,12 +110,11 @@ class CarryingFrames {
                             frame.linear() * (muscle_.rest.col(particle) - muscle_.origin);
       return true;
     }
-    if (muscle_.line) {
-      const Index section = muscle_.section[static_cast<std::size_t>(particle)];
+    if (!muscle_.lines.empty()) {
       const Index body = muscle_.fixed_body[static_cast<std::size_t>(particle)];
       const Eigen::Translation3d to_world(muscle_.origin);
       const bool in_tendon = !(muscle_.belly[static_cast<std::size_t>(particle)] > 0);
-      frame = body < 0 || in_tendon ? sections_[static_cast<std::size_t>(section)]
+      frame = body < 0 || in_tendon ? along_lines(particle)
                                     : to_world.inverse() * pose_.bodies[static_cast<std::size_t>(body)] * to_world;
       return true;
     }
@@ -122,18 +124,32 @@ class CarryingFrames {
   }
 
  private:
+  /// Between two heads a particle's place at rest goes straight from where one takes it to where the other does.
+  RigidTransform along_lines(Index particle) const {
+    const LineShare& share = muscle_.shares[static_cast<std::size_t>(particle)];
+    const auto section = static_cast<std::size_t>(share.section);
+    const RigidTransform& own = sections_[share.line][section];
+    if (!(share.next > 0)) return own;
+    const RigidTransform& next = sections_[share.line + 1][section];
+    const Vec3 rest = muscle_.rest.col(particle) - muscle_.origin;
+    RigidTransform mixed = own;
+    mixed.linear() = Eigen::Quaterniond(own.linear()).slerp(share.next, Eigen::Quaterniond(next.linear())).matrix();
+    mixed.translation() = (1 - share.next) * (own * rest) + share.next * (next * rest) - mixed.linear() * rest;
+    return mixed;
+  }
+
   const PreparedMuscle& muscle_;
   const Pose& pose_;
   std::shared_ptr<const strings::SkinnedSurface> skinned_;
   RigidBlend blend_;
-  std::vector<RigidTransform> sections_;
+  std::vector<std::vector<RigidTransform>> sections_;  ///< of each line
 };
 
 }  // namespace
 
 void move_attached(const PreparedMuscle& muscle, const Pose& pose, Particles& particles) {
   const std::optional<CarryingFrames> frames =
-      muscle.line ? std::make_optional<CarryingFrames>(muscle, pose, nullptr) : std::nullopt;
+      !muscle.lines.empty() ? std::make_optional<CarryingFrames>(muscle, pose, nullptr) : std::nullopt;
   std::vector<Real> shares;
   RigidTransform frame;
   for (Index p = 0; p < particles.count(); ++p) {
@@ -175,7 +191,7 @@ void skin_free(const PreparedMuscle& muscle, const Pose& before, const Pose& now
         continue;
       const Vec3 rest = muscle.rest.col(p) - muscle.origin;
       const Vec3 displaced = was.inverse() * particles.position(p).cast<Real>();
-      const Real belly = muscle.line ? muscle.belly[static_cast<std::size_t>(p)] : 1;
+      const Real belly = !muscle.lines.empty() ? muscle.belly[static_cast<std::size_t>(p)] : 1;
       particles.position(p) = (is * Vec3(rest + belly * kept * (displaced - rest))).cast<float>();
     }
   });

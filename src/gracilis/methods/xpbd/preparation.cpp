@@ -60,17 +60,26 @@ std::vector<Attachment> renumber(const Muscle& muscle, PreparedMuscle& prepared)
   return attachments;
 }
 
-/// The section that carries each particle, its own, or, where the surface is a finer or coarser copy, the nearest; and
-/// how far it is from the tendon.
-void follow_line(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepared) {
-  prepared.line = line_sections(muscle);
-  const PlacedSections sections = sections_at(*prepared.line, capture_pose(scene.bodies.size()));
-  for (Eigen::Index k = 0; k < sections.centers.cols(); ++k)
-    prepared.to_sections.push_back(sections.frame(k).inverse());
-  const std::vector<Index> section = sections_of_vertices(*prepared.line, muscle.surface.vertices);
+/// What carries each particle along the lines: its own section, or, where the surface is a finer or coarser copy, the
+/// nearest; and how far it is from the tendon.
+void follow_lines(const Scene& scene, const Muscle& muscle, PreparedMuscle& prepared) {
+  prepared.lines = carrying_lines(muscle);
+  std::vector<Points> centers;
+  for (const LineSections& line : prepared.lines) {
+    const PlacedSections sections = sections_at(line, capture_pose(scene.bodies.size()));
+    centers.push_back(sections.centers);
+    std::vector<RigidTransform>& to_sections = prepared.to_sections.emplace_back();
+    for (Eigen::Index k = 0; k < sections.centers.cols(); ++k) to_sections.push_back(sections.frame(k).inverse());
+  }
+  const std::vector<LineShare> shares = vertex_shares(muscle, centers);
   for (const Index vertex : prepared.order) {
-    prepared.section.push_back(section[static_cast<std::size_t>(vertex)]);
-    const Real t = std::clamp(distance_from_tendon(*prepared.line, prepared.section.back()) / tendon_border, 0.0, 1.0);
+    const LineShare share = shares[static_cast<std::size_t>(vertex)];
+    prepared.shares.push_back(share);
+    const auto from_tendon = [&](std::size_t line) {
+      return std::clamp(distance_from_tendon(prepared.lines[line], share.section) / tendon_border, 0.0, 1.0);
+    };
+    const Real next = share.next > 0 ? share.next * from_tendon(share.line + 1) : 0;
+    const Real t = (1 - share.next) * from_tendon(share.line) + next;
     prepared.belly.push_back(t * t * (3 - 2 * t));
   }
 }
@@ -247,7 +256,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
   prepared.contraction = muscle.contraction;
   const std::vector<Attachment> attachments = renumber(muscle, prepared);
   prepared.origin = prepared.rest.rowwise().mean();
-  if (muscle.action_line.rays > 0) follow_line(scene, muscle, prepared);
+  if (muscle.action_line.rays > 0) follow_lines(scene, muscle, prepared);
   prepared.carrying = carrying;
   if (carrying.strings)
     prepared.carried = std::make_shared<const StringSkinnedSurface>(StringSkinnedSurface{

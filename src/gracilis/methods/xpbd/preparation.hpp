@@ -1,7 +1,7 @@
 #pragma once
 
 #include <gracilis/anatomy/overlap/bone_projection.hpp>
-#include <gracilis/anatomy/sections/line_sections.hpp>
+#include <gracilis/anatomy/sections/sheet.hpp>
 #include <gracilis/dynamics/solver/surface_system.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/topology.hpp>
@@ -53,11 +53,11 @@ struct PreparedMuscle {
   std::vector<Index> skinned_vertex;               ///< per particle, on that surface; empty: each its own
   std::shared_ptr<const ArapPredictor> predicted;  ///< where the predictor asks for it
   BoneProjection predicted_bones;                  ///< that it keeps out of
-  std::optional<LineSections> line;         ///< where its surface is made of sections, whose frames carry it then
-  std::vector<Index> section;               ///< per particle, where there is a line
-  std::vector<RigidTransform> to_sections;  ///< from world to each section's frame, in the capture pose
-  std::vector<Real> belly;                  ///< per particle, where there is a line: 0 in a tendon, 1 away from it
-  bool keeps_out_of_itself = false;         ///< not where there is a line: its sections run through each other
+  std::vector<LineSections> lines;  ///< where its surface is made of sections, whose frames carry it then
+  std::vector<LineShare> shares;    ///< per particle, where there are lines
+  std::vector<std::vector<RigidTransform>> to_sections;  ///< of each line: from world to its sections' frames, at rest
+  std::vector<Real> belly;           ///< per particle, where there are lines: 0 in a tendon, 1 away from it
+  bool keeps_out_of_itself = false;  ///< not where there is a line: its sections run through each other
   ContractionSettings contraction;
   bool is_driven = false;             ///< the scene says how active it is
   AlignedVector<float> along_fibers;  ///< per tension slot: squared cosine between it and the fibers

@@ -4,6 +4,7 @@
 #include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/sobol_points.hpp>
 #include <gracilis/opensim/export/model_samples.hpp>
+#include <gracilis/opensim/import/muscle_heads.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
 #include <gracilis/opensim/reader/crossed_coordinates.hpp>
 
@@ -173,7 +174,9 @@ FittedMuscles fit_muscles(const LengthSamples& samples, const Model& model, cons
   for (const MuscleLengths& muscle : samples.muscles) {
     const Index known = index_of(model.muscles, muscle.name);
     if (known < 0 && !model.muscles.empty()) {
-      result.left_out.push_back(fmt::format("{}: the model has no such muscle", muscle.name));
+      const std::vector<std::string> heads = heads_in_model(model, muscle.name);
+      for (const std::string& head : heads) result.left_out.push_back(part_of_sheet(head, muscle.name));
+      if (heads.empty()) result.left_out.push_back(fmt::format("{}: the model has no such muscle", muscle.name));
       continue;
     }
     try {

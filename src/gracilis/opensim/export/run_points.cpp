@@ -7,6 +7,7 @@
 #include <gracilis/opensim/export/muscle_points.hpp>
 #include <gracilis/opensim/export/muscle_text.hpp>
 #include <gracilis/opensim/export/xml_text.hpp>
+#include <gracilis/opensim/import/muscle_heads.hpp>
 #include <gracilis/opensim/reader/crossed_coordinates.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 
@@ -73,6 +74,12 @@ PointExport export_points(const std::filesystem::path& folder, const std::filesy
   for (const MuscleLengths& each : samples.muscles) {
     const Index index = index_of(model.muscles, each.name);
     const Muscle* own = index < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(index)];
+    const std::vector<std::string> heads = own ? std::vector<std::string>{} : heads_in_model(model, each.name);
+    for (const std::string& head : heads) {
+      result.left_out.push_back(part_of_sheet(head, each.name));
+      text += own_muscle_text(file, head);
+    }
+    if (!heads.empty()) continue;
     if (own && own->path.points.empty()) {
       result.left_out.push_back(fmt::format("{}: its path is a function", each.name));
       text += own_muscle_text(file, each.name);

@@ -1,9 +1,9 @@
 #include <gracilis/opensim/import/belly_length.hpp>
 
 #include <gracilis/io/parse_toml.hpp>
+#include <gracilis/opensim/import/muscle_names.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -28,23 +28,6 @@ static std::map<std::string, Real> read_shares() {
     for (const toml::node& name : *muscle["names"].as_array()) shares[*name.value<std::string>()] = share;
   }
   return shares;
-}
-
-std::string plain_muscle_name(const std::string& name) {
-  std::string text;
-  for (const char c : name) text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  for (const std::string_view side : {"right_", "left_", "r_", "l_"})
-    if (text.starts_with(side)) {
-      text.erase(0, side.size());
-      break;
-    }
-  for (const std::string_view side : {"_right", "_left", "_r", "_l"})
-    if (text.ends_with(side)) {
-      text.erase(text.size() - side.size());
-      break;
-    }
-  std::erase_if(text, [](char c) { return c < 'a' || c > 'z'; });
-  return text;
 }
 
 static Real rest_length(const Muscle& muscle) {

@@ -2,13 +2,7 @@
 
 #include <gracilis/opensim/reader/model.hpp>
 
-#include <string>
-
 namespace gracilis::opensim {
-
-/// A muscle's name in small letters, without what tells sides ("_r", "_left", "r_" ...) and heads (numbers) apart and
-/// without what joins words: "glut_max1_r" and "GlutMax2_l" are both "glutmax".
-std::string plain_muscle_name(const std::string& name);
 
 /// How long a muscle's belly is on its line, m, at rest. Where belly_lengths.toml knows the muscle by its name: the
 /// published length (Ward et al. 2009) but for what lies before lines that begin in the middle of a long origin, times

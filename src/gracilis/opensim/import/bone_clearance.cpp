@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gracilis::opensim {
 
@@ -72,97 +73,137 @@ static Real way_along(const std::vector<SolidBone>& bones, const Vec3& from, con
   return std::min(way, length);
 }
 
-/// Twice the area of a section, over the sine between rays.
-static Real area_of(const Eigen::VectorXd& radii) {
-  Real sum = 0;
-  for (Eigen::Index i = 0; i < radii.size(); ++i) sum += radii[i] * radii[(i + 1) % radii.size()];
-  return sum;
+Points SectionRays::corners() const {
+  return feet + (directions.array().rowwise() * lengths.reshaped().transpose().array()).matrix();
+}
+
+/// Of a section as a polygon, m².
+static Real area_of(const Points& corners) {
+  Vec3 sum = Vec3::Zero();
+  const Vec3 first = corners.col(0);
+  for (Eigen::Index i = 1; i + 1 < corners.cols(); ++i)
+    sum += (corners.col(i) - first).cross(corners.col(i + 1) - first);
+  return sum.norm() / 2;
 }
 
 namespace {
 
 /// A muscle's sections, and how far their corners may go.
 struct Rooms {
-  const Eigen::VectorXd& radii;
+  const SectionRays& rays;
   Eigen::MatrixXd room;  ///< rays × sections, m
-  Real widest = 0;       ///< times its radius
+  Real widest = 0;       ///< times its length that a ray grows to
 
-  /// The section with `more` times its round area, where there is room: corners as far out as one factor takes them.
+  Eigen::Index count() const { return room.rows(); }     ///< of a section's rays
+  Eigen::Index sections() const { return room.cols(); }  ///< their number
+
+  Real area(Eigen::Index k, const Eigen::VectorXd& lengths) const {
+    const Points feet = rays.feet.middleCols(k * count(), count()),
+                 directions = rays.directions.middleCols(k * count(), count());
+    return area_of(feet + directions * lengths.asDiagonal());
+  }
+
+  /// How far two sections are apart along the feet of a ray, m.
+  Real apart(Eigen::Index ray, Eigen::Index k, Eigen::Index other) const {
+    return (rays.feet.col(k * count() + ray) - rays.feet.col(other * count() + ray)).norm();
+  }
+
+  /// The section with `more` times its area, where there is room: rays as long as one factor makes them.
   Eigen::VectorXd filled(Eigen::Index k, Real more) const {
-    const auto grown = [&](Real factor) -> Eigen::VectorXd { return room.col(k).cwiseMin(factor * radii[k]); };
-    const Real wanted = more * static_cast<Real>(room.rows()) * radii[k] * radii[k];
-    if (!(area_of(grown(1)) < wanted)) return grown(1);
+    const auto grown = [&](Real factor) -> Eigen::VectorXd {
+      return room.col(k).cwiseMin(factor * rays.lengths.col(k));
+    };
+    const Real wanted = more * area(k, rays.lengths.col(k));
+    if (!(area(k, grown(1)) < wanted)) return grown(1);
     // The area grows with the factor: bisection.
     Real low = 1, high = widest;
     for (int step = 0; step < 30; ++step) {
       const Real middle = (low + high) / 2;
-      (area_of(grown(middle)) < wanted ? low : high) = middle;
+      (area(k, grown(middle)) < wanted ? low : high) = middle;
     }
     return grown(low);
+  }
+
+  /// Of sections with such rays, m³.
+  Real volume(const Eigen::MatrixXd& lengths) const {
+    Real sum = 0, before = area(0, lengths.col(0));
+    for (Eigen::Index k = 1; k < sections(); ++k) {
+      Real distance = 0;
+      for (Eigen::Index i = 0; i < count(); ++i) distance += apart(i, k, k - 1) / static_cast<Real>(count());
+      const Real now = area(k, lengths.col(k));
+      sum += distance * (before + now) / 2;
+      before = now;
+    }
+    return sum;
   }
 };
 
 }  // namespace
 
-/// Next to a section that is drawn in a corner goes out no steeper than this, or than the round muscle does there.
-static void soften(const Points& centers, const Eigen::VectorXd& round, Eigen::MatrixXd& radii) {
+/// Next to a section that is drawn in a corner goes out no steeper than this, or than the muscle does there by itself.
+static void soften(const Rooms& rooms, Eigen::MatrixXd& lengths) {
   const Real steepest = 0.5;
   const auto follow = [&](Eigen::Index k, Eigen::Index before) {
-    const Real rise =
-        std::max(steepest * (centers.col(k) - centers.col(before)).norm(), widest_beside * (round[k] - round[before]));
-    radii.col(k) = radii.col(k).cwiseMin((radii.col(before).array() + rise).matrix());
+    for (Eigen::Index i = 0; i < rooms.count(); ++i) {
+      const Real rise = std::max(steepest * rooms.apart(i, k, before),
+                                 widest_beside * (rooms.rays.lengths(i, k) - rooms.rays.lengths(i, before)));
+      lengths(i, k) = std::min(lengths(i, k), lengths(i, before) + rise);
+    }
   };
-  for (Eigen::Index k = 1; k < centers.cols(); ++k) follow(k, k - 1);
-  for (Eigen::Index k = centers.cols() - 1; k > 0; --k) follow(k - 1, k);
-}
-
-/// Of sections with these corners, over half the sine between rays.
-static Real volume_of(const Points& centers, const Eigen::MatrixXd& radii) {
-  Real sum = 0;
-  for (Eigen::Index k = 0; k + 1 < centers.cols(); ++k)
-    sum += (centers.col(k + 1) - centers.col(k)).norm() * (area_of(radii.col(k)) + area_of(radii.col(k + 1))) / 2;
-  return sum;
-}
-
-static Real round_volume(const Points& centers, const Rooms& rooms) {
-  return volume_of(centers, rooms.radii.transpose().replicate(rooms.room.rows(), 1));
+  for (Eigen::Index k = 1; k < rooms.sections(); ++k) follow(k, k - 1);
+  for (Eigen::Index k = rooms.sections() - 1; k > 0; --k) follow(k - 1, k);
 }
 
 /// Sections that take so many times their areas, 2 at most, that together they have their volume.
-static Eigen::MatrixXd share_out(const Points& centers, const Rooms& rooms) {
+static Eigen::MatrixXd share_out(const Rooms& rooms) {
   const auto taken = [&](Real more) {
-    Eigen::MatrixXd radii(rooms.room.rows(), rooms.room.cols());
-    for (Eigen::Index k = 0; k < radii.cols(); ++k) radii.col(k) = rooms.filled(k, more);
-    soften(centers, rooms.radii, radii);
-    return radii;
+    Eigen::MatrixXd lengths(rooms.count(), rooms.sections());
+    for (Eigen::Index k = 0; k < rooms.sections(); ++k) lengths.col(k) = rooms.filled(k, more);
+    soften(rooms, lengths);
+    return lengths;
   };
-  const Real wanted = round_volume(centers, rooms);
+  const Real wanted = rooms.volume(rooms.rays.lengths);
   Real low = 1, high = 2;
   for (int step = 0; step < 12; ++step) {
     const Real middle = (low + high) / 2;
-    (volume_of(centers, taken(middle)) < wanted ? low : high) = middle;
+    (rooms.volume(taken(middle)) < wanted ? low : high) = middle;
   }
   return taken(high);
 }
 
-ClearSections clear_of_bones(const Points& line, const Eigen::VectorXd& radii, int rays,
-                             const std::vector<SolidBone>& bones, const RoomBeside& beside) {
-  ClearSections result{clear_centers(line, radii, bones), Eigen::MatrixXd(rays, line.cols())};
-  const SectionFrames frames = section_frames(result.centers, Vec3::UnitX());
-  Rooms rooms{radii, Eigen::MatrixXd(rays, line.cols()), beside ? widest_beside : widest};
-  for (Eigen::Index k = 0; k < line.cols(); ++k)
-    for (int i = 0; i < rays; ++i) {
-      const Vec3 center = result.centers.col(k), ray = frames.ray(k, i, rays);
-      Real room = way_along(bones, center, ray, rooms.widest * radii[k]);
-      if (beside) room = beside(center, ray, radii[k], room);
+ClearRays clear_rays(const SectionRays& rays, const std::vector<SolidBone>& bones, const RoomBeside& beside) {
+  const Eigen::Index count = rays.lengths.rows(), sections = rays.lengths.cols();
+  Rooms rooms{rays, Eigen::MatrixXd(count, sections), beside ? widest_beside : widest};
+  for (Eigen::Index k = 0; k < sections; ++k)
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const Vec3 foot = rays.feet.col(k * count + i), ray = rays.directions.col(k * count + i);
+      Real room = way_along(bones, foot, ray, rooms.widest * rays.lengths(i, k));
+      if (beside) room = beside(foot, ray, rays.lengths(i, k), room);
       rooms.room(i, k) = std::max(room, gap);
     }
-  if (beside)
-    result.radii = share_out(result.centers, rooms);
-  else
-    for (Eigen::Index k = 0; k < line.cols(); ++k) result.radii.col(k) = rooms.filled(k, 1);
-  result.volume_share = volume_of(result.centers, result.radii) / round_volume(result.centers, rooms);
+  ClearRays result;
+  if (beside) {
+    result.lengths = share_out(rooms);
+  } else {
+    result.lengths.resize(count, sections);
+    for (Eigen::Index k = 0; k < sections; ++k) result.lengths.col(k) = rooms.filled(k, 1);
+  }
+  result.volume_share = rooms.volume(result.lengths) / rooms.volume(rays.lengths);
   return result;
+}
+
+ClearSections clear_of_bones(const Points& line, const Eigen::VectorXd& radii, int rays,
+                             const std::vector<SolidBone>& bones, const RoomBeside& beside) {
+  const Points centers = clear_centers(line, radii, bones);
+  const SectionFrames frames = section_frames(centers, Vec3::UnitX());
+  SectionRays round{Points(3, rays * line.cols()), Points(3, rays * line.cols()), radii.transpose().replicate(rays, 1)};
+  for (Eigen::Index k = 0; k < line.cols(); ++k)
+    for (int i = 0; i < rays; ++i) {
+      round.feet.col(k * rays + i) = centers.col(k);
+      round.directions.col(k * rays + i) = frames.ray(k, i, rays);
+    }
+  ClearRays clear = clear_rays(round, bones, beside);
+  return {centers, std::move(clear.lengths), clear.volume_share};
 }
 
 }  // namespace gracilis::opensim

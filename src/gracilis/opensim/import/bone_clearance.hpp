@@ -30,12 +30,29 @@ Points clear_centers(const Points& line, const Eigen::VectorXd& radii, const std
 /// most; `radius` is the round section's.
 using RoomBeside = std::function<Real(const Vec3& center, const Vec3& ray, Real radius, Real length)>;
 
+/// The corners of sections as rays, a column each, section by section: where they begin, which way they go (unit), and
+/// how far (rays × sections, m).
+struct SectionRays {
+  Points feet, directions;
+  Eigen::MatrixXd lengths;
+
+  Points corners() const;
+};
+
+/// How long the rays are so that corners keep out of the bones: drawn in to 0.5 mm before one, and the others out, by
+/// 1.6 times at most, so that sections keep their areas. Where something is beside the muscle, corners are drawn in
+/// before that, too, and others go out by 2.2 times at most; what sections lack then the others take, up to twice their
+/// areas, so that the muscle keeps its volume. Precondition: feet lie outside of the bones.
+struct ClearRays {
+  Eigen::MatrixXd lengths;  ///< m
+  Real volume_share = 1;    ///< of the volume before
+};
+ClearRays clear_rays(const SectionRays& rays, const std::vector<SolidBone>& bones, const RoomBeside& beside = {});
+
 /// Sections with these radii (m) along a line, brought out of the bones. Centers within a bone or closer to one than 4
 /// mm (or their radius) are pushed out, and their neighbors with them, so that the line bends softly; by 30 mm at most.
-/// Then corners are drawn in to 0.5 mm before a bone, and the others out, by 1.6 times at most, so that the sections
-/// keep their areas: the muscle lies against the bone. A first or last section outside of the bones stays where it is.
-/// Where something is beside the muscle, corners are drawn in before that, too, and others go out by 2.2 times at most;
-/// what sections lack then the others take, up to twice their areas, so that the muscle keeps its volume.
+/// A first or last section outside of the bones stays where it is. Then corners are drawn in by clear_rays: the muscle
+/// lies against the bone.
 ClearSections clear_of_bones(const Points& line, const Eigen::VectorXd& radii, int rays,
                              const std::vector<SolidBone>& bones, const RoomBeside& beside = {});
 

@@ -142,4 +142,25 @@ Points beside_bellies(const RoundMuscle& muscle, const std::vector<RoundMuscle>&
   return line + shift;
 }
 
+static std::vector<RoundMuscle> all_but(const std::vector<std::string>& names,
+                                        const std::map<std::string, RoundMuscle>& muscles) {
+  std::vector<RoundMuscle> others;
+  for (const auto& [name, muscle] : muscles)
+    if (std::find(names.begin(), names.end(), name) == names.end()) others.push_back(muscle);
+  return others;
+}
+
+std::map<std::string, RoundMuscle> beside_bellies(const std::map<std::string, RoundMuscle>& muscles,
+                                                  const std::vector<SolidBone>& bones) {
+  std::map<std::string, RoundMuscle> beside = muscles;
+  for (auto& [name, muscle] : beside)
+    muscle.centers = clear_centers(beside_bellies(muscle, all_but({name}, muscles)), muscle.radii, bones);
+  return beside;
+}
+
+RoomBeside room_left(const std::map<std::string, RoundMuscle>& all, const std::vector<std::string>& own) {
+  std::vector<RoundMuscle> others = all_but(own, all);
+  return others.empty() ? RoomBeside{} : room_beside(std::move(others));
+}
+
 }  // namespace gracilis::opensim

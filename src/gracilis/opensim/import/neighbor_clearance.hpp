@@ -2,6 +2,8 @@
 
 #include <gracilis/opensim/import/bone_clearance.hpp>
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace gracilis::opensim {
@@ -22,5 +24,12 @@ RoomBeside room_beside(std::vector<RoundMuscle> muscles);
 /// beside them go along, so that the line bends softly; the first and the last stay, since muscles may well have one
 /// place there.
 Points beside_bellies(const RoundMuscle& muscle, const std::vector<RoundMuscle>& others);
+
+/// The same of all of these, by their names, outside of the bones.
+std::map<std::string, RoundMuscle> beside_bellies(const std::map<std::string, RoundMuscle>& muscles,
+                                                  const std::vector<SolidBone>& bones);
+
+/// The room that all of these, by their names, leave to what is called `own`; empty where there are no others.
+RoomBeside room_left(const std::map<std::string, RoundMuscle>& all, const std::vector<std::string>& own);
 
 }  // namespace gracilis::opensim

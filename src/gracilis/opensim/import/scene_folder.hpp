@@ -16,6 +16,13 @@ struct SceneFolderSettings {
   VolumeSettings volumes;
   std::vector<std::string> muscles;  ///< to take; empty: all
   bool apart = false;                ///< muscles whose surfaces are not known keep out of each other
+  bool merge_heads = false;          ///< heads of one muscle whose surfaces are not known are made one sheet
+};
+
+/// What is to be told of a folder that was written, a sentence each.
+struct SceneFolderNotes {
+  std::vector<std::string> left_out;
+  std::vector<std::string> sheets;  ///< muscles made of several heads
 };
 
 /// s, between the frames of an imported motion where its rows are closer: marker and force data come with 100 to 1000
@@ -30,9 +37,9 @@ std::string motion_file_name(const NamedMotion& motion);
 
 /// Writes a folder that `gracilis run` understands, for the model with its coordinates at their default values:
 /// model.toml with bones, joints and muscles, their surfaces under bones/ and muscles/, and for each motion NAME.toml
-/// with NAME.sto. Returns what was left out, a sentence each. Throws InputError.
-std::vector<std::string> write_scene_folder(const Model& model, const GeometryPlaces& places,
-                                            const std::vector<NamedMotion>& motions,
-                                            const SceneFolderSettings& settings, const std::filesystem::path& folder);
+/// with NAME.sto. Throws InputError.
+SceneFolderNotes write_scene_folder(const Model& model, const GeometryPlaces& places,
+                                    const std::vector<NamedMotion>& motions, const SceneFolderSettings& settings,
+                                    const std::filesystem::path& folder);
 
 }  // namespace gracilis::opensim

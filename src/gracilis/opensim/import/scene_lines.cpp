@@ -93,12 +93,11 @@ static void tell_unknown(const Model& model, const Muscle& muscle, const PathPoi
           muscle.name, point.name, model.coordinates[static_cast<std::size_t>(coordinate)].name));
 }
 
-static std::string wrap_text(const Model& model, const PlacedWrap& wrap) {
+static std::string wrap_text(const Model& model, const PlacedWrap& wrap, const std::string& line) {
   const WrapSurface& surface = wrap.surface;
-  std::string text = fmt::format("\n[[muscles.action_line.wraps]]\nkind = \"{}\"\nbody = {}\n{}",
-                                 wrap_kind_names[static_cast<std::size_t>(surface.kind)],
-                                 toml_text(model.bodies[static_cast<std::size_t>(wrap.body)].name),
-                                 frame_text("center_mm", wrap.frame));
+  std::string text = fmt::format(
+      "\n[[{}.wraps]]\nkind = \"{}\"\nbody = {}\n{}", line, wrap_kind_names[static_cast<std::size_t>(surface.kind)],
+      toml_text(model.bodies[static_cast<std::size_t>(wrap.body)].name), frame_text("center_mm", wrap.frame));
   if (surface.kind == WrapSurface::Kind::ellipsoid)
     text += fmt::format("radii_mm = {}\nplane = \"{}\"\n", toml_vector(1000 * surface.radii),
                         wrap_plane_names[static_cast<std::size_t>(wrap.plane)]);
@@ -114,7 +113,8 @@ static std::string wrap_text(const Model& model, const PlacedWrap& wrap) {
 }
 
 std::string line_path_text(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
-                           const Eigen::VectorXd& coordinates, std::vector<std::string>& left_out) {
+                           const Eigen::VectorXd& coordinates, const std::string& line,
+                           std::vector<std::string>& left_out) {
   const Path& path = muscle.path;
   const bool stays = std::none_of(path.points.begin(), path.points.end(),
                                   [](const PathPoint& point) { return point.moving || point.condition >= 0; });
@@ -135,7 +135,7 @@ std::string line_path_text(const Model& model, const Muscle& muscle, const std::
       continue;
     }
     const auto body = static_cast<std::size_t>(point.body);
-    text += fmt::format("\n[[muscles.action_line.path]]\nbody = {}\n", toml_text(model.bodies[body].name)) + condition;
+    text += fmt::format("\n[[{}.path]]\nbody = {}\n", line, toml_text(model.bodies[body].name)) + condition;
     const Vec3 location = location_of(model, point, coordinates);
     if (!point.moving) {
       text += fmt::format("point_mm = {}\n", toml_vector(1000 * (poses[body] * location)));
@@ -148,7 +148,7 @@ std::string line_path_text(const Model& model, const Muscle& muscle, const std::
           "{} = {}\n", names[k],
           component_text(model, point.moves_to[k], point.moves_with[k], location[static_cast<Eigen::Index>(k)]));
   }
-  for (const PlacedWrap& wrap : wraps) text += wrap_text(model, wrap);
+  for (const PlacedWrap& wrap : wraps) text += wrap_text(model, wrap, line);
   return text;
 }
 

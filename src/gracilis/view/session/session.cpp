@@ -15,6 +15,7 @@
 #include <gracilis/io/scene/scene_template.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/names.hpp>
+#include <gracilis/scene/section_line.hpp>
 #include <gracilis/simulate/run.hpp>
 #include <gracilis/view/charts/run_charts.hpp>
 #include <gracilis/view/pictures/preview.hpp>
@@ -218,7 +219,7 @@ class Session {
     manifest.first_motion_frame = plan_.first_motion_frame;
     manifest.metrics = name_of(options_.measures);
     for (const Muscle& muscle : loaded_.scene.muscles)
-      if (muscle.action_line.rays > 0) manifest.lines.emplace_back(muscle.name, muscle.action_line);
+      if (muscle.action_line.rays > 0) manifest.lines.emplace_back(muscle.name, middle_line(muscle));
     manifest.transversals = named_transversals(loaded_.scene);
     manifest.joints = loaded_.scene.joints;
     manifest.overlaps = overlaps_;
