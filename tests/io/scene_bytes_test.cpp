@@ -35,6 +35,8 @@ Scene rich_scene() {
   muscle.action_line.path.points = {point};
   muscle.action_line.path.wraps = {PlacedWrap{}};
   muscle.action_line.path.wraps[0].surface.kind = WrapSurface::Kind::torus;
+  muscle.action_line.heads.emplace_back().name = "first";
+  muscle.action_line.heads[0].shares = {0, 0.5, 1};
   return scene;
 }
 
@@ -73,6 +75,8 @@ TEST(SceneBytes, are_the_scene_again) {
   EXPECT_EQ(muscle.action_line.path.points[0].moves_to[1].slopes, (std::vector<Real>{4, 5}));
   EXPECT_EQ(muscle.action_line.path.points[0].frame.translation(), Vec3(0, 0, 1));
   EXPECT_EQ(muscle.action_line.path.wraps[0].surface.kind, WrapSurface::Kind::torus);
+  EXPECT_EQ(muscle.action_line.heads[0].name, "first");
+  EXPECT_EQ(muscle.action_line.heads[0].shares, (std::vector<Real>{0, 0.5, 1}));
 }
 
 TEST(SceneBytes, of_something_else_are_refused) {

@@ -165,9 +165,8 @@ TEST(SceneFolder, sections_are_brought_onto_a_surface_that_is_known) {
   const TestFolder folder;
   SceneFolderSettings settings;
   settings.volumes.surfaces["m"] = shapes::box({-0.01, -0.25, -0.02}, {0.03, 0.05, 0.02});
-  EXPECT_THAT(write_scene_folder(model, {}, {{"rest", {{0}, Eigen::MatrixXd::Zero(1, 1), {}}}}, settings, folder.path())
-                  .left_out,
-              testing::IsEmpty());
+  const NamedMotion rest{"rest", {{0}, Eigen::MatrixXd::Zero(1, 1), {}}};
+  EXPECT_THAT(write_scene_folder(model, {}, {rest}, settings, folder.path()).left_out, testing::IsEmpty());
   const Scene scene = read_scene(folder.path() / "rest.toml", {}).scene;
   EXPECT_THAT(validate(scene), testing::IsEmpty());
   const gracilis::Muscle& muscle = scene.muscles[0];
@@ -241,10 +240,8 @@ TEST(SceneFolder, the_walking_model_becomes_a_scene_of_92_muscles) {
       coordinate_motion(model, read_table(data_root() / "opensim/subject01_walk1_Kinematics.sto"));
   motion.times.resize(3);
   motion.values.conservativeResize(3, Eigen::NoChange);
-  const std::vector<std::string> left_out =
-      write_scene_folder(model, {path.parent_path(), {data_root() / "opensim/geometry"}, {}}, {{"walk", motion}}, {},
-                         folder.path())
-          .left_out;
+  const GeometryPlaces places{path.parent_path(), {data_root() / "opensim/geometry"}, {}};
+  const auto left_out = write_scene_folder(model, places, {{"walk", motion}}, {}, folder.path()).left_out;
   EXPECT_THAT(left_out, testing::IsEmpty());
   const LoadedScene loaded = read_scene(folder.path() / "walk.toml");
   EXPECT_EQ(loaded.scene.muscles.size(), 92u);

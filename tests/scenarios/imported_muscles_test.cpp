@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Motions, ImportedHip, testing::Values("hip_flexion", "h
 
 /// Muscles of the walking model that are easily led astray: tendons between the foot's bones and around the ankle, ends
 /// that move with the patella, points that come and go. A frame every 0.1 s.
-static Scene walking(const std::vector<std::string>& muscles, bool in_contact = false) {
+static Scene walking(const std::vector<std::string>& muscles, bool in_contact = false, bool merge_heads = false) {
   const auto folder = data_folder() / "opensim";
   const auto path = folder / "subject01_simbody_adjusted_StaticOp.osim";
   const Model model = read_model(path);
@@ -87,6 +87,7 @@ static Scene walking(const std::vector<std::string>& muscles, bool in_contact = 
   SceneOptions options;
   options.set = {"motion.time_step=0.1"};
   settings.apart = in_contact;
+  settings.merge_heads = merge_heads;
   if (in_contact) options.set.push_back("contact.muscle=surface");
   return imported(model, {folder, {folder / "geometry"}, {}}, {"walk", motion}, settings, options);
 }
@@ -96,6 +97,15 @@ TEST(ImportedWalk, muscles_miss_no_gate) {
   const Scene scene = walking({"ext_hal_r", "ext_hal_l", "per_long_r", "tib_post_l", "soleus_r", "med_gas_l",
                                "vas_int_r", "vas_med_r", "rect_fem_r", "tfl_r", "semimem_r", "peri_r", "psoas_r"});
   ASSERT_EQ(scene.muscles.size(), 13u);
+  expect_gates(scene, run_whole(scene));
+}
+
+TEST(ImportedWalk, heads_made_one_sheet_miss_no_gate) {
+  SKIP_WITHOUT_DATA();
+  const Scene scene = walking({"glut_max1_r", "glut_max2_r", "glut_max3_r", "glut_med1_r", "glut_med2_r", "glut_med3_r",
+                               "glut_min1_r", "glut_min2_r", "glut_min3_r", "add_mag1_r", "add_mag2_r", "add_mag3_r"},
+                              false, true);
+  ASSERT_EQ(scene.muscles.size(), 4u);
   expect_gates(scene, run_whole(scene));
 }
 
