@@ -40,7 +40,7 @@ OverlapReport report_overlaps(const Scene& scene) {
   std::vector<std::vector<char>> in_tendon;
   for (const Muscle& muscle : scene.muscles) {
     report.of_vertices += muscle.surface.vertex_count();
-    in_tendon.push_back(tendon_vertices(muscle));
+    in_tendon.push_back(in_tendons(muscle));
   }
   report.pairs.resize(overlaps.size());
   parallel_for_each(overlaps.size(), [&](std::size_t i) {

@@ -39,10 +39,9 @@ LineSections line_sections(const Muscle& muscle) {
   return line_sections(muscle.action_line, muscle.surface.vertices.col(0));
 }
 
-Index section_of_vertex(const LineSections& sections, Index vertex) {
-  const auto count = static_cast<Index>(sections.places.size());
-  if (vertex < count * sections.line.rays) return vertex / sections.line.rays;
-  return vertex == count * sections.line.rays ? 0 : count - 1;
+Index section_of_vertex(Index vertex, Index sections, Index rays) {
+  if (vertex < sections * rays) return vertex / rays;
+  return vertex == sections * rays ? 0 : sections - 1;
 }
 
 Real distance_from_tendon(const LineSections& sections, Index section) {

@@ -23,8 +23,8 @@ LineSections line_sections(const ActionLine& line, const Vec3& first_corner);
 /// Precondition: the muscle has an action line of which its surface was made, and that is one line.
 LineSections line_sections(const Muscle& muscle);
 
-/// The section that a vertex of the muscle's surface belongs to; the two that close the ends belong to theirs.
-Index section_of_vertex(const LineSections& sections, Index vertex);
+/// The section that a vertex of a surface of so many sections belongs to; the two that close the ends belong to theirs.
+Index section_of_vertex(Index vertex, Index sections, Index rays);
 
 /// How far a section is from the nearest tendon, along the line in the capture pose, m: 0 or less in one, whose
 /// sections keep their distance from the line's end; infinite where there is none.

@@ -83,10 +83,9 @@ std::vector<LineShare> line_shares(const ActionLine& line, Index vertices) {
   const Index sections = (vertices - 2) / line.rays;
   for (Index v = 0; v < vertices; ++v) {
     LineShare& share = shares[static_cast<std::size_t>(v)];
-    const bool is_corner = v < sections * line.rays;
-    share.section = is_corner ? v / line.rays : v == sections * line.rays ? 0 : sections - 1;
+    share.section = section_of_vertex(v, sections, line.rays);
     if (line.heads.empty()) continue;
-    const Real corner = is_corner ? v % line.rays : before_middle(line.rays) + 0.5;
+    const Real corner = v < sections * line.rays ? v % line.rays : before_middle(line.rays) + 0.5;
     const SheetCorner place = sheet_corner(line.rays, line.side, line.heads.size(), corner);
     share.line = place.head;
     share.next = place.next;
@@ -126,18 +125,21 @@ std::vector<LineShare> vertex_shares(const Muscle& muscle, const std::vector<Poi
   return shares;
 }
 
-std::vector<char> tendon_vertices(const Muscle& muscle) {
+std::vector<char> in_tendons(const std::vector<LineSections>& lines, const std::vector<LineShare>& shares) {
   std::vector<char> in_tendon;
-  if (muscle.action_line.rays == 0) return in_tendon;
+  for (const LineShare& share : shares) {
+    const auto is_tendon = [&](std::size_t line) { return distance_from_tendon(lines[line], share.section) <= 0; };
+    in_tendon.push_back((share.next >= 1 || is_tendon(share.line)) && (share.next <= 0 || is_tendon(share.line + 1)));
+  }
+  return in_tendon;
+}
+
+std::vector<char> in_tendons(const Muscle& muscle) {
+  if (muscle.action_line.rays == 0) return {};
   const std::vector<LineSections> lines = carrying_lines(muscle);
   std::vector<Points> centers;
   for (const LineSections& line : lines) centers.push_back(section_line(line.line).centers);
-  for (const LineShare& share : vertex_shares(muscle, centers)) {
-    const auto is_tendon = [&](std::size_t line) { return distance_from_tendon(lines[line], share.section) <= 0; };
-    in_tendon.push_back((share.next < 1 ? is_tendon(share.line) : true) &&
-                        (share.next > 0 ? is_tendon(share.line + 1) : true));
-  }
-  return in_tendon;
+  return in_tendons(lines, vertex_shares(muscle, centers));
 }
 
 }  // namespace gracilis

@@ -49,7 +49,10 @@ LineShare nearest_share(const std::vector<Points>& centers, const Vec3& point);
 /// Of each vertex of a muscle's surface, which may be a finer or coarser copy. `centers`: as above.
 std::vector<LineShare> vertex_shares(const Muscle& muscle, const std::vector<Points>& centers);
 
-/// Which vertices of a muscle lie in tendons; empty where it has no line.
-std::vector<char> tendon_vertices(const Muscle& muscle);
+/// Which of what has these shares lies in tendons, of all lines that carry it.
+std::vector<char> in_tendons(const std::vector<LineSections>& lines, const std::vector<LineShare>& shares);
+
+/// The same of a muscle's vertices; empty where it has no line.
+std::vector<char> in_tendons(const Muscle& muscle);
 
 }  // namespace gracilis

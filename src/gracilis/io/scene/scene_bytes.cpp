@@ -175,7 +175,7 @@ void serialize(Archive& archive, Scene& scene) {
 }
 
 /// What the bytes begin with.
-static const std::string mark = "gracilis scene 1\n";
+static const std::string mark = "gracilis scene 2\n";
 
 std::string scene_bytes(const Scene& scene) {
   std::ostringstream bytes(std::ios::binary);

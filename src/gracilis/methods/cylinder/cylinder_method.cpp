@@ -87,7 +87,7 @@ static CylinderMuscle prepare(const Pose& capture, const Muscle& muscle) {
   result.spacing = spacing_of(sections.centers);
   result.shape.resize(3, muscle.surface.vertex_count());
   for (Index v = 0; v < muscle.surface.vertex_count(); ++v) {
-    const Index k = section_of_vertex(result.sections, v);
+    const Index k = section_of_vertex(v, count, result.rays);
     result.shape.col(v) =
         sections.frames.axes(k).transpose() * (muscle.surface.vertices.col(v) - sections.centers.col(k));
   }

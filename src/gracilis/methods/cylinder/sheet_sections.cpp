@@ -1,8 +1,7 @@
 #include <gracilis/methods/cylinder/sheet_sections.hpp>
 
 #include <gracilis/geometry/measures.hpp>
-
-#include <Eigen/Geometry>
+#include <gracilis/geometry/polygon_area.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,15 +22,6 @@ static Points carried(const SheetSections& sheet, const std::vector<PlacedSectio
   return vertices;
 }
 
-/// The area that a section's corners enclose as a vector across it, m².
-static Vec3 section_vector(const Points& vertices, Index section, Index rays) {
-  const auto corners = vertices.middleCols(section * rays, rays);
-  Vec3 sum = Vec3::Zero();
-  for (Index i = 1; i + 1 < rays; ++i)
-    sum += Vec3(corners.col(i) - corners.col(0)).cross(Vec3(corners.col(i + 1) - corners.col(0)));
-  return sum / 2;
-}
-
 /// What belongs to each section: its area over half of the way between its neighbors, m³. Sections stand askew to it.
 static Eigen::VectorXd volumes_of(const SheetSections& sheet, const Points& vertices) {
   const Index sections = static_cast<Index>(vertices.cols() - 2) / sheet.rays;
@@ -39,7 +29,7 @@ static Eigen::VectorXd volumes_of(const SheetSections& sheet, const Points& vert
   Eigen::VectorXd volumes(sections);
   for (Index k = 0; k < sections; ++k) {
     const Vec3 way = middle(std::min(k + 1, sections - 1)) - middle(std::max(k - 1, 0));
-    volumes[k] = std::abs(section_vector(vertices, k, sheet.rays).dot(way)) / 2;
+    volumes[k] = std::abs(polygon_area_vector(vertices.middleCols(k * sheet.rays, sheet.rays)).dot(way)) / 2;
   }
   return volumes;
 }

@@ -21,8 +21,8 @@ struct SheetSections {
 SheetSections sheet_sections(const Muscle& muscle, const Pose& capture);
 
 /// The muscle's vertices in a pose, m: each between where the sections of its two heads take it. Sections of the belly
-/// are as thick as keeps what belongs to them its volume, and the whole, by
-/// twice or half at most; how wide they are is up to the lines.
+/// are as thick as keeps what belongs to them its volume, and the whole, by twice or half at most; how wide they are is
+/// up to the lines.
 Points sheet_at(const SheetSections& sheet, const Pose& pose);
 
 }  // namespace gracilis

@@ -26,13 +26,6 @@ float mean_edge(const SurfaceSystem& system) {
   return system.distances.count > 0 ? static_cast<float>(sum / system.distances.count) : 0;
 }
 
-/// Which particles of a muscle about a line lie in its tendons; empty where there is no line.
-std::vector<char> tendon_particles(const PreparedMuscle& muscle) {
-  std::vector<char> in_tendon;
-  for (const Real belly : muscle.belly) in_tendon.push_back(!(belly > 0));
-  return in_tendon;
-}
-
 void add_surface(const PreparedMuscle& muscle, ContactWorld& world) {
   const Particles& rest = muscle.system.rest;
   world.surfaces.push_back(build_contact_surface(muscle.faces, rest.count()));
@@ -70,7 +63,7 @@ ContactWorld surfaces_of(const ContactSettings& settings, const SurfaceContactSe
     add_surface(muscle, world);
     rest.push_back(&muscle.system.rest);
     meshes.push_back({muscle.rest, muscle.faces});
-    in_tendon.push_back(tendon_particles(muscle));
+    in_tendon.push_back(in_tendons(muscle.lines, muscle.shares));
   }
   const OverlapTable overlaps(meshes, in_tendon);
   for (Index first = 0; first < count; ++first)

@@ -1,5 +1,6 @@
 #include <gracilis/opensim/import/bone_clearance.hpp>
 
+#include <gracilis/geometry/polygon_area.hpp>
 #include <gracilis/geometry/section_frames.hpp>
 
 #include <algorithm>
@@ -77,15 +78,6 @@ Points SectionRays::corners() const {
   return feet + (directions.array().rowwise() * lengths.reshaped().transpose().array()).matrix();
 }
 
-/// Of a section as a polygon, m².
-static Real area_of(const Points& corners) {
-  Vec3 sum = Vec3::Zero();
-  const Vec3 first = corners.col(0);
-  for (Eigen::Index i = 1; i + 1 < corners.cols(); ++i)
-    sum += (corners.col(i) - first).cross(corners.col(i + 1) - first);
-  return sum.norm() / 2;
-}
-
 namespace {
 
 /// A muscle's sections, and how far their corners may go.
@@ -100,7 +92,7 @@ struct Rooms {
   Real area(Eigen::Index k, const Eigen::VectorXd& lengths) const {
     const Points feet = rays.feet.middleCols(k * count(), count()),
                  directions = rays.directions.middleCols(k * count(), count());
-    return area_of(feet + directions * lengths.asDiagonal());
+    return polygon_area_vector(feet + directions * lengths.asDiagonal()).norm();
   }
 
   /// How far two sections are apart along the feet of a ray, m.

@@ -1,6 +1,7 @@
 #include <gracilis/opensim/import/drawn_apart.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <Eigen/Geometry>
@@ -96,7 +97,7 @@ bool draw_once(std::vector<Drawn>& drawn) {
   std::vector<std::vector<std::vector<Inside>>> inside(count, std::vector<std::vector<Inside>>(count));
   parallel_for_each(count, [&](std::size_t b) {
     const SignedDistance distance(meshes[b]);
-    const Eigen::AlignedBox3d box(meshes[b].vertices.rowwise().minCoeff(), meshes[b].vertices.rowwise().maxCoeff());
+    const Eigen::AlignedBox3d box = bounding_box(meshes[b].vertices);
     for (std::size_t a = 0; a < count; ++a)
       if (a != b) inside[a][b] = find_inside(meshes[a], distance, box);
   });

@@ -1,16 +1,12 @@
 #include <gracilis/opensim/import/muscle_names.hpp>
 
+#include <gracilis/io/text_cells.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <string_view>
 
 namespace gracilis::opensim {
-
-static std::string small(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
-  return text;
-}
 
 namespace {
 
@@ -22,7 +18,7 @@ struct Sides {
 }  // namespace
 
 static Sides without_sides(const std::string& name) {
-  const std::string text = small(name);
+  const std::string text = lower_case(name);
   std::size_t begin = 0, end = text.size();
   for (const std::string_view side : {"right_", "left_", "r_", "l_"})
     if (text.starts_with(side)) {
@@ -39,7 +35,7 @@ static Sides without_sides(const std::string& name) {
 
 std::string plain_muscle_name(const std::string& name) {
   const Sides sides = without_sides(name);
-  std::string text = small(name).substr(sides.begin, sides.count);
+  std::string text = lower_case(name).substr(sides.begin, sides.count);
   std::erase_if(text, [](char c) { return c < 'a' || c > 'z'; });
   return text;
 }
@@ -50,7 +46,7 @@ std::string muscle_of_head(const std::string& name) {
   std::string muscle = own;
   while (!muscle.empty() && std::isdigit(static_cast<unsigned char>(muscle.back()))) muscle.pop_back();
   for (const std::string_view head : {"prox", "mid", "dist", "isch"})
-    if (muscle == own && small(own).ends_with(head)) muscle.erase(muscle.size() - head.size());
+    if (muscle == own && lower_case(own).ends_with(head)) muscle.erase(muscle.size() - head.size());
   if (muscle != own && muscle.ends_with('_')) muscle.pop_back();
   return muscle == own || muscle.empty()
              ? ""
