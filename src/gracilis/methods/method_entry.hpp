@@ -69,7 +69,6 @@ struct MethodEntry {
   int (*resume_period)(const Scene&) = nullptr;
   /// Whether surfaces keep out of each other in this scene; none: never.
   bool (*has_surface_contact)(const Scene&) = nullptr;
-  bool leaves_pairs_out = false;  ///< of muscles one of which passes through the other: no contact between them
   /// Whether it asks for distance fields that reach far (strings::far_field_settings) in this scene; none: never.
   bool (*has_far_fields)(const Scene&) = nullptr;
   /// Of methods that make fibers of their own, which runs record in every frame; none: fibers follow the surface.

@@ -85,7 +85,7 @@ static std::string bone_warning(const std::vector<MuscleInBone>& in_bones) {
                                                : "");
 }
 
-std::vector<std::string> overlap_warnings(const OverlapReport& report, bool has_contact) {
+std::vector<std::string> overlap_warnings(const OverlapReport& report) {
   std::vector<std::string> warnings;
   if (const std::string in_bones = bone_warning(report.in_bones); !in_bones.empty()) warnings.push_back(in_bones);
   if (report.pairs.empty()) return warnings;
@@ -96,12 +96,12 @@ std::vector<std::string> overlap_warnings(const OverlapReport& report, bool has_
                      std::to_string(report.of_vertices) + " vertices lie in another muscle, in " +
                      std::to_string(report.pairs.size()) + (report.pairs.size() == 1 ? " pair" : " pairs") +
                      "; deepest " + worst);
-  if (!has_contact) return warnings;
   for (const MuscleOverlap& pair : report.pairs)
-    if (pair.is_left_out)
-      warnings.push_back("no contact between " + pair.first + " and " + pair.second +
-                         ": one passes through the other (" + millimeters(pair.deepest()) +
-                         " deep) in the capture pose");
+    if (pair.is_through)
+      warnings.push_back(pair.first + " and " + pair.second + " pass through each other (" +
+                         millimeters(pair.deepest()) +
+                         " deep) in the capture pose, so nothing tells which side is whose: contact keeps them as deep "
+                         "as they are there");
   return warnings;
 }
 

@@ -12,7 +12,7 @@ struct MuscleOverlap {
   std::string first, second;
   Index first_vertices = 0, second_vertices = 0;  ///< of the one inside the other
   Real first_deepest = 0, second_deepest = 0;     ///< m
-  bool is_left_out = false;  ///< contact between muscles' surfaces leaves them out: one passes through the other
+  bool is_through = false;                        ///< one passes through the other
 
   Real deepest() const { return first_deepest > second_deepest ? first_deepest : second_deepest; }
 };
@@ -35,9 +35,8 @@ struct OverlapReport {
 /// By exact distances (rest_overlap.hpp); takes about a second for 40,000 vertices. Precondition: the scene is valid.
 OverlapReport report_overlaps(const Scene& scene);
 
-/// What a user should know about it, one line each: how much overlaps and where most, and, where surfaces keep out of
-/// each other (`has_contact`), which pairs that leaves out; and what lies more than 1 mm deep in bones. Empty where
-/// nothing does.
-std::vector<std::string> overlap_warnings(const OverlapReport& report, bool has_contact);
+/// What a user should know about it, one line each: what lies more than 1 mm deep in bones, how much overlaps and where
+/// most, and which muscles pass through each other. Empty where nothing does.
+std::vector<std::string> overlap_warnings(const OverlapReport& report);
 
 }  // namespace gracilis

@@ -3,6 +3,8 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
 
+#include <algorithm>
+
 namespace gracilis {
 
 namespace {
@@ -36,7 +38,7 @@ int number_parts(const VertexStars& stars, const std::vector<char>& wanted, std:
 }
 
 struct Side {
-  std::vector<char> astray;
+  std::vector<Real> astray;
   Points ways;
   bool is_clear = true;
 };
@@ -44,7 +46,7 @@ struct Side {
 Side side_of(const InsideVertices& inside, const OverlappingSurface& surface) {
   const TriangleMesh& mesh = surface.mesh;
   const auto count = static_cast<std::size_t>(mesh.vertex_count());
-  Side side{std::vector<char>(count, 0), Points::Zero(3, static_cast<Eigen::Index>(count)), true};
+  Side side{std::vector<Real>(count, 0), Points::Zero(3, static_cast<Eigen::Index>(count)), true};
   if (inside.vertices.empty()) return side;
   const VertexStars stars = build_topology(mesh.faces, mesh.vertex_count()).stars;
   const Eigen::VectorXd areas = vertex_areas(mesh.vertices, mesh.faces);
@@ -56,12 +58,13 @@ Side side_of(const InsideVertices& inside, const OverlappingSurface& surface) {
   const auto pieces = static_cast<std::size_t>(number_parts(stars, is_outside, piece));
 
   std::vector<Vec3> way(regions, Vec3::Zero());
-  std::vector<Real> region_area(regions, 0), belly_area(regions, 0), piece_area(pieces, 0);
+  std::vector<Real> region_area(regions, 0), region_depth(regions, 0), belly_area(regions, 0), piece_area(pieces, 0);
   for (std::size_t i = 0; i < inside.vertices.size(); ++i) {
     const Index v = inside.vertices[i];
     const auto at = static_cast<std::size_t>(region[static_cast<std::size_t>(v)]);
     way[at] += areas[v] * inside.outward.col(static_cast<Eigen::Index>(i));
     region_area[at] += areas[v];
+    region_depth[at] = std::max(region_depth[at], inside.depths[i]);
     if (surface.in_tendon.empty() || !surface.in_tendon[static_cast<std::size_t>(v)]) belly_area[at] += areas[v];
   }
   std::size_t largest = 0;
@@ -85,9 +88,9 @@ Side side_of(const InsideVertices& inside, const OverlappingSurface& surface) {
   for_each_border([&](std::size_t r, std::size_t p) {
     if (piece_area[p] > region_area[r]) clear[r] = 0;
   });
-  std::vector<char> cut_off(pieces, 0);
+  std::vector<Real> cut_off(pieces, 0);  // by regions without a side: their depth
   for_each_border([&](std::size_t r, std::size_t p) {
-    if (!clear[r]) cut_off[p] = 1;
+    if (!clear[r]) cut_off[p] = std::max(cut_off[p], region_depth[r]);
   });
 
   Real clear_area = 0, area = 0;
@@ -96,9 +99,13 @@ Side side_of(const InsideVertices& inside, const OverlappingSurface& surface) {
   for (const Index v : inside.vertices)
     if (const auto r = static_cast<std::size_t>(region[static_cast<std::size_t>(v)]); clear[r])
       side.ways.col(v) = way[r].normalized();
-  for (std::size_t v = 0; v < count; ++v)
-    side.astray[v] =
-        region[v] >= 0 ? !clear[static_cast<std::size_t>(region[v])] : cut_off[static_cast<std::size_t>(piece[v])];
+  for (std::size_t v = 0; v < count; ++v) {
+    const auto r = static_cast<std::size_t>(region[v]);
+    if (region[v] < 0)
+      side.astray[v] = cut_off[static_cast<std::size_t>(piece[v])];
+    else if (!clear[r])
+      side.astray[v] = region_depth[r];
+  }
   return side;
 }
 

@@ -10,7 +10,8 @@ namespace gracilis {
 /// side when the shortest ways out of all its vertices lead about the same way, and it does not cut its surface into
 /// pieces, as it would where that passes through the other.
 struct OverlapSides {
-  std::vector<char> first_astray, second_astray;  ///< per vertex: in a region without a side, or cut off by one
+  std::vector<Real> first_astray, second_astray;  ///< per vertex: how deep the region without a side is that it lies
+                                                  ///< in, or that cuts it off, m; 0 elsewhere
   Points first_ways, second_ways;  ///< per vertex: of its region the mean of the ways out, unit; 0 without a side
   bool is_through = false;  ///< neither surface has a side for at least half of what of its belly lies inside: one
                             ///< passes through the other

@@ -102,7 +102,7 @@ nlohmann::ordered_json overlaps_json(const OverlapReport& report) {
                      {"vertices_of_second_inside", pair.second_vertices},
                      {"first_deepest_mm", 1e3 * pair.first_deepest},
                      {"second_deepest_mm", 1e3 * pair.second_deepest},
-                     {"left_out_of_contact", pair.is_left_out}});
+                     {"passes_through", pair.is_through}});
   nlohmann::ordered_json in_bones = nlohmann::json::array();
   for (const MuscleInBone& each : report.in_bones)
     in_bones.push_back({{"pair", each.muscle + ", " + each.bone},

@@ -69,9 +69,8 @@ ContactWorld surfaces_of(const ContactSettings& settings, const SurfaceContactSe
   for (Index first = 0; first < count; ++first)
     for (Index second = first; second < count; ++second) {
       if (second == first && !muscles[static_cast<std::size_t>(first)].keeps_out_of_itself) continue;
-      if (overlaps.is_left_out(first, second)) continue;
       world.pairs.push_back(pair_of(first, second, muscles, margin));
-      overlaps.mark(world.pairs.back());
+      overlaps.mark(static_cast<float>(settings.reach), world.pairs.back());
     }
   for (SurfacePair& pair : world.pairs)
     // Parts of one surface come near each other slowly, but edges may cross halfway between particles.

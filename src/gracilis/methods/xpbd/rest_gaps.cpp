@@ -20,12 +20,19 @@ constexpr float no_gap = -1;
 /// By how much of the way from an attachment that stays overlapped its surroundings are taken apart.
 constexpr float release_slope = 0.5f;
 
-void mark_side(const InsideVertices& inside, const std::vector<char>& astray, std::vector<float>& gaps,
-               std::vector<char>& overlaps) {
+/// What is astray stays as deep as it is where muscles pass through each other; elsewhere what of it lies in regions
+/// deeper than `reach`, m.
+void mark_side(const InsideVertices& inside, const std::vector<Real>& astray, bool is_through, float reach,
+               std::vector<float>& gaps, std::vector<char>& overlaps) {
   overlaps.assign(gaps.size(), 0);
   for (const Index v : inside.vertices) overlaps[static_cast<std::size_t>(v)] = 1;
-  for (std::size_t v = 0; v < astray.size(); ++v)
-    if (astray[v]) gaps[v] = no_gap;
+  for (std::size_t v = 0; v < astray.size(); ++v) {
+    if (astray[v] == 0) continue;
+    if (is_through || (overlaps[v] && astray[v] > reach))
+      overlaps[v] = 0;
+    else
+      gaps[v] = no_gap;
+  }
 }
 
 bool is_held(const ContactSurface& surface, Index face, const Particles& particles) {
@@ -144,24 +151,21 @@ const OverlapTable::Entry* OverlapTable::find(Index first, Index second) const {
   return at == entries_.end() ? nullptr : &at->second;
 }
 
-bool OverlapTable::is_left_out(Index first, Index second) const {
-  const Entry* entry = find(first, second);
-  return entry && entry->sides.is_through;
-}
-
 Real OverlapTable::deepest(Index first, Index second) const {
   const Entry* entry = find(first, second);
   return entry ? entry->overlap.deepest() : 0;
 }
 
-void OverlapTable::mark(SurfacePair& pair) const {
+void OverlapTable::mark(float reach, SurfacePair& pair) const {
   const Entry* entry = find(pair.first, pair.second);
   if (!entry) return;
   pair.release = std::max(least_release, static_cast<float>(entry->overlap.deepest()) / release_steps);
-  mark_side(entry->overlap.of_first, entry->sides.first_astray, pair.first_gap, pair.first_overlaps);
-  mark_side(entry->overlap.of_second, entry->sides.second_astray, pair.second_gap, pair.second_overlaps);
-  pair.first_ways = entry->sides.first_ways.cast<float>();
-  pair.second_ways = entry->sides.second_ways.cast<float>();
+  const OverlapSides& sides = entry->sides;
+  mark_side(entry->overlap.of_first, sides.first_astray, sides.is_through, reach, pair.first_gap, pair.first_overlaps);
+  mark_side(entry->overlap.of_second, sides.second_astray, sides.is_through, reach, pair.second_gap,
+            pair.second_overlaps);
+  pair.first_ways = sides.first_ways.cast<float>();
+  pair.second_ways = sides.second_ways.cast<float>();
 }
 
 void measure_rest_gaps(const ContactWorldState& state, const std::vector<const Particles*>& rest, std::size_t number,

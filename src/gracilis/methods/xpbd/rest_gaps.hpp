@@ -17,13 +17,12 @@ class OverlapTable {
   /// belong to tendons.
   OverlapTable(const std::vector<TriangleMesh>& meshes, const std::vector<std::vector<char>>& in_tendon);
 
-  /// Whether one of the two passes through the other, so that nothing tells how to take them apart.
-  bool is_left_out(Index first, Index second) const;
   /// m; 0 where they do not overlap.
   Real deepest(Index first, Index second) const;
-  /// Notes which particles overlap, and how fast they come out. Those that have no side to come out on are not kept out
-  /// of the other.
-  void mark(SurfacePair& pair) const;
+  /// Notes which particles overlap, and how fast they come out. Those that have no side to come out on stay as deep as
+  /// they are where one muscle passes through the other or their region is deeper than `reach`, m; elsewhere they are
+  /// not kept out, for where thin overlaps stay among others that are released, surfaces fold.
+  void mark(float reach, SurfacePair& pair) const;
 
  private:
   struct Entry {

@@ -63,7 +63,6 @@ MethodEntry xpbd_entry() {
           .make = make_xpbd,
           .resume_period = xpbd_resume_period,
           .has_surface_contact = has_surface_contact,
-          .leaves_pairs_out = true,
           .has_far_fields = needs_far_fields,
           .phase_timer = xpbd::phase_timer};
 }

@@ -101,8 +101,7 @@ class Session {
   void prepare() {
     const StopScope scope(&stop_);
     overlaps_ = report_overlaps(loaded_.scene);
-    const bool leaves_out = method_of(loaded_.scene).leaves_pairs_out && keeps_surfaces_apart(loaded_.scene);
-    for (const std::string& warning : overlap_warnings(overlaps_, leaves_out)) warn(warning);
+    for (const std::string& warning : overlap_warnings(overlaps_)) warn(warning);
     method_ =
         make_method(loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
     if (options_.without_fibers) return;
