@@ -34,7 +34,8 @@ class LaneElimination {
         const std::size_t at = i * width_ + s;
         const V free = load(r_.free, at), zero = hn::Zero(D());
         const Matrix before = load_matrix(&r_.before[9 * at]);
-        const Matrix pivot = load_matrix(&r_.here[9 * at]) - times(before, load_matrix(&r_.upper[9 * (at - width_)]));
+        const Matrix here = plus_diagonal(load_matrix(&r_.here[9 * at]), load(r_.held, s));
+        const Matrix pivot = here - times(before, load_matrix(&r_.upper[9 * (at - width_)]));
         V determinant;
         const Matrix inverse = HWY_NAMESPACE::inverse(pivot, determinant);
         const auto is_free = hn::Gt(free, zero);

@@ -57,6 +57,12 @@ class LaneEquilibrium {
     for (std::size_t i = 1; i < inner_; ++i)
       for (std::size_t s = 0; s < static_cast<std::size_t>(lanes_.strings); ++s)
         if (!left_out[s]) r_.free[i * width_ + s] = lanes_.free[i * width_ + s];
+    r_.held.assign(width_, 0);
+    eliminate();
+  }
+
+  /// Again, with strings held as the workspace says.
+  void eliminate() {
     elimination_.eliminate();
     krylov_.forget();
   }

@@ -20,6 +20,7 @@ struct RateWorkspace {
   std::vector<float> force;                ///< 3 per node, 1
   std::vector<float> before, here, after;  ///< 9 per node, 1/m: by the node before, itself, and the node after
   std::vector<float> inverse, upper;       ///< 9 per node: each string's own part, eliminated
+  std::vector<float> held;                 ///< per string: what its nodes are held with where they are, 1/m
   std::vector<char> stable;                ///< per string: no pivot of it is negative
 
   std::vector<float> direction;      ///< 3 per node: of the string, unit
