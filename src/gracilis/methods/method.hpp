@@ -60,9 +60,9 @@ class DeformationMethod {
   /// to the last, for what a method follows through them.
   virtual void restore(const std::vector<Pose>& poses, const Frame& before, const Frame& last) = 0;
 
-  /// From now on only fibers are asked for: where a method knows those of a muscle by itself, its frames may have no
-  /// points of that muscle.
-  virtual void leave_out_surfaces() {}
+  /// From now on only lengths and arms of fibers are asked for: where a method knows those of a muscle by itself, its
+  /// frames may have no points of that muscle, and its actions no wrenches.
+  virtual void give_lengths_and_arms() {}
 
   /// Whether what it computes depends on how fast the machine is; nothing should run beside it then.
   virtual bool depends_on_clock() const { return false; }

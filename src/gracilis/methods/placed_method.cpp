@@ -61,7 +61,7 @@ class PlacedMethod final : public DeformationMethod {
     shift_shapes(frame, place_);
   }
 
-  void leave_out_surfaces() override { method_->leave_out_surfaces(); }
+  void give_lengths_and_arms() override { method_->give_lengths_and_arms(); }
 
   void restore(const std::vector<Pose>& poses, const Frame& before, const Frame& last) override {
     std::vector<Pose> near;

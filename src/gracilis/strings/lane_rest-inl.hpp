@@ -41,10 +41,10 @@ class LaneRest {
     for (int step = 0;; ++step) {
       equilibrium_.differentiate();
       const bool any_held = hold_unstable();
-      Step now{equilibrium_.moves(r_.force, step_tolerance), {}};
+      const float tolerance = step > 0 && last.longest() < short_step ? last_tolerance : first_tolerance;
+      Step now{equilibrium_.moves(r_.force, tolerance), {}};
       now.farthest = farthest_of(now.moves);
-      const bool rests = *std::max_element(now.farthest.begin(), now.farthest.begin() + lanes_.strings) <
-                         static_cast<float>(strings::unsettled_move);
+      const bool rests = now.longest() < static_cast<float>(strings::unsettled_move);
       if (rests || step == most_steps) {
         if (rests) take_back(now, std::vector<float>(width_, 1));
         if (any_held) equilibrium_.leave_out(std::vector<char>(strings_, 0));
@@ -58,14 +58,17 @@ class LaneRest {
   }
 
  private:
-  /// Of its first guess a step leaves this to the next.
-  static constexpr float step_tolerance = 0.1f;
+  /// Of its first guess a step leaves the first of these to the next; the second where the last was this short, m: all
+  /// strings may move easily together, so that little force that is left may be a long way.
+  static constexpr float first_tolerance = 0.1f, last_tolerance = 1e-3f, short_step = 2e-4f;
   /// A longer step may lead to another equilibrium than that which is near, m.
   static constexpr float longest_step = 1e-3f;
 
   struct Step {
     Numbers moves;
     std::vector<float> farthest;  ///< of each string's nodes, m
+
+    float longest() const { return *std::max_element(farthest.begin(), farthest.end()); }
   };
 
   /// Towards a maximum a step would go with the forces: strings whose own systems are not positive are held where they

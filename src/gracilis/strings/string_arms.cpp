@@ -14,9 +14,9 @@
 HWY_BEFORE_NAMESPACE();
 namespace gracilis::HWY_NAMESPACE {
 
-/// Relative residuals that are left: of motions, whose arms it moves by micrometres, and of weights, from which forces
-/// come that have to balance.
-inline constexpr float motion_tolerance = 1e-3f, weight_tolerance = 1e-5f;
+/// Relative residuals that are left: of motions, whose arms it moves by micrometres, and of weights, whose work with
+/// the same motions is the mean arm.
+inline constexpr float motion_tolerance = 1e-3f, weight_tolerance = 1e-4f;
 /// A string one of whose nodes moves so many times as fast as bodies carry any node of its muscle is about to snap ...
 inline constexpr float fastest = 6;
 /// ... but not one that hardly moves, m per unit of a coordinate.
@@ -74,18 +74,19 @@ class LaneActions {
       const auto [force, moment] = equilibrium_.on_body(b, adjoint);
       add_wrench(actions.wrenches, static_cast<Index>(b), force, moment + w_.center.cross(force));
     }
+    // What the solve left over is taken for nodes that bodies carry, so that all forces balance whatever that is.
     const Numbers at_nodes = equilibrium_.by_places_transposed(adjoint);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(muscle_.nodes); ++i)
-      for (std::size_t s = 0; s < actions.doubtful.size(); ++s) {
-        const std::size_t at = i * width_ + s;
-        if (r_.free[at] > 0) continue;
-        const Vec3 force = vector_at(at_nodes, s, i) - vector_at(weights, s, i);
-        const Vec3 place = w_.center + Eigen::Vector3f(w_.place[0][at], w_.place[1][at], w_.place[2][at]).cast<Real>();
-        for (std::size_t c = 0; c < lanes_.bodies.size(); ++c) {
-          const Vec3 share = static_cast<Real>(lanes_.shares[c][at]) * force;
-          add_wrench(actions.wrenches, lanes_.bodies[c], share, place.cross(share));
-        }
+    for (std::size_t c = 0; c < lanes_.bodies.size(); ++c) {
+      const V zero = hn::Zero(D());
+      Point force{zero, zero, zero}, moment = force;
+      for (std::size_t at = 0; 3 * at < weights.size(); at += hn::Lanes(D())) {
+        const Point each =
+            scaled(load(lanes_.shares[c], at), load_point(&at_nodes[3 * at]) - load_point(&weights[3 * at]));
+        force = force + each, moment = moment + cross(load(w_.place, at), each);
       }
+      const Vec3 sum = total(force).cast<Real>();
+      add_wrench(actions.wrenches, lanes_.bodies[c], sum, total(moment).cast<Real>() + w_.center.cross(sum));
+    }
   }
 
  private:
@@ -158,7 +159,7 @@ class LaneActions {
 
 void find_actions(const strings::MuscleStrings& muscle, const strings::BoneDistances& bones,
                   const strings::StringState& state, const std::vector<std::vector<Twist>>& coordinates,
-                  LaneWorkspace& workspace, RateWorkspace& rates, FiberActions& actions) {
+                  bool with_wrenches, LaneWorkspace& workspace, RateWorkspace& rates, FiberActions& actions) {
   LanePose(muscle, bones, state.bodies, workspace).begin(lane_places(muscle.lanes, state.places));
   LaneEquilibrium equilibrium(muscle, bones, state.bodies, workspace, rates);
   for (const float move : LaneRest(muscle, bones, workspace, rates, equilibrium).find())
@@ -166,7 +167,7 @@ void find_actions(const strings::MuscleStrings& muscle, const strings::BoneDista
   LaneActions found(muscle, workspace, rates, equilibrium);
   found.find_directions(actions);
   found.find_arms(coordinates, actions);
-  found.find_wrenches(state.bodies.size(), actions);
+  if (with_wrenches) found.find_wrenches(state.bodies.size(), actions);
 }
 
 }  // namespace gracilis::HWY_NAMESPACE
@@ -180,12 +181,12 @@ HWY_EXPORT(find_actions);
 namespace strings {
 
 FiberActions string_actions(const MuscleStrings& muscle, const BoneDistances& bones, const StringState& state,
-                            const std::vector<std::vector<Twist>>& coordinates) {
+                            const std::vector<std::vector<Twist>>& coordinates, bool with_wrenches) {
   // Kept between calls, as in relax_lanes.
   static thread_local LaneWorkspace workspace;
   static thread_local RateWorkspace rates;
   FiberActions actions;
-  HWY_DYNAMIC_DISPATCH(find_actions)(muscle, bones, state, coordinates, workspace, rates, actions);
+  HWY_DYNAMIC_DISPATCH(find_actions)(muscle, bones, state, coordinates, with_wrenches, workspace, rates, actions);
   // Doubtful ones, too: fibers differ so much in their arms that a mean without some jumps by centimetres.
   actions.mean_arms = actions.arms.colwise().mean();
   return actions;

@@ -97,14 +97,14 @@ class StringsMethod final : public DeformationMethod {
   }
 
   /// Bodies that lie on a muscle go with its surface.
-  void leave_out_surfaces() override { with_surfaces_ = !carried_.empty(); }
+  void give_lengths_and_arms() override { with_surfaces_ = !carried_.empty(), with_wrenches_ = false; }
 
   std::vector<FiberActions> fiber_actions(const std::vector<std::vector<Twist>>& coordinates) const override {
     std::vector<FiberActions> actions(muscles_.size());
     parallel_for_each(muscles_.size(), [&](std::size_t m) {
       throw_if_stopped();
       if (muscles_[m].strings && muscles_[m].wants_fibers)
-        actions[m] = string_actions(*muscles_[m].strings, bones_, states_[m].strings, coordinates);
+        actions[m] = string_actions(*muscles_[m].strings, bones_, states_[m].strings, coordinates, with_wrenches_);
     });
     return actions;
   }
@@ -165,7 +165,7 @@ class StringsMethod final : public DeformationMethod {
   std::vector<CarriedBody> carried_;
   std::vector<StrungMuscle> muscles_;
   std::vector<StrungState> states_;
-  bool with_surfaces_ = true;
+  bool with_surfaces_ = true, with_wrenches_ = true;
 };
 
 }  // namespace

@@ -82,7 +82,7 @@ SessionResult record_tables(const LoadedScene& loaded, const SessionOptions& opt
     });
     listener.tell(MessageKind::note, "fibers");
     const Frame capture = capture_frame(scene, capture_pose(scene.bodies.size()), *method);
-    method->leave_out_surfaces();
+    method->give_lengths_and_arms();
     const FiberTracker tracker(scene, &capture);
     if (listener.begin) listener.begin(0, last);
     const auto record = [&](const FrameRecord& now) {
