@@ -1,5 +1,6 @@
 #include <gracilis/methods/tissue/seen_surface.hpp>
 
+#include <gracilis/geometry/field_spline.hpp>
 #include <gracilis/geometry/measures.hpp>
 
 #include <algorithm>
