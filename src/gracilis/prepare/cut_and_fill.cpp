@@ -15,25 +15,6 @@ namespace {
 constexpr int most_cuts = 5;
 constexpr Real most_of_it = 0.5;  ///< of the triangles may go in one cut; more is no mending
 
-std::vector<char> faces_that_cut(const TriangleMesh& mesh, const TimeLimit& limit) {
-  std::vector<char> bad(static_cast<std::size_t>(mesh.face_count()), 0);
-  const std::array<const TriangleMesh*, 1> one = {&mesh};
-  for (const FacePair& pair : intersecting_faces(one, false, limit))
-    bad[static_cast<std::size_t>(pair.face_a)] = bad[static_cast<std::size_t>(pair.face_b)] = 1;
-  return bad;
-}
-
-/// Also the faces that share a vertex with one of them.
-void widen(const TriangleMesh& mesh, std::vector<char>& chosen) {
-  std::vector<char> touched(static_cast<std::size_t>(mesh.vertex_count()), 0);
-  for (Index f = 0; f < mesh.face_count(); ++f)
-    if (chosen[static_cast<std::size_t>(f)])
-      for (const Index v : mesh.faces.col(f)) touched[static_cast<std::size_t>(v)] = 1;
-  for (Index f = 0; f < mesh.face_count(); ++f)
-    for (const Index v : mesh.faces.col(f))
-      if (touched[static_cast<std::size_t>(v)]) chosen[static_cast<std::size_t>(f)] = 1;
-}
-
 /// Tells whether enough is left.
 bool cut_out(TriangleMesh& mesh, const std::vector<char>& chosen) {
   Index kept = 0;
@@ -45,6 +26,24 @@ bool cut_out(TriangleMesh& mesh, const std::vector<char>& chosen) {
 }
 
 }  // namespace
+
+std::vector<char> faces_that_cut(const TriangleMesh& mesh, const TimeLimit& limit) {
+  std::vector<char> bad(static_cast<std::size_t>(mesh.face_count()), 0);
+  const std::array<const TriangleMesh*, 1> one = {&mesh};
+  for (const FacePair& pair : intersecting_faces(one, false, limit))
+    bad[static_cast<std::size_t>(pair.face_a)] = bad[static_cast<std::size_t>(pair.face_b)] = 1;
+  return bad;
+}
+
+void widen(const TriangleMesh& mesh, std::vector<char>& chosen) {
+  std::vector<char> touched(static_cast<std::size_t>(mesh.vertex_count()), 0);
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    if (chosen[static_cast<std::size_t>(f)])
+      for (const Index v : mesh.faces.col(f)) touched[static_cast<std::size_t>(v)] = 1;
+  for (Index f = 0; f < mesh.face_count(); ++f)
+    for (const Index v : mesh.faces.col(f))
+      if (touched[static_cast<std::size_t>(v)]) chosen[static_cast<std::size_t>(f)] = 1;
+}
 
 bool cut_and_fill(TriangleMesh& mesh, Real crumb_share, const TimeLimit& limit) {
   for (int cut = 0; cut <= most_cuts; ++cut) {

@@ -37,12 +37,25 @@ std::vector<TriangleMesh> meshes_of(const std::vector<NamedSurface>& surfaces) {
 bool untangle(TriangleMesh& mesh, const std::string& name, const PrepareSettings& settings, const TimeLimit& limit) {
   if (!cuts_itself(mesh, limit)) return false;
   const Real volume = volume_of(mesh);
+  const Index before = mesh.face_count();
   mesh = fix_surface(mesh, name, limit).mesh;
+  // A grid's triangles, where it was rebuilt.
+  if (settings.edge_length > 0 && mesh.face_count() > 2 * before) mesh = coarsened(mesh, settings.edge_length, limit);
   if (std::abs(volume_of(mesh) / volume - 1) <= settings.volume_tolerance) return true;
   TriangleMesh again = mesh;
   set_volume(again, volume, limit);
   if (is_solid(again) && !cuts_itself(again, limit)) mesh = std::move(again);
   return true;
+}
+
+/// Spikes and rims are rounded as far as the volume can be given back.
+void round_in_place(TriangleMesh& mesh, const PrepareSettings& settings, const TimeLimit& limit) {
+  TriangleMesh rounded = mesh;
+  round_off(rounded, sharpest_turn, settings.rounding_rounds, farthest_rounding);
+  const Real volume = volume_of(mesh);
+  const auto is_kept = [&] { return std::abs(volume_of(rounded) / volume - 1) <= settings.volume_tolerance; };
+  if (settings.volume_tolerance < 1 && !is_kept()) set_volume(rounded, volume, limit);
+  if (settings.volume_tolerance >= 1 || is_kept()) mesh = std::move(rounded);
 }
 
 /// A muscle by itself, before the others are looked at.
@@ -64,7 +77,7 @@ Shaped shaped(const NamedSurface& muscle, const PrepareSettings& settings, const
     result.mesh =
         reshaped(result.mesh, settings, limit, [&](const std::string& text) { say(muscle.name + ": " + text); });
   } else {
-    round_off(result.mesh, sharpest_turn, settings.rounding_rounds, farthest_rounding);
+    round_in_place(result.mesh, settings, limit);
   }
   untangle(result.mesh, muscle.name, settings, limit);
   if (!is_solid(result.mesh)) result.mesh = fix_surface(result.mesh, muscle.name, limit).mesh;

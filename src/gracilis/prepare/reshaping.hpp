@@ -18,6 +18,10 @@ bool has_edges_about(const TriangleMesh& mesh, Real length);
 TriangleMesh reshaped(const TriangleMesh& mesh, const PrepareSettings& settings, const TimeLimit& limit,
                       const std::function<void(const std::string&)>& say);
 
+/// Fewer triangles of a closed surface, down to those of edges as long as asked for: as few as it has without cutting
+/// itself. The surface stays within what its own triangles tell.
+TriangleMesh coarsened(const TriangleMesh& mesh, Real edge_length, const TimeLimit& limit);
+
 /// The same triangles' size without rounding: again after surfaces were moved.
 TriangleMesh remeshed(const TriangleMesh& mesh, const PrepareSettings& settings, const TimeLimit& limit);
 

@@ -5,6 +5,7 @@
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/prepare/cgal.hpp>
+#include <gracilis/prepare/cracks.hpp>
 #include <gracilis/prepare/cut_and_fill.hpp>
 #include <gracilis/prepare/rebuilding.hpp>
 #include <gracilis/prepare/solids.hpp>
@@ -34,6 +35,13 @@ void take(RepairedMesh repaired, FixedSurface& fixed) {
   for (const std::string& repair : repaired.repairs) fixed.repairs.push_back(repair);
 }
 
+/// Without crumbs, unless most of it is crumbs: triangles of their own, for example.
+RepairedMesh without_crumbs(const TriangleMesh& mesh) {
+  RepairedMesh repaired = repair_mesh(mesh, crumb_share);
+  const auto area = [](const TriangleMesh& each) { return surface_area(each.vertices, each.faces); };
+  return area(repaired.mesh) < least_area * area(mesh) ? repair_mesh(mesh) : repaired;
+}
+
 /// Only faces count: vertices that no face names are left behind.
 void make_manifold(FixedSurface& fixed) {
   const MeshReport before = inspect_mesh(fixed.mesh);
@@ -46,6 +54,10 @@ void make_manifold(FixedSurface& fixed) {
                             counted(before.pinched_vertices.count, "vertex", "vertices"));
   if (!before.non_manifold_edges && !before.pinched_vertices)
     fixed.repairs.push_back("rebuilt how the faces hang together");
+  if (const Index joined = close_cracks(fixed.mesh); joined > 0) {
+    fixed.repairs.push_back("closed cracks at " + counted(joined, "vertex", "vertices"));
+    fixed.mesh = manifold_of_soup(fixed.mesh);
+  }
 }
 
 /// What was done to all pieces together.
@@ -136,10 +148,11 @@ void rebuild_if_more(const TriangleMesh& whole, FixedSurface& fixed, const TimeL
 FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, const TimeLimit& limit) {
   check_input(mesh, name);
   FixedSurface fixed;
-  take(repair_mesh(mesh, crumb_share), fixed);
+  take(without_crumbs(mesh), fixed);
   if (!is_solid(inspect_mesh(fixed.mesh))) {
+    take(repair_mesh(mesh), fixed = {});
     make_manifold(fixed);
-    take(repair_mesh(fixed.mesh, crumb_share), fixed);
+    take(without_crumbs(fixed.mesh), fixed);
   }
   Tally tally;
   const TriangleMesh whole = fixed.mesh;

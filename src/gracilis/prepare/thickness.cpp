@@ -41,20 +41,33 @@ static Real inner_radius(const NearestTriangle& surface, const Vec3& p, const Ve
   return radius;
 }
 
-void thicken(TriangleMesh& mesh, Real radius, const TimeLimit& limit) {
+/// Of every vertex, at most `largest`.
+static Eigen::VectorXd inner_radii(const TriangleMesh& mesh, const Points& normals, Real largest) {
+  const NearestTriangle surface(mesh);
+  Eigen::VectorXd radii(mesh.vertex_count());
+  parallel_for(mesh.vertex_count(), 256, [&](Index begin, Index end) {
+    for (Index v = begin; v < end; ++v) radii[v] = inner_radius(surface, mesh.vertices.col(v), normals.col(v), largest);
+  });
+  return radii;
+}
+
+static Real median(Eigen::VectorXd values) {
+  const auto middle = values.begin() + values.size() / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+Real thicken(TriangleMesh& mesh, Real radius, const TimeLimit& limit) {
   constexpr int rounds = 15;
   const MeshTopology topology = build_topology(mesh.faces, mesh.vertex_count());
   const Points start = mesh.vertices;
   for (int round = 0; round < rounds; ++round) {
     limit.check();
-    const NearestTriangle surface(mesh);
     const Points normals = outward_normals(mesh);
-    Eigen::VectorXd lack(mesh.vertex_count());
-    parallel_for(mesh.vertex_count(), 256, [&](Index begin, Index end) {
-      for (Index v = begin; v < end; ++v)
-        lack[v] = radius - inner_radius(surface, mesh.vertices.col(v), normals.col(v), radius);
-    });
-    if (lack.maxCoeff() < 0.05 * radius) return;
+    const Eigen::VectorXd radii = inner_radii(mesh, normals, radius);
+    if (round == 0) radius = median(radii);
+    Eigen::VectorXd lack = (radius - radii.array().min(radius)).matrix();
+    if (!(lack.maxCoeff() >= 0.05 * radius) || !(radius > 0)) break;
     // Smoothed as one row of a field along the surface.
     for (int i = 0; i < 2; ++i) {
       const Eigen::VectorXd before = lack;
@@ -71,16 +84,12 @@ void thicken(TriangleMesh& mesh, Real radius, const TimeLimit& limit) {
     }
     move_to_means(mesh.vertices, topology.stars, (lack.array() / radius).min(1).max(0), 0.3);
   }
+  return radius;
 }
 
 /// The balls' radii, each the mean of its own and its neighbors'.
 static Eigen::VectorXd even_radii(const TriangleMesh& mesh, const VertexStars& stars, Real largest) {
-  const NearestTriangle surface(mesh);
-  const Points normals = outward_normals(mesh);
-  Eigen::VectorXd radii(mesh.vertex_count());
-  parallel_for(mesh.vertex_count(), 256, [&](Index begin, Index end) {
-    for (Index v = begin; v < end; ++v) radii[v] = inner_radius(surface, mesh.vertices.col(v), normals.col(v), largest);
-  });
+  Eigen::VectorXd radii = inner_radii(mesh, outward_normals(mesh), largest);
   for (int round = 0; round < 3; ++round) {
     const Eigen::VectorXd before = radii;
     for (Index v = 0; v < mesh.vertex_count(); ++v) {

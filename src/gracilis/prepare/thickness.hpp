@@ -7,9 +7,10 @@ namespace gracilis {
 
 /// Makes what is thinner than twice `radius` (m) that thick: where the largest ball that touches the surface from
 /// inside is smaller, the surface moves outwards, its surroundings fading along. Threads become cords and blades blunt,
-/// so that triangles of a given size can follow their round. No vertex moves further than `radius` in all. The surface
-/// must be closed and oriented outwards.
-void thicken(TriangleMesh& mesh, Real radius, const TimeLimit& limit = TimeLimit());
+/// so that triangles of a given size can follow their round. A sheet, half of which is thinner than that, stays as
+/// thin: `radius` is its median then. No vertex moves further than this in all. Returns the radius. The surface must be
+/// closed and oriented outwards, and its vertices evenly spread.
+Real thicken(TriangleMesh& mesh, Real radius, const TimeLimit& limit = TimeLimit());
 
 /// Moves the surface in or out until it encloses `volume` (m³), to a ten thousandth of it where that is possible: each
 /// vertex in proportion to the largest ball that touches the surface there from inside, up to the mean one, so that
