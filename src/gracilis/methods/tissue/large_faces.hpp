@@ -12,6 +12,8 @@ namespace gracilis::tissue {
 /// What is seen of a muscle keeps so far from bones (m), or as far as in the capture pose where that is less: smooth
 /// fields round sharp edges of bones off by some hundredths of a millimetre.
 inline constexpr Real seen_clearance = 1e-4;
+/// Splines of fields are off by less than this, m.
+inline constexpr Real field_error = 1e-3;
 
 /// A place on a flat triangle, by its corners' shares.
 struct FacePlace {

@@ -175,12 +175,20 @@ void find_fibers(const Muscle& muscle, PreparedTissue& prepared) {
   }
 }
 
-void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields, PreparedTissue& prepared) {
+void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields,
+               const std::vector<SignedDistance>& distances, PreparedTissue& prepared) {
   for (std::size_t b = 0; b < fields.size(); ++b) {
-    BoneGap bone{scene.bones[b].body, bounded(fields[b]), {}};
+    BoneGap bone{scene.bones[b].body, bounded(fields[b]), {}, {}};
     for (const SurfacePoint& point : prepared.points)
       bone.gaps.push_back(
           std::min(prepared.settings.contact_gap, sample_spline_precise(bone.field.grid, point.rest).distance));
+    for (Index v = 0; v < prepared.vertex_count; ++v) {
+      // Held ones go with their bones, and far ones need not be asked: the field is not that wrong.
+      const auto p = static_cast<std::size_t>(v);
+      const bool is_near = prepared.points[p].held_by < 0 && bone.gaps[p] < seen_clearance + field_error;
+      bone.seen_least.push_back(is_near ? std::min(seen_clearance, distances[b].query(prepared.points[p].rest).distance)
+                                        : seen_clearance);
+    }
     prepared.bones.push_back(std::move(bone));
   }
 }
@@ -258,7 +266,7 @@ PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const st
   lay_fibers(prepared);
   find_fibers(muscle, prepared);
   tie_to_bones(scene, distances, prepared);
-  keep_gaps(scene, fields, prepared);
+  keep_gaps(scene, fields, distances, prepared);
   see_large_faces(muscle.surface, prepared);
   sort_out(prepared);
   share_carriers(prepared);

@@ -35,7 +35,8 @@ struct SurfacePoint {
 struct BoneGap {
   Index body = -1;
   BoundedField field;
-  std::vector<Real> gaps;  ///< m, per point
+  std::vector<Real> gaps;        ///< m, per point, by the field
+  std::vector<Real> seen_least;  ///< m, per vertex: exact distance from it, see `seen_clearance`
 };
 
 /// A muscle prepared for the minimizer; constant during a run.

@@ -138,18 +138,23 @@ void push_out(const PreparedTissue& muscle, const Surroundings& around, std::siz
   }
 }
 
-/// Vertices that contact, which is soft, lets come too near.
-void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around, Points& x) {
+/// Vertices that contact, which is soft, lets come too near. The field, which is round where the bone has an edge, says
+/// which way is out, and the bone itself how far.
+void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
+                       const std::vector<SignedDistance>& distances, Points& x) {
   for (Index v = 0; v < muscle.vertex_count; ++v) {
     const auto p = static_cast<std::size_t>(v);
     for (Index i = around.near_begin[p]; i < around.near_begin[p + 1]; ++i) {
-      const BoneGap& bone = muscle.bones[static_cast<std::size_t>(around.near[static_cast<std::size_t>(i)].bone)];
+      const auto b = static_cast<std::size_t>(around.near[static_cast<std::size_t>(i)].bone);
+      const BoneGap& bone = muscle.bones[b];
       const auto body = static_cast<std::size_t>(bone.body);
-      const Real least = std::min(bone.gaps[p], seen_clearance);
-      if (distance_in(bone, around.inverses[body], x.col(v)) > least + candidates_within) continue;
-      const PreciseSample found = sample_spline_precise(bone.field.grid, around.inverses[body] * x.col(v));
-      if (found.distance < least)
-        x.col(v) += (least - found.distance) * (around.bodies[body].linear() * found.gradient);
+      const Vec3 there = around.inverses[body] * x.col(v);
+      const Real least = bone.seen_least[p];
+      if (sample_bounded(bone.field, there.cast<float>()).distance > least + field_error) continue;
+      const Real distance = distances[b].query(there).distance;
+      if (distance < least)
+        x.col(v) += (least - distance) * (around.bodies[body].linear() *
+                                          sample_spline_precise(bone.field.grid, there).gradient.normalized());
     }
   }
 }
@@ -183,7 +188,8 @@ Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes, cons
   return x;
 }
 
-Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes) {
+Points seen_surface(const PreparedTissue& muscle, const Surroundings& around,
+                    const std::vector<SignedDistance>& distances, const Points& nodes) {
   Points x = enclosing_surface(muscle, nodes, surface_at(muscle, nodes));
   std::vector<std::vector<std::size_t>> near;
   bool any = false;
@@ -196,7 +202,7 @@ Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, co
     for (int i = 0; i < bone_rounds; ++i)
       for (std::size_t b = 0; b < near.size(); ++b) push_out(muscle, around, b, near[b], x);
   }
-  push_vertices_out(muscle, around, x);
+  push_vertices_out(muscle, around, distances, x);
   return x;
 }
 

@@ -8,7 +8,9 @@ namespace gracilis::tissue {
 /// flat ones hold more or less than what the tissue between their corners does, and lie in bones that the tissue winds
 /// around. Vertices give way by as much as is missing at them. Follows from the nodes and bodies alone, without jumps;
 /// forces and lengths inside are those of the tissue. 3 × vertices, m.
-Points seen_surface(const PreparedTissue& muscle, const Surroundings& around, const Points& nodes);
+/// `distances`: to the bones.
+Points seen_surface(const PreparedTissue& muscle, const Surroundings& around,
+                    const std::vector<SignedDistance>& distances, const Points& nodes);
 
 /// The same without a look at bones. `tissue_surface`: surface_at these nodes.
 Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes, const Points& tissue_surface);

@@ -33,10 +33,9 @@ class TissueMethod final : public DeformationMethod {
         body_count_(scene.bodies.size()),
         groups_(hosts_first(scene)),
         muscles_(scene.muscles.size()) {
-    std::vector<SignedDistance> distances;
-    for (const Bone& bone : scene.bones) distances.emplace_back(bone.surface);
+    for (const Bone& bone : scene.bones) distances_.emplace_back(bone.surface);
     parallel_for_each(muscles_.size(), [&](std::size_t m) {
-      muscles_[m] = prepare_tissue(scene, scene.muscles[m], fields_, distances);
+      muscles_[m] = prepare_tissue(scene, scene.muscles[m], fields_, distances_);
     });
     ends_ = ends_on_muscles(scene, muscles_);
     prepare_joints(ends_, muscles_);
@@ -89,7 +88,7 @@ class TissueMethod final : public DeformationMethod {
       }
     }
     for_each_timed(moving, [&](std::size_t m) {
-      moving[m].seen = seen_surface(muscles_[m], moving[m].equilibrium.around, moving[m].nodes);
+      moving[m].seen = seen_surface(muscles_[m], moving[m].equilibrium.around, distances_, moving[m].nodes);
       check(m, moving[m].seen.allFinite());
     });
     StepReport report;
@@ -293,7 +292,8 @@ class TissueMethod final : public DeformationMethod {
     return others;
   }
 
-  std::vector<DistanceField> fields_;  ///< of all bones, which the muscles look at
+  std::vector<DistanceField> fields_;      ///< of all bones, which the muscles look at
+  std::vector<SignedDistance> distances_;  ///< to the bones
   std::size_t body_count_;
   std::vector<std::vector<std::size_t>> groups_;  ///< of muscles, hosts first
   std::vector<EndOnMuscle> ends_;
