@@ -41,10 +41,7 @@ bool untangle(TriangleMesh& mesh, const std::string& name, const PrepareSettings
   mesh = fix_surface(mesh, name, limit).mesh;
   // A grid's triangles, where it was rebuilt.
   if (settings.edge_length > 0 && mesh.face_count() > 2 * before) mesh = coarsened(mesh, settings.edge_length, limit);
-  if (std::abs(volume_of(mesh) / volume - 1) <= settings.volume_tolerance) return true;
-  TriangleMesh again = mesh;
-  set_volume(again, volume, limit);
-  if (is_solid(again) && !cuts_itself(again, limit)) mesh = std::move(again);
+  give_volume_back(mesh, volume, settings.volume_tolerance, limit);
   return true;
 }
 
@@ -53,7 +50,7 @@ void round_in_place(TriangleMesh& mesh, const PrepareSettings& settings, const T
   TriangleMesh rounded = mesh;
   round_off(rounded, sharpest_turn, settings.rounding_rounds, farthest_rounding);
   const Real volume = volume_of(mesh);
-  const auto is_kept = [&] { return std::abs(volume_of(rounded) / volume - 1) <= settings.volume_tolerance; };
+  const auto is_kept = [&] { return volume_error(rounded, volume) <= settings.volume_tolerance; };
   if (settings.volume_tolerance < 1 && !is_kept()) set_volume(rounded, volume, limit);
   if (settings.volume_tolerance >= 1 || is_kept()) mesh = std::move(rounded);
 }

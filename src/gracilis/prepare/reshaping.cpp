@@ -27,8 +27,6 @@ constexpr Real thinnest_radius = 0.45;        ///< of an edge: about three go ar
 constexpr Real fewest_triangles = 400;        ///< of a piece
 constexpr Real most_lost = 3;                 ///< edges: a tip, and no tendon
 
-Real volume_error(const TriangleMesh& mesh, Real volume) { return std::abs(volume_of(mesh) / volume - 1); }
-
 /// A solid in, a solid of about the same volume out, or nothing.
 std::optional<TriangleMesh> remeshed_solid(const TriangleMesh& mesh, Real edge_length, int rounds,
                                            const TimeLimit& limit) {
@@ -171,9 +169,7 @@ TriangleMesh reshaped(const TriangleMesh& mesh, const PrepareSettings& settings,
     const Index before = piece.face_count();
     const Real volume = volume_of(piece);
     piece = coarsened(piece, longest_edge_for(piece, settings.edge_length), limit);
-    TriangleMesh as_large = piece;
-    if (volume_error(piece, volume) > settings.volume_tolerance) set_volume(as_large, volume, limit);
-    if (is_solid(as_large) && !cuts_itself(as_large, limit)) piece = std::move(as_large);
+    give_volume_back(piece, volume, settings.volume_tolerance, limit);
     say("a piece of " + std::to_string(before) + " triangles could not be remeshed and " +
         (piece.face_count() < before ? "was thinned to " + std::to_string(piece.face_count()) : "stays as it is"));
   }

@@ -4,6 +4,7 @@
 #include <gracilis/prepare/cgal.hpp>
 
 #include <array>
+#include <cmath>
 
 namespace gracilis {
 
@@ -19,6 +20,8 @@ bool is_solid(const TriangleMesh& mesh) {
 }
 
 Real volume_of(const TriangleMesh& mesh) { return enclosed_volume(mesh.vertices, mesh.faces); }
+
+Real volume_error(const TriangleMesh& mesh, Real volume) { return std::abs(volume_of(mesh) / volume - 1); }
 
 bool cuts_itself(const TriangleMesh& mesh, const TimeLimit& limit) {
   const std::array<const TriangleMesh*, 1> one = {&mesh};

@@ -18,6 +18,9 @@ bool is_solid(const TriangleMesh& mesh);
 /// What a closed surface encloses, m³; see enclosed_volume (geometry/measures.hpp).
 Real volume_of(const TriangleMesh& mesh);
 
+/// By which share of `volume` (m³) what a closed surface encloses differs from it.
+Real volume_error(const TriangleMesh& mesh, Real volume);
+
 /// Whether any two triangles intersect but where they are neighbors. Throws OutOfTime.
 bool cuts_itself(const TriangleMesh& mesh, const TimeLimit& limit);
 

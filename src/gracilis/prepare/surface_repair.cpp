@@ -150,7 +150,8 @@ FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, cons
   FixedSurface fixed;
   take(without_crumbs(mesh), fixed);
   if (!is_solid(inspect_mesh(fixed.mesh))) {
-    take(repair_mesh(mesh), fixed = {});
+    fixed = {};
+    take(repair_mesh(mesh), fixed);
     make_manifold(fixed);
     take(without_crumbs(fixed.mesh), fixed);
   }

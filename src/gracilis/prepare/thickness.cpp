@@ -5,9 +5,11 @@
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/topology.hpp>
 #include <gracilis/prepare/smoothing.hpp>
+#include <gracilis/prepare/solids.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gracilis {
 
@@ -124,6 +126,13 @@ void set_volume(TriangleMesh& mesh, Real volume, const TimeLimit& limit) {
       mesh.vertices.col(v) += step * normals.col(v);
     }
   }
+}
+
+void give_volume_back(TriangleMesh& mesh, Real volume, Real tolerance, const TimeLimit& limit) {
+  if (volume_error(mesh, volume) <= tolerance) return;
+  TriangleMesh given = mesh;
+  set_volume(given, volume, limit);
+  if (is_solid(given) && !cuts_itself(given, limit)) mesh = std::move(given);
 }
 
 }  // namespace gracilis

@@ -18,4 +18,7 @@ Real thicken(TriangleMesh& mesh, Real radius, const TimeLimit& limit = TimeLimit
 /// closed and oriented outwards.
 void set_volume(TriangleMesh& mesh, Real volume, const TimeLimit& limit = TimeLimit());
 
+/// The same where the volume is off by more than a share, `tolerance`; a surface that it would spoil stays as it is.
+void give_volume_back(TriangleMesh& mesh, Real volume, Real tolerance, const TimeLimit& limit);
+
 }  // namespace gracilis

@@ -100,8 +100,8 @@ std::vector<std::string> overlap_warnings(const OverlapReport& report) {
     if (pair.is_through)
       warnings.push_back(pair.first + " and " + pair.second + " pass through each other (" +
                          millimeters(pair.deepest()) +
-                         " deep) in the capture pose, so nothing tells which side is whose: contact keeps them as deep "
-                         "as they are there");
+                         " deep) in the capture pose, so nothing tells which side is whose: contact can only keep them "
+                         "as deep as they are there");
   return warnings;
 }
 

@@ -19,8 +19,9 @@ constexpr Real candidates_within = 0.001;
 /// A vertex whose triangles face different ways moves as if they had this share of their area.
 constexpr Real least_facing = 0.3;
 
-Real distance_in(const BoneGap& bone, const RigidTransform& inverse, const Vec3& p) {
-  return static_cast<Real>(sample_bounded(bone.field, (inverse * p).cast<float>()).distance);
+/// `there`: in the bone's frame.
+Real distance_in(const BoneGap& bone, const Vec3& there) {
+  return static_cast<Real>(sample_bounded(bone.field, there.cast<float>()).distance);
 }
 
 Vec3 spot_on(const FacePlace& place, const Points& x) {
@@ -112,7 +113,7 @@ std::vector<std::size_t> places_near(const PreparedTissue& muscle, const Surroun
     }
     for (Index i = large.kept_begin; i < large.kept_end; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      if (distance_in(bone, inverse, spot_on(muscle.large_faces.kept[at], x)) < least[at] + candidates_within)
+      if (distance_in(bone, inverse * spot_on(muscle.large_faces.kept[at], x)) < least[at] + candidates_within)
         found.push_back(at);
     }
   }
@@ -150,7 +151,7 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
       const auto body = static_cast<std::size_t>(bone.body);
       const Vec3 there = around.inverses[body] * x.col(v);
       const Real least = bone.seen_least[p];
-      if (sample_bounded(bone.field, there.cast<float>()).distance > least + field_error) continue;
+      if (distance_in(bone, there) > least + field_error) continue;
       const Real distance = distances[b].query(there).distance;
       if (distance < least)
         x.col(v) += (least - distance) * (around.bodies[body].linear() *
