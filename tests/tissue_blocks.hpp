@@ -205,13 +205,7 @@ inline SettledBlock settle(Block& block, Real residual, const std::function<Vec3
           std::min(muscle.settings.contact_gap, sample_spline_precise(bone.field.grid, muscle.points[p].rest).distance);
     muscle.bones = {bone};
   }
-  muscle.cells = cell_lanes(muscle.lattice);
-  std::vector<Index> node_of_point, node_of_corner;
-  for (const SurfacePoint& point : muscle.points)
-    node_of_point.insert(node_of_point.end(), point.at.nodes.begin(), point.at.nodes.end());
-  for (const std::int64_t corner : muscle.cells.corners) node_of_corner.push_back(static_cast<Index>(corner / 3));
-  muscle.points_of_nodes = group_by_key(node_of_point, muscle.lattice.node_count());
-  muscle.corners_of_nodes = group_by_key(node_of_corner, muscle.lattice.node_count());
+  sort_by_nodes(muscle);
 
   SettledBlock settled{surroundings(muscle, {RigidTransform::Identity()}, block.laws), muscle.lattice.nodes, {}, 0};
   Surroundings& around = settled.around;

@@ -73,6 +73,18 @@ TEST(TissueNeighbors, muscles_that_are_pressed_together_give_way_instead_of_pass
   EXPECT_GT(depth_after_pressing(scene, 0.006), 3e-3) << "nothing was pressed";
 }
 
+TEST(TissueNeighbors, a_jump_after_small_steps_is_met_as_one_from_rest) {
+  const Scene scene = crossing_tubes(0.001);
+  const auto depth_after = [&](int small_steps) {
+    const auto method = make_tissue_method(scene, {});
+    for (int step = 1; step <= small_steps; ++step) method->advance(pressed(1e-5 * step), usual_time_step);
+    method->advance(pressed(0.006), usual_time_step);
+    const Frame frame = frame_of(*method, pressed(0.006), 1);
+    return std::max(depth(scene, frame, 0, 1), depth(scene, frame, 1, 0));
+  };
+  EXPECT_LT(depth_after(5), depth_after(0) + 1e-4);
+}
+
 TEST(TissueNeighbors, what_overlaps_in_the_capture_pose_may_stay) {
   Scene scene = crossing_tubes(-0.003);
   scene.method.settings["fiber_tension"] = 0.0;
@@ -97,6 +109,33 @@ TEST(TissueNeighbors, planes_lie_midway_and_face_away_from_the_other) {
     nearest = std::min(nearest, plane.normal.dot(p) - plane.least);
   }
   EXPECT_NEAR(nearest, -(0.002 + 0.0005) / 2, 2e-4);
+}
+
+TEST(TissueNeighbors, what_moves_little_finds_all_planes_that_it_may_come_to) {
+  const Scene scene = crossing_tubes(0.001);
+  Neighbors neighbors = prepare_neighbors(scene, {{0.0005}, {0.0005}});
+  std::vector<Points> shapes = {scene.muscles[0].surface.vertices, scene.muscles[1].surface.vertices};
+  for (const Real deep : {-0.001, 0.0005, 0.004}) {
+    std::vector<Points> pressed_shapes = shapes;
+    pressed_shapes[1].row(0).array() -= 0.001 + deep;
+    constexpr Real move = 0.0004;
+    const std::vector<std::vector<ContactPlane>> all = contact_planes(neighbors, pressed_shapes),
+                                                 few =
+                                                     contact_planes(neighbors, pressed_shapes, {.largest_move = move});
+    for (std::size_t m = 0; m < 2; ++m) {
+      auto found = few[m].begin();
+      for (const ContactPlane& plane : all[m]) {
+        if (plane.normal.dot(pressed_shapes[m].col(plane.point)) - plane.least >= move) continue;
+        found = std::find_if(found, few[m].end(), [&](const ContactPlane& each) { return each.point == plane.point; });
+        ASSERT_NE(found, few[m].end()) << "vertex " << plane.point << " at " << deep;
+        EXPECT_EQ(found->least, plane.least);
+      }
+    }
+    EXPECT_LE(few[0].size(), all[0].size());
+    if (deep < 0) {
+      EXPECT_LT(few[0].size(), all[0].size());
+    }
+  }
 }
 
 TEST(TissueNeighbors, muscles_press_on_each_other_with_the_same_force) {

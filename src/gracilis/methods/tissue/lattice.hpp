@@ -91,9 +91,10 @@ void for_each_volume_ratio(const Lattice& lattice, const Points& nodes, const Ac
     const CubeCut& cut = cube_cut(cell.parity);
     const Corners corners = corners_of(cell, nodes);
     for (std::size_t t = 0; t < 5; ++t) {
-      Eigen::Matrix<Real, 3, 4> x;
-      for (std::size_t k = 0; k < 4; ++k) x.col(static_cast<Index>(k)) = corners.col(cut.tetrahedra[t][k]);
-      act(cell, t, (x * cut.shape_gradients[t].transpose() / lattice.cell_size).determinant());
+      const std::array<Index, 4>& of = cut.tetrahedra[t];
+      const Vec3 first = corners.col(of[0]), a = corners.col(of[1]) - first, b = corners.col(of[2]) - first,
+                 c = corners.col(of[3]) - first;
+      act(cell, t, a.cross(b).dot(c) / (6 * cut.shares[t] * lattice.cell_volume()));
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <gracilis/geometry/topology.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gracilis::tissue {
 
@@ -43,17 +44,45 @@ struct SeenVertex {
   PointGap gap;
 };
 
-std::vector<SeenVertex> see(const Neighbors& neighbors, const PlacedSurfaces& placed, Index from, Index to) {
+std::vector<SeenVertex> see_within(const Neighbors& neighbors, const PlacedSurfaces& placed, Index from, Index to,
+                                   Real reach) {
   const auto probe = static_cast<std::size_t>(from), target = static_cast<std::size_t>(to);
   std::vector<VertexFaceCandidate> touches;
   find_near({neighbors.surfaces[probe], placed.particles[probe], neighbors.trees[probe]}, Eigen::Vector3f::Zero(),
-            {neighbors.surfaces[target], placed.particles[target], neighbors.trees[target]},
-            static_cast<float>(neighbor_reach), touches);
+            {neighbors.surfaces[target], placed.particles[target], neighbors.trees[target]}, static_cast<float>(reach),
+            touches);
   std::vector<SeenVertex> seen;
   for (const VertexFaceCandidate& touch : touches)
     seen.push_back({touch.particle, point_gap(placed.particles[probe].position(touch.particle),
                                               neighbors.surfaces[target], NearestFace{touch.face, touch.barycentric},
                                               placed.particles[target], placed.normals[target])});
+  return seen;
+}
+
+/// Whether vertices that were not seen may lie inside the other surface, deeper than it was looked: one of them is next
+/// to a vertex that was seen, and behind what that sees of the other surface.
+bool may_hide(const ContactSurface& surface, const Particles& particles, const std::vector<SeenVertex>& seen) {
+  std::vector<char> is_seen(static_cast<std::size_t>(particles.count()), 0);
+  for (const SeenVertex& each : seen) is_seen[static_cast<std::size_t>(each.vertex)] = 1;
+  for (const SeenVertex& each : seen)
+    for (const Index e : surface.edges_at(each.vertex)) {
+      const std::array<Index, 2>& ends = surface.edges[static_cast<std::size_t>(e)].ends;
+      const Index next = ends[0] == each.vertex ? ends[1] : ends[0];
+      if (is_seen[static_cast<std::size_t>(next)]) continue;
+      const Eigen::Vector3f way = particles.position(next) - particles.position(each.vertex);
+      if (each.gap.distance + each.gap.normal.dot(way) < 0) return true;
+    }
+  return false;
+}
+
+/// As far as all that may meet, which have gaps of up to `widest_gap` (m).
+std::vector<SeenVertex> see(const Neighbors& neighbors, const PlacedSurfaces& placed, Index from, Index to,
+                            Real widest_gap, const Look& look) {
+  const Real reach = std::min(neighbor_reach, widest_gap + 2 * look.largest_move);
+  std::vector<SeenVertex> seen = see_within(neighbors, placed, from, to, reach);
+  const auto probe = static_cast<std::size_t>(from);
+  if (reach < neighbor_reach && may_hide(neighbors.surfaces[probe], placed.particles[probe], seen))
+    seen = see_within(neighbors, placed, from, to, neighbor_reach);
   return seen;
 }
 
@@ -79,6 +108,12 @@ std::vector<Real> gaps_at_rest(const std::vector<SeenVertex>& seen, Index count,
   for (const SeenVertex& each : seen)
     gaps[static_cast<std::size_t>(each.vertex)] = std::min(gap, static_cast<Real>(each.gap.distance));
   return gaps;
+}
+
+Real widest(const std::vector<Real>& gaps) {
+  Real most = 0;
+  for (const Real gap : gaps) most = std::max(most, std::abs(gap));
+  return most;
 }
 
 SelfMeeting meeting_of(const TriangleMesh& surface, Index muscle, const PlacedSurfaces& placed) {
@@ -119,11 +154,16 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
   const PlacedSurfaces placed = place(neighbors, shapes);
   const auto gaps_of = [&](Index muscle, Index other) {
     const auto m = static_cast<std::size_t>(muscle);
-    return gaps_at_rest(see(neighbors, placed, muscle, other), static_cast<Index>(shapes[m].cols()), settings[m].gap);
+    return gaps_at_rest(see_within(neighbors, placed, muscle, other, neighbor_reach),
+                        static_cast<Index>(shapes[m].cols()), settings[m].gap);
   };
   const auto count = static_cast<Index>(shapes.size());
   for (Index a = 0; a < count; ++a)
-    for (Index b = a + 1; b < count; ++b) neighbors.pairs.push_back({a, b, gaps_of(a, b), gaps_of(b, a)});
+    for (Index b = a + 1; b < count; ++b) {
+      neighbors.pairs.push_back({a, b, gaps_of(a, b), gaps_of(b, a)});
+      NeighborPair& pair = neighbors.pairs.back();
+      pair.widest = std::max(widest(pair.first_gaps), widest(pair.second_gaps));
+    }
   for (std::size_t m = 0; m < settings.size(); ++m) {
     if (!settings[m].self) continue;
     SelfMeeting self = meeting_of(scene.muscles[m].surface, static_cast<Index>(m), placed);
@@ -134,18 +174,18 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
 }
 
 std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes,
-                                                      SelfLook self_look) {
+                                                      const Look& look) {
   std::vector<std::vector<ContactPlane>> planes(shapes.size());
   if (neighbors.none()) return planes;
   const PlacedSurfaces placed = place(neighbors, shapes);
   for (const NeighborPair& pair : neighbors.pairs) {
-    add_planes(placed, see(neighbors, placed, pair.first, pair.second), pair.first_gaps, pair.first, pair.second,
-               planes[static_cast<std::size_t>(pair.first)]);
-    add_planes(placed, see(neighbors, placed, pair.second, pair.first), pair.second_gaps, pair.second, pair.first,
-               planes[static_cast<std::size_t>(pair.second)]);
+    add_planes(placed, see(neighbors, placed, pair.first, pair.second, pair.widest, look), pair.first_gaps, pair.first,
+               pair.second, planes[static_cast<std::size_t>(pair.first)]);
+    add_planes(placed, see(neighbors, placed, pair.second, pair.first, pair.widest, look), pair.second_gaps,
+               pair.second, pair.first, planes[static_cast<std::size_t>(pair.second)]);
   }
   for (SelfMeeting& self : neighbors.selves) {
-    if (self_look == SelfLook::anew) {
+    if (look.self == SelfLook::anew) {
       self.planes.clear();
       add_planes(placed, see_itself(neighbors, placed, self), self.gaps, self.muscle, -1, self.planes);
     }

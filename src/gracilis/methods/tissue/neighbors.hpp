@@ -20,6 +20,7 @@ struct ContactPlane {
 struct NeighborPair {
   Index first = 0, second = 0;
   std::vector<Real> first_gaps, second_gaps;  ///< m, per vertex
+  Real widest = 0;                            ///< m, of the gaps, whether apart or deep
 };
 
 /// How parts of one surface that fold onto each other keep apart.
@@ -43,7 +44,7 @@ struct Neighbors {
   bool none() const { return pairs.empty() && selves.empty(); }
 };
 
-/// How far apart muscles see each other, m: what they move in a step is less.
+/// How far apart muscles see each other at most, m: what they move in a step is less.
 inline constexpr Real neighbor_reach = 0.012;
 /// The same of parts of one muscle, m: they move together.
 inline constexpr Real self_reach = 0.006;
@@ -58,8 +59,16 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
 /// Whether muscles look at themselves anew, or keep the planes that they found when they last did.
 enum class SelfLook { anew, kept };
 
+/// What planes are found for.
+struct Look {
+  SelfLook self = SelfLook::anew;
+  /// m: no vertex moves further until planes are found anew. Two muscles that are further apart than both move cannot
+  /// meet, and are not looked for.
+  Real largest_move = neighbor_reach;
+};
+
 /// The planes of every muscle, in the order of its points, where the surfaces are at `shapes` (3 × vertices, m).
 std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, const std::vector<Points>& shapes,
-                                                      SelfLook self = SelfLook::anew);
+                                                      const Look& look = {});
 
 }  // namespace gracilis::tissue

@@ -4,22 +4,6 @@
 
 namespace gracilis::tissue {
 
-PointState spring(const Vec3& offset, Real stiffness) {
-  return {stiffness / 2 * offset.squaredNorm(), stiffness * offset};
-}
-
-PointState tie(const Vec3& offset, const Vec3& along, Real stiffness, Real yield) {
-  const Vec3 e = offset - along.dot(offset) * along;
-  const Real root = std::sqrt(1 + e.squaredNorm() / (yield * yield));
-  return {stiffness * yield * yield * (root - 1), stiffness / root * e};
-}
-
-PointState contact(Real distance, const Vec3& normal, Real gap, Real stiffness) {
-  const Real depth = gap - distance;
-  if (!(depth > 0)) return {};
-  return {stiffness / 2 * depth * depth, -stiffness * depth * normal};
-}
-
 Matrix3 spring_hessian(Real stiffness) { return stiffness * Matrix3::Identity(); }
 
 Matrix3 tie_hessian(const Vec3& offset, const Vec3& along, Real stiffness, Real yield) {

@@ -2,6 +2,8 @@
 
 #include <gracilis/methods/tissue/material.hpp>
 
+#include <cmath>
+
 namespace gracilis::tissue {
 
 /// Energy of a point (J) and its derivative by the point's place (N).
@@ -11,14 +13,24 @@ struct PointState {
 };
 
 /// A spring to a place. `offset`: from that place to the point, m; `stiffness` N/m.
-PointState spring(const Vec3& offset, Real stiffness);
+inline PointState spring(const Vec3& offset, Real stiffness) {
+  return {stiffness / 2 * offset.squaredNorm(), stiffness * offset};
+}
 
 /// Fascia that ties a point to a place across the unit direction `along` and lets it glide along that. Yields: pulls by
 /// stiffness · e / √(1 + (e / yield)²) where the point is e (m) off.
-PointState tie(const Vec3& offset, const Vec3& along, Real stiffness, Real yield);
+inline PointState tie(const Vec3& offset, const Vec3& along, Real stiffness, Real yield) {
+  const Vec3 e = offset - along.dot(offset) * along;
+  const Real root = std::sqrt(1 + e.squaredNorm() / (yield * yield));
+  return {stiffness * yield * yield * (root - 1), stiffness / root * e};
+}
 
 /// Keeps a point `gap` (m) away from a surface whose distance is `distance`, with gradient `normal`.
-PointState contact(Real distance, const Vec3& normal, Real gap, Real stiffness);
+inline PointState contact(Real distance, const Vec3& normal, Real gap, Real stiffness) {
+  const Real depth = gap - distance;
+  if (!(depth > 0)) return {};
+  return {stiffness / 2 * depth * depth, -stiffness * depth * normal};
+}
 
 /// Second derivatives, N/m. The surface of a contact counts as flat in them.
 Matrix3 spring_hessian(Real stiffness);

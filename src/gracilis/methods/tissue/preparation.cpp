@@ -211,16 +211,6 @@ void see_large_faces(const TriangleMesh& surface, PreparedTissue& prepared) {
   }
 }
 
-void sort_out(PreparedTissue& prepared) {
-  prepared.cells = cell_lanes(prepared.lattice);
-  std::vector<Index> node_of_point, node_of_corner;
-  for (const SurfacePoint& point : prepared.points)
-    node_of_point.insert(node_of_point.end(), point.at.nodes.begin(), point.at.nodes.end());
-  for (const std::int64_t corner : prepared.cells.corners) node_of_corner.push_back(static_cast<Index>(corner / 3));
-  prepared.points_of_nodes = group_by_key(node_of_point, prepared.lattice.node_count());
-  prepared.corners_of_nodes = group_by_key(node_of_corner, prepared.lattice.node_count());
-}
-
 /// Each node follows the bodies by harmonic shares that attachments and fascia draw to their own.
 void share_carriers(PreparedTissue& prepared) {
   const auto column_of = [&](Index body) {
@@ -255,6 +245,19 @@ Real cell_size_of(const TissueSettings& settings, const TriangleMesh& surface) {
 
 }  // namespace
 
+void sort_by_nodes(PreparedTissue& prepared) {
+  prepared.cells = cell_lanes(prepared.lattice);
+  prepared.point_weights.clear();
+  std::vector<Index> node_of_point, node_of_corner;
+  for (const SurfacePoint& point : prepared.points) {
+    node_of_point.insert(node_of_point.end(), point.at.nodes.begin(), point.at.nodes.end());
+    prepared.point_weights.insert(prepared.point_weights.end(), point.at.weights.begin(), point.at.weights.end());
+  }
+  for (const std::int64_t corner : prepared.cells.corners) node_of_corner.push_back(static_cast<Index>(corner / 3));
+  prepared.points_of_nodes = group_by_key(node_of_point, prepared.lattice.node_count());
+  prepared.corners_of_nodes = group_by_key(node_of_corner, prepared.lattice.node_count());
+}
+
 PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
                               const std::vector<SignedDistance>& distances) {
   PreparedTissue prepared;
@@ -268,7 +271,7 @@ PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const st
   tie_to_bones(scene, distances, prepared);
   keep_gaps(scene, fields, distances, prepared);
   see_large_faces(muscle.surface, prepared);
-  sort_out(prepared);
+  sort_by_nodes(prepared);
   share_carriers(prepared);
   return prepared;
 }

@@ -57,6 +57,7 @@ struct PreparedTissue {
   std::vector<Tie> ties;  ///< of points, one after the other
   std::vector<BoneGap> bones;
   GroupedByKey points_of_nodes;      ///< point * 4 + corner, by their nodes
+  std::vector<Real> point_weights;   ///< of a point's corners, by the same numbers
   CellLanes cells;                   ///< of the lattice, for the vector kernel
   GroupedByKey corners_of_nodes;     ///< where corners stand in `cells`, by their nodes
   std::vector<Index> carriers;       ///< bodies that carry the muscle
@@ -67,6 +68,9 @@ struct PreparedTissue {
 /// must outlive the result. Precondition: the scene is valid.
 PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const std::vector<DistanceField>& fields,
                               const std::vector<SignedDistance>& distances);
+
+/// Lanes of the lattice's cells, and what of cells and points acts on each node.
+void sort_by_nodes(PreparedTissue& prepared);
 
 /// The laws of all cells; `tension` scales what fibers do, 0 to 1.
 std::vector<CellLaw> cell_laws(const PreparedTissue& muscle, Real activation, Real tension);

@@ -11,7 +11,7 @@ namespace gracilis::tissue {
 namespace {
 
 /// Of volume, then out of bones; each disturbs the other a little.
-constexpr int rounds = 3, volume_rounds = 2, bone_rounds = 4;
+constexpr int rounds = 3, volume_rounds = 3, bone_rounds = 4;
 constexpr Real volume_tolerance = 1e-6;
 /// Places that are nearer to a bone than this beyond what they keep may have to be pushed: more than volume moves them
 /// (m).
@@ -78,21 +78,36 @@ Eigen::VectorXd shared_among_corners(const PreparedTissue& muscle, const std::ve
   return shared;
 }
 
-/// Moves the free part of the surface out evenly, so that the volume comes to what is asked for.
-void meet_volume(const PreparedTissue& muscle, Real asked, Points& x) {
+/// Moves the free part of the surface out evenly, so that the volume comes to what is asked for. `volume`: its slopes
+/// where the surface was near by.
+void meet_volume(const PreparedTissue& muscle, const VolumeSlopes& volume, Real asked, Points& x) {
   Eigen::VectorXd areas(muscle.vertex_count);
   for (Index v = 0; v < muscle.vertex_count; ++v) {
     const SurfacePoint& point = muscle.points[static_cast<std::size_t>(v)];
     areas[v] = point.held_by < 0 ? point.vertex_area : 0;
   }
+  const Real gain = (volume.slopes.cwiseProduct(volume.moves).colwise().sum() * areas).value();
+  if (!(gain > 0)) return;
   for (int i = 0; i < volume_rounds; ++i) {
     const Real missing = asked - enclosed_volume(x, muscle.faces);
     if (std::abs(missing) < volume_tolerance * asked) return;
-    const VolumeSlopes volume = volume_slopes(muscle, x);
-    const Real gain = (volume.slopes.cwiseProduct(volume.moves).colwise().sum() * areas).value();
-    if (!(gain > 0)) return;
     x += missing / gain * (volume.moves * areas.asDiagonal());
   }
+}
+
+/// The surface with what its large triangles lack, and the slopes of its volume nearly there.
+struct EnclosingSurface {
+  Points vertices;
+  VolumeSlopes volume;
+  Real asked = 0;  ///< m³
+};
+
+EnclosingSurface enclosing(const PreparedTissue& muscle, const Points& nodes, const Points& tissue_surface) {
+  EnclosingSurface found{tissue_surface, volume_slopes(muscle, tissue_surface), volume_asked(muscle, nodes)};
+  Points& x = found.vertices;
+  x += found.volume.moves * shared_among_corners(muscle, lacking_volumes(muscle, nodes, x)).asDiagonal();
+  meet_volume(muscle, found.volume, found.asked, x);
+  return found;
 }
 
 /// The places on large triangles that a bone may have to push.
@@ -151,6 +166,8 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
       const auto body = static_cast<std::size_t>(bone.body);
       const Vec3 there = around.inverses[body] * x.col(v);
       const Real least = bone.seen_least[p];
+      const CachedBoneQuery& query = around.queries[b];
+      if (query.distances[v] - largest_slope * (there - query.places.col(v)).norm() > least + field_error) continue;
       if (distance_in(bone, there) > least + field_error) continue;
       const Real distance = distances[b].query(there).distance;
       if (distance < least)
@@ -181,17 +198,13 @@ std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& no
 }
 
 Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes, const Points& tissue_surface) {
-  Points x = tissue_surface;
-  if (muscle.large_faces.faces.empty()) return x;
-  const Eigen::VectorXd lacking = shared_among_corners(muscle, lacking_volumes(muscle, nodes, x));
-  x += volume_slopes(muscle, x).moves * lacking.asDiagonal();
-  meet_volume(muscle, volume_asked(muscle, nodes), x);
-  return x;
+  if (muscle.large_faces.faces.empty()) return tissue_surface;
+  return enclosing(muscle, nodes, tissue_surface).vertices;
 }
 
-Points seen_surface(const PreparedTissue& muscle, const Surroundings& around,
-                    const std::vector<SignedDistance>& distances, const Points& nodes) {
-  Points x = enclosing_surface(muscle, nodes, surface_at(muscle, nodes));
+/// Pushes what lies on large triangles out of bones, and makes up for the volume that this takes.
+static void push_large_faces_out(const PreparedTissue& muscle, const Surroundings& around,
+                                 const EnclosingSurface& surface, Points& x) {
   std::vector<std::vector<std::size_t>> near;
   bool any = false;
   for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
@@ -199,9 +212,19 @@ Points seen_surface(const PreparedTissue& muscle, const Surroundings& around,
     any = any || !near.back().empty();
   }
   for (int round = 0; any && round < rounds; ++round) {
-    if (round > 0) meet_volume(muscle, volume_asked(muscle, nodes), x);
+    if (round > 0) meet_volume(muscle, surface.volume, surface.asked, x);
     for (int i = 0; i < bone_rounds; ++i)
       for (std::size_t b = 0; b < near.size(); ++b) push_out(muscle, around, b, near[b], x);
+  }
+}
+
+Points seen_surface(const PreparedTissue& muscle, const Surroundings& around,
+                    const std::vector<SignedDistance>& distances, const Points& nodes) {
+  Points x = surface_at(muscle, nodes);
+  if (!muscle.large_faces.faces.empty()) {
+    EnclosingSurface surface = enclosing(muscle, nodes, x);
+    x = std::move(surface.vertices);
+    push_large_faces_out(muscle, around, surface, x);
   }
   push_vertices_out(muscle, around, distances, x);
   return x;

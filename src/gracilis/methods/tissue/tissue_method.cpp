@@ -26,6 +26,9 @@ using namespace tissue;
 
 /// Metrics are made for activations in steps of this.
 constexpr int activation_steps = 4;
+/// How far muscles are thought to move before they look at each other again, over how far they did in the last step.
+constexpr Real moves_expected = 2;
+
 class TissueMethod final : public DeformationMethod {
  public:
   TissueMethod(const Scene& scene, std::vector<DistanceField> fields)
@@ -60,6 +63,7 @@ class TissueMethod final : public DeformationMethod {
     nodes_.clear();
     for (const PreparedTissue& muscle : muscles_) nodes_.push_back(muscle.lattice.nodes);
     bodies_.assign(body_count_, RigidTransform::Identity());
+    expected_move_ = neighbor_reach;
     equilibria_.clear();
     seen_.clear();
     for (std::size_t m = 0; m < muscles_.size(); ++m) {
@@ -82,10 +86,7 @@ class TissueMethod final : public DeformationMethod {
         });
         carry_ends(group, moving, pose);
       }
-      for (int round = 0; round < rounds_; ++round) {
-        look_at_neighbors(moving, round == 0 ? SelfLook::anew : SelfLook::kept);
-        settle_all(moving);
-      }
+      settle_in_rounds(moving);
     }
     for_each_timed(moving, [&](std::size_t m) {
       moving[m].seen = seen_surface(muscles_[m], moving[m].equilibrium.around, distances_, moving[m].nodes);
@@ -219,8 +220,7 @@ class TissueMethod final : public DeformationMethod {
     moving.bodies = now;
   }
 
-  /// Folds move little between rounds, so muscles look at themselves once a step.
-  void look_at_neighbors(std::vector<MovingMuscle>& moving, SelfLook self) {
+  void look_at_neighbors(std::vector<MovingMuscle>& moving, const Look& look) {
     if (neighbors_.none()) return;
     // What is seen of them meets, and the tissue gives way by as much.
     std::vector<Points> seen(moving.size()), tissue(moving.size());
@@ -228,7 +228,7 @@ class TissueMethod final : public DeformationMethod {
       tissue[m] = surface_at(muscles_[m], moving[m].nodes);
       seen[m] = enclosing_surface(muscles_[m], moving[m].nodes, tissue[m]);
     });
-    std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, seen, self);
+    std::vector<std::vector<ContactPlane>> planes = contact_planes(neighbors_, seen, look);
     for (std::size_t m = 0; m < moving.size(); ++m) {
       for (ContactPlane& plane : planes[m])
         plane.least += plane.normal.dot(tissue[m].col(plane.point) - seen[m].col(plane.point));
@@ -270,6 +270,34 @@ class TissueMethod final : public DeformationMethod {
     });
   }
 
+  /// Folds move little between rounds, so muscles look at themselves once a step.
+  void settle_in_rounds(std::vector<MovingMuscle>& moving) {
+    Real furthest = 0;
+    for (int round = 0; round < rounds_; ++round) {
+      const SelfLook self = round == 0 ? SelfLook::anew : SelfLook::kept;
+      furthest = std::max(furthest, settle_round(moving, {self, expected_move_}));
+    }
+    expected_move_ = std::min(neighbor_reach, moves_expected * furthest);
+  }
+
+  /// Again, and looking as far as ever, where a muscle moves further than was looked. Returns how far nodes moved, m.
+  Real settle_round(std::vector<MovingMuscle>& moving, const Look& look) {
+    std::vector<Points> before;
+    for (const MovingMuscle& each : moving) before.push_back(each.nodes);
+    const auto settled = [&](const Look& as) {
+      look_at_neighbors(moving, as);
+      settle_all(moving);
+      Real squared = 0;
+      for (std::size_t m = 0; m < moving.size(); ++m)
+        squared = std::max(squared, (moving[m].nodes - before[m]).colwise().squaredNorm().maxCoeff());
+      return std::sqrt(squared);
+    };
+    const Real moved = settled(look);
+    if (neighbors_.none() || moved <= look.largest_move || look.largest_move == neighbor_reach) return moved;
+    for (std::size_t m = 0; m < moving.size(); ++m) moving[m].nodes = before[m];
+    return settled({look.self});
+  }
+
   MuscleReport reported(std::size_t m, const MovingMuscle& moving) const {
     const Wrench pull =
         attachment_wrench(muscles_[m], moving.equilibrium.around, moving.nodes, AttachmentEnd::insertion);
@@ -307,6 +335,7 @@ class TissueMethod final : public DeformationMethod {
   std::vector<Points> seen_;  ///< surfaces, 3 × vertices
   std::vector<Equilibrium> equilibria_;
   std::vector<RigidTransform> bodies_;
+  Real expected_move_ = neighbor_reach;  ///< m, of a node, until muscles look at each other again
   int frame_ = 0;
 };
 

@@ -65,7 +65,7 @@ Vec3 force_on_node(const PreparedTissue& muscle, const EnergyWorkspace& workspac
     sum += Vec3(workspace.corners[0][c], workspace.corners[1][c], workspace.corners[2][c]);
   }
   for (const Index at : muscle.points_of_nodes.with(node))
-    sum += muscle.points[static_cast<std::size_t>(at / 4)].at.weights[at % 4] * workspace.point_forces.col(at / 4);
+    sum += muscle.point_weights[static_cast<std::size_t>(at)] * workspace.point_forces.col(at / 4);
   return sum;
 }
 
