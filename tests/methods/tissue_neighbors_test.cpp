@@ -73,6 +73,12 @@ TEST(TissueNeighbors, muscles_that_are_pressed_together_give_way_instead_of_pass
   EXPECT_GT(depth_after_pressing(scene, 0.006), 3e-3) << "nothing was pressed";
 }
 
+TEST(TissueNeighbors, what_is_seen_of_muscles_keeps_apart_however_soft_their_contact_is) {
+  Scene scene = crossing_tubes(0.001, 40);
+  scene.method.settings["neighbor_stiffness"] = 1e7;
+  EXPECT_LT(depth_after_pressing(scene, 0.004), 2e-4);
+}
+
 TEST(TissueNeighbors, a_jump_after_small_steps_is_met_as_one_from_rest) {
   const Scene scene = crossing_tubes(0.001);
   const auto depth_after = [&](int small_steps) {

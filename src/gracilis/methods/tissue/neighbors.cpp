@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gracilis::tissue {
 
@@ -136,8 +137,11 @@ void add_planes(const PlacedSurfaces& placed, const std::vector<SeenVertex>& see
     const Vec3 normal = each.gap.normal.cast<Real>();
     if (normal.isZero(0)) continue;
     const Vec3 p = placed.origin + placed.particles[static_cast<std::size_t>(from)].position(each.vertex).cast<Real>();
-    const Real lacking = gaps[static_cast<std::size_t>(each.vertex)] - static_cast<Real>(each.gap.distance);
-    planes.push_back({each.vertex, to, normal, normal.dot(p) + lacking / 2});
+    const Real gap = gaps[static_cast<std::size_t>(each.vertex)];
+    const Real lacking = gap - static_cast<Real>(each.gap.distance);
+    const bool faces_it = placed.normals[static_cast<std::size_t>(from)].col(each.vertex).dot(each.gap.normal) < 0;
+    planes.push_back({each.vertex, to, normal, normal.dot(p) + lacking / 2,
+                      faces_it ? std::max(gap, 0.0) / 2 : std::numeric_limits<Real>::infinity()});
   }
 }
 

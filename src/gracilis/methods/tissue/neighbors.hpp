@@ -13,6 +13,8 @@ struct ContactPlane {
   Index muscle = 0;            ///< the other one; -1: another part of its own surface
   Vec3 normal = Vec3::Zero();  ///< unit, away from the other
   Real least = 0;              ///< m: normal · place is no less
+  /// m, of that: so much less, and the surfaces touch. Infinite where the point's own surface does not face the other.
+  Real spare = 0;
 };
 
 /// Two muscles that keep out of each other, each vertex by its gap: `neighbor_gap`, or that in the capture pose where

@@ -177,6 +177,39 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
   }
 }
 
+/// From where soft contact lets a vertex come, through other muscles, back to the planes between them.
+Vec3 back_to_planes(const Surroundings& around, Index v, const Vec3& tissue) {
+  Vec3 push = Vec3::Zero();
+  const auto p = static_cast<std::size_t>(v);
+  for (Index i = around.planes_begin[p]; i < around.planes_begin[p + 1]; ++i) {
+    const ContactPlane& plane = around.planes[static_cast<std::size_t>(i)];
+    const Real deep = plane.least - plane.spare - plane.normal.dot(tissue + push);
+    if (deep > 0) push += deep * plane.normal;
+  }
+  return push;
+}
+
+/// Each of two muscles that soft contact lets into each other goes back to the planes between them. One vertex alone
+/// may be told by a plane of another muscle's far side, so none goes further than a neighbor does.
+void push_out_of_muscles(const PreparedTissue& muscle, const Surroundings& around, const Points& tissue, Points& x) {
+  if (around.planes.empty()) return;
+  Points pushes = Points::Zero(3, muscle.vertex_count);
+  Eigen::VectorXd allowed = Eigen::VectorXd::Zero(muscle.vertex_count);
+  for (Index v = 0; v < muscle.vertex_count; ++v)
+    if (muscle.points[static_cast<std::size_t>(v)].held_by < 0)
+      pushes.col(v) = back_to_planes(around, v, tissue.col(v));
+  const Eigen::VectorXd lengths = pushes.colwise().norm();
+  for (const Eigen::Vector3i face : muscle.faces.colwise())
+    for (Index k = 0; k < 3; ++k) {
+      const Index v = face[k];
+      if (!(lengths[v] > 0)) continue;
+      for (const Index neighbor : {face[(k + 1) % 3], face[(k + 2) % 3]})
+        allowed[v] = std::max(allowed[v], pushes.col(neighbor).dot(pushes.col(v)) / lengths[v]);
+    }
+  for (Index v = 0; v < muscle.vertex_count; ++v)
+    if (lengths[v] > 0) x.col(v) += std::min(1.0, allowed[v] / lengths[v]) * pushes.col(v);
+}
+
 }  // namespace
 
 std::vector<Real> lacking_volumes(const PreparedTissue& muscle, const Points& nodes, const Points& corners) {
@@ -220,12 +253,14 @@ static void push_large_faces_out(const PreparedTissue& muscle, const Surrounding
 
 Points seen_surface(const PreparedTissue& muscle, const Surroundings& around,
                     const std::vector<SignedDistance>& distances, const Points& nodes) {
-  Points x = surface_at(muscle, nodes);
+  const Points tissue = surface_at(muscle, nodes);
+  Points x = tissue;
   if (!muscle.large_faces.faces.empty()) {
     EnclosingSurface surface = enclosing(muscle, nodes, x);
     x = std::move(surface.vertices);
     push_large_faces_out(muscle, around, surface, x);
   }
+  push_out_of_muscles(muscle, around, tissue, x);
   push_vertices_out(muscle, around, distances, x);
   return x;
 }
