@@ -3,12 +3,14 @@
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/principal_axes.hpp>
 #include <gracilis/geometry/rotations.hpp>
+#include <gracilis/geometry/symmetry_plane.hpp>
 
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace gracilis {
@@ -114,6 +116,38 @@ Vec3 straightened(const Vec3& direction, Real angle, bool& moved) {
   return moved ? straight : direction;
 }
 
+/// Below this places say little of where the body looks: a spine's bones lie nearly on a line.
+constexpr Real slender = 0.2;
+
+/// Of one vertebra: along its plane of symmetry, away from where it reaches farther, which is along its spinous
+/// process.
+Vec3 forward_of(const TriangleMesh& vertebra, const Vec3& up) {
+  const Vec3 start = up.unitOrthogonal();
+  SymmetryPlane best{{}, {}, std::numeric_limits<Real>::infinity()};
+  for (const Real angle : {0.0, 45.0, 90.0, 135.0}) {
+    const SymmetryPlane plane = symmetry_plane(vertebra, Eigen::AngleAxisd(radians(angle), up) * start);
+    if (std::abs(plane.normal.dot(up)) < 0.5 && plane.misfit < best.misfit) best = plane;
+  }
+  if (!std::isfinite(best.misfit)) return Vec3::Zero();
+  const Vec3 along = up.cross(best.normal).normalized();
+  const Eigen::RowVectorXd places = along.transpose() * (vertebra.vertices.colwise() - middle_of(vertebra));
+  return places.maxCoeff() > -places.minCoeff() ? Vec3(-along) : along;
+}
+
+/// Where two vertebrae and more look, which the atlas, a ring, does not tell; nothing where they do not agree.
+std::optional<Vec3> forward_by_vertebrae(const FoundFolder& found, const Vec3& up) {
+  Vec3 sum = Vec3::Zero();
+  int count = 0;
+  for (const FoundBone& bone : found.bones) {
+    if (!bone.known || !bone.known->name.starts_with("vertebra_") || bone.known->name == "vertebra_c1") continue;
+    sum += forward_of(bone.mesh, up);
+    ++count;
+  }
+  const Vec3 level = sum - sum.dot(up) * up;
+  if (count < 2 || level.norm() < 0.7 * count) return std::nullopt;
+  return level.normalized();
+}
+
 constexpr Real nearly_straight = radians(22);
 
 }  // namespace
@@ -143,12 +177,15 @@ BodyFrame body_frame(const FoundFolder& found, const std::vector<std::optional<B
   BodyFrame frame;
   bool up_is_straight = false, forward_is_straight = false;
   frame.superior = straightened(turn.rotation.col(1), nearly_straight, up_is_straight);
-  Vec3 forward = turn.rotation.col(0);
+  const std::optional<Vec3> of_vertebrae =
+      turn.flatness < slender ? forward_by_vertebrae(found, turn.rotation.col(1)) : std::nullopt;
+  Vec3 forward = of_vertebrae.value_or(turn.rotation.col(0));
   forward = (forward - forward.dot(frame.superior) * frame.superior).normalized();
   frame.anterior = up_is_straight ? straightened(forward, nearly_straight, forward_is_straight) : forward;
-  const bool on_a_line = turn.flatness < 0.02;
+  const bool on_a_line = turn.flatness < 0.02 && !of_vertebrae;
   frame.certainty = up_is_straight && forward_is_straight ? (on_a_line ? 0.8 : 0.95) : on_a_line ? 0.5 : 0.8;
-  frame.how = fmt::format("the turn that brings {} bones nearest to a standing person's{}", found.bones.size(),
+  frame.how = fmt::format("the turn that brings {} bones nearest to a standing person's{}{}", found.bones.size(),
+                          of_vertebrae ? ", about the upright as the vertebrae look" : "",
                           up_is_straight && forward_is_straight ? ", taken to the nearest axes of the files' frame"
                           : on_a_line                           ? "; they lie nearly on one line"
                                                                 : "");

@@ -34,7 +34,7 @@ struct BodyFrame {
 };
 
 /// The turn that brings the dictionary's places of the bones nearest to where they lie (Kabsch 1976); where it is
-/// nearly one of the frame's axes, that axis. `side` says which half names without a side mean.
+/// nearly one of the frame's axes, that axis. Where they lie nearly on a line, vertebrae tell the front.
 BodyFrame body_frame(const FoundFolder& found, const std::vector<std::optional<BoneAxis>>& axes);
 
 }  // namespace gracilis

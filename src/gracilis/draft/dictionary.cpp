@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 namespace gracilis::embedded {
-extern const std::string_view words_toml, bones_toml, joints_toml, muscles_lower_toml, muscles_upper_toml,
+extern const std::string_view words_toml, bones_toml, spine_toml, joints_toml, muscles_lower_toml, muscles_upper_toml,
     muscles_trunk_toml, tendons_toml;
 }
 
@@ -67,7 +67,7 @@ KnownBone read_known_bone(const toml::table& row, const WordTables& words, long 
   const toml::node_view<const toml::node> view(row);
   KnownBone bone;
   bone.name = numbered(view["name"].value_or(std::string()), number);
-  bone.segment = view["segment"].value_or(std::string());
+  bone.segment = numbered(view["segment"].value_or(std::string()), number);
   bone.paired = view["paired"].value_or(false);
   bone.length = view["length"].value_or(0.0);
   bone.place = vector_of(view["place"]) + static_cast<Real>(number - first) * vector_of(view["step"]);
@@ -174,11 +174,39 @@ void add_joints(const toml::table& table, Dictionary& known) {
   }
 }
 
+/// Bending back and forth, aside and turning, as far as the level's row and its region say.
+std::vector<KnownCoordinate> coordinates_of(const std::string& level, const std::vector<Real>& turns,
+                                            const toml::node_view<const toml::node> region) {
+  const Real flexion = radians(turns.at(0)) * region["flexion"].value_or(0.0);
+  const Real bending = radians(turns.at(1)), turning = radians(turns.at(2));
+  return {{level + "_FE", "right", -flexion, radians(turns[0]) - flexion, -flexion * region["shown"].value_or(0.0)},
+          {level + "_LB", "anterior", -bending, bending, std::nullopt},
+          {level + "_AR", "superior", -turning, turning, std::nullopt}};
+}
+
+/// The segments and joints of the spine, from below.
+void add_spine(const toml::table& table, Dictionary& known) {
+  known.segments.push_back(
+      {table["root"]["segment"].value_or(std::string()), "", table["root"]["body"].value_or(std::string())});
+  for (const toml::node& node : *table["levels"].as_array()) {
+    const toml::node_view<const toml::node> row(node);
+    const std::string name = row["name"].value_or(std::string()), segment = row["segment"].value_or(std::string()),
+                      parent = row["parent"].value_or(std::string());
+    const toml::node_view<const toml::node> region = table["regions"][row["region"].value_or(std::string())];
+    known.segments.push_back({segment, parent, row["body"].value_or(std::string())});
+    known.joints.push_back({name, parent, segment, row["masses"].value_or(false) ? JointKind::masses : JointKind::disc,
+                            texts(row["upper"]), texts(row["lower"]), 0, region["radius"].value_or(0.0),
+                            texts(region["only_with"]), coordinates_of(name, numbers(row["turns"]), region),
+                            texts(region["not_with"])});
+  }
+}
+
 Dictionary read_dictionary() {
   Dictionary known;
   const auto table = [](std::string_view text, const char* name) { return parse_toml(std::string(text), name); };
   known.words = read_words(table(embedded::words_toml, "words.toml"));
   add_bones(table(embedded::bones_toml, "bones.toml"), known);
+  add_spine(table(embedded::spine_toml, "spine.toml"), known);
   add_joints(table(embedded::joints_toml, "joints.toml"), known);
   add_muscles(table(embedded::muscles_lower_toml, "muscles_lower.toml"), known);
   add_muscles(table(embedded::muscles_upper_toml, "muscles_upper.toml"), known);

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-/// What is known of human anatomy by names: read from bones.toml, joints.toml, muscles_*.toml, tendons.toml and words.toml, which are
-/// compiled in. Lengths in m, angles in rad.
+/// What is known of human anatomy by names: read from bones.toml, spine.toml, joints.toml, muscles_*.toml, tendons.toml
+/// and words.toml, which are compiled in. Lengths in m, angles in rad.
 namespace gracilis {
 
 /// The words of a name, in any order.
@@ -61,7 +61,7 @@ struct KnownCoordinate {
   std::optional<Real> shown;  ///< how far a default motion goes
 };
 
-enum class JointKind { ball, condyles, roller, pivot, saddle };
+enum class JointKind { ball, condyles, roller, pivot, saddle, disc, masses };
 
 struct KnownJoint {
   std::string name, parent, child;  ///< segments
@@ -70,6 +70,9 @@ struct KnownJoint {
   Real radius_min = 0, radius_max = 0;
   std::vector<std::string> only_with;  ///< muscles
   std::vector<KnownCoordinate> coordinates;
+  std::vector<std::string> not_with = {};  ///< bones; "name*": all whose names begin so
+
+  bool is_of_spine() const { return kind == JointKind::disc || kind == JointKind::masses; }
 };
 
 struct Dictionary {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -59,7 +60,21 @@ struct EndsDraft {
     return groups;
   }
 
-  /// Where it touches the end's bones: on the body where it lies nearest, and on others where it lies as near.
+  /// Whether these are, of all that one end touches, the only ones at one of the muscle's two tips: a back muscle that
+  /// lies close to the vertebrae on its way still ends on the sacrum.
+  bool reaches_tip(const DraftAttachment& held, const std::vector<DraftAttachment>& nearer) const {
+    const auto at = [](const DraftAttachment& each, const HeldVertices& tip) {
+      return std::any_of(each.vertices.begin(), each.vertices.end(),
+                         [&](Index v) { return std::binary_search(tip.vertices.begin(), tip.vertices.end(), v); });
+    };
+    const std::vector<HeldVertices> tips = ends.both_ends();
+    return std::any_of(tips.begin(), tips.end(), [&](const HeldVertices& tip) {
+      return at(held, tip) &&
+             std::none_of(nearer.begin(), nearer.end(), [&](const DraftAttachment& each) { return at(each, tip); });
+    });
+  }
+
+  /// Where it touches the end's bones: on the body where it lies nearest, and on others where it lies as near, or ends.
   void touch(AttachmentEnd end) {
     std::vector<DraftAttachment> found_here;
     for (const auto& [body, zones] : by_body(sites.at(end).zones)) {
@@ -73,8 +88,43 @@ struct EndsDraft {
     }
     Real nearest = std::numeric_limits<Real>::infinity();
     for (const DraftAttachment& each : found_here) nearest = std::min(nearest, each.bone_distance);
+    std::stable_sort(found_here.begin(), found_here.end(), [](const DraftAttachment& a, const DraftAttachment& b) {
+      return a.bone_distance < b.bone_distance;
+    });
+    std::vector<DraftAttachment> taken;
     for (DraftAttachment& each : found_here)
-      if (each.bone_distance <= nearest + 0.002) drafted.push_back(std::move(each));
+      if (each.bone_distance <= nearest + 0.002 || reaches_tip(each, taken)) taken.push_back(std::move(each));
+    std::move(taken.begin(), taken.end(), std::back_inserter(drafted));
+  }
+
+  /// What both ends hold alike, as of a muscle from vertebra to vertebra, is of the one whose tip is nearer; the origin
+  /// is towards the bodies that hang on fewer joints.
+  void tell_ends_apart() {
+    const auto has_twin = [&](const DraftAttachment& each) {
+      return std::any_of(drafted.begin(), drafted.end(), [&](const DraftAttachment& other) {
+        return other.end != each.end && other.body == each.body && other.vertices == each.vertices;
+      });
+    };
+    if (std::none_of(drafted.begin(), drafted.end(), has_twin)) return;
+    const Eigen::VectorXd share = ends.share_between_ends();
+    Eigen::VectorXd places(static_cast<Index>(drafted.size())), depths(places.size());
+    for (Index i = 0; i < places.size(); ++i) {
+      const DraftAttachment& each = drafted[static_cast<std::size_t>(i)];
+      places[i] = share(each.vertices).mean();
+      depths[i] = skeleton.depth(each.body);
+    }
+    const Real deeper = (places.array() - places.mean()).matrix().dot((depths.array() - depths.mean()).matrix());
+    if (deeper == 0) return;
+    std::vector<DraftAttachment> kept;
+    for (std::size_t i = 0; i < drafted.size(); ++i) {
+      const bool at_first = places[static_cast<Index>(i)] < 0.5;
+      const AttachmentEnd nearer = at_first == (deeper > 0) ? AttachmentEnd::origin : AttachmentEnd::insertion;
+      if (!has_twin(drafted[i]) || drafted[i].end == nearer) kept.push_back(drafted[i]);
+    }
+    const auto holds = [&](AttachmentEnd end) {
+      return std::any_of(kept.begin(), kept.end(), [&](const DraftAttachment& each) { return each.end == end; });
+    };
+    if (holds(AttachmentEnd::origin) && holds(AttachmentEnd::insertion)) drafted = std::move(kept);
   }
 
   /// The body of the bone nearest to the middle of some vertices.
@@ -267,6 +317,7 @@ std::vector<DraftAttachment> draft_attachments(const FoundMuscle& muscle, const 
                 "it to a muscle's name";
     return {};
   }
+  draft.tell_ends_apart();
   draft.keep_apart();
   if (std::any_of(both.begin(), both.end(), lacks)) {
     why = "its origin and insertion hold the same few vertices; give them patches, or its surface more triangles";

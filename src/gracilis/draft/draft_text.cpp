@@ -209,7 +209,9 @@ struct Writing {
   void motion() {
     if (draft.motion.empty()) return;
     std::string names, from, to;
+    Real farthest = 0;
     for (const DraftMotion& each : draft.motion) {
+      farthest = std::max(farthest, std::abs(each.to - each.from));
       const std::string comma = names.empty() ? "" : ", ";
       names += comma + quoted_text(each.coordinate);
       from += comma + number(degrees(each.from), 1);
@@ -219,7 +221,21 @@ struct Writing {
     line("[motion] # change the poses (a row each), or name a table instead: file = \"walk.mot\"");
     line("coordinates = [" + names + "]");
     line("key_poses_deg = [[" + from + "], [" + to + "]]");
-    line("step_deg = 2");
+    line("step_deg = " + number(std::min(2.0, 5 * farthest / turn_at_the_end()), 1));
+  }
+
+  /// How far the motion turns the body that it turns most: many small turns of a spine's levels add up.
+  Real turn_at_the_end() const {
+    Real most = 0;
+    for (const DraftJoint& last : draft.skeleton.joints) {
+      Real sum = 0;
+      for (const DraftJoint* at = &last; at; at = draft.skeleton.joint_of(at->parent))
+        for (const DraftMotion& each : draft.motion)
+          for (const DraftAxis& axis : at->axes)
+            if (axis.coordinate == each.coordinate) sum += std::abs(each.to - each.from);
+      most = std::max(most, sum);
+    }
+    return most;
   }
 
   void left_out() {

@@ -130,6 +130,12 @@ HeldVertices MuscleEnds::farthest(const std::vector<Index>& from) const {
   return end_about(edge_distances(graph_, from));
 }
 
+Eigen::VectorXd MuscleEnds::share_between_ends() const {
+  const std::vector<HeldVertices> tips = both_ends();
+  const Eigen::VectorXd from = edge_distances(graph_, tips[0].vertices), to = edge_distances(graph_, tips[1].vertices);
+  return from.array() / (from + to).array().max(1e-9);
+}
+
 std::vector<HeldVertices> MuscleEnds::both_ends() const {
   Eigen::Index first = 0, second = 0;
   edge_distances(graph_, {0}).maxCoeff(&first);

@@ -28,6 +28,8 @@ class MuscleEnds {
   HeldVertices nearest(const BoneParts& bones, const std::vector<Zone>& zones) const;
   /// The end of the surface farthest from some of its vertices, on the way along it.
   HeldVertices farthest(const std::vector<Index>& from) const;
+  /// Of each vertex, how far it is on the way from the first of both_ends() to the second, 0 to 1.
+  Eigen::VectorXd share_between_ends() const;
   /// Both ends: of a vertex farthest from any, and farthest from that one.
   std::vector<HeldVertices> both_ends() const;
 

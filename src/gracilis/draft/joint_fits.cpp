@@ -1,5 +1,6 @@
 #include <gracilis/draft/joint_fits.hpp>
 
+#include <gracilis/draft/spine_fits.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/revolution_fit.hpp>
 #include <gracilis/geometry/sphere_fit.hpp>
@@ -309,6 +310,9 @@ std::optional<JointFit> fit_joint(const JointQuestion& question) {
       return fit_pivot(question);
     case JointKind::saddle:
       return fit_saddle(question);
+    case JointKind::disc:
+    case JointKind::masses:
+      return fit_vertebrae(question);
   }
   return std::nullopt;
 }

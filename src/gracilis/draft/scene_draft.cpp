@@ -139,7 +139,7 @@ void draft_motion(SceneDraft& draft) {
     if (!is_crossed(joint, draft)) continue;
     for (const DraftAxis& axis : joint.axes) {
       if (!axis.shown) continue;
-      const bool far = std::abs(*axis.shown - axis.capture) >= least_way;
+      const bool far = axis.capture == 0 || std::abs(*axis.shown - axis.capture) >= least_way;
       draft.motion.push_back({axis.coordinate, axis.capture, far ? *axis.shown : 0});
     }
   }

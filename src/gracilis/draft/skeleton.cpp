@@ -38,8 +38,17 @@ struct Building {
 
   bool has_muscle(const std::vector<std::string>& names, BodySide side) const {
     return std::any_of(found.muscles.begin(), found.muscles.end(), [&](const FoundMuscle& muscle) {
-      return muscle.known && muscle.side == side &&
+      return muscle.known && (muscle.side == side || side == BodySide::none) &&
              std::find(names.begin(), names.end(), muscle.known->name) != names.end();
+    });
+  }
+
+  bool has_bone(const std::vector<std::string>& names) const {
+    return std::any_of(found.bones.begin(), found.bones.end(), [&](const FoundBone& bone) {
+      return bone.known && std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+               return name.ends_with("*") ? bone.known->name.starts_with(name.substr(0, name.size() - 1))
+                                          : bone.known->name == name;
+             });
     });
   }
 
@@ -92,6 +101,7 @@ struct Building {
   /// In the capture pose, by the long bones on both sides of a hinge.
   void find_capture(const KnownJoint& known, BodySide side, DraftJoint& joint) {
     joint.capture_guess = {joint.name + " capture pose", "taken as 0", 0.5};
+    if (known.is_of_spine()) joint.capture_guess = {joint.name + " capture pose", "0: neutral as it stands", 0.7};
     if (known.kind == JointKind::pivot) find_pronation(known, side, joint);
     if (known.kind != JointKind::condyles && known.name != "elbow") return;
     const BoneAxis *above = axis_of(known.parent, side), *below = axis_of(known.child, side);
@@ -140,9 +150,15 @@ struct Building {
     const std::string above = is_root ? skeleton.root : skeleton.body_of_segment.at(key_of(*at, side));
     if (is_root) skeleton.guesses.push_back({own, "fixed to " + above + ": no bones between the two are here", 0.4});
     std::string why;
+    Real certainty = 0.3;
     for (auto joint = on_the_way.rbegin(); joint != on_the_way.rend() && !is_root; ++joint) {
-      if (!(*joint)->only_with.empty() && !has_muscle((*joint)->only_with, side)) continue;
-      if (!concerns(**joint, segment, side)) continue;
+      if (!concerns(**joint, segment, side) || has_bone((*joint)->not_with)) continue;
+      if (!(*joint)->only_with.empty() && !has_muscle((*joint)->only_with, side)) {
+        if (!(*joint)->is_of_spine()) continue;
+        why = ": none of the muscles that bend the spine there is here";
+        certainty = 0.8;
+        continue;
+      }
       if (const std::optional<JointFit> found_fit = fit(**joint, side)) {
         add_joint(**joint, side, *found_fit, above, own);
         skeleton.body_of_segment[key] = own;
@@ -150,7 +166,7 @@ struct Building {
       }
       why = ": the surfaces do not show the joint '" + (*joint)->name + side_ending(side) + "'";
     }
-    if (!why.empty()) skeleton.guesses.push_back({own, "fixed to " + above + why, 0.3});
+    if (!why.empty()) skeleton.guesses.push_back({own, "fixed to " + above + why, certainty});
     skeleton.body_of_segment[key] = above;
   }
 
@@ -160,6 +176,20 @@ struct Building {
           segment.paired ? std::vector{BodySide::right, BodySide::left} : std::vector{BodySide::none};
       for (const BodySide side : sides)
         if (has_bones(segment, side)) place(segment, side);
+    }
+  }
+
+  /// Says of a surface that holds several vertebrae that these do not move against each other.
+  void tell_merged() {
+    for (const FoundBone& bone : found.bones) {
+      if (!bone.known || !bone.known->name.ends_with("spine")) continue;
+      const auto bends = [&](const KnownJoint& joint) {
+        return joint.is_of_spine() && joint.child == bone.known->segment && has_muscle(joint.only_with, bone.side);
+      };
+      if (std::any_of(dictionary().joints.begin(), dictionary().joints.end(), bends))
+        skeleton.guesses.push_back(
+            {bone.name, "one surface, so its vertebrae move as one; in a file each, as vertebra_l3.ply, they bend",
+             0.5});
     }
   }
 
@@ -225,6 +255,7 @@ Skeleton find_skeleton(const FoundFolder& found, const JointOverrides& overrides
   skeleton.frame = body_frame(found, skeleton.axes);
   Building building{found, overrides, skeleton};
   building.place_all();
+  building.tell_merged();
   building.give_bodies();
   for (const auto& [name, points] : overrides) {
     if (building.used.contains(name)) continue;
