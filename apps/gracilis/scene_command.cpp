@@ -76,8 +76,10 @@ void add_scene_command(CLI::App& program, Command& chosen) {
       ->allow_extra_args(false);
   command->add_option("--picture", options->picture,
                       "Where to draw what was guessed (.png; default: beside the scene file)");
-  command->add_flag("--prepare", options->prepare,
-                    "Mend muscles' surfaces that a run would refuse; they are written into a folder beside the scene");
+  command->add_flag(
+      "--prepare", options->prepare,
+      "Mend muscles' surfaces that a run would refuse, that cut themselves or that have pieces in others; "
+      "they are written into a folder beside the scene");
   command->add_flag("--mirror", options->mirror, "Make the body's other half: a left leg of a right one");
   command->add_flag("--force", options->force, "Replace the scene file");
   command->add_flag("--json", options->json, "Print what was found and guessed as JSON, for programs");

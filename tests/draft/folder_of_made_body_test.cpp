@@ -250,6 +250,35 @@ TEST(FolderOfMadeBody, what_cannot_be_used_is_left_out_and_named) {
                   testing::AllOf(testing::HasSubstr("ligament"), testing::HasSubstr("neither bone nor"))));
 }
 
+TEST(FolderOfMadeBody, what_a_run_takes_with_flaws_is_mended_where_that_is_asked_for_and_cures_them) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  const TriangleMesh outer = shapes::sphere(Vec3::Zero(), 0.02, 3), inner = shapes::sphere(Vec3::Zero(), 0.015, 3),
+                     beside = shapes::sphere(Vec3(0.03, 0, 0), 0.02, 3);
+  const TriangleMesh nested = shapes::both(outer, inner), crossing = shapes::both(outer, beside);
+  write_surface(folder.path() / "hip" / "muscles" / "piriformis.R.vtp", nested.vertices, nested.faces);
+  write_surface(folder.path() / "hip" / "muscles" / "gracilis.R.vtp", crossing.vertices, crossing.faces);
+  const auto mended = [&](const MendFunction& mend, const std::string& name) {
+    DraftOptions options;
+    options.mend = mend;
+    for (const FoundMuscle& muscle : draft_scene(folder.path() / "hip", options).found.muscles)
+      if (muscle.name == name) return muscle.mended;
+    return std::optional<MendedSurface>();
+  };
+  const MendFunction to_a_ball = [&](const std::string&, const TriangleMesh&) { return MendedSurface{outer}; };
+  const MendFunction to_nothing_better = [&](const std::string&, const TriangleMesh& mesh) {
+    return MendedSurface{mesh};
+  };
+  ASSERT_TRUE(mended(to_a_ball, "piriformis_r"));
+  EXPECT_EQ(mended(to_a_ball, "piriformis_r")->why, "a closed piece lies in another");
+  EXPECT_FALSE(mended(to_a_ball, "piriformis_r")->refused);
+  ASSERT_TRUE(mended(to_a_ball, "gracilis_r"));
+  EXPECT_THAT(mended(to_a_ball, "gracilis_r")->why, testing::HasSubstr("triangles cut others"));
+  EXPECT_FALSE(mended(to_a_ball, "gluteus_maximus_r")) << "nothing is wrong with it";
+  EXPECT_FALSE(mended(to_nothing_better, "piriformis_r"));
+  EXPECT_FALSE(mended({}, "piriformis_r"));
+}
+
 TEST(FolderOfMadeBody, a_folder_without_known_bones_is_refused_in_words) {
   const TestFolder folder;
   write_body(folder.path() / "hip", hip(), {{"iliacus_r", "iliacus.vtp"}, {"femur_r", "part_one.vtp"}});

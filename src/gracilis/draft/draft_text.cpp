@@ -160,7 +160,9 @@ struct Writing {
       line("\n[[muscles]] # a closed surface, held at one origin and one insertion or more");
       line("name = " + quoted_text(muscle.found->name));
       if (muscle.found->mended)
-        line("# mended, since a run would refuse " + path_text(muscle.found->file, folder) +
+        line(std::string("# mended, since ") +
+             (muscle.found->mended->refused ? "a run would refuse " : "something is wrong with ") +
+             path_text(muscle.found->file, folder) +
              (muscle.found->part.empty() ? "" : " part " + quoted_text(muscle.found->part)) + ": " +
              muscle.found->mended->why);
       text += surface(*muscle.found);

@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/median.hpp>
 #include <gracilis/core/shell_word.hpp>
+#include <gracilis/draft/surface_flaws.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
@@ -158,11 +159,36 @@ struct Taking {
     }
   }
 
+  /// Puts what `mend` makes of the surface in its place. Throws InputError where a run would refuse that, too.
+  void put_mended(const NamedSurfaceFile& each, FoundMuscle& muscle, const std::string& why) {
+    MendedSurface mended = mend(muscle.name, read(each));
+    muscle.mesh = check_surface(mended.mesh, 1, SurfaceRole::muscle, muscle.name).mesh;
+    mended.mesh = {};
+    mended.why = why;
+    muscle.mended = std::move(mended);
+  }
+
+  /// What a run takes with flaws, without them; as it is where they stay.
+  void mend_flaws(const NamedSurfaceFile& each, FoundMuscle& muscle) {
+    const std::string flaws = flaws_of(muscle.mesh);
+    if (flaws.empty()) return;
+    FoundMuscle other = muscle;
+    try {
+      put_mended(each, other, flaws);
+    } catch (const InputError&) {
+      return;
+    }
+    if (!flaws_of(other.mesh).empty()) return;
+    other.mended->refused = false;
+    muscle = std::move(other);
+  }
+
   /// The muscle's surface, mended where a run would refuse it and that is asked for and possible.
   bool load_muscle(const NamedSurfaceFile& each, FoundMuscle& muscle) {
     Problem refused;
     try {
       muscle.mesh = load(each, SurfaceRole::muscle);
+      if (mend) mend_flaws(each, muscle);
       return true;
     } catch (const InputError& error) {
       refused = error.problems().front();
@@ -172,10 +198,7 @@ struct Taking {
       return false;
     }
     try {
-      muscle.mended = mend(muscle.name, read(each));
-      muscle.mesh = check_surface(muscle.mended->mesh, 1, SurfaceRole::muscle, muscle.name).mesh;
-      muscle.mended->mesh = {};
-      muscle.mended->why = refused.what;
+      put_mended(each, muscle, refused.what);
       return true;
     } catch (const InputError& error) {
       const Problem& first = error.problems().front();

@@ -12,11 +12,12 @@
 /// A folder of surfaces, told apart by their names and the folders they lie in.
 namespace gracilis {
 
-/// A surface in the place of one that a run would refuse.
+/// A surface in the place of one that a run would refuse, or take with its flaws.
 struct MendedSurface {
   TriangleMesh mesh;
   std::vector<std::string> repairs = {};  ///< a clause each
-  std::string why = {};                   ///< what a run would refuse
+  std::string why = {};                   ///< what was wrong
+  bool refused = true;                    ///< by a run; else a run would take it
   std::filesystem::path file = {};        ///< where it is written, in metres and, of a mirrored body, mirrored
 };
 
@@ -72,8 +73,9 @@ struct FoundFolder {
 };
 
 /// Reads all surfaces below the folder. The unit is that in which the known bones are about as large as a grown
-/// person's. What a run would refuse is mended, where there is `mend` and it can, or left out. Throws InputError where
-/// the folder cannot be read, holds no bone whose name is known, or bones of no possible size.
+/// person's. What a run would refuse is mended, where there is `mend` and it can, or left out;
+/// what a run takes though it cuts itself, or has pieces in others, is mended where that cures it. Throws InputError
+/// where the folder cannot be read, holds no bone whose name is known, or bones of no possible size.
 FoundFolder find_surfaces(const std::filesystem::path& folder);
 
 /// The same of files listed; `subject` names them in messages. With a `unit` ("m", "cm" or "mm") sizes are not asked,

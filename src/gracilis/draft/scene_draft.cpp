@@ -148,7 +148,8 @@ void draft_motion(SceneDraft& draft) {
 Guess mended_guess(const FoundMuscle& muscle) {
   const MendedSurface& mended = *muscle.mended;
   return {muscle.name,
-          fmt::format("its surface is mended, since a run would refuse that of {}: {}{}", name_in_folder(muscle),
+          fmt::format("its surface is mended, since {} that of {}: {}{}",
+                      mended.refused ? "a run would refuse" : "something is wrong with", name_in_folder(muscle),
                       mended.why, mended.repairs.empty() ? "" : fmt::format(" ({})", fmt::join(mended.repairs, "; "))),
           0.7};
 }

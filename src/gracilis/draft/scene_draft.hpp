@@ -13,8 +13,8 @@ namespace gracilis {
 struct DraftOptions {
   std::map<std::string, std::vector<std::string>> joint_landmarks = {};  ///< names of one or two landmarks, by joint
   bool mirror = false;                                                   ///< make the other half of the body
-  std::string unit = {};                     ///< of all files; empty: found by the bones' sizes
-  MendFunction mend = {};                    ///< of muscles that a run would refuse; none: they are left out
+  std::string unit = {};   ///< of all files; empty: found by the bones' sizes
+  MendFunction mend = {};  ///< of muscles that a run would refuse or that have flaws; none: the former are left out
   std::filesystem::path mended_folder = {};  ///< where those are to be written
 };
 
