@@ -148,9 +148,10 @@ void add_prepare_command(CLI::App& program, Command& chosen) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command
-      ->add_option("--apart", options->apart,
-                   "Pull only these muscles apart, from the others, which stay, and from bones; names separated by "
-                   "commas")
+      ->add_option(
+          "--apart", options->apart,
+          "Pull only these muscles apart, from the others, which stay, and from bones, or pairs (soleus:plantaris), "
+          "each from the other alone; separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_flag("--merge", options->merge, "Make one surface of all files: what any of them encloses");

@@ -168,17 +168,14 @@ SceneSurfaces surfaces_asked_for(const PrepareOptions& options, std::vector<Prob
   return input;
 }
 
-/// Muscles that `--apart` does not name stay where they are.
+/// `--apart`, in the place of what a scene says.
 void keep_others_in_place(std::vector<NamedSurface>& muscles, const PrepareOptions& options) {
-  if (options.apart.empty()) return;
+  const std::vector<std::string> unknown = pull_only(muscles, options.apart);
+  if (unknown.empty()) return;
   std::vector<std::string> names;
-  for (NamedSurface& muscle : muscles) {
-    names.push_back(muscle.name);
-    muscle.stays = std::find(options.apart.begin(), options.apart.end(), muscle.name) == options.apart.end();
-  }
-  for (const std::string& name : options.apart)
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      throw ConfigurationError({"", "--apart", "no muscle is called '" + name + "'", suggestion(name, names)});
+  for (const NamedSurface& muscle : muscles) names.push_back(muscle.name);
+  throw ConfigurationError(
+      {"", "--apart", "no muscle is called '" + unknown.front() + "'", suggestion(unknown.front(), names)});
 }
 
 }  // namespace

@@ -167,6 +167,49 @@ TEST_F(PrepareCommand, pulls_only_those_apart_that_are_named) {
   EXPECT_EQ(prepare(files + "--apart a --keep-overlaps").exit_code, 2);
 }
 
+TEST_F(PrepareCommand, pulls_pairs_apart_that_are_named_and_leaves_them_in_others) {
+  const std::string files = file("a", round_muscle(-14 * mm)) + file("b", round_muscle(14 * mm)) +
+                            file("c", round_muscle(42 * mm)) + "--edge-length 0 ";
+  const ProgramResult done = prepare(files + "--apart a:b");
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_GE(least_distance(result("a"), result("b")), 0);
+  EXPECT_GT(result("b").vertices.row(0).minCoeff(), -0.5 * mm) << "each gives way half";
+  EXPECT_LT(result("b").vertices.row(0).minCoeff(), 1 * mm);
+  EXPECT_NEAR(result("c").vertices.row(0).minCoeff(), 27 * mm, 0.01 * mm) << "it stays";
+  EXPECT_LT(least_distance(result("c"), result("b")), -1 * mm);
+  const ProgramResult unknown = prepare(files + "--apart a:d");
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("no muscle is called 'd'"));
+}
+
+TEST_F(PrepareCommand, a_scene_names_what_is_pulled_apart) {
+  const SceneFolder scene;
+  const std::string all = good_scene();
+  const std::size_t first_muscle = all.find("[[muscles]]"), motion = all.find("[motion]");
+  std::string text = all.substr(0, first_muscle);
+  for (const auto& [name, x] : {std::pair("a", -14 * mm), std::pair("b", 14 * mm), std::pair("c", 42 * mm)}) {
+    TriangleMesh mesh = round_muscle(x);
+    mesh.vertices.row(1).array() -= 50 * mm;
+    write_surface(scene.path(std::string(name) + ".vtp"), mesh.vertices, mesh.faces);
+    const std::string muscle =
+        with(with(all.substr(first_muscle, motion - first_muscle), "\"muscle\"", "\"" + std::string(name) + "\""),
+             "\"muscle.ply\"\nunit = \"mm\"", "\"" + std::string(name) + ".vtp\"");
+    text += muscle;
+  }
+  text += all.substr(motion) + "[prepare]\nedge_length = 0\n";
+  const ProgramResult done = prepare(scene.write("pair.toml", text + "apart = [\"a:b\"]\n").string());
+  ASSERT_EQ(done.exit_code, 0) << done.err;
+  EXPECT_GE(least_distance(result("a"), result("b")), 0);
+  EXPECT_LT(least_distance(result("c"), result("b")), -1 * mm) << "as they are";
+  const ProgramResult unknown = prepare(scene.write("unknown.toml", text + "apart = [\"a:d\"]\n").string());
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("no muscle is called 'd'"));
+  const ProgramResult both =
+      prepare(scene.write("both.toml", text + "keep_overlaps = true\napart = [\"a\"]\n").string());
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.err, HasSubstr("overlaps are to be kept"));
+}
+
 TEST_F(PrepareCommand, takes_parts_of_a_glb_by_name) {
   const std::string glb =
       write_parts(folder / "both.glb", {{"left", round_muscle(-20 * mm)}, {"right one", round_muscle(20 * mm)}});

@@ -105,7 +105,8 @@ TEST(Separation, what_stays_is_as_a_bone_and_lies_in_others_that_stay_unasked) {
   const TriangleMesh left = sphere(Vec3(-18 * mm, 0, 0), 20 * mm, 4), middle = sphere(Vec3(18 * mm, 0, 0), 20 * mm, 4),
                      right = sphere(Vec3(54 * mm, 0, 0), 20 * mm, 4);
   std::vector<TriangleMesh> muscles = {left, middle, right};
-  const SeparationResult result = separate(muscles, {}, {.stays = {0, 1, 1}});
+  const std::vector<Index> none;
+  const SeparationResult result = separate(muscles, {}, {.apart_from = {std::nullopt, none, none}});
   EXPECT_EQ(muscles[1].vertices, middle.vertices);
   EXPECT_EQ(muscles[2].vertices, right.vertices);
   EXPECT_GT(farthest_moved(left, muscles[0]), 3.9 * mm) << "the overlap is 4 mm deep";

@@ -115,6 +115,18 @@ std::string name_of(Index surface, const std::vector<NamedSurface>& muscles, con
   return s < muscles.size() ? muscles[s].name : bones[s - muscles.size()].name;
 }
 
+/// The bodies of muscles by their names, where any are given.
+std::optional<std::vector<Index>> bodies_of(const std::optional<std::vector<std::string>>& muscles,
+                                            const std::vector<NamedSurface>& names,
+                                            const std::vector<std::size_t>& muscle_of) {
+  if (!muscles) return std::nullopt;
+  std::vector<Index> bodies;
+  for (std::size_t b = 0; b < muscle_of.size(); ++b)
+    if (std::find(muscles->begin(), muscles->end(), names[muscle_of[b]].name) != muscles->end())
+      bodies.push_back(static_cast<Index>(b));
+  return bodies;
+}
+
 /// One pass of separation of the muscles' pieces, each of which is a body. Takes what it moved off each muscle's
 /// `budget` (m), which the first pass makes.
 Real separate_pieces(std::vector<TriangleMesh>& muscles, const std::vector<TriangleMesh>& bones,
@@ -126,9 +138,9 @@ Real separate_pieces(std::vector<TriangleMesh>& muscles, const std::vector<Trian
     for (TriangleMesh& piece : pieces_of(muscles[m])) {
       bodies.push_back(std::move(piece));
       muscle_of.push_back(m);
-      apart.stays.push_back(names[m].stays);
       if (!budget.empty()) apart.at_most.push_back(budget[m]);
     }
+  for (const std::size_t m : muscle_of) apart.apart_from.push_back(bodies_of(names[m].apart_from, names, muscle_of));
   const SeparationResult result = separate(bodies, bones, apart, limit);
   std::vector<Real> lacked(muscles.size(), 0), moved(muscles.size(), 0);
   std::vector<std::vector<TriangleMesh>> pieces(muscles.size());
@@ -206,7 +218,7 @@ bool pull_apart(std::vector<TriangleMesh>& muscles, const std::vector<NamedSurfa
 /// What stays is as a bone to the others.
 void require_separable(std::vector<NamedSurface> muscles, std::vector<NamedSurface> bones) {
   const auto first_staying =
-      std::stable_partition(muscles.begin(), muscles.end(), [](const NamedSurface& each) { return !each.stays; });
+      std::stable_partition(muscles.begin(), muscles.end(), [](const NamedSurface& each) { return !each.stays(); });
   std::move(first_staying, muscles.end(), std::back_inserter(bones));
   muscles.erase(first_staying, muscles.end());
   require_apart(muscles, bones);
@@ -223,10 +235,10 @@ PreparedSurfaces finished(const std::vector<NamedSurface>& muscles, std::vector<
   std::vector<NamedSurface> closed;
   for (Shaped& muscle : shapes) {
     const std::string& name = muscles[repaired.size()].name;
-    const bool stays = muscles[repaired.size()].stays;
+    const std::optional<std::vector<std::string>>& apart_from = muscles[repaired.size()].apart_from;
     report.muscles.push_back({.name = name, .repairs = std::move(muscle.repairs)});
     repaired.push_back(muscle.repaired);
-    closed.push_back({name, std::move(muscle.repaired), false, stays});
+    closed.push_back({name, std::move(muscle.repaired), false, apart_from});
     result.muscles.push_back(std::move(muscle.mesh));
   }
   if (!settings.keep_overlaps) require_separable(std::move(closed), bones);

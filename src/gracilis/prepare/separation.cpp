@@ -35,7 +35,7 @@ struct Body {
   std::vector<Sample> samples;
   std::vector<Watch> watches;
   Real lacked = 0;  ///< m by which its worst gap was missed before
-  bool stays = false;
+  std::optional<std::vector<Index>> apart_from = {};
   Real at_most = -1;  ///< m that a vertex may move; below 0: a multiple of that
 };
 
@@ -78,7 +78,7 @@ class Separation {
     for (const TriangleMesh& bone : bones) bones_.push_back(std::make_unique<SignedDistance>(bone));
     muscles_.resize(bodies_.size());
     for (std::size_t m = 0; m < settings.at_most.size(); ++m) bodies_[m].at_most = settings.at_most[m];
-    for (std::size_t m = 0; m < settings.stays.size(); ++m) bodies_[m].stays = settings.stays[m] != 0;
+    for (std::size_t m = 0; m < settings.apart_from.size(); ++m) bodies_[m].apart_from = settings.apart_from[m];
   }
 
   SeparationResult run(const TimeLimit& limit) {
@@ -105,7 +105,12 @@ class Separation {
  private:
   std::size_t surface_count() const { return bodies_.size() + bones_.size(); }
   bool is_muscle(Index surface) const { return static_cast<std::size_t>(surface) < bodies_.size(); }
-  bool moves(Index surface) const { return is_muscle(surface) && !bodies_[static_cast<std::size_t>(surface)].stays; }
+  /// Whether a surface, perhaps of a bone, moves out of another one.
+  bool gives_way(Index surface, Index other) const {
+    if (!is_muscle(surface)) return false;
+    const std::optional<std::vector<Index>>& all = bodies_[static_cast<std::size_t>(surface)].apart_from;
+    return !all || std::find(all->begin(), all->end(), other) != all->end();
+  }
   const SignedDistance& distance_to(Index surface) const {
     const auto s = static_cast<std::size_t>(surface);
     return is_muscle(surface) ? *muscles_[s] : *bones_[s - bodies_.size()];
@@ -116,13 +121,12 @@ class Separation {
   void look() {
     for (std::size_t m = 0; m < bodies_.size(); ++m) {
       Body& body = bodies_[m];
-      if (body.stays) continue;
       std::vector<std::vector<Watch>> found(body.samples.size());
       parallel_for(static_cast<Index>(body.samples.size()), 512, [&](Index begin, Index end) {
         for (Index s = begin; s < end; ++s) {
           const Vec3 p = place_of(body, body.samples[static_cast<std::size_t>(s)]);
           for (Index other = 0; other < static_cast<Index>(surface_count()); ++other) {
-            if (static_cast<std::size_t>(other) == m) continue;
+            if (static_cast<std::size_t>(other) == m || !gives_way(static_cast<Index>(m), other)) continue;
             const SignedDistance::Answer answer = distance_to(other).query(p, reach);
             if (answer.nearest.face >= 0 && answer.distance < gap(other) + look_ahead)
               found[static_cast<std::size_t>(s)].push_back({s, other});
@@ -154,7 +158,8 @@ class Separation {
         if (size > settings_.tolerance) ++result.missed;
         const Sample& sample = body.samples[static_cast<std::size_t>(body.watches[w].sample)];
         // A muscle moves halfway where the other does as much. Stronger demands count more, so that they are met soon.
-        const Real share = moves(body.watches[w].other) ? 0.5 : 1;
+        const auto m = static_cast<Index>(&body - bodies_.data());
+        const Real share = gives_way(body.watches[w].other, m) ? 0.5 : 1;
         for (int k = 0; k < sample.count; ++k) {
           sum.col(sample.vertices[k]) += share * size * asked[w];
           weight[sample.vertices[k]] += size;

@@ -4,6 +4,7 @@
 #include <gracilis/scene/settings.hpp>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,16 @@ struct NamedSurface {
   std::string name;
   TriangleMesh mesh;
   bool largest_piece = false;  ///< of a muscle: only that of its closed pieces which encloses most is wanted
-  bool stays = false;          ///< of a muscle: others are pulled apart from it, and it stays where it is
+  /// Of a muscle: those that it is pulled apart from; not given: all others and bones; none: it stays where it is.
+  std::optional<std::vector<std::string>> apart_from = {};
+
+  bool stays() const { return apart_from && apart_from->empty(); }
 };
+
+/// Has only those muscles give way that `apart` names: "a" to all others and bones, "a:b" each to the other alone, and
+/// both where they are named so often; the others stay. Without names all give way. Returns the names that no muscle
+/// has.
+std::vector<std::string> pull_only(std::vector<NamedSurface>& muscles, const std::vector<std::string>& apart);
 
 /// What happened to one muscle.
 struct PreparedMuscleReport {

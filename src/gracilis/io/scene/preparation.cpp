@@ -3,8 +3,18 @@
 #include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/io/scene/prepared_cache.hpp>
+#include <gracilis/io/suggestions.hpp>
 
 namespace gracilis::sections {
+
+/// Names that no muscle has are wrong, unless only some muscles are asked for.
+static void require_known(const std::vector<std::string>& unknown, const SceneInProgress& progress) {
+  if (unknown.empty() || !progress.options.only.empty()) return;
+  std::vector<std::string> names;
+  for (const Muscle& muscle : progress.loaded.scene.muscles) names.push_back(muscle.name);
+  throw ConfigurationError(
+      {"", "[prepare] apart", "no muscle is called '" + unknown.front() + "'", suggestion(unknown.front(), names)});
+}
 
 std::vector<NamedSurface> muscle_surfaces(const SceneInProgress& progress) {
   const Scene& scene = progress.loaded.scene;
@@ -12,6 +22,7 @@ std::vector<NamedSurface> muscle_surfaces(const SceneInProgress& progress) {
   for (std::size_t m = 0; m < scene.muscles.size(); ++m)
     surfaces.push_back(
         {scene.muscles[m].name, scene.muscles[m].surface, progress.description.muscles[m].surface.largest_piece});
+  require_known(pull_only(surfaces, progress.description.apart), progress);
   return surfaces;
 }
 

@@ -30,8 +30,14 @@ static fs::path file_of(const std::vector<NamedSurface>& muscles, const std::vec
                         const PrepareSettings& settings, const fs::path& folder) {
   std::string bytes = std::string(muscles_format) + std::to_string(preparation_version) + "\n";
   for (const auto& [key, value] : list_settings(settings)) bytes += key + "=" + to_text(value) + "\n";
-  for (const NamedSurface& muscle : muscles)
+  for (const NamedSurface& muscle : muscles) {
     bytes += (muscle.largest_piece ? "largest of muscle " : "muscle ") + bytes_of(muscle.mesh);
+    if (!muscle.apart_from) continue;
+    bytes += "apart from";
+    for (const std::string& name : *muscle.apart_from)
+      for (std::size_t m = 0; m < muscles.size(); ++m)
+        if (muscles[m].name == name) bytes += " " + std::to_string(m);
+  }
   for (const NamedSurface& bone : bones) bytes += "bone " + bytes_of(bone.mesh);
   return folder / (content_hash_of(bytes) + ".muscles");
 }

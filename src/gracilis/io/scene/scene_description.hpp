@@ -142,6 +142,7 @@ struct SceneDescription {
   std::vector<TransversalDescription> transversals;
   SurfaceSettings surfaces;
   std::optional<PrepareSettings> prepare;  ///< where the scene has a table [prepare]
+  std::vector<std::string> apart = {};     ///< of [prepare]: what only is pulled apart (scene/preparation.hpp)
   NamedFile landmarks;
   std::vector<std::filesystem::path> files;  ///< the scene file and all that it includes
   std::vector<std::string> guessed;          ///< what nobody measured, in words

@@ -266,6 +266,12 @@ time_step = 0.016666666666666666 # s between frames; default 1/60
 
 )";
 
+/// Of [prepare], what is no number.
+static constexpr const char* only_apart =
+    R"(# Optional: only these are pulled apart: "a" from all others, which stay, and from bones, "a:b" each from the other alone.
+apart = ["gluteus_maximus_r", "gluteus_medius_r:piriformis_r"]
+)";
+
 /// A section with every line a comment.
 static std::string commented_out(std::string text) {
   std::string commented = "# ";
@@ -280,12 +286,13 @@ std::string scene_template() {
       head + method_section() + only_some + preset_section() + elements +
       "# How a run goes from the capture pose into the motion and out of it.\n" + section<Sequence>("sequence") +
       "# Optional: repairs, remeshes and pulls apart all muscles at first use; needs a program built with it.\n" +
-      commented_out(section<PrepareSettings>("prepare")) + "# Surfaces of all muscles, when they are read.\n" +
-      section<SurfaceSettings>("surfaces") + "# Distance fields of all bones.\n" +
-      section<DistanceFieldSettings>("distance_field") + "# Contact between muscles.\n" +
-      section("contact", usual.contact) + "# Fibers inside all muscles.\n" + section<FiberSettings>("fibers") +
-      "# How active muscles contract.\n" + section<ContractionSettings>("contraction") + "# The method '" +
-      std::string(usual.name) + "', for all muscles.\n" + section("settings", usual.settings);
+      commented_out(section<PrepareSettings>("prepare") + only_apart) +
+      "# Surfaces of all muscles, when they are read.\n" + section<SurfaceSettings>("surfaces") +
+      "# Distance fields of all bones.\n" + section<DistanceFieldSettings>("distance_field") +
+      "# Contact between muscles.\n" + section("contact", usual.contact) + "# Fibers inside all muscles.\n" +
+      section<FiberSettings>("fibers") + "# How active muscles contract.\n" +
+      section<ContractionSettings>("contraction") + "# The method '" + std::string(usual.name) +
+      "', for all muscles.\n" + section("settings", usual.settings);
   for (const MethodEntry& method : methods())
     if (&method != &usual && !method.settings.empty())
       text += "# With method = \"" + std::string(method.name) + "\" instead:\n" +

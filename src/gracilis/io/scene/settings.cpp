@@ -43,6 +43,16 @@ static void read_section(TomlReader& top, const std::string& key, Settings& sett
   section->reject_unknown_keys();
 }
 
+static void read_preparation(TomlReader& top, SceneDescription& description) {
+  std::optional<TomlReader> section = top.table("prepare");
+  if (!section) return;
+  section->read_settings(description.prepare.emplace());
+  description.apart = section->texts("apart");
+  if (!description.apart.empty() && description.prepare->keep_overlaps)
+    section->add_problem("apart", "pulls muscles apart, and overlaps are to be kept", "leave out one of the two");
+  section->reject_unknown_keys();
+}
+
 /// [settings] and [contact].
 static void read_method_tables(TomlReader& top, const MethodEntry& method, MethodChoice& choice,
                                std::set<std::string>& others) {
@@ -68,7 +78,7 @@ MuscleDefaults read_settings(TomlReader& top, SceneDescription& description, std
   read_section(top, "sequence", scene.sequence);
   read_section(top, "fibers", defaults.fibers);
   read_section(top, "contraction", defaults.contraction);
-  if (top.has("prepare")) read_section(top, "prepare", description.prepare.emplace());
+  if (top.has("prepare")) read_preparation(top, description);
   return defaults;
 }
 
