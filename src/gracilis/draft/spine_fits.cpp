@@ -48,7 +48,6 @@ Gap gap_between(const TriangleMesh& lower, const TriangleMesh& upper, const Near
   const SurfaceSamples all = surface_samples(lower);
   Points middles(3, all.count()), normals(3, all.count());
   Eigen::VectorXd heights(all.count());
-  const SurfaceSamples facing = all;
   std::vector<char> faces(static_cast<std::size_t>(all.count()), 0);
   for (Index i = 0; i < all.count(); ++i) {
     const Vec3 p = all.points.col(i), normal = all.normals.col(i);
@@ -63,7 +62,7 @@ Gap gap_between(const TriangleMesh& lower, const TriangleMesh& upper, const Near
     heights[i] = nearest.distance;
     faces[static_cast<std::size_t>(i)] = 1;
   }
-  return Gap{facing, middles, normals, heights}.kept([&](Index i) { return faces[static_cast<std::size_t>(i)] != 0; });
+  return Gap{all, middles, normals, heights}.kept([&](Index i) { return faces[static_cast<std::size_t>(i)] != 0; });
 }
 
 /// Where most of the gap lies within a disc's radius: on the end plates, not on processes that face each other, too.
