@@ -1,5 +1,6 @@
 #include <gracilis/draft/spine_fits.hpp>
 
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
 #include <gracilis/geometry/symmetry_plane.hpp>
 
@@ -36,11 +37,6 @@ struct Gap {
   Vec3 up() const { return (lower.normals * lower.areas - upper_normals * lower.areas).normalized(); }
 };
 
-Vec3 face_normal(const TriangleMesh& mesh, Index face) {
-  const auto corner = [&](int k) -> Vec3 { return mesh.vertices.col(mesh.faces(k, face)); };
-  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
-}
-
 /// Parts that face each other within an angle of up.
 Gap gap_between(const TriangleMesh& lower, const TriangleMesh& upper, const NearestTriangle& tree, const Vec3& up,
                 Real angle, Real reach) {
@@ -55,7 +51,7 @@ Gap gap_between(const TriangleMesh& lower, const TriangleMesh& upper, const Near
     const NearestPoint nearest = tree.query(p, reach);
     if (nearest.face < 0) continue;
     const Vec3 across = nearest.point - p;
-    normals.col(i) = face_normal(upper, nearest.face);
+    normals.col(i) = area_vector(upper.vertices, upper.faces.col(nearest.face)).normalized();
     if (normals.col(i).dot(up) > -aligned) continue;
     if (nearest.distance > touching && across.dot(normal) < 0.7 * nearest.distance) continue;
     middles.col(i) = p + across / 2;

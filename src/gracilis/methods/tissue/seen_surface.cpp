@@ -236,18 +236,17 @@ Points enclosing_surface(const PreparedTissue& muscle, const Points& nodes, cons
 }
 
 /// Pushes what lies on large triangles out of bones, and makes up for the volume that this takes.
-static void push_large_faces_out(const PreparedTissue& muscle, const Surroundings& around,
-                                 const EnclosingSurface& surface, Points& x) {
+static void push_large_faces_out(const PreparedTissue& muscle, const Surroundings& around, EnclosingSurface& surface) {
   std::vector<std::vector<std::size_t>> near;
   bool any = false;
   for (std::size_t b = 0; b < muscle.bones.size(); ++b) {
-    near.push_back(places_near(muscle, around, b, x));
+    near.push_back(places_near(muscle, around, b, surface.vertices));
     any = any || !near.back().empty();
   }
   for (int round = 0; any && round < rounds; ++round) {
-    if (round > 0) meet_volume(muscle, surface.volume, surface.asked, x);
+    if (round > 0) meet_volume(muscle, surface.volume, surface.asked, surface.vertices);
     for (int i = 0; i < bone_rounds; ++i)
-      for (std::size_t b = 0; b < near.size(); ++b) push_out(muscle, around, b, near[b], x);
+      for (std::size_t b = 0; b < near.size(); ++b) push_out(muscle, around, b, near[b], surface.vertices);
   }
 }
 
@@ -256,9 +255,9 @@ Points seen_surface(const PreparedTissue& muscle, const Surroundings& around,
   const Points tissue = surface_at(muscle, nodes);
   Points x = tissue;
   if (!muscle.large_faces.faces.empty()) {
-    EnclosingSurface surface = enclosing(muscle, nodes, x);
+    EnclosingSurface surface = enclosing(muscle, nodes, tissue);
+    push_large_faces_out(muscle, around, surface);
     x = std::move(surface.vertices);
-    push_large_faces_out(muscle, around, surface, x);
   }
   push_out_of_muscles(muscle, around, tissue, x);
   push_vertices_out(muscle, around, distances, x);
