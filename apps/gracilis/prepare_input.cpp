@@ -4,7 +4,7 @@
 #include <gracilis/geometry/mesh_pieces.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
-#include <gracilis/io/suggestions.hpp>
+#include <gracilis/io/scene/preparation.hpp>
 
 #ifdef GRACILIS_WITH_PREPARE
 #include <gracilis/prepare/estimates.hpp>
@@ -168,16 +168,6 @@ SceneSurfaces surfaces_asked_for(const PrepareOptions& options, std::vector<Prob
   return input;
 }
 
-/// `--apart`, in the place of what a scene says.
-void keep_others_in_place(std::vector<NamedSurface>& muscles, const PrepareOptions& options) {
-  const std::vector<std::string> unknown = pull_only(muscles, options.apart);
-  if (unknown.empty()) return;
-  std::vector<std::string> names;
-  for (const NamedSurface& muscle : muscles) names.push_back(muscle.name);
-  throw ConfigurationError(
-      {"", "--apart", "no muscle is called '" + unknown.front() + "'", suggestion(unknown.front(), names)});
-}
-
 }  // namespace
 
 SceneSurfaces read_input(const PrepareOptions& options, std::vector<Problem>& problems) {
@@ -186,7 +176,7 @@ SceneSurfaces read_input(const PrepareOptions& options, std::vector<Problem>& pr
   if (!options.apart.empty() && input.settings.keep_overlaps)
     throw ConfigurationError(
         {"", "--apart", "pulls muscles apart, and overlaps are to be kept", "leave out one of the two"});
-  keep_others_in_place(input.muscles, options);
+  pull_only_known(input.muscles, options.apart, "--apart");  // in the place of what a scene says
   return input;
 }
 

@@ -5,16 +5,21 @@
 #include <gracilis/io/scene/prepared_cache.hpp>
 #include <gracilis/io/suggestions.hpp>
 
-namespace gracilis::sections {
+namespace gracilis {
 
-/// Names that no muscle has are wrong, unless only some muscles are asked for.
-static void require_known(const std::vector<std::string>& unknown, const SceneInProgress& progress) {
-  if (unknown.empty() || !progress.options.only.empty()) return;
+void pull_only_known(std::vector<NamedSurface>& muscles, const std::vector<std::string>& apart,
+                     const std::string& subject) {
+  const std::vector<std::string> unknown = pull_only(muscles, apart);
+  if (unknown.empty()) return;
   std::vector<std::string> names;
-  for (const Muscle& muscle : progress.loaded.scene.muscles) names.push_back(muscle.name);
+  for (const NamedSurface& muscle : muscles) names.push_back(muscle.name);
   throw ConfigurationError(
-      {"", "[prepare] apart", "no muscle is called '" + unknown.front() + "'", suggestion(unknown.front(), names)});
+      {"", subject, "no muscle is called '" + unknown.front() + "'", suggestion(unknown.front(), names)});
 }
+
+}  // namespace gracilis
+
+namespace gracilis::sections {
 
 std::vector<NamedSurface> muscle_surfaces(const SceneInProgress& progress) {
   const Scene& scene = progress.loaded.scene;
@@ -22,7 +27,11 @@ std::vector<NamedSurface> muscle_surfaces(const SceneInProgress& progress) {
   for (std::size_t m = 0; m < scene.muscles.size(); ++m)
     surfaces.push_back(
         {scene.muscles[m].name, scene.muscles[m].surface, progress.description.muscles[m].surface.largest_piece});
-  require_known(pull_only(surfaces, progress.description.apart), progress);
+  // Of a part of the muscles the others' names are no mistake.
+  if (progress.options.only.empty())
+    pull_only_known(surfaces, progress.description.apart, "[prepare] apart");
+  else
+    pull_only(surfaces, progress.description.apart);
   return surfaces;
 }
 

@@ -5,6 +5,15 @@
 
 #include <vector>
 
+namespace gracilis {
+
+/// pull_only (scene/preparation.hpp); throws ConfigurationError where a name is no muscle's. `subject`: where `apart`
+/// stands.
+void pull_only_known(std::vector<NamedSurface>& muscles, const std::vector<std::string>& apart,
+                     const std::string& subject);
+
+}  // namespace gracilis
+
 /// [prepare].
 namespace gracilis::sections {
 
