@@ -22,7 +22,8 @@ namespace gracilis {
 
 /// Commands of a page, typed one after the other. A comment above them, which no reader sees, says how they are walked:
 /// `<!-- walk: SCENE -> hip.toml; DIR -> out -->` puts these words in the place of those; `long` leaves them to the
-/// long tests, `data` to those, too, where the cadaver's hip is at hand; `not, REASON` to nobody.
+/// long tests, `data` to those, too, where the cadaver's hip is at hand; `page` to where there is one for the browser;
+/// `not, REASON` to nobody.
 struct CommandBlock {
   std::string place;               ///< page and line
   std::vector<std::string> marks;  ///< of the comment, that were parted by "; "

@@ -7,9 +7,9 @@
 #include <gracilis/view/report/live_page.hpp>
 #include <gracilis/view/report/page_method.hpp>
 
-#include "build_paths.hpp"
 #include "io/test_files.hpp"
 #include "view/browser.hpp"
+#include "view/live_page_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,10 +26,6 @@ using testing::StartsWith;
 using PageJson = nlohmann::json;
 
 namespace {
-
-std::filesystem::path live_page() {
-  return std::filesystem::path(build_paths::program).parent_path().parent_path() / "gracilis.html";
-}
 
 /// The same steps as the page makes (web/page/worker.js), by this machine.
 std::vector<Points> shapes_of_this_machine(Scene scene, const MethodChoice& method, std::size_t coordinate,

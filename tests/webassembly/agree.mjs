@@ -9,7 +9,9 @@ const [, , program, native] = process.argv;
 const printed = `${program}.txt`, stdout = openSync(printed, 'w');
 const wasi = new WASI({ version: 'preview1', args: [program], env: {}, stdout, returnOnExit: true });
 const module = await WebAssembly.compile(readFileSync(program));
-const status = wasi.start(await WebAssembly.instantiate(module, { wasi_snapshot_preview1: wasi.wasiImport }));
+// Exceptions are the caller's to throw (web/src/exceptions.cpp).
+const page = { fail() { throw new Error(`${program} threw an exception`); } };
+const status = wasi.start(await WebAssembly.instantiate(module, { wasi_snapshot_preview1: wasi.wasiImport, page }));
 closeSync(stdout);
 if (status) throw new Error(`${program} ended with ${status}`);
 

@@ -1,6 +1,5 @@
 // A soft ball, shaken and pressed into a hard one, by the solver alone: prints where it ends. The same program is built
 // for this machine and for WebAssembly, whose numbers have to be the same within rounding.
-#include <gracilis/dynamics/simd/instruction_set.hpp>
 #include <gracilis/dynamics/solver/solver.hpp>
 
 #include "dynamics/systems_for_tests.hpp"
@@ -32,7 +31,7 @@ void solve() {
   settings.projection.dihedral_limit = 0.05f;
   settings.strain_limit = 1.5f;
   const SolveReport report = solve_substep(system, {FieldPlacement{}}, settings, state);
-  std::fprintf(stderr, "%s, %d contacts\n", instruction_set(), report.contacts);
+  std::fprintf(stderr, "%d contacts\n", report.contacts);
   std::printf("%.9g\n", state.volume / system.volume.target);
   for (Index p = 0; p < state.particles.count(); p += 7) {
     const Eigen::Vector3f at = state.particles.position(p);
