@@ -66,6 +66,8 @@ mkdir "$work/root"
 mmdebstrap --variant=apt --quiet bookworm "$work/root" \
   --customize-hook="mkdir -p \"\$1/packages\" && cp $packages/*.deb \"\$1/packages\"" \
   --customize-hook='chroot "$1" sh -c "DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends cmake g++ make /packages/*.deb >/dev/null"'
+mount --bind /proc "$work/root/proc"  # the program looks there for what is installed beside it
+trap 'umount "$work/root/proc"; rm -rf "$work"' EXIT
 chroot "$work/root" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin sh -c "$use"
 chroot "$work/root" env -i HOME=/root PATH=/usr/bin:/bin python3 -c '
 import gracilis

@@ -128,9 +128,10 @@ void write_comparison(const CompareOptions& options, const std::string& scene, c
 void confirm_sizes(const std::vector<LoadedScene>& scenes, const SessionOptions& options) {
   RunPlan all = plan_run(scenes[0], options);
   for (std::size_t i = 1; i < scenes.size(); ++i) {
-    const RunSize size = plan_run(scenes[i], options).size;
-    all.size.bytes += size.bytes;
-    all.size.files += size.files;
+    const RunPlan next = plan_run(scenes[i], options);
+    all.size.bytes += next.size.bytes;
+    all.size.files += next.size.files;
+    all.seconds = all.seconds && next.seconds ? std::optional(*all.seconds + *next.seconds) : std::nullopt;
   }
   confirm_size(all, options, "fewer --methods write less");
 }

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <string>
 #include <thread>
@@ -45,6 +46,16 @@ std::vector<std::string> said_by_run(const std::string& step_deg, int stopped_af
 }
 
 }  // namespace
+
+TEST(SessionTime, of_a_run_before_is_told_at_once) {
+  const TestFolder cache;
+  setenv("XDG_CACHE_HOME", cache.path().c_str(), 1);
+  const auto slow = [](int) { return std::chrono::milliseconds(250); };
+  const auto first = said_by_run("2", -1, slow), second = said_by_run("2", -1, slow);
+  unsetenv("XDG_CACHE_HOME");
+  EXPECT_THAT(first, Not(Contains(HasSubstr("files, in about"))));
+  EXPECT_THAT(second, Contains(HasSubstr("files, in about ")));
+}
 
 TEST(SessionTime, is_told_after_the_first_frame) {
   const auto said = said_by_run("0.1", 1, [](int frame) { return std::chrono::milliseconds(frame == 1 ? 600 : 0); });

@@ -1,7 +1,9 @@
 #include <gracilis/view/session/run_plan.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/parallel.hpp>
 #include <gracilis/io/counted.hpp>
+#include <gracilis/io/scene/field_cache.hpp>
 
 #include <fmt/format.h>
 
@@ -21,8 +23,13 @@ std::string with_commas(std::int64_t number) {
 }  // namespace
 
 std::string room_text(const RunPlan& plan) {
-  return fmt::format("{} in {} {}", size_text(plan.size.bytes), with_commas(plan.size.files),
-                     plan.layout == RunLayout::compact ? "compact files" : "files");
+  return fmt::format("{} in {} {}{}", size_text(plan.size.bytes), with_commas(plan.size.files),
+                     plan.layout == RunLayout::compact ? "compact files" : "files",
+                     plan.seconds && *plan.seconds >= 1 ? ", in about " + duration_text(*plan.seconds) : "");
+}
+
+FrameCost frame_cost(const LoadedScene& loaded, const SessionOptions& options) {
+  return {loaded.scene.method.name, loaded.preset, options.threads > 0 ? options.threads : thread_count()};
 }
 
 RunPlan plan_run(const LoadedScene& loaded, const SessionOptions& options) {
@@ -42,6 +49,8 @@ RunPlan plan_run(const LoadedScene& loaded, const SessionOptions& options) {
   const bool is_large = size_as(RunLayout::surfaces).bytes > asking_bytes;
   plan.layout = options.layout.value_or(is_large ? RunLayout::compact : RunLayout::surfaces);
   plan.size = size_as(plan.layout);
+  plan.seconds = remembered_frame_time(default_cache_folder(), frame_cost(loaded, options), loaded.scene);
+  if (plan.seconds) *plan.seconds *= plan.parts.count() - 1;  // the capture pose has nothing to solve
   return plan;
 }
 

@@ -186,6 +186,10 @@ class Session {
     if (const int frames = folder_.frame_count() - 1 - first_; frames > 0)
       note(fmt::format("time: {} for {}, {:.2f} s each", duration_text(seconds),
                        counted(static_cast<std::size_t>(frames), "frame"), seconds / frames));
+    const std::size_t solved = poses_.size() - 1;
+    if (first_ == 0 && folder_.frame_count() == plan_.frames && solved >= frames_worth_keeping)
+      remember_frame_time(default_cache_folder(), frame_cost(loaded_, options_), loaded_.scene,
+                          seconds / static_cast<double>(solved));
     summary_.all_gates_met() ? note(summary_.gates_line()) : caution(summary_.gates_line());
     if (const std::string worst = summary_.worst_line(); !worst.empty()) caution(worst);
   }
@@ -279,6 +283,7 @@ class Session {
   std::unique_ptr<DeformationMethod> method_;
   std::vector<std::string> warnings_, guessed_;
   static constexpr int frames_timed = 10;
+  static constexpr std::size_t frames_worth_keeping = 5;  ///< the first ones are slower
   std::chrono::steady_clock::time_point began_, timed_from_;
   double said_each_ = 0;  ///< s a frame, as it was told; 0: nothing was
   int first_ = 0;
