@@ -15,14 +15,17 @@ namespace {
 
 constexpr std::string_view format = "gracilis frame time 1";
 
-std::filesystem::path file_of(const std::filesystem::path& cache, const FrameCost& cost) {
-  return cache / "times" / file_name_of(fmt::format("{}_{}_{}.txt", cost.method, cost.preset, cost.threads));
-}
-
 double vertices_of(const Scene& scene) {
   double count = 0;
   for (const Muscle& muscle : scene.muscles) count += static_cast<double>(muscle.surface.vertex_count());
   return count;
+}
+
+/// A file for each size of scenes, by powers of two: what a vertex takes in a small scene is mostly what a frame takes
+/// anyhow.
+std::filesystem::path file_of(const std::filesystem::path& cache, const FrameCost& cost, double vertices) {
+  return cache / "times" /
+         file_name_of(fmt::format("{}_{}_{}_{}.txt", cost.method, cost.preset, cost.threads, std::ilogb(vertices)));
 }
 
 }  // namespace
@@ -31,7 +34,7 @@ void remember_frame_time(const std::filesystem::path& cache, const FrameCost& co
                          double seconds) {
   const double vertices = vertices_of(scene);
   if (cache.empty() || !(vertices > 0) || !(seconds > 0)) return;
-  const std::filesystem::path file = file_of(cache, cost);
+  const std::filesystem::path file = file_of(cache, cost, vertices);
   try {
     create_folder(file.parent_path());
     write_cache_file(file, format, fmt::format("{}\n", seconds / vertices));
@@ -42,10 +45,11 @@ void remember_frame_time(const std::filesystem::path& cache, const FrameCost& co
 
 std::optional<double> remembered_frame_time(const std::filesystem::path& cache, const FrameCost& cost,
                                             const Scene& scene) {
-  if (cache.empty()) return std::nullopt;
-  const std::optional<std::string> kept = read_cache_file(file_of(cache, cost), format, {});
+  const double vertices = vertices_of(scene);
+  if (cache.empty() || !(vertices > 0)) return std::nullopt;
+  const std::optional<std::string> kept = read_cache_file(file_of(cache, cost, vertices), format, {});
   if (!kept) return std::nullopt;
-  const double seconds = std::strtod(kept->c_str(), nullptr) * vertices_of(scene);
+  const double seconds = std::strtod(kept->c_str(), nullptr) * vertices;
   return std::isfinite(seconds) && seconds > 0 ? std::optional(seconds) : std::nullopt;
 }
 

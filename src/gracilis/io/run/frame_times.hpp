@@ -19,7 +19,7 @@ struct FrameCost {
 void remember_frame_time(const std::filesystem::path& cache, const FrameCost& cost, const Scene& scene, double seconds);
 
 /// About how long a frame takes, s, by what the last run of this kind took for each vertex; nothing where there was
-/// none, or where what is kept of it is damaged.
+/// none of a scene of about this size, or where what is kept of it is damaged.
 std::optional<double> remembered_frame_time(const std::filesystem::path& cache, const FrameCost& cost,
                                             const Scene& scene);
 
