@@ -90,7 +90,8 @@ static int run_words(int count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     // Help and version are no errors; everything else is a usage error, whatever CLI11's own code for it.
     const bool asked_for = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    if (!asked_for) throw Error(ExitCode::usage, usage_problem(program, error, words));
+    const bool of_no_command = program.get_subcommands().empty() && !words[1].starts_with("-");
+    if (!asked_for || of_no_command) throw Error(ExitCode::usage, usage_problem(program, error, words));
     program.exit(error, std::cout, std::cerr);
     return static_cast<int>(ExitCode::done);
   }

@@ -40,6 +40,7 @@ TEST(CommandLine, without_a_word_the_first_steps_are_shown) {
 TEST(CommandLine, what_was_probably_meant_is_suggested) {
   const auto problem = [](const char* arguments) { return run_program(arguments).err; };
   EXPECT_THAT(problem("rnu leg.toml"), HasSubstr("there is no command 'rnu' (did you mean 'run'?"));
+  EXPECT_THAT(problem("rnu --help"), HasSubstr("there is no command 'rnu' (did you mean 'run'?"));
   EXPECT_THAT(problem("verify leg --otu"), HasSubstr("there is no option '--otu'"));
   EXPECT_THAT(problem("report leg --otu=x"), HasSubstr("did you mean '--out'?"));
   EXPECT_THAT(problem("run"), HasSubstr("`gracilis run --help`"));

@@ -158,6 +158,8 @@ TEST_F(SceneReader, wrong_settings_on_the_command_line_are_named) {
   EXPECT_THAT(problems(good_scene(), {"", {"quux=3"}, {}}),
               HasSubstr("unknown key 'quux' in [settings] ('gracilis print-config' lists all that are known)"))
       << "there are more than a hundred";
+  EXPECT_THAT(problems(good_scene(), {"", {"metod=skinning"}, {}}),
+              HasSubstr("--set metod=skinning: unknown key 'metod' (did you mean 'method'?)"));
   EXPECT_THAT(problems(good_scene(), {"", {"iterations=0"}, {}}),
               HasSubstr("--set iterations=0: 'iterations' must be an integer from 1 to 100000"));
   EXPECT_THAT(problems(good_scene(), {"", {"muscel.iterations=3"}, {}}),

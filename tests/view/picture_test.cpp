@@ -85,6 +85,20 @@ TEST(Picture, a_legend_of_many_names_has_rows_in_which_each_can_be_read) {
   EXPECT_LT(few.legend.height, layout.legend.height);
 }
 
+TEST(Picture, letters_of_a_wide_picture_are_large_enough_where_a_page_of_900_pixels_shows_it) {
+  Picture picture = picture_of_names(3);
+  picture.panels[0].caption = "pose";
+  picture.panel_width = 1200;
+  const PictureLayout narrow = lay_out(picture);
+  picture.panel_width = 2400;
+  const PictureLayout wide = lay_out(picture);
+  EXPECT_EQ(narrow.text, 1);
+  EXPECT_EQ(wide.text, 2);
+  EXPECT_EQ(wide.legend_grid.font, 2 * narrow.legend_grid.font);
+  EXPECT_EQ(wide.captions[0].height, 2 * narrow.captions[0].height);
+  EXPECT_GE(text_pixels(wide, 15) * 900 / wide.width, 11) << "the smallest letters, of a color bar";
+}
+
 TEST(Picture, a_legend_never_takes_more_than_half_of_what_a_panel_does) {
   EXPECT_TRUE(lay_out(picture_of_names(92)).legend_entries.empty());
 }

@@ -99,6 +99,16 @@ TEST_F(RunPicture, stretch_is_seen_where_it_is) {
   EXPECT_GT(count(stretched, reddish), 3 * count(rest, reddish));
 }
 
+// The middle of their scale is gray.
+TEST_F(RunPicture, fibers_colored_by_length_lie_on_bones_that_look_like_bone) {
+  const RecordedRun run = FlexingLeg(6).written(folder.path() / "lengths");
+  RunPictureOptions options;
+  options.color_by = ColorBy::fiber_strain;
+  EXPECT_EQ(RunPainter(run, options).panel(0).surfaces[0].color, bone_color());
+  options.color_by = ColorBy::edge_stretch;
+  EXPECT_NE(RunPainter(run, options).panel(0).surfaces[0].color, bone_color());
+}
+
 TEST_F(RunPicture, stress_and_tension_are_seen_where_a_method_knows_them) {
   FlexingLeg leg(6);
   RunPictureOptions options;

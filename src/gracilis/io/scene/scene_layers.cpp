@@ -165,6 +165,8 @@ static toml::table layer_of(const std::string& setting, const std::vector<std::s
     return layer;
   }
 
+  if (const std::string meant = nearest_word(key, {"method", "preset"}); !meant.empty())
+    throw ConfigurationError({source, "", "unknown key '" + shortened(key) + "'", "did you mean '" + meant + "'?"});
   const std::size_t dot = key.rfind('.');
   const std::string owner = dot == std::string::npos ? "settings" : key.substr(0, dot);
   if (dot != std::string::npos) key = key.substr(dot + 1);

@@ -11,7 +11,9 @@ namespace gracilis {
 static constexpr int strip_height = 56;                // pixels: title, legend or caption
 static constexpr int color_bar_width = 460;            // pixels
 static constexpr int least_font = 11, most_font = 20;  // pixels, of a legend
-static constexpr Real border = 1.06;                   // free space around what is seen
+// Pages show a wider picture smaller: 15 pixels of 1200 are 11 on a page of 900.
+static constexpr Real unscaled_width = 1200;  // pixels
+static constexpr Real border = 1.06;          // free space around what is seen
 
 static void require_drawable(bool ok, const char* what) {
   if (!ok) throw ConfigurationError({"", "picture", what, ""});
@@ -88,38 +90,41 @@ static std::vector<std::pair<std::string, Color>> legend_of(const Picture& pictu
 }
 
 /// A swatch, gaps and a name whose letters are as wide as the wide ones of most names.
-static int entry_width(std::size_t letters, int font) {
-  return 40 + static_cast<int>(std::ceil(0.6 * font * static_cast<Real>(letters)));
+static int entry_width(std::size_t letters, int font, Real text) {
+  return static_cast<int>(40 * text) + static_cast<int>(std::ceil(0.6 * font * static_cast<Real>(letters)));
 }
 
 /// In as few rows as leave every name its room, and in as large a font as these have room for.
-static LegendGrid legend_grid(int count, std::size_t letters, int width) {
-  const int most_columns = std::clamp(width / entry_width(letters, least_font), 1, count);
+static LegendGrid legend_grid(int count, std::size_t letters, int width, const PictureLayout& layout) {
+  const int least = text_pixels(layout, least_font);
+  const int most_columns = std::clamp(width / entry_width(letters, least, layout.text), 1, count);
   const int rows = (count + most_columns - 1) / most_columns;
-  LegendGrid grid{(count + rows - 1) / rows, most_font, 0};
-  while (grid.font > least_font && entry_width(letters, grid.font) > width / grid.columns) --grid.font;
-  grid.row_height = grid.font + 8;
+  LegendGrid grid{(count + rows - 1) / rows, text_pixels(layout, most_font), 0};
+  while (grid.font > least && entry_width(letters, grid.font, layout.text) > width / grid.columns) --grid.font;
+  grid.row_height = grid.font + text_pixels(layout, 8);
   return grid;
 }
 
 /// What stands below the panels. Returns where that ends.
 static int place_legend(const Picture& picture, int panel_height, PictureLayout& layout) {
-  const int bar_width = picture.color_bar ? std::min(layout.width, color_bar_width) : 0;
-  layout.color_bar = {layout.width - bar_width, 0, bar_width, bar_width > 0 ? strip_height : 0};
+  const int strip = text_pixels(layout, strip_height);
+  const int bar_width = picture.color_bar ? std::min(layout.width, text_pixels(layout, color_bar_width)) : 0;
+  layout.color_bar = {layout.width - bar_width, 0, bar_width, bar_width > 0 ? strip : 0};
   if (layout.legend_entries.empty()) return layout.color_bar.height;
   std::size_t letters = 1;
   for (const auto& [name, color] : layout.legend_entries) letters = std::max(letters, name.size());
   const int count = static_cast<int>(layout.legend_entries.size()), beside = layout.width - bar_width;
-  const bool above = bar_width > 0 && beside < std::min(count, 2) * entry_width(letters, least_font);
+  const int entry = entry_width(letters, text_pixels(layout, least_font), layout.text);
+  const bool above = bar_width > 0 && beside < std::min(count, 2) * entry;
   const int width = above ? layout.width : beside;
-  layout.legend_grid = legend_grid(count, letters, width);
+  layout.legend_grid = legend_grid(count, letters, width, layout);
   const int rows = (count + layout.legend_grid.columns - 1) / layout.legend_grid.columns;
   if (2 * rows * layout.legend_grid.row_height > panel_height) {
     // Nobody tells a body's hundred muscles apart by color.
     layout.legend_entries.clear();
     return layout.color_bar.height;
   }
-  layout.legend = {0, above ? strip_height : 0, width, strip_height + (rows - 1) * layout.legend_grid.row_height};
+  layout.legend = {0, above ? strip : 0, width, strip + (rows - 1) * layout.legend_grid.row_height};
   return layout.legend.y + layout.legend.height;
 }
 
@@ -131,18 +136,19 @@ PictureLayout lay_out(const Picture& picture) {
   const int rows = (count + columns - 1) / columns;
   const bool captions =
       std::any_of(picture.panels.begin(), picture.panels.end(), [](const Panel& p) { return !p.caption.empty(); });
-  const int caption_height = captions ? strip_height : 0;
 
   PictureLayout layout;
+  layout.width = columns * picture.panel_width;
+  layout.text = std::max(1.0, layout.width / unscaled_width);
+  const int strip = text_pixels(layout, strip_height), caption_height = captions ? strip : 0;
   const Eigen::Vector2d needed = place_cameras(picture, layout);
   const int fitting_height = static_cast<int>(picture.panel_width * std::clamp(needed.y() / needed.x(), 0.5, 2.0));
   const int panel_height = picture.panel_height > 0 ? picture.panel_height : fitting_height;
   layout.half_height = std::max(needed.y(), needed.x() * panel_height / picture.panel_width) / picture.zoom;
   const int row_height = panel_height + caption_height;
   layout.legend_entries = legend_of(picture);
-  layout.width = columns * picture.panel_width;
   const int below = place_legend(picture, panel_height, layout);
-  layout.title = {0, below + rows * row_height, layout.width, picture.title.empty() ? 0 : strip_height};
+  layout.title = {0, below + rows * row_height, layout.width, picture.title.empty() ? 0 : strip};
   layout.height = layout.title.y + layout.title.height;
   for (int i = 0; i < count; ++i) {
     const int x = (i % columns) * picture.panel_width;

@@ -2,6 +2,7 @@
 
 #include <gracilis/view/pictures/picture.hpp>
 
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,7 @@ struct LegendGrid {
 /// Where everything of a picture goes.
 struct PictureLayout {
   int width = 0, height = 0;  ///< of the whole picture, pixels
+  Real text = 1;              ///< how many times as large letters are as in a picture of 1200 pixels, from 1
   Rectangle title, legend;    ///< height 0: none
   Rectangle color_bar;        ///< beside the legend, or below it where that had no room; height 0: none
   LegendGrid legend_grid;
@@ -42,5 +44,10 @@ struct PictureLayout {
 /// Throws ConfigurationError when there is no panel, nothing to see, a size below one pixel or a camera without
 /// direction.
 PictureLayout lay_out(const Picture& picture);
+
+/// A length of letters or what stands among them, pixels of a picture that is up to 1200 wide, in this one.
+inline int text_pixels(const PictureLayout& layout, Real pixels) {
+  return static_cast<int>(std::lround(layout.text * pixels));
+}
 
 }  // namespace gracilis

@@ -205,18 +205,20 @@ static void add_legend(const PictureLayout& layout, int scale, vtkRenderer& rend
   const int cell = layout.legend.width / columns;
   for (int i = 0; i < count; ++i) {
     const auto& [name, color] = layout.legend_entries[static_cast<std::size_t>(i)];
-    const int x = i % columns * cell + 12;
+    const int x = i % columns * cell + text_pixels(layout, 12);
     const int middle = (layout.legend.height + (rows - 1 - 2 * (i / columns)) * row_height) / 2;
     add_rectangle(color, {x * scale, (middle - font / 2) * scale, font * scale, font * scale}, renderer);
     const vtkSmartPointer<vtkTextActor> text = text_actor(name, font * scale, false);
-    text->SetPosition((x + font + 8) * scale, middle * scale);
+    text->SetPosition((x + font + text_pixels(layout, 8)) * scale, middle * scale);
     renderer.AddActor2D(text);
   }
 }
 
 /// A strip of colors with its title to the left and its values below.
-static void add_color_bar(const ColorBar& bar, const Rectangle& part, int scale, vtkRenderer& renderer) {
-  const int left = part.width / 2, width = part.width / 2 - 40, height = 14, bottom = part.height / 2;
+static void add_color_bar(const ColorBar& bar, const PictureLayout& layout, int scale, vtkRenderer& renderer) {
+  const auto px = [&](int pixels) { return text_pixels(layout, pixels); };
+  const Rectangle& part = layout.color_bar;
+  const int left = part.width / 2, width = part.width / 2 - px(40), height = px(14), bottom = part.height / 2;
   static constexpr int pieces = 64;
   const auto last = static_cast<Real>(bar.colors.size() - 1);
   for (int i = 0; i < pieces; ++i) {
@@ -227,35 +229,36 @@ static void add_color_bar(const ColorBar& bar, const Rectangle& part, int scale,
     const int begin = scale * left + scale * width * i / pieces, end = scale * left + scale * width * (i + 1) / pieces;
     add_rectangle(color, {begin, scale * bottom, end - begin, scale * height}, renderer);
   }
-  const vtkSmartPointer<vtkTextActor> title = text_actor(bar.title, 18 * scale, false);
+  const vtkSmartPointer<vtkTextActor> title = text_actor(bar.title, px(18) * scale, false);
   title->GetTextProperty()->SetJustificationToRight();
-  title->SetPosition((left - 14) * scale, (bottom + height / 2) * scale);
+  title->SetPosition((left - px(14)) * scale, (bottom + height / 2) * scale);
   renderer.AddActor2D(title);
   for (std::size_t i = 0; i < bar.ticks.size(); ++i) {
-    const vtkSmartPointer<vtkTextActor> tick = text_actor(bar.ticks[i], 15 * scale, false);
+    const vtkSmartPointer<vtkTextActor> tick = text_actor(bar.ticks[i], px(15) * scale, false);
     tick->GetTextProperty()->SetJustificationToCentered();
     const Real share = bar.ticks.size() > 1 ? static_cast<Real>(i) / static_cast<Real>(bar.ticks.size() - 1) : 0.5;
-    tick->SetPosition((left + share * width) * scale, (bottom - 11) * scale);
+    tick->SetPosition((left + share * width) * scale, (bottom - px(11)) * scale);
     renderer.AddActor2D(tick);
   }
 }
 
 /// A line of a round length, at most a fifth of the panel, in the lower left corner. Returns where it ends, pixels.
 static int add_scale_bar(const PictureLayout& layout, int scale, vtkRenderer& renderer) {
+  const auto px = [&](int pixels) { return text_pixels(layout, pixels); };
   const Rectangle& part = layout.panels[0];
   const Real pixels_per_metre = part.height / (2 * layout.half_height);
   Real length = 0.001;
   for (const Real each : {0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0})
     if (each * pixels_per_metre <= part.width / 5.0) length = each;
   const int width = static_cast<int>(std::lround(length * pixels_per_metre));
-  add_rectangle(Color::Constant(0.13), {20 * scale, 14 * scale, width * scale, 3 * scale}, renderer);
+  add_rectangle(Color::Constant(0.13), {px(20) * scale, px(14) * scale, width * scale, px(3) * scale}, renderer);
   char text[20];
   std::snprintf(text, sizeof text, length < 0.01 ? "%.0f mm" : "%.0f cm", length < 0.01 ? 1000 * length : 100 * length);
-  const vtkSmartPointer<vtkTextActor> label = text_actor(text, 17 * scale, false);
+  const vtkSmartPointer<vtkTextActor> label = text_actor(text, px(17) * scale, false);
   label->GetTextProperty()->SetJustificationToCentered();
-  label->SetPosition((20 + width / 2.0) * scale, 28 * scale);
+  label->SetPosition((px(20) + width / 2.0) * scale, px(28) * scale);
   renderer.AddActor2D(label);
-  return 20 + width;
+  return px(20) + width;
 }
 
 bool is_seen_through(const Panel& panel) {
@@ -303,12 +306,11 @@ std::map<std::size_t, vtkRenderer*> add_renderers(const Picture& picture, const 
     if (layout.captions[i].height == 0) continue;
     const auto caption = add_renderer(layout.captions[i]);
     const int taken = i == 0 && picture.scale_bar ? add_scale_bar(layout, scale, *caption) : 0;
-    add_centered_text(panel.caption, 24, false, layout.captions[i], scale, *caption, taken);
+    add_centered_text(panel.caption, text_pixels(layout, 24), false, layout.captions[i], scale, *caption, taken);
   }
   if (is_in(layout.title, area))
-    add_centered_text(picture.title, 30, true, layout.title, scale, *add_renderer(layout.title));
-  if (is_in(layout.color_bar, area))
-    add_color_bar(*picture.color_bar, layout.color_bar, scale, *add_renderer(layout.color_bar));
+    add_centered_text(picture.title, text_pixels(layout, 30), true, layout.title, scale, *add_renderer(layout.title));
+  if (is_in(layout.color_bar, area)) add_color_bar(*picture.color_bar, layout, scale, *add_renderer(layout.color_bar));
   if (is_in(layout.legend, area)) add_legend(layout, scale, *add_renderer(layout.legend));
   return of_panels;
 }

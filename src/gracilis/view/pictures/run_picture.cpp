@@ -228,9 +228,10 @@ Panel RunPainter::panel(int frame) const {
   panel.up = camera.up;
   panel.has_own_camera = !options_.focus.empty();  // what is in focus moves from pose to pose, and is looked at in each
   panel.caption = pose_caption(run_, frame);
-  // Beside colors that mean something bones step back.
+  // Beside colors that mean something bones step back; lines have a gray middle, so there gray would say "as at rest".
   const bool shows_values = options_.color_by != ColorBy::muscle && options_.color_by != ColorBy::tissue;
-  const Color bone = !shows_values ? bone_color() : Color(0.72, 0.74, 0.75);
+  const bool of_lines = options_.color_by == ColorBy::fiber_strain || options_.color_by == ColorBy::tension;
+  const Color bone = shows_values && !of_lines ? Color(0.72, 0.74, 0.75) : bone_color();
   for (const std::string& name : run_.bones)
     if (shown(name)) {
       panel.surfaces.push_back({"", recorded_surface(run_, name, frame), bone, 1, framed(name)});
