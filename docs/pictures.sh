@@ -12,22 +12,27 @@ mkdir -p $pictures
 cp out/demo/preview.png $pictures/demo.png
 cp out/demo_thesis_2024/preview.png $pictures/demo_thesis_2024.png
 $gracilis demo elbow --out out/elbow --force
-$gracilis render out/elbow --out $pictures/elbow.png --size 1200x640 --frames 0,33,65
 
+# The README's table shows pictures about 400 pixels wide, so these are small enough for letters of 11 pixels there.
+$gracilis render out/elbow --out $pictures/elbow.png --size 540x420 --frames 0,65
 $gracilis render out/demo --out $pictures/flexion.gif --size 364x416 --step 2 --rate 20 --view posterolateral
-$gracilis render out/demo --out $pictures/fibers.png --size 1200x560 --view posterolateral --color-by fiber-strain
-$gracilis render out/demo --compare out/demo_thesis_2024 --out $pictures/stretch.png --size 1000x560 --frames 90 \
+$gracilis render out/demo --out $pictures/fibers.png --size 540x420 --frames 0,90 --view posterolateral \
+  --color-by fiber-strain
+$gracilis render out/demo --compare out/demo_thesis_2024 --out $pictures/stretch.png --size 540x400 --frames 90 \
   --view posterolateral --color-by edge-stretch
 
 $gracilis report out/demo out/demo_thesis_2024 --out out/report.html
-report_picture() { # NAME WIDTH HEIGHT COLOR
+report_picture() { # NAME WIDTH HEIGHT COLOR [PAGE]
   chromium --headless=new --no-sandbox --use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader \
     --hide-scrollbars "--window-size=$2,$3" --virtual-time-budget=4000 "--screenshot=$pictures/$1.png" \
-    "file://$PWD/out/report.html#frame=70&color=$4" 2>/dev/null
+    "file://$PWD/out/${5:-report.html}#frame=70&color=$4" 2>/dev/null
 }
-report_picture report 1400 860 tissue
-report_picture report_tablet 820 1180 stretch
-report_picture report_narrow 500 900 tissue # the narrowest that this Chromium opens; the page is made for 390, too
+report_picture report 1100 860 tissue
+report_picture report_tablet 768 1024 stretch
+# As a telephone shows it: within a page, since this Chromium opens no window of less than 500 pixels.
+echo '<body style="margin: 0; background: #bbb"><iframe src="report.html#frame=70&amp;color=tissue"
+  style="display: block; margin: 0 auto; border: 0; width: 390px; height: 844px"></iframe>' >out/narrow.html
+report_picture report_narrow 500 844 tissue narrow.html
 
 # The window presses its keys by itself. As it opens, in three sizes, at the end of the run:
 rm -rf out/window

@@ -256,9 +256,12 @@ static int add_scale_bar(const PictureLayout& layout, int scale, vtkRenderer& re
   std::snprintf(text, sizeof text, length < 0.01 ? "%.0f mm" : "%.0f cm", length < 0.01 ? 1000 * length : 100 * length);
   const vtkSmartPointer<vtkTextActor> label = text_actor(text, px(17) * scale, false);
   label->GetTextProperty()->SetJustificationToCentered();
-  label->SetPosition((px(20) + width / 2.0) * scale, px(28) * scale);
+  double size[2] = {0, 0};
+  label->GetSize(&renderer, size);
+  const Real wider = std::max(static_cast<Real>(width * scale), size[0]);  // in a small picture the words are
+  label->SetPosition(px(20) * scale + wider / 2, px(28) * scale);
   renderer.AddActor2D(label);
-  return px(20) + width;
+  return px(20) + static_cast<int>(std::ceil(wider / scale));
 }
 
 bool is_seen_through(const Panel& panel) {
