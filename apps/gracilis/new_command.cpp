@@ -56,7 +56,7 @@ std::string likely_unit(const FolderFiles& files) {
 /// What keeps the files from being drafted as a whole; nothing where they were.
 std::vector<Problem> drafted(const FolderFiles& files, const NewOptions& options, std::optional<SceneDraft>& draft) {
   try {
-    draft = draft_scene(files, "these surfaces", {.unit = options.unit});
+    draft = draft_scene(files, "the list of surfaces", {.unit = options.unit});
     return {};
   } catch (const InputError& error) {
     return error.problems();
