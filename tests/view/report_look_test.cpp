@@ -58,6 +58,19 @@ TEST_F(ReportInBrowser, the_slider_says_whose_opacity_it_is) {
   EXPECT_EQ(js("document.getElementById('opacity').labels[0].textContent.trim()"), "Opacity of muscles");
 }
 
+TEST_F(ReportInBrowser, gates_have_room_on_phones_and_tablets) {
+  open({FlexingLeg(3).written(folder.path() / "run")});
+  for (const int width : {390, 768, 1000}) {
+    browser->set_size(width, 1000);
+    EXPECT_EQ(js("new Promise(done => setTimeout(() => done(innerWidth), 300))"), width);
+    EXPECT_EQ(js("[document.getElementById('gates'), ...document.querySelectorAll('#gates td')]"
+                 ".filter(part => part.scrollWidth > part.clientWidth).length"),
+              0)
+        << width;
+  }
+  browser->set_size(1400, 900);
+}
+
 TEST_F(ReportInBrowser, text_of_plots_is_as_large_on_a_phone_and_after_a_window_has_changed) {
   // Pixels on the screen for one of the text's.
   const std::string scales = "[...document.querySelectorAll('.plot svg')].map(plot => plot.getScreenCTM().a)";
