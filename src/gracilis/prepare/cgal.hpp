@@ -41,6 +41,7 @@ std::optional<TriangleMesh> remesh_isotropic(const TriangleMesh& mesh, Real edge
 
 /// The surface of what either of two solids encloses. None where a surface is not closed, or cuts itself, or CGAL
 /// cannot do it.
-std::optional<TriangleMesh> exact_union(const TriangleMesh& a, const TriangleMesh& b);
+std::optional<TriangleMesh> exact_union(const TriangleMesh& a, const TriangleMesh& b,
+                                        const TimeLimit& limit = TimeLimit());
 
 }  // namespace gracilis

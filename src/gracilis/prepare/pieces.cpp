@@ -68,7 +68,7 @@ static std::optional<TriangleMesh> sound_union(const TriangleMesh& a, const Tria
   const std::ptrdiff_t pairs = crossing_pairs(a, b, limit);
   if (pairs == 0) return merged({a, b});
   if (pairs > most_exact_pairs) return std::nullopt;
-  const std::optional<TriangleMesh> both = exact_union(a, b);
+  const std::optional<TriangleMesh> both = exact_union(a, b, limit);
   if (!both) return std::nullopt;
   TriangleMesh mended = repair_mesh(*both).mesh;
   const MeshReport report = inspect_mesh(mended);
