@@ -1,6 +1,7 @@
 #include "handed_preparation.hpp"
 
 #ifdef GRACILIS_WITH_PREPARE
+#include <gracilis/prepare/mending.hpp>
 #include <gracilis/prepare/prepare_surfaces.hpp>
 #include <gracilis/prepare/separation.hpp>
 #endif
@@ -34,8 +35,9 @@ SeparateFunction scene_separation() {
 
 MendFunction surface_mending() {
   return [](const std::string& name, const TriangleMesh& mesh) {
-    PreparedSurfaces prepared = prepare_surfaces({{name, mesh}}, {}, {}, log_lines);
-    return MendedSurface{std::move(prepared.muscles.front()), std::move(prepared.report.muscles.front().repairs)};
+    log_lines("mending " + name);
+    FixedSurface fixed = mended_surface(mesh, name);
+    return MendedSurface{std::move(fixed.mesh), std::move(fixed.repairs)};
   };
 }
 

@@ -16,7 +16,7 @@ PrepareFunction scene_preparation();
 /// What pulls muscles apart from bones and each other, likewise.
 SeparateFunction scene_separation();
 
-/// What `prepare` makes of one muscle by itself. Throws ConfigurationError where this program is built without it.
+/// What mends one muscle so that a run takes it. Throws ConfigurationError where this program is built without it.
 MendFunction surface_mending();
 
 /// That this program is built without the component, and what to do.

@@ -5,6 +5,7 @@
 #include <gracilis/core/shell_word.hpp>
 #include <gracilis/draft/surface_flaws.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/mesh_pieces.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/scene/names.hpp>
@@ -33,6 +34,9 @@ constexpr Real smallest_size = 0.22, largest_size = 1.8;
 
 /// m³, of a grown person: a quadriceps in one piece has two thirds of it.
 constexpr Real largest_muscle = 0.003;
+
+/// Of a muscle's volume: mending that takes more away than where triangles cut others does harm.
+constexpr Real least_kept = 0.95;
 
 Real largest_extent(const Points& points) {
   if (points.cols() == 0) return 0;
@@ -118,12 +122,16 @@ struct Taking {
   const MendFunction& mend;
   std::map<std::string, std::string> taken = {};  ///< by names, from where
 
-  bool is_new(const std::string& name, const NamedSurfaceFile& each) {
-    const auto [at, inserted] = taken.emplace(name, title(each));
-    if (!inserted)
+  bool is_free(const std::string& name, const NamedSurfaceFile& each) {
+    const auto at = taken.find(name);
+    if (at != taken.end())
       found.left_out.push_back(
           fmt::format("{}: {} is there already, from {}; remove or rename one", title(each), name, at->second));
-    return inserted;
+    return at == taken.end();
+  }
+
+  bool is_new(const std::string& name, const NamedSurfaceFile& each) {
+    return is_free(name, each) && taken.emplace(name, title(each)).second;
   }
 
   /// Of two that have the same name but for a side, the one without it is on the other side.
@@ -168,17 +176,25 @@ struct Taking {
     muscle.mended = std::move(mended);
   }
 
-  /// What a run takes with flaws, without them; as it is where they stay.
+  /// What a run takes with flaws, without them; as it is, which is told, where they stay or more goes than they.
   void mend_flaws(const NamedSurfaceFile& each, FoundMuscle& muscle) {
     const std::string flaws = flaws_of(muscle.mesh);
     if (flaws.empty()) return;
     FoundMuscle other = muscle;
     try {
       put_mended(each, other, flaws);
-    } catch (const InputError&) {
+    } catch (const InputError& error) {
+      muscle.unmended = fmt::format("{}: {}", flaws, error.problems().front().what);
       return;
     }
-    if (!flaws_of(other.mesh).empty()) return;
+    const TriangleMesh main = largest_piece(muscle.mesh);
+    const Real kept =
+        enclosed_volume(other.mesh.vertices, other.mesh.faces) / std::abs(enclosed_volume(main.vertices, main.faces));
+    if (const std::string left = flaws_of(other.mesh); !left.empty())
+      muscle.unmended = fmt::format("{}: mended, {}", flaws, left);
+    else if (kept < least_kept)
+      muscle.unmended = fmt::format("{}: mended, {:.0f} % of it would be left", flaws, 100 * kept);
+    if (!muscle.unmended.empty()) return;
     other.mended->refused = false;
     muscle = std::move(other);
   }
@@ -229,7 +245,9 @@ struct Taking {
     const KnownMuscle* known = each.muscle.known;
     FoundMuscle muscle{
         muscle_name(each, true), each.file, each.part, known, side_of(each, true), known ? each.muscle.certainty : 0.3};
-    if (load_muscle(each, muscle) && is_new(muscle.name, each)) found.muscles.push_back(std::move(muscle));
+    // Asked before it is mended, which takes its time.
+    if (is_free(muscle.name, each) && load_muscle(each, muscle) && is_new(muscle.name, each))
+      found.muscles.push_back(std::move(muscle));
   }
 
   /// By its shape: a closed surface no larger than a muscle may be one, which its ends on bones must show.

@@ -45,6 +45,7 @@ struct FoundMuscle {
   Real certainty = 0;
   TriangleMesh mesh = {};
   std::optional<MendedSurface> mended = {};  ///< without its mesh, which is `mesh`
+  std::string unmended = {};                 ///< flaws that stay though they were to be mended, and why
 };
 
 /// An open surface on bones that says where a muscle attaches.

@@ -171,6 +171,12 @@ void collect_guesses(SceneDraft& draft) {
                                muscle.found->certainty});
   for (const DraftMuscle& muscle : draft.muscles)
     if (muscle.found->mended) draft.guesses.push_back(mended_guess(*muscle.found));
+  for (const DraftMuscle& muscle : draft.muscles)
+    if (!muscle.found->unmended.empty())
+      draft.guesses.push_back({muscle.found->name,
+                               fmt::format("its surface stays as it is in {}, though {}", name_in_folder(*muscle.found),
+                                           muscle.found->unmended),
+                               0.6});
   for (const Guess& guess : draft.skeleton.guesses) draft.guesses.push_back(guess);
   for (const DraftJoint& joint : draft.skeleton.joints) {
     draft.guesses.push_back(joint.guess);
