@@ -14,14 +14,14 @@ cd "$(dirname "$0")/.."
 command -v clang++ >/dev/null || { echo "there is no clang++: apt-get install clang" >&2; exit 4; }
 cmake --preset asan -B build/fuzz -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DGRACILIS_FUZZ=ON \
   -DGRACILIS_BUILD_TESTS=OFF >/dev/null
-cmake --build build/fuzz --target fuzz_all
+cmake --build build/fuzz --target fuzz_readers
 [ $# -gt 0 ] || set -- $(ls tests/fuzz/seeds)
 export LSAN_OPTIONS="suppressions=$PWD/tests/leaks_of_others.txt:print_suppressions=0"
 failed=0
 for target in "$@"; do
   mkdir -p "build/fuzz/corpus/$target" "build/fuzz/found/$target"
-  if build/fuzz/bin/fuzz_"$target" -max_total_time=$((60 * minutes)) -runs=1000000 -rss_limit_mb=2048 -timeout=20 \
-    -print_final_stats=1 -dict=tests/fuzz/dictionaries/text.dict -artifact_prefix="build/fuzz/found/$target/" \
+  if GRACILIS_FUZZ_TARGET=$target build/fuzz/bin/fuzz_readers -max_total_time=$((60 * minutes)) -runs=1000000 \
+    -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 -dict=tests/fuzz/dictionaries/text.dict -artifact_prefix="build/fuzz/found/$target/" \
     "build/fuzz/corpus/$target" "tests/fuzz/seeds/$target" 2>"build/fuzz/$target.log"; then
     result=clean
   else

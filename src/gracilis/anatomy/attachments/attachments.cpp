@@ -98,11 +98,12 @@ struct Taken {
     const auto [bone, nearest] = nearest_on(bones, p, rule.bone_distance);
     if (nearest.face < 0 || nearest.distance > rule.bone_distance) return false;
     if (near(rule.landmarks, p, rule.landmark_distance)) return true;
-    return std::any_of(rule.landmarks.begin(), rule.landmarks.end(), [&](const LandmarkSet& set) {
-      if (set.kind == LineKind::outline)
-        return bone < set.inside.size() && set.inside[bone][static_cast<std::size_t>(nearest.face)] != 0;
-      return set.kind == LineKind::closed && inside_outline(set.points, nearest.point, rule.landmark_distance);
-    });
+    return std::any_of(
+        rule.landmarks.begin(), rule.landmarks.end(), [&, bone = bone, &nearest = nearest](const LandmarkSet& set) {
+          if (set.kind == LineKind::outline)
+            return bone < set.inside.size() && set.inside[bone][static_cast<std::size_t>(nearest.face)] != 0;
+          return set.kind == LineKind::closed && inside_outline(set.points, nearest.point, rule.landmark_distance);
+        });
   }
   bool operator()(const NearPoints& rule) const { return near(rule.landmarks, p, rule.distance); }
   bool operator()(const NearBone& rule) const {
