@@ -15,6 +15,7 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSTLReader.h>
+#include <vtksys/SystemTools.hxx>
 
 #include <cstring>
 #include <map>
@@ -35,7 +36,8 @@ namespace fs = std::filesystem;
 /// and 50 for each triangle it announces.
 static void require_whole_stl(const fs::path& path) {
   const std::string bytes = read_text(path);
-  const bool text = bytes.starts_with("solid") && bytes.find("facet") != std::string::npos;
+  const bool vtk_reads_text = vtksys::SystemTools::DetectFileType(path.c_str()) == vtksys::SystemTools::FileTypeText;
+  const bool text = vtk_reads_text && bytes.starts_with("solid") && bytes.find("facet") != std::string::npos;
   std::uint32_t triangles = 0;
   if (bytes.size() >= 84) std::memcpy(&triangles, bytes.data() + 80, sizeof triangles);
   const std::size_t expected = 84 + 50 * std::size_t{triangles};

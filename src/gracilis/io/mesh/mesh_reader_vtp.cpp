@@ -46,7 +46,9 @@ struct VtpFile::Text {
       if (underscore == std::string::npos) fail_in(storage.path, "has no appended data");
       appended = std::string_view(text).substr(underscore + 1);
     }
-    const pugi::xml_parse_result result = document.load_buffer(xml.data(), xml.size());
+    // Of another encoding pugixml parses a longer copy, and an error's place in it is none in the text.
+    const pugi::xml_parse_result result =
+        document.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
     if (!result) {
       const auto line = 1 + std::count(xml.begin(), xml.begin() + result.offset, '\n');
       fail_in(storage.path, std::string("is damaged or no .vtp file: ") + result.description(), std::to_string(line));

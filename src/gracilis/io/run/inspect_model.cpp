@@ -27,7 +27,9 @@ static Json names_of(const std::vector<pugi::xml_node>& nodes) {
 Json inspect_model(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   pugi::xml_document document;
-  const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
+  // Of another encoding pugixml parses a longer copy, and an error's place in it is none in the text.
+  const pugi::xml_parse_result result =
+      document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
   if (!result) {
     const auto line = 1 + std::count(text.begin(), text.begin() + result.offset, '\n');
     throw InputError({path.string(), std::to_string(line), std::string("is not XML: ") + result.description(),
