@@ -7,9 +7,9 @@ Changes one sign, comparison, logical word or constant of src/gracilis/{dynamics
 runs the module's tests until one fails (killed), then those of its neighbors and of every --then (such as methods_tests).
 Which mutants is a matter of the seed alone; the numbers of which the built-in bones and muscles are made
 (anatomy/builtin) are data and left alone. It stands on a release build with its tests (cmake --preset release), whose
-files it leaves as they are: a mutant is compiled with the sources that it is a batch with, and linked before the
-library. Results are kept in build/mutation/seed_S.jsonl; called again, it goes on behind them. --before: words before
-each compiler call, such as "nice".
+files it leaves as they are: a mutant is compiled alone and linked before the library, and the linker takes the first of
+two functions of one name. Results are kept in build/mutation/seed_S.jsonl; called again, it goes on behind them.
+--before: words before each compiler call, such as "nice".
 """
 
 import argparse
@@ -88,32 +88,33 @@ class Build:
                 continue
             batch = re.findall(r'#include "(/.*?)"', file.read_text()) if "/Unity/" in str(file) else [str(file)]
             for source in batch:
-                self.of_source[source] = (entry["command"], file)
+                self.of_source[source] = entry["command"]
         self.links = {}
 
-    def compile(self, mutant):
-        """The object with the mutant, or None where it does not compile or comes out as it was."""
+    def compile(self, source, text, made):
+        """Whether the source with this text compiles. Code that is linked from elsewhere, too, must not be inlined: it
+        is not, since what is independent of its position calls what others may replace."""
+        WORK.joinpath(source.name).write_text(text)
+        words = shlex.split(self.of_source[str(source)])
+        words[words.index("-o") + 1], words[-1] = str(made), str(WORK / source.name)
+        words = [word for word in words if word != "-Werror" and not word.endswith("ccache")]
+        call = [*self.before, *words, "-w", "-iquote", str(source.parent)]
+        return subprocess.run(call, cwd=BUILD, capture_output=True).returncode == 0
+
+    def mutant(self, mutant):
+        """Its object, or None where it does not compile."""
         name, number, column, old, new = mutant
-        source = ROOT / name
-        lines = source.read_text().split("\n")
+        lines = (ROOT / name).read_text().split("\n")
         line = lines[number - 1]
         lines[number - 1] = line[:column] + new + line[column + len(old):]
-        mutated = WORK / source.name
-        mutated.write_text("\n".join(lines))
-        command, file = self.of_source[str(source)]
-        batch = WORK / "batch.cxx"
-        text = file.read_text() if file != source else f'#include "{source}"\n'
-        batch.write_text(text.replace(f'"{source}"', f'"{mutated}"'))
-        words = shlex.split(command)
-        at = words.index("-o") + 1
-        original, made = BUILD / words[at], WORK / "mutant.o"
-        words[at], words[-1] = str(made), str(batch)
-        words = [word for word in words if word not in ("-Werror",) and not word.endswith("ccache")]
-        made.unlink(missing_ok=True)
-        call = [*self.before, *words, "-w", "-iquote", str(source.parent)]
-        if subprocess.run(call, cwd=BUILD, capture_output=True).returncode != 0:
-            return None
-        return None if code_in(made) == code_in(original) else made
+        made = WORK / "mutant.o"
+        return made if self.compile(ROOT / name, "\n".join(lines), made) else None
+
+    def is_as_before(self, mutant, made):
+        """Whether the compiler makes the same code without it."""
+        original = WORK / "original.o"
+        self.compile(ROOT / mutant[0], (ROOT / mutant[0]).read_text(), original)
+        return code_in(made) == code_in(original)
 
     def link(self, program, made):
         """The test program with the mutant in it."""
@@ -124,7 +125,8 @@ class Build:
             self.links[program] = next(part for part in every.split(" && ") if f"-o bin/{program}" in part)
         words = shlex.split(self.links[program])
         words[words.index("-o") + 1] = str(WORK / program)
-        words.insert(next(i for i, word in enumerate(words) if word.endswith(".a")), str(made))
+        library = next(i for i, word in enumerate(words) if word.endswith(".a"))
+        words[library:library] = [str(made), "-Wl,-z,muldefs"]
         subprocess.run(words, cwd=BUILD, check=True)
         return WORK / program
 
@@ -154,14 +156,14 @@ def fails(program, seconds):
 
 
 def judge(build, mutant, programs, seconds):
-    made = build.compile(mutant)
+    made = build.mutant(mutant)
     if made is None:
         return "no change", ""
     for program in programs:
         why = fails(build.link(program, made), 4 * seconds[program] + 30)
         if why:
             return "killed", f"{program}: {why}"
-    return "survived", ""
+    return ("no change" if build.is_as_before(mutant, made) else "survived"), ""
 
 
 def report(results):
