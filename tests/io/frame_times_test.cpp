@@ -31,7 +31,7 @@ TEST(FrameTimes, of_a_scene_grow_with_its_vertices) {
   EXPECT_NEAR(remembered_frame_time(folder.path(), {"xpbd", "physical", 2}, large).value_or(0), 0.01 * ratio, 1e-4);
 }
 
-// What a frame takes whatever the scene holds would be multiplied: a test's two boxes foretold minutes for the demo.
+// What a frame takes whatever the scene holds would be multiplied.
 TEST(FrameTimes, of_a_scene_many_times_smaller_or_larger_tell_nothing) {
   const TestFolder folder;
   const Scene tiny = scene_of({0}), large = scene_of({4});

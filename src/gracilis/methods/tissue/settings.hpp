@@ -17,7 +17,7 @@ struct TissueSettings {
   Real matrix_lambda = 1e5;          ///< Pa, of every tetrahedron
   Real bulk_modulus = 2e6;           ///< Pa, of the mean volume of a cell
   Real shear_per_tension = 0.25;     ///< least shear modulus over the fibers' tension
-  Real bulk_per_tension = 10;        ///< least bulk modulus over the fibers' tension
+  Real bulk_per_tension = 30;        ///< least bulk modulus over the fibers' tension
   Real fiber_tension = 2e4;          ///< Pa, passive, at the length in the capture pose
   Real fiber_stiffness = 5e4;        ///< Pa per stretch
   Real largest_active_stress = 3e5;  ///< Pa
