@@ -170,7 +170,7 @@ void add_prepare_command(CLI::App& program, Command& chosen) {
           option_name(setting), [keep] { keep(true); }, std::string(setting.meaning));
     else
       command->add_option_function<Real>(option_name(setting), keep,
-                                         fmt::format("{} {}", setting.meaning, expectation(setting)));
+                                         fmt::format("{} Takes {}", setting.meaning, expectation(setting)));
   }
   command->callback([&chosen, options] { chosen = [options] { return prepare(*options); }; });
 }

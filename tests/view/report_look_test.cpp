@@ -68,6 +68,10 @@ TEST_F(ReportInBrowser, gates_have_room_on_phones_and_tablets) {
               0)
         << width;
   }
+  EXPECT_EQ(js("[...document.querySelectorAll('#gates td')].filter(part => !/ limit "
+               "±?[0-9]/.test(part.dataset.gate)).length"),
+            0)
+      << "without columns' heads each gate tells its limit itself";
   browser->set_size(1400, 900);
 }
 

@@ -51,20 +51,22 @@ function writeGates(runs, goTo) {
     table.classList.add('gates');
     for (const gate of measures) {
       const head = make('th', gate.title, {scope: 'col'});
-      head.append(make('small', ` limit ${gate.both_ways ? '±' : ''}${gate.limit} ${gate.unit}`));
+      head.append(make('small', ` ${limitText(gate)}`));
       table.tHead.rows[0].append(head);
     }
     for (const muscle of run.muscles) {
       const row = table.tBodies[0].insertRow();
       row.append(make('th', spoken(muscle.name), {scope: 'row'}));
-      for (const {measure, title} of measures) {
-        row.append(gateCell(run.gates.find(gate => gate.muscle === muscle.name && gate.measure === measure), index, goTo));
-        row.lastChild.setAttribute('data-gate', title); // what a narrow page has instead of columns' heads
+      for (const each of measures) {
+        row.append(gateCell(run.gates.find(gate => gate.muscle === muscle.name && gate.measure === each.measure), index, goTo));
+        row.lastChild.setAttribute('data-gate', `${each.title}, ${limitText(each)}`); // what a narrow page has instead of columns' heads
       }
     }
     document.getElementById('gates').append(table);
   });
 }
+
+function limitText(gate) { return `limit ${gate.both_ways ? '±' : ''}${gate.limit} ${gate.unit}`; }
 
 // Whether a gate is met, its worst value, and a way to the frame of it.
 function gateCell(gate, index, goTo) {
