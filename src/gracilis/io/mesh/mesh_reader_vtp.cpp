@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <optional>
 #include <utility>
 
@@ -49,6 +50,7 @@ struct VtpFile::Text {
     // Of another encoding pugixml parses a longer copy, and an error's place in it is none in the text.
     const pugi::xml_parse_result result =
         document.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
+    if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
     if (!result) {
       const auto line = 1 + std::count(xml.begin(), xml.begin() + result.offset, '\n');
       fail_in(storage.path, std::string("is damaged or no .vtp file: ") + result.description(), std::to_string(line));

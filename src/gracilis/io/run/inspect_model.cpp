@@ -7,6 +7,7 @@
 #include <pugixml.hpp>
 
 #include <algorithm>
+#include <new>
 #include <string>
 
 namespace gracilis {
@@ -30,6 +31,7 @@ Json inspect_model(const std::filesystem::path& path) {
   // Of another encoding pugixml parses a longer copy, and an error's place in it is none in the text.
   const pugi::xml_parse_result result =
       document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   if (!result) {
     const auto line = 1 + std::count(text.begin(), text.begin() + result.offset, '\n');
     throw InputError({path.string(), std::to_string(line), std::string("is not XML: ") + result.description(),

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace gracilis::opensim {
 
@@ -51,6 +52,7 @@ XmlFile read_xml(const std::filesystem::path& path) {
   XmlFile file{path, std::make_shared<pugi::xml_document>(), {}, 0};
   const pugi::xml_parse_result result =
       file.document->load_buffer(bytes.data(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
+  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
   if (!result) {
     const auto line = 1 + std::count(bytes.begin(), bytes.begin() + result.offset, '\n');
     throw InputError({path.string(), std::to_string(line), std::string("is not XML: ") + result.description(),

@@ -252,7 +252,8 @@ class Session {
     try {
       write_preview(folder_.path(), loaded_.scene, recorded_poses_);
     } catch (const Error& error) {
-      // A run is complete without its picture, as on a machine that offers no OpenGL.
+      // A run is complete without its picture on a machine that offers no OpenGL; what else fails may be tried again.
+      if (error.code() != ExitCode::unsupported) throw;
       warn(std::string("no preview: ") + error.what());
     }
   }
