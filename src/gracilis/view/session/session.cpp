@@ -252,8 +252,9 @@ class Session {
     try {
       write_preview(folder_.path(), loaded_.scene, recorded_poses_);
     } catch (const Error& error) {
-      // A run is complete without its picture on a machine that offers no OpenGL; what else fails may be tried again.
-      if (error.code() != ExitCode::unsupported) throw;
+      // A run is complete without a picture that cannot be drawn, as on a machine that offers no OpenGL; what could not
+      // be read or written may be tried again.
+      if (error.code() == ExitCode::unreadable_input) throw;
       warn(std::string("no preview: ") + error.what());
     }
   }
