@@ -4,6 +4,7 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh/vtp_arrays.hpp>
 #include <gracilis/io/text_cells.hpp>
+#include <gracilis/io/xml_text.hpp>
 
 #include <fmt/format.h>
 
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
-#include <new>
 #include <optional>
 #include <utility>
 
@@ -22,8 +22,10 @@ namespace gracilis {
 
 namespace {
 
+constexpr const char* surface_remedy = "export the surface again";
+
 [[noreturn]] void fail_in(const std::filesystem::path& path, const std::string& what, const std::string& where = "") {
-  throw InputError({path.string(), where, what, "export the surface again"});
+  throw InputError({path.string(), where, what, surface_remedy});
 }
 
 }  // namespace
@@ -47,14 +49,7 @@ struct VtpFile::Text {
       if (underscore == std::string::npos) fail_in(storage.path, "has no appended data");
       appended = std::string_view(text).substr(underscore + 1);
     }
-    // Of another encoding pugixml parses a longer copy, and an error's place in it is none in the text.
-    const pugi::xml_parse_result result =
-        document.load_buffer(xml.data(), xml.size(), pugi::parse_default, pugi::encoding_utf8);
-    if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
-    if (!result) {
-      const auto line = 1 + std::count(xml.begin(), xml.begin() + result.offset, '\n');
-      fail_in(storage.path, std::string("is damaged or no .vtp file: ") + result.description(), std::to_string(line));
-    }
+    parse_xml(storage.path, xml, "is damaged or no .vtp file", surface_remedy, document);
     root = document.child("VTKFile");
     if (std::strcmp(root.attribute("type").value(), "PolyData") != 0)
       fail_in(storage.path, "holds no surface: its type is not PolyData");

@@ -2,12 +2,11 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/xml_text.hpp>
 
 #include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 
-#include <algorithm>
-#include <new>
 #include <string>
 
 namespace gracilis {
@@ -28,15 +27,7 @@ static Json names_of(const std::vector<pugi::xml_node>& nodes) {
 Json inspect_model(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   pugi::xml_document document;
-  // Of another encoding pugixml parses a longer copy, and an error's place in it is none in the text.
-  const pugi::xml_parse_result result =
-      document.load_buffer(text.data(), text.size(), pugi::parse_default, pugi::encoding_utf8);
-  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
-  if (!result) {
-    const auto line = 1 + std::count(text.begin(), text.begin() + result.offset, '\n');
-    throw InputError({path.string(), std::to_string(line), std::string("is not XML: ") + result.description(),
-                      "export the model again"});
-  }
+  parse_xml(path, text, "is not XML", "export the model again", document);
   const pugi::xml_node root = document.child("OpenSimDocument");
   const pugi::xml_node model = root.child("Model");
   if (!model) throw InputError({path.string(), "", "holds no OpenSim model", "is it an .osim file?"});

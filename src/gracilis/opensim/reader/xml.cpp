@@ -4,13 +4,13 @@
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/io/text_cells.hpp>
 #include <gracilis/io/value_reader.hpp>
+#include <gracilis/io/xml_text.hpp>
 #include <gracilis/opensim/reader/old_versions.hpp>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 namespace gracilis::opensim {
 
@@ -50,14 +50,7 @@ static std::string valid_utf8(const std::string& bytes) {
 XmlFile read_xml(const std::filesystem::path& path) {
   const std::string bytes = valid_utf8(read_text(path));
   XmlFile file{path, std::make_shared<pugi::xml_document>(), {}, 0};
-  const pugi::xml_parse_result result =
-      file.document->load_buffer(bytes.data(), bytes.size(), pugi::parse_default, pugi::encoding_utf8);
-  if (result.status == pugi::status_out_of_memory) throw std::bad_alloc();
-  if (!result) {
-    const auto line = 1 + std::count(bytes.begin(), bytes.begin() + result.offset, '\n');
-    throw InputError({path.string(), std::to_string(line), std::string("is not XML: ") + result.description(),
-                      "save it again with OpenSim"});
-  }
+  parse_xml(path, bytes, "is not XML", "save it again with OpenSim", *file.document);
   file.root = file.document->child("OpenSimDocument");
   if (!file.root) throw InputError({path.string(), "", "is no OpenSim document", "is it an OpenSim file?"});
   file.version = file.root.attribute("Version").as_int();
