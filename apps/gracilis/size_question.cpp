@@ -19,13 +19,13 @@ void confirm_size(const RunPlan& plan, const SessionOptions& options) {
 void confirm_size(const RunPlan& plan, const SessionOptions& options, const std::string& fewer) {
   if (plan.size.bytes <= asking_bytes || options.yes || options.resume) return;
   if (isatty(STDIN_FILENO) && isatty(STDERR_FILENO)) {
-    fmt::print(stderr, "This writes about {} ({}). Go on? [y/N] ", room_text(plan), fewer);
+    fmt::print(stderr, "This writes about {} ({}). Go on? [y/N] ", cost_text(plan), fewer);
     std::string answer;
     if (std::getline(std::cin, answer) && (answer == "y" || answer == "Y" || answer == "yes")) return;
     throw Error(ExitCode::usage, "nothing was run");
   }
   throw Error(ExitCode::usage,
-              fmt::format("this would write about {}: --yes does it all the same, {}", room_text(plan), fewer));
+              fmt::format("this would write about {}: --yes does it all the same, {}", cost_text(plan), fewer));
 }
 
 }  // namespace gracilis

@@ -22,7 +22,7 @@ std::string with_commas(std::int64_t number) {
 
 }  // namespace
 
-std::string room_text(const RunPlan& plan) {
+std::string cost_text(const RunPlan& plan) {
   return fmt::format("{} in {} {}{}", size_text(plan.size.bytes), with_commas(plan.size.files),
                      plan.layout == RunLayout::compact ? "compact files" : "files",
                      plan.seconds && *plan.seconds >= 1 ? ", in about " + duration_text(*plan.seconds) : "");
@@ -57,7 +57,7 @@ RunPlan plan_run(const LoadedScene& loaded, const SessionOptions& options) {
 std::string describe_plan(const RunPlan& plan) {
   const SequenceParts& parts = plan.parts;
   if (!plan.recorded.empty())
-    return fmt::format("{} frames of {} that are computed; about {}", plan.frames, parts.count(), room_text(plan));
+    return fmt::format("{} frames of {} that are computed; about {}", plan.frames, parts.count(), cost_text(plan));
   std::string what;
   const auto add = [&](int frames, const char* are) {
     if (frames > 0) what += fmt::format("{}{} {}", what.empty() ? ": " : ", ", frames, are);
@@ -67,7 +67,7 @@ std::string describe_plan(const RunPlan& plan) {
   if (parts.count() > parts.motion) add(parts.motion, "of the motion");
   add(parts.hold, "that hold its last pose");
   add(parts.back, "back to the capture pose");
-  return fmt::format("{}{}; about {}", counted(static_cast<std::size_t>(plan.frames), "frame"), what, room_text(plan));
+  return fmt::format("{}{}; about {}", counted(static_cast<std::size_t>(plan.frames), "frame"), what, cost_text(plan));
 }
 
 }  // namespace gracilis

@@ -37,6 +37,6 @@ std::string describe_plan(const RunPlan& plan);
 inline constexpr double asking_bytes = 2e9;
 
 /// As in "1.1 GB in 30,653 files", and the time where it is known and worth a word: ", in about 9 min".
-std::string room_text(const RunPlan& plan);
+std::string cost_text(const RunPlan& plan);
 
 }  // namespace gracilis

@@ -89,7 +89,12 @@ class Session {
       finish(std::string("failed: ") + error.what());
       throw;
     }
-    end == RunEnd::complete ? finish("complete") : drop();
+    if (end == RunEnd::complete) {
+      keep_frame_time();
+      finish("complete");
+    } else {
+      drop();
+    }
     return close(end);
   }
 
@@ -175,6 +180,18 @@ class Session {
     return cached_bone_fields(loaded_.scene, settings, [this](const std::string& warning) { warn(warning); });
   }
 
+  double seconds_passed() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+  }
+
+  /// For later runs, which say beforehand how long they take.
+  void keep_frame_time() const {
+    const std::size_t solved = poses_.size() - 1;
+    if (first_ == 0 && solved >= frames_worth_keeping)
+      remember_frame_time(default_cache_folder(), frame_cost(loaded_, options_), loaded_.scene,
+                          seconds_passed() / static_cast<double>(solved));
+  }
+
   /// Says what was missed in a line or two; the rest is for the manifest.
   void summarize() {
     for (const auto& [muscle, text] : summary_.counters()) detail(fmt::format("{}: {}", muscle, text));
@@ -182,14 +199,10 @@ class Session {
       detail(line);
       warnings_.push_back(std::move(line));
     }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    const double seconds = seconds_passed();
     if (const int frames = folder_.frame_count() - 1 - first_; frames > 0)
       note(fmt::format("time: {} for {}, {:.2f} s each", duration_text(seconds),
                        counted(static_cast<std::size_t>(frames), "frame"), seconds / frames));
-    const std::size_t solved = poses_.size() - 1;
-    if (first_ == 0 && folder_.frame_count() == plan_.frames && solved >= frames_worth_keeping)
-      remember_frame_time(default_cache_folder(), frame_cost(loaded_, options_), loaded_.scene,
-                          seconds / static_cast<double>(solved));
     summary_.all_gates_met() ? note(summary_.gates_line()) : caution(summary_.gates_line());
     if (const std::string worst = summary_.worst_line(); !worst.empty()) caution(worst);
   }
