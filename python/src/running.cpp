@@ -77,7 +77,7 @@ SessionResult record(const LoadedScene& loaded, const SessionOptions& options, c
     RunPlan plan = plan_run(loaded, chosen);
     if (plan.size.bytes > asking_bytes && !options.yes)
       throw ConfigurationError(
-          {"large", "", "the run takes " + room_text(plan), "large=True runs it; or use every=, ramps=, layout="});
+          {"large", "", "the run takes " + cost_text(plan), "large=True runs it; or use every=, ramps=, layout="});
     result = record_session(loaded, chosen, std::move(plan), listener);
   }
   if (raised) std::rethrow_exception(raised);
