@@ -27,10 +27,10 @@ report_picture() { # NAME WIDTH HEIGHT COLOR [PAGE]
     --hide-scrollbars "--window-size=$2,$3" --virtual-time-budget=4000 "--screenshot=$pictures/$1.png" \
     "file://$PWD/out/${5:-report.html}#frame=70&color=$4" 2>/dev/null
 }
-report_picture report 1100 860 tissue
+report_picture report 1100 860 natural
 report_picture report_tablet 768 1024 stretch
 # As a telephone shows it: within a page, since this Chromium opens no window of less than 500 pixels.
-echo '<body style="margin: 0; background: #bbb"><iframe src="report.html#frame=70&amp;color=tissue"
+echo '<body style="margin: 0; background: #bbb"><iframe src="report.html#frame=70&amp;color=natural"
   style="display: block; margin: 0 auto; border: 0; width: 390px; height: 844px"></iframe>' >out/narrow.html
 report_picture report_narrow 500 844 tissue narrow.html
 

@@ -25,7 +25,8 @@ struct RenderOptions {
   std::filesystem::path run, out;
   std::vector<std::filesystem::path> compare;
   std::vector<int> frames;
-  std::string color_by = "tissue", size, title;
+  std::string color_by = "natural", size, title;
+  Real turn = 0, tilt = 0;  ///< degrees
   bool transparent = false, gif = false, mp4 = false, arrows = false;
   int rate = 25, step = 1;
   bool without_ramp = false;
@@ -89,6 +90,7 @@ int render(const RenderOptions& options) {
   chosen.color_by = static_cast<ColorBy>(
       std::find_if(scales.begin(), scales.end(), [&](const ColorScale& s) { return s.name == options.color_by; }) -
       scales.begin());
+  chosen.turn = radians(options.turn), chosen.tilt = radians(options.tilt);
   for (const RecordedRun& run : runs) warn_of_missing(run, chosen);
   if (chosen.bones == std::vector<std::string>{"none"}) chosen.bones.clear(), chosen.without_bones = true;
   if (options.arrows) chosen.arrow_scale = force_arrow_scale(runs);
@@ -139,12 +141,18 @@ void add_render_command(CLI::App& program, Command& chosen) {
       ->add_option("--view", options->picture.view,
                    "From where: anterior, lateral, anteromedial ... (as the run's preview looks)")
       ->check(CLI::IsMember(view_names()));
+  command
+      ->add_option("--turn", options->turn,
+                   "Degrees by which the camera goes on around the subject, counterclockwise seen from above (0)")
+      ->check(CLI::Range(-360.0, 360.0));
+  command->add_option("--tilt", options->tilt, "Degrees by which it then rises, or below 0 sinks (0)")
+      ->check(CLI::Range(-90.0, 90.0));
   command->add_option("--size", options->size, "WIDTHxHEIGHT of the whole picture, pixels (default: 720 per panel)");
   std::vector<std::string> names;
   for (const ColorScale& scale : color_scales()) names.push_back(scale.name);
   command
       ->add_option("--color-by", options->color_by,
-                   "What colors tell (tissue: nothing, muscles look like muscles; muscle: which one it is)")
+                   "What colors tell (natural: nothing, muscles look like muscle; muscle: which one it is)")
       ->check(CLI::IsMember(names));
   command->add_option("--frames", options->frames, "Frames side by side, as in 0,45,90 (capture, half way, farthest)")
       ->delimiter(',')

@@ -34,7 +34,7 @@ static MuscleLook look_of(const TriangleMesh& mesh) {
 TEST(MuscleLook, is_pale_at_thin_ends_and_red_between) {
   const TriangleMesh mesh = belly_with_tendons();
   const MuscleLook look = look_of(mesh);
-  const Points colors = painted_tissue(look, "gluteus_maximus_r");
+  const Points colors = natural_colors(look, "gluteus_maximus_r");
   for (Index v = 0; v < mesh.vertex_count(); ++v) {
     const Real off = std::abs(mesh.vertices(2, v) - 0.08), tendon = look.tendon[static_cast<std::size_t>(v)];
     const Real redness = colors(0, v) / colors(2, v);

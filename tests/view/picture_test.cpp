@@ -240,19 +240,62 @@ TEST_F(DrawnPicture, the_last_of_many_names_stands_in_the_legend) {
   EXPECT_GT(purple, 80);
 }
 
-TEST_F(DrawnPicture, a_long_caption_becomes_smaller_instead_of_being_cut_off) {
+/// How many pixels of a part, from the column `begin` on, have ink; and in how many rows there is any.
+static std::pair<int, int> ink_in(const Rectangle& part, vtkImageData& image, int begin = 0) {
+  int pixels = 0, rows = 0;
+  for (int y = part.y; y < part.y + part.height; ++y) {
+    const int before = pixels;
+    for (int x = part.x + begin; x < part.x + part.width; ++x) pixels += pixel(image, x, y).x() < 150;
+    rows += pixels > before;
+  }
+  return {pixels, rows};
+}
+
+TEST_F(DrawnPicture, a_long_caption_stands_in_lines_that_can_be_read_and_are_not_cut_off) {
   Picture picture = two_panels();
   picture.panels[1].caption = "hip_flexion_r -21°, hip_adduction_r 5°, hip_rotation_r -12°";
   draw(picture);
   if (IsSkipped()) return;
   const Rectangle strip = lay_out(picture).captions[1];
-  int inked = 0;
-  for (int y = strip.y; y < strip.y + strip.height; ++y) {
+  for (int y = strip.y; y < strip.y + strip.height; ++y)
     for (const int x : {strip.x + 2, strip.x + strip.width - 3})
       EXPECT_EQ(pixel(image(), x, y), Vec3(255, 255, 255)) << x << " " << y;
-    for (int x = strip.x; x < strip.x + strip.width; ++x) inked += pixel(image(), x, y).x() < 150;
-  }
-  EXPECT_GT(inked, 100);
+  const auto [pixels, rows] = ink_in(strip, image());
+  EXPECT_GT(pixels, 300);
+  EXPECT_GT(rows, 3 * 8) << "three lines of letters that are 11 pixels high with what hangs below the line";
+}
+
+TEST_F(DrawnPicture, the_caption_beside_the_scale_bar_is_as_large_as_the_others) {
+  Picture picture = two_panels();
+  for (Panel& panel : picture.panels) panel.caption = "swing 12°, 3 mm";
+  picture.panel_width = 280;
+  picture.scale_bar = true;
+  draw(picture);
+  if (IsSkipped()) return;
+  const PictureLayout layout = lay_out(picture);
+  EXPECT_EQ(layout.scale_bar.height, 0);
+  constexpr int beside_bar = 85;  // pixels
+  const int first = ink_in(layout.captions[0], image(), beside_bar).first;
+  const int second = ink_in(layout.captions[1], image()).first;
+  EXPECT_GT(second, 100);
+  EXPECT_NEAR(first, second, 0.1 * second);
+}
+
+TEST_F(DrawnPicture, a_scale_bar_stands_by_itself_where_it_would_leave_a_caption_no_room) {
+  Picture picture = two_panels();
+  for (Panel& panel : picture.panels) panel.caption = "hip_flexion_r 12°";
+  picture.panel_width = 120;
+  picture.scale_bar = true;
+  draw(picture);
+  if (IsSkipped()) return;
+  const PictureLayout layout = lay_out(picture);
+  EXPECT_EQ(layout.captions[0].y, layout.scale_bar.y + layout.scale_bar.height);
+  EXPECT_GT(ink_in(layout.scale_bar, image()).first, 50);
+  const int first = ink_in(layout.captions[0], image()).first, second = ink_in(layout.captions[1], image()).first;
+  EXPECT_GT(second, 100);
+  EXPECT_EQ(first, second);
+  for (int y = layout.captions[0].y; y < layout.captions[0].y + layout.captions[0].height; ++y)
+    for (const int x : {2, 117, 122, 237}) EXPECT_EQ(pixel(image(), x, y), Vec3(255, 255, 255)) << x << " " << y;
 }
 
 TEST(Picture, a_folder_that_cannot_be_written_is_named) {

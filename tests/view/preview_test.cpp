@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <random>
 
 using namespace gracilis;
 
@@ -54,7 +55,7 @@ Picture picture_of(const Scene& scene, const std::vector<Pose>& poses) {
   for (const int number : preview_frames(poses, static_cast<int>(poses.size()))) {
     frames.push_back({number, poses[static_cast<std::size_t>(number)], {{scene.muscles[0].surface.vertices}}});
   }
-  return preview_picture(scene, frames);
+  return preview_picture(scene, poses, frames);
 }
 
 }  // namespace
@@ -82,6 +83,42 @@ TEST(Preview, captions_say_the_pose) {
   ASSERT_EQ(picture.panels.size(), 3u);
   EXPECT_EQ(picture.panels[0].caption, "capture pose");
   EXPECT_EQ(picture.panels[2].caption, "hip_flexion_r 30°");
+}
+
+TEST(Preview, of_a_body_without_bones_or_with_some_about_its_joint_has_the_subjects_own_up) {
+  Scene scene = right_hip();
+  scene.bones.pop_back();
+  EXPECT_EQ(preview_camera(scene, turning(0, 31)).up, scene.axes.superior);
+  scene.bones.push_back({"about", 1, tetrahedron(Vec3(-0.15, -0.02, -0.05))});  // the joint is its box's middle
+  EXPECT_EQ(preview_camera(scene, turning(0, 31)).up, scene.axes.superior);
+  scene.bones.clear();
+  EXPECT_EQ(preview_camera(scene, turning(0, 31)).up, scene.axes.superior);
+}
+
+TEST(Preview, of_any_scene_can_be_drawn) {
+  std::mt19937 generator(7);
+  std::normal_distribution<Real> normal;
+  std::uniform_int_distribution<int> corner(-1, 1);
+  // Half of all directions lie along a frame's axes or diagonals, where they are parallel to others.
+  const auto direction = [&](bool plain) {
+    Vec3 found = Vec3::Zero();
+    while (found.norm() < 0.1)
+      found = plain ? Vec3(corner(generator), corner(generator), corner(generator))
+                    : Vec3(normal(generator), normal(generator), normal(generator));
+    return Vec3(found.normalized());
+  };
+  for (int i = 0; i < 2000; ++i) {
+    Scene scene = right_hip();
+    const bool plain = i % 2 == 0;
+    scene.bones[1].surface = tetrahedron(Vec3(-0.15, -0.02, -0.05) + 0.2 * (i % 3) * direction(plain));
+    if (i % 5 == 0) scene.bones.clear();
+    scene.axes.superior = direction(plain);
+    scene.axes.anterior = scene.axes.superior.unitOrthogonal();
+    for (JointAxis& axis : scene.joints[0].axes) axis.axis = direction(plain);
+    const CameraDirection camera = preview_camera(scene, turning(i % 3, 31));
+    EXPECT_GT(camera.looking.cross(camera.up).norm(), 0.5) << i;
+    EXPECT_NO_THROW(lay_out(picture_of(scene, turning(i % 3, 31)))) << i;
+  }
 }
 
 TEST(Preview, a_run_folder_gets_its_picture) {

@@ -27,8 +27,8 @@ TEST_F(ReportInBrowser, fibers_have_their_muscles_colors_and_muscles_are_pale_wh
 TEST_F(ReportInBrowser, muscles_look_like_muscle_at_first_and_have_their_own_colors_on_demand) {
   const RecordedRun run = FlexingLeg(2).written(folder.path() / "run");
   open({run});
-  EXPECT_EQ(js("document.getElementById('color-by').value"), "tissue");
-  const Points painted = painted_tissue(recorded_look(run, "gluteus_maximus_r"), "gluteus_maximus_r");
+  EXPECT_EQ(js("document.getElementById('color-by').value"), "natural");
+  const Points painted = natural_colors(recorded_look(run, "gluteus_maximus_r"), "gluteus_maximus_r");
   const std::string mesh = "stage.shapes[0].surfaces.find(each => each.name === 'gluteus_maximus_r').mesh";
   const auto colors = js("[..." + mesh + ".geometry.attributes.color.array]").get<std::vector<Real>>();
   ASSERT_EQ(static_cast<Index>(colors.size()), painted.size());

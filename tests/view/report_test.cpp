@@ -200,7 +200,7 @@ TEST_F(ReportInBrowser, toggles_muscles_colors_and_fibers) {
   EXPECT_EQ(picture(), all);
   js("page.goTo(20)");
   std::set<std::string> pictures;
-  for (const std::string key : {"tissue", "muscle", "stretch", "activation", "strain", "volume"}) {
+  for (const std::string key : {"natural", "muscle", "stretch", "activation", "strain", "volume"}) {
     js("(s => { s.value = '" + key +
        "'; s.dispatchEvent(new Event('change')); })(document.getElementById('color-by'))");
     EXPECT_EQ(js("document.getElementById('color-by').value"), key);

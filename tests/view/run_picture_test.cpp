@@ -60,21 +60,6 @@ TEST_F(RunPicture, views_look_from_where_their_names_say) {
   for (const std::string& view : view_names()) EXPECT_NEAR(view_direction(run, view).norm(), 1, 1e-9) << view;
 }
 
-TEST_F(RunPicture, captions_tell_the_angle) {
-  const RecordedRun run = FlexingLeg(21).written(folder.path());
-  EXPECT_EQ(pose_caption(run, 0), "hip_flexion_r 0°");
-  EXPECT_EQ(pose_caption(run, 20), "hip_flexion_r 60°");
-}
-
-TEST_F(RunPicture, captions_tell_the_time_in_every_frame_where_many_coordinates_move) {
-  RecordedRun run = FlexingLeg(21).written(folder.path());
-  const Eigen::MatrixXd flexion = run.coordinate_values.col(0);
-  run.coordinates = {"a_deg", "b_deg", "c_deg", "d_deg"};
-  run.coordinate_values = flexion.replicate(1, 4);
-  for (const int frame : {0, 20})
-    EXPECT_THAT(pose_caption(run, frame), testing::StartsWith("frame " + std::to_string(frame) + ", ")) << frame;
-}
-
 TEST_F(RunPicture, frames_stand_side_by_side_and_runs_below_each_other) {
   runs = {FlexingLeg(21).written(folder.path() / "a"), FlexingLeg(21).written(folder.path() / "b")};
   const RunPictureOptions options;
@@ -273,6 +258,23 @@ TEST_F(RunPicture, looks_as_the_preview_does_unless_it_is_told_otherwise) {
   RunPictureOptions options;
   options.view = "anterior";
   EXPECT_TRUE(RunPainter(run, options).panel(0).looking.isApprox(-Vec3::UnitX()));
+}
+
+TEST_F(RunPicture, the_camera_goes_around_the_subject_and_rises_by_angles) {
+  const RecordedRun run = FlexingLeg(2).written(folder.path());  // x anterior, y superior, z to the right
+  const auto camera = [&](Real turn, Real tilt) {
+    RunPictureOptions options;
+    options.view = "anterior";
+    options.turn = radians(turn), options.tilt = radians(tilt);
+    const Panel panel = RunPainter(run, options).panel(0);
+    EXPECT_NEAR(panel.looking.dot(panel.up), 0, 1e-12);
+    return std::pair(panel.looking, panel.up);
+  };
+  EXPECT_TRUE(camera(0, 0).first.isApprox(-Vec3::UnitX()));
+  EXPECT_TRUE(camera(90, 0).first.isApprox(Vec3::UnitZ())) << "from the subject's left";
+  EXPECT_TRUE(camera(-90, 0).first.isApprox(-Vec3::UnitZ())) << "from the right";
+  EXPECT_TRUE(camera(0, 30).first.isApprox(Vec3(-std::cos(radians(30)), -0.5, 0))) << "from above";
+  EXPECT_TRUE(camera(0, 90).second.isApprox(-Vec3::UnitX())) << "up is away from the subject's front";
 }
 
 TEST_F(RunPicture, images_of_a_film_have_one_size_whatever_single_frames_need) {

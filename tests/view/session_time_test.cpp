@@ -1,6 +1,7 @@
 #include <gracilis/view/session/session.hpp>
 
 #include "io/scene_folder.hpp"
+#include "io/test_files.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,7 @@ const ownScene = element('scene').textContent.trim() && bytesOf('scene');
 
 const page = {
   runCount: 1,
-  state: {visible: new Set(), colorBy: 'tissue', bones: true, fibers: false, wireframe: false, xAxis: 0, frame: 0},
+  state: {visible: new Set(), colorBy: 'natural', bones: true, fibers: false, wireframe: false, xAxis: 0, frame: 0},
   frame: null,          // the last one
   charts: [],
   milliseconds: [],     // of the last steps

@@ -1,5 +1,5 @@
 // What the worker sends, as three.js draws it: a Stage's shapes, as RunShapes is for a recorded run.
-const SURFACE_COLORS = {tissue: 'as muscles look', muscle: 'by muscle', activation: 'by activation', strain: 'by fiber length'};
+const SURFACE_COLORS = {natural: 'natural', muscle: 'by muscle', activation: 'by activation', strain: 'by fiber length'};
 
 class LiveShapes extends LitScene {
   constructor(description) {
@@ -46,7 +46,7 @@ class LiveShapes extends LitScene {
     geometry.computeVertexNormals();
     const opacity = fibersShown ? 0.25 : 1;
     Object.assign(material, {opacity, transparent: opacity < 1, depthWrite: opacity === 1, wireframe: state.wireframe});
-    const natural = state.colorBy === 'tissue', map = natural ? this.stripes : null;
+    const natural = state.colorBy === 'natural', map = natural ? this.stripes : null;
     if (material.map !== map)
       Object.assign(material, {map, vertexColors: natural ? THREE.VertexColors : THREE.NoColors, needsUpdate: true});
     material.color.setRGB(...(natural ? [1, 1, 1] : state.colorBy === 'activation' ? colorAt(SHAPE_COLORS.activation, activation) :

@@ -16,13 +16,13 @@ const std::vector<ColorScale>& color_scales() {
       bytes({{33, 102, 172}, {146, 197, 222}, {247, 244, 238}, {244, 165, 130}, {178, 24, 43}});
   static const std::vector<Color> rising = bytes({{250, 240, 225}, {240, 170, 120}, {205, 70, 60}, {110, 10, 60}});
   static const std::vector<Color> falling(rising.rbegin(), rising.rend());
-  // Thin lines on white want a dark middle.
+  // Thin lines on pale muscles want a darker middle.
   static const std::vector<Color> lines =
-      bytes({{20, 80, 170}, {70, 120, 170}, {110, 110, 110}, {190, 90, 60}, {178, 24, 43}});
-  static const std::vector<Color> lines_rising = bytes({{70, 120, 170}, {170, 110, 120}, {205, 70, 60}, {110, 10, 60}});
+      bytes({{20, 70, 150}, {75, 125, 175}, {150, 150, 150}, {195, 98, 72}, {165, 20, 40}});
+  static const std::vector<Color> lines_rising = bytes({{125, 170, 205}, {190, 115, 105}, {180, 50, 52}, {90, 5, 52}});
   static const Real fiber_end = std::log2(1.5);
   static const std::vector<ColorScale> scales = {
-      {"tissue", "", {}, 0, 1, {}},
+      {"natural", "", {}, 0, 1, {}},
       {"muscle", "", {}, 0, 1, {}},
       {"activation", "activation", rising, 0, 1, {"0", "0.5", "1"}},
       {"fiber-strain", "fiber length, × rest", lines, -fiber_end, fiber_end, {"0.67", "1", "1.5"}},

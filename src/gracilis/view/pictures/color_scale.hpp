@@ -9,7 +9,7 @@
 namespace gracilis {
 
 /// What pictures of runs tell by color: nothing but what muscles look like, or which muscle it is, or a value.
-enum class ColorBy { tissue, muscle, activation, fiber_strain, edge_stretch, bone_gap, volume, stress, tension };
+enum class ColorBy { natural, muscle, activation, fiber_strain, edge_stretch, bone_gap, volume, stress, tension };
 
 /// Values to colors, with what stands beside the bar. Colors run from the lowest value to the highest.
 struct ColorScale {
@@ -21,9 +21,9 @@ struct ColorScale {
 };
 
 /// One for each ColorBy, in its order. Scales with a middle go from blue over a light tone to red (after Brewer's
-/// RdBu), the others from light to dark: color-blind readers and gray print keep the order. Ratios are shown by their
-/// binary logarithm, so that half and double are equally far from 1; stress
-/// (Pa) and tension (N) by the decimal one.
+/// RdBu), the others from light to dark: color-blind readers see their order, and so does gray print, which tells of
+/// the former how far from the middle values are, not to which side. Ratios are shown by their binary logarithm, so
+/// that half and double are equally far from 1; stress (Pa) and tension (N) by the decimal one.
 const std::vector<ColorScale>& color_scales();
 
 const ColorScale& color_scale(ColorBy by);

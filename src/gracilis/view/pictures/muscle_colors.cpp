@@ -1,6 +1,7 @@
 #include <gracilis/view/pictures/muscle_colors.hpp>
 
 #include <gracilis/core/state_hash.hpp>
+#include <gracilis/view/pictures/muscle_groups.hpp>
 
 #include <algorithm>
 #include <array>
@@ -12,95 +13,8 @@ namespace gracilis {
 
 namespace {
 
-/// Muscles that lie and work together: one hue, and a lightness for each in turn.
-struct MuscleGroup {
-  Real hue;         ///< degrees
-  Real saturation;  ///< of the HSL color
-  std::vector<std::string_view> muscles;
-};
-
-/// Latin names as anatomists write them and OpenSim's short ones; neighbors stand beside each other.
-const std::vector<MuscleGroup>& muscle_groups() {
-  static const std::vector<MuscleGroup> groups = {
-      {4,
-       0.60,
-       {"gluteus_maximus", "gluteus_medius", "gluteus_minimus", "glut_max", "glut_med", "glut_min", "glmax", "glmed",
-        "glmin"}},
-      {318, 0.40, {"iliacus", "psoas_major", "psoas_minor", "psoas", "iliopsoas"}},
-      {28,
-       0.68,
-       {"adductor_brevis", "adductor_longus", "adductor_magnus", "adductor_minimus", "pectineus", "gracilis",
-        "add_brev", "add_long", "add_mag", "pect", "grac", "addbrev", "addlong", "addmag"}},
-      {212,
-       0.52,
-       {"rectus_femoris", "vastus_lateralis", "vastus_intermedius", "vastus_medialis", "sartorius",
-        "tensor_fasciae_latae", "rect_fem", "vas_lat", "vas_int", "vas_med", "sar", "tfl", "recfem", "vaslat", "vasint",
-        "vasmed"}},
-      {150,
-       0.42,
-       {"semimembranosus", "semitendinosus", "biceps_femoris_long", "biceps_femoris_short", "biceps_femoris", "semimem",
-        "semiten", "bifemlh", "bifemsh", "bflh", "bfsh"}},
-      {48,
-       0.62,
-       {"piriformis", "gemellus_superior", "superior_gemellus", "obturator_internus", "gemellus_inferior",
-        "inferior_gemellus", "obturator_externus", "quadratus_femoris", "peri", "gem", "quad_fem", "piri"}},
-      {182,
-       0.48,
-       {"gastrocnemius_medial", "gastrocnemius_lateral", "gastrocnemius", "soleus", "plantaris", "popliteus", "med_gas",
-        "lat_gas", "gasmed", "gaslat"}},
-      {268,
-       0.34,
-       {"tibialis_anterior",
-        "tibialis_posterior",
-        "fibularis_longus",
-        "fibularis_brevis",
-        "fibularis_tertius",
-        "peroneus_longus",
-        "peroneus_brevis",
-        "peroneus_tertius",
-        "extensor_digitorum_longus",
-        "extensor_hallucis_longus",
-        "flexor_digitorum_longus",
-        "flexor_hallucis_longus",
-        "tib_ant",
-        "tib_post",
-        "per_long",
-        "per_brev",
-        "per_tert",
-        "ext_dig",
-        "ext_hal",
-        "flex_dig",
-        "flex_hal",
-        "tibant",
-        "tibpost",
-        "perlong",
-        "perbrev",
-        "edl",
-        "ehl",
-        "fdl",
-        "fhl"}},
-      {232,
-       0.20,
-       {"erector_spinae", "external_oblique", "internal_oblique", "rectus_abdominis", "quadratus_lumborum", "ercspn",
-        "extobl", "intobl"}},
-      {4,
-       0.60,
-       {"biceps_brachii_long", "biceps_brachii_short", "biceps_brachii", "biceps_long", "biceps_short", "biceps",
-        "brachialis", "brachioradialis", "bic_long", "bic_brev", "biclong", "bicshort", "bra", "brd"}},
-      {212,
-       0.52,
-       {"triceps_brachii_long", "triceps_brachii_lateral", "triceps_brachii_medial", "anconeus", "triceps_brachii",
-        "triceps", "triceps_long", "triceps_lateral", "triceps_medial", "tri_long", "tri_lat", "tri_med", "trilong",
-        "trilat", "trimed"}},
-      {28,
-       0.68,
-       {"deltoid", "supraspinatus", "infraspinatus", "subscapularis", "teres_minor", "teres_major", "coracobrachialis",
-        "pectoralis_major", "latissimus_dorsi"}}};
-  return groups;
-}
-
-// Dark and light alternate: lightness is what survives gray print and every kind of color blindness.
-constexpr std::array<Real, 6> lightnesses = {0.40, 0.67, 0.30, 0.57, 0.36, 0.75};
+// CIE 1976 L*, 10 or more apart: lightness is what survives gray print and every kind of color blindness.
+constexpr std::array<Real, 6> shades = {30, 41, 52, 63, 73, 83};
 
 Color from_hsl(Real hue, Real saturation, Real lightness) {
   const Real a = saturation * std::min(lightness, 1 - lightness);
@@ -109,6 +23,23 @@ Color from_hsl(Real hue, Real saturation, Real lightness) {
     return lightness - a * std::max(Real(-1), std::min({k - 3, 9 - k, Real(1)}));
   };
   return {channel(0), channel(8), channel(4)};
+}
+
+/// L*, 0 black ... 100 white.
+Real perceived_lightness(const Color& color) {
+  const auto linear = [](Real c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+  const Real luminance = Vec3(0.2126, 0.7152, 0.0722).dot(color.unaryExpr(linear));
+  return luminance > 216.0 / 24389 ? 116 * std::cbrt(luminance) - 16 : luminance * 24389 / 27;
+}
+
+/// Of this hue and saturation, as light as that; found by halving, since lighter HSL colors look lighter.
+Color shaded(Real hue, Real saturation, Real shade) {
+  Real low = 0, high = 1;
+  for (int i = 0; i < 30; ++i) {
+    const Real middle = (low + high) / 2;
+    (perceived_lightness(from_hsl(hue, saturation, middle)) < shade ? low : high) = middle;
+  }
+  return from_hsl(hue, saturation, low);
 }
 
 /// In lower case, words joined by '_', without the side: a muscle has one color on both.
@@ -127,17 +58,18 @@ bool begins_with_words(std::string_view name, std::string_view muscle) {
   return name.size() == muscle.size() || std::isalpha(static_cast<unsigned char>(name[muscle.size()])) == 0;
 }
 
-struct FoundMuscleColor {
+struct MuscleMatch {
   const MuscleGroup* group = nullptr;
-  std::size_t place = 0, length = 0;
+  const NamedMuscle* muscle = nullptr;
+  std::size_t length = 0;  ///< of the name that was found
 };
 
-FoundMuscleColor find(std::string_view name) {
-  FoundMuscleColor found;
+MuscleMatch find(std::string_view name) {
+  MuscleMatch found;
   for (const MuscleGroup& group : muscle_groups())
-    for (std::size_t i = 0; i < group.muscles.size(); ++i)
-      if (group.muscles[i].size() > found.length && begins_with_words(name, group.muscles[i]))
-        found = {&group, i, group.muscles[i].size()};
+    for (const NamedMuscle& muscle : group.muscles)
+      for (const std::string_view each : muscle.names)
+        if (each.size() > found.length && begins_with_words(name, each)) found = {&group, &muscle, each.size()};
   return found;
 }
 
@@ -149,34 +81,31 @@ std::size_t part_number(std::string_view words) {
 }
 
 struct PartShift {
-  Real lightness = 0, turn = 0;  ///< of the HSL color, degrees
+  Real shade = 0, turn = 0;  ///< L*; degrees of hue
 };
 
-/// Parts stay within their muscle's own step, or they would take colors of the muscles beside it. Light and dark
+/// Parts stay within half their muscle's step, or they would take colors of the muscles beside it. Light and dark
 /// alternate, too.
 PartShift shift_of_part(std::size_t number) {
-  constexpr std::array<Real, 3> steps = {0.06, -0.06, 0};
+  constexpr std::array<PartShift, 3> shifts = {{{5, 8}, {-5, -8}, {0, 0}}};
   if (number == 0) return {};
-  return {steps[(number - 1) % 3], 3 * static_cast<Real>((number - 1) / 3)};
+  const PartShift& shift = shifts[(number - 1) % 3];
+  return {shift.shade, shift.turn + 3 * static_cast<Real>((number - 1) / 3)};
 }
 
 }  // namespace
 
 Color muscle_color(std::string_view name) {
   const std::string plain = plain_name(name);
-  const FoundMuscleColor found = find(plain);
+  const MuscleMatch found = find(plain);
   const std::string_view words = std::string_view(plain).substr(found.length);
-  if (!found.group) {
+  if (!found.muscle) {
     const std::uint64_t hash = hash_of(words);
-    return from_hsl(Real(hash % 12) * 30, 0.45, lightnesses[hash / 12 % lightnesses.size()]);
+    return shaded(Real(hash % 12) * 30, 0.45, shades[hash / 12 % shades.size()]);
   }
   const PartShift part = shift_of_part(part_number(words));
-  const std::size_t shade = found.place % lightnesses.size();
-  // Every third leans to the side in hue, and so do those of a large group for which lightnesses begin again.
-  const std::size_t turns = found.place % 3 + 2 * (found.place / lightnesses.size() % 3);
-  const Real turn = 9 * static_cast<Real>(turns) + part.turn;
-  return from_hsl(std::fmod(found.group->hue + turn, 360), found.group->saturation,
-                  lightnesses[shade] + part.lightness);
+  return shaded(std::fmod(found.group->hue + part.turn + 360, 360), found.group->saturation,
+                shades[static_cast<std::size_t>(found.muscle->shade)] + part.shade);
 }
 
 }  // namespace gracilis

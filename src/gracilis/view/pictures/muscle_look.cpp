@@ -230,7 +230,7 @@ Color fiber_paint(std::string_view name) {
 
 Color tendon_paint() { return {0.97, 0.95, 0.90}; }
 
-Points painted_tissue(const MuscleLook& look, std::string_view name) {
+Points natural_colors(const MuscleLook& look, std::string_view name) {
   const Color belly = fiber_paint(name), tendon = tendon_paint();
   Points colors(3, static_cast<Index>(look.tendon.size()));
   for (Index v = 0; v < colors.cols(); ++v) colors.col(v) = belly + look.tendon[at(v)] * (tendon - belly);

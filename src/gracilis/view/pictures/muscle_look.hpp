@@ -30,7 +30,7 @@ MuscleLook muscle_look(const TriangleMesh& rest, const Polylines& fibers);
 MuscleLook muscle_look(const Muscle& muscle);
 
 /// Colors per vertex. Muscles differ in lightness as their own colors do, so that neighbors can be told apart.
-Points painted_tissue(const MuscleLook& look, std::string_view name);
+Points natural_colors(const MuscleLook& look, std::string_view name);
 /// The color of a muscle's fibers beside that, and of its belly.
 Color fiber_paint(std::string_view name);
 Color tendon_paint();

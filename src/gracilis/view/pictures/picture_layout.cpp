@@ -10,6 +10,8 @@ namespace gracilis {
 
 static constexpr int strip_height = 56;                // pixels: title, legend or caption
 static constexpr int color_bar_width = 460;            // pixels
+static constexpr int scale_bar_height = 44;            // pixels, where it stands by itself
+static constexpr int narrow_panel = 260;               // pixels; a caption has no room beside a scale bar
 static constexpr int least_font = 11, most_font = 20;  // pixels, of a legend
 // Pages show a wider picture smaller: 15 pixels of 1200 are 11 on a page of 900.
 static constexpr Real unscaled_width = 1200;  // pixels
@@ -147,7 +149,11 @@ PictureLayout lay_out(const Picture& picture) {
   layout.half_height = std::max(needed.y(), needed.x() * panel_height / picture.panel_width) / picture.zoom;
   const int row_height = panel_height + caption_height;
   layout.legend_entries = legend_of(picture);
-  const int below = place_legend(picture, panel_height, layout);
+  int below = place_legend(picture, panel_height, layout);
+  if (picture.scale_bar && captions && picture.panel_width < text_pixels(layout, narrow_panel)) {
+    layout.scale_bar = {0, below, layout.width, text_pixels(layout, scale_bar_height)};
+    below += layout.scale_bar.height;
+  }
   layout.title = {0, below + rows * row_height, layout.width, picture.title.empty() ? 0 : strip};
   layout.height = layout.title.y + layout.title.height;
   for (int i = 0; i < count; ++i) {

@@ -31,6 +31,7 @@ struct PictureLayout {
   Real text = 1;              ///< how many times as large letters are as in a picture of 1200 pixels, from 1
   Rectangle title, legend;    ///< height 0: none
   Rectangle color_bar;        ///< beside the legend, or below it where that had no room; height 0: none
+  Rectangle scale_bar;  ///< where captions have no room beside it; height 0: it stands in the first panel's caption
   LegendGrid legend_grid;
   std::vector<Rectangle> panels;    ///< one per panel, the caption's strip excluded
   std::vector<Rectangle> captions;  ///< one per panel, below it

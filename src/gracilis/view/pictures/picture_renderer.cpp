@@ -1,11 +1,11 @@
 #include <gracilis/view/pictures/picture_renderer.hpp>
 
 #include <gracilis/io/mesh/vtk_mesh.hpp>
+#include <gracilis/view/pictures/picture_words.hpp>
 #include <gracilis/view/pictures/smooth_lines.hpp>
 #include <gracilis/view/pictures/stripes.hpp>
 
 #include <vtkActor.h>
-#include <vtkActor2D.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -15,20 +15,15 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
-#include <vtkPolyDataMapper2D.h>
 #include <vtkProperty.h>
-#include <vtkProperty2D.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkTextActor.h>
-#include <vtkTextProperty.h>
 #include <vtkTexture.h>
 #include <vtkTubeFilter.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace gracilis {
 
@@ -152,118 +147,6 @@ static vtkSmartPointer<vtkRenderer> renderer_in(const Rectangle& part, const Rec
   return renderer;
 }
 
-static vtkSmartPointer<vtkTextActor> text_actor(const std::string& text, int pixels, bool bold) {
-  const auto actor = vtkSmartPointer<vtkTextActor>::New();
-  actor->SetInput(text.c_str());
-  vtkTextProperty* property = actor->GetTextProperty();
-  property->SetFontFamilyToArial();
-  property->SetFontSize(pixels);
-  property->SetBold(bold);
-  property->SetColor(0.13, 0.13, 0.13);
-  property->SetVerticalJustificationToCentered();
-  return actor;
-}
-
-/// In the middle of a part, or as near to it as what takes up the part's first `taken` pixels allows; smaller where it
-/// would not find room.
-static void add_centered_text(const std::string& text, int pixels, bool bold, const Rectangle& part, int scale,
-                              vtkRenderer& renderer, int taken = 0) {
-  constexpr int margin = 8;  // pixels
-  const vtkSmartPointer<vtkTextActor> actor = text_actor(text, pixels * scale, bold);
-  actor->GetTextProperty()->SetJustificationToCentered();
-  double size[2] = {0, 0};
-  actor->GetSize(&renderer, size);
-  const int begin = taken > 0 ? taken + 2 * margin : margin;
-  const Real room = (part.width - margin - begin) * scale;
-  if (size[0] > room && room > 0) {
-    actor->GetTextProperty()->SetFontSize(static_cast<int>(pixels * scale * room / size[0]));
-    actor->GetSize(&renderer, size);
-  }
-  actor->SetPosition(std::max(part.width * scale / 2.0, begin * scale + size[0] / 2), part.height * scale / 2.0);
-  renderer.AddActor2D(actor);
-}
-
-/// In pixels of the window.
-static void add_rectangle(const Color& color, const Rectangle& part, vtkRenderer& renderer) {
-  Points corners(3, 4);
-  corners << part.x, part.x + part.width, part.x + part.width, part.x, part.y, part.y, part.y + part.height,
-      part.y + part.height, 0, 0, 0, 0;
-  Eigen::Matrix3Xi faces(3, 2);
-  faces << 0, 0, 1, 2, 2, 3;
-  vtkNew<vtkPolyDataMapper2D> mapper;
-  mapper->SetInputData(to_vtk(corners, faces));
-  vtkNew<vtkActor2D> actor;
-  actor->SetMapper(mapper);
-  actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
-  renderer.AddActor2D(actor);
-}
-
-/// Swatch and name of every entry, in cells of equal width.
-static void add_legend(const PictureLayout& layout, int scale, vtkRenderer& renderer) {
-  const auto& [columns, font, row_height] = layout.legend_grid;
-  const int count = static_cast<int>(layout.legend_entries.size()), rows = (count + columns - 1) / columns;
-  const int cell = layout.legend.width / columns;
-  for (int i = 0; i < count; ++i) {
-    const auto& [name, color] = layout.legend_entries[static_cast<std::size_t>(i)];
-    const int x = i % columns * cell + text_pixels(layout, 12);
-    const int middle = (layout.legend.height + (rows - 1 - 2 * (i / columns)) * row_height) / 2;
-    add_rectangle(color, {x * scale, (middle - font / 2) * scale, font * scale, font * scale}, renderer);
-    const vtkSmartPointer<vtkTextActor> text = text_actor(name, font * scale, false);
-    text->SetPosition((x + font + text_pixels(layout, 8)) * scale, middle * scale);
-    renderer.AddActor2D(text);
-  }
-}
-
-/// A strip of colors with its title to the left and its values below.
-static void add_color_bar(const ColorBar& bar, const PictureLayout& layout, int scale, vtkRenderer& renderer) {
-  const auto px = [&](int pixels) { return text_pixels(layout, pixels); };
-  const Rectangle& part = layout.color_bar;
-  const int left = part.width / 2, width = part.width / 2 - px(40), height = px(14), bottom = part.height / 2;
-  static constexpr int pieces = 64;
-  const auto last = static_cast<Real>(bar.colors.size() - 1);
-  for (int i = 0; i < pieces; ++i) {
-    const Real at = last * i / (pieces - 1);
-    const auto below = static_cast<std::size_t>(std::min(std::floor(at), std::max(last - 1, 0.0)));
-    const Color& next = bar.colors[std::min(below + 1, bar.colors.size() - 1)];
-    const Color color = bar.colors[below] + (at - static_cast<Real>(below)) * (next - bar.colors[below]);
-    const int begin = scale * left + scale * width * i / pieces, end = scale * left + scale * width * (i + 1) / pieces;
-    add_rectangle(color, {begin, scale * bottom, end - begin, scale * height}, renderer);
-  }
-  const vtkSmartPointer<vtkTextActor> title = text_actor(bar.title, px(18) * scale, false);
-  title->GetTextProperty()->SetJustificationToRight();
-  title->SetPosition((left - px(14)) * scale, (bottom + height / 2) * scale);
-  renderer.AddActor2D(title);
-  for (std::size_t i = 0; i < bar.ticks.size(); ++i) {
-    const vtkSmartPointer<vtkTextActor> tick = text_actor(bar.ticks[i], px(15) * scale, false);
-    tick->GetTextProperty()->SetJustificationToCentered();
-    const Real share = bar.ticks.size() > 1 ? static_cast<Real>(i) / static_cast<Real>(bar.ticks.size() - 1) : 0.5;
-    tick->SetPosition((left + share * width) * scale, (bottom - px(11)) * scale);
-    renderer.AddActor2D(tick);
-  }
-}
-
-/// A line of a round length, at most a fifth of the panel, in the lower left corner. Returns where it ends, pixels.
-static int add_scale_bar(const PictureLayout& layout, int scale, vtkRenderer& renderer) {
-  const auto px = [&](int pixels) { return text_pixels(layout, pixels); };
-  const Rectangle& part = layout.panels[0];
-  const Real pixels_per_metre = part.height / (2 * layout.half_height);
-  Real length = 0.001;
-  for (const Real each : {0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0})
-    if (each * pixels_per_metre <= part.width / 5.0) length = each;
-  const int width = static_cast<int>(std::lround(length * pixels_per_metre));
-  add_rectangle(Color::Constant(0.13), {px(20) * scale, px(14) * scale, width * scale, px(3) * scale}, renderer);
-  char text[20];
-  std::snprintf(text, sizeof text, length < 0.01 ? "%.0f mm" : "%.0f cm", length < 0.01 ? 1000 * length : 100 * length);
-  const vtkSmartPointer<vtkTextActor> label = text_actor(text, px(17) * scale, false);
-  label->GetTextProperty()->SetJustificationToCentered();
-  double size[2] = {0, 0};
-  label->GetSize(&renderer, size);
-  const Real wider = std::max(static_cast<Real>(width * scale), size[0]);  // in a small picture the words are
-  label->SetPosition(px(20) * scale + wider / 2, px(28) * scale);
-  renderer.AddActor2D(label);
-  return px(20) + static_cast<int>(std::ceil(wider / scale));
-}
-
 bool is_seen_through(const Panel& panel) {
   return std::any_of(panel.surfaces.begin(), panel.surfaces.end(), [](const auto& s) { return s.opacity < 1; });
 }
@@ -282,7 +165,9 @@ std::vector<Rectangle> areas_to_draw(const PictureLayout& layout) {
     areas.push_back({panel.x, caption.y, panel.width, caption.height + panel.height});
   }
   if (layout.title.height > 0) areas.push_back(layout.title);
-  const int below = std::max(layout.legend.y + layout.legend.height, layout.color_bar.y + layout.color_bar.height);
+  int below = 0;
+  for (const Rectangle* part : {&layout.legend, &layout.color_bar, &layout.scale_bar})
+    below = std::max(below, part->y + part->height);
   if (below > 0) areas.push_back({0, 0, layout.width, below});
   return areas;
 }
@@ -305,16 +190,13 @@ std::map<std::size_t, vtkRenderer*> add_renderers(const Picture& picture, const 
     for (const PaintedLines& lines : panel.lines) add_lines(lines, scale, *renderer);
     add_camera_lights(*renderer);
     place_camera(layout.cameras[i], layout.half_height, *renderer);
-    if (i == 0 && picture.scale_bar && layout.captions[i].height == 0) add_scale_bar(layout, scale, *renderer);
-    if (layout.captions[i].height == 0) continue;
-    const auto caption = add_renderer(layout.captions[i]);
-    const int taken = i == 0 && picture.scale_bar ? add_scale_bar(layout, scale, *caption) : 0;
-    add_centered_text(panel.caption, text_pixels(layout, 24), false, layout.captions[i], scale, *caption, taken);
+    if (i == 0 && picture.scale_bar && layout.captions[i].height == 0) draw_scale_bar(layout, scale, *renderer);
+    if (layout.captions[i].height > 0) draw_caption(picture, layout, i, scale, *add_renderer(layout.captions[i]));
   }
-  if (is_in(layout.title, area))
-    add_centered_text(picture.title, text_pixels(layout, 30), true, layout.title, scale, *add_renderer(layout.title));
-  if (is_in(layout.color_bar, area)) add_color_bar(*picture.color_bar, layout, scale, *add_renderer(layout.color_bar));
-  if (is_in(layout.legend, area)) add_legend(layout, scale, *add_renderer(layout.legend));
+  if (is_in(layout.title, area)) draw_title(picture, layout, scale, *add_renderer(layout.title));
+  if (is_in(layout.scale_bar, area)) draw_scale_bar(layout, scale, *add_renderer(layout.scale_bar));
+  if (is_in(layout.color_bar, area)) draw_color_bar(*picture.color_bar, layout, scale, *add_renderer(layout.color_bar));
+  if (is_in(layout.legend, area)) draw_legend(layout, scale, *add_renderer(layout.legend));
   return of_panels;
 }
 

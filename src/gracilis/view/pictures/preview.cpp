@@ -1,10 +1,8 @@
 #include <gracilis/view/pictures/preview.hpp>
 
-#include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/io/run/run_folder.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
-
-#include <fmt/format.h>
+#include <gracilis/view/pictures/pose_caption.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -39,16 +37,16 @@ std::vector<int> preview_frames(const std::vector<Pose>& poses, int frame_count)
   return frames;
 }
 
-/// The middle of the bones of a body at the capture pose; of all bones when it has none.
-static Vec3 middle_of_body(const Scene& scene, Index body) {
-  Eigen::AlignedBox3d box, all;
+/// The middle of the bones of a body in the capture pose, or of all bones; nothing where it has none.
+static std::optional<Vec3> middle_of_bones(const Scene& scene, std::optional<Index> body = {}) {
+  Eigen::AlignedBox3d box;
   for (const Bone& bone : scene.bones) {
-    const Eigen::AlignedBox3d extent(bone.surface.vertices.rowwise().minCoeff(),
-                                     bone.surface.vertices.rowwise().maxCoeff());
-    all.extend(extent);
-    if (bone.body == body) box.extend(extent);
+    if (body && bone.body != *body) continue;
+    box.extend(Vec3(bone.surface.vertices.rowwise().minCoeff()));
+    box.extend(Vec3(bone.surface.vertices.rowwise().maxCoeff()));
   }
-  return box.isEmpty() ? all.center() : box.center();
+  if (box.isEmpty()) return std::nullopt;
+  return box.center();
 }
 
 /// Nearly upright is upright: bodies stand along the axes of their frame.
@@ -92,61 +90,36 @@ static TurningAxis main_axis(const Scene& scene, const std::vector<Pose>& poses)
   return found;
 }
 
+/// Away from the moving bones; the subject's own where there are none, or they lie about the joint.
+static Vec3 up_of(const Scene& scene, const Joint& joint) {
+  constexpr Real least_way = 1e-3;  // m
+  const Vec3 center = joint.frame.translation(),
+             up = center - middle_of_bones(scene, joint.child_body).value_or(center);
+  return up.norm() < least_way ? scene.axes.superior : snapped_to_axis(up);
+}
+
 CameraDirection preview_camera(const Scene& scene, const std::vector<Pose>& poses) {
-  CameraDirection panel;
   const TurningAxis turning = main_axis(scene, poses);
-  if (!turning.joint) return panel;
+  if (!turning.joint) return {-scene.axes.right(), scene.axes.superior};
   const Joint& joint = *turning.joint;
-  const Vec3 center = joint.frame.translation();
-  panel.up = snapped_to_axis(center - middle_of_body(scene, joint.child_body));
+  CameraDirection camera;
+  camera.up = up_of(scene, joint);
   Vec3 axis = joint.frame.linear() * turning.axis->axis;
-  if (std::abs(axis.dot(panel.up)) > 0.7) axis = joint.frame.linear() * joint.axes[0].axis;
-  if (std::abs(axis.dot(panel.up)) > 0.7) axis = panel.up.unitOrthogonal();
-  axis = (axis - axis.dot(panel.up) * panel.up).normalized();
+  if (std::abs(axis.dot(camera.up)) > 0.7) axis = joint.frame.linear() * joint.axes[0].axis;
+  if (std::abs(axis.dot(camera.up)) > 0.7) axis = camera.up.unitOrthogonal();
+  axis = (axis - axis.dot(camera.up) * camera.up).normalized();
   // The joint lies outwards from the middle of the resting body: look from there inwards.
-  const Vec3 outwards = center - middle_of_body(scene, joint.parent_body);
-  panel.looking = snapped_to_axis(axis.dot(outwards) > 0 ? Vec3(-axis) : axis);
-  return panel;
+  const std::optional<Vec3> parent = middle_of_bones(scene, joint.parent_body);
+  const Vec3 outwards = joint.frame.translation() - (parent ? *parent : middle_of_bones(scene).value_or(Vec3::Zero()));
+  camera.looking = snapped_to_axis(axis.dot(outwards) > 0 ? Vec3(-axis) : axis);
+  return camera;
 }
 
-static std::vector<Pose> poses_of(const std::vector<Frame>& frames) {
-  std::vector<Pose> poses;
-  for (const Frame& frame : frames) poses.push_back(frame.pose);
-  return poses;
-}
-
-/// Frames before the motion have times that say nothing.
-static std::string time_caption(const Scene& scene, const Frame& frame) {
-  const bool before = scene.motion.times.empty() || frame.pose.time < scene.motion.times.front();
-  if (before) return fmt::format("frame {}, on the way to the motion", frame.number);
-  return fmt::format("frame {}, {:.2f} s", frame.number, frame.pose.time);
-}
-
-/// The coordinates that left the capture pose, unless they went to 0: a motion of one coordinate sets the others there.
-static std::string caption_of(const Scene& scene, const Frame& frame) {
-  if (frame.number == 0) return "capture pose";
-  std::string caption;
-  std::size_t coordinate = 0;
-  int shown_coordinates = 0;
-  for (const Joint& joint : scene.joints) {
-    for (const JointAxis& axis : joint.axes) {
-      if (coordinate >= frame.pose.coordinates.size()) break;
-      const Real value = frame.pose.coordinates[coordinate++];
-      const Real shown = shown_value(axis, value);
-      if (std::abs(shown - shown_value(axis, axis.capture_value)) < 0.5 || std::abs(shown) < 0.5) continue;
-      // A whole body has more coordinates than a caption has room.
-      if (++shown_coordinates > 3) return time_caption(scene, frame);
-      caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", axis.coordinate, shown,
-                             axis.translation ? " mm" : "°");
-    }
-  }
-  return caption.empty() ? fmt::format("frame {}", frame.number) : caption;
-}
-
-Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames) {
+Picture preview_picture(const Scene& scene, const std::vector<Pose>& poses, const std::vector<Frame>& frames) {
   Picture picture;
   picture.title = scene.name;
-  const CameraDirection camera = preview_camera(scene, poses_of(frames));
+  const CameraDirection camera = preview_camera(scene, poses);
+  const CaptionedFrames captions = captioned_frames(scene, poses);
   Panel aimed;
   aimed.looking = camera.looking;
   aimed.up = camera.up;
@@ -154,7 +127,7 @@ Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames) {
   for (const Muscle& muscle : scene.muscles) looks.push_back(muscle_look(muscle));
   for (const Frame& frame : frames) {
     Panel panel = aimed;
-    panel.caption = caption_of(scene, frame);
+    panel.caption = pose_caption(captions, frame.number);
     for (const Bone& bone : scene.bones) {
       const RigidTransform& motion = frame.pose.bodies[static_cast<std::size_t>(bone.body)];
       panel.surfaces.push_back({"", {motion * bone.surface.vertices, bone.surface.faces}});
@@ -162,7 +135,7 @@ Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames) {
     for (std::size_t i = 0; i < scene.muscles.size(); ++i) {
       const Muscle& muscle = scene.muscles[i];
       PaintedSurface surface{"", {frame.muscles[i].points, muscle.surface.faces}};
-      surface.colors = painted_tissue(looks[i], muscle.name);
+      surface.colors = natural_colors(looks[i], muscle.name);
       surface.stripes = looks[i].stripes;
       panel.surfaces.push_back(std::move(surface));
     }
@@ -176,7 +149,7 @@ void write_preview(const std::filesystem::path& run_folder, const Scene& scene, 
   for (const int number : preview_frames(poses, count_frames(run_folder, scene))) {
     frames.push_back(read_frame(run_folder, scene, number, poses[static_cast<std::size_t>(number)]));
   }
-  render_picture(preview_picture(scene, frames), run_folder / "preview.png");
+  render_picture(preview_picture(scene, poses, frames), run_folder / "preview.png");
 }
 
 }  // namespace gracilis

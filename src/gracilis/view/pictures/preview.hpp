@@ -14,9 +14,10 @@ namespace gracilis {
 /// and the first one half way there; ascending, each once. `frame_count` limits them to those on disk.
 std::vector<int> preview_frames(const std::vector<Pose>& poses, int frame_count);
 
-/// A panel per frame. The camera looks from the outside along the axis about which the bones turn most, or along the
-/// joint's first axis where that one is upright, with the moving bones down at the capture pose.
-Picture preview_picture(const Scene& scene, const std::vector<Frame>& frames);
+/// A panel for each of these frames of all that are at `poses`. The camera looks from the outside along the axis about
+/// which the bones turn most, or along the joint's first axis where that one is upright, with the moving bones down at
+/// the capture pose.
+Picture preview_picture(const Scene& scene, const std::vector<Pose>& poses, const std::vector<Frame>& frames);
 
 /// Where a preview's camera looks, and what is up in it; the manifest keeps it, so that later pictures look the same
 /// way.

@@ -8,6 +8,7 @@
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/tables/force_table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
+#include <gracilis/view/pictures/pose_caption.hpp>
 #include <gracilis/view/pictures/preview.hpp>
 #include <gracilis/view/pictures/recorded_look.hpp>
 
@@ -48,42 +49,19 @@ Vec3 view_direction(const RecordedRun& run, const std::string& view) {
 }
 
 /// Where the preview looks, unless another view is named.
-static CameraDirection camera_of(const RecordedRun& run, const std::string& view) {
-  if (view.empty() && run.preview_looking.norm() > 0.5)
-    return {run.preview_looking.normalized(), run.preview_up.normalized()};
+static CameraDirection view_of(const RecordedRun& run, const std::string& view) {
+  const bool known = run.preview_looking.cross(run.preview_up).norm() > 0.1;
+  if (view.empty() && known) return {run.preview_looking.normalized(), run.preview_up.normalized()};
   return {-view_direction(run, view.empty() ? "lateral" : view), run.axes.superior};
 }
 
-/// Frames before the motion have times that say nothing.
-static std::string frame_caption(const RecordedRun& run, int frame) {
-  const Real time = run.times[static_cast<std::size_t>(frame)];
-  if (frame == 0 && run.first_motion_frame > 0) return "capture pose";
-  if (frame < run.first_motion_frame || time < 0) return fmt::format("frame {}, on the way to the motion", frame);
-  return fmt::format("frame {}, {:.2f} s", frame, time);
-}
-
-/// How many coordinates a caption has room for.
-constexpr Index most_captioned = 3;
-
-/// How many coordinates move in a run, by half a degree or mm at least.
-static Index moving_coordinates(const RecordedRun& run) {
-  const Eigen::RowVectorXd ranges =
-      run.coordinate_values.colwise().maxCoeff() - run.coordinate_values.colwise().minCoeff();
-  return (ranges.array() >= 0.5).count();
-}
-
-std::string pose_caption(const RecordedRun& run, int frame) {
-  // All frames of a run are named alike.
-  if (moving_coordinates(run) > most_captioned) return frame_caption(run, frame);
-  std::string caption;
-  for (Index i = 0; i < run.coordinate_values.cols(); ++i) {
-    const Real value = run.coordinate_values(frame, i);
-    const bool changed = std::abs(value - run.coordinate_values(0, i)) >= 0.5 && std::abs(value) >= 0.5;
-    if (!changed && i != main_coordinate(run)) continue;
-    const CoordinateLabel label = coordinate_label(run.coordinates[static_cast<std::size_t>(i)]);
-    caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", label.name, value + 0.0, label.unit);
-  }
-  return caption.empty() ? fmt::format("frame {}", frame) : caption;
+static CameraDirection camera_of(const RecordedRun& run, const RunPictureOptions& options) {
+  CameraDirection camera = view_of(run, options.view);
+  if (options.turn == 0 && options.tilt == 0) return camera;
+  camera.looking = Eigen::AngleAxisd(options.turn, camera.up) * camera.looking;
+  const Vec3 right = camera.looking.cross(camera.up).normalized();
+  const Eigen::AngleAxisd rising(-options.tilt, right);
+  return {rising * camera.looking, rising * camera.up};
 }
 
 /// Of methods whose muscles are under tension.
@@ -94,7 +72,8 @@ static void require_forces(const RecordedRun& run, ColorBy color_by) {
                             "run the scene again with --set method=tissue, or color by something else"});
 }
 
-RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options) : run_(run), options_(std::move(options)) {
+RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options)
+    : run_(run), options_(std::move(options)), captions_(captioned_frames(run)) {
   require_names();
   if (options_.color_by == ColorBy::fiber_strain || options_.color_by == ColorBy::tension) options_.fibers = true;
   require_forces(run, options_.color_by);
@@ -104,7 +83,7 @@ RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options) : run_
   if (options_.arrow_scale > 0) arrows_.emplace(run, options_.arrow_scale);
   if (options_.color_by == ColorBy::tension) tensions_ = recorded_tensions(run);
   for (const std::string& muscle : run.muscles) {
-    if (options_.color_by == ColorBy::tissue) looks_.push_back(recorded_look(run, muscle));
+    if (options_.color_by == ColorBy::natural) looks_.push_back(recorded_look(run, muscle));
     if (options_.color_by == ColorBy::edge_stretch) stretches_.emplace_back(recorded_surface(run, muscle, 0));
     if (options_.fibers) lengths_.push_back(polyline_lengths(recorded_fibers(run, muscle, 0)));
   }
@@ -162,8 +141,8 @@ Points RunPainter::vertex_colors(std::size_t muscle, const TriangleMesh& mesh, i
   Points colors(3, mesh.vertex_count());
   const auto all = [&](Real value) { colors.colwise() = color_of(value); };
   switch (options_.color_by) {
-    case ColorBy::tissue:
-      return painted_tissue(looks_[muscle], run_.muscles[muscle]);
+    case ColorBy::natural:
+      return natural_colors(looks_[muscle], run_.muscles[muscle]);
     case ColorBy::muscle:
       return Points(3, 0);
     case ColorBy::activation:
@@ -209,7 +188,7 @@ PaintedLines RunPainter::fibers(std::size_t muscle, int frame) const {
   PaintedLines painted;
   painted.lines = recorded_fibers(run_, run_.muscles[muscle], frame);
   painted.color =
-      options_.color_by == ColorBy::tissue ? fiber_paint(run_.muscles[muscle]) : muscle_color(run_.muscles[muscle]);
+      options_.color_by == ColorBy::natural ? fiber_paint(run_.muscles[muscle]) : muscle_color(run_.muscles[muscle]);
   painted.radius = 0.0006;
   if (options_.color_by == ColorBy::tension && frame < tensions_[muscle].rows())
     for (const Real tension : tensions_[muscle].row(frame))
@@ -223,13 +202,13 @@ PaintedLines RunPainter::fibers(std::size_t muscle, int frame) const {
 
 Panel RunPainter::panel(int frame) const {
   Panel panel;
-  const CameraDirection camera = camera_of(run_, options_.view);
+  const CameraDirection camera = camera_of(run_, options_);
   panel.looking = camera.looking;
   panel.up = camera.up;
   panel.has_own_camera = !options_.focus.empty();  // what is in focus moves from pose to pose, and is looked at in each
-  panel.caption = pose_caption(run_, frame);
+  panel.caption = pose_caption(captions_, frame);
   // Beside colors that mean something bones step back; lines have a gray middle, so there gray would say "as at rest".
-  const bool shows_values = options_.color_by != ColorBy::muscle && options_.color_by != ColorBy::tissue;
+  const bool shows_values = options_.color_by != ColorBy::muscle && options_.color_by != ColorBy::natural;
   const bool of_lines = options_.color_by == ColorBy::fiber_strain || options_.color_by == ColorBy::tension;
   const Color bone = shows_values && !of_lines ? Color(0.72, 0.74, 0.75) : bone_color();
   for (const std::string& name : run_.bones)
@@ -246,7 +225,7 @@ Panel RunPainter::panel(int frame) const {
     surface.opacity = options_.fibers || arrows_ ? std::min(options_.opacity, 0.3) : options_.opacity;
     if (!surface.framed) surface.opacity = std::min(surface.opacity, 0.25);  // the one in focus is seen through them
     surface.colors = vertex_colors(m, surface.mesh, frame);
-    if (options_.color_by == ColorBy::tissue) surface.stripes = looks_[m].stripes;
+    if (options_.color_by == ColorBy::natural) surface.stripes = looks_[m].stripes;
     std::vector<PaintedSurface> arrows;
     if (arrows_) arrows = arrows_->of(m, surface.mesh, frame);
     for (PaintedSurface& arrow : arrows) arrow.framed = surface.framed;
@@ -276,7 +255,7 @@ Points RunPainter::room(int first) const {
     for (const std::string& name : *all)
       if (shown(name) && framed(name)) names.push_back(name);
   const std::vector<int> frames = spread_frames(run_.frame_count - first, most_frames);
-  const CameraDirection camera = camera_of(run_, options_.view);
+  const CameraDirection camera = camera_of(run_, options_);
   const Vec3 right = camera.looking.cross(camera.up).normalized();
   Eigen::Matrix3d axes;
   axes << right, right.cross(camera.looking), camera.looking;

@@ -6,6 +6,7 @@
 #include <gracilis/view/pictures/force_arrows.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/picture.hpp>
+#include <gracilis/view/pictures/pose_caption.hpp>
 #include <gracilis/view/pictures/vertex_stretch.hpp>
 
 #include <limits>
@@ -19,7 +20,9 @@ namespace gracilis {
 
 struct RunPictureOptions {
   std::string view;  ///< empty: as the run's preview looks, or lateral where that is not known
-  ColorBy color_by = ColorBy::tissue;
+  Real turn = 0;     ///< rad, by which the camera goes around the subject from there, counterclockwise seen from above
+  Real tilt = 0;     ///< rad, by which it then rises; within a quarter turn
+  ColorBy color_by = ColorBy::natural;
   bool fibers = false;               ///< with muscles that one sees through; fiber_strain and tension show them anyway
   Real opacity = 1;                  ///< of muscles
   std::vector<std::string> muscles;  ///< to show; empty: all
@@ -37,10 +40,6 @@ const std::vector<std::string>& view_names();
 /// Where the camera stands, seen from the body; unit. Lateral is the side that most of the run's muscles are named for
 /// (_r or _l). Precondition: `view` is one of view_names().
 Vec3 view_direction(const RecordedRun& run, const std::string& view);
-
-/// "hip_flexion_r 45°", and other coordinates that have left the capture pose; "frame 9, 0.15 s" in runs in which more
-/// move than a caption has room for.
-std::string pose_caption(const RecordedRun& run, int frame);
 
 /// The first of the frames from `first` on, half way, and the farthest pose, as in a run's preview.
 std::vector<int> telling_frames(const RecordedRun& run, int first = 0);
@@ -69,6 +68,7 @@ class RunPainter {
 
   const RecordedRun& run_;
   RunPictureOptions options_;
+  CaptionedFrames captions_;
   mutable std::pair<Real, Real> seen_{std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
   std::vector<TriangleMesh> bones_;         ///< at rest
   std::set<std::string> solids_;            ///< bones and muscles that are closed

@@ -1,9 +1,9 @@
 // What colors of the view mean, and how values become colors.
 const DIVERGING = [[33, 102, 172], [146, 197, 222], [247, 244, 238], [244, 165, 130], [178, 24, 43]];
-const DIVERGING_LINES = [[20, 80, 170], [70, 120, 170], [110, 110, 110], [190, 90, 60], [178, 24, 43]];
+const DIVERGING_LINES = [[20, 70, 150], [75, 125, 175], [150, 150, 150], [195, 98, 72], [165, 20, 40]];
 const RISING = [[250, 240, 225], [240, 170, 120], [205, 70, 60], [110, 10, 60]];
 const SHAPE_COLORS = {
-  tissue: {label: 'as muscles look'},
+  natural: {label: 'natural'},
   muscle: {label: 'by muscle'},
   stretch: {label: 'by edge stretch', title: 'edge length, × rest', colors: DIVERGING, low: -1, high: 1,
             ticks: ['0.5', '1', '2']},

@@ -12,7 +12,7 @@ for (const run of runs)
 
 const page = {
   runCount: runs.length,
-  state: {frame: 0, playing: false, visible: new Set(muscles.map(muscle => muscle.name)), colorBy: 'tissue', opacity: 1,
+  state: {frame: 0, playing: false, visible: new Set(muscles.map(muscle => muscle.name)), colorBy: 'natural', opacity: 1,
           bones: true, fibers: false, xAxis: 'frame'},
 
   // The slider counts the first run's frames. Others show their frame in the most similar pose.
@@ -32,7 +32,7 @@ const page = {
   poseText(frame) {
     const main = runs[0].coordinates[runs[0].main_coordinate];
     return `frame ${frame} of ${runs[0].frame_count - 1}` +
-      (main ? ` · ${main.name} ${main.values[frame].toFixed(1).replace('-', '−')}${main.unit}` : '');
+      (frame === 0 ? ' · capture pose' : main ? ` · ${main.name} ${main.values[frame].toFixed(1).replace('-', '−')}${main.unit}` : '');
   },
 
   goTo(frame, index = 0) {
@@ -99,8 +99,8 @@ const matches = runs.map(run => runs[0].times.map((_, frame) => {
 
 writeHead(runs);
 // What a gate says is seen in colors, where it is about shape.
-const GATE_COLORS = {edge_ratio_max_near: 'shape', spike: 'shape', thickening: 'shape', thinning: 'shape',
-                     edge_ratio_max_free: 'stretch', volume_ratio: 'volume'};
+const GATE_COLORS = {edge_ratio_max_near: 'shape', edge_ratio_max_free: 'shape', spike: 'shape', thickening: 'shape',
+                     thinning: 'shape', volume_ratio: 'volume'};
 writeGates(runs, (frame, index, measure) => {
   if (GATE_COLORS[measure]) chooseColor(GATE_COLORS[measure]);
   page.goTo(frame, index);

@@ -143,7 +143,7 @@ class RunShapes extends LitScene {
     if (!muscle.mesh.visible) return;
     const fibersShown = state.fibers || SHAPE_COLORS[state.colorBy].fibers;
     const opacity = fibersShown ? Math.min(state.opacity, 0.25) : state.opacity;
-    const map = state.colorBy === 'tissue' ? this.stripes : null;
+    const map = state.colorBy === 'natural' ? this.stripes : null;
     if (material.map !== map) Object.assign(material, {map, needsUpdate: true});
     Object.assign(material, {opacity, transparent: opacity < 1, depthWrite: opacity === 1});
     blendPoints(muscle.stored, muscle.vertices, muscle.low, muscle.size, at, geometry.attributes.position.array);
@@ -155,7 +155,7 @@ class RunShapes extends LitScene {
 
   colorMuscle(muscle, at, frame, state) {
     const colors = muscle.mesh.geometry.attributes.color.array, scale = SHAPE_COLORS[state.colorBy];
-    if (state.colorBy === 'tissue') return colors.set(muscle.look);
+    if (state.colorBy === 'natural') return colors.set(muscle.look);
     const chart = scale.chart && this.run.charts.find(each => each.id === scale.chart);
     const values = chart && chart.series.find(each => each.muscle === muscle.name).values;
     const whole = values ? colorAt(scale, values[frame]) : scale.fibers ? FLESH : muscle.color;
@@ -189,7 +189,7 @@ class RunShapes extends LitScene {
     let point = 0;
     fibers.sizes.forEach((size, line) => {
       const value = logRatioOf(fibers.strain[at[0] * fibers.sizes.length + line]);
-      const shown = scale.fibers ? colorAt(scale, value) : state.colorBy === 'tissue' ? fibers.fleshColor : fibers.color;
+      const shown = scale.fibers ? colorAt(scale, value) : state.colorBy === 'natural' ? fibers.fleshColor : fibers.color;
       for (let i = 0; i < size; ++i) color.array.set(shown, 3 * point++);
     });
     position.needsUpdate = true;

@@ -113,7 +113,7 @@ void FrameMaker::fill_tension(const std::vector<Eigen::VectorXd>& tensions, Show
 }
 
 void FrameMaker::paint(std::size_t muscle, const MuscleLook& look, ShownShapes& shapes) const {
-  const Points colors = painted_tissue(look, shapes.muscles[muscle]);
+  const Points colors = natural_colors(look, shapes.muscles[muscle]);
   for (const Index v : shown_[muscle]) shapes.natural[muscle].push_back(colors.col(v));
   shapes.stripes[muscle] = shown_of(muscle, look.stripes);
 }

@@ -8,6 +8,7 @@
 #include <gracilis/methods/pass_tracing.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/run.hpp>
+#include <gracilis/view/pictures/pose_caption.hpp>
 #include <gracilis/view/window/bone_pull.hpp>
 
 #include <fmt/format.h>
@@ -308,17 +309,7 @@ void LiveSimulation::fill_forces(const Frame& frame, ShownFrame& result) const {
 
 ShownFrame LiveSimulation::shown(const Frame& frame) {
   ShownFrame result;
-  std::size_t coordinate = 0;
-  for (const Joint& joint : scene_.joints) {
-    for (const JointAxis& axis : joint.axes) {
-      const Real now = frame.pose.coordinates[coordinate];
-      const bool moved = std::abs(now - axis.capture_value) > (axis.translation ? 0.0005 : radians(0.5));
-      if (moved || coordinate == 0)
-        result.caption += fmt::format("{}{} {:.0f}{}", result.caption.empty() ? "" : ", ", axis.coordinate,
-                                      shown_value(axis, now) + 0.0, axis.translation ? " mm" : "°");
-      ++coordinate;
-    }
-  }
+  result.caption = pose_caption(scene_, frame);
   std::vector<Points> muscles;
   for (const MuscleShape& shape : frame.muscles) muscles.push_back(shape.points);
   std::vector<RigidTransform> bones;

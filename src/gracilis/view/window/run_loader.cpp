@@ -24,6 +24,7 @@ static std::vector<TriangleMesh> read_surfaces(const RecordedRun& run, const std
 RunLoader::RunLoader(const RecordedRun& run, ShapeHistory& history)
     : run_(run),
       history_(history),
+      captions_(captioned_frames(run)),
       has_depth_(static_cast<std::size_t>(run.frame_count)),
       activations_(measure_of(run, "activation")),
       volumes_(measure_of(run, "volume_ratio")),
@@ -97,7 +98,7 @@ void RunLoader::fill_forces(int number, ShownFrame& frame) const {
 
 ShownFrame RunLoader::read(int number) {
   ShownFrame frame;
-  frame.caption = pose_caption(run_, number);
+  frame.caption = pose_caption(captions_, number);
   std::vector<Points> muscles;
   for (TriangleMesh& surface : read_surfaces(run_, run_.muscles, number))
     muscles.push_back(std::move(surface.vertices));

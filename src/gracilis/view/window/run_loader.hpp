@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/io/run/recorded_run.hpp>
+#include <gracilis/view/pictures/pose_caption.hpp>
 #include <gracilis/view/window/frame_maker.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 
@@ -34,6 +35,7 @@ class RunLoader {
 
   const RecordedRun& run_;
   ShapeHistory& history_;
+  const CaptionedFrames captions_;
   ShownShapes shapes_;
   std::optional<FrameMaker> maker_;
   std::vector<bool> has_depth_;  ///< per frame
