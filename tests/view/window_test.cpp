@@ -119,6 +119,19 @@ TEST_F(ViewCommand, shows_muscles_and_bones_steps_and_turns) {
   EXPECT_GT(difference(front, turned), 2000);
 }
 
+TEST_F(ViewCommand, words_for_directions_stand_below_what_is_shown) {
+  FlexingLeg(3).written(folder.path() / "run");
+  drive(run(), "key 3 p 1 p 5 p");
+  const auto of_word = [](const Vec3& c) { return c.maxCoeff() - c.minCoeff() < 6 && c.x() > 80 && c.x() < 160; };
+  const auto of_shape = [](const Vec3& c) { return is_dark_red(c) || is_ivory(c); };
+  for (const int view : {1, 2, 3}) {
+    // Beside the texts on the left; the status ends 66 pixels above the lower edge.
+    EXPECT_GT(shot(view).count(236, 574, 88, 110, of_word), 100) << view;
+    EXPECT_EQ(shot(view).count(236, 574, 66, 112, of_shape), 0) << view;
+    EXPECT_LT(shot(view).count(236, 574, 112, 554, of_word), 20) << view;
+  }
+}
+
 TEST_F(ViewCommand, plays_and_pauses_and_tells_how_fast) {
   FlexingLeg(40).written(folder.path() / "run");
   // Several pictures while it plays: it plays in a circle, and one of them may happen to show the first frame again.

@@ -19,6 +19,7 @@ namespace gracilis {
 
 static const Color background(0.96, 0.965, 0.97);
 static constexpr int margin = 16, right_width = 210, options_width = 210, track_height = 66;
+static constexpr int words_height = 46;  // above the track: what a click tells, and which way is which
 
 void Viewer::lay_out() {
   width_ = window_->GetSize()[0];
@@ -28,7 +29,7 @@ void Viewer::lay_out() {
   lay_out_right();
   lay_out_track();
   if (state_.picked)
-    picked_ = overlay_.add_text_centered(width_ / 2, track_height + 30, "", 15, ink);
+    picked_ = overlay_.add_text_centered(width_ / 2, track_height + 10, "", 15, ink);
   else
     picked_ = nullptr;
   if (!help_) return;
@@ -53,7 +54,8 @@ void Viewer::measure_names() {
 Rectangle Viewer::room() const {
   const int* size = window_->GetSize();
   const int left = margin + left_width_ + 10, right = margin + right_width + 10;
-  return {left, track_height + 10, std::max(100, size[0] - left - right), std::max(100, size[1] - track_height - 56)};
+  const int bottom = track_height + words_height;
+  return {left, bottom, std::max(100, size[0] - left - right), std::max(100, size[1] - bottom - words_height)};
 }
 
 /// Until somebody turns the camera, what moves out of its room, as a femur under the sliders, gets more of it.
@@ -229,18 +231,23 @@ static std::string direction_word(const Vec3& direction, const AnatomicalAxes& a
   return text;
 }
 
-/// Which way is which, as at the edges of a radiograph.
+/// Which way is which, as at the edges of a radiograph; below what is shown, so that no word lies over a muscle.
 void Viewer::lay_out_directions() {
+  static constexpr int size = 14;
   double up[3], back[3];
   scene_renderer_->GetActiveCamera()->GetViewUp(up);
   scene_renderer_->GetActiveCamera()->GetDirectionOfProjection(back);
   const Vec3 looking(back), above = (Vec3(up) - Vec3(up).dot(looking) * looking).normalized();
   const Vec3 right = looking.cross(above);
-  const int middle = (height_ + track_height) / 2;
-  overlay_.add_text(margin + left_width_ + 14, middle, direction_word(-right, shapes_.axes), 14, faint);
-  overlay_.add_text_right(width_ - margin - right_width - 14, middle, direction_word(right, shapes_.axes), 14, faint);
-  overlay_.add_text_centered(width_ / 2, height_ - 24, direction_word(above, shapes_.axes), 14, faint);
-  overlay_.add_text_centered(width_ / 2, track_height + 10, direction_word(-above, shapes_.axes), 14, faint);
+  const auto word = [&](const Vec3& direction) { return direction_word(direction, shapes_.axes); };
+  const int left_end = margin + left_width_ + 14, right_end = width_ - margin - right_width - 14;
+  const int y = track_height + 28, half = overlay_.width_of(word(-above), size) / 2;
+  overlay_.add_text(left_end, y, word(-right), size, faint);
+  overlay_.add_text_right(right_end, y, word(right), size, faint);
+  overlay_.add_text_centered(width_ / 2, height_ - 24, word(above), size, faint);
+  const bool has_room = left_end + overlay_.width_of(word(-right), size) < width_ / 2 - half - 8 &&
+                        width_ / 2 + half + 8 < right_end - overlay_.width_of(word(right), size);
+  if (has_room) overlay_.add_text_centered(width_ / 2, y, word(-above), size, faint);
 }
 
 template <class Values>
