@@ -40,7 +40,7 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
       .add_option(
           "--layout", options.layout,
           "How frames lie in the folder: surfaces, a file per muscle, bone and frame; or compact, one per frame, in a "
-          "fifth to a tenth of the room (surfaces; compact where they took more than 2 GB)")
+          "fifth to a tenth of the room (surfaces; compact where they took more than 2 GB or 20,000 files)")
       ->transform(CLI::CheckedTransformer(layouts));
   command.add_flag("--verbose", options.verbose, "Also list muscles, attachments, counters and every gate missed");
   command.add_flag("--strict", options.strict, "Exit with code 5 when a frame misses a quality gate");

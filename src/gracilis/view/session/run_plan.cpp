@@ -46,7 +46,8 @@ RunPlan plan_run(const LoadedScene& loaded, const SessionOptions& options) {
   const auto size_as = [&](RunLayout layout) {
     return estimated_size(loaded.scene, plan.frames, !options.without_fibers, layout);
   };
-  const bool is_large = size_as(RunLayout::surfaces).bytes > asking_bytes;
+  const RunSize as_surfaces = size_as(RunLayout::surfaces);
+  const bool is_large = as_surfaces.bytes > asking_bytes || as_surfaces.files > most_surface_files;
   plan.layout = options.layout.value_or(is_large ? RunLayout::compact : RunLayout::surfaces);
   plan.size = size_as(plan.layout);
   plan.seconds = remembered_frame_time(default_cache_folder(), frame_cost(loaded, options), loaded.scene);
