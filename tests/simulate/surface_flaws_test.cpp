@@ -1,3 +1,5 @@
+#include <gracilis/scene/attached_vertices.hpp>
+#include <gracilis/simulate/attachment_zone.hpp>
 #include <gracilis/simulate/measures.hpp>
 #include <gracilis/simulate/surface_flaws.hpp>
 
@@ -111,10 +113,37 @@ TEST(GatesOfShape, are_a_map_that_is_highest_where_the_flaw_is) {
   Points points = rest;
   const Index tip = vertex_at({0.02, 0.02, 0});
   points(1, tip) += 0.03;
-  const std::vector<Real> shares = SurfaceFlaws(spindle().muscles[0].surface).shares_of_gates(points, {});
+  const SurfaceFlaws flaws(spindle().muscles[0].surface);
+  const std::vector<char> near(static_cast<std::size_t>(rest.cols()), 0);
+  const std::vector<Real> shares = flaws.shares_of_gates(points, near, {});
   EXPECT_EQ(std::max_element(shares.begin(), shares.end()) - shares.begin(), tip);
   EXPECT_GT(shares[static_cast<std::size_t>(tip)], 1);
-  for (const Real share : SurfaceFlaws(spindle().muscles[0].surface).shares_of_gates(rest, {})) EXPECT_EQ(share, 0);
+  for (const Real share : flaws.shares_of_gates(rest, near, {})) EXPECT_EQ(share, 0);
+}
+
+TEST(GatesOfShape, are_a_map_that_judges_edges_as_the_gates_do) {
+  const Scene scene = spindle();
+  const SurfaceFlaws flaws(scene.muscles[0].surface);
+  const std::vector<char> held = attached_vertices(scene.muscles[0]);
+  std::vector<Index> attached;
+  for (Index v = 0; v < rest.cols(); ++v)
+    if (held[static_cast<std::size_t>(v)]) attached.push_back(v);
+  ASSERT_FALSE(attached.empty());
+  const std::vector<char> near = near_attachments(rest, attached);
+  // Drawn out as a whole, so that edges alone tell: they are 4 times as long.
+  const Points points = 4 * rest;
+  QualityGates edges_alone;
+  edges_alone.spike = edges_alone.thickening = edges_alone.thinning = 1e9;
+  const std::vector<Real> shares = flaws.shares_of_gates(points, near, edges_alone);
+  for (Index v = 0; v < rest.cols(); ++v) {
+    const Real to_attached = (rest(Eigen::all, attached).colwise() - rest.col(v)).colwise().norm().minCoeff();
+    const Real share = shares[static_cast<std::size_t>(v)];
+    if (to_attached < 0.01) {
+      EXPECT_LT(share, 1) << "limit 5";
+    } else if (to_attached > 0.03) {
+      EXPECT_NEAR(share, 1.5, 0.01) << "limit 3";
+    }
+  }
 }
 
 }  // namespace gracilis

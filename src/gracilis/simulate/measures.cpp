@@ -3,9 +3,9 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/constraints/dihedral.hpp>
 #include <gracilis/geometry/measures.hpp>
-#include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/scene/attached_vertices.hpp>
+#include <gracilis/simulate/attachment_zone.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,21 +13,6 @@
 namespace gracilis {
 
 namespace {
-
-constexpr Real attachment_zone = 0.015;  ///< m
-
-/// Distance of every vertex to the nearest attached one.
-std::vector<Real> distance_to_attachments(const Points& x, const std::vector<Index>& attached) {
-  std::vector<Real> distances(static_cast<std::size_t>(x.cols()), std::numeric_limits<Real>::infinity());
-  if (attached.empty()) return distances;
-  const Points places = x(Eigen::all, attached);
-  const NearestPoints nearest(places);
-  parallel_for(static_cast<Index>(x.cols()), 256, [&](Index begin, Index end) {
-    for (Index v = begin; v < end; ++v)
-      distances[static_cast<std::size_t>(v)] = (x.col(v) - places.col(nearest.nearest(x.col(v)))).norm();
-  });
-  return distances;
-}
 
 Points midpoints(const std::vector<std::pair<Index, Index>>& ends, const Points& x) {
   Points middles(3, static_cast<Index>(ends.size()));
@@ -77,14 +62,13 @@ Measurer::MuscleRest Measurer::rest_of(const Muscle& muscle) const {
   const auto is_fixed = [&](Index v) { return fixed[static_cast<std::size_t>(v)] != 0; };
   std::vector<Index> attached;
   for (Index v = 0; v < x.cols(); ++v) (is_fixed(v) ? attached : rest.free_vertices).push_back(v);
-  const std::vector<Real> to_attachment = distance_to_attachments(x, attached);
+  const std::vector<char> near = near_attachments(x, attached);
   for (const MeshEdge& edge : rest.edges) {
     rest.lengths.push_back((x.col(edge.a) - x.col(edge.b)).norm());
     const bool dihedral = edge.left >= 0 && edge.right >= 0;
     rest.angles.push_back(
         dihedral ? dihedral_angle(x.col(edge.a), x.col(edge.b), x.col(edge.left_apex), x.col(edge.right_apex)) : 0);
-    rest.far_edge.push_back(std::min(to_attachment[static_cast<std::size_t>(edge.a)],
-                                     to_attachment[static_cast<std::size_t>(edge.b)]) > attachment_zone);
+    rest.far_edge.push_back(near[static_cast<std::size_t>(edge.a)] == 0 && near[static_cast<std::size_t>(edge.b)] == 0);
     if (!is_fixed(edge.a) || !is_fixed(edge.b)) rest.free_edges.emplace_back(edge.a, edge.b);
   }
   const Points vertices = x(Eigen::all, rest.free_vertices), middles = midpoints(rest.free_edges, x);

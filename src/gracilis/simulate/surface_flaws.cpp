@@ -43,7 +43,8 @@ SurfaceFlaws::Worst SurfaceFlaws::worst(const Points& points) const {
   return worst;
 }
 
-std::vector<Real> SurfaceFlaws::shares_of_gates(const Points& points, const QualityGates& gates) const {
+std::vector<Real> SurfaceFlaws::shares_of_gates(const Points& points, const std::vector<char>& near,
+                                                const QualityGates& gates) const {
   const auto share = [](Real value, Real bar) { return (value - 1) / (bar - 1); };
   std::vector<Real> shares(static_cast<std::size_t>(points.cols()));
   for (Index v = 0; v < points.cols(); ++v) {
@@ -52,10 +53,12 @@ std::vector<Real> SurfaceFlaws::shares_of_gates(const Points& points, const Qual
         {spike_at(v, points) / gates.spike, share(thickness, gates.thickening), share(1 / thickness, gates.thinning)});
   }
   for (std::size_t e = 0; e < edges_.size(); ++e) {
-    const Real length = (points.col(edges_[e].a) - points.col(edges_[e].b)).norm();
-    const Real of_edge = share(edge_ratio(length, edge_lengths_[e]), gates.near_edge_ratio);
-    for (const Index v : {edges_[e].a, edges_[e].b})
-      shares[static_cast<std::size_t>(v)] = std::max(shares[static_cast<std::size_t>(v)], of_edge);
+    const auto a = static_cast<std::size_t>(edges_[e].a), b = static_cast<std::size_t>(edges_[e].b);
+    const Real length = (points.col(edges_[e].a) - points.col(edges_[e].b)).norm(), rest = edge_lengths_[e];
+    const Real of_edge = near[a] || near[b] ? share(edge_ratio(length, rest), gates.near_edge_ratio)
+                         : rest > 0         ? share(length / rest, gates.free_edge_ratio)
+                                            : 0;
+    for (const std::size_t v : {a, b}) shares[v] = std::max(shares[v], of_edge);
   }
   return shares;
 }

@@ -33,9 +33,11 @@ class SurfaceFlaws {
   /// than an edge is not resolved, so the surface's mean edge is added to both. 1 where it faces none.
   Real thickness_at(Index vertex, const Points& points) const;
 
-  /// Per vertex how near it comes to the gates of shape: the largest of its spike, its thickness and its edges (by the
-  /// bar near attachments), each as far as it exceeds rest over how far the bar does; 0 at rest, 1 at a bar.
-  std::vector<Real> shares_of_gates(const Points& points, const QualityGates& gates) const;
+  /// Per vertex how near it comes to the gates of shape: the largest of its spike, its thickness and its edges, each as
+  /// far as it exceeds rest over how far the bar does; 0 at rest, 1 at a bar. An edge has the bar near attachments where
+  /// one of its ends is `near` them (see near_attachments), the other bar elsewhere.
+  std::vector<Real> shares_of_gates(const Points& points, const std::vector<char>& near,
+                                    const QualityGates& gates) const;
 
   /// Of an edge whose end is `vertex`: its length over that at rest. What is shorter than half the surface's mean edge
   /// counts as that long: how much a needle's edge is drawn out cannot be seen.

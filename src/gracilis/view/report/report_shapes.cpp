@@ -2,7 +2,9 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/decimation.hpp>
+#include <gracilis/geometry/nearest_points.hpp>
 #include <gracilis/geometry/rotations.hpp>
+#include <gracilis/simulate/attachment_zone.hpp>
 #include <gracilis/simulate/surface_flaws.hpp>
 #include <gracilis/view/pictures/recorded_look.hpp>
 #include <gracilis/view/pictures/vertex_stretch.hpp>
@@ -95,10 +97,32 @@ static std::size_t append_brightness(std::string& bytes) {
   return append(bytes, brightness);
 }
 
+/// Vertices of a muscle that the gates take for near an attachment. Runs of before they told their attachments have
+/// none of their own, and the looser bar everywhere.
+static std::vector<char> judged_as_near(const RecordedRun& run, const std::string& name, const Points& rest) {
+  const Points tissue = recorded_tissue(run, name);
+  if (tissue.cols() != rest.cols()) return std::vector<char>(static_cast<std::size_t>(rest.cols()), 1);
+  std::vector<Index> attached;
+  for (Index v = 0; v < tissue.cols(); ++v)
+    if (tissue(0, v) > 0 || tissue(1, v) > 0) attached.push_back(v);
+  return near_attachments(rest, attached);
+}
+
+/// Which of the vertices that stay is nearest, for every vertex.
+static std::vector<std::size_t> nearest_that_stays(const Points& rest, const std::vector<Index>& vertices) {
+  const NearestPoints stay(rest(Eigen::all, vertices));
+  std::vector<std::size_t> nearest(static_cast<std::size_t>(rest.cols()));
+  for (Index v = 0; v < rest.cols(); ++v)
+    nearest[static_cast<std::size_t>(v)] = static_cast<std::size_t>(stay.nearest(rest.col(v)));
+  return nearest;
+}
+
 static Json muscle_surface(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
                            Index most_vertices, std::string& bytes) {
   const TriangleMesh rest = placed_surface(run, name, 0);
   const CoarseSurface coarse = decimate(rest, most_vertices);
+  const std::vector<char> near = judged_as_near(run, name, rest.vertices);
+  const std::vector<std::size_t> stands_for = nearest_that_stays(rest.vertices, coarse.vertices);
   const VertexStretch stretch_around(rest);
   std::vector<Points> points(frames.size());
   const SurfaceFlaws flaws(rest);
@@ -106,14 +130,15 @@ static Json muscle_surface(const RecordedRun& run, const std::string& name, cons
   parallel_for(static_cast<Index>(frames.size()), 1, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       const auto k = static_cast<std::size_t>(i);
+      const std::size_t at = k * coarse.vertices.size();
       const Points now = placed_surface(run, name, frames[k]).vertices;
       points[k] = picked(now, coarse.vertices);
-      const std::vector<Real> all = stretch_around.of(now), shares = flaws.shares_of_gates(now, {});
-      for (std::size_t v = 0; v < coarse.vertices.size(); ++v) {
-        const std::size_t at = k * coarse.vertices.size() + v;
-        stretch[at] = log_ratio_byte(all[static_cast<std::size_t>(coarse.vertices[v])]);
-        shape[at] = share_byte(shares[static_cast<std::size_t>(coarse.vertices[v])]);
-      }
+      const std::vector<Real> all = stretch_around.of(now), shares = flaws.shares_of_gates(now, near, {});
+      for (std::size_t v = 0; v < coarse.vertices.size(); ++v)
+        stretch[at + v] = log_ratio_byte(all[static_cast<std::size_t>(coarse.vertices[v])]);
+      // A flaw of a vertex that is not shown is seen at the one that stands for it.
+      for (std::size_t v = 0; v < shares.size(); ++v)
+        shape[at + stands_for[v]] = std::max(shape[at + stands_for[v]], share_byte(shares[v]));
     }
   });
   Json surface = {{"name", name}, {"kind", "muscle"}, {"vertices", coarse.vertices.size()}};
