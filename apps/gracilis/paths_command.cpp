@@ -30,6 +30,7 @@ struct PathsOptions {
 /// What tables and plots are over: the swept coordinate, in degrees or m, or else the time.
 struct PathsAxis {
   std::string name = "time", label = "time (s)";
+  std::string column = "time";  ///< of a table for people: with its unit, as in swing_deg
   Real plot_factor = 1;
   Eigen::VectorXd values;
 };
@@ -39,14 +40,14 @@ PathsAxis axis_of(const opensim::Model& model, const opensim::CoordinateMotion& 
   if (swept.empty()) return {.values = Eigen::VectorXd::Map(motion.times.data(), rows)};
   const Index number = opensim::index_of(model.coordinates, swept);
   const bool rotation = model.coordinates[static_cast<std::size_t>(number)].rotation;
-  return {swept, swept + (rotation ? " (degrees)" : " (mm)"), rotation ? 1.0 : 1000.0,
-          motion.values.col(number) / (rotation ? radians(1) : 1)};
+  return {swept, swept + (rotation ? " (degrees)" : " (mm)"), swept + (rotation ? "_deg" : "_m"),
+          rotation ? 1.0 : 1000.0, motion.values.col(number) / (rotation ? radians(1) : 1)};
 }
 
 /// The table with the axis as its first column.
-Table with_first_column(const Table& table, const PathsAxis& axis) {
+Table with_first_column(const Table& table, const PathsAxis& axis, const std::string& name) {
   Table all = table;
-  all.columns.insert(all.columns.begin(), axis.name);
+  all.columns.insert(all.columns.begin(), name);
   all.values.resize(table.values.rows(), table.values.cols() + 1);
   all.values << axis.values, table.values;
   all.in_degrees = true;
@@ -115,14 +116,21 @@ int write_paths(const PathsOptions& options) {
   const std::string start = file_name_of(options.prefix.empty() ? model.name : options.prefix);
   std::set<std::string> taken, plots_taken;
   const auto write = [&](const std::string& what, const Table& table) {
-    const fs::path path = options.out / (start + "_" + file_name_of(what, taken) + ".sto");
+    fs::path path = options.out / (start + "_" + file_name_of(what, taken) + ".sto");
     write_sto(path, table);
     fmt::print("{}\n", path.string());
+    return path;
   };
   const auto write_and_plot = [&](const std::string& what, const Table& table, const std::string& title,
                                   const std::string& y_label) {
-    const Table all = with_first_column(table, axis);
-    write(what, sweeps ? all : table);
+    const Table all = with_first_column(table, axis, axis.name);
+    const fs::path written = write(what, sweeps ? all : table);
+    if (sweeps) {
+      // OpenSim wants time first, everybody else the angle.
+      const fs::path plain = fs::path(written).replace_extension(".csv");
+      write_csv(plain, with_first_column(table, axis, axis.column));
+      fmt::print("{}\n", plain.string());
+    }
     const std::vector<std::string> muscles = changing_muscles(table);
     if (muscles.empty()) return;
     const fs::path path = options.out / "plots" / (start + "_" + file_name_of(title, plots_taken) + ".svg");

@@ -34,6 +34,10 @@ TEST(PathsCommand, a_sweep_writes_lengths_moment_arms_and_the_coordinate) {
   }
   EXPECT_NEAR(lengths.values(2, 1), 0.5, 1e-14);
   EXPECT_NEAR(arms.values(2, 1), 0.3 * 0.4 / 0.5, 1e-14);
+  EXPECT_THAT(read_text(folder.path() / "out/tiny_MuscleAnalysis_Length.csv"),
+              testing::StartsWith("swing_deg,m\n-10,"));
+  EXPECT_THAT(read_text(folder.path() / "out/tiny_MuscleAnalysis_MomentArm_swing.csv"),
+              testing::AllOf(testing::StartsWith("swing_deg,m\n-10,"), testing::HasSubstr("\n20,")));
   const std::string plot = read_text(folder.path() / "out/plots/tiny_moment_arms_about_swing.svg");
   EXPECT_THAT(plot, testing::HasSubstr("swing (degrees)"));
   EXPECT_THAT(plot, testing::HasSubstr("<polyline"));

@@ -7,6 +7,7 @@
 #include <gracilis/io/value_reader.hpp>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -245,6 +246,15 @@ void write_sto(const std::filesystem::path& path, const Table& table) {
     for (const Real value : table.values.row(static_cast<Eigen::Index>(row))) text += fmt::format("\t{}", value);
     text += "\n";
   }
+  write_text_atomically(path, text);
+}
+
+void write_csv(const std::filesystem::path& path, const Table& table) {
+  require_finite_table(path, table);
+  std::string text = fmt::format("{}\n", fmt::join(table.columns, ","));
+  for (const auto row : table.values.rowwise())
+    for (Eigen::Index c = 0; c < row.size(); ++c)
+      text += fmt::format("{:.12g}{}", row[c] + 0.0, c + 1 < row.size() ? "," : "\n");
   write_text_atomically(path, text);
 }
 

@@ -37,6 +37,10 @@ Table read_table(const std::filesystem::path& path);
 /// QualityError, which names column and row, where a number is not finite.
 void write_sto(const std::filesystem::path& path, const Table& table);
 
+/// Writes the columns as comma-separated values of 12 digits, without the times, whole or not at all. Throws as
+/// write_sto does.
+void write_csv(const std::filesystem::path& path, const Table& table);
+
 /// The coordinate that a column holds: the column's name, cut from OpenSim's state names
 /// (/jointset/hip_r/hip_flexion_r/value); empty for other states.
 std::string coordinate_of_column(const std::string& column);
