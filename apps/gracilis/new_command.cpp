@@ -6,7 +6,7 @@
 #include <gracilis/core/shell_word.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/input_file.hpp>
-#include <gracilis/io/mesh/mesh_reader.hpp>
+#include <gracilis/io/mesh/likely_unit.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -43,14 +43,30 @@ void require_surfaces(const NewOptions& options) {
   if (!problems.empty()) throw InputError(problems);
 }
 
-/// Of surfaces of unknown things: a body part is at most 2 m long, and the longest one at least 2 cm.
-std::string likely_unit(const FolderFiles& files) {
+/// How long the longest surface is, in the files' unit.
+Real longest_extent(const FolderFiles& files) {
   Real longest = 0;
   for (const NamedSurfaceFile& each : files.surfaces) {
-    const Points points = read_mesh(each.file, 1).vertices;
+    const Points points = files.meshes->read(each.file, 1, each.part).vertices;
     if (points.cols() > 0) longest = std::max(longest, bounding_box(points).sizes().maxCoeff());
   }
-  return longest <= 2 ? "m" : "mm";
+  return longest;
+}
+
+/// In the unit that is given, or by the sizes of known bones, or else by that of all surfaces, which is told.
+SceneDraft drafted_with_gaps(const FolderFiles& files, const NewOptions& options) {
+  if (!options.unit.empty()) return draft_without_joints(files, {.unit = options.unit});
+  const bool knows_bones = std::any_of(files.surfaces.begin(), files.surfaces.end(), is_surely_a_bone);
+  if (knows_bones) {
+    SceneDraft draft = draft_without_joints(files, {});
+    spdlog::warn("the files are taken to be in {}, by the bones' sizes; --unit says another one", draft.found.unit);
+    return draft;
+  }
+  const Real longest = longest_extent(files);
+  const LengthUnit unit = likely_unit(longest);
+  spdlog::warn("the files are taken to be in {}: the longest surface is then {:.3g} cm long; --unit says another one",
+               unit.name, 100 * unit.length * longest);
+  return draft_without_joints(files, {.unit = unit.name});
 }
 
 /// What keeps the files from being drafted as a whole; nothing where they were.
@@ -70,9 +86,7 @@ void write_whole(const SceneDraft& draft, const fs::path& out) {
 }
 
 void write_with_gaps(const FolderFiles& files, const NewOptions& options, const std::vector<Problem>& why) {
-  const std::string unit = options.unit.empty() ? likely_unit(files) : options.unit;
-  if (options.unit.empty()) spdlog::warn("the files are taken to be in {}; --unit says another one", unit);
-  const SceneDraft draft = draft_without_joints(files, {.unit = unit});
+  const SceneDraft draft = drafted_with_gaps(files, options);
   if (draft.found.bones.empty() && draft.found.muscles.empty()) {
     std::vector<Problem> problems;
     for (const std::string& line : draft.left_out) problems.push_back({"", "", line, ""});

@@ -3,9 +3,12 @@
 #include "app/program.hpp"
 #include "io/test_files.hpp"
 
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/io/scene/demo_scene.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -143,6 +146,24 @@ TEST(NewCommand, surfaces_of_unknown_names_become_a_scene_to_fill_in) {
 
   EXPECT_EQ(run_program("new " + in + " --out " + scene + " --force").exit_code, 3) << "a folder";
   EXPECT_EQ(run_program("new " + in + "/none.vtp --out " + scene + " --force").exit_code, 3);
+}
+
+TEST(NewCommand, takes_files_without_a_known_bone_to_be_in_the_unit_that_their_size_tells_and_says_so) {
+  const TestFolder folder;
+  const TriangleMesh muscle = demo_scene("hip").muscles[0].surface;
+  const Real longest = bounding_box(muscle.vertices).sizes().maxCoeff();
+  for (const auto& [unit, length] : {std::pair("m", 1.0), {"cm", 0.01}, {"mm", 0.001}}) {
+    const std::filesystem::path file = folder.path() / (std::string("belly_") + unit + ".vtp");
+    write_surface(file, muscle.vertices / length, muscle.faces);
+    const std::string scene = file.string() + ".toml";
+    const ProgramResult made = run_program("new " + file.string() + " --out " + scene);
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_THAT(made.err, HasSubstr(fmt::format("taken to be in {}: the longest surface is then {:.3g} cm long", unit,
+                                                100 * longest)));
+    const std::string said = unit == std::string("m") ? "name = " : fmt::format("unit = \"{}\"", unit);
+    EXPECT_THAT(read_text(scene), HasSubstr(said));
+    EXPECT_THAT(run_program("inspect " + file.string()).out, HasSubstr(std::string("unit seems to be: ") + unit));
+  }
 }
 
 }  // namespace gracilis

@@ -23,6 +23,11 @@ struct NamedSurfaceFile {
   NameMatch<KnownMuscle> muscle;
 };
 
+/// Whether its name leaves hardly a doubt that it is a bone of the dictionary, whose size is known.
+inline bool is_surely_a_bone(const NamedSurfaceFile& surface) {
+  return surface.kind == NamedKind::bone && surface.bone.known && surface.bone.certainty >= 0.7;
+}
+
 /// Surfaces below a folder, each mesh of a .glb by itself, and files that may be tables of landmarks; folders of runs,
 /// and of surfaces that a drafted scene had mended, are passed over.
 struct FolderFiles {

@@ -47,7 +47,7 @@ Real largest_extent(const Points& points) {
 Real median_size(const FolderFiles& files) {
   std::vector<Real> ratios;
   for (const NamedSurfaceFile& each : files.surfaces) {
-    if (each.kind != NamedKind::bone || !each.bone.known || each.bone.certainty < 0.7) continue;
+    if (!is_surely_a_bone(each)) continue;
     try {
       const Real ratio = largest_extent(files.meshes->read(each.file, 1, each.part).vertices) / each.bone.known->length;
       if (ratio > 0 && std::isfinite(ratio)) ratios.push_back(ratio);

@@ -43,7 +43,7 @@ SceneDraft draft_scene(const FolderFiles& files, const std::filesystem::path& su
                        const DraftOptions& options = {});
 
 /// Only what the files' names tell: bones that each are a body of their own, and muscles that are attached to nothing.
-/// In `options.unit`, which must be given.
+/// Throws InputError where there is no unit among the options and no bone whose size tells one.
 SceneDraft draft_without_joints(const FolderFiles& files, const DraftOptions& options);
 
 }  // namespace gracilis

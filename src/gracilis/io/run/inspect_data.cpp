@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/sections/surface_slices.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/mesh/likely_unit.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/scene/landmarks.hpp>
@@ -50,15 +51,14 @@ static Json verdict(const TriangleMesh& mesh, Real unit, SurfaceRole role, const
 Json inspect_surface(const std::filesystem::path& path) {
   const TriangleMesh in_file_units = read_mesh(path, 1);
   const MeshReport report = inspect_mesh(in_file_units);
-  // A body part measured in mm is some hundred long, in m less than five.
-  const bool millimetres = report.diagonal() > 5;
-  TriangleMesh mesh = in_file_units;
-  mesh.vertices *= millimetres ? 0.001 : 1;
   const Vec3 size = report.high - report.low;
+  const LengthUnit unit = likely_unit(size.maxCoeff());
+  TriangleMesh mesh = in_file_units;
+  mesh.vertices *= unit.length;
   return {{"kind", "surface"},
           {"vertices", report.vertex_count},
           {"triangles", report.face_count},
-          {"unit_seems_to_be", millimetres ? "mm" : "m"},
+          {"unit_seems_to_be", unit.name},
           {"size", {size.x(), size.y(), size.z()}},
           {"lowest", {report.low.x(), report.low.y(), report.low.z()}},
           {"highest", {report.high.x(), report.high.y(), report.high.z()}},
@@ -70,8 +70,8 @@ Json inspect_surface(const std::filesystem::path& path) {
           {"components", report.components},
           {"genus", report.genus < 0 ? Json() : Json(report.genus)},
           {"defects", defects_of(report)},
-          {"as_muscle", verdict(mesh, millimetres ? 0.001 : 1, SurfaceRole::muscle, path.string())},
-          {"as_bone", verdict(mesh, millimetres ? 0.001 : 1, SurfaceRole::bone, path.string())}};
+          {"as_muscle", verdict(mesh, unit.length, SurfaceRole::muscle, path.string())},
+          {"as_bone", verdict(mesh, unit.length, SurfaceRole::bone, path.string())}};
 }
 
 Json inspect_slices(const std::filesystem::path& path, int count) {
