@@ -85,6 +85,22 @@ static std::string bone_warning(const std::vector<MuscleInBone>& in_bones) {
                                                : "");
 }
 
+/// Which pairs pass through each other, in one line; empty where none does.
+static std::string through_warning(const std::vector<MuscleOverlap>& pairs) {
+  std::string deepest;
+  std::size_t count = 0;
+  for (const MuscleOverlap& pair : pairs) {
+    if (!pair.is_through) continue;
+    if (count < most_named)
+      deepest +=
+          (count > 0 ? ", " : "") + pair.first + " and " + pair.second + " (" + millimeters(pair.deepest()) + ")";
+    ++count;
+  }
+  if (count == 0) return {};
+  return "pairs that pass through each other in the capture pose: " + std::to_string(count) + ", deepest " + deepest +
+         "; nothing tells which side of the other is whose, so contact can only keep them as deep as they are there";
+}
+
 std::vector<std::string> overlap_warnings(const OverlapReport& report) {
   std::vector<std::string> warnings;
   if (const std::string in_bones = bone_warning(report.in_bones); !in_bones.empty()) warnings.push_back(in_bones);
@@ -96,12 +112,7 @@ std::vector<std::string> overlap_warnings(const OverlapReport& report) {
                      std::to_string(report.of_vertices) + " vertices lie in another muscle, in " +
                      std::to_string(report.pairs.size()) + (report.pairs.size() == 1 ? " pair" : " pairs") +
                      "; deepest " + worst);
-  for (const MuscleOverlap& pair : report.pairs)
-    if (pair.is_through)
-      warnings.push_back(pair.first + " and " + pair.second + " pass through each other (" +
-                         millimeters(pair.deepest()) +
-                         " deep) in the capture pose, so nothing tells which side is whose: contact can only keep them "
-                         "as deep as they are there");
+  if (const std::string through = through_warning(report.pairs); !through.empty()) warnings.push_back(through);
   return warnings;
 }
 

@@ -96,9 +96,10 @@ LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, 
   for (const std::string& repair : repaired.repairs) loaded.repairs.push_back(name + ": " + repair);
   const std::vector<Problem> problems = shape_problems(loaded.report, unit, file, part);
   if (role == SurfaceRole::muscle && !problems.empty()) throw InputError(problems);
-  for (const Problem& problem : problems) {
-    loaded.warnings.push_back(to_string({problem.file, problem.where, problem.what, "tolerated in a bone"}));
-  }
+  std::string flaws;
+  for (const Problem& problem : problems)
+    flaws += fmt::format("{}{} {}", flaws.empty() ? "" : "; ", problem.where, problem.what);
+  if (!flaws.empty()) loaded.warnings.push_back(name + ": " + flaws + " (tolerated in a bone)");
   return loaded;
 }
 
