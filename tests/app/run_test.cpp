@@ -85,8 +85,8 @@ TEST_F(RunCommand, an_interrupted_run_exits_with_130_and_resumes_to_the_same_bit
 
   // The signal comes once the run has got somewhere.
   const ProgramResult stopped =
-      run_program("run " + folder.write("scene.toml", long_scene()).string() + " --force --out " + out() + " 2>" +
-                  folder.path("log").string() + " & pid=$!; while kill -0 $pid && [ ! -e " +
+      run_program("run " + folder.write("scene.toml", long_scene()).string() + " --layout surfaces --force --out " +
+                  out() + " 2>" + folder.path("log").string() + " & pid=$!; while kill -0 $pid && [ ! -e " +
                   frame_file(out(), "muscle", 20).string() + " ]; do sleep 0.05; done; kill -INT $pid; wait $pid");
   EXPECT_EQ(stopped.exit_code, 130);
   EXPECT_EQ(stopped.out, "");
