@@ -13,8 +13,9 @@ namespace gracilis {
 
 namespace {
 
-// CIE 1976 L*, 10 or more apart: lightness is what survives gray print and every kind of color blindness.
-constexpr std::array<Real, 6> shades = {30, 41, 52, 63, 73, 83};
+// CIE 1976 L*, 9 or more apart: lightness is what survives gray print and every kind of color blindness. Lighter lines
+// would hardly be seen on white.
+constexpr std::array<Real, 6> shades = {26, 36, 46, 56, 66, 75};
 
 Color from_hsl(Real hue, Real saturation, Real lightness) {
   const Real a = saturation * std::min(lightness, 1 - lightness);
