@@ -333,7 +333,7 @@ TEST(Picking, finds_what_is_seen_and_tells_its_numbers) {
   EXPECT_EQ(hit->number, 1u);
   EXPECT_NEAR(hit->place.z(), 0.1 + std::sqrt(0.02 * 0.02 - 0.01 * 0.01), 0.001);
   const std::string told = numbers_of({hit->number, hit->vertex}, shapes, frame);
-  EXPECT_EQ(told.find("before r, vertex " + std::to_string(10 * hit->vertex) + ": "), 0u) << told;
+  EXPECT_EQ(told.find("before r, vertex " + std::to_string(10 * hit->vertex) + "\nat "), 0u) << told;
   EXPECT_NE(told.find("edges 1.50 × rest"), std::string::npos) << told;
   EXPECT_EQ(surface_at(85, 50, shapes, frame, state, projection)->number, 0u) << "beside the one before";
   state.muscles[1] = MuscleState::hidden;

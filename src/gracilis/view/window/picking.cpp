@@ -83,14 +83,14 @@ std::string numbers_of(const PickedVertex& picked, const ShownShapes& shapes, co
   const std::size_t m = picked.muscle;
   const auto v = static_cast<std::size_t>(picked.vertex);
   const Eigen::Vector3f place = 1000 * frame.muscles[m].col(picked.vertex);
-  std::string text = fmt::format("{}, vertex {}: {:.1f}, {:.1f}, {:.1f} mm", words_of_name(shapes.muscles[m]),
+  std::string text = fmt::format("{}, vertex {}\nat {:.1f}, {:.1f}, {:.1f} mm", words_of_name(shapes.muscles[m]),
                                  shapes.vertex_numbers[m][v], place.x(), place.y(), place.z());
   const auto add = [&](const std::vector<std::vector<float>>& values, const char* form, float factor) {
     if (m < values.size() && v < values[m].size()) text += fmt::format(fmt::runtime(form), factor * values[m][v]);
   };
-  add(frame.stretch, "; edges {:.2f} × rest", 1);
-  add(frame.stress, "; fibers {:.1f} kPa", 0.001f);
-  add(frame.contact_depth, "; contact {:.2f} mm", 1000);
+  add(frame.stretch, "\nedges {:.2f} × rest", 1);
+  add(frame.stress, "\nfibers {:.1f} kPa", 0.001f);
+  add(frame.contact_depth, "\ncontact {:.2f} mm", 1000);
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <vtkCamera.h>
 #include <vtkPolyData.h>
 #include <vtkTextActor.h>
+#include <vtkTextProperty.h>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace gracilis {
 
 static const Color background(0.96, 0.965, 0.97);
 static constexpr int margin = 16, right_width = 210, options_width = 210, track_height = 66;
-static constexpr int words_height = 46;  // above the track: what a click tells, and which way is which
+static constexpr int words_height = 40;  // above the track: which way is which, and the scale bar
 
 void Viewer::lay_out() {
   width_ = window_->GetSize()[0];
@@ -28,10 +29,6 @@ void Viewer::lay_out() {
   lay_out_left();
   lay_out_right();
   lay_out_track();
-  if (state_.picked)
-    picked_ = overlay_.add_text_centered(width_ / 2, track_height + 10, "", 15, ink);
-  else
-    picked_ = nullptr;
   if (!help_) return;
   overlay_.begin_layer();
   add_help(width_, height_, help_rows(bindings_), overlay_);
@@ -55,7 +52,7 @@ Rectangle Viewer::room() const {
   const int* size = window_->GetSize();
   const int left = margin + left_width_ + 10, right = margin + right_width + 10;
   const int bottom = track_height + words_height;
-  return {left, bottom, std::max(100, size[0] - left - right), std::max(100, size[1] - bottom - words_height)};
+  return {left, bottom, std::max(100, size[0] - left - right), std::max(100, size[1] - bottom - 46)};
 }
 
 /// Until somebody turns the camera, what moves out of its room, as a femur under the sliders, gets more of it.
@@ -112,11 +109,17 @@ void Viewer::lay_out_left() {
                        [this, m] { cycle_muscle(m); }});
   }
   const std::vector<OptionEntry> entries = options_shown();
+  static constexpr int numbers_height = 90;  // of what a click on a muscle tells
   const int options_height = 20 * static_cast<int>(entries.size()) + 16;
+  const int below = track_height + words_height + (state_.picked ? numbers_height : 0);
   const int end = add_paged_list(
-      margin, height_ - 46, track_height + options_height + 10, "muscles", muscle_page_, muscles,
+      margin, height_ - 46, below + options_height + 10, "muscles", muscle_page_, muscles,
       [this] { changed_ = relaid_ = true; }, overlay_);
   add_options(margin, end - 14, entries, overlay_);
+  picked_ = nullptr;
+  if (!state_.picked) return;
+  picked_ = overlay_.add_text(margin, end - options_height - 10, "", 13, ink);
+  picked_->GetTextProperty()->SetVerticalJustificationToTop();
 }
 
 /// A scale above `bottom`; returns the next free height.
@@ -241,7 +244,7 @@ void Viewer::lay_out_directions() {
   const Vec3 right = looking.cross(above);
   const auto word = [&](const Vec3& direction) { return direction_word(direction, shapes_.axes); };
   const int left_end = margin + left_width_ + 14, right_end = width_ - margin - right_width - 14;
-  const int y = track_height + 28, half = overlay_.width_of(word(-above), size) / 2;
+  const int y = track_height + 14, half = overlay_.width_of(word(-above), size) / 2;
   overlay_.add_text(left_end, y, word(-right), size, faint);
   overlay_.add_text_right(right_end, y, word(right), size, faint);
   overlay_.add_text_centered(width_ / 2, height_ - 24, word(above), size, faint);
