@@ -9,10 +9,12 @@ pictures=$PWD/docs/pictures
 mkdir -p out/guide/scans
 cd out/guide
 
-smaller() { # FILE PICTURE WIDTH HEIGHT
+smaller() { # FILE PICTURE WIDTH
+  local width height
+  read -r width height < <(od -An -tu4 --endian=big -j16 -N8 "$1")  # as its header says
   echo "<body style='margin:0'><img src='$1' width=$3>" >smaller.html
-  chromium --headless=new --no-sandbox --hide-scrollbars "--window-size=$3,$4" "--screenshot=$pictures/$2.png" \
-    "file://$PWD/smaller.html" 2>/dev/null
+  chromium --headless=new --no-sandbox --hide-scrollbars "--window-size=$3,$((($3 * height + width - 1) / width))" \
+    "--screenshot=$pictures/$2.png" "file://$PWD/smaller.html" 2>/dev/null
 }
 
 # The surfaces that the pages take as if they were one's own.
@@ -21,9 +23,9 @@ for name in hip_bone_r femur_r adductor_longus_r; do
   cp demo/frames/${name}_0000.vtp scans/$name.vtp
 done
 $gracilis scene scans --out my_hip.toml --force
-smaller my_hip.png first_scene 720 804
+smaller my_hip.png first_scene 720
 $gracilis run my_hip.toml --out first --force
-smaller first/preview.png first_run 1000 480
+smaller first/preview.png first_run 1000
 
 # A scene of the muscle, by what holds its insertion (and its activation), abducted to an angle.
 scene() { # NAME INSERTION DEGREES [MORE]
