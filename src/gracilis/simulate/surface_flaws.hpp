@@ -34,8 +34,8 @@ class SurfaceFlaws {
   Real thickness_at(Index vertex, const Points& points) const;
 
   /// Per vertex how near it comes to the gates of shape: the largest of its spike, its thickness and its edges, each as
-  /// far as it exceeds rest over how far the bar does; 0 at rest, 1 at a bar. An edge has the bar near attachments where
-  /// one of its ends is `near` them (see near_attachments), the other bar elsewhere.
+  /// far as it exceeds rest over how far the bar does; 0 at rest, 1 at a bar. An edge has the bar near attachments
+  /// where one of its ends is `near` them (see near_attachments), the other bar elsewhere.
   std::vector<Real> shares_of_gates(const Points& points, const std::vector<char>& near,
                                     const QualityGates& gates) const;
 

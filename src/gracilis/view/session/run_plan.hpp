@@ -36,8 +36,8 @@ std::string describe_plan(const RunPlan& plan);
 /// Beyond this a run asks, or wants to be told beforehand.
 inline constexpr double asking_bytes = 2e9;
 
-/// Of a run that would have more files, or more bytes than that, a file holds a whole frame: copying and listing so many
-/// takes longer than computing them does.
+/// Of a run that would have more files, or more bytes than that, a file holds a whole frame: copying and listing so
+/// many takes longer than computing them does.
 inline constexpr std::int64_t most_surface_files = 20'000;
 
 /// As in "1.1 GB in 30,653 files", and the time where it is known and worth a word: ", in about 9 min".
