@@ -255,7 +255,7 @@ TEST(LoadSurface, a_muscle_with_a_hole_is_refused_and_a_bone_warned_about) {
                           HasSubstr("gracilis prepare " + path.string())));
   const LoadedMesh bone = load_surface(path, 1, SurfaceRole::bone);
   ASSERT_EQ(bone.warnings.size(), 1u);
-  EXPECT_THAT(bone.warnings[0], HasSubstr("open.ply: face 0 lies at a hole: 3 open edges (tolerated in a bone)"));
+  EXPECT_THAT(bone.warnings[0], HasSubstr("open.ply: face 0: lies at a hole: 3 open edges (tolerated in a bone)"));
 }
 
 TEST(LoadSurface, the_command_that_mends_can_be_pasted_and_says_that_it_writes_metres) {

@@ -98,7 +98,7 @@ LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, 
   if (role == SurfaceRole::muscle && !problems.empty()) throw InputError(problems);
   std::string flaws;
   for (const Problem& problem : problems)
-    flaws += fmt::format("{}{} {}", flaws.empty() ? "" : "; ", problem.where, problem.what);
+    flaws += fmt::format("{}{}: {}", flaws.empty() ? "" : "; ", problem.where, problem.what);
   if (!flaws.empty()) loaded.warnings.push_back(name + ": " + flaws + " (tolerated in a bone)");
   return loaded;
 }
