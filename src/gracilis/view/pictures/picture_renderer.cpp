@@ -49,12 +49,12 @@ static vtkSmartPointer<vtkUnsignedCharArray> color_array(const Points& colors) {
   const auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
   array->SetNumberOfComponents(3);
   array->SetNumberOfTuples(colors.cols());
-  for (Index i = 0; i < colors.cols(); ++i)
-    for (int k = 0; k < 3; ++k) array->SetComponent(i, k, std::lround(255 * std::clamp<Real>(colors(k, i), 0, 1)));
+  Eigen::Map<Eigen::Matrix<unsigned char, 3, Eigen::Dynamic>>(array->GetPointer(0), 3, colors.cols()) =
+      (255 * colors.array().max(0).min(1) + 0.5).cast<unsigned char>();
   return array;
 }
 
-static void add_surface(const PaintedSurface& surface, vtkRenderer& renderer) {
+static void add_surface(const PaintedSurface& surface, vtkTexture& stripes, vtkRenderer& renderer) {
   const vtkSmartPointer<vtkPolyData> mesh = to_vtk(surface.mesh.vertices, surface.mesh.faces);
   mesh->GetPointData()->SetNormals(vertex_normals(surface.mesh));
   vtkNew<vtkPolyDataMapper> mapper;
@@ -68,7 +68,7 @@ static void add_surface(const PaintedSurface& surface, vtkRenderer& renderer) {
   actor->SetMapper(mapper);
   if (!surface.stripes.empty()) {
     mesh->GetPointData()->SetTCoords(stripe_places(surface.stripes));
-    actor->SetTexture(stripe_texture());
+    actor->SetTexture(&stripes);
   }
   vtkProperty* property = actor->GetProperty();
   property->SetColor(surface.color.x(), surface.color.y(), surface.color.z());
@@ -176,6 +176,8 @@ std::map<std::size_t, vtkRenderer*> add_renderers(const Picture& picture, const 
                                                   const Rectangle& area, int scale, vtkRenderWindow& window) {
   const auto add_renderer = [&](const Rectangle& part) { return renderer_in(part, area, picture.background, window); };
   add_renderer(area);  // the background of what stays empty
+  // One for all: to load it takes as long as to draw a muscle.
+  const vtkSmartPointer<vtkTexture> stripes = stripe_texture();
   std::map<std::size_t, vtkRenderer*> of_panels;
   for (std::size_t i = 0; i < picture.panels.size(); ++i) {
     if (!is_in(layout.panels[i], area)) continue;
@@ -186,7 +188,7 @@ std::map<std::size_t, vtkRenderer*> add_renderers(const Picture& picture, const 
       renderer->SetUseDepthPeeling(true);
       renderer->SetMaximumNumberOfPeels(8);
     }
-    for (const PaintedSurface& surface : panel.surfaces) add_surface(surface, *renderer);
+    for (const PaintedSurface& surface : panel.surfaces) add_surface(surface, *stripes, *renderer);
     for (const PaintedLines& lines : panel.lines) add_lines(lines, scale, *renderer);
     add_camera_lights(*renderer);
     place_camera(layout.cameras[i], layout.half_height, *renderer);
