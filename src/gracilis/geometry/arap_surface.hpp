@@ -6,8 +6,8 @@
 
 #include <vector>
 
-/// As-rigid-as-possible surfaces (Sorkine and Alexa 2007): the sum over vertices i and their neighbors j of
-/// w_ij |(x_i - x_j) - R_i (r_i - r_j)|², r at rest, is made small by choosing rotations and places in turn.
+/// As-rigid-as-possible surfaces (Sorkine and Alexa 2007): \f$\sum_{i,j} w_{ij} |(x_i - x_j) - R_i (r_i - r_j)|^2\f$
+/// over vertices i and their neighbors j, r at rest, is made small by choosing rotations and places in turn.
 namespace gracilis::arap {
 
 using Rotations = std::vector<Eigen::Matrix3d>;
@@ -15,7 +15,7 @@ using Rotations = std::vector<Eigen::Matrix3d>;
 /// One surface with its held vertices; never changes. The matrix of the second step is factored once.
 class Surface {
  public:
-  /// `held` is 1 for vertices whose places are given. Weights are cotangents, (cot α + cot β) / 2 of the two angles
+  /// `held` is 1 for vertices whose places are given. Weights are \f$(\cot\alpha + \cot\beta) / 2\f$ of the two angles
   /// opposite to an edge, at least `smallest_weight`. Precondition: every part of the surface has a held vertex. Throws
   /// QualityError where the vertices leave no solution.
   Surface(const TriangleMesh& mesh, const MeshTopology& topology, const std::vector<char>& held);

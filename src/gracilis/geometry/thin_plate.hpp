@@ -4,8 +4,8 @@
 
 namespace gracilis {
 
-/// Smooth maps of space, x ↦ A x + t + Σ w_k |x - c_k| with weights that no affine map sees: the splines that bend
-/// least in three dimensions (Duchon 1977), whose bending is zero for affine maps alone.
+/// Smooth maps of space, \f$x \mapsto A x + t + \sum_k w_k |x - c_k|\f$ with weights that no affine map sees: the
+/// splines that bend least in three dimensions (Duchon 1977), whose bending is zero for affine maps alone.
 class ThinPlateBasis {
  public:
   /// No centers: affine maps alone. Preconditions otherwise: five centers or more, no two at one place, not all in a

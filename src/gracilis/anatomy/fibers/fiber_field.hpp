@@ -33,8 +33,8 @@ class FiberField {
   Real smoothing_;
 };
 
-/// The field of least ℓ² ∫ |∇v|² + Σ weight |v - direction|², weights summing to the volume: each sample speaks for its
-/// surroundings as far as ℓ = `smoothing` (m), and beyond samples the field goes on as it comes. Found from `start` on.
+/// The field of least \f$\ell^2 \int |\nabla v|^2 + \sum_i w_i |v - d_i|^2\f$, weights summing to the volume: a sample
+/// speaks for what is as near as ℓ = `smoothing` (m), and beyond samples it goes on as it comes. Found from `start` on.
 Points smooth_directions(const SolidGrid& grid, const std::vector<DirectionSample>& samples, Real smoothing,
                          const Points& start);
 

@@ -31,7 +31,7 @@ FiberMeasures measure_fibers(const Polylines& fibers);
 /// The mean length, m; 0 without fibers.
 Real mean_fiber_length(const Polylines& fibers);
 
-/// Physiological cross-section area, m²: volume over mean fiber length (Lieber and Fridén 2000, pennation left out);
+/// Physiological cross-section area, m²: \f$V / \bar l\f$, l̄ the mean length (Lieber and Fridén 2000, no pennation);
 /// 0 without fibers.
 Real physiological_cross_section(Real volume, const Polylines& fibers);
 

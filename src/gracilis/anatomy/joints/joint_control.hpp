@@ -35,7 +35,7 @@ class JointControl {
   std::size_t neighbors_;
 };
 
-/// The falloff that suits samples (rows, degrees): 1 / (2 s²) with s the median distance of a sample to its nearest
+/// The falloff that suits samples (rows, degrees): \f$1 / (2 s^2)\f$, s the median distance of a sample to its nearest
 /// other one; 1 when there is none.
 Real falloff_for(const Eigen::MatrixXd& samples_deg);
 

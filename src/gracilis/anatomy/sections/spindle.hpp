@@ -13,7 +13,7 @@ struct MuscleSize {
   Real tendon_stress = 3.2e7;     ///< N/m², in a tendon at the largest force (Zajac 1989)
 };
 
-/// Volume of the muscle without its tendon, m³: (force / specific tension) fiber length / cos(pennation).
+/// Volume of the muscle without its tendon, m³: \f$(F / \sigma) l / \cos\alpha\f$, σ the specific tension, α pennation.
 Real muscle_volume(const MuscleSize& size);
 
 /// Radius of the tendon, m.

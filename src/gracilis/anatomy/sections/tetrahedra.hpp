@@ -34,13 +34,13 @@ Real compartment_volume(const Tetrahedra& tetrahedra, Compartment compartment);
 struct SectionShape {
   Real area = 0;       ///< m², of the polygon seen along its normal
   Real perimeter = 0;  ///< m
-  Real quotient = 0;   ///< isoperimetric, 4 π area / perimeter²: 1 for a circle
+  Real quotient = 0;   ///< isoperimetric, \f$4 \pi A / P^2\f$: 1 for a circle
   bool convex = false;
 };
 
 SectionShape section_shape(const SectionRings& rings, Index section);
 
-/// Physiological cross-section, m²: muscle volume times cos(pennation) over the optimal fiber length (eq. 6.2).
+/// Physiological cross-section, m²: \f$V \cos\alpha / l\f$, α the pennation, l the optimal fiber length (eq. 6.2).
 Real physiological_area(Real muscle_volume, Real pennation, Real optimal_fiber);
 
 /// The sections of a surface that was made of them, in any pose: centers lie in their rings as they did in the rings

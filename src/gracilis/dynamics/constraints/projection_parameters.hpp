@@ -4,10 +4,10 @@
 
 namespace gracilis {
 
-/// What the projections of one substep share. XPBD (Macklin, Müller, Chentanez 2016) moves each constraint's multiplier
-/// by
-///   Δλ = (-C - α̃ λ - γ ∇C·(x - xⁿ)) / ((1 + γ) ∇C w ∇Cᵀ + α̃),  α̃ = α/dt²,  γ = α̃ β̃/dt,  β̃ = dt² β
-/// and the particles by w ∇Cᵀ Δλ, w the inverse masses and xⁿ the substep's start.
+/// What the projections of one substep share. XPBD (Macklin, Müller, Chentanez 2016) moves each multiplier by
+/// \f[\Delta\lambda = \frac{-C - a \lambda - \gamma \nabla C \cdot (x - x^n)}{(1 + \gamma) \nabla C w \nabla C^T +
+/// a}\f] with \f$a = \alpha/dt^2, \gamma = a b/dt, b = dt^2 \beta\f$, and the particles by \f$w \nabla C^T
+/// \Delta\lambda\f$, w the inverse masses and xⁿ the substep's start.
 struct ProjectionParameters {
   float time_step = 1.0f / 60;    ///< s
   float rayleigh_beta = 0;        ///< dissipation; 0: the start positions are not read

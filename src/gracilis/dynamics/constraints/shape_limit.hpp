@@ -30,9 +30,9 @@ std::vector<Index> near_shape_limits(const ShapeLimitSet& set, const ShapeLimits
                                      const Particles& particles);
 
 /// Brings `listed` particles back to the limits, one after the other, without compliance and without a multiplier:
-/// C = spike · reach + apart - |x - mean of neighbors| >= 0 moves a particle and its neighbors,
-/// C = thickness · (rest + mean edge) - mean edge - |x - x_opposite| >= 0 the two that face each other. Returns how
-/// many were beyond one.
+/// \f$C = s \rho + a - |x - \bar x| \ge 0\f$ moves a particle and its neighbors, whose mean is x̄ (s the spike limit, ρ
+/// the reach, a apart), \f$C = t (r + \bar e) - \bar e - |x - x_o| \ge 0\f$ the two that face each other (t limits
+/// thickness, r the distance at rest, ē the mean edge). Returns how many were beyond one.
 Index project_shape_limits(const ShapeLimitSet& set, const ShapeLimits& limits, const std::vector<Index>& listed,
                            Particles& particles);
 

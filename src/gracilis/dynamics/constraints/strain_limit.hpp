@@ -24,7 +24,7 @@ void deactivate_all(StrainLimitActiveSet& active);
 void activate_all(StrainLimitActiveSet& active);
 
 /// Shortens edges of slots [begin, end), which belong to one color, that are longer than `limit` times their rest
-/// length to that length, without compliance and without a multiplier: C = limit · length_rest - |x_b - x_a| >= 0.
+/// length L to that length, without compliance and without multiplier: \f$C = l L - |x_b - x_a| \ge 0\f$, l the limit.
 /// Looks only at what is `active`; null: at all. Returns how many were limited.
 Index project_strain_limit(const DistanceSet& set, ColorRange range, float limit, Particles& particles,
                            const StrainLimitActiveSet* active = nullptr);

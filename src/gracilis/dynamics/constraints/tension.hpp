@@ -10,8 +10,8 @@ struct TensionLaw {
   bool two_sided = false;  ///< they hold the length aimed at both ways (Havlíček 2024) instead of pulling only
 };
 
-/// Projects tensions of slots [begin, end), which belong to one color: distance constraints that only pull, C =
-/// target_length - |x_b - x_a| >= 0, or C = 0 where the law is two-sided. A segment that only pulls and is shorter than
+/// Projects tensions of slots [begin, end), which belong to one color: distance constraints that only pull,
+/// \f$C = L - |x_b - x_a| \ge 0\f$, L the target, or C = 0 where the law is two-sided. One that only pulls and is under
 /// its target is left alone, except that it gives back what it was pulled too far within this substep. Precondition:
 /// strength > 0; the rest as for project_distances.
 ProjectionCounts project_tensions(const DistanceSet& set, ColorRange range, const float* target_length,

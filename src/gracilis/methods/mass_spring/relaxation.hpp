@@ -15,25 +15,25 @@ struct Motion {
   Points before;  ///< the same
 };
 
-/// kg/s: √(4 k m), with which one particle on one spring comes to rest the soonest without overshooting (eq. 2.10).
+/// kg/s: \f$\sqrt{4 k m}\f$, by which one particle on a spring comes to rest soonest without overshooting (eq. 2.10).
 Real critical_damping(Real stiffness, Real mass);
 
-/// kg/s: √(4 k₆ 2m), k₆ = 2 + 4/k_a with the mean stiffness k_a (eq. 2.11). A rule fitted to particles on six springs,
-/// which holds for numbers in N/m and kg only.
+/// kg/s: \f$\sqrt{4 k_6 2m}\f$, \f$k_6 = 2 + 4/k_a\f$, k_a the mean stiffness (eq. 2.11). A rule fitted to particles on
+/// six springs, which holds for numbers in N/m and kg only.
 Real fitted_damping(Real mean_stiffness, Real mass);
 
 /// Of the settings' rule, kg/s.
 Real damping_of(const MassSpringSettings& settings, const SpringNet& net);
 
-/// One step of eq. 2.14: x(t + dt) = F/m dt² + 2 x(t) - x(t - dt), F less c (x(t) - x(t - dt)) / dt. x(t) - x(t - dt)
-/// is taken as it is where the last step had another length, as published. Not published: damping takes at most all of
-/// a velocity, since c dt > 2 m would turn it round and let it grow. Fixed particles (1) stay.
+/// One step of eq. 2.14: \f$x(t + dt) = \frac{F}{m} dt^2 + 2 x(t) - x(t - dt)\f$, F less \f$c (x(t) - x(t-dt)) / dt\f$.
+/// The last motion is taken as it is where its step had another length, as published. Not published: damping takes at
+/// most all of a velocity, since c dt > 2 m would turn it round and let it grow. Fixed particles (1) stay.
 void verlet_step(const Points& forces, Real mass, Real damping, Real step, const std::vector<char>& fixed,
                  Motion& motion);
 
-/// The largest dt (s) with force dt² + damping moved dt + mass (moved - radius) <= 0 (eq. 5.1 with the sign of the
-/// damping that makes the bound on a particle's motion larger): then it moves by at most its radius. `force` in N,
-/// `moved` = |x(t) - x(t - dt)| and `radius` in m. 0 where it has moved by its radius or more; infinite where nothing
+/// The largest dt (s) with \f$F dt^2 + c d dt + m (d - r) \le 0\f$ (eq. 5.1 with the sign of the damping c that makes
+/// the bound on a particle's motion larger): then it moves by at most its radius r (m). `force` F in N, `moved` d =
+/// |x(t) - x(t - dt)| in m. 0 where it has moved by its radius or more; infinite where nothing
 /// moves it.
 Real longest_step(Real force, Real moved, Real radius, Real mass, Real damping);
 

@@ -24,8 +24,8 @@ struct SpringNet {
 /// make it, since particles that nearly coincide would have springs without bounds; one without length has none.
 SpringNet build_spring_net(const Points& rest, const SpringPairs& pairs, Real material, Real shortest_share);
 
-/// The forces on all particles, N: -Σ_j F_ij by eq. 2.7, F_ij = k (|l| - |l⁰|) l / |l| with l = x_i - x_j, as it must
-/// be for springs to restore. A spring without length pulls nowhere. The same bits for any number of threads.
+/// The forces on all particles, N: \f$-\sum_j F_{ij}\f$ by eq. 2.7, \f$F_{ij} = k (|l| - |l^0|) l / |l|\f$ with l =
+/// x_i - x_j, for springs to restore. A spring without length pulls nowhere. The same bits for any number of threads.
 void spring_forces(const SpringNet& net, const Points& points, Points& forces);
 
 /// How far springs are from their lengths at rest, all together, m (section 5.4).
@@ -35,8 +35,8 @@ Real length_changes(const SpringNet& net, const Points& points);
 Real mean_stiffness(const SpringNet& net);
 
 /// A time step (s) within which Verlet's scheme is stable without damping, whatever the springs' directions: it is up
-/// to 2 √(m/λ), and no eigenvalue λ is above twice the largest sum of stiffnesses at a particle. Infinite without
-/// springs.
+/// to \f$2 \sqrt{m/\lambda}\f$, and no eigenvalue λ is above twice the largest sum of stiffnesses at a particle.
+/// Infinite without springs.
 Real stable_step(const SpringNet& net, Real mass);
 
 }  // namespace gracilis::mass_spring

@@ -29,12 +29,12 @@ Real arccos_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 /// flat or folded together.
 Evaluated<4> angle_constraint(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, Real rest_angle);
 
-/// Eq. 5, with the absolute value that a direction without sense needs: 1 - |u·v|; both unit. 1 where v is zero.
+/// Eq. 5, with the absolute value that a direction without sense needs: \f$1 - |u \cdot v|\f$, unit; 1 where v is 0.
 Real anisotropy(const Vec3& edge_direction, const Vec3& fiber_direction);
 
-/// Moves the points by eq. 1, `stiffness` (0 to 1) times: Δp_i = -stiffness C w_i ∇_i C / Σ_j w_j |∇_j C|². `weight` is
-/// 0 for points that are held. No point goes farther than `limit`, m; all go the less then. False where it moved
-/// nothing for want of a gradient.
+/// Moves the points by eq. 1, stiffness s from 0 to 1: \f$\Delta p_i = -s C w_i \nabla_i C / \sum_j w_j |\nabla_j
+/// C|^2\f$. `weight` is 0 for points that are held. No point goes farther than `limit`, m; all go the less then. False
+/// where it moved nothing for want of a gradient.
 template <std::size_t count>
 bool project(const Evaluated<count>& constraint, Real stiffness, const std::array<Real, count>& weight,
              const std::array<Vec3*, count>& points, Real limit = std::numeric_limits<Real>::infinity()) {

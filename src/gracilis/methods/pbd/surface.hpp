@@ -55,7 +55,7 @@ struct Stiffness {
 /// One projection of all edges, then all angles, color after color. Returns how many angles had no gradient.
 Index project_edges_and_angles(const Surface& surface, const Stiffness& stiffness, Points& points);
 
-/// Eq. 3 with the factor 1/6 that makes it a volume: C = Σ a·(b × c) / 6 - V⁰. `gradient` is that by every vertex.
+/// Eq. 3 with a volume's factor: \f$C = \frac{1}{6} \sum a \cdot (b \times c) - V^0\f$. `gradient`: by every vertex.
 Real volume_constraint(const Surface& surface, const Points& points, Points& gradient);
 
 /// One projection of the volume onto its rest.

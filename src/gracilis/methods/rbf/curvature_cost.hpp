@@ -14,7 +14,7 @@ struct CurvaturePoints {
   Real share = 1;              ///< of space that each stands for, m³
 };
 
-/// C = Σ share (κ(x) - κ_0(x))², κ the field's curvature (eq. 6.6). m.
+/// \f$C = \sum s (\kappa(x) - \kappa_0(x))^2\f$, κ the field's curvature, s a point's share (eq. 6.6). m.
 Real curvature_cost(const RadialBasis& basis, const CurvaturePoints& wanted);
 
 /// Its gradient by the centers (eqs. 6.8 to 6.10), 3 × n. Precondition: a kernel with three derivatives at its center.

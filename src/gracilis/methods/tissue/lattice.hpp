@@ -20,7 +20,7 @@ using Corners = Eigen::Matrix<Real, 3, 8>;
 struct CubeCut {
   std::array<std::array<Index, 4>, 5> tetrahedra;            ///< corners, positively oriented; the middle one first
   std::array<Real, 5> shares;                                ///< of the cube's volume
-  std::array<Eigen::Matrix<Real, 3, 4>, 5> shape_gradients;  ///< of a cube with edge 1: F = Σ x_k ⊗ gradient_k
+  std::array<Eigen::Matrix<Real, 3, 4>, 5> shape_gradients;  ///< of a cube with edge 1: \f$F = \sum x_k \otimes g_k\f$
 };
 
 /// The tetrahedron with this point, and the weights of its corners there; the point in units of the cube's edge, from

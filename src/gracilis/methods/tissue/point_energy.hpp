@@ -18,7 +18,7 @@ inline PointState spring(const Vec3& offset, Real stiffness) {
 }
 
 /// Fascia that ties a point to a place across the unit direction `along` and lets it glide along that. Yields: pulls by
-/// stiffness · e / √(1 + (e / yield)²) where the point is e (m) off.
+/// \f$k e / \sqrt{1 + (e / y)^2}\f$, k the stiffness, where the point is e (m) off and y is `yield`.
 inline PointState tie(const Vec3& offset, const Vec3& along, Real stiffness, Real yield) {
   const Vec3 e = offset - along.dot(offset) * along;
   const Real root = std::sqrt(1 + e.squaredNorm() / (yield * yield));
