@@ -11,7 +11,8 @@ def tube(radius, length, around=16, along=24):
     """A closed tube along z: vertices (n, 3) in m, faces (m, 3), seen from outside."""
     angle = np.arange(around) * 2 * np.pi / around
     ring = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
-    rows = [np.column_stack([ring, np.full(around, z)]) for z in np.linspace(0, length, along + 1)]
+    # Slanted a little: of a muscle that is quite symmetric, rounding would choose among fibers that are equally good.
+    rows = [np.column_stack([ring, z + 0.05 * ring[:, 1]]) for z in np.linspace(0, length, along + 1)]
     vertices = np.vstack(rows + [[[0, 0, 0], [0, 0, length]]])
     faces, low, high = [], len(vertices) - 2, len(vertices) - 1
     for i in range(around):
