@@ -2,10 +2,12 @@
 
 #include <gracilis/anatomy/joints/joint_control.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/tables/activation_samples.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <map>
@@ -21,6 +23,7 @@ struct JoinOptions {
   fs::path motions, results, out, mapping, forces;
   std::vector<std::pair<std::string, std::string>> pairs;
   std::vector<std::string> coordinates;
+  bool json = false;
   JoinSettings settings;
 };
 
@@ -66,12 +69,22 @@ void keep_coordinates(const std::vector<std::string>& coordinates, std::size_t a
   samples.values = std::move(values);
 }
 
+void print_json(const Table& samples, std::size_t coordinates, const Eigen::VectorXd& errors) {
+  const auto first_muscle = samples.columns.begin() + static_cast<std::ptrdiff_t>(coordinates);
+  nlohmann::ordered_json by_muscle = nlohmann::json::object();
+  for (Index i = 0; i < errors.size(); ++i) by_muscle[*(first_muscle + i)] = errors[i];
+  fmt::print("{}", json_text({{"samples", samples.times.size()},
+                              {"coordinates", std::vector<std::string>(samples.columns.begin(), first_muscle)},
+                              {"left_out_rms", by_muscle}}));
+}
+
 /// How well the samples speak for each other.
-void report(const Table& samples, std::size_t coordinates) {
+void report(const Table& samples, std::size_t coordinates, bool as_json) {
   JointControlUnit unit;
   unit.angles = samples.values.leftCols(static_cast<Index>(coordinates)) * radians(1);
   unit.activations = samples.values.rightCols(samples.values.cols() - static_cast<Index>(coordinates));
   const Eigen::VectorXd errors = leave_out_error(unit);
+  if (as_json) return print_json(samples, coordinates, errors);
   fmt::print("{} samples of {} coordinates and {} muscles\n", samples.times.size(), coordinates, errors.size());
   fmt::print("with every second sample left out, the others interpolate it to within (root mean square):\n");
   for (Index i = 0; i < errors.size(); ++i)
@@ -102,7 +115,7 @@ int join(const JoinOptions& options) {
     coordinates = options.coordinates.size();
   }
   write_sto(options.out, joined.samples);
-  report(joined.samples, coordinates);
+  report(joined.samples, coordinates, options.json);
   return static_cast<int>(ExitCode::done);
 }
 
@@ -118,6 +131,7 @@ void add_activations_command(CLI::App& program, Command& chosen) {
       ->required();
   joining->add_option("RESULTS", options->results, "Folder of .sto files with activations, or one file")->required();
   joining->add_option("--out", options->out, "Table to write (.sto)")->required();
+  joining->add_flag("--json", options->json, "Print JSON, for programs");
   joining->add_option("--map", options->mapping,
                       "TOML file: muscle = [\"column\", ...]. Without it numbered parts join");
   joining->add_option("--pair", options->pairs, "Motion and result whose names differ; may be repeated")

@@ -12,6 +12,7 @@
 #include <gracilis/core/stop.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/run/folder_lock.hpp>
 #include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/study/child_process.hpp>
@@ -19,6 +20,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <unistd.h>
 
@@ -35,7 +37,7 @@ struct CalibrateOptions {
   std::filesystem::path scene, targets, out;
   SceneOptions of_scene;
   int jobs = 0, threads = 1;
-  bool force = false;
+  bool force = false, json = false;
 
   bool is_built_in() const { return builtin_scene_of(scene.string()).has_value(); }
 };
@@ -123,6 +125,42 @@ void print_result(const CalibrationResult& result) {
   }
 }
 
+/// What is not known is NaN, which JSON has as null.
+void print_json(const CalibrationResult& result) {
+  nlohmann::ordered_json parameters = nlohmann::json::array(), together = parameters, targets = parameters;
+  const auto key_of = [&](std::size_t p) { return result.calibration.parameters[p].setting.key; };
+  for (std::size_t p = 0; p < result.calibration.parameters.size(); ++p) {
+    const ParameterEstimate estimate = estimate_of(result, p);
+    parameters.push_back({{"key", key_of(p)},
+                          {"start", std::stod(result.start_values[p])},
+                          {"value", estimate.value},
+                          {"standard_error", estimate.error},
+                          {"from_95", estimate.from},
+                          {"to_95", estimate.to},
+                          {"remark", result.uncertainty.remarks[p]}});
+  }
+  for (const std::vector<Index>& each : result.uncertainty.together) {
+    nlohmann::ordered_json keys = nlohmann::json::array();
+    for (const Index p : each) keys.push_back(key_of(static_cast<std::size_t>(p)));
+    if (each.size() > 1) together.push_back(std::move(keys));
+  }
+  for (std::size_t t = 0; t < result.calibration.targets.size(); ++t) {
+    const CalibrationTarget& target = result.calibration.targets[t];
+    const Real factor = shown_factor(target.kind);
+    targets.push_back({{"name", target.name},
+                       {"held_out", target.held_out},
+                       {"unit", shown_unit(target.kind)},
+                       {"rms_before", factor * target_rms(target, result.before[t])},
+                       {"rms_after", factor * target_rms(target, result.after[t])},
+                       {"tolerance", factor * target.tolerance}});
+  }
+  fmt::print("{}", json_text({{"parameters", parameters},
+                              {"only_together", together},
+                              {"targets", targets},
+                              {"evaluations", result.evaluations},
+                              {"stopped", result.stopped}}));
+}
+
 CalibrationResult run_or_say_how_to_go_on(const Calibration& calibration, const SceneMatch& match,
                                           const ObserveFunction& observe_scene, const CalibrationOptions& how) {
   try {
@@ -161,6 +199,10 @@ int calibrate(CalibrateOptions options) {
   write_calibration_page(options.out / "report.html", result, use_of(options, result));
   spdlog::info("{} evaluations, {} of them known before; ended since {}", result.evaluations, result.known,
                result.stopped);
+  if (options.json) {
+    print_json(result);
+    return static_cast<int>(ExitCode::done);
+  }
   print_result(result);
   for (const char* file : {"calibrated.toml", "report.html"}) fmt::print("{}\n", (options.out / file).string());
   return static_cast<int>(ExitCode::done);
@@ -185,6 +227,7 @@ void add_calibrate_command(CLI::App& program, Command& chosen) {
       ->check(CLI::Range(0, 1024));
   command->add_option("--threads", options->threads, "Threads of each evaluation; 0 takes all (1)")
       ->check(CLI::Range(0, 1024));
+  command->add_flag("--json", options->json, "Print what was found as JSON, for programs");
   command->add_flag("--force", options->force, "Begin anew where the folder holds another calibration");
   command->footer(
       "Killed or interrupted, the same command goes on: nothing is evaluated twice.\n"

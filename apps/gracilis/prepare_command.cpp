@@ -103,17 +103,20 @@ PreparedSurfaces prepared_input(const SceneSurfaces& input, const PrepareOptions
   return prepared;
 }
 
-void write_prepared(const PreparedSurfaces& prepared, const fs::path& folder) {
+void write_prepared(const PreparedSurfaces& prepared, const fs::path& folder, bool as_json) {
   create_folder(folder);
   std::vector<std::string> names;
   for (const PreparedMuscleReport& muscle : prepared.report.muscles) names.push_back(muscle.name);
   const std::vector<fs::path> files = output_files(names, folder);
   for (std::size_t m = 0; m < files.size(); ++m)
     write_surface(files[m], prepared.muscles[m].vertices, prepared.muscles[m].faces);
-  const std::string report = to_text(prepared.report);
+  const std::string report = to_text(prepared.report), json = to_json(prepared.report).dump(2) + "\n";
   write_text_atomically(folder / "report.txt", report);
-  write_text_atomically(folder / "report.json", to_json(prepared.report).dump(2) + "\n");
-  fmt::print("{}{}\n", report, folder.string());
+  write_text_atomically(folder / "report.json", json);
+  if (as_json)
+    fmt::print("{}", json);
+  else
+    fmt::print("{}{}\n", report, folder.string());
 }
 
 int prepare(const PrepareOptions& options) {
@@ -121,7 +124,7 @@ int prepare(const PrepareOptions& options) {
   const SceneSurfaces input = read_input(options, problems);
   require_inputs_kept(input.muscles, options);
   const PreparedSurfaces prepared = prepared_input(input, options, problems);
-  if (!prepared.muscles.empty()) write_prepared(prepared, options.out);
+  if (!prepared.muscles.empty()) write_prepared(prepared, options.out, options.json);
   if (!problems.empty()) throw InputError(std::move(problems));
   return static_cast<int>(ExitCode::done);
 }
@@ -161,6 +164,7 @@ void add_prepare_command(CLI::App& program, Command& chosen) {
   command->add_option("--only", options->scene.only, "Only these muscles of a scene; names separated by commas")
       ->delimiter(',')
       ->allow_extra_args(false);
+  command->add_flag("--json", options->json, "Print the report as JSON (report.json of the folder), for programs");
   command->add_flag("--keep-going", options->keep_going,
                     "Write the other muscles where some cannot be prepared; these are named, with exit code 3");
   for (const Setting<PrepareSettings>& setting : setting_table<PrepareSettings>()) {

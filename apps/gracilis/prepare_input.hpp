@@ -19,6 +19,7 @@ struct PrepareOptions {
   std::string unit;                       ///< empty: not given
   std::vector<std::string> parts, apart;  ///< names; none: the whole files, all muscles
   bool merge = false, split = false, largest = false, keep_going = false;
+  bool json = false;                             ///< print the report as JSON
   std::map<std::string, SettingValue> settings;  ///< those given on the command line
   SceneOptions scene;
 };

@@ -130,8 +130,15 @@ int run_shard(const StudyOptions& options) {
   stop_requested();  // from here on a signal ends the study between frames
   check_scenes(study);
   const StudyEnd end = run_some(study, options, shard, options.names);
-  fmt::print("{} complete before, {} done now, {} failed{}\n", end.complete_before, end.done, end.failed,
-             end.interrupted ? "; interrupted: the same command goes on" : "");
+  if (options.json)
+    fmt::print("{}", json_text({{"folder", study.folder.string()},
+                                {"complete_before", end.complete_before},
+                                {"done", end.done},
+                                {"failed", end.failed},
+                                {"interrupted", end.interrupted}}));
+  else
+    fmt::print("{} complete before, {} done now, {} failed{}\n", end.complete_before, end.done, end.failed,
+               end.interrupted ? "; interrupted: the same command goes on" : "");
   if (end.interrupted) return static_cast<int>(ExitCode::interrupted);
   return static_cast<int>(end.failed > 0 ? ExitCode::quality : ExitCode::done);
 }
@@ -214,6 +221,7 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
   running->add_option("--threads", options->threads, "Threads of each run; 0 takes all (1)")
       ->check(CLI::Range(0, 1024));
   running->add_flag("--retry", options->retry, "Also try again what has failed");
+  running->add_flag("--json", options->json, "Print JSON, for programs");
   running->footer(
       "Exit codes: 0 all of the shard is complete; 2 the study is wrong; 3 its files cannot be read or written; 5 some "
       "runs have failed, the others are complete (collect and status have the reasons); 130 interrupted: the same "

@@ -27,7 +27,7 @@ namespace {
 struct TransferCommandOptions {
   std::string origin, side, unit;
   fs::path bones, out, landmarks, template_landmarks, volumes;
-  bool force = false, keep_overlaps = false;
+  bool force = false, keep_overlaps = false, json = false;
   SceneOptions scene;
   std::vector<std::string> words;
 };
@@ -113,13 +113,16 @@ int run_transfer(const TransferCommandOptions& options) {
   const std::vector<std::string> left_out = write_transfer_folder(origin, transferred, record, options.out);
   const fs::path scene_file = options.out / "scene.toml";
   const LoadedScene loaded = read_scene(scene_file);
-  tell(transferred, left_out);
+  if (!options.json) tell(transferred, left_out);
   for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
   const std::string picture = drawn(transferred, loaded.scene, options.out / "transfer.png");
   transferred.scene.name = loaded.scene.name;
   write_transfer_page(options.out / "transfer.html", transferred, {origin.name, left_out, loaded.warnings, picture});
-  fmt::print("{}\n{}\nnext: gracilis run {}\n", (options.out / "transfer.html").string(), scene_file.string(),
-             shell_word(scene_file.string()));
+  if (options.json)
+    fmt::print("{}", read_text(options.out / "transfer.json"));
+  else
+    fmt::print("{}\n{}\nnext: gracilis run {}\n", (options.out / "transfer.html").string(), scene_file.string(),
+               shell_word(scene_file.string()));
   return static_cast<int>(ExitCode::done);
 }
 
@@ -152,6 +155,8 @@ void add_transfer_command(CLI::App& program, const std::vector<std::string>& wor
   command->add_option("--template-landmarks", options->template_landmarks, "Landmarks of the template by name");
   command->add_option("--volumes", options->volumes,
                       "Volumes or masses of the subject's muscles: a .csv with muscle and volume_cm3 or mass_g");
+  command->add_flag("--json", options->json,
+                    "Print what was found as JSON (transfer.json of the folder), for programs");
   command->add_flag("--keep-overlaps", options->keep_overlaps, "Do not pull muscles apart from bones and each other");
   command->add_option("--data", options->scene.data, "Folder with the template's files");
   add_setting_options(*command, options->scene);

@@ -6,6 +6,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/opensim/export/model_with_paths.hpp>
@@ -15,6 +16,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <memory>
 
@@ -27,6 +29,7 @@ struct WrapOptions {
   std::vector<std::filesystem::path> geometry;
   SceneOptions scene;
   Index poses = 1000, points = 12;
+  bool json = false;
 };
 
 /// The model's surfaces in their bodies' own frames.
@@ -46,6 +49,20 @@ void say_shared(const SharedBodies& shared) {
     else
       spdlog::info("{}: taken to lie in the scene where the model has it", body.name);
   for (const std::string& line : shared.left_out) spdlog::warn("{}", line);
+}
+
+void print_json(const WrappedMuscles& wrapped) {
+  nlohmann::ordered_json muscles = nlohmann::json::array();
+  for (const WrappedMuscle& muscle : wrapped.told)
+    muscles.push_back({{"muscle", muscle.name},
+                       {"points", muscle.points},
+                       {"poses", muscle.poses},
+                       {"held_out", muscle.held_out},
+                       {"length_rms_mm", 1000 * muscle.errors.length_root_mean_square},
+                       {"length_largest_mm", 1000 * muscle.errors.length_largest},
+                       {"arm_rms_mm", 1000 * muscle.errors.arm_root_mean_square},
+                       {"arm_largest_mm", 1000 * muscle.errors.arm_largest}});
+  fmt::print("{}", json_text({{"muscles", muscles}, {"left_out", wrapped.left_out}}));
 }
 
 int wrap_model(WrapOptions options) {
@@ -72,7 +89,10 @@ int wrap_model(WrapOptions options) {
       [&](Index done) { progress.show(static_cast<int>(done)); }, options.points);
   progress.clear();
   const WrappedMuscles wrapped = wrap_muscles(model, scene, shared.bodies, samples);
-  for (const std::string& line : wrapped.lines) fmt::print("{}\n", line);
+  if (options.json)
+    print_json(wrapped);
+  else
+    for (const WrappedMuscle& muscle : wrapped.told) fmt::print("{}\n", to_string(muscle));
   for (const std::string& line : wrapped.left_out) spdlog::warn("{}; the model keeps its path", line);
   if (wrapped.muscles.empty())
     throw InputError({options.file.string(), "", "has no muscle that the model can take",
@@ -105,6 +125,7 @@ void add_wrap_command(CLI::App& program, Command& chosen) {
   command->add_option("--points", options->points, "Points of a path at most, its ends among them")
       ->check(CLI::Range(2, 100))
       ->capture_default_str();
+  command->add_flag("--json", options->json, "Print JSON, for programs");
   command->callback([&chosen, options] { chosen = [options] { return wrap_model(*options); }; });
 }
 

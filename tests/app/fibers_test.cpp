@@ -223,6 +223,12 @@ TEST_F(FiberCommands, activations_join_writes_samples_and_lists_problems) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("1 of 3 times of the results have no row of the motion"));
   EXPECT_EQ(read_table(folder.path("samples.sto")).times.size(), 2u);
+  const ProgramResult again = run_program("activations join --json " + folder.path("m").string() + " " +
+                                          folder.path("r").string() + " --out " + folder.path("samples.sto").string());
+  const nlohmann::json told = nlohmann::json::parse(again.out);
+  EXPECT_EQ(told.at("samples"), 2);
+  EXPECT_EQ(told.at("coordinates"), nlohmann::json({"flexion"}));
+  EXPECT_TRUE(told.at("left_out_rms").contains("part1"));
   EXPECT_EQ(
       run_program("activations join " + folder.path("m").string() + " " + folder.path("none").string() + " --out x.sto")
           .exit_code,

@@ -84,6 +84,24 @@ TEST(Manual, every_command_that_help_lists_has_a_page_with_all_its_options) {
   EXPECT_EQ(written, expected);
 }
 
+TEST(Manual, commands_that_say_more_than_names_of_files_say_it_as_json_too) {
+  // What they print are names of what they wrote, a file that programs read (.toml, .csv), or nothing.
+  const std::set<std::string> name_files = {"compare",       "demo",       "export",       "import",
+                                            "motions",       "new",        "paths",        "print-config",
+                                            "render",        "report",     "run",          "static-optimization",
+                                            "study collect", "study plan", "study report", "view"};
+  std::set<std::string> without;
+  for (const std::string& command : commands_below("")) {
+    const std::vector<std::string> below = commands_below(command);
+    for (const std::string& each : below)
+      if (run_program(command + " " + each + " --help").out.find("--json") == std::string::npos)
+        without.insert(command + " " + each);
+    if (below.empty() && run_program(command + " --help").out.find("--json") == std::string::npos)
+      without.insert(command);
+  }
+  EXPECT_EQ(without, name_files);
+}
+
 TEST(Manual, man_has_nothing_to_warn_about) {
   const bool mandoc = has_program("mandoc");
   if (!mandoc && !has_program("man")) GTEST_SKIP() << "neither mandoc nor man is installed";

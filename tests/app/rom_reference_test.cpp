@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cmath>
 #include <fstream>
 
@@ -80,6 +82,13 @@ TEST_F(RomReference, of_a_line_model_is_drawn_and_measured_in_the_pose_of_the_sc
   EXPECT_NEAR(std::stod(told().substr(row.size())), distance_at(3), 1e-3);
   std::ifstream chart(folder.path("out/plots/moment_arms_muscle.svg"));
   EXPECT_THAT(std::string(std::istreambuf_iterator<char>(chart), {}), HasSubstr(">line<"));
+
+  const nlohmann::json told_as_json = nlohmann::json::parse(rom(line_model(muscles), "muscle", "--json").out);
+  const nlohmann::json& muscle = told_as_json.at("muscles").at(0);
+  EXPECT_EQ(muscle.at("coordinate"), "flexion");
+  EXPECT_LE(muscle.at("least_mm"), muscle.at("most_mm"));
+  EXPECT_EQ(muscle.at("beside").at(0).at("source"), "line");
+  EXPECT_NEAR(muscle.at("beside").at(0).at("rms_mm").get<double>(), distance_at(3), 1e-9);
 
   ASSERT_EQ(rom(line_model(muscles), "muscle", "--coord rotation=20").exit_code, 0);
   EXPECT_NEAR(std::stod(told().substr(row.size())), distance_at(20), 1e-3);

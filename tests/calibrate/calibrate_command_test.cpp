@@ -9,6 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include <chrono>
 #include <cstdlib>
 #include <thread>
@@ -77,6 +79,14 @@ held_out = true
   EXPECT_THAT(result.out, HasSubstr("lengths, held out: "));
   const std::string said = result.out.substr(result.out.find("held out: "));
   EXPECT_LT(number_after(said, "before, "), 0.1 * number_after(said, "held out: ")) << said;
+
+  // Nothing is evaluated twice.
+  const nlohmann::json told = nlohmann::json::parse(run_program(folder.command("found", "--json")).out);
+  EXPECT_EQ(told.at("parameters").at(0).at("key"), "tie_length");
+  EXPECT_NEAR(told.at("parameters").at(0).at("value").get<double>(), number_after(toml, "tie_length = "), 1e-12);
+  const nlohmann::json& lengths = told.at("targets").at(1);
+  EXPECT_EQ(lengths.at("held_out"), true);
+  EXPECT_LT(lengths.at("rms_after").get<double>(), 0.1 * lengths.at("rms_before").get<double>());
 
   const std::string page = read_text(folder.path("found/report.html"));
   for (const char* text : {"Held out", "tie_length", "Standard error", "<svg", "calibrated_scene.toml"})

@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,8 @@ TEST_F(PrepareCommand, writes_what_a_run_takes) {
   ASSERT_EQ(done.exit_code, 0) << done.err;
   EXPECT_NO_THROW(result("open"));
   EXPECT_THAT(done.out, HasSubstr("filled 1 hole"));
+  const nlohmann::json told = nlohmann::json::parse(prepare(file("open", open) + "--json").out);
+  EXPECT_EQ(told.at("muscles").at(0).at("name"), "open");
 }
 
 TEST_F(PrepareCommand, refuses_by_name_what_encloses_nothing_and_writes_nothing) {

@@ -124,11 +124,19 @@ std::string manifest_text(const TemplateScene& origin, const Transferred& transf
   json["unit_of_subject"] = transferred.subject.unit;
   for (const FittedBone& bone : transferred.skeleton.bones) {
     const FoundBone& found = transferred.subject.bones[bone.match.of_subject];
-    json["bones"].push_back(
-        {{"template", template_bone(transferred, bone).name}, {"subject", with_part(found.file.string(), found.part)}});
+    const BoneFit& fit = bone.registered.fit;
+    json["bones"].push_back({{"template", template_bone(transferred, bone).name},
+                             {"subject", with_part(found.file.string(), found.part)},
+                             {"rms_to_subject_mm", 1000 * fit.to_subject},
+                             {"rms_to_template_mm", 1000 * fit.to_template},
+                             {"within_95_mm", 1000 * fit.p95},
+                             {"template_without_counterpart", fit.trimmed_template},
+                             {"subject_without_counterpart", fit.trimmed_subject}});
   }
   for (const Guess& guess : transferred.guesses) json["guessed"].push_back(guess.subject + ": " + to_string(guess));
   json["doubtful"] = transferred.skeleton.doubtful;
+  for (const AttachmentFit& each : transferred.muscles.attachments)
+    if (!each.on_bone) json["doubtful"].push_back(each.muscle + " " + each.attachment + ": on no bone of the subject");
   json["left_out"] = left_out;
   std::vector<fs::path> subject;
   for (const FittedBone& bone : transferred.skeleton.bones)

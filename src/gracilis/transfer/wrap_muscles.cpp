@@ -79,6 +79,11 @@ std::set<Index> bodies_to_share(const opensim::Model& model, const Scene& scene)
   return wanted;
 }
 
+std::string to_string(const WrappedMuscle& muscle) {
+  return fmt::format("{}: {} points; {} {} poses: {}", muscle.name, muscle.points, muscle.poses,
+                     muscle.held_out ? "held-out" : "fitted", opensim::point_errors_text(muscle.errors, false));
+}
+
 WrappedMuscles wrap_muscles(const opensim::Model& model, const Scene& scene, const std::vector<SharedBody>& shared,
                             const LengthSamples& samples) {
   WrappedMuscles wrapped;
@@ -114,10 +119,9 @@ WrappedMuscles wrap_muscles(const opensim::Model& model, const Scene& scene, con
         wrapped.muscles.emplace_back(muscle_along(skeleton, points, each.name, &own, samples.coordinates.row(0)));
     const bool has_held_out = !held_out.lines.empty();
     const opensim::PathErrors errors = point_errors(skeleton, muscle.path, &own.path, has_held_out ? held_out : known);
-    wrapped.lines.push_back(fmt::format("{}: {} points; {} {} poses: {}", each.name, muscle.path.points.size(),
-                                        has_held_out ? held_out.lines.size() : known.lines.size(),
-                                        has_held_out ? "held-out" : "fitted",
-                                        opensim::point_errors_text(errors, false)));
+    const std::size_t compared = has_held_out ? held_out.lines.size() : known.lines.size();
+    wrapped.told.push_back(
+        {each.name, static_cast<Index>(muscle.path.points.size()), static_cast<Index>(compared), has_held_out, errors});
   }
   return wrapped;
 }

@@ -10,10 +10,21 @@
 
 namespace gracilis {
 
+/// How far lengths and arms of a muscle along its points are from the scene's.
+struct WrappedMuscle {
+  std::string name;
+  Index points = 0, poses = 0;  ///< of the path; that were compared
+  bool held_out = false;        ///< those that points were not fitted to; where there are none, those they were
+  opensim::PathErrors errors;
+};
+
+/// "flexor: 5 points; 8 held-out poses: lengths ...".
+std::string to_string(const WrappedMuscle& muscle);
+
 /// A model's muscles along the mean fibers of a scene's, and what became of each.
 struct WrappedMuscles {
   std::vector<opensim::Muscle> muscles;  ///< of the model, with new paths and tendons' slack lengths
-  std::vector<std::string> lines;        ///< those: how far lengths and arms are from the scene's in held-out poses
+  std::vector<WrappedMuscle> told;       ///< of those
   std::vector<std::string> left_out;     ///< those of the scene that are not written: which, and why
 };
 

@@ -68,7 +68,7 @@ ChartSeries gray_series(const ArmCurve& curve, int number) {
   return series;
 }
 
-/// Says how a muscle's arms lie beside the curves; rows of reference.csv.
+/// Says how the arms of the report's last muscle lie beside the curves; rows of reference.csv.
 std::string compared(const std::string& muscle, const std::vector<Real>& angles, const std::vector<Real>& arms,
                      const std::vector<ArmCurve>& curves, MomentArmReport& report) {
   const Real per_degree = 1e3 * radians(1);
@@ -77,6 +77,7 @@ std::string compared(const std::string& muscle, const std::vector<Real>& angles,
   for (const ArmCurve& curve : curves) {
     const ArmComparison c = compare_arms(angles, arms, curve);
     if (c.angles == 0) continue;
+    report.muscles.back().beside.emplace_back(curve.source, c);
     std::string line = fmt::format("  beside {}: {:.1f} mm RMS, {:.1f} mm at most, from {:.0f} to {:.0f} degrees",
                                    curve.source, 1e3 * c.rms, 1e3 * c.largest, degrees(c.from), degrees(c.to));
     if (std::isfinite(c.slope))
@@ -103,14 +104,20 @@ bool has_no_fibers(const std::filesystem::path& folder, const Scene& scene, Mome
   return true;
 }
 
-/// How a muscle acts in the coordinate's motion; `where` says in which poses.
-std::string arms_text(const std::string& muscle, const MovedCoordinate& moved, const Eigen::VectorXd& arms,
-                      Real largest_step, const std::string& where = "") {
-  const Real least = 1e3 * arms.minCoeff(), most = 1e3 * arms.maxCoeff();
-  if (moved.translation)
-    return fmt::format("{}: shortens by {:.1f} to {:.1f} mm per m of {}", muscle, least, most, moved.name);
-  return fmt::format("{}: moment arm about {} {:.1f} to {:.1f} mm{}, largest step {:.3f} mm per degree", muscle,
-                     moved.name, least, most, where, 1e3 * largest_step);
+/// `where` says in which poses.
+std::string arms_text(const MuscleArms& arms, const std::string& where) {
+  const Real least = 1e3 * arms.least, most = 1e3 * arms.most;
+  if (arms.translation)
+    return fmt::format("{}: shortens by {:.1f} to {:.1f} mm per m of {}", arms.muscle, least, most, arms.coordinate);
+  return fmt::format("{}: moment arm about {} {:.1f} to {:.1f} mm{}, largest step {:.3f} mm per degree", arms.muscle,
+                     arms.coordinate, least, most, where, 1e3 * arms.largest_step);
+}
+
+/// Says how a muscle acts in the coordinate's motion.
+void tell_arms(const std::string& muscle, const MovedCoordinate& moved, const Eigen::VectorXd& arms, Real largest_step,
+               MomentArmReport& report, const std::string& where = "") {
+  report.muscles.push_back({muscle, moved.name, moved.translation, arms.minCoeff(), arms.maxCoeff(), largest_step});
+  report.lines.push_back(arms_text(report.muscles.back(), where));
 }
 
 using Lines = std::vector<std::vector<Index>>;
@@ -177,8 +184,8 @@ MomentArmReport write_grids(const std::filesystem::path& folder, const Scene& sc
       const std::optional<Eigen::Index> column = column_of(table, muscle.name);
       if (!column) continue;
       const Eigen::VectorXd arms = table.values.col(*column);
-      report.lines.push_back(arms_text(muscle.name, each, arms, largest_step(lines, values, arms),
-                                       fmt::format(" in {} poses", arms.size())));
+      tell_arms(muscle.name, each, arms, largest_step(lines, values, arms), report,
+                fmt::format(" in {} poses", arms.size()));
       if (const std::string text = doubtful_text(table, muscle.name); !text.empty()) report.lines.push_back(text);
       write_chart(folder / "plots" / (stem + "_" + muscle.name + ".svg"),
                   grid_chart(table, scene, moved, each, lines, *column, muscle.name + ": about " + each.name));
@@ -209,7 +216,7 @@ MomentArmReport write_curves(const std::filesystem::path& folder, const Scene& s
     muscles.push_back(muscle.name);
     const Eigen::VectorXd arms = table.values.col(*found);
     LineChart chart = fiber_chart(table, coordinate, muscle.name, muscle.name + ": " + title, y_label);
-    report.lines.push_back(arms_text(muscle.name, moved, arms, largest_step_per_degree(angles, arms)));
+    tell_arms(muscle.name, moved, arms, largest_step_per_degree(angles, arms), report);
     if (!moved.translation) {
       const std::vector<ArmCurve> curves = references_of(references, muscle.name, moved);
       comparisons += compared(muscle.name, as_list(angles), as_list(arms), curves, report);

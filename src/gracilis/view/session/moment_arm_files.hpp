@@ -6,12 +6,23 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gracilis {
 
+/// How a muscle acts in a coordinate's motion, over all poses.
+struct MuscleArms {
+  std::string muscle, coordinate;
+  bool translation = false;  ///< of the coordinate: arms are then m per m by which the muscle shortens
+  Real least = 0, most = 0;  ///< m per rad
+  Real largest_step = 0;     ///< of that between neighbors, per degree (m)
+  std::vector<std::pair<std::string, ArmComparison>> beside = {};  ///< references by their sources
+};
+
 /// What a range of motion told.
 struct MomentArmReport {
+  std::vector<MuscleArms> muscles;    ///< by coordinate
   std::vector<std::string> lines;     ///< per muscle and reference, for people
   std::vector<std::string> warnings;  ///< why there are none, or none to compare
 };
