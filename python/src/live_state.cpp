@@ -37,7 +37,9 @@ auto LiveState::work(const Work& act) {
 }
 
 void LiveState::look_at(std::shared_ptr<const Frame> frame) {
-  facts_ = {std::move(frame), std::vector<py::object>(scene().muscles.size()), {}, {}};
+  facts_ = {std::move(frame), {}, {}, {}};
+  const py::capsule owner = keeper(facts_.frame);
+  for (const MuscleShape& shape : facts_.frame->muscles) facts_.vertices.push_back(rows_view(shape.points, owner));
 }
 
 void LiveState::advance(Pose pose, Real time_step) {
@@ -78,12 +80,6 @@ void LiveState::restore(const Checkpoint& checkpoint) {
   coordinates = frame().pose.coordinates;
   activations = frame().pose.activations;
   activations.resize(scene().muscles.size());
-}
-
-py::object LiveState::vertices(std::size_t muscle) {
-  py::object& view = facts_.vertices[muscle];
-  if (!view) view = rows_view(facts_.frame->muscles[muscle].points, keeper(facts_.frame));
-  return view;
 }
 
 std::shared_ptr<const std::vector<MuscleFibers>> LiveState::fibers() {

@@ -14,10 +14,10 @@
 
 namespace gracilis::python {
 
-/// What is known about the present frame, made when it is asked for.
+/// What is known about the present frame; of fibers and depths, when it is asked for.
 struct FrameFacts {
   std::shared_ptr<const Frame> frame;
-  std::vector<pybind11::object> vertices;  ///< views, per muscle; null: not asked for yet
+  std::vector<pybind11::object> vertices;  ///< views, per muscle: a first look finds them
   std::shared_ptr<const std::vector<MuscleFibers>> fibers;
   std::shared_ptr<const std::vector<std::vector<float>>> depths;
 };
@@ -38,7 +38,7 @@ class LiveState {
   Checkpoint checkpoint();
   void restore(const Checkpoint& checkpoint);
 
-  pybind11::object vertices(std::size_t muscle);
+  pybind11::object vertices(std::size_t muscle) const { return facts_.vertices[muscle]; }
   std::shared_ptr<const std::vector<MuscleFibers>> fibers();
   std::shared_ptr<const std::vector<std::vector<float>>> depths();
 
