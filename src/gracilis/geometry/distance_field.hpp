@@ -62,7 +62,8 @@ inline FieldGrid grid_of(const DistanceField& field) {
   return {field.origin.cast<float>(), field.cell_size.cast<float>().cwiseInverse(), field.nodes, field.values.data()};
 }
 
-inline FieldSample sample(const FieldGrid& grid, const Eigen::Vector3f& p) {
+/// Always inlined: many want no gradient, and do not have to pay for it.
+[[gnu::always_inline]] inline FieldSample sample(const FieldGrid& grid, const Eigen::Vector3f& p) {
   const Eigen::Vector3f f = (p - grid.origin).cwiseProduct(grid.cells_per_metre);
   const bool inside = f.x() >= 0 && f.y() >= 0 && f.z() >= 0 && f.x() < static_cast<float>(grid.nodes[0] - 1) &&
                       f.y() < static_cast<float>(grid.nodes[1] - 1) && f.z() < static_cast<float>(grid.nodes[2] - 1);

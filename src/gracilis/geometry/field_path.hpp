@@ -29,8 +29,8 @@ float safe_step(const DistanceField& field);
 Eigen::Vector3f kept_path(const BoundedField& field, const Eigen::Vector3f& from, const Eigen::Vector3f& to,
                           float level);
 
-/// In the header: many want no gradient, and do not have to pay for it.
-inline FieldSample sample_bounded(const BoundedField& bounded, const Eigen::Vector3f& p) {
+/// In the header, as sample.
+[[gnu::always_inline]] inline FieldSample sample_bounded(const BoundedField& bounded, const Eigen::Vector3f& p) {
   FieldSample answer = sample(bounded.grid, p);
   if (answer.distance < std::numeric_limits<float>::infinity()) return answer;
   const Eigen::Vector3f beyond = (bounded.low - p).cwiseMax(p - bounded.low - bounded.size).cwiseMax(0.0f);

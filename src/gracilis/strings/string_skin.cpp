@@ -177,13 +177,14 @@ Points node_widening(const MuscleStrings& muscle, const Points& fibers) {
   return widening;
 }
 
-/// Length of each string over its length at rest.
+/// Per node the length of its string over that at rest.
 std::vector<Real> string_stretches(const MuscleStrings& muscle, const Points& places) {
   std::vector<Real> stretches;
   for (Index s = 0; s < muscle.strings; ++s) {
     const Index first = muscle.node(s, 0);
-    stretches.push_back(polyline_length(places.middleCols(first, muscle.nodes)) /
-                        polyline_length(muscle.taut.middleCols(first, muscle.nodes)));
+    const Real stretch = polyline_length(places.middleCols(first, muscle.nodes)) /
+                         polyline_length(muscle.taut.middleCols(first, muscle.nodes));
+    stretches.insert(stretches.end(), static_cast<std::size_t>(muscle.nodes), stretch);
   }
   return stretches;
 }
@@ -202,7 +203,7 @@ struct StringFrames {
   std::vector<Real> stretches;
 };
 
-Followed follow_nodes(const MuscleStrings& muscle, const StringSkin& skin, Index vertex, const StringFrames& now) {
+Followed follow_nodes(const StringSkin& skin, Index vertex, const StringFrames& now) {
   const auto v = static_cast<std::size_t>(vertex);
   Followed followed;
   const Eigen::Vector4d first = now.frames.turns.col(skin.nodes[static_cast<std::size_t>(skin.begin[v])]);
@@ -212,7 +213,7 @@ Followed follow_nodes(const MuscleStrings& muscle, const StringSkin& skin, Index
     const Index node = skin.nodes[k];
     followed.place += weight * now.frames.fibers.col(node);
     followed.widening += weight * now.widening.col(node);
-    followed.stretch += weight * now.stretches[static_cast<std::size_t>(node / muscle.nodes)];
+    followed.stretch += weight * now.stretches[static_cast<std::size_t>(node)];
     // q and -q are the same rotation; the mean wants them on one side.
     followed.turn += (first.dot(now.frames.turns.col(node)) < 0 ? -weight : weight) * now.frames.turns.col(node);
     sum += weight;
@@ -241,7 +242,7 @@ SkinnedSurface skinned_by_strings(const MuscleStrings& muscle, const StringSkin&
   parallel_for(count, 512, [&](Index begin, Index end) {
     for (Index vertex = begin; vertex < end; ++vertex) {
       const auto v = static_cast<std::size_t>(vertex);
-      const Followed followed = follow_nodes(muscle, skin, vertex, now);
+      const Followed followed = follow_nodes(skin, vertex, now);
       skinned.turns.col(vertex) = followed.turn;
       if (const Index body = skin.attached_body[v]; body >= 0) {
         const RigidTransform& moved = state.bodies[static_cast<std::size_t>(body)];

@@ -35,6 +35,9 @@ void list_edge(Index a, Index b, float sag, float least, const FieldPlacement& p
   edges.seen_above.push_back(least);
 }
 
+/// No point of a triangle is farther from its nearest corner than this share of its longest edge.
+constexpr float farthest_of_corner = 0.58f;
+
 /// An edge may come near where the sum of the clearances at its ends is at most this and so many times its length at
 /// rest; that needs no position.
 constexpr float low_sum = 2 * element_reach, low_per_length = 4 * steepest;
@@ -99,11 +102,27 @@ void list_edges(const FieldContactSet& set, const DistanceSet& distances, const 
   }
 }
 
+/// Whether a face is so far away, by the clearances of its corners, that list_faces leaves it out; not where it nearly
+/// is. Wherever the obstacle is, edges are as long as they are, but for rounding.
+static bool is_surely_away(const FaceSet& faces, Index slot, const Particles& particles, const NearField& near) {
+  constexpr float roundings = 1.001f;
+  float clearance = std::numeric_limits<float>::infinity(), longest2 = 0;
+  std::array<Eigen::Vector3f, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Index p = faces.particles[k][static_cast<std::size_t>(slot)];
+    corners[k] = particles.position(p);
+    clearance = std::min(clearance, near.clearance[static_cast<std::size_t>(p)]);
+  }
+  for (std::size_t k = 0; k < 3; ++k) longest2 = std::max(longest2, (corners[k] - corners[(k + 1) % 3]).squaredNorm());
+  return clearance > roundings * (element_reach + farthest_of_corner * steepest * std::sqrt(longest2));
+}
+
 void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
                 const Particles& particles, NearField& near) {
   for (const ColorRange& color : faces.colors) {
     const Index first = near.faces.count();
     for (Index slot = color.begin; slot < color.end; ++slot) {
+      if (is_surely_away(faces, slot, particles, near)) continue;
       std::array<ContactCorner, 3> corners;
       Eigen::Vector3f movable;
       float longest2 = 0, clearance = std::numeric_limits<float>::infinity(), untested = 0;
@@ -125,8 +144,7 @@ void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPla
         corners[k].gap = gap_of_end(movable[static_cast<Eigen::Index>(k)] > 0,
                                     near.clearance[static_cast<std::size_t>(p)], corners[k].gap, largest_gap);
       }
-      // No point of a triangle is farther from its nearest corner than this share of its longest edge.
-      if (movable.isZero() || clearance > element_reach + 0.58f * steepest * std::sqrt(longest2)) continue;
+      if (movable.isZero() || clearance > element_reach + farthest_of_corner * steepest * std::sqrt(longest2)) continue;
       near.faces.slots.push_back(slot);
       const Eigen::Vector3f where = deepest_tested(set.field.grid, corners, movable, untested);
       float gap =
