@@ -13,3 +13,9 @@ echo "The muscles have moved."
 echo "  A picture:                   $PWD/out/demo/preview.png"
 echo "  All frames, for ParaView:    $PWD/out/demo/run.pvd"
 echo "  What was measured:           $PWD/out/demo/measures.csv"
+page=$PWD/build/release/gracilis.html
+if [[ -f $page ]]; then
+  echo "  The hip alive, in a browser: $page"
+else
+  echo "  The hip alive, in a browser: ninja -C build/release gracilis_web    (some minutes; makes $page)"
+fi
