@@ -126,14 +126,8 @@ inline void walk(const CommandBlock& block, const std::filesystem::path& folder)
   EXPECT_EQ(status, 0) << block.place << "\n" << typed_text(block) << "\n" << read_text(said);
 }
 
-/// Walks those blocks that are wanted, each page in a folder of its own with the files that all need.
-template <class Wanted>
-int walk_manual(const TestFolder& folder, const Wanted& wanted) {
-  std::map<std::string, std::vector<CommandBlock>> pages;
-  for (const CommandBlock& block : blocks_of_manual())
-    if (!block.is_left_out() && (!block.file().empty() || wanted(block)))
-      pages[block.place.substr(0, block.place.find(':'))].push_back(block);
-  const std::filesystem::path files = folder.path() / "files";
+/// The folder that pages are copied from: scenes, a run in out/demo, and what write_walk_files adds.
+inline void make_walk_files(const std::filesystem::path& files) {
   std::filesystem::create_directories(files);
   std::filesystem::copy(std::filesystem::path(build_paths::source_folder) / "scenes", files / "scenes",
                         std::filesystem::copy_options::recursive);
@@ -142,6 +136,17 @@ int walk_manual(const TestFolder& folder, const Wanted& wanted) {
         "gracilis demo --flexion 4 --only adductor_longus_r --set method=skinning --out out/demo\n"},
        files);
   write_walk_files(files);
+}
+
+/// Walks those blocks that are wanted, each page in a folder of its own with the files that all need.
+template <class Wanted>
+int walk_manual(const TestFolder& folder, const Wanted& wanted) {
+  std::map<std::string, std::vector<CommandBlock>> pages;
+  for (const CommandBlock& block : blocks_of_manual())
+    if (!block.is_left_out() && (!block.file().empty() || wanted(block)))
+      pages[block.place.substr(0, block.place.find(':'))].push_back(block);
+  const std::filesystem::path files = folder.path() / "files";
+  make_walk_files(files);
   int walked = 0;
   for (const auto& [page, blocks] : pages) {
     const std::filesystem::path here = folder.path() / std::filesystem::path(page).stem();

@@ -1,8 +1,11 @@
 #pragma once
 
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
+#include <gracilis/io/mesh/mesh_writer.hpp>
 
 #include "opensim/model_texts.hpp"
+#include "shapes.hpp"
 
 #include <build_paths.hpp>
 
@@ -17,6 +20,29 @@ inline std::string scene_of_guide() {
   const std::string text = read_text(std::filesystem::path(build_paths::source_folder) / "docs/guide/your-own-data.md");
   const std::size_t begin = text.find("```toml\n") + 8;
   return text.substr(begin, text.find("```", begin) - begin);
+}
+
+/// A leg of three of the demo's surfaces, named after what they are, and a shank below the femur, with landmarks at the
+/// hip's center and at both ends of the knee's axis.
+inline void write_leg(const std::filesystem::path& folder, const std::filesystem::path& frames) {
+  std::filesystem::create_directories(folder);
+  for (const std::string name : {"hip_bone_r", "femur_r", "adductor_longus_r"})
+    std::filesystem::copy_file(frames / (name + "_0000.vtp"), folder / (name + ".vtp"));
+  const Points femur = load_surface(folder / "femur_r.vtp", 1, SurfaceRole::bone).mesh.vertices;
+  Index lowest = 0;
+  femur.row(1).minCoeff(&lowest);
+  const Vec3 knee = femur.col(lowest) + Vec3(0, 0.02, 0);
+  TriangleMesh shank = shapes::cylinder(0.015, 0.35, 12, 40);
+  const Eigen::Matrix3d down = Eigen::AngleAxis<Real>(pi / 2, Vec3::UnitX()).toRotationMatrix();
+  shank.vertices = down * shank.vertices;
+  const Vec3 top(knee.x(), femur(1, lowest) - 0.005 - shank.vertices.row(1).maxCoeff(), knee.z());
+  shank.vertices.colwise() += top;
+  write_surface(folder / "tibia_r.vtp", shank.vertices, shank.faces);
+  std::ofstream landmarks(folder / "my_leg_points.csv");
+  landmarks << "cloud,index,x_mm,y_mm,z_mm\nhip,HJC,0,0,0\n";
+  for (const auto& [name, side] : {std::pair("R_Med_Epi", -0.03), std::pair("R_Lat_Epi", 0.03)})
+    landmarks << "knee," << name << "," << 1000 * knee.x() << "," << 1000 * knee.y() << "," << 1000 * (knee.z() + side)
+              << "\n";
 }
 
 /// What commands of the manual are given, small, in a folder in which out/demo is a run of the built-in hip: the scene
@@ -48,9 +74,10 @@ inline void write_walk_files(const std::filesystem::path& folder) {
   write("targets.toml",
         "[[targets]]\nkind = \"volumes\"\nvolumes_cm3 = { adductor_longus_r = 150 }\n"
         "[[parameters]]\nkey = \"tendon_length\"\nbounds = [0.005, 0.05]\n[search]\nevaluations = 1\n");
+  write_leg(folder / "my_leg", folder / "out/demo/frames");
   fs::create_directories(folder / "scans");
   for (const std::string name : {"hip_bone_r", "femur_r", "adductor_longus_r"})
-    fs::copy_file(folder / "out/demo/frames" / (name + "_0000.vtp"), folder / "scans" / (name + ".vtp"));
+    fs::copy_file(folder / "my_leg" / (name + ".vtp"), folder / "scans" / (name + ".vtp"));
 }
 
 }  // namespace gracilis
