@@ -128,12 +128,15 @@ TEST_F(LivePage, moves_a_scene_that_was_put_into_it) {
   EXPECT_EQ(browser_->evaluate("page.scene.muscles.length").get<std::size_t>(), scene.muscles.size());
   slide("elbow_flexion", 40);
   wait_for("page.frame.coordinates[1] === 40 / unitOf({}).factor");
+  EXPECT_EQ(browser_->evaluate("element('x-axis').value"), "1") << "plots are against what is moved";
+  browser_->evaluate("{ const box = element('x-axis'); box.value = -1; box.dispatchEvent(new Event('change')); }");
   const Scene elbow = without_own_settings(scene);
   EXPECT_LT(largest_difference(shapes_of_this_machine(elbow, page_method(elbow), 1, radians(40))), 1e-4);
   browser_->evaluate("{ const box = element('method'); box.value = 1; box.dispatchEvent(new Event('change')); }");
   wait_for(std::string("page.frame.method === 1 && ") + is_ready);
   slide("elbow_flexion", 40);
   wait_for("page.frame.coordinates[1] === 40 / unitOf({}).factor");
+  EXPECT_EQ(browser_->evaluate("element('x-axis').value"), "-1") << "somebody has chosen";
   EXPECT_LT(largest_difference(shapes_of_this_machine(scene, scene.method, 1, radians(40))), 1e-4);
   EXPECT_THAT(browser_->complaints, IsEmpty());
 }

@@ -97,8 +97,10 @@ function buildControls({coordinates, muscles, methods}) {
     const begin = rounded(factor * coordinate.capture);
     // Steps are counted from the capture pose, which the slider can come back to.
     const bound = value => rounded(begin + step * Math.trunc(rounded((factor * value - begin) / step)));
-    return addSlider(element('coordinates'), coordinate.name, spoken(coordinate.name),
-                     {min: bound(coordinate.low), max: bound(coordinate.high), step, value: begin}, unit);
+    const row = addSlider(element('coordinates'), coordinate.name, spoken(coordinate.name),
+                          {min: bound(coordinate.low), max: bound(coordinate.high), step, value: begin}, unit);
+    row.slider.addEventListener('input', () => { if (!page.axisIsChosen) plotAgainst(coordinates.indexOf(coordinate)); });
+    return row;
   });
   page.muscles = muscles.map(({name, color}) => {
     const row = addSlider(element('muscles'), name, '', {min: 0, max: 100, step: 1, value: 0, 'aria-label': `Activation of ${spoken(name)}`},
@@ -168,6 +170,14 @@ function drawPlots() {
     Object.assign(arms.lines[m], {x: page.places, values: page.history.arms(m, about)});
   });
   for (const chart of page.charts) chart.draw();
+}
+
+// A coordinate, or steps (-1). Until somebody chooses, plots are against the coordinate whose slider was moved last.
+function plotAgainst(axis) {
+  if (axis === page.state.xAxis) return;
+  page.state.xAxis = axis;
+  element('x-axis').value = axis;
+  drawPlots();
 }
 
 // Soon, and not more often than is of use.
@@ -310,7 +320,7 @@ element('reset').addEventListener('click', () => startAgain('reset'));
 element('play').addEventListener('click', () => page.playing ? page.pause() : page.play());
 element('clear').addEventListener('click', () => { page.history.clear(); if (page.frame) page.history.add(page.frame); drawPlots(); });
 element('color-by').addEventListener('change', event => { page.state.colorBy = event.target.value; drawEverything(); });
-element('x-axis').addEventListener('change', event => { page.state.xAxis = Number(event.target.value); drawPlots(); });
+element('x-axis').addEventListener('change', event => { page.axisIsChosen = true; plotAgainst(Number(event.target.value)); });
 for (const name of ['bones', 'fibers', 'wireframe'])
   element(name).addEventListener('change', event => { page.state[name] = event.target.checked; drawEverything(); });
 
