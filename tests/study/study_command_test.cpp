@@ -77,6 +77,9 @@ TEST(StudyCommand, killed_at_random_and_started_again_it_does_every_run_once_wit
   const std::string before = read_text(folder.path("study/runs/0004/study.json"));
   EXPECT_THAT(run_program("study run " + study.string()).out, HasSubstr("6 complete before, 0 done now, 0 failed"));
   EXPECT_EQ(read_text(folder.path("study/runs/0004/study.json")), before) << "what is complete stays";
+  const nlohmann::json told = nlohmann::json::parse(run_program("study run --json " + study.string()).out);
+  EXPECT_EQ(told.at("complete_before"), 6);
+  EXPECT_EQ(told.at("failed"), 0);
 }
 
 TEST(StudyCommand, what_a_process_left_that_was_killed_after_its_run_was_complete_is_cleared_up) {
