@@ -16,6 +16,8 @@ namespace {
 
 /// Parts of a surface nearer than this at rest are neighbors, in edges.
 constexpr Real neighborhood_edges = 4;
+/// Forces of two muscles that differ by more are not of one contact.
+constexpr Real most_evened = 1.25;
 
 /// All surfaces near a common origin, where single precision is fine enough.
 struct PlacedSurfaces {
@@ -130,19 +132,51 @@ SelfMeeting meeting_of(const TriangleMesh& surface, Index muscle, const PlacedSu
   return self;
 }
 
+/// What vertices of one muscle keep to another.
+struct Meeting {
+  Index from = 0, to = 0;         ///< muscles; to -1: its own surface
+  const std::vector<Real>& gaps;  ///< m, per vertex
+  Real stiffness = 0;             ///< N/m³
+};
+
+/// A muscle's planes to another and the force that they will push it by, N, once it has settled.
+struct FoundPlanes {
+  std::vector<ContactPlane> planes;
+  Vec3 force = Vec3::Zero();
+};
+
 /// Each of the two surfaces goes half of the way, or may come as near.
-void add_planes(const PlacedSurfaces& placed, const std::vector<SeenVertex>& seen, const std::vector<Real>& gaps,
-                Index from, Index to, std::vector<ContactPlane>& planes) {
+FoundPlanes planes_of(const Neighbors& neighbors, const PlacedSurfaces& placed, const std::vector<SeenVertex>& seen,
+                      const Meeting& meeting) {
+  FoundPlanes found;
+  const auto from = static_cast<std::size_t>(meeting.from);
   for (const SeenVertex& each : seen) {
     const Vec3 normal = each.gap.normal.cast<Real>();
     if (normal.isZero(0)) continue;
-    const Vec3 p = placed.origin + placed.particles[static_cast<std::size_t>(from)].position(each.vertex).cast<Real>();
-    const Real gap = gaps[static_cast<std::size_t>(each.vertex)];
+    const Vec3 p = placed.origin + placed.particles[from].position(each.vertex).cast<Real>();
+    const Real gap = meeting.gaps[static_cast<std::size_t>(each.vertex)];
     const Real lacking = gap - static_cast<Real>(each.gap.distance);
-    const bool faces_it = placed.normals[static_cast<std::size_t>(from)].col(each.vertex).dot(each.gap.normal) < 0;
-    planes.push_back({each.vertex, to, normal, normal.dot(p) + lacking / 2,
-                      faces_it ? std::max(gap, 0.0) / 2 : std::numeric_limits<Real>::infinity()});
+    const bool faces_it = placed.normals[from].col(each.vertex).dot(each.gap.normal) < 0;
+    found.planes.push_back({each.vertex, meeting.to, normal, normal.dot(p) + lacking / 2,
+                            faces_it ? std::max(gap, 0.0) / 2 : std::numeric_limits<Real>::infinity()});
+    if (lacking > 0) found.force += meeting.stiffness * neighbors.areas[from][each.vertex] * lacking / 2 * normal;
   }
+  return found;
+}
+
+/// Two surfaces sample what they press on each other differently. Makes both forces as large as their mean along the
+/// line between them.
+void even_out(FoundPlanes& first, FoundPlanes& second) {
+  const Vec3 line = (first.force - second.force).normalized();
+  const Real of_first = line.dot(first.force), of_second = -line.dot(second.force);
+  if (!(of_first > 0 && of_second > 0)) return;
+  const Real mean = (of_first + of_second) / 2;
+  for (ContactPlane& plane : first.planes) plane.share = std::clamp(mean / of_first, 1 / most_evened, most_evened);
+  for (ContactPlane& plane : second.planes) plane.share = std::clamp(mean / of_second, 1 / most_evened, most_evened);
+}
+
+void append(const std::vector<ContactPlane>& found, std::vector<ContactPlane>& planes) {
+  planes.insert(planes.end(), found.begin(), found.end());
 }
 
 }  // namespace
@@ -152,9 +186,11 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
   std::vector<Points> shapes;
   for (const Muscle& muscle : scene.muscles) {
     shapes.push_back(muscle.surface.vertices);
+    neighbors.areas.push_back(vertex_areas(muscle.surface.vertices, muscle.surface.faces));
     neighbors.surfaces.push_back(build_contact_surface(muscle.surface.faces, muscle.surface.vertex_count()));
     neighbors.trees.push_back(build_patch_tree(neighbors.surfaces.back(), shapes.back().cast<float>()));
   }
+  for (const MeetingSettings& each : settings) neighbors.stiffness.push_back(each.stiffness);
   const PlacedSurfaces placed = place(neighbors, shapes);
   const auto gaps_of = [&](Index muscle, Index other) {
     const auto m = static_cast<std::size_t>(muscle);
@@ -183,18 +219,21 @@ std::vector<std::vector<ContactPlane>> contact_planes(Neighbors& neighbors, cons
   if (neighbors.none()) return planes;
   const PlacedSurfaces placed = place(neighbors, shapes);
   for (const NeighborPair& pair : neighbors.pairs) {
-    add_planes(placed, see(neighbors, placed, pair.first, pair.second, pair.widest, look), pair.first_gaps, pair.first,
-               pair.second, planes[static_cast<std::size_t>(pair.first)]);
-    add_planes(placed, see(neighbors, placed, pair.second, pair.first, pair.widest, look), pair.second_gaps,
-               pair.second, pair.first, planes[static_cast<std::size_t>(pair.second)]);
+    const auto a = static_cast<std::size_t>(pair.first), b = static_cast<std::size_t>(pair.second);
+    FoundPlanes first = planes_of(neighbors, placed, see(neighbors, placed, pair.first, pair.second, pair.widest, look),
+                                  {pair.first, pair.second, pair.first_gaps, neighbors.stiffness[a]});
+    FoundPlanes second =
+        planes_of(neighbors, placed, see(neighbors, placed, pair.second, pair.first, pair.widest, look),
+                  {pair.second, pair.first, pair.second_gaps, neighbors.stiffness[b]});
+    even_out(first, second);
+    append(first.planes, planes[a]);
+    append(second.planes, planes[b]);
   }
   for (SelfMeeting& self : neighbors.selves) {
-    if (look.self == SelfLook::anew) {
-      self.planes.clear();
-      add_planes(placed, see_itself(neighbors, placed, self), self.gaps, self.muscle, -1, self.planes);
-    }
-    std::vector<ContactPlane>& of_muscle = planes[static_cast<std::size_t>(self.muscle)];
-    of_muscle.insert(of_muscle.end(), self.planes.begin(), self.planes.end());
+    if (look.self == SelfLook::anew)
+      self.planes =
+          planes_of(neighbors, placed, see_itself(neighbors, placed, self), {self.muscle, -1, self.gaps, 0}).planes;
+    append(self.planes, planes[static_cast<std::size_t>(self.muscle)]);
   }
   for (std::vector<ContactPlane>& each : planes)
     std::stable_sort(each.begin(), each.end(),

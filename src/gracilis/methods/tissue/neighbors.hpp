@@ -15,6 +15,7 @@ struct ContactPlane {
   Real least = 0;              ///< m: normal · place is no less
   /// m, of that: so much less, and the surfaces touch. Infinite where the point's own surface does not face the other.
   Real spare = 0;
+  Real share = 1;  ///< of the stiffness that the muscle's surface has: what evens out the forces of two muscles
 };
 
 /// Two muscles that keep out of each other, each vertex by its gap: `neighbor_gap`, or that in the capture pose where
@@ -40,6 +41,8 @@ struct SelfMeeting {
 struct Neighbors {
   std::vector<ContactSurface> surfaces;
   std::vector<PatchTree> trees;
+  std::vector<Eigen::VectorXd> areas;  ///< m² at rest, that each vertex stands for
+  std::vector<Real> stiffness;         ///< N/m³, per muscle
   std::vector<NeighborPair> pairs;
   std::vector<SelfMeeting> selves;  ///< of muscles that keep out of themselves
 
@@ -53,8 +56,9 @@ inline constexpr Real self_reach = 0.006;
 
 /// What a muscle asks of contact with muscles.
 struct MeetingSettings {
-  Real gap = 0;       ///< m, that its vertices keep
-  bool self = false;  ///< also to itself
+  Real gap = 0;        ///< m, that its vertices keep
+  Real stiffness = 0;  ///< N/m³
+  bool self = false;   ///< also to itself
 };
 Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSettings>& settings);
 

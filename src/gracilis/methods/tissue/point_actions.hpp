@@ -44,7 +44,7 @@ void for_each_action(const PreparedTissue& muscle, const Surroundings& around, s
     const Real distance = plane.normal.dot(p) - plane.least;
     if (distance < 0)
       act(PointActor::muscle, plane.muscle,
-          contact(distance, plane.normal, 0, settings.neighbor_stiffness * point.vertex_area));
+          contact(distance, plane.normal, 0, plane.share * settings.neighbor_stiffness * point.vertex_area));
   }
 }
 

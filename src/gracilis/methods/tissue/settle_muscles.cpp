@@ -106,7 +106,8 @@ TissueMuscles prepare_tissues(const Scene& scene, const std::vector<DistanceFiel
   bool any_self = false;
   for (const PreparedTissue& muscle : tissues.muscles) {
     tissues.rounds = std::max(tissues.rounds, muscle.settings.contact_rounds);
-    meetings.push_back({muscle.settings.neighbor_gap, muscle.settings.self_contact});
+    meetings.push_back(
+        {muscle.settings.neighbor_gap, muscle.settings.neighbor_stiffness, muscle.settings.self_contact});
     any_self = any_self || muscle.settings.self_contact;
   }
   if (tissues.rounds > 0 && (tissues.muscles.size() > 1 || any_self))
