@@ -40,6 +40,14 @@ Picture two_panels() {
   return picture;
 }
 
+Picture two_panels_beside_scale_bar(const std::string& caption, int panel_width) {
+  Picture picture = two_panels();
+  for (Panel& panel : picture.panels) panel.caption = caption;
+  picture.panel_width = panel_width;
+  picture.scale_bar = true;
+  return picture;
+}
+
 Vec3 pixel(vtkImageData& image, int x, int y) {
   return {image.GetScalarComponentAsDouble(x, y, 0, 0), image.GetScalarComponentAsDouble(x, y, 0, 1),
           image.GetScalarComponentAsDouble(x, y, 0, 2)};
@@ -266,10 +274,7 @@ TEST_F(DrawnPicture, a_long_caption_stands_in_lines_that_can_be_read_and_are_not
 }
 
 TEST_F(DrawnPicture, the_caption_beside_the_scale_bar_is_as_large_as_the_others) {
-  Picture picture = two_panels();
-  for (Panel& panel : picture.panels) panel.caption = "swing 12°, 3 mm";
-  picture.panel_width = 280;
-  picture.scale_bar = true;
+  const Picture picture = two_panels_beside_scale_bar("swing 12°, 3 mm", 280);
   draw(picture);
   if (IsSkipped()) return;
   const PictureLayout layout = lay_out(picture);
@@ -282,10 +287,7 @@ TEST_F(DrawnPicture, the_caption_beside_the_scale_bar_is_as_large_as_the_others)
 }
 
 TEST_F(DrawnPicture, a_scale_bar_stands_by_itself_where_it_would_leave_a_caption_no_room) {
-  Picture picture = two_panels();
-  for (Panel& panel : picture.panels) panel.caption = "hip_flexion_r 12°";
-  picture.panel_width = 120;
-  picture.scale_bar = true;
+  const Picture picture = two_panels_beside_scale_bar("hip_flexion_r 12°", 120);
   draw(picture);
   if (IsSkipped()) return;
   const PictureLayout layout = lay_out(picture);

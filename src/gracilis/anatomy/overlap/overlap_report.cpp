@@ -31,6 +31,13 @@ std::string name_of(const MuscleOverlap& pair) {
          millimeters(pair.deepest()) + ")";
 }
 
+/// As many as a warning names, separated by commas.
+std::string first_of(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(most_named, names.size()); ++i) text += (i > 0 ? ", " : "") + names[i];
+  return text;
+}
+
 }  // namespace
 
 OverlapReport report_overlaps(const Scene& scene) {
@@ -70,34 +77,26 @@ OverlapReport report_overlaps(const Scene& scene) {
 
 /// What lies in bones, in one line; empty where nothing lies deep.
 static std::string bone_warning(const std::vector<MuscleInBone>& in_bones) {
-  std::string worst;
-  std::size_t deep = 0;
-  for (const MuscleInBone& each : in_bones) {
-    if (each.deepest <= deeper_than_scans) break;
-    if (deep < most_named)
-      worst += (deep > 0 ? ", " : "") + each.muscle + " in " + each.bone + " (" + millimeters(each.deepest) + ")";
-    ++deep;
-  }
-  if (deep == 0) return {};
-  return "muscles lie in bones in the capture pose, in " + std::to_string(deep) + (deep == 1 ? " pair" : " pairs") +
-         "; deepest " + worst + "; they stay as deep as they are" +
+  std::vector<std::string> deep;
+  for (const MuscleInBone& each : in_bones)
+    if (each.deepest > deeper_than_scans)
+      deep.push_back(each.muscle + " in " + each.bone + " (" + millimeters(each.deepest) + ")");
+  if (deep.empty()) return {};
+  return "muscles lie in bones in the capture pose, in " + std::to_string(deep.size()) +
+         (deep.size() == 1 ? " pair" : " pairs") + "; deepest " + first_of(deep) + "; they stay as deep as they are" +
          (in_bones.front().deepest > misplaced ? ", and what moves there tears: check places and units of both surfaces"
                                                : "");
 }
 
 /// Which pairs pass through each other, in one line; empty where none does.
 static std::string through_warning(const std::vector<MuscleOverlap>& pairs) {
-  std::string deepest;
-  std::size_t count = 0;
-  for (const MuscleOverlap& pair : pairs) {
-    if (!pair.is_through) continue;
-    if (count < most_named)
-      deepest +=
-          (count > 0 ? ", " : "") + pair.first + " and " + pair.second + " (" + millimeters(pair.deepest()) + ")";
-    ++count;
-  }
-  if (count == 0) return {};
-  return "pairs that pass through each other in the capture pose: " + std::to_string(count) + ", deepest " + deepest +
+  std::vector<std::string> through;
+  for (const MuscleOverlap& pair : pairs)
+    if (pair.is_through)
+      through.push_back(pair.first + " and " + pair.second + " (" + millimeters(pair.deepest()) + ")");
+  if (through.empty()) return {};
+  return "pairs that pass through each other in the capture pose: " + std::to_string(through.size()) + ", deepest " +
+         first_of(through) +
          "; nothing tells which side of the other is whose, so contact can only keep them as deep as they are there";
 }
 
@@ -105,13 +104,12 @@ std::vector<std::string> overlap_warnings(const OverlapReport& report) {
   std::vector<std::string> warnings;
   if (const std::string in_bones = bone_warning(report.in_bones); !in_bones.empty()) warnings.push_back(in_bones);
   if (report.pairs.empty()) return warnings;
-  std::string worst;
-  for (std::size_t i = 0; i < std::min(most_named, report.pairs.size()); ++i)
-    worst += (i > 0 ? ", " : "") + name_of(report.pairs[i]);
+  std::vector<std::string> pairs;
+  for (const MuscleOverlap& pair : report.pairs) pairs.push_back(name_of(pair));
   warnings.push_back("muscles overlap in the capture pose: " + std::to_string(report.vertices) + " of " +
                      std::to_string(report.of_vertices) + " vertices lie in another muscle, in " +
                      std::to_string(report.pairs.size()) + (report.pairs.size() == 1 ? " pair" : " pairs") +
-                     "; deepest " + worst);
+                     "; deepest " + first_of(pairs));
   if (const std::string through = through_warning(report.pairs); !through.empty()) warnings.push_back(through);
   return warnings;
 }

@@ -1,5 +1,6 @@
 #include <gracilis/view/pictures/preview.hpp>
 
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/run/run_folder.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/pose_caption.hpp>
@@ -42,8 +43,7 @@ static std::optional<Vec3> middle_of_bones(const Scene& scene, std::optional<Ind
   Eigen::AlignedBox3d box;
   for (const Bone& bone : scene.bones) {
     if (body && bone.body != *body) continue;
-    box.extend(Vec3(bone.surface.vertices.rowwise().minCoeff()));
-    box.extend(Vec3(bone.surface.vertices.rowwise().maxCoeff()));
+    box.extend(bounding_box(bone.surface.vertices));
   }
   if (box.isEmpty()) return std::nullopt;
   return box.center();
