@@ -283,8 +283,7 @@ std::vector<CellLaw> cell_laws(const PreparedTissue& muscle, Real activation, Re
   std::vector<CellLaw> laws(muscle.lattice.cells.size());
   for (std::size_t c = 0; c < laws.size(); ++c) {
     const Real pull = muscle.relative_tension[c] * (fibers.rest_tension + fibers.active_tension);
-    const Real shear = std::max(s.matrix_shear_modulus, s.shear_per_tension * pull);
-    laws[c].matrix = {shear, s.matrix_lambda * shear / s.matrix_shear_modulus};
+    laws[c].matrix = {std::max(s.matrix_shear_modulus, s.shear_per_tension * pull), s.matrix_lambda};
     laws[c].bulk = std::max(s.bulk_modulus, s.bulk_per_tension * pull);
     laws[c].fibers = fibers.scaled(muscle.relative_tension[c]);
     laws[c].direction = muscle.directions.col(static_cast<Index>(c));

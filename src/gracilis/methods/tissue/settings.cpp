@@ -21,7 +21,7 @@ std::span<const Setting<TissueSettings>> setting_table() {
        "Frames from the capture pose on in which the fibers' tension comes up evenly."},
       {"matrix_shear_modulus", &S::matrix_shear_modulus, "Pa", 1, 1e9, "Shear modulus of the tissue between fibers."},
       {"matrix_lambda", &S::matrix_lambda, "Pa", 1, 1e12,
-       "Resistance of every tetrahedron against change of its own volume; grows as the shear modulus does."},
+       "Resistance of every tetrahedron against change of its own volume."},
       {"bulk_modulus", &S::bulk_modulus, "Pa", 0, 1e12, "Resistance of every cell against change of its volume."},
       {"shear_per_tension", &S::shear_per_tension, "", 0, 100,
        "Shear modulus of a cell is at least this times its fibers' tension, so that tendons and active muscles do not "
