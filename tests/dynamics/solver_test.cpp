@@ -147,41 +147,74 @@ TEST(Solver, limits_the_stretch_of_what_untangling_moved_though_no_edge_came_nea
   coupling.refresh = [](const Movers&) {};
   coupling.project = [](const Movers&) { return Index{0}; };
   bool is_untangled = false;
-  coupling.untangle = [&](int, Movers&) {
-    if (std::exchange(is_untangled, true)) return false;
+  coupling.find_tangles = [&](const Movers&) {
+    return std::vector<Tangle>{is_untangled ? Tangle{} : Tangle{{{0, 1}}, 1}};
+  };
+  coupling.untangle = [&](const std::vector<Tangle>&, int) {
+    is_untangled = true;
     state.particles.position(7) *= 1.5f;
     EXPECT_GT(longest(state.particles), 2);
-    return true;
   };
   solve_together(alone, coupling);
   EXPECT_LT(longest(state.particles), 1.01f * settings.strain_limit);
 }
 
-TEST(Solver, all_settle_with_what_was_untangled_and_what_is_untangled_again_settles_alone) {
-  const SurfaceSystem system = system_of(shapes::sphere(Vec3::Zero(), 0.03, 3));
-  std::vector<SurfaceState> states(2, make_state(system));
-  const std::vector<FieldPlacement> nowhere;
+namespace {
+
+/// Two balls of which the second is tangled, with so many cuts before each look at it; untangling moves its particle 7.
+struct TangledBall {
+  explicit TangledBall(std::vector<std::size_t> cuts_) : cuts(std::move(cuts_)) {
+    settings.settling_rounds = 4;
+    coupling.refresh = [](const Movers&) {};
+    coupling.project = [](const Movers&) { return Index{0}; };
+    coupling.find_tangles = [this](const Movers&) {
+      places.push_back(states[1].particles.position(7));
+      return std::vector<Tangle>{{}, {std::vector<FacePair>(cuts[looks], FacePair{0, 1}), cuts[looks++]}};
+    };
+    coupling.untangle = [this](const std::vector<Tangle>& tangles, int attempt) {
+      EXPECT_EQ(attempt, untangled++);
+      EXPECT_EQ(tangles[1].cuts, cuts[looks - 1]);
+      states[1].particles.position(7) *= 1.02f;
+    };
+  }
+  void solve() {
+    std::vector<SurfaceSolve> both;
+    for (SurfaceState& state : states) both.push_back({&system, &nowhere, settings, &state, {}});
+    solve_together(both, coupling, [this](std::size_t surface, ConstraintKind kind) {
+      if (untangled > 0 && kind == ConstraintKind::volume) ++settled[surface];
+    });
+  }
+
+  std::vector<std::size_t> cuts;
+  SurfaceSystem system = system_of(shapes::sphere(Vec3::Zero(), 0.03, 3));
+  std::vector<SurfaceState> states = std::vector<SurfaceState>(2, make_state(system));
+  std::vector<FieldPlacement> nowhere;
   SolveSettings settings = usual(3);
-  settings.settling_rounds = 4;
-  std::vector<SurfaceSolve> both;
-  for (SurfaceState& state : states) both.push_back({&system, &nowhere, settings, &state, {}});
-  int untangled = 0;
   Coupling coupling;
-  coupling.refresh = [](const Movers&) {};
-  coupling.project = [](const Movers&) { return Index{0}; };
-  coupling.untangle = [&](int attempt, Movers& movers) {
-    EXPECT_EQ(attempt, untangled);
-    movers.listed = {0, 1};
-    ++untangled;
-    return true;
-  };
+  std::vector<Eigen::Vector3f> places;  ///< of the particle, at each look
+  std::size_t looks = 0;
+  int untangled = 0;
   int settled[2] = {0, 0};
-  solve_together(both, coupling, [&](std::size_t surface, ConstraintKind kind) {
-    if (untangled > 0 && kind == ConstraintKind::volume) ++settled[surface];
-  });
-  EXPECT_EQ(settled[0], settings.settling_rounds);
-  EXPECT_EQ(settled[1], 2 * settings.settling_rounds);
-  EXPECT_EQ(untangled, 2) << "what still cuts itself is left";
+};
+
+}  // namespace
+
+TEST(Solver, all_settle_with_what_was_untangled_and_what_is_untangled_again_settles_alone) {
+  TangledBall ball({3, 2, 1});
+  ball.solve();
+  EXPECT_EQ(ball.settled[0], ball.settings.settling_rounds);
+  EXPECT_EQ(ball.settled[1], 2 * ball.settings.settling_rounds);
+  EXPECT_EQ(ball.untangled, 2) << "what still cuts itself is left";
+}
+
+TEST(Solver, what_is_tangled_no_less_by_a_second_attempt_is_where_it_was_before) {
+  TangledBall better({3, 2, 1}), same({3, 2, 2}), worse({1, 2, 7});
+  for (TangledBall* ball : {&better, &same, &worse}) {
+    ball->solve();
+    ASSERT_EQ(ball->looks, 3u);
+    ASSERT_NE(ball->places[2], ball->places[1]);
+    EXPECT_EQ(ball->states[1].particles.position(7), ball->places[ball == &better ? 2 : 1]);
+  }
 }
 
 }  // namespace gracilis

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 namespace gracilis {
@@ -30,12 +31,18 @@ Meeting folded_ball(float away, bool lay_in_another) {
   return meeting;
 }
 
+/// Whether there was anything to untangle.
+bool untangle_movers(Meeting& meeting, const Movers& movers, int attempt) {
+  const std::vector<Tangle> tangles =
+      find_tangles(meeting.world, meeting.state, meeting.pointers<const Particles*>(meeting.particles), movers);
+  untangle(meeting.world, tangles, attempt, meeting.pointers<Particles*>(meeting.particles));
+  return std::any_of(tangles.begin(), tangles.end(), [](const Tangle& tangle) { return !tangle.pairs.empty(); });
+}
+
 bool untangle_once(Meeting& meeting, int attempt = 0) {
   meeting.find();
   meeting.follow();
-  Movers movers;
-  return untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), attempt,
-                           movers);
+  return untangle_movers(meeting, {}, attempt);
 }
 
 }  // namespace
@@ -88,7 +95,7 @@ TEST(SurfaceContact, does_not_let_go_of_what_folded_when_it_had_come_out) {
   EXPECT_FALSE(meeting.state.torn[0][7]);
 }
 
-TEST(SurfaceContact, untangling_leaves_only_what_was_untangled_among_the_movers) {
+TEST(SurfaceContact, untangling_moves_none_but_the_movers) {
   Meeting meeting;
   for (int i = 0; i < 3; ++i) {
     meeting.add(shapes::sphere({0.1 * i, 0, 0}, 0.01, 4));
@@ -103,12 +110,21 @@ TEST(SurfaceContact, untangling_leaves_only_what_was_untangled_among_the_movers)
   cut(0), cut(1);
   meeting.find();
   meeting.follow();
-  Movers movers{{1, 0, 1}};
   const Particles left_alone = meeting.particles[1];
-  EXPECT_TRUE(
-      untangle_surfaces(meeting.world, meeting.state, meeting.pointers<Particles*>(meeting.particles), 0, movers));
-  EXPECT_EQ(movers.listed, std::vector<char>({1, 0, 0}));
+  const Particles tangled = meeting.particles[0];
+  EXPECT_TRUE(untangle_movers(meeting, {{1, 0, 1}}, 0));
+  EXPECT_GT(largest_motion(tangled, meeting.particles[0]), 0);
   EXPECT_EQ(largest_motion(left_alone, meeting.particles[1]), 0);
+}
+
+TEST(SurfaceContact, fewer_cuts_are_less_and_so_are_fewer_folds_of_as_many) {
+  const auto tangle = [](std::size_t cuts, std::size_t folds) {
+    return Tangle{std::vector<FacePair>(cuts + folds, FacePair{0, 1}), cuts};
+  };
+  EXPECT_TRUE(is_less(tangle(1, 9), tangle(2, 0)));
+  EXPECT_TRUE(is_less(tangle(1, 1), tangle(1, 2)));
+  EXPECT_FALSE(is_less(tangle(1, 1), tangle(1, 1)));
+  EXPECT_FALSE(is_less(tangle(2, 0), tangle(1, 9)));
 }
 
 }  // namespace gracilis

@@ -9,15 +9,36 @@ namespace gracilis {
 
 namespace {
 
-/// Most attempts at untangling what cannot stay; what is crushed may resist them all, and each takes it away from its
-/// shape, so that with more of them it cuts itself the more in the steps that follow.
-constexpr int untangling_attempts = 2;
+bool is_tangled(const Tangle& tangle) { return !tangle.pairs.empty(); }
+
+bool any_tangled(const std::vector<Tangle>& tangles) { return std::any_of(tangles.begin(), tangles.end(), is_tangled); }
 
 bool settles(const SurfaceSolve& surface) { return surface.settings.settling_rounds > 0; }
 
-/// Whether anything was untangled and has to settle again.
-bool untangle(JointSolve& solve, int attempt) {
-  return solve.coupling.untangle && solve.coupling.untangle(attempt, solve.movers);
+/// Once more those that are still tangled, among the others, which stay; one that is tangled no less by that goes back.
+void untangle_again(JointSolve& solve, const std::vector<Tangle>& tangles) {
+  std::vector<Particles> before(tangles.size());
+  solve.movers.listed.assign(tangles.size(), 0);
+  for (std::size_t i = 0; i < tangles.size(); ++i)
+    if (is_tangled(tangles[i])) solve.movers.listed[i] = 1, before[i] = solve.surfaces[i].state->particles;
+  solve.coupling.untangle(tangles, 1);
+  settle(solve);
+  const std::vector<Tangle> left = solve.coupling.find_tangles(solve.movers);
+  for (std::size_t i = 0; i < tangles.size(); ++i)
+    if (solve.movers.move(i) && !is_less(left[i], tangles[i]))
+      solve.surfaces[i].state->particles = std::move(before[i]);
+}
+
+/// At most twice: what is crushed may resist, and each attempt takes it away from its shape, so that with more of them
+/// it cuts itself the more in the steps that follow.
+void untangle(JointSolve& solve) {
+  if (!solve.coupling.find_tangles) return;
+  const std::vector<Tangle> tangles = solve.coupling.find_tangles(solve.movers);
+  if (!any_tangled(tangles)) return;
+  solve.coupling.untangle(tangles, 0);
+  settle(solve);  // all of them: they give way to what was untangled
+  const std::vector<Tangle> left = solve.coupling.find_tangles(solve.movers);
+  if (any_tangled(left)) untangle_again(solve, left);
 }
 
 }  // namespace
@@ -27,10 +48,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   iterate(solve);
   if (std::none_of(surfaces.begin(), surfaces.end(), settles)) return;
   settle(solve);
-  for (int attempt = 0; attempt < untangling_attempts && untangle(solve, attempt); ++attempt) {
-    if (attempt == 0) solve.movers = {};  // at first all give way to what was untangled
-    settle(solve);
-  }
+  untangle(solve);
   recover(solve);
 }
 

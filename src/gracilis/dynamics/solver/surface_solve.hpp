@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/dynamics/constraints/tension.hpp>
+#include <gracilis/dynamics/contact/surface/untangling.hpp>
 #include <gracilis/dynamics/movers.hpp>
 #include <gracilis/dynamics/solver/constraint_kind.hpp>
 #include <gracilis/dynamics/solver/surface_system.hpp>
@@ -48,9 +49,9 @@ struct SurfaceSolve {
 struct Coupling {
   std::function<void(const Movers&)> refresh;   ///< looks again at what is near what
   std::function<Index(const Movers&)> project;  ///< returns how many contacts pushed
-  /// Untangles those of the movers that settled but cannot stay, in the given attempt of a step (from 0), and leaves
-  /// none else among them; whether there was any.
-  std::function<bool(int attempt, Movers&)> untangle = {};
+  /// Of the movers, once they settled, per surface.
+  std::function<std::vector<Tangle>(const Movers&)> find_tangles = {};
+  std::function<void(const std::vector<Tangle>&, int attempt)> untangle = {};  ///< attempts of a step count from 0
 };
 
 /// Called after each projection of a kind on a surface.

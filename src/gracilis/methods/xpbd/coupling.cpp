@@ -20,8 +20,9 @@ Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const ContactW
           [&world, &state, start, particles](const Movers& movers) {
             return project_candidates(world, state, start, particles, movers);
           },
-          [&world, &state, particles](int attempt, Movers& movers) {
-            return untangle_surfaces(world, state, particles, attempt, movers);
+          [&world, &state, seen](const Movers& movers) { return find_tangles(world, state, seen, movers); },
+          [&world, particles](const std::vector<Tangle>& tangles, int attempt) {
+            untangle(world, tangles, attempt, particles);
           }};
 }
 

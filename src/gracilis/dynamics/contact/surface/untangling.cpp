@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 namespace gracilis {
 
@@ -76,30 +77,43 @@ std::vector<FacePair> let_go_of_overlaps(const ContactWorld& world, const Contac
 
 }  // namespace
 
-bool untangle_surfaces(const ContactWorld& world, ContactWorldState& state, const std::vector<Particles*>& particles,
-                       int attempt, Movers& movers) {
-  std::vector<char> untangled(world.surfaces.size(), 0);
+bool is_less(const Tangle& one, const Tangle& other) {
+  return std::pair(one.cuts, one.pairs.size()) < std::pair(other.cuts, other.pairs.size());
+}
+
+std::vector<Tangle> find_tangles(const ContactWorld& world, ContactWorldState& state,
+                                 const std::vector<const Particles*>& particles, const Movers& movers) {
+  std::vector<Tangle> tangles(world.surfaces.size());
   parallel_for_each(world.pairs.size(), [&](std::size_t i) {
     const auto at = static_cast<std::size_t>(world.pairs[i].first);
     if (!world.pairs[i].is_self() || !movers.move(at)) return;
     const ContactSurface& surface = world.surfaces[at];
-    std::vector<FacePair> cuts = find_self_intersections(surface, world.rest[at], state.before[at], *particles[at],
-                                                         suspects(surface, state.candidates[i], *particles[at]));
+    Tangle& tangle = tangles[at];
+    tangle.pairs = find_self_intersections(surface, world.rest[at], state.before[at], *particles[at],
+                                           suspects(surface, state.candidates[i], *particles[at]));
+    tangle.cuts = tangle.pairs.size();
     std::vector<FacePair> folds = find_folds(surface, world.rest[at], state.before[at], *particles[at]);
     const std::vector<FacePair> overlapping = let_go_of_overlaps(world, state, at, folds, state.torn[at]);
-    if (!cuts.empty()) folds = overlapping;
-    cuts.insert(cuts.end(), folds.begin(), folds.end());
-    const float most = untangled_within * world.neighborhood[at];
-    if (cuts.size() <= few)
-      unfold(surface, world.rest[at], cuts, most, *particles[at]);
-    else if (attempt == 0)
-      smooth(surface, cuts, relaxing_rounds, most, *particles[at]);
-    else
-      restore_shape(surface, world.rest[at], cuts, relaxing_rounds, most, *particles[at]);
-    untangled[at] = !cuts.empty();
+    if (tangle.cuts > 0) folds = overlapping;
+    tangle.pairs.insert(tangle.pairs.end(), folds.begin(), folds.end());
   });
-  movers.listed = std::move(untangled);
-  return std::any_of(movers.listed.begin(), movers.listed.end(), [](char each) { return each != 0; });
+  return tangles;
+}
+
+void untangle(const ContactWorld& world, const std::vector<Tangle>& tangles, int attempt,
+              const std::vector<Particles*>& particles) {
+  parallel_for_each(tangles.size(), [&](std::size_t at) {
+    const std::vector<FacePair>& pairs = tangles[at].pairs;
+    if (pairs.empty()) return;
+    const ContactSurface& surface = world.surfaces[at];
+    const float most = untangled_within * world.neighborhood[at];
+    if (pairs.size() <= few)
+      unfold(surface, world.rest[at], pairs, most, *particles[at]);
+    else if (attempt == 0)
+      smooth(surface, pairs, relaxing_rounds, most, *particles[at]);
+    else
+      restore_shape(surface, world.rest[at], pairs, relaxing_rounds, most, *particles[at]);
+  });
 }
 
 }  // namespace gracilis

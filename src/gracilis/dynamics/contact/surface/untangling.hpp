@@ -1,18 +1,31 @@
 #pragma once
 
+#include <gracilis/dynamics/contact/self/self_intersections.hpp>
 #include <gracilis/dynamics/contact/surface/contact_world.hpp>
 
 #include <vector>
 
 namespace gracilis {
 
-/// Untangles every mover that keeps out of itself but cuts itself all the same, or has folded (self_intersections.hpp),
-/// after an update_narrow_phase (narrow_phase.hpp): takes it to its shape at rest there (unfolding.hpp). A tangle is
-/// smoothed in the first attempt (0) of a step and gets its shape back in later ones: smoothing alone wears a thin
-/// tendon down to where it cuts itself for good. Contact lets go of what folds on its way out of a surface that it lies
-/// in at rest. What cut itself or was folded before the step resisted then and is left alone. Returns whether there was
-/// anything to untangle, and leaves among the movers what was: it has to settle again.
-bool untangle_surfaces(const ContactWorld& world, ContactWorldState& state, const std::vector<Particles*>& particles,
-                       int attempt, Movers& movers);
+/// What of a surface cuts itself, or has folded, since rest and since the step began (self_intersections.hpp).
+struct Tangle {
+  std::vector<FacePair> pairs;
+  std::size_t cuts = 0;  ///< the first so many pairs cut each other; the others are folds
+};
+
+/// Fewer cuts, or as many and fewer folds.
+bool is_less(const Tangle& one, const Tangle& other);
+
+/// The tangles of every mover that keeps out of itself, per surface, after an update_narrow_phase (narrow_phase.hpp);
+/// of others none. Folds count where nothing cuts itself, or where they are on the way out of a surface that they lie
+/// in at rest: contact lets go of these. What cut itself or was folded before the step resisted then and is left alone.
+std::vector<Tangle> find_tangles(const ContactWorld& world, ContactWorldState& state,
+                                 const std::vector<const Particles*>& particles, const Movers& movers);
+
+/// Takes tangled surfaces to their shape at rest there (unfolding.hpp). A tangle of many pairs is smoothed in the first
+/// attempt (0) of a step and gets its shape back in later ones: smoothing alone wears a thin tendon down to where it
+/// cuts itself for good.
+void untangle(const ContactWorld& world, const std::vector<Tangle>& tangles, int attempt,
+              const std::vector<Particles*>& particles);
 
 }  // namespace gracilis
