@@ -31,21 +31,10 @@ struct Lanes {
   static HWY_INLINE V copy_sign(V x, V sign) { return hn::CopySign(x, sign); }
   /// x < y ? a : b
   static HWY_INLINE V if_less(V x, V y, V a, V b) { return hn::IfThenElse(hn::Lt(x, y), a, b); }
-  /// 1 / x and 1 / √x for x > 0, from the machine's estimate by a step of Newton's: a division costs several times
-  /// that. WebAssembly estimates nothing.
-#if HWY_TARGET == HWY_WASM
+  /// 1 / x and 1 / √x for x > 0, rounded correctly: the estimates that machines offer are faster, but each maker's
+  /// differ in last bits, and so would results.
   static HWY_INLINE V reciprocal(V x) { return number(1) / x; }
   static HWY_INLINE V inverse_sqrt(V x) { return number(1) / hn::Sqrt(x); }
-#else
-  static HWY_INLINE V reciprocal(V x) {
-    const V estimate = hn::ApproximateReciprocal(x);
-    return estimate * hn::NegMulAdd(x, estimate, number(2));
-  }
-  static HWY_INLINE V inverse_sqrt(V x) {
-    const V estimate = hn::ApproximateReciprocalSqrt(x);
-    return estimate * hn::NegMulAdd(number(0.5) * x * estimate, estimate, number(1.5));
-  }
-#endif
 };
 
 /// ... and for one number, so that tests can ask for double precision.
