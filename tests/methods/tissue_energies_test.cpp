@@ -84,6 +84,13 @@ TEST(TissueEnergies, the_matrix_has_no_stress_at_rest_and_infinite_energy_withou
   EXPECT_GT(volume_curve(matrix, 1e-300).energy, 1e6);
 }
 
+TEST(TissueEnergies, what_resists_shear_more_resists_being_squeezed_to_nothing_more) {
+  const MatrixLaw soft = {5e3, 1e5}, stiff = {5e4, 1e5};
+  constexpr Real nearly_nothing = 1e-3;
+  EXPECT_NEAR(volume_curve(stiff, nearly_nothing).slope / volume_curve(soft, nearly_nothing).slope, 10, 0.2);
+  EXPECT_EQ(volume_curve(stiff, 0.31).curvature, volume_curve(soft, 0.31).curvature) << "no barrier yet";
+}
+
 const std::array<Real, 5> fills = {0.6, 0.2, 1, 0.05, 0.7}, full = {1, 1, 1, 1, 1};
 
 Corners moved_corners(unsigned seed, Real cell_size) {

@@ -55,7 +55,8 @@ Curve volume_curve(const MatrixLaw& law, Real j) {
                law.lambda};
   if (j >= barrier_begin) return sum;
   // -k (J - J0)² log(J / J0): twice continuously differentiable where it begins (Li et al. 2020).
-  const Real k = law.lambda, d = j - barrier_begin, log = std::log(j / barrier_begin);
+  const Real k = std::max(law.lambda, barrier_per_shear * law.shear), d = j - barrier_begin,
+             log = std::log(j / barrier_begin);
   sum.energy -= k * d * d * log;
   sum.slope -= k * (2 * d * log + d * d / j);
   sum.curvature -= k * (2 * log + 4 * d / j - d * d / (j * j));

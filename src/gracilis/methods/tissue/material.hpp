@@ -37,8 +37,10 @@ struct MatrixLaw {
 };
 
 /// What the matrix adds by J = det F alone: stable neo-Hookean (Smith, de Goes and Kim 2018, without the logarithm that
-/// only moves the rest state) and, below `barrier_begin`, a barrier that is infinite at 0, so that nothing inverts.
-inline constexpr Real barrier_begin = 0.3;
+/// only moves the rest state) and, below `barrier_begin`, a barrier that is infinite at 0, so that nothing inverts. It
+/// grows with the shear modulus, which grows with tension: else what pulls hard squeezes a tetrahedron to nothing, and
+/// no step of a minimizer is short enough for it.
+inline constexpr Real barrier_begin = 0.3, barrier_per_shear = 20;
 Curve volume_curve(const MatrixLaw& law, Real volume_ratio);
 
 /// Energy per volume at rest of matrix and fibers at the deformation gradient F, without what holds the cell's volume.

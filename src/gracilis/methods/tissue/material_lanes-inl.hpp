@@ -78,8 +78,9 @@ HWY_INLINE CurveLanes volume_curve_lanes(const LawOfLanes& law, N j) {
   if (HWY_LIKELY(hn::AllFalse(Doubles(), is_flat))) return sum;
   const N d = hn::Min(j - number(tissue::barrier_begin), number(0));
   const N log = hn::Log(Doubles(), hn::Min(j * number(1 / tissue::barrier_begin), number(1)));
-  sum.energy = sum.energy - law.lambda * d * d * log;
-  sum.slope = sum.slope - law.lambda * (number(2) * d * log + d * d / j);
+  const N k = hn::Max(law.lambda, number(tissue::barrier_per_shear) * law.shear);
+  sum.energy = sum.energy - k * d * d * log;
+  sum.slope = sum.slope - k * (number(2) * d * log + d * d / j);
   return sum;
 }
 
