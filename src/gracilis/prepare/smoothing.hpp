@@ -1,22 +1,16 @@
 #pragma once
 
-#include <gracilis/geometry/topology.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
 namespace gracilis {
 
-/// Smooths the whole surface: each round takes every vertex half of the way to the mean of its neighbors and then
-/// slightly more than that back, which flattens bumps of about an edge and keeps larger shapes and nearly the volume
-/// (Taubin 1995).
+/// Smooths the whole surface, as smooth_points does.
 void smooth_surface(TriangleMesh& mesh, int rounds);
 
 /// The same for spikes and sharp rims alone: around edges at which the surface turns by more than `sharp` (rad), fading
 /// out over two rings of vertices, until there are none or `rounds` are over. No vertex moves further than `farthest`
 /// (m) in all. Returns the number of edges that are still as sharp.
 Index round_off(TriangleMesh& mesh, Real sharp, int rounds, Real farthest);
-
-/// Every vertex moves by `factor` · weight of the way to the mean of its neighbors.
-void move_to_means(Points& vertices, const VertexStars& stars, const Eigen::VectorXd& weights, Real factor);
 
 /// Edges at which the surface turns by more than `sharp` (rad). Open edges do not count.
 Index sharp_edge_count(const TriangleMesh& mesh, Real sharp);

@@ -3,8 +3,8 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_triangle.hpp>
+#include <gracilis/geometry/smoothing.hpp>
 #include <gracilis/geometry/topology.hpp>
-#include <gracilis/prepare/smoothing.hpp>
 #include <gracilis/prepare/solids.hpp>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/run/run_folder.hpp>
+#include <gracilis/view/pictures/evened_surface.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/pose_caption.hpp>
 
@@ -124,7 +125,11 @@ Picture preview_picture(const Scene& scene, const std::vector<Pose>& poses, cons
   aimed.looking = camera.looking;
   aimed.up = camera.up;
   std::vector<MuscleLook> looks;
-  for (const Muscle& muscle : scene.muscles) looks.push_back(muscle_look(muscle));
+  std::vector<EvenedSurface> evened;
+  for (const Muscle& muscle : scene.muscles) {
+    looks.push_back(muscle_look(muscle));
+    evened.emplace_back(muscle.surface);
+  }
   for (const Frame& frame : frames) {
     Panel panel = aimed;
     panel.caption = pose_caption(captions, frame.number);
@@ -137,6 +142,7 @@ Picture preview_picture(const Scene& scene, const std::vector<Pose>& poses, cons
       PaintedSurface surface{"", {frame.muscles[i].points, muscle.surface.faces}};
       surface.colors = natural_colors(looks[i], muscle.name);
       surface.stripes = looks[i].stripes;
+      surface.mesh.vertices = evened[i].of(surface.mesh.vertices);
       panel.surfaces.push_back(std::move(surface));
     }
     picture.panels.push_back(panel);

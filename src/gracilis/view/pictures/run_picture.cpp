@@ -84,6 +84,7 @@ RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options)
   if (options_.color_by == ColorBy::tension) tensions_ = recorded_tensions(run);
   for (const std::string& muscle : run.muscles) {
     if (options_.color_by == ColorBy::natural) looks_.push_back(recorded_look(run, muscle));
+    if (evens()) evened_.emplace_back(recorded_surface(run, muscle, 0));
     if (options_.color_by == ColorBy::edge_stretch) stretches_.emplace_back(recorded_surface(run, muscle, 0));
     if (options_.fibers) lengths_.push_back(polyline_lengths(recorded_fibers(run, muscle, 0)));
   }
@@ -208,9 +209,8 @@ Panel RunPainter::panel(int frame) const {
   panel.has_own_camera = !options_.focus.empty();  // what is in focus moves from pose to pose, and is looked at in each
   panel.caption = pose_caption(captions_, frame);
   // Beside colors that mean something bones step back; lines have a gray middle, so there gray would say "as at rest".
-  const bool shows_values = options_.color_by != ColorBy::muscle && options_.color_by != ColorBy::natural;
   const bool of_lines = options_.color_by == ColorBy::fiber_strain || options_.color_by == ColorBy::tension;
-  const Color bone = shows_values && !of_lines ? Color(0.72, 0.74, 0.75) : bone_color();
+  const Color bone = shows_values() && !of_lines ? Color(0.72, 0.74, 0.75) : bone_color();
   for (const std::string& name : run_.bones)
     if (shown(name)) {
       panel.surfaces.push_back({"", recorded_surface(run_, name, frame), bone, 1, framed(name)});
@@ -228,6 +228,7 @@ Panel RunPainter::panel(int frame) const {
     if (options_.color_by == ColorBy::natural) surface.stripes = looks_[m].stripes;
     std::vector<PaintedSurface> arrows;
     if (arrows_) arrows = arrows_->of(m, surface.mesh, frame);
+    if (evens()) surface.mesh.vertices = evened_[m].of(surface.mesh.vertices);
     for (PaintedSurface& arrow : arrows) arrow.framed = surface.framed;
     panel.surfaces.push_back(std::move(surface));
     std::move(arrows.begin(), arrows.end(), std::back_inserter(panel.surfaces));

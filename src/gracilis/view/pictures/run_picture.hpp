@@ -3,6 +3,7 @@
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/view/pictures/color_scale.hpp>
+#include <gracilis/view/pictures/evened_surface.hpp>
 #include <gracilis/view/pictures/force_arrows.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/picture.hpp>
@@ -60,6 +61,9 @@ class RunPainter {
 
  private:
   Color color_of(Real value) const;
+  bool shows_values() const { return options_.color_by != ColorBy::muscle && options_.color_by != ColorBy::natural; }
+  /// Colors and arrows that tell values stand where these were measured.
+  bool evens() const { return !shows_values() && options_.arrow_scale == 0; }
   bool framed(const std::string& name) const { return options_.focus.empty() || options_.focus == name; }
   Points vertex_colors(std::size_t muscle, const TriangleMesh& mesh, int frame) const;
   PaintedLines fibers(std::size_t muscle, int frame) const;
@@ -74,6 +78,7 @@ class RunPainter {
   std::set<std::string> solids_;            ///< bones and muscles that are closed
   std::vector<SignedDistance> distances_;   ///< per bone, where colors need them
   std::vector<MuscleLook> looks_;           ///< per muscle, where colors need them
+  std::vector<EvenedSurface> evened_;       ///< per muscle, where surfaces are evened
   std::vector<VertexStretch> stretches_;    ///< per muscle, where colors need them
   std::vector<std::vector<Real>> lengths_;  ///< per muscle and fiber at rest, m
   std::optional<ForceArrows> arrows_;

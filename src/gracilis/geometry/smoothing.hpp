@@ -1,0 +1,19 @@
+#pragma once
+
+#include <gracilis/core/types.hpp>
+#include <gracilis/geometry/topology.hpp>
+
+namespace gracilis {
+
+// Of a round of smoothing, Taubin 1995, with a pass-band of 0.11: the step forth to the mean of the neighbors, and
+// back.
+inline constexpr Real smoothing_forth = 0.5, smoothing_back = -0.53;
+
+/// Every vertex moves by `factor` · weight of the way to the mean of its neighbors.
+void move_to_means(Points& vertices, const VertexStars& stars, const Eigen::VectorXd& weights, Real factor);
+
+/// Each round takes every vertex half of the way to the mean of its neighbors and then slightly more than that back,
+/// which flattens bumps of about an edge and keeps larger shapes and nearly the volume (Taubin 1995).
+void smooth_points(Points& vertices, const VertexStars& stars, int rounds);
+
+}  // namespace gracilis
