@@ -33,6 +33,9 @@ struct PaintedLines {
   Real radius = 0;                 ///< m; above 0 they are tubes of this radius, and `width` says nothing
   std::vector<Color> colors = {};  ///< one per line, instead of `color`; empty: none
   bool framed = true;              ///< false: the picture makes no room for them
+  /// Tubes alone, without `colors`: paler the further back they lie, and with dark rims, so that one sees which of two
+  /// that cross lies before the other.
+  bool fades = false;
 };
 
 /// What the colors of a picture mean.

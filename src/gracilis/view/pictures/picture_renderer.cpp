@@ -81,14 +81,48 @@ static void add_surface(const PaintedSurface& surface, vtkTexture& stripes, vtkR
   renderer.AddActor(actor);
 }
 
-static void add_lines(const PaintedLines& lines, int scale, vtkRenderer& renderer) {
+/// A column per point: `color` at the one nearest to the camera, paler the further back a point lies.
+static Points faded(const Points& points, const Color& color, const Vec3& looking) {
+  constexpr Real palest = 0.6;
+  const Eigen::RowVectorXd depths = looking.transpose() * points;
+  const Real nearest = depths.minCoeff(), range = std::max(depths.maxCoeff() - nearest, Real{1e-9});
+  const Eigen::RowVectorXd shares = palest / range * (depths.array() - nearest);
+  return (Color::Ones() - color) * shares + color.replicate(1, points.cols());
+}
+
+static vtkSmartPointer<vtkTubeFilter> tubes_around(vtkPolyData& lines, Real radius) {
+  const auto tubes = vtkSmartPointer<vtkTubeFilter>::New();
+  tubes->SetInputData(&lines);
+  tubes->SetRadius(radius);
+  tubes->SetNumberOfSides(8);
+  return tubes;
+}
+
+/// Wider tubes of which only the far side is drawn, so that each has a dark rim before what lies behind it.
+static void add_rims(const Polylines& drawn, const PaintedLines& lines, const Vec3& looking, vtkRenderer& renderer) {
+  constexpr Real rim = 1.5, darkness = 0.35;  // of the radius, of the color
+  const vtkSmartPointer<vtkPolyData> data = to_vtk(drawn);
+  data->GetPointData()->SetScalars(color_array(faded(drawn.points, darkness * lines.color, looking)));
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(tubes_around(*data, rim * lines.radius)->GetOutputPort());
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->FrontfaceCullingOn();
+  actor->GetProperty()->LightingOff();
+  renderer.AddActor(actor);
+}
+
+static void add_lines(const PaintedLines& lines, const Vec3& looking, int scale, vtkRenderer& renderer) {
   if (lines.lines.count() == 0) return;
-  const vtkSmartPointer<vtkPolyData> data = to_vtk(lines.radius > 0 ? smooth_lines(lines.lines) : lines.lines);
+  const Polylines drawn = lines.radius > 0 ? smooth_lines(lines.lines) : lines.lines;
+  const vtkSmartPointer<vtkPolyData> data = to_vtk(drawn);
   vtkNew<vtkPolyDataMapper> mapper;
   if (static_cast<Index>(lines.colors.size()) == lines.lines.count()) {
     Points colors(3, lines.lines.count());
     for (Index i = 0; i < colors.cols(); ++i) colors.col(i) = lines.colors[static_cast<std::size_t>(i)];
     data->GetCellData()->SetScalars(color_array(colors));
+  } else if (lines.fades) {
+    data->GetPointData()->SetScalars(color_array(faded(drawn.points, lines.color, looking)));
   } else {
     mapper->ScalarVisibilityOff();
   }
@@ -96,11 +130,8 @@ static void add_lines(const PaintedLines& lines, int scale, vtkRenderer& rendere
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(lines.color.x(), lines.color.y(), lines.color.z());
   if (lines.radius > 0) {
-    vtkNew<vtkTubeFilter> tubes;
-    tubes->SetInputData(data);
-    tubes->SetRadius(lines.radius);
-    tubes->SetNumberOfSides(8);
-    mapper->SetInputConnection(tubes->GetOutputPort());
+    mapper->SetInputConnection(tubes_around(*data, lines.radius)->GetOutputPort());
+    if (lines.fades && lines.colors.empty()) add_rims(drawn, lines, looking, renderer);
   } else {
     mapper->SetInputData(data);
     actor->GetProperty()->SetLineWidth(static_cast<float>(lines.width * scale));
@@ -189,7 +220,7 @@ std::map<std::size_t, vtkRenderer*> add_renderers(const Picture& picture, const 
       renderer->SetMaximumNumberOfPeels(8);
     }
     for (const PaintedSurface& surface : panel.surfaces) add_surface(surface, *stripes, *renderer);
-    for (const PaintedLines& lines : panel.lines) add_lines(lines, scale, *renderer);
+    for (const PaintedLines& lines : panel.lines) add_lines(lines, layout.cameras[i].looking, scale, *renderer);
     add_camera_lights(*renderer);
     place_camera(layout.cameras[i], layout.half_height, *renderer);
     if (i == 0 && picture.scale_bar && layout.captions[i].height == 0) draw_scale_bar(layout, scale, *renderer);

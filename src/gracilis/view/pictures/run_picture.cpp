@@ -191,6 +191,7 @@ PaintedLines RunPainter::fibers(std::size_t muscle, int frame) const {
   painted.color =
       options_.color_by == ColorBy::natural ? fiber_paint(run_.muscles[muscle]) : muscle_color(run_.muscles[muscle]);
   painted.radius = 0.0006;
+  painted.fades = true;
   if (options_.color_by == ColorBy::tension && frame < tensions_[muscle].rows())
     for (const Real tension : tensions_[muscle].row(frame))
       painted.colors.push_back(color_of(std::log10(std::max(1e-9, tension))));
