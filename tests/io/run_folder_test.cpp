@@ -241,6 +241,27 @@ TEST(RunFolder, resuming_another_scene_is_an_error) {
               HasSubstr("has 4 vertices, but gluteus_maximus_r has 7"));
 }
 
+TEST(RunFolder, resuming_another_motion_is_an_error_that_leaves_the_run_alone) {
+  const TestFolder folder;
+  TinyRun run;
+  run.scene.method.contact["muscle"] = "none";  // any frame can be resumed
+  {
+    RunFolder out(folder.path(), run.scene, run.poses, ExistingRun::refuse);
+    for (int i = 0; i < 3; ++i) out.write_frame(run.record(i));
+  }
+  const std::string measures = content(folder.path() / "measures.csv");
+  const std::vector<Pose> poses = run.poses;
+  run.poses[1].coordinates[0] += radians(1);
+  EXPECT_THAT(message_of_input_error([&] { RunFolder(folder.path(), run.scene, run.poses, ExistingRun::resume); }),
+              HasSubstr("measures.csv:3: frame 1 is of another motion"));
+  run.poses = poses;
+  run.poses[2].time += 0.05;
+  EXPECT_THAT(message_of_input_error([&] { RunFolder(folder.path(), run.scene, run.poses, ExistingRun::resume); }),
+              HasSubstr("measures.csv:4: frame 2 is of another motion"));
+  EXPECT_EQ(content(folder.path() / "measures.csv"), measures);
+  EXPECT_EQ(RunFolder(folder.path(), run.scene, poses, ExistingRun::resume).frame_count(), 3);
+}
+
 TEST(RunFolder, the_manifest_hashes_every_input) {
   const TestFolder folder;
   const TinyRun run;

@@ -98,19 +98,25 @@ static std::string fiber_cells(Real activation, const MuscleFibers& fibers) {
                      1e4 * fibers.physiological_cross_section);
 }
 
-std::string measures_rows(const Scene& scene, const FrameRecord& record) {
-  std::string begin = fmt::format("{},{:.6f}", record.frame.number, record.frame.pose.time);
+/// Number, time and coordinates of a frame, with which its rows begin.
+static std::string frame_cells(const Scene& scene, int number, const Pose& pose) {
+  std::string cells = fmt::format("{},{:.6f}", number, pose.time);
   std::size_t coordinate = 0;
   for (const Joint& joint : scene.joints)
     for (const JointAxis& axis : joint.axes)
-      begin += fmt::format(",{:.4f}", shown_value(axis, record.frame.pose.coordinates[coordinate++]));
+      cells += fmt::format(",{:.4f}", shown_value(axis, pose.coordinates[coordinate++]));
+  return cells + ",";
+}
+
+std::string measures_rows(const Scene& scene, const FrameRecord& record) {
+  const std::string begin = frame_cells(scene, record.frame.number, record.frame.pose);
   std::string rows;
   for (std::size_t i = 0; i < scene.muscles.size(); ++i) {
     const MuscleMeasures measures = i < record.measures.size() ? record.measures[i] : MuscleMeasures{};
     const MuscleReport report = i < record.report.muscles.size() ? record.report.muscles[i] : MuscleReport{};
     const MuscleFibers fibers = i < record.fibers.size() ? record.fibers[i] : MuscleFibers{};
     const std::vector<Real>& activations = record.frame.pose.activations;
-    rows += begin + "," + scene.muscles[i].name + measure_cells(measures) +
+    rows += begin + scene.muscles[i].name + measure_cells(measures) +
             fiber_cells(i < activations.size() ? activations[i] : 0, fibers) + report_cells(method_of(scene), report) +
             "\n";
   }
@@ -172,6 +178,21 @@ void require_same_columns(const std::filesystem::path& path, const std::string& 
   if (end == std::string::npos || std::string_view(text).substr(0, end + 1) == header) return;
   throw InputError({path.string(), "1", "has other columns than a run of this scene by this version",
                     "resume with the scene and the version that began it, or replace the run with --force"});
+}
+
+void require_same_poses(const std::filesystem::path& path, const Scene& scene, const std::vector<Pose>& poses,
+                        int end) {
+  const std::string text = text_if_there(path);
+  std::string_view rest = text;
+  for (int line = 1; !rest.empty(); ++line) {
+    const std::string_view row = rest.substr(0, rest.find('\n'));
+    rest.remove_prefix(std::min(row.size() + 1, rest.size()));
+    Index frame = 0;
+    if (!parse_index(row.substr(0, row.find(',')), frame) || frame >= end) continue;
+    if (row.starts_with(frame_cells(scene, frame, poses[static_cast<std::size_t>(frame)]))) continue;
+    throw InputError({path.string(), std::to_string(line), fmt::format("frame {} is of another motion", frame),
+                      "resume with the motion that the run was begun with, or replace the run with --force"});
+  }
 }
 
 void truncate_measures(const std::filesystem::path& path, int first_dropped) {

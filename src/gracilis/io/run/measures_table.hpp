@@ -27,6 +27,10 @@ void append_measures(const std::filesystem::path& path, const std::string& heade
 /// Throws InputError where the file is there and begins with other columns: rows of two kinds would stand in one table.
 void require_same_columns(const std::filesystem::path& path, const std::string& header);
 
+/// Throws InputError where a frame before `end` has another time or other coordinates than its pose, as the table
+/// rounds them: what goes on there would join two motions. Does nothing when there is no file.
+void require_same_poses(const std::filesystem::path& path, const Scene& scene, const std::vector<Pose>& poses, int end);
+
 /// Drops all rows from frame `first_dropped` on. Does nothing when there is no file.
 void truncate_measures(const std::filesystem::path& path, int first_dropped);
 

@@ -142,6 +142,7 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
   if (existing == ExistingRun::resume) {
     require_same_columns(folder_ / "measures.csv", measures_header(scene));
     frame_count_ = std::min(count_frames(folder_, scene), static_cast<int>(poses.size()));
+    require_same_poses(folder_ / "measures.csv", scene, poses, frame_count_);
     const auto recorded = [&](int number) {
       return read_frame(folder_, scene, number, poses[static_cast<std::size_t>(number)]);
     };
