@@ -269,6 +269,18 @@ TEST(LoadSurface, the_command_that_mends_can_be_pasted_and_says_that_it_writes_m
                                         "writes is in metres: leave out 'unit' for it, or set unit = \"m\""));
 }
 
+TEST(LoadSurface, a_flat_muscle_encloses_nothing_and_is_refused) {
+  TriangleMesh flat;
+  flat.vertices.resize(3, 4);
+  flat.vertices << 0, 0.1, 0, 0.03, 0, 0, 0.1, 0.03, 0, 0, 0, 0;
+  flat.faces.resize(3, 4);
+  flat.faces << 0, 0, 1, 0, 2, 1, 2, 3, 1, 3, 3, 2;
+  EXPECT_THAT(message_of_input_error([&] { check_surface(flat, 1, SurfaceRole::muscle, "m.ply"); }),
+              HasSubstr("m.ply: is flat: it encloses no volume"));
+  flat.vertices(2, 3) = 1e-3;
+  EXPECT_EQ(check_surface(flat, 1, SurfaceRole::muscle, "m.ply").mesh.face_count(), 4) << "a thin one is none";
+}
+
 TEST(LoadSurface, a_wrong_unit_shows_in_the_bounding_box) {
   const TestFolder folder;
   std::string large = ply_text;

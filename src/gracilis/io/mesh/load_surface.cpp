@@ -2,6 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/core/shell_word.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_pieces.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 
@@ -12,6 +13,7 @@ namespace gracilis {
 static constexpr Real largest_diagonal = 5;       // m; nothing in a body is longer
 static constexpr Real smallest_diagonal = 0.005;  // m; no muscle or bone we move is smaller
 static constexpr Real crumb_share = 0.01;
+static constexpr Real thinnest = 1e-6;  // m; what files in single precision lose of a place is a hundredth of it
 
 /// "2 open edges" or "1 open edge".
 static std::string counted(const MeshDefect& defect, const char* thing, const char* things) {
@@ -96,6 +98,10 @@ LoadedMesh check_surface(const TriangleMesh& mesh, Real unit, SurfaceRole role, 
   for (const std::string& repair : repaired.repairs) loaded.repairs.push_back(name + ": " + repair);
   const std::vector<Problem> problems = shape_problems(loaded.report, unit, file, part);
   if (role == SurfaceRole::muscle && !problems.empty()) throw InputError(problems);
+  // A muscle's fibers and sections divide by its thickness: twice its volume over its area.
+  if (role == SurfaceRole::muscle &&
+      !(2 * enclosed_volume(loaded.mesh.vertices, loaded.mesh.faces) > thinnest * loaded.report.area))
+    throw InputError({name, "", "is flat: it encloses no volume", "export the surface again"});
   std::string flaws;
   for (const Problem& problem : problems)
     flaws += fmt::format("{}{}: {}", flaws.empty() ? "" : "; ", problem.where, problem.what);
