@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <memory>
 #include <set>
 
@@ -71,7 +72,8 @@ opensim::CoordinateMotion parse_sweep(const opensim::Model& model, const std::st
   const bool whole = equals != std::string::npos && first != std::string::npos && second != std::string::npos &&
                      equals < first && parse_number(text.substr(equals + 1, first - equals - 1), begin) &&
                      parse_number(text.substr(first + 1, second - first - 1), end) &&
-                     parse_number(text.substr(second + 1), step) && step > 0;
+                     parse_number(text.substr(second + 1), step) && std::isfinite(begin) && std::isfinite(end) &&
+                     std::isfinite(step) && step > 0;
   if (!whole) throw ConfigurationError({"--coord", "", fmt::format("'{}' is no sweep", text), "NAME=FROM:TO:STEP"});
   const std::string name = text.substr(0, equals);
   const Index coordinate = opensim::index_of(model.coordinates, name);

@@ -104,4 +104,15 @@ TEST(PathsCommand, a_wrong_coordinate_is_a_usage_error_with_a_suggestion) {
   EXPECT_THAT(result.err, testing::HasSubstr("did you mean 'swing'?"));
 }
 
+TEST(PathsCommand, a_sweep_that_does_not_end_is_no_sweep) {
+  const TestFolder folder;
+  const auto model = folder.write("tiny.osim", tiny);
+  for (const std::string sweep : {"nan:1:1", "0:nan:1", "0:inf:1", "0:1:inf", "0:1:nan"}) {
+    const ProgramResult result =
+        run_program("paths " + model.string() + " --coord swing=" + sweep + " --out " + folder.path().string());
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_THAT(result.err, testing::HasSubstr("'swing=" + sweep + "' is no sweep"));
+  }
+}
+
 }  // namespace gracilis

@@ -241,6 +241,9 @@ TEST(ModelReader, refuses_wrap_objects_without_size) {
         pendulum(muscle("m", point("/ground", "1 0 0") + point("rod", "0 -1 0")), set("WrapObjectSet", object)));
   };
   EXPECT_THAT(with("<WrapSphere name=\"w\"><radius>0</radius></WrapSphere>"), HasSubstr("must be above zero"));
+  EXPECT_THAT(with("<WrapSphere name=\"w\"><radius>1e300</radius></WrapSphere>"), HasSubstr("below 1,000,000 m"));
+  EXPECT_THAT(with("<WrapEllipsoid name=\"w\"><dimensions>1e300 1 1</dimensions></WrapEllipsoid>"),
+              HasSubstr("below 1,000,000 m"));
   EXPECT_THAT(with("<WrapCylinder name=\"w\"><radius>nan</radius></WrapCylinder>"), HasSubstr("radius"));
   EXPECT_THAT(with("<WrapEllipsoid name=\"w\"><dimensions>1 0 1</dimensions></WrapEllipsoid>"),
               HasSubstr("three radii above zero"));

@@ -24,9 +24,12 @@ static void read_quadrant(const XmlContext& context, const pugi::xml_node& node,
   surface.side_sign = quadrant[0] == '-' ? -1 : 1;
 }
 
+static constexpr Real largest_size = 1e6;  // m
+
 static Real size_of(const XmlContext& context, const pugi::xml_node& node, const char* name, Real otherwise) {
   const Real size = context.number(node, name, otherwise);
-  if (!(size > 0 && size < 1e6)) context.fail(node, fmt::format("<{}> is {}", name, size), "it must be above zero");
+  if (!(size > 0 && size < largest_size))
+    context.fail(node, fmt::format("<{}> is {}", name, size), "it must be above zero and below 1,000,000 m");
   return size;
 }
 
@@ -64,8 +67,8 @@ static bool read_shape(const XmlContext& context, const pugi::xml_node& node, Wr
   } else if (kind == "WrapEllipsoid") {
     surface.kind = WrapSurface::Kind::ellipsoid;
     surface.radii = context.vector(node, "dimensions", Vec3::Constant(-1));
-    if (!(surface.radii.minCoeff() > 0))
-      context.fail(node, "needs <dimensions> of three radii above zero", "give them");
+    if (!(surface.radii.minCoeff() > 0 && surface.radii.maxCoeff() < largest_size))
+      context.fail(node, "needs <dimensions> of three radii above zero", "give them, below 1,000,000 m");
   } else if (kind == "WrapTorus") {
     surface.kind = WrapSurface::Kind::torus;
     surface.radius = size_of(context, node, "inner_radius", -1);
