@@ -22,4 +22,11 @@ void smooth_points(Points& vertices, const VertexStars& stars, int rounds) {
   }
 }
 
+void keep_within(Real farthest, const Points& start, Points& vertices) {
+  for (Index v = 0; v < vertices.cols(); ++v) {
+    const Vec3 moved = vertices.col(v) - start.col(v);
+    if (moved.norm() > farthest) vertices.col(v) = start.col(v) + moved.normalized() * farthest;
+  }
+}
+
 }  // namespace gracilis

@@ -16,4 +16,7 @@ void move_to_means(Points& vertices, const VertexStars& stars, const Eigen::Vect
 /// which flattens bumps of about an edge and keeps larger shapes and nearly the volume (Taubin 1995).
 void smooth_points(Points& vertices, const VertexStars& stars, int rounds);
 
+/// Takes those back that are farther than `farthest` (m) from where they were at the start, as far as that.
+void keep_within(Real farthest, const Points& start, Points& vertices);
+
 }  // namespace gracilis

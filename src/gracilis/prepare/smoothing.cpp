@@ -41,10 +41,7 @@ Index round_off(TriangleMesh& mesh, Real sharp, int rounds, Real farthest) {
     move_to_means(mesh.vertices, topology.stars, weights, smoothing_forth);
     // What is thin would shrink to a thread without the way back.
     move_to_means(mesh.vertices, topology.stars, weights, 0.8 * smoothing_back);
-    for (Index v = 0; v < mesh.vertex_count(); ++v) {
-      const Vec3 moved = mesh.vertices.col(v) - start.col(v);
-      if (moved.norm() > farthest) mesh.vertices.col(v) = start.col(v) + moved.normalized() * farthest;
-    }
+    keep_within(farthest, start, mesh.vertices);
   }
 }
 

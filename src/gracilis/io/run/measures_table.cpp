@@ -180,34 +180,41 @@ void require_same_columns(const std::filesystem::path& path, const std::string& 
                     "resume with the scene and the version that began it, or replace the run with --force"});
 }
 
+/// Calls act(line, row) for each row, the header among them, with its end; not for one that an interruption cut off.
+template <class Act>
+static void for_each_row(std::string_view text, const Act& act) {
+  std::size_t begin = 0;
+  for (int line = 1;; ++line) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == std::string_view::npos) return;
+    act(line, text.substr(begin, end + 1 - begin));
+    begin = end + 1;
+  }
+}
+
+/// Whether a row is of a frame before `end`, and which.
+static bool is_before(std::string_view row, int end, Index& frame) {
+  return parse_index(row.substr(0, row.find(',')), frame) && frame < end;
+}
+
 void require_same_poses(const std::filesystem::path& path, const Scene& scene, const std::vector<Pose>& poses,
                         int end) {
-  const std::string text = text_if_there(path);
-  std::string_view rest = text;
-  for (int line = 1; !rest.empty(); ++line) {
-    const std::string_view row = rest.substr(0, rest.find('\n'));
-    rest.remove_prefix(std::min(row.size() + 1, rest.size()));
+  for_each_row(text_if_there(path), [&](int line, std::string_view row) {
     Index frame = 0;
-    if (!parse_index(row.substr(0, row.find(',')), frame) || frame >= end) continue;
-    if (row.starts_with(frame_cells(scene, frame, poses[static_cast<std::size_t>(frame)]))) continue;
+    if (!is_before(row, end, frame)) return;
+    if (row.starts_with(frame_cells(scene, frame, poses[static_cast<std::size_t>(frame)]))) return;
     throw InputError({path.string(), std::to_string(line), fmt::format("frame {} is of another motion", frame),
                       "resume with the motion that the run was begun with, or replace the run with --force"});
-  }
+  });
 }
 
 void truncate_measures(const std::filesystem::path& path, int first_dropped) {
   if (!is_there(path)) return;
-  const std::string text = text_if_there(path);
   std::string kept;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    if (end == std::string::npos) break;  // a row that an interruption cut off
-    const std::string_view line(text.data() + begin, end + 1 - begin);
+  for_each_row(text_if_there(path), [&](int line, std::string_view row) {
     Index frame = 0;
-    const bool is_head = begin == 0;
-    if (is_head || (parse_index(line.substr(0, line.find(',')), frame) && frame < first_dropped)) kept += line;
-    begin = end + 1;
-  }
+    if (line == 1 || is_before(row, first_dropped, frame)) kept += row;
+  });
   write_text_atomically(path, kept);
 }
 
