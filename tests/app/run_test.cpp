@@ -130,7 +130,7 @@ TEST_F(RunCommand, SIGTERM_ends_a_run_within_a_second_in_the_middle_of_a_frame) 
   EXPECT_EQ(stopped.out, "");
   EXPECT_EQ(manifest()["status"], "interrupted");
   EXPECT_EQ(run_program("inspect " + out()).exit_code, 0);
-  EXPECT_EQ(run(good_scene(), "--resume").exit_code, 0);
+  EXPECT_EQ(run(good_scene(), "--force").exit_code, 0);
   EXPECT_EQ(manifest()["frames"], 13);
 }
 

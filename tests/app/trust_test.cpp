@@ -146,12 +146,23 @@ TEST_F(Trust, two_runs_into_one_folder_are_one_too_many) {
       slow + " 2>/dev/null & pid=$!; while kill -0 $pid && [ ! -e " + frame_file(out(), "muscle", 0).string() +
       " ]; do sleep 0.05; done; " + program + " run " + scene() + " --force --out " + out() + " 2>&1; echo exit $?; " +
       program + " run " + scene() + " --resume --out " + out() + " 2>&1; echo exit $?; kill -KILL $pid; wait $pid; " +
-      program + " run " + scene() + " --resume --set iterations=20 --out " + out() + " 2>&1; echo exit $?; true");
+      program + " run " + scene() + " --force --set iterations=20 --out " + out() + " 2>&1; echo exit $?; true");
   EXPECT_THAT(second.out, HasSubstr("is being written by process"));
   EXPECT_THAT(second.out, HasSubstr("exit 2\n"));
   EXPECT_THAT(second.out, testing::EndsWith("exit 0\n")) << "the lock of a killed run is taken over";
   for (const std::string& name : files()) EXPECT_THAT(name, Not(HasSubstr("/.gracilis-")));
   EXPECT_EQ(files().count("out/run.lock"), 0u);
+}
+
+TEST_F(Trust, a_run_resumed_with_other_settings_is_refused_and_left_as_it_is) {
+  ASSERT_EQ(run(good_scene(), "--set iterations=20").exit_code, 0);
+  const std::string before = bytes("out/run.json") + bytes("out/measures.csv");
+  const ProgramResult refused = run(good_scene(), "--set iterations=21 --resume");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err,
+              HasSubstr("run.json: the run was begun with 'iterations = 20' where there is 'iterations = 21'"));
+  EXPECT_EQ(bytes("out/run.json") + bytes("out/measures.csv"), before);
+  EXPECT_EQ(run(good_scene(), "--set iterations=20 --resume").exit_code, 0);
 }
 
 // ---- Exit codes

@@ -11,6 +11,8 @@
 #include <gracilis/io/run/compact_frames.hpp>
 #include <gracilis/io/run/measures_table.hpp>
 #include <gracilis/io/run/output_hashes.hpp>
+#include <gracilis/io/run/run_manifest.hpp>
+#include <gracilis/io/scene/scene_template.hpp>
 #include <gracilis/io/tables/action_tables.hpp>
 #include <gracilis/io/tables/fiber_table.hpp>
 #include <gracilis/io/tables/force_table.hpp>
@@ -143,6 +145,8 @@ RunFolder::RunFolder(fs::path folder, const Scene& scene, const std::vector<Pose
     require_same_columns(folder_ / "measures.csv", measures_header(scene));
     frame_count_ = std::min(count_frames(folder_, scene), static_cast<int>(poses.size()));
     require_same_poses(folder_ / "measures.csv", scene, poses, frame_count_);
+    // The capture pose is the same by any settings.
+    if (frame_count_ > 1 && is_there(folder_ / "run.json")) require_same_settings(folder_, settings_text(scene));
     const auto recorded = [&](int number) {
       return read_frame(folder_, scene, number, poses[static_cast<std::size_t>(number)]);
     };

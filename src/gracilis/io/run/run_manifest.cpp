@@ -19,6 +19,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <sstream>
 #include <thread>
 
 namespace gracilis {
@@ -178,6 +179,25 @@ nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
       {"joints"}, [](const Json& json) { return is_list_of(json, is_joint); }, "a list of joints");
   require({"axes", "action_lines", "rest_overlaps", "libraries", "counters", "preview"}, is_object, "an object");
   return manifest;
+}
+
+static std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+void require_same_settings(const std::filesystem::path& folder, const std::string& settings) {
+  const nlohmann::ordered_json manifest = read_manifest(folder);
+  const std::vector<std::string> then = lines_of(manifest["settings"].get<std::string>()), now = lines_of(settings);
+  const auto [was, is] = std::mismatch(then.begin(), then.end(), now.begin(), now.end());
+  if (was == then.end() && is == now.end()) return;
+  const std::string before = was == then.end() ? "nothing" : "'" + *was + "'",
+                    after = is == now.end() ? "nothing" : "'" + *is + "'";
+  throw InputError({(folder / "run.json").string(), "",
+                    fmt::format("the run was begun with {} where there is {} now", before, after),
+                    "resume with the settings that it was begun with, or replace the run with --force"});
 }
 
 void write_manifest(const std::filesystem::path& path, const RunManifest& manifest) {

@@ -59,4 +59,8 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
 /// lines. Throws InputError where it is missing, not JSON or of another shape.
 nlohmann::ordered_json read_manifest(const std::filesystem::path& folder);
 
+/// Throws InputError where the run in FOLDER was begun with other settings than these, lines of TOML: what goes on with
+/// them would join two runs. Names the first that differs. Errors as read_manifest.
+void require_same_settings(const std::filesystem::path& folder, const std::string& settings);
+
 }  // namespace gracilis
