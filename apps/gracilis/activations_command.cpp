@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/joints/joint_control.hpp>
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/json_file.hpp>
 #include <gracilis/io/tables/activation_samples.hpp>
 
@@ -114,6 +115,7 @@ int join(const JoinOptions& options) {
     keep_coordinates(options.coordinates, coordinates, joined.samples);
     coordinates = options.coordinates.size();
   }
+  create_folder_of(options.out);
   write_sto(options.out, joined.samples);
   report(joined.samples, coordinates, options.json);
   return static_cast<int>(ExitCode::done);

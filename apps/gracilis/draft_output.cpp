@@ -52,6 +52,7 @@ static void write_mended(const FoundMuscle& muscle) {
 }
 
 void write_draft_files(const SceneDraft& draft, const fs::path& out) {
+  create_folder_of(out);
   const std::string clouds = draft_landmarks(draft);
   const fs::path table = clouds.empty() ? fs::path() : landmark_table(out);
   if (!clouds.empty()) write_text_atomically(table, clouds);
@@ -108,6 +109,7 @@ static void tell_as_json(const SceneDraft& draft, const Scene& scene, const fs::
 /// Says whether there is a picture.
 static bool draw(const SceneDraft& draft, const Scene& scene, const fs::path& path) {
   try {
+    create_folder_of(path);
     render_picture(scene_picture(scene, doubtful_ends(draft)), path);
     return true;
   } catch (const Error& error) {

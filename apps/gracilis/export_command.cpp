@@ -277,6 +277,7 @@ void add_export_command(CLI::App& program, Command& chosen) {
         if (options->to != format.name) continue;
         const RecordedRun run = open_recorded_run(options->run);
         const std::filesystem::path out = options->out.empty() ? options->run / format.default_out : options->out;
+        create_folder_of(out);
         format.write(run, out, *options);
         fmt::print("{}\n", out.string());
       }

@@ -3,6 +3,7 @@
 #include "console.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/view/pictures/gif.hpp>
 #include <gracilis/view/pictures/picture_layout.hpp>
@@ -103,6 +104,7 @@ int render(const RenderOptions& options) {
     throw ConfigurationError(
         {options.out.string(), "", "is no kind of picture that can be written", "name a .png, .gif or .mp4 file"});
   }
+  create_folder_of(options.out);
   const int first = options.without_ramp ? std::min(runs[0].first_motion_frame, runs[0].frame_count - 1) : 0;
   if (!film) {
     check_frames(options.frames, runs[0]);

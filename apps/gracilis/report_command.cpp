@@ -3,6 +3,7 @@
 #include "run_scene.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
 #include <gracilis/view/report/live_page.hpp>
 #include <gracilis/view/report/report.hpp>
@@ -61,6 +62,7 @@ void add_report_command(CLI::App& program, Command& chosen) {
       std::vector<RecordedRun> runs;
       for (const std::filesystem::path& folder : options->runs) runs.push_back(open_recorded_run(folder));
       const std::filesystem::path out = options->out.empty() ? options->runs[0] / "report.html" : options->out;
+      create_folder_of(out);
       // The live page first: where there is no page or no scene any more, nothing is written.
       const std::filesystem::path page = options->live ? write_live(*options, out) : "";
       write_report(out, runs);

@@ -7,6 +7,7 @@
 #include "study_listing.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/json_file.hpp>
 #include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/io/value_reader.hpp>
@@ -185,6 +186,7 @@ int collect(const StudyOptions& options) {
 int report(const StudyOptions& options) {
   const Study study = study_of(options);
   const std::filesystem::path out = options.report.empty() ? study.folder / "report.html" : options.report;
+  create_folder_of(out);
   write_study_page(out, study, GRACILIS_VERSION, options.worst,
                    [](const std::string& line) { spdlog::warn("{}", line); });
   fmt::print("{}\n", out.string());

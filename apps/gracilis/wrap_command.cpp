@@ -97,6 +97,7 @@ int wrap_model(WrapOptions options) {
   if (wrapped.muscles.empty())
     throw InputError({options.file.string(), "", "has no muscle that the model can take",
                       "name muscles and bodies as the model does"});
+  create_folder_of(options.out);
   write_text_atomically(options.out, opensim::model_with_paths(options.model, model, wrapped.muscles));
   spdlog::info("{}: {} of {} muscles replaced", options.out.string(), wrapped.muscles.size(), model.muscles.size());
   return static_cast<int>(ExitCode::done);

@@ -75,6 +75,21 @@ TEST_F(BrokenInput, with_stdout_closed_what_is_printed_is_lost_and_told_of) {
   EXPECT_THAT(said_by(program + " --version <&- >/dev/null; echo exit $?"), testing::EndsWith("exit 0\n"));
 }
 
+TEST_F(BrokenInput, a_file_may_be_asked_for_in_a_folder_that_is_not_there) {
+  ASSERT_EQ(run_of(good_scene()).exit_code, 0);
+  const std::string run = folder.path("out").string();
+  for (const std::string& command : {"report " + run + " --out ", "export " + run + " --to usd --vertices 50 --out ",
+                                    "new " + folder.path("muscle.ply").string() + " --out "}) {
+    const std::string name = command.starts_with("new")      ? "new.toml"
+                             : command.starts_with("export") ? "run.usda"
+                                                             : "report.html";
+    const ProgramResult result = run_program(command + folder.path("not/there/" + name).string());
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_TRUE(std::filesystem::exists(folder.path("not/there/" + name)));
+    std::filesystem::remove_all(folder.path("not"));
+  }
+}
+
 TEST_F(BrokenInput, a_new_scene_replaces_no_file_beside_it_unasked) {
   for (const std::string name : {"my_landmarks.csv", "my.png"}) {
     folder.write(name, "mine");

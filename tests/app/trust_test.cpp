@@ -165,6 +165,22 @@ TEST_F(Trust, a_run_resumed_with_other_settings_is_refused_and_left_as_it_is) {
   EXPECT_EQ(run(good_scene(), "--set iterations=20 --resume").exit_code, 0);
 }
 
+TEST_F(Trust, a_full_disk_under_the_cache_does_not_end_a_picture) {
+  ASSERT_EQ(run(good_scene()).exit_code, 0);
+  // A disk of its own, as far as the system lets a test have one.
+  const std::string in_a_full_disk =
+      "unshare -rm sh -c 'mkdir -p $XDG_CACHE_HOME && mount -t tmpfs -o size=16k none $XDG_CACHE_HOME || exit 77; "
+      "exec \"$0\" \"$@\"' ";
+  const fs::path picture = folder.path("picture.png");
+  const int status = std::system((in_a_full_disk + build_paths::program + " render " + out() + " --frames 0 --out " +
+                                  picture.string() + " >" + folder.path("said").string() + " 2>&1")
+                                     .c_str());
+  if (WEXITSTATUS(status) == 77 || bytes("said").find("unshare") != std::string::npos) GTEST_SKIP() << bytes("said");
+  if (bytes("said").find("no picture can be drawn") != std::string::npos) GTEST_SKIP() << bytes("said");
+  EXPECT_EQ(WEXITSTATUS(status), 0) << bytes("said");
+  EXPECT_TRUE(fs::exists(picture));
+}
+
 // ---- Exit codes
 
 TEST_F(Trust, what_the_system_refuses_is_3_and_no_internal_error) {

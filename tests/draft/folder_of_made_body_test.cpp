@@ -279,6 +279,64 @@ TEST(FolderOfMadeBody, what_a_run_takes_with_flaws_is_mended_where_that_is_asked
   EXPECT_FALSE(mended({}, "piriformis_r"));
 }
 
+TEST(FolderOfMadeBody, files_named_like_those_of_a_scene_are_taken_unless_a_drafted_scene_wrote_them) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.02, 3);
+  std::filesystem::create_directory(folder.path() / "hip" / "leg_mended");
+  write_surface(folder.path() / "hip" / "leg_mended" / "piriformis.R.vtp", ball.vertices, ball.faces);
+  folder.write("hip/leg_landmarks.csv", "HJC;1;2;3\n");
+  const auto files = [&] { return list_folder(folder.path() / "hip"); };
+  const std::size_t surfaces = files().surfaces.size();
+  folder.write("hip/leg.toml", "# By hand.\nschema = 1\n");
+  EXPECT_EQ(files().surfaces.size(), surfaces);
+  EXPECT_EQ(files().tables.size(), 1u);
+  folder.write("hip/leg.toml", std::string(drafted_scene_mark) + " More.\nschema = 1\n");
+  EXPECT_EQ(files().surfaces.size(), surfaces - 1);
+  EXPECT_EQ(files().tables.size(), 0u);
+}
+
+TEST(FolderOfMadeBody, of_two_surfaces_of_one_name_that_is_taken_which_a_run_takes) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.02, 3), open = ball;
+  open.faces.conservativeResize(3, open.faces.cols() - 10);
+  for (const char* name : {"as_scanned", "mended"}) std::filesystem::create_directory(folder.path() / "hip" / name);
+  write_surface(folder.path() / "hip" / "as_scanned" / "piriformis.R.vtp", open.vertices, open.faces);
+  write_surface(folder.path() / "hip" / "mended" / "piriformis.R.vtp", ball.vertices, ball.faces);
+  const FoundFolder found = find_surfaces(folder.path() / "hip");
+  const auto taken = std::find_if(found.muscles.begin(), found.muscles.end(),
+                                  [](const FoundMuscle& each) { return each.name == "piriformis_r"; });
+  ASSERT_NE(taken, found.muscles.end());
+  EXPECT_EQ(taken->file.parent_path().filename(), "mended");
+  EXPECT_THAT(found.left_out, testing::ElementsAre(testing::HasSubstr("piriformis_r is there already, from")));
+}
+
+TEST(FolderOfMadeBody, a_muscle_whose_heads_are_here_is_left_out_and_one_that_only_is_called_like_them_is_not) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  const auto put = [&](const std::string& name, const TriangleMesh& mesh) {
+    write_surface(folder.path() / "hip" / "muscles" / name, mesh.vertices, mesh.faces);
+  };
+  const TriangleMesh medial = shapes::sphere(Vec3::Zero(), 0.02, 3), away = shapes::sphere(Vec3(0, 0, 0.3), 0.02, 3),
+                     lateral = shapes::sphere(Vec3(0.05, 0, 0), 0.02, 3);
+  put("gastrocnemius medial.R.vtp", medial);
+  put("gastrocnemius lateral.R.vtp", lateral);
+  put("gastrocnemius.R.vtp", shapes::both(medial, lateral));
+  put("extensor digitorum longus.R.vtp", medial);
+  put("extensor digitorum brevis.R.vtp", lateral);
+  put("extensor digitorum.R.vtp", away);
+  const FoundFolder found = find_surfaces(folder.path() / "hip");
+  EXPECT_THAT(found.left_out, testing::ElementsAre(testing::HasSubstr(
+                                  "its heads are here, too: gastrocnemius_lateral_r, gastrocnemius_medial_r")));
+  const auto has = [&](const std::string& name) {
+    return std::any_of(found.muscles.begin(), found.muscles.end(), [&](auto& each) { return each.name == name; });
+  };
+  EXPECT_FALSE(has("gastrocnemius_r"));
+  EXPECT_TRUE(has("gastrocnemius_medial_r"));
+  EXPECT_TRUE(has("extensor_digitorum_r"));
+}
+
 TEST(FolderOfMadeBody, a_folder_without_known_bones_is_refused_in_words) {
   const TestFolder folder;
   write_body(folder.path() / "hip", hip(), {{"iliacus_r", "iliacus.vtp"}, {"femur_r", "part_one.vtp"}});

@@ -1,5 +1,8 @@
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/needles.hpp>
+#include <gracilis/geometry/topology.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
+#include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/mending.hpp>
 #include <gracilis/prepare/solids.hpp>
 
@@ -9,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 /// Surfaces mended so that a run takes them, and no more.
@@ -19,6 +23,13 @@ using shapes::both;
 using shapes::sphere;
 
 constexpr Real edge = 0.01;  // m
+
+Real shortest_edge(const TriangleMesh& mesh) {
+  Real least = 1;
+  for (const MeshEdge& each : build_topology(mesh.faces, mesh.vertex_count()).edges)
+    least = std::min(least, (mesh.vertices.col(each.a) - mesh.vertices.col(each.b)).norm());
+  return least;
+}
 
 TEST(Mending, of_a_shell_in_a_shell_the_outer_one_is_left_bit_for_bit) {
   const TriangleMesh outer = sphere(Vec3::Zero(), 2 * edge, 3), inner = sphere(Vec3::Zero(), 1.5 * edge, 3);
@@ -40,6 +51,16 @@ TEST(Mending, where_nothing_is_wrong_triangles_stay) {
     EXPECT_EQ((mended.mesh.vertices.colwise() - left.vertices.col(v)).colwise().norm().minCoeff(), 0);
   }
   EXPECT_GT(away, left.vertex_count() / 2);
+}
+
+TEST(Mending, where_pieces_were_united_no_edge_is_far_shorter_than_the_others) {
+  // So many edges cross that some of the cut's are short by chance.
+  const TriangleMesh left = sphere(Vec3::Zero(), 2 * edge, 4), right = sphere(Vec3(3 * edge, 1e-3, 2e-3), 2 * edge, 4);
+  const TriangleMesh united = *exact_union(left, right), mended = mended_surface(both(left, right), "balls").mesh;
+  EXPECT_LT(shortest_edge(united), 0.01 * even_edge(united));
+  EXPECT_GT(shortest_edge(mended), 0.1 * even_edge(mended));
+  EXPECT_FALSE(cuts_itself(mended, TimeLimit()));
+  EXPECT_NEAR(volume_of(mended), volume_of(united), 1e-3 * volume_of(united));
 }
 
 TEST(Mending, takes_no_longer_than_it_may) {

@@ -1,5 +1,7 @@
 #include <gracilis/draft/draft_text.hpp>
 
+#include <gracilis/draft/folder_names.hpp>
+
 #include <gracilis/core/quoted_text.hpp>
 
 #include <fmt/format.h>
@@ -68,14 +70,13 @@ struct Writing {
 
   void head(const std::string& name, const fs::path& landmarks) {
     if (is_whole()) {
-      line(
-          "# Made by gracilis from surfaces. What follows '# guessed:' nobody said: look at the picture beside this "
-          "file,");
+      line(drafted_scene_mark +
+           std::string(" What follows '# guessed:' nobody said: look at the picture beside this file,"));
       line("# correct what is wrong, and take what you have checked off the list 'guessed'. 'gracilis print-config'");
       line("# explains every key.");
     } else {
-      line(
-          "# Made by gracilis from surfaces. Where it says '# missing:', take the '# ' off the lines that follow, and");
+      line(drafted_scene_mark +
+           std::string(" Where it says '# missing:', take the '# ' off the lines that follow, and"));
       line(
           "# change what they say. 'gracilis inspect FILE' tells what is wrong still, 'gracilis print-config' "
           "explains");

@@ -4,6 +4,7 @@
 #include <gracilis/io/input_file.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 
 namespace gracilis {
@@ -81,12 +82,14 @@ NamedSurfaceFile named(const std::string& name, const fs::path& folders) {
 
 const std::string table_ending = "_landmarks", mended_ending = "_mended";
 
-/// Whether a drafted scene beside it wrote this table of landmarks, or this folder of mended surfaces.
+/// Whether a drafted scene beside it wrote this table of landmarks, or this folder of mended surfaces: a person may
+/// give files such names, too.
 bool is_of_a_scene(const fs::path& path, const std::string& ending) {
   const std::string stem = path.stem().string();
   if (!stem.ends_with(ending)) return false;
-  std::error_code ignored;
-  return fs::exists(path.parent_path() / (stem.substr(0, stem.size() - ending.size()) + ".toml"), ignored);
+  std::ifstream scene(path.parent_path() / (stem.substr(0, stem.size() - ending.size()) + ".toml"));
+  std::string first;
+  return std::getline(scene, first) && first.starts_with(drafted_scene_mark);
 }
 
 /// Adds the file's surfaces, whose names are looked at with the folders that they lie in. A .glb with one mesh that is

@@ -37,6 +37,9 @@ struct FolderFiles {
   std::shared_ptr<MeshFiles> meshes = std::make_shared<MeshFiles>();  ///< which the surfaces are read from
 };
 
+/// How a drafted scene's file begins, by which it is told from one written by hand.
+inline constexpr const char* drafted_scene_mark = "# Made by gracilis from surfaces.";
+
 /// Where a drafted scene puts the surfaces that it had mended.
 std::filesystem::path mended_folder(const std::filesystem::path& scene);
 

@@ -1,8 +1,9 @@
 #include <gracilis/draft/found_surfaces.hpp>
 
 #include <gracilis/core/errors.hpp>
-#include <gracilis/core/median.hpp>
 #include <gracilis/core/shell_word.hpp>
+#include <gracilis/draft/folder_unit.hpp>
+#include <gracilis/draft/muscle_heads.hpp>
 #include <gracilis/draft/surface_flaws.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_pieces.hpp>
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -23,69 +23,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Unit {
-  const char* name;
-  Real length;
-};
-constexpr std::array<Unit, 3> units = {{{"m", 1}, {"cm", 0.01}, {"mm", 0.001}}};
-
-/// Grown people's bones are 0.75 to 1.3 times as long as the dictionary says, a newborn's 0.25.
-constexpr Real smallest_size = 0.22, largest_size = 1.8;
-
 /// m³, of a grown person: a quadriceps in one piece has two thirds of it.
 constexpr Real largest_muscle = 0.003;
 
 /// Of a muscle's volume: mending that takes more away than where triangles cut others does harm.
 constexpr Real least_kept = 0.95;
-
-Real largest_extent(const Points& points) {
-  if (points.cols() == 0) return 0;
-  return bounding_box(points).sizes().maxCoeff();
-}
-
-/// Half of the bones are this much larger than those of a grown person, were the files in metres.
-Real median_size(const FolderFiles& files) {
-  std::vector<Real> ratios;
-  for (const NamedSurfaceFile& each : files.surfaces) {
-    if (!is_surely_a_bone(each)) continue;
-    try {
-      const Real ratio = largest_extent(files.meshes->read(each.file, 1, each.part).vertices) / each.bone.known->length;
-      if (ratio > 0 && std::isfinite(ratio)) ratios.push_back(ratio);
-    } catch (const InputError&) {
-      continue;  // said where the surface is read for its use
-    }
-  }
-  return median(std::move(ratios));
-}
-
-void choose_unit(const FolderFiles& files, const fs::path& folder, FoundFolder& found) {
-  const Real size = median_size(files);
-  if (size == 0) {
-    throw InputError({folder.string(), "", "holds no bone whose name is known",
-                      "name bones as in femur_r.ply or 'left scapula.stl', in English or Latin, with _r or _l"});
-  }
-  const auto off = [&](const Unit& unit) { return std::abs(std::log(size * unit.length)); };
-  const Unit& best =
-      *std::min_element(units.begin(), units.end(), [&](const Unit& a, const Unit& b) { return off(a) < off(b); });
-  found.unit = best.name;
-  found.unit_length = best.length;
-  found.size = size * best.length;
-  if (found.size >= smallest_size && found.size <= largest_size) return;
-  throw InputError(
-      {folder.string(), "",
-       fmt::format("the bones are {:.3g} times as large as a grown person's in {}, and in no unit of m, cm "
-                   "and mm as large as bones are",
-                   found.size, best.name),
-       "scale the surfaces to one of these units"});
-}
-
-/// The unit as given.
-void take_unit(const FolderFiles& files, const std::string& name, FoundFolder& found) {
-  for (const Unit& unit : units)
-    if (unit.name == name) found.unit_length = unit.length;
-  found.unit = name;
-  if (const Real size = median_size(files); size > 0) found.size = size * found.unit_length;
-}
 
 /// What both sides of one name are told apart by.
 BodySide usual_side(const FolderFiles& files, bool& is_guessed) {
@@ -224,6 +166,33 @@ struct Taking {
     }
   }
 
+  bool run_takes(const NamedSurfaceFile& each) const {
+    try {
+      load(each, SurfaceRole::muscle);
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  }
+
+  /// The surfaces in their order, but of several muscles of one name those first that a run takes as they are.
+  std::vector<const NamedSurfaceFile*> in_order() const {
+    std::vector<const NamedSurfaceFile*> order;
+    std::map<std::string, std::vector<std::size_t>> places;
+    for (const NamedSurfaceFile& each : files.surfaces) {
+      if (each.kind == NamedKind::muscle) places[muscle_name(each, true)].push_back(order.size());
+      order.push_back(&each);
+    }
+    for (const auto& [name, of_name] : places) {
+      if (of_name.size() < 2) continue;
+      std::vector<const NamedSurfaceFile*> sorted;
+      for (const std::size_t place : of_name) sorted.push_back(order[place]);
+      std::stable_partition(sorted.begin(), sorted.end(), [&](const auto* each) { return run_takes(*each); });
+      for (std::size_t i = 0; i < sorted.size(); ++i) order[of_name[i]] = sorted[i];
+    }
+    return order;
+  }
+
   void take_bone(const NamedSurfaceFile& each) {
     const KnownBone* known = each.bone.known;
     const BodySide side = side_of(each, known && known->paired);
@@ -283,6 +252,15 @@ struct Taking {
       found.left_out.push_back(error.what());
     }
   }
+
+  void take(const NamedSurfaceFile& each) {
+    if (each.kind == NamedKind::bone) take_bone(each);
+    if (each.kind == NamedKind::muscle) take_muscle(each);
+    if (each.kind == NamedKind::patch) take_patch(each);
+    if (each.kind == NamedKind::something_else)
+      found.left_out.push_back(fmt::format("{}: by its name neither bone nor muscle", title(each)));
+    if (each.kind == NamedKind::unknown) take_unknown(each);
+  }
 };
 
 }  // namespace
@@ -314,20 +292,11 @@ FoundFolder find_surfaces(const FolderFiles& files, const fs::path& subject, con
   FoundFolder found;
   found.left_out = files.unreadable;
   found.tables = files.tables;
-  if (unit.empty())
-    choose_unit(files, subject, found);
-  else
-    take_unit(files, unit, found);
+  set_unit(files, subject, unit, found);
   found.side = usual_side(files, found.side_is_guessed);
   Taking taking{found, files, mend};
-  for (const NamedSurfaceFile& each : files.surfaces) {
-    if (each.kind == NamedKind::bone) taking.take_bone(each);
-    if (each.kind == NamedKind::muscle) taking.take_muscle(each);
-    if (each.kind == NamedKind::patch) taking.take_patch(each);
-    if (each.kind == NamedKind::something_else)
-      found.left_out.push_back(fmt::format("{}: by its name neither bone nor muscle", title(each)));
-    if (each.kind == NamedKind::unknown) taking.take_unknown(each);
-  }
+  for (const NamedSurfaceFile* each : taking.in_order()) taking.take(*each);
+  leave_out_wholes(found);
   return found;
 }
 

@@ -109,4 +109,8 @@ void create_folder(const std::filesystem::path& folder) {
     throw InputError({folder.string(), "", "cannot be created: " + error.message(), "choose another place with --out"});
 }
 
+void create_folder_of(const std::filesystem::path& file) {
+  if (file.has_parent_path()) create_folder(file.parent_path());
+}
+
 }  // namespace gracilis

@@ -19,6 +19,9 @@ void write_text_atomically(const std::filesystem::path& path, const std::string&
 /// Makes a folder, and those above it, where they are not there. Throws InputError.
 void create_folder(const std::filesystem::path& folder);
 
+/// The same of the folder that a file is to be written into.
+void create_folder_of(const std::filesystem::path& file);
+
 /// Throws InputError: `what` is why the file at `path` could not be written.
 [[noreturn]] void throw_write_error(const std::filesystem::path& path, const std::string& what);
 

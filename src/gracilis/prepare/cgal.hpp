@@ -39,6 +39,11 @@ Index fill_holes(TriangleMesh& mesh, Real longest, bool fair = true, const TimeL
 std::optional<TriangleMesh> remesh_isotropic(const TriangleMesh& mesh, Real edge_length, int iterations,
                                              const TimeLimit& limit = TimeLimit());
 
+/// A closed surface without most of its slivers: edges shorter than `shortest` (m) are collapsed, and triangles that
+/// are nearly lines flipped away, as long as no triangle turns over; what is at the vertices marked in `kept` (one per
+/// vertex) stays. None where the surface is not closed or CGAL cannot do it. It may cut itself where it did not before.
+std::optional<TriangleMesh> without_slivers(const TriangleMesh& mesh, Real shortest, const std::vector<char>& kept);
+
 /// The surface of what either of two solids encloses. None where a surface is not closed, or cuts itself, or CGAL
 /// cannot do it.
 std::optional<TriangleMesh> exact_union(const TriangleMesh& a, const TriangleMesh& b,

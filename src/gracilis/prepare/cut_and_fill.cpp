@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -46,9 +47,15 @@ void widen(const TriangleMesh& mesh, std::vector<char>& chosen) {
 }
 
 bool cut_and_fill(TriangleMesh& mesh, Real crumb_share, const TimeLimit& limit) {
+  return cut_and_fill(mesh, {}, crumb_share, limit);
+}
+
+bool cut_and_fill(TriangleMesh& mesh, const std::vector<char>& chosen, Real crumb_share, const TimeLimit& limit) {
   for (int cut = 0; cut <= most_cuts; ++cut) {
     limit.check();
     std::vector<char> bad = faces_that_cut(mesh, limit);
+    if (cut == 0 && !chosen.empty())
+      std::transform(bad.begin(), bad.end(), chosen.begin(), bad.begin(), std::bit_or<>());
     if (std::find(bad.begin(), bad.end(), 1) == bad.end()) return is_solid(inspect_mesh(mesh));
     if (cut == most_cuts) return false;
     for (int ring = 0; ring < cut; ++ring) widen(mesh, bad);

@@ -19,4 +19,7 @@ void widen(const TriangleMesh& mesh, std::vector<char>& chosen);
 /// must be closed and manifold.
 bool cut_and_fill(TriangleMesh& mesh, Real crumb_share, const TimeLimit& limit);
 
+/// The same, with some faces (one mark per face) cut out besides, the first time.
+bool cut_and_fill(TriangleMesh& mesh, const std::vector<char>& chosen, Real crumb_share, const TimeLimit& limit);
+
 }  // namespace gracilis

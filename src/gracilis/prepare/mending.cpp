@@ -5,6 +5,7 @@
 #include <gracilis/prepare/estimates.hpp>
 #include <gracilis/prepare/rebuilding.hpp>
 #include <gracilis/prepare/reshaping.hpp>
+#include <gracilis/prepare/slivers.hpp>
 #include <gracilis/prepare/solids.hpp>
 #include <gracilis/prepare/thickness.hpp>
 
@@ -12,7 +13,7 @@
 
 namespace gracilis {
 
-static constexpr Index most_growth = 3;  ///< times as many triangles as there were
+static constexpr Index grid_growth = 3;  ///< times as many triangles as there were
 
 FixedSurface mended_surface(const TriangleMesh& mesh, const std::string& name, const PrepareSettings& settings) try {
   require_affordable({{name, mesh}}, {}, settings);
@@ -26,10 +27,12 @@ FixedSurface mended_surface(const TriangleMesh& mesh, const std::string& name, c
       fixed.repairs.push_back("rebuilt the surface from what it encloses, on a grid");
     }
   }
-  if (settings.edge_length <= 0 || fixed.mesh.face_count() <= most_growth * mesh.face_count()) return fixed;
-  const Real volume = volume_of(fixed.mesh);
-  fixed.mesh = coarsened(fixed.mesh, settings.edge_length, limit);
-  give_volume_back(fixed.mesh, volume, settings.volume_tolerance, limit);
+  if (settings.edge_length > 0 && fixed.mesh.face_count() > grid_growth * mesh.face_count()) {
+    const Real volume = volume_of(fixed.mesh);
+    fixed.mesh = coarsened(fixed.mesh, settings.edge_length, limit);
+    give_volume_back(fixed.mesh, volume, settings.volume_tolerance, limit);
+  }
+  if (!fixed.repairs.empty()) drop_slivers(fixed.mesh, limit);
   return fixed;
 } catch (const OutOfTime&) {
   throw InputError(out_of_time(name, settings));

@@ -7,9 +7,16 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
+#include <system_error>
+#include <utility>
 
 namespace gracilis {
+
+namespace fs = std::filesystem;
 
 static void require_step(bool ok, const char* step) {
   if (ok) return;
@@ -19,8 +26,27 @@ static void require_step(bool ok, const char* step) {
                           step, eglGetError()));
 }
 
+/// Where Mesa keeps compiled shaders: as it chooses it.
+static fs::path shader_cache() {
+  for (const auto& [variable, below] :
+       {std::pair{"MESA_SHADER_CACHE_DIR", ""}, {"XDG_CACHE_HOME", ""}, {"HOME", ".cache"}})
+    if (const char* folder = std::getenv(variable)) return fs::path(folder) / below;
+  return {};
+}
+
+/// Mesa maps a file of its cache into memory and writes to it, which on a full disk ends the program by SIGBUS.
+static void leave_out_full_shader_cache() {
+  constexpr std::uintmax_t enough = 64 << 20;  // bytes; the file has 1.3 MB
+  std::error_code failed;
+  fs::path folder = shader_cache();
+  while (!folder.empty() && !fs::exists(folder, failed) && folder.has_relative_path()) folder = folder.parent_path();
+  const fs::space_info room = fs::space(folder, failed);
+  if (!failed && room.available < enough) setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
+}
+
 /// Mesa's surfaceless platform needs neither a display server nor a graphics card.
 static EGLDisplay surfaceless_display() {
+  leave_out_full_shader_cache();
   const auto get_platform_display =
       reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
   require_step(get_platform_display != nullptr, "eglGetPlatformDisplayEXT");
