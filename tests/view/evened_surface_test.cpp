@@ -45,4 +45,11 @@ TEST(EvenedSurface, leaves_what_is_torn_out_of_it) {
   EXPECT_GT(evened.col(spike).head<2>().norm(), 0.045);
 }
 
+TEST(EvenedSurface, is_the_same_far_from_the_origin) {
+  const TriangleMesh mesh = shapes::cylinder(0.02, 0.1, 24, 20);
+  const Vec3 far(1e5, -2e5, 3e5);
+  const Points there = EvenedSurface(mesh).of(mesh.vertices.colwise() + far);
+  EXPECT_LT(((there.colwise() - far) - EvenedSurface(mesh).of(mesh.vertices)).cwiseAbs().maxCoeff(), 1e-7) << "single precision of 0.1 m";
+}
+
 }  // namespace gracilis

@@ -2,24 +2,38 @@
 
 namespace gracilis {
 
-void move_to_means(Points& vertices, const VertexStars& stars, const Eigen::VectorXd& weights, Real factor) {
-  const Points before = vertices;
-  for (Index v = 0; v < vertices.cols(); ++v) {
-    const Index begin = stars.offsets[static_cast<std::size_t>(v)],
-                end = stars.offsets[static_cast<std::size_t>(v) + 1];
-    if (weights[v] == 0 || begin == end) continue;
-    Vec3 mean = Vec3::Zero();
-    for (Index i = begin; i < end; ++i) mean += before.col(stars.neighbors[static_cast<std::size_t>(i)]);
-    vertices.col(v) += factor * weights[v] * (mean / (end - begin) - before.col(v));
+/// Where vertex v goes from `before` by `factor` of the way to the mean of its neighbors.
+template <class Matrix>
+static auto towards_mean(const Matrix& before, const VertexStars& stars, Index v, Real factor) {
+  using Number = typename Matrix::Scalar;
+  using Place = Eigen::Vector<Number, Matrix::RowsAtCompileTime>;
+  const Index begin = stars.offsets[static_cast<std::size_t>(v)], end = stars.offsets[static_cast<std::size_t>(v) + 1];
+  const Place here = before.col(v);
+  if (begin == end) return here;
+  Place mean = Place::Zero();
+  for (Index i = begin; i < end; ++i) mean += before.col(stars.neighbors[static_cast<std::size_t>(i)]);
+  return Place(here + static_cast<Number>(factor) * (mean / static_cast<Number>(end - begin) - here));
+}
+
+template <class Matrix>
+static void smooth(Matrix& vertices, const VertexStars& stars, int rounds) {
+  Matrix forth(vertices.rows(), vertices.cols());
+  for (int round = 0; round < rounds; ++round) {
+    for (Index v = 0; v < vertices.cols(); ++v) forth.col(v) = towards_mean(vertices, stars, v, smoothing_forth);
+    for (Index v = 0; v < vertices.cols(); ++v) vertices.col(v) = towards_mean(forth, stars, v, smoothing_back);
   }
 }
 
-void smooth_points(Points& vertices, const VertexStars& stars, int rounds) {
-  const Eigen::VectorXd all = Eigen::VectorXd::Ones(vertices.cols());
-  for (int round = 0; round < rounds; ++round) {
-    move_to_means(vertices, stars, all, smoothing_forth);
-    move_to_means(vertices, stars, all, smoothing_back);
-  }
+void move_to_means(Points& vertices, const VertexStars& stars, const Eigen::VectorXd& weights, Real factor) {
+  const Points before = vertices;
+  for (Index v = 0; v < vertices.cols(); ++v)
+    if (weights[v] != 0) vertices.col(v) = towards_mean(before, stars, v, factor * weights[v]);
+}
+
+void smooth_points(Points& vertices, const VertexStars& stars, int rounds) { smooth(vertices, stars, rounds); }
+
+void smooth_points(Eigen::Matrix4Xf& vertices, const VertexStars& stars, int rounds) {
+  smooth(vertices, stars, rounds);
 }
 
 void keep_within(Real farthest, const Points& start, Points& vertices) {

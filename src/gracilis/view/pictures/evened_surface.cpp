@@ -16,8 +16,13 @@ EvenedSurface::EvenedSurface(const TriangleMesh& rest) {
 }
 
 Points EvenedSurface::of(const Points& vertices) const {
-  Points evened = vertices;
-  smooth_points(evened, stars_, evening_rounds);
+  if (vertices.cols() == 0) return vertices;
+  const Vec3 middle = vertices.col(0);  // far from the origin single precision would not do
+  Eigen::Matrix4Xf lanes(4, vertices.cols());
+  lanes.topRows<3>() = (vertices.colwise() - middle).cast<float>();
+  lanes.row(3).setZero();
+  smooth_points(lanes, stars_, evening_rounds);
+  Points evened = lanes.topRows<3>().cast<Real>().colwise() + middle;
   keep_within(farthest_, vertices, evened);
   return evened;
 }

@@ -1,6 +1,7 @@
 #include <gracilis/view/pictures/picture_renderer.hpp>
 
 #include <gracilis/io/mesh/vtk_mesh.hpp>
+#include <gracilis/view/pictures/drawn_together.hpp>
 #include <gracilis/view/pictures/picture_words.hpp>
 #include <gracilis/view/pictures/smooth_lines.hpp>
 #include <gracilis/view/pictures/stripes.hpp>
@@ -59,11 +60,7 @@ static void add_surface(const PaintedSurface& surface, vtkTexture& stripes, vtkR
   mesh->GetPointData()->SetNormals(vertex_normals(surface.mesh));
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(mesh);
-  if (surface.colors.cols() == surface.mesh.vertices.cols() && surface.colors.cols() > 0) {
-    mesh->GetPointData()->SetScalars(color_array(surface.colors));
-  } else {
-    mapper->ScalarVisibilityOff();
-  }
+  mesh->GetPointData()->SetScalars(color_array(surface.colors));
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   if (!surface.stripes.empty()) {
@@ -71,7 +68,7 @@ static void add_surface(const PaintedSurface& surface, vtkTexture& stripes, vtkR
     actor->SetTexture(&stripes);
   }
   vtkProperty* property = actor->GetProperty();
-  property->SetColor(surface.color.x(), surface.color.y(), surface.color.z());
+  property->SetSpecularColor(0.5, 0.5, 0.5);
   property->SetOpacity(surface.opacity);
   property->SetAmbient(0.2);
   property->SetDiffuse(0.85);
@@ -219,7 +216,7 @@ std::map<std::size_t, vtkRenderer*> add_renderers(const Picture& picture, const 
       renderer->SetUseDepthPeeling(true);
       renderer->SetMaximumNumberOfPeels(8);
     }
-    for (const PaintedSurface& surface : panel.surfaces) add_surface(surface, *stripes, *renderer);
+    for (const PaintedSurface& surface : drawn_together(panel.surfaces)) add_surface(surface, *stripes, *renderer);
     for (const PaintedLines& lines : panel.lines) add_lines(lines, layout.cameras[i].looking, scale, *renderer);
     add_camera_lights(*renderer);
     place_camera(layout.cameras[i], layout.half_height, *renderer);
