@@ -15,7 +15,8 @@ parts = {
     "program": base64.b64encode(program.read_bytes()).decode(),
     "worker": text(page, "worker.js"),
     "three": three.read_text(),
-    "scripts": text(report, "orbit.js", "colors.js", "stage.js", "chart.js", "text.js")
+    "scripts": text(report, "orbit.js", "colors.js", "evened_surface.js", "stage.js", "chart.js",
+                    "text.js")
     + text(page, "live_shapes.js", "history.js", "pulling.js", "live.js"),
 }
 whole = text(page, "page.html")

@@ -1,3 +1,4 @@
+#include <gracilis/view/pictures/evened_surface.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/recorded_look.hpp>
 
@@ -38,6 +39,28 @@ TEST_F(ReportInBrowser, muscles_look_like_muscle_at_first_and_have_their_own_col
   EXPECT_EQ(js(mesh + ".material.map === null"), true);
   const auto own = js("[..." + mesh + ".geometry.attributes.color.array.slice(0, 3)]").get<std::vector<Real>>();
   EXPECT_LT((Vec3(own.data()) - muscle_color("gluteus_maximus_r")).cwiseAbs().maxCoeff(), 0.005);
+  expect_peace();
+}
+
+TEST_F(ReportInBrowser, muscles_are_drawn_evened_where_colors_tell_no_values) {
+  FlexingLeg leg(3);
+  TriangleMesh& bumpy = leg.scene.muscles[0].surface;
+  bumpy.vertices.col(9) += 0.004 * (bumpy.vertices.col(9) - Vec3(-0.1, -0.1, 0)).normalized();
+  open({leg.written(folder.path() / "run")});
+  js("page.goTo(2)");
+  const auto drawn = [&]() -> Points {
+    const auto found = js("[...stage.shapes[0].surfaces.find(each => each.name === 'gluteus_maximus_r').mesh.geometry"
+                          ".attributes.position.array]")
+                           .get<std::vector<Real>>();
+    return Eigen::Map<const Points>(found.data(), 3, static_cast<Index>(found.size() / 3));
+  };
+  const Points recorded = leg.record(2).frame.muscles[0].points, evened = EvenedSurface(bumpy).of(recorded);
+  ASSERT_GT((evened - recorded).cwiseAbs().maxCoeff(), 0.001);
+  EXPECT_LT((drawn() - evened).cwiseAbs().maxCoeff(), 2e-5);
+  js("chooseColor('muscle')");
+  EXPECT_LT((drawn() - evened).cwiseAbs().maxCoeff(), 2e-5);
+  js("chooseColor('shape')");
+  EXPECT_LT((drawn() - recorded).cwiseAbs().maxCoeff(), 2e-5);
   expect_peace();
 }
 

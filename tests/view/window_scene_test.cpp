@@ -18,13 +18,16 @@
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
+
 namespace gracilis {
 
-/// One muscle with one fiber, whose actors are the renderer's first two.
+/// One muscle with a bump, and one fiber, whose actors are the renderer's first two.
 class OneMuscleScene : public testing::Test {
  protected:
   OneMuscleScene() {
-    const TriangleMesh muscle = shapes::sphere(Vec3::Zero(), 0.03, 2);
+    TriangleMesh muscle = shapes::sphere(Vec3::Zero(), 0.03, 2);
+    muscle.vertices.col(7) *= 1.1;
     shown.muscles = {"gluteus_medius_r"};
     FrameMaker maker({muscle}, {}, shown);
     ShownFrame frame;
@@ -46,6 +49,14 @@ class OneMuscleScene : public testing::Test {
     scene->show(frame, state, {}, true);
   }
   vtkActor& actor(int number) { return *vtkActor::SafeDownCast(renderer->GetActors()->GetItemAsObject(number)); }
+  /// How far the muscle comes from its middle where it is drawn, mm.
+  Real highest() {
+    vtkDataSet& drawn = *actor(0).GetMapper()->GetInputAsDataSet();
+    Real found = 0;
+    for (vtkIdType v = 0; v < drawn.GetNumberOfPoints(); ++v)
+      found = std::max(found, 1000 * Vec3(drawn.GetPoint(v)).norm());
+    return found;
+  }
   Color fiber_color() { return Color(actor(1).GetProperty()->GetColor()); }
 
   ShownShapes shown;
@@ -69,6 +80,18 @@ TEST_F(OneMuscleScene, a_muscle_is_pale_and_unlike_bone_where_its_fibers_carry_t
   const Color seen = Color(colors->GetTuple3(0)) / 255;
   EXPECT_LT((seen - flesh_color()).cwiseAbs().maxCoeff(), 0.5 / 255 + 1e-9);
   EXPECT_GT((seen - Color(0.72, 0.74, 0.75)).norm(), 0.1);
+}
+
+TEST_F(OneMuscleScene, bumps_are_smoothed_out_where_nothing_drawn_tells_where_vertices_are) {
+  show(WindowColor::natural);
+  EXPECT_LT(highest(), 32);
+  show(WindowColor::muscle);
+  EXPECT_LT(highest(), 32);
+  show(WindowColor::edge_stretch);
+  EXPECT_NEAR(highest(), 33, 1e-3);
+  state.style = SurfaceStyle::edges;
+  show(WindowColor::natural);
+  EXPECT_NEAR(highest(), 33, 1e-3);
 }
 
 TEST_F(OneMuscleScene, a_scale_says_that_values_go_beyond_it_once_some_were_shown) {

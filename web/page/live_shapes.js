@@ -7,6 +7,7 @@ class LiveShapes extends LitScene {
     this.bones = description.bones.map(bone => ({...bone, mesh: this.surface(bone, 0xefe6d0)}));
     this.stripes = stripeTexture(description.brightness);
     this.muscles = description.muscles.map(muscle => ({...muscle, mesh: this.muscleSurface(muscle),
+                                                       evened: new EvenedSurface(muscle.points, muscle.faces),
                                                        lines: this.addLines(new THREE.BufferGeometry())}));
     for (const bone of this.bones) bone.mesh.matrixAutoUpdate = false;
   }
@@ -42,6 +43,7 @@ class LiveShapes extends LitScene {
     muscle.lines.visible = shown && fibersShown;
     if (!shown) return;
     geometry.attributes.position.array.set(now.points);
+    if (!SHAPE_COLORS[state.colorBy].colors && !state.wireframe) muscle.evened.even(geometry.attributes.position.array);
     geometry.attributes.position.needsUpdate = true;
     geometry.computeVertexNormals();
     const opacity = fibersShown ? 0.25 : 1;

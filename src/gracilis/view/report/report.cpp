@@ -13,8 +13,8 @@ namespace gracilis {
 namespace embedded {
 
 // The files beside this one, and Debian's three.js: see gracilis_embed.cmake.
-extern const std::string_view three_js, report_html, report_css, orbit_js, colors_js, stage_js, chart_js, text_js,
-    main_js;
+extern const std::string_view three_js, report_html, report_css, orbit_js, colors_js, evened_surface_js, stage_js,
+    chart_js, text_js, main_js;
 
 }  // namespace embedded
 
@@ -41,8 +41,8 @@ void write_report(const std::filesystem::path& path, const std::vector<RecordedR
     title += (i == 0 ? "" : " and ") + data.back()["name"].get<std::string>();
   }
   std::string scripts;
-  for (const std::string_view script : {embedded::orbit_js, embedded::colors_js, embedded::stage_js, embedded::chart_js,
-                                        embedded::text_js, embedded::main_js})
+  for (const std::string_view script : {embedded::orbit_js, embedded::colors_js, embedded::evened_surface_js,
+                                        embedded::stage_js, embedded::chart_js, embedded::text_js, embedded::main_js})
     scripts += script;
   std::string page(embedded::report_html);
   // From the end to the beginning, for what has been filled in may look like a place itself.

@@ -79,6 +79,7 @@ class RunShapes extends LitScene {
     if (muscle) {
       mesh.material.vertexColors = THREE.VertexColors;
       result.color = this.colorOf(surface.name);
+      result.evened = new EvenedSurface(points, geometry.index.array);
       const bytes = at => new Uint8Array(this.buffer, at, surface.vertices * this.run.shapes.frames.length);
       result.stretch = bytes(surface.stretch_at);
       result.shape = bytes(surface.shape_at);
@@ -147,6 +148,8 @@ class RunShapes extends LitScene {
     if (material.map !== map) Object.assign(material, {map, needsUpdate: true});
     Object.assign(material, {opacity, transparent: opacity < 1, depthWrite: opacity === 1});
     blendPoints(muscle.stored, muscle.vertices, muscle.low, muscle.size, at, geometry.attributes.position.array);
+    // Colors that tell values stand where these were measured.
+    if (!SHAPE_COLORS[state.colorBy].colors) muscle.evened.even(geometry.attributes.position.array);
     geometry.attributes.position.needsUpdate = true;
     geometry.computeVertexNormals();
     this.colorMuscle(muscle, at, frame, state);

@@ -24,6 +24,7 @@ namespace gracilis {
 static constexpr Real fiber_radius = 0.0007;         // m
 static constexpr float attachment_radius = 0.0012f;  // m
 static constexpr Real opacity_seen_through = 0.3;
+static constexpr Real picked_pixels = 5;  // however far the camera is
 
 static void paint(const Color& color, SurfaceActor& surface) {
   surface.actor->GetProperty()->SetColor(color.x(), color.y(), color.z());
@@ -36,6 +37,7 @@ WindowScene::WindowScene(const ShownShapes& shapes, const ShapeHistory& history,
   for (std::size_t b = 0; b < shapes.bones.size(); ++b)
     bones_.push_back(add_surface(shapes.bone_points[b], shapes.bone_faces[b], bone_color(), renderer));
   for (std::size_t m = 0; m < shapes.muscles.size(); ++m) {
+    evened_.emplace_back(TriangleMesh{first->muscles[m].cast<Real>(), shapes.muscle_faces[m]});
     MuscleActors actors{
         add_surface(first->muscles[m], shapes.muscle_faces[m], muscle_color(shapes.muscles[m]), renderer),
         add_empty(true, renderer),
@@ -51,6 +53,19 @@ WindowScene::WindowScene(const ShownShapes& shapes, const ShapeHistory& history,
   slice_ = add_empty(false, renderer);
   arrows_ = add_empty(true, renderer);
   picked_ = add_empty(false, renderer);
+}
+
+/// Whether colors tell only whose or what a vertex is, and nothing else says where it is measured.
+static bool evens(const WindowState& state) {
+  const bool tells_values = state.color_by != WindowColor::natural && state.color_by != WindowColor::muscle &&
+                            state.color_by != WindowColor::tissue;
+  return !tells_values && state.style == SurfaceStyle::solid && state.arrows == Arrows::none &&
+         state.slice == Slice::none;
+}
+
+ShownPoints WindowScene::drawn_points(std::size_t muscle, const ShownFrame& frame, const WindowState& state) const {
+  const ShownPoints& points = frame.muscles[muscle];
+  return evens(state) ? evened_[muscle].of(points.cast<Real>()).cast<float>() : points;
 }
 
 static bool colors_fibers(const WindowState& state) {
@@ -127,7 +142,7 @@ void WindowScene::show_muscle(std::size_t muscle, const ShownFrame& frame, const
   const bool visible = state.muscles[muscle] != MuscleState::hidden;
   surface.actor->SetVisibility(visible);
   if (!visible) return;
-  move_points(frame.muscles[muscle], shapes_.muscle_faces[muscle], surface);
+  move_points(drawn_points(muscle, frame, state), shapes_.muscle_faces[muscle], surface);
   set_point_colors(vertex_colors(muscle, frame, state.color_by), surface);
   // They cost as much as half of all the rest.
   set_stripes(state.color_by == WindowColor::natural && !fast ? shapes_.stripes[muscle] : std::vector<Real>(),
@@ -165,10 +180,11 @@ void WindowScene::show_attachments(std::size_t muscle, const ShownFrame& frame, 
   dots.actor->SetVisibility(visible);
   if (!visible) return;
   ColoredMesh mesh;
+  const ShownPoints points = drawn_points(muscle, frame, state);
   for (std::size_t v = 0; v < shapes_.held[muscle].size(); ++v) {
     const HeldAt held = shapes_.held[muscle][v];
     if (held != HeldAt::nothing)
-      append_dot(frame.muscles[muscle].col(static_cast<Index>(v)), attachment_radius,
+      append_dot(points.col(static_cast<Index>(v)), attachment_radius,
                  tissue_colors()[held == HeldAt::origin ? 2 : 3].color, mesh);
   }
   set_shape(mesh, dots);
@@ -181,7 +197,7 @@ void WindowScene::show_ghosts(std::size_t muscle, int frame, const WindowState& 
     const bool visible = state.ghost != Ghost::none && state.muscles[muscle] != MuscleState::hidden &&
                          number >= history_.begin() && number < frame && (state.ghost == Ghost::trail || g == 0);
     ghost.actor->SetVisibility(visible);
-    if (visible) move_points(history_.at(number)->muscles[muscle], shapes_.muscle_faces[muscle], ghost);
+    if (visible) move_points(drawn_points(muscle, *history_.at(number), state), shapes_.muscle_faces[muscle], ghost);
   }
 }
 
@@ -215,8 +231,9 @@ void WindowScene::show_picked(const ShownFrame& frame, const WindowState& state)
   picked_.actor->SetVisibility(state.picked.has_value());
   if (!state.picked) return;
   ColoredMesh dot;
-  append_dot(frame.muscles[state.picked->muscle].col(state.picked->vertex), 2 * attachment_radius,
-             Color(0.05, 0.35, 0.75), dot);
+  append_dot(drawn_points(state.picked->muscle, frame, state).col(state.picked->vertex),
+             static_cast<float>(picked_pixels / projection_of(renderer_).pixels_per_metre), Color(0.05, 0.35, 0.75),
+             dot);
   set_shape(dot, picked_);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/view/pictures/evened_surface.hpp>
 #include <gracilis/view/pictures/picture_layout.hpp>
 #include <gracilis/view/pictures/stripes.hpp>
 #include <gracilis/view/window/glyphs.hpp>
@@ -32,6 +33,8 @@ class WindowScene {
     SurfaceActor surface, fibers, attachments;
     std::array<SurfaceActor, trail_steps.size()> ghosts;
   };
+  /// Evened, unless something drawn tells where vertices are.
+  ShownPoints drawn_points(std::size_t muscle, const ShownFrame& frame, const WindowState& state) const;
   Color color_of(Real value, WindowColor by);
   std::vector<Color> vertex_colors(std::size_t muscle, const ShownFrame& frame, WindowColor by);
   void show_bones(const ShownFrame& frame, const WindowState& state);
@@ -46,6 +49,7 @@ class WindowScene {
   const ShapeHistory& history_;
   vtkRenderer& renderer_;
   std::vector<MuscleActors> muscles_;
+  std::vector<EvenedSurface> evened_;  ///< per muscle
   std::vector<SurfaceActor> bones_;
   SurfaceActor slice_, arrows_, picked_;
   const vtkSmartPointer<vtkTexture> stripe_texture_ = stripe_texture();
