@@ -14,7 +14,7 @@ TEST(PoseCaption, tells_the_angle_after_the_capture_pose) {
   const TestFolder folder;
   const CaptionedFrames frames = captioned_frames(FlexingLeg(21).written(folder.path()));
   EXPECT_EQ(pose_caption(frames, 0), "capture pose");
-  EXPECT_EQ(pose_caption(frames, 20), "hip_flexion_r 60°");
+  EXPECT_EQ(pose_caption(frames, 20), "hip flexion r 60°");
 }
 
 TEST(PoseCaption, is_the_same_in_a_preview_and_in_pictures_of_the_run) {
@@ -37,6 +37,8 @@ TEST(PoseCaption, tells_the_time_in_every_frame_where_many_coordinates_move_or_n
     EXPECT_EQ(pose_caption(frames, 0), "capture pose");
     EXPECT_EQ(pose_caption(frames, 1), "frame 1, on the way to the motion");
     EXPECT_EQ(pose_caption(frames, 3), "frame 3, 0.25 s");
+    EXPECT_EQ(pose_words(frames, 1), "on the way to the motion") << "beside the number of the frame";
+    EXPECT_EQ(pose_words(frames, 3), "0.25 s");
   };
   expect_times();
   frames.values.setConstant(30);
@@ -49,7 +51,7 @@ TEST(PoseCaption, tells_the_time_in_every_frame_where_many_coordinates_move_or_n
 TEST(PoseCaption, of_a_scene_that_is_moved_live_names_what_has_left_the_capture_pose) {
   const FlexingLeg leg(21);
   EXPECT_EQ(pose_caption(leg.scene, leg.record(0).frame), "capture pose");
-  EXPECT_EQ(pose_caption(leg.scene, leg.record(20).frame), "hip_flexion_r 60°");
+  EXPECT_EQ(pose_caption(leg.scene, leg.record(20).frame), "hip flexion r 60°");
 }
 
 }  // namespace gracilis

@@ -82,7 +82,7 @@ TEST(Preview, captions_say_the_pose) {
   const Picture picture = picture_of(right_hip(), turning(0, 31));
   ASSERT_EQ(picture.panels.size(), 3u);
   EXPECT_EQ(picture.panels[0].caption, "capture pose");
-  EXPECT_EQ(picture.panels[2].caption, "hip_flexion_r 30°");
+  EXPECT_EQ(picture.panels[2].caption, "hip flexion r 30°");
 }
 
 TEST(Preview, of_a_body_without_bones_or_with_some_about_its_joint_has_the_subjects_own_up) {

@@ -68,7 +68,7 @@ TEST_F(RunPicture, frames_stand_side_by_side_and_runs_below_each_other) {
   const Picture many = run_picture(runs, painters, {0, 10, 20}, options);
   EXPECT_EQ(many.columns, 3);
   ASSERT_EQ(many.panels.size(), 6u);
-  EXPECT_EQ(many.panels[5].caption, "b: hip_flexion_r 60°");
+  EXPECT_EQ(many.panels[5].caption, "b: hip flexion r 60°");
   EXPECT_EQ(run_picture(runs, painters, {0}, options).columns, 2);
 }
 

@@ -1,6 +1,7 @@
 #include <gracilis/view/pictures/pose_caption.hpp>
 
 #include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/view/pictures/preview.hpp>
 
 #include <fmt/format.h>
 
@@ -16,17 +17,29 @@ constexpr Index most_captioned = 3;
 constexpr Real least_motion = 0.5;
 
 /// Frames before the motion have times that say nothing.
-std::string time_caption(const CaptionedFrames& frames, int frame) {
+std::string time_words(const CaptionedFrames& frames, int frame) {
   const Real time = frames.times[static_cast<std::size_t>(frame)];
-  if (frame < frames.first_motion_frame || time < 0) return fmt::format("frame {}, on the way to the motion", frame);
-  return fmt::format("frame {}, {:.2f} s", frame, time);
+  if (frame < frames.first_motion_frame || time < 0) return "on the way to the motion";
+  return fmt::format("{:.2f} s", time);
 }
 
 CoordinateLabel label_of_axis(const JointAxis& axis) { return {axis.coordinate, axis.translation ? " mm" : "°"}; }
 
 void append_value(const CoordinateLabel& label, Real value, std::string& caption) {
   // Rounded first: no "-0".
-  caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", label.name, std::round(value) + 0.0, label.unit);
+  caption += fmt::format("{}{} {:.0f}{}", caption.empty() ? "" : ", ", words_of_name(label.name),
+                         std::round(value) + 0.0, label.unit);
+}
+
+Eigen::RowVectorXd ranges_of(const CaptionedFrames& frames) {
+  if (frames.values.size() == 0) return {};
+  return frames.values.colwise().maxCoeff() - frames.values.colwise().minCoeff();
+}
+
+/// All frames of a run are named alike. Where nothing moves, as while activations rise, time tells them apart.
+bool are_told_by_time(const CaptionedFrames& frames) {
+  const Index moving = (ranges_of(frames).array() >= least_motion).count();
+  return moving == 0 || moving > most_captioned;
 }
 
 }  // namespace
@@ -61,16 +74,12 @@ CaptionedFrames captioned_frames(const Scene& scene, const std::vector<Pose>& po
   return frames;
 }
 
-std::string pose_caption(const CaptionedFrames& frames, int frame) {
+std::string pose_words(const CaptionedFrames& frames, int frame) {
   if (frame == 0) return "capture pose";
+  if (are_told_by_time(frames)) return time_words(frames, frame);
   const Eigen::MatrixXd& values = frames.values;
-  if (values.cols() == 0) return time_caption(frames, frame);
-  const Eigen::RowVectorXd ranges = values.colwise().maxCoeff() - values.colwise().minCoeff();
-  // All frames of a run are named alike. Where nothing moves, as while activations rise, time tells them apart.
-  const Index moving = (ranges.array() >= least_motion).count();
-  if (moving == 0 || moving > most_captioned) return time_caption(frames, frame);
   Eigen::Index main = 0;
-  ranges.maxCoeff(&main);
+  ranges_of(frames).maxCoeff(&main);
   std::string caption;
   for (Index i = 0; i < values.cols(); ++i) {
     const Real value = values(frame, i);
@@ -80,6 +89,11 @@ std::string pose_caption(const CaptionedFrames& frames, int frame) {
     append_value(frames.coordinates[static_cast<std::size_t>(i)], value, caption);
   }
   return caption;
+}
+
+std::string pose_caption(const CaptionedFrames& frames, int frame) {
+  const std::string words = pose_words(frames, frame);
+  return frame > 0 && are_told_by_time(frames) ? fmt::format("frame {}, {}", frame, words) : words;
 }
 
 std::string pose_caption(const Scene& scene, const Frame& frame) {

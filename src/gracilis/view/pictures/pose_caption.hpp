@@ -23,7 +23,10 @@ CaptionedFrames captioned_frames(const RecordedRun& run);
 CaptionedFrames captioned_frames(const Scene& scene, const std::vector<Pose>& poses);
 
 /// "capture pose" for frame 0; else the coordinate that moves most and what else has left the capture pose, as in
-/// "hip_flexion_r 45°"; "frame 9, 0.15 s" in runs in which more move than a caption has room for.
+/// "hip flexion r 45°"; "0.15 s" in runs in which more move than a caption has room for.
+std::string pose_words(const CaptionedFrames& frames, int frame);
+
+/// The same with the frame's number before a time, as in "frame 9, 0.15 s": for pictures, which tell it nowhere else.
 std::string pose_caption(const CaptionedFrames& frames, int frame);
 
 /// The same of a scene that is moved live, whose end nobody knows: the first coordinate and all that have left the

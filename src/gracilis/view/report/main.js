@@ -30,9 +30,7 @@ const page = {
   },
 
   poseText(frame) {
-    const main = runs[0].coordinates[runs[0].main_coordinate];
-    return `frame ${frame} of ${runs[0].frame_count - 1}` +
-      (frame === 0 ? ' · capture pose' : main ? ` · ${main.name} ${main.values[frame].toFixed(1).replace('-', '−')}${main.unit}` : '');
+    return `frame ${frame} of ${runs[0].frame_count - 1} · ${runs[0].poses[frame].replaceAll('-', '−')}`;
   },
 
   goTo(frame, index = 0) {

@@ -5,6 +5,7 @@
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/simulate/measures.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
+#include <gracilis/view/pictures/pose_caption.hpp>
 
 #include <fmt/format.h>
 
@@ -211,6 +212,14 @@ static Json coordinates_of(const RecordedRun& run) {
   return coordinates;
 }
 
+/// What captions call each frame.
+static Json poses_of(const RecordedRun& run) {
+  Json poses = Json::array();
+  const CaptionedFrames frames = captioned_frames(run);
+  for (int frame = 0; frame < run.frame_count; ++frame) poses.push_back(pose_words(frames, frame));
+  return poses;
+}
+
 Json report_data(const RecordedRun& run) {
   Json muscles = Json::array();
   for (std::size_t i = 0; i < run.muscles.size(); ++i) {
@@ -226,7 +235,7 @@ Json report_data(const RecordedRun& run) {
           {"frame_count", run.frame_count},
           {"times", rounded(Eigen::Map<const Eigen::VectorXd>(run.times.data(), run.frame_count))},
           {"coordinates", coordinates_of(run)},
-          {"main_coordinate", main_coordinate(run)},
+          {"poses", poses_of(run)},
           {"anterior", vector(run.axes.anterior)},
           {"superior", vector(run.axes.superior)},
           {"right", vector(run.axes.right())},

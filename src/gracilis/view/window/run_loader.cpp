@@ -98,7 +98,7 @@ void RunLoader::fill_forces(int number, ShownFrame& frame) const {
 
 ShownFrame RunLoader::read(int number) {
   ShownFrame frame;
-  frame.caption = pose_caption(captions_, number);
+  frame.caption = pose_words(captions_, number);
   std::vector<Points> muscles;
   for (TriangleMesh& surface : read_surfaces(run_, run_.muscles, number))
     muscles.push_back(std::move(surface.vertices));

@@ -298,7 +298,7 @@ void Viewer::write_speed(const ShownFrame& frame) {
 void Viewer::write_status() {
   const std::shared_ptr<const ShownFrame> frame = history_.at(player_.frame);
   const std::string hint_text = hint();
-  status_->SetInput(fmt::format("frame {} of {}    {}{}{}", player_.frame, total_frames() - 1, words_of(frame->caption),
+  status_->SetInput(fmt::format("frame {} of {}    {}{}{}", player_.frame, total_frames() - 1, frame->caption,
                                 hint_text.empty() ? "" : "    ", hint_text)
                         .c_str());
   if (picked_) picked_->SetInput(numbers_of(*state_.picked, shapes_, *frame).c_str());
