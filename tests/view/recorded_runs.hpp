@@ -20,6 +20,7 @@ struct FlexingLeg {
   /// Of "bulging_r", by a method whose muscles are under tension: 10 kPa and 0.1 N in frame 0, twice as much in each
   /// next.
   bool knows_forces = false;
+  int fibers = 1;     ///< of each muscle, all the same
   bool pull = false;  ///< it pulls at its ends, too: 10 N in frame 0, twice as much in each next
 
   explicit FlexingLeg(int frames = 21) {
@@ -61,7 +62,7 @@ struct FlexingLeg {
       Points line(3, 3);
       line << -0.02, 0, 0.02, 0, 0.001, 0, 0, 0, 0;
       line *= m == 0 ? growth : 1;
-      result.fibers[m].lines = join({line.colwise() + middle});
+      result.fibers[m].lines = join(std::vector<Points>(static_cast<std::size_t>(fibers), line.colwise() + middle));
       result.fibers[m].lengths = polyline_lengths(result.fibers[m].lines);
       result.fibers[m].mean_length = result.fibers[m].lengths[0];
     }

@@ -142,6 +142,18 @@ TEST(ReportShapes, keep_to_their_budget_by_thinning_and_leaving_frames_out) {
   EXPECT_EQ(frames.back(), 129);
 }
 
+TEST(ReportShapes, keep_to_their_budget_where_the_fewest_vertices_and_many_fibers_of_all_frames_do_not_fit) {
+  const TestFolder folder;
+  FlexingLeg leg(130);
+  leg.fibers = 400;
+  const ReportShapes shapes = report_shapes(leg.written(folder.path()), 150'000);
+  EXPECT_LT(shapes.bytes.size(), 150'000u);
+  EXPECT_GT(shapes.bytes.size(), 75'000u);
+  EXPECT_EQ(shapes.description["frames"].front(), 0);
+  EXPECT_EQ(shapes.description["frames"].back(), 129);
+  EXPECT_GE(shapes.description["fibers"][0]["sizes"].size(), 4u);
+}
+
 TEST(Report, what_runs_say_cannot_break_the_page) {
   const TestFolder folder;
   write_report(folder.path() / "report.html", {FlexingLeg(3).written(folder.path() / "run")});

@@ -19,8 +19,10 @@ using Json = nlohmann::ordered_json;
 
 static constexpr int most_frames = 120;              // shown; the view blends between them
 static constexpr Index most_muscle_vertices = 4000;  // what one sees no longer, a file need not hold
+static constexpr Index fewest_muscle_vertices = 100;
 static constexpr Index most_bone_vertices = 4000;
-static constexpr int most_fibers = 32;  // per muscle
+static constexpr int most_fibers = 32, fewest_fibers = 4;        // per muscle
+static constexpr std::size_t vertex_bytes = 8, look_bytes = 15;  // of a muscle: in each frame; once, with its two faces
 
 /// Appends an array and returns where it begins.
 template <class Number>
@@ -173,14 +175,14 @@ static Json bone_surface(const RecordedRun& run, const std::string& name, const 
 
 /// Null where the run has no fibers of this muscle, or not the same number in every frame.
 static Json muscle_fibers(const RecordedRun& run, const std::string& name, const std::vector<int>& frames,
-                          std::string& bytes) {
-  const Polylines rest = spread_lines(placed_fibers(run, name, 0), most_fibers);
+                          Index fibers_shown, std::string& bytes) {
+  const Polylines rest = spread_lines(placed_fibers(run, name, 0), fibers_shown);
   if (rest.count() == 0) return nullptr;
   const std::vector<Real> rest_lengths = polyline_lengths(rest);
   std::vector<Points> points;
   std::vector<std::uint8_t> strain;
   for (const int frame : frames) {
-    const Polylines now = spread_lines(placed_fibers(run, name, frame), most_fibers);
+    const Polylines now = spread_lines(placed_fibers(run, name, frame), fibers_shown);
     if (now.offsets != rest.offsets) return nullptr;
     points.push_back(now.points);
     const std::vector<Real> lengths = polyline_lengths(now);
@@ -194,25 +196,51 @@ static Json muscle_fibers(const RecordedRun& run, const std::string& name, const
   return fibers;
 }
 
+/// What is left out of a run so that it fits.
+struct ShownParts {
+  std::vector<int> frames;
+  Index fibers = 0;  ///< per muscle
+};
+
+/// As many frames as have room with the fewest vertices and fibers; then as many fibers as take a quarter.
+static ShownParts shown_parts(const RecordedRun& run, std::size_t budget) {
+  std::size_t fibers = 0, points = 0;
+  for (const std::string& muscle : run.muscles) {
+    const Polylines rest = placed_fibers(run, muscle, 0);
+    fibers += static_cast<std::size_t>(rest.count()), points += static_cast<std::size_t>(rest.points.cols());
+  }
+  const Real muscles = static_cast<Real>(std::max<std::size_t>(run.muscles.size(), 1));
+  const Real fiber_bytes = fibers == 0 ? 0 : 6.0 * static_cast<Real>(points) / static_cast<Real>(fibers) + 1;
+  const Real fewest = muscles * (vertex_bytes * fewest_muscle_vertices + fewest_fibers * fiber_bytes);
+  const Real room = static_cast<Real>(budget) - muscles * look_bytes * fewest_muscle_vertices;
+  ShownParts parts;
+  parts.frames = spread_frames(run.frame_count, static_cast<int>(std::clamp(room / fewest, 2.0, Real{most_frames})));
+  const Real of_a_fiber = std::max(1.0, static_cast<Real>(parts.frames.size()) * muscles * fiber_bytes);
+  parts.fibers = static_cast<Index>(std::clamp(room / 4 / of_a_fiber, Real{fewest_fibers}, Real{most_fibers}));
+  return parts;
+}
+
 ReportShapes report_shapes(const RecordedRun& run, std::size_t budget) {
   ReportShapes shapes;
-  const std::vector<int> frames = spread_frames(run.frame_count, most_frames);
   Json surfaces = Json::array(), fibers = Json::array();
   const Index bone_vertices = std::min<Index>(
       most_bone_vertices, static_cast<Index>(budget / 4 / 18 / std::max<std::size_t>(run.bones.size(), 1)));
+  const auto [frames, fibers_shown] = shown_parts(run, budget / 4 * 3);
   for (const std::string& bone : run.bones)
     surfaces.push_back(bone_surface(run, bone, frames, bone_vertices, shapes.bytes));
   for (const std::string& muscle : run.muscles) {
-    const Json lines = muscle_fibers(run, muscle, frames, shapes.bytes);
+    const Json lines = muscle_fibers(run, muscle, frames, fibers_shown, shapes.bytes);
     if (!lines.is_null()) fibers.push_back(lines);
   }
   const std::size_t brightness_at = append_brightness(shapes.bytes);
-  // What is left is for the muscles: per vertex 8 bytes in each frame, its look, and two faces.
-  const std::size_t left = budget > shapes.bytes.size() ? budget - shapes.bytes.size() : 0;
-  const std::size_t per_vertex = run.muscles.size() * (8 * frames.size() + 15);
-  const Index muscle_vertices = std::clamp<Index>(static_cast<Index>(left / per_vertex), 200, most_muscle_vertices);
-  for (const std::string& muscle : run.muscles)
-    surfaces.push_back(muscle_surface(run, muscle, frames, muscle_vertices, shapes.bytes));
+  // What is left is for the muscles: for each what those before it, some of which cannot be thinned further, have left.
+  const std::size_t per_vertex = vertex_bytes * frames.size() + look_bytes;
+  for (std::size_t m = 0; m < run.muscles.size(); ++m) {
+    const std::size_t left = budget > shapes.bytes.size() ? budget - shapes.bytes.size() : 0;
+    const auto vertices = static_cast<Index>(left / (run.muscles.size() - m) / per_vertex);
+    surfaces.push_back(muscle_surface(
+        run, run.muscles[m], frames, std::clamp(vertices, fewest_muscle_vertices, most_muscle_vertices), shapes.bytes));
+  }
   shapes.description = {
       {"frames", frames}, {"surfaces", surfaces}, {"fibers", fibers}, {"brightness_at", brightness_at}};
   return shapes;
