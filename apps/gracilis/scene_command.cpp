@@ -4,6 +4,7 @@
 #include "handed_preparation.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/shell_word.hpp>
 #include <gracilis/io/input_file.hpp>
 
 #include <fmt/format.h>
@@ -58,6 +59,9 @@ int make_scene(const SceneCommandOptions& options) {
 
   const fs::path beside = fs::path(options.out).replace_extension(".png");
   write_and_show(draft, options.out, options.picture.empty() ? beside : options.picture, options.json);
+  if (!options.json)
+    spdlog::info("next: gracilis run {} --out {}", shell_word(options.out.string()),
+                 shell_word(fs::path(options.out).replace_extension("").string()));
   return static_cast<int>(ExitCode::done);
 }
 

@@ -4,6 +4,7 @@
 #include "io/scene_folder.hpp"
 #include "opensim/model_texts.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -81,7 +82,8 @@ TEST_F(RomReference, of_a_line_model_is_drawn_and_measured_in_the_pose_of_the_sc
   ASSERT_TRUE(told().starts_with(row)) << told();
   EXPECT_NEAR(std::stod(told().substr(row.size())), distance_at(3), 1e-3);
   std::ifstream chart(folder.path("out/plots/moment_arms_muscle.svg"));
-  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(chart), {}), HasSubstr(">line<"));
+  EXPECT_THAT(std::string(std::istreambuf_iterator<char>(chart), {}),
+              HasSubstr(fmt::format(">line, {:.1f} mm RMS<", distance_at(3))));
 
   const nlohmann::json told_as_json = nlohmann::json::parse(rom(line_model(muscles), "muscle", "--json").out);
   const nlohmann::json& muscle = told_as_json.at("muscles").at(0);

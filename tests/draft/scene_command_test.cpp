@@ -33,6 +33,7 @@ TEST(SceneCommand, a_folder_becomes_a_scene_with_a_picture_that_runs_and_tells_i
   EXPECT_THAT(made.out, HasSubstr("3 bones, 1 joint, 1 muscle"));
   EXPECT_THAT(made.out, HasSubstr("guessed joint hip_r: a sphere"));
   EXPECT_THAT(made.out, HasSubstr("guessed adductor_longus_r insertion"));
+  EXPECT_THAT(made.err, HasSubstr("next: gracilis run " + scene));
   const bool no_picture = made.err.find("no picture") != std::string::npos;
   EXPECT_TRUE(no_picture || std::filesystem::file_size(folder.path() / "hip" / "made.png") > 10000);
 

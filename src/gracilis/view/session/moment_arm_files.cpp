@@ -59,8 +59,10 @@ std::vector<ArmCurve> references_of(const std::vector<ArmCurve>& all, const std:
   return found;
 }
 
-ChartSeries gray_series(const ArmCurve& curve, int number) {
-  ChartSeries series{curve.source, {}, {}, Color::Constant(0.45 + 0.12 * (number % 4)), 2};
+/// Dark among the pale lines of fibers; its name tells how far off the arms are.
+ChartSeries reference_series(const ArmCurve& curve, const ArmComparison& comparison, int number) {
+  ChartSeries series{curve.source, {}, {}, Color::Constant(0.14 * (number % 4)), 2.5};
+  if (comparison.angles > 0) series.name += fmt::format(", {:.1f} mm RMS", 1e3 * comparison.rms);
   for (std::size_t i = 0; i < curve.angles.size(); ++i) {
     series.x.push_back(degrees(curve.angles[i]));
     series.y.push_back(1e3 * curve.arms[i]);
@@ -221,7 +223,8 @@ MomentArmReport write_curves(const std::filesystem::path& folder, const Scene& s
       const std::vector<ArmCurve> curves = references_of(references, muscle.name, moved);
       comparisons += compared(muscle.name, as_list(angles), as_list(arms), curves, report);
       for (std::size_t i = 0; i < curves.size(); ++i)
-        chart.series.push_back(gray_series(curves[i], static_cast<int>(i)));
+        chart.series.push_back(
+            reference_series(curves[i], compare_arms(as_list(angles), as_list(arms), curves[i]), static_cast<int>(i)));
     }
     tell_by_force(table, muscle.name, arms, report);
     if (const std::string text = doubtful_text(table, muscle.name); !text.empty()) report.lines.push_back(text);
