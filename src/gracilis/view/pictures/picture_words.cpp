@@ -101,11 +101,17 @@ ScaleBar scale_bar_of(const PictureLayout& layout, TextWidths& widths) {
 struct Lines {
   std::string text;
   int count = 0;
-  Real width = 0;  ///< pixels, of the longest
+  Real width = 0;     ///< pixels, of the longest
+  bool whole = true;  ///< what stands between commas and colons stays together
 };
 
-/// Words in lines that are no wider than `room`, where that can be; what stands between commas stays together where it
-/// can.
+/// Behind the comma or colon that ends what begins there, and its space.
+std::size_t piece_end(const std::string& text, std::size_t begin) {
+  return std::min({text.find(", ", begin), text.find(": ", begin), text.size() - 2}) + 2;
+}
+
+/// Words in lines that are no wider than `room`, where that can be; what stands between commas and colons stays
+/// together where it can.
 Lines in_lines(const std::string& text, Real room, Real font, TextWidths& widths) {
   Lines lines;
   std::string line;
@@ -121,12 +127,13 @@ Lines in_lines(const std::string& text, Real room, Real font, TextWidths& widths
     line += piece;
   };
   for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end) {
-    end = std::min(text.find(", ", begin), text.size() - 2) + 2;
+    end = piece_end(text, begin);
     const std::string piece = text.substr(begin, end - begin);
     if (widths.of(piece, font) <= room) {
       add(piece);
       continue;
     }
+    lines.whole = false;
     for (std::size_t word = 0, next = 0; word < piece.size(); word = next) {
       next = std::min(piece.find(' ', word), piece.size() - 1) + 1;
       add(piece.substr(word, next - word));
@@ -147,7 +154,8 @@ int caption_begin(const Picture& picture, const PictureLayout& layout, std::size
 }
 
 /// Captions in the largest font in which each finds its room: in one line or, where that would be too small, in
-/// several. All have the same font.
+/// several, which break a coordinate from its value only where they would else be too small, too. All have the same
+/// font.
 struct Captions {
   Real font = 0;  ///< pixels
   std::vector<Lines> lines;
@@ -155,26 +163,30 @@ struct Captions {
 
 Captions captions_of(const Picture& picture, const PictureLayout& layout, TextWidths& widths) {
   Captions captions;
-  const auto fit = [&](int font, bool in_one_line) {
+  enum class Breaks { none, between_pieces, anywhere };
+  const auto fit = [&](int font, Breaks breaks) {
     captions = {layout.text * font, {}};
     bool all = true;
     for (std::size_t i = 0; i < picture.panels.size(); ++i) {
       const std::string& text = picture.panels[i].caption;
       const Rectangle& part = layout.captions[i];
       const Real room = part.width - text_margin - caption_begin(picture, layout, i, widths);
-      captions.lines.push_back(in_one_line ? Lines{text, 1, widths.of(text, captions.font)}
-                                           : in_lines(text, room, captions.font, widths));
+      captions.lines.push_back(breaks == Breaks::none ? Lines{text, 1, widths.of(text, captions.font)}
+                                                      : in_lines(text, room, captions.font, widths));
       const Lines& lines = captions.lines.back();
-      all = all && lines.width <= room && lines.count * caption_pitch * captions.font <= part.height;
+      all = all && (lines.whole || breaks == Breaks::anywhere) && lines.width <= room &&
+            lines.count * caption_pitch * captions.font <= part.height;
     }
     return all;
   };
   for (int font = largest_caption; font >= least_in_one_line; --font)
-    if (fit(font, true)) return captions;
+    if (fit(font, Breaks::none)) return captions;
+  for (int font = largest_caption; font >= least_in_one_line; --font)
+    if (fit(font, Breaks::between_pieces)) return captions;
   for (int font = largest_caption; font > smallest_letters; --font)
-    if (fit(font, false)) return captions;
+    if (fit(font, Breaks::anywhere)) return captions;
   // What would be cut off could not be read either.
-  for (int font = smallest_letters; font > 5 && !fit(font, false); --font) continue;
+  for (int font = smallest_letters; font > 5 && !fit(font, Breaks::anywhere); --font) continue;
   return captions;
 }
 

@@ -118,7 +118,7 @@ CameraDirection preview_camera(const Scene& scene, const std::vector<Pose>& pose
 
 Picture preview_picture(const Scene& scene, const std::vector<Pose>& poses, const std::vector<Frame>& frames) {
   Picture picture;
-  picture.title = scene.name;
+  picture.title = words_of_name(scene.name);
   const CameraDirection camera = preview_camera(scene, poses);
   const CaptionedFrames captions = captioned_frames(scene, poses);
   Panel aimed;
