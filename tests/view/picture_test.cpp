@@ -273,6 +273,19 @@ TEST_F(DrawnPicture, a_long_caption_stands_in_lines_that_can_be_read_and_are_not
   EXPECT_GT(rows, 3 * 8) << "three lines of letters that are 11 pixels high with what hangs below the line";
 }
 
+TEST_F(DrawnPicture, a_caption_in_lines_keeps_a_coordinate_and_its_value_together) {
+  Picture picture = two_panels();
+  picture.panels[1].caption = "a demo: hip flexion right 90°";
+  draw(picture);
+  if (IsSkipped()) return;
+  Rectangle lower = lay_out(picture).captions[1];
+  lower.height /= 2;
+  const Rectangle upper{lower.x, lower.y + lower.height, lower.width, lower.height};
+  const int ink_above = ink_in(upper, image()).first, ink_below = ink_in(lower, image()).first;
+  EXPECT_GT(ink_above, 20);
+  EXPECT_LT(ink_above, 0.5 * ink_below) << "more than the name of the run stands in the first line";
+}
+
 TEST_F(DrawnPicture, the_caption_beside_the_scale_bar_is_as_large_as_the_others) {
   const Picture picture = two_panels_beside_scale_bar("swing 12°, 3 mm", 280);
   draw(picture);
