@@ -73,7 +73,7 @@ class Notebooks(unittest.TestCase):
         before, after = (code_cells(each)[-1]["outputs"][-1]["data"] for each in (stored("moment_arms")["cells"], cells))
         self.assertEqual(set(before), set(after))
         self.assert_alike("".join(before["image/svg+xml"]), "".join(after["image/svg+xml"]))
-        self.assertIn("gluteus_maximus_r", "".join(after["image/svg+xml"]))
+        self.assertIn("gluteus maximus r", "".join(after["image/svg+xml"]))
 
     def test_every_cell_was_run_in_order_and_files_are_small(self):
         for file in notebooks.examples.glob("*.ipynb"):

@@ -17,13 +17,13 @@ static int count(const std::string& text, const std::string& part) {
   return found;
 }
 
-TEST(LineChart, draws_a_line_per_series_and_names_those_with_a_name) {
+TEST(LineChart, draws_a_line_per_series_and_names_those_with_a_name_in_words) {
   const LineChart chart = {
-      "a < b", "x", "y", {{"first", {0, 1}, {2, 3}}, {"second", {0, 1}, {3, 4}}, {"", {0, 1}, {1, 1}}}};
+      "a < b", "x", "y", {{"first", {0, 1}, {2, 3}}, {"second_line", {0, 1}, {3, 4}}, {"", {0, 1}, {1, 1}}}};
   const std::string svg = to_svg(chart);
   EXPECT_EQ(count(svg, "<polyline"), 3);
   EXPECT_THAT(svg, HasSubstr("a &lt; b"));
-  EXPECT_THAT(svg, HasSubstr(">second</text>"));
+  EXPECT_THAT(svg, HasSubstr(">second line</text>"));
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
 }
 

@@ -1,6 +1,7 @@
 #include <gracilis/view/charts/line_chart.hpp>
 
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/view/words_of_name.hpp>
 
 #include <fmt/format.h>
 
@@ -64,7 +65,7 @@ std::string dashes(const std::vector<ChartSeries>& all, std::size_t number) {
 std::string text_at(Real x, Real y, const std::string& anchor, int size, const std::string& text,
                     const std::string& more = "") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-size=\"{}\" {}>{}</text>\n", x, y, anchor,
-                     size, more, escaped(text));
+                     size, more, escaped(words_of_name(text)));
 }
 
 }  // namespace

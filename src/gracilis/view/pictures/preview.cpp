@@ -5,17 +5,13 @@
 #include <gracilis/view/pictures/evened_surface.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/pose_caption.hpp>
+#include <gracilis/view/words_of_name.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 namespace gracilis {
-
-std::string words_of_name(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
 
 static Real distance_from_capture(const std::vector<Pose>& poses, std::size_t i) {
   Real largest = 0;

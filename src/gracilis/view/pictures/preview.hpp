@@ -26,9 +26,6 @@ struct CameraDirection {
 };
 CameraDirection preview_camera(const Scene& scene, const std::vector<Pose>& poses);
 
-/// A name as pictures show it: "gluteus_maximus_r" as "gluteus maximus r".
-std::string words_of_name(std::string name);
-
 /// Reads the frames back from the run folder and writes its preview.png. Throws Error; exit code 4 says that this
 /// machine offers no OpenGL.
 void write_preview(const std::filesystem::path& run_folder, const Scene& scene, const std::vector<Pose>& poses);

@@ -11,6 +11,7 @@
 #include <gracilis/view/pictures/pose_caption.hpp>
 #include <gracilis/view/pictures/preview.hpp>
 #include <gracilis/view/pictures/recorded_look.hpp>
+#include <gracilis/view/words_of_name.hpp>
 
 #include <fmt/format.h>
 

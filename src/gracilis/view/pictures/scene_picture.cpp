@@ -1,6 +1,7 @@
 #include <gracilis/view/pictures/scene_picture.hpp>
 
 #include <gracilis/view/pictures/muscle_colors.hpp>
+#include <gracilis/view/words_of_name.hpp>
 
 #include <algorithm>
 #include <array>
@@ -73,7 +74,7 @@ Picture scene_picture(const Scene& scene, const std::set<std::string>& doubtful)
   const std::array<std::pair<const char*, Vec3>, 4> views = {
       {{"from the front", -forward}, {"from the right", -right}, {"from behind", forward}, {"from the left", right}}};
   Picture picture;
-  picture.title = scene.name + ": where muscles attach, joints' axes; muscles";
+  picture.title = words_of_name(scene.name) + ": where muscles attach, joints' axes; muscles";
   picture.columns = static_cast<int>(views.size());
   picture.panel_width = 480;
   picture.scale_bar = true;
