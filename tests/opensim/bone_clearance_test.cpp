@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace gracilis::opensim {
 
 static Points straight(const Vec3& from, const Vec3& to, Eigen::Index count) {
@@ -59,6 +61,31 @@ TEST(BoneClearance, a_line_through_a_bone_is_brought_out_and_its_sections_lie_ag
                after = clear.centers.col(k + 1) - clear.centers.col(k);
     EXPECT_GT(before.normalized().dot(after.normalized()), std::cos(radians(40))) << k;
   }
+}
+
+/// How deep an edge between two corners comes at most in a bone, m.
+static Real deepest(const SolidBone& bone, const Vec3& from, const Vec3& to) {
+  Real depth = 0;
+  for (int i = 0; i <= 50; ++i) depth = std::max(depth, -bone.distance.query(from + (to - from) * i / 50).distance);
+  return depth;
+}
+
+TEST(BoneClearance, edges_between_corners_are_brought_out_of_a_ridge) {
+  // The ridge lies between two sections, 6 mm deep in the edges between their corners and in no corner.
+  const Points line = straight({0, 0, -0.15}, {0, 0, 0.15}, 31);
+  const Eigen::VectorXd radii = Eigen::VectorXd::Constant(31, 0.02);
+  std::vector<SolidBone> bones;
+  bones.emplace_back(shapes::box({0.014, -0.03, 0.003}, {0.04, 0.03, 0.007}));
+  const ClearSections clear = clear_of_bones(line, radii, 12, bones);
+  const Points vertices = corners(clear);
+  const Points round = section_vertices(line, section_frames(line, Vec3::UnitX()), radii.transpose().replicate(12, 1));
+  Real before = 0;
+  for (Eigen::Index v = 0; v < 30 * 12; ++v) {
+    before = std::max(before, deepest(bones[0], round.col(v), round.col(v + 12)));
+    EXPECT_LT(deepest(bones[0], vertices.col(v), vertices.col(v + 12)), 0.0003) << v;
+  }
+  EXPECT_GT(before, 0.0015);
+  EXPECT_NEAR(clear.volume_share, 1, 0.02);
 }
 
 TEST(BoneClearance, a_line_that_ends_in_a_bone_ends_on_its_surface) {

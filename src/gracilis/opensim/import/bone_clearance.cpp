@@ -2,6 +2,7 @@
 
 #include <gracilis/geometry/polygon_area.hpp>
 #include <gracilis/geometry/section_frames.hpp>
+#include <gracilis/opensim/import/edge_clearance.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -57,17 +58,20 @@ Points clear_centers(const Points& line, const Eigen::VectorXd& radii, const std
   return line + shift;
 }
 
+Real distance_to(const std::vector<SolidBone>& bones, const Vec3& p, Real most) {
+  for (const SolidBone& bone : bones) {
+    const Real box = outside_box(bone, p);
+    most = std::min(most, box > 2 * gap ? box : bone.distance.query(p, deepest_known).distance);
+  }
+  return most;
+}
+
 /// How far one comes from a point outside of the bones along a unit direction, `length` at most: no step is longer than
 /// the distance that is left.
 static Real way_along(const std::vector<SolidBone>& bones, const Vec3& from, const Vec3& direction, Real length) {
   Real way = 0;
   for (int step = 0; step < 100 && way < length; ++step) {
-    const Vec3 p = from + way * direction;
-    Real room = length;
-    for (const SolidBone& bone : bones) {
-      const Real box = outside_box(bone, p);
-      room = std::min(room, box > 2 * gap ? box : bone.distance.query(p, deepest_known).distance);
-    }
+    const Real room = distance_to(bones, from + way * direction, length);
     if (room < gap + 1e-5) break;
     way += room - gap / 2;
   }
@@ -173,12 +177,18 @@ ClearRays clear_rays(const SectionRays& rays, const std::vector<SolidBone>& bone
       if (beside) room = beside(foot, ray, rays.lengths(i, k), room);
       rooms.room(i, k) = std::max(room, gap);
     }
-  ClearRays result;
-  if (beside) {
-    result.lengths = share_out(rooms);
-  } else {
-    result.lengths.resize(count, sections);
-    for (Eigen::Index k = 0; k < sections; ++k) result.lengths.col(k) = rooms.filled(k, 1);
+  const auto filled = [&] {
+    if (beside) return share_out(rooms);
+    Eigen::MatrixXd lengths(count, sections);
+    for (Eigen::Index k = 0; k < sections; ++k) lengths.col(k) = rooms.filled(k, 1);
+    return lengths;
+  };
+  const Eigen::MatrixXd before = filled();
+  ClearRays result{drawn_off_ridges(rays, before, bones), 1};
+  // Among others there is no room for what that takes.
+  if (!beside && result.lengths != before) {
+    rooms.room = (result.lengths.array() < before.array()).select(result.lengths, rooms.room);
+    result.lengths = drawn_off_ridges(rays, filled(), bones);
   }
   result.volume_share = rooms.volume(result.lengths) / rooms.volume(rays.lengths);
   return result;
