@@ -5,9 +5,11 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/shell_word.hpp>
 #include <gracilis/io/counted.hpp>
+#include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/opensim/import/scene_folder.hpp>
+#include <gracilis/opensim/import/scene_joints.hpp>
 #include <gracilis/opensim/import/skeleton_fit.hpp>
 #include <gracilis/opensim/kinematics/skeleton.hpp>
 #include <gracilis/scene/names.hpp>
@@ -15,6 +17,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <memory>
 #include <set>
 
@@ -93,6 +96,28 @@ void say_next(const opensim::Model& model, const std::vector<opensim::NamedMotio
   }
 }
 
+/// Reads the scenes as a run will. What it would refuse is taken back: throws what is wrong with it.
+void check_scenes(const ImportOptions& options, const opensim::Model& model,
+                  const std::vector<opensim::NamedMotion>& motions) {
+  const fs::path& folder = options.out;
+  const auto scene_of = [&](const opensim::NamedMotion& motion) {
+    return folder / (opensim::motion_file_name(motion) + ".toml");
+  };
+  try {
+    if (files_in(folder / "muscles") == 0)
+      throw InputError({options.model.string(), "", "no muscle is left of it", "so there is nothing to run"});
+    if (std::all_of(model.joints.begin(), model.joints.end(),
+                    [&](const opensim::Joint& joint) { return opensim::scene_axes(model, joint).empty(); }))
+      throw InputError({options.model.string(), "", "no coordinate of it moves a body", "so there is nothing to run"});
+    for (const opensim::NamedMotion& motion : motions) read_scene(scene_of(motion));
+  } catch (const Error&) {
+    for (const opensim::NamedMotion& motion : motions) fs::remove(scene_of(motion));
+    fs::remove(folder / "model.toml");
+    spdlog::warn("{}: no scene that runs comes of it", options.model.string());
+    throw;
+  }
+}
+
 int import_model(ImportOptions options) {
   opensim::Model model = read_opensim_model(options.model, options.strict);
   set_pose(model, options.pose);
@@ -111,6 +136,7 @@ int import_model(ImportOptions options) {
       opensim::write_scene_folder(model, places, motions, options.settings, options.out);
   for (const std::string& line : notes.left_out) spdlog::warn("{}", line);
   for (const std::string& line : notes.sheets) spdlog::info("{}", line);
+  check_scenes(options, model, motions);
   for (const opensim::NamedMotion& motion : motions)
     fmt::print("{}\n", (options.out / (opensim::motion_file_name(motion) + ".toml")).string());
   say_next(model, motions, options.out);

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 namespace gracilis {
 
 using opensim::muscle;
@@ -30,6 +32,59 @@ TEST(ImportCommand, an_imported_model_runs_its_motion) {
   const ProgramResult ran = run_program("run " + out + "/swing.toml --out " + (folder.path() / "run").string());
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "run/frames/m_0001.vtp"));
+}
+
+/// Import and run of the pendulum with these muscles and this text in the place of another.
+static std::pair<ProgramResult, ProgramResult> imported_and_run(const TestFolder& folder, const std::string& muscles,
+                                                                const std::string& text = "",
+                                                                const std::string& instead = "") {
+  std::string model = pendulum(muscles);
+  if (!text.empty()) model.replace(model.find(text), text.size(), instead);
+  const std::string scene = (folder.path() / "scene").string();
+  const ProgramResult imported = run_program("import " + folder.write("tiny.osim", model).string() + " --out " + scene);
+  return {imported, run_program("run " + scene + "/rest.toml --out " + (folder.path() / "run").string())};
+}
+
+static const std::string from_ground_to_rod = point("/ground", "0.1 0.1 0") + point("/bodyset/rod", "0.05 -0.3 0");
+
+TEST(ImportCommand, a_range_that_ends_before_it_begins_is_turned_round_and_the_scene_runs) {
+  const TestFolder folder;
+  const auto [imported, ran] = imported_and_run(folder, muscle("m", from_ground_to_rod), "<default_value>",
+                                                "<range>1 -1</range><default_value>");
+  EXPECT_EQ(imported.exit_code, 0) << imported.err;
+  EXPECT_THAT(imported.err, testing::HasSubstr("swing"));
+  EXPECT_THAT(imported.err, testing::HasSubstr("ends before it begins"));
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+}
+
+TEST(ImportCommand, a_muscle_with_fibers_of_twelve_metres_is_left_out_and_the_others_run) {
+  const TestFolder folder;
+  const std::string too_long = "<optimal_fiber_length>12</optimal_fiber_length>";
+  const auto [imported, ran] =
+      imported_and_run(folder, muscle("m", from_ground_to_rod) + muscle("long", from_ground_to_rod, too_long));
+  EXPECT_EQ(imported.exit_code, 0) << imported.err;
+  EXPECT_THAT(imported.err, testing::HasSubstr("long"));
+  EXPECT_THAT(imported.err, testing::HasSubstr("optimal fiber length of 12 m"));
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+}
+
+TEST(ImportCommand, a_model_of_which_no_muscle_is_left_gives_no_scene_and_names_no_run) {
+  const TestFolder folder;
+  const auto [imported, ran] =
+      imported_and_run(folder, muscle("long", from_ground_to_rod, "<optimal_fiber_length>12</optimal_fiber_length>"));
+  EXPECT_EQ(imported.exit_code, 3);
+  EXPECT_THAT(imported.err, testing::HasSubstr("tiny.osim"));
+  EXPECT_THAT(imported.err, testing::Not(testing::HasSubstr("next:")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "scene/rest.toml"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "scene/model.toml"));
+}
+
+TEST(ImportCommand, an_endless_range_runs) {
+  const TestFolder folder;
+  const auto [imported, ran] = imported_and_run(folder, muscle("m", from_ground_to_rod), "<default_value>",
+                                                "<range>-inf inf</range><default_value>");
+  EXPECT_EQ(imported.exit_code, 0) << imported.err;
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
 }
 
 /// A muscle from the ground to the rod, and a swing of three degrees.
@@ -217,7 +272,7 @@ TEST(ImportCommand, a_folder_that_holds_a_model_is_left_alone) {
 TEST(ImportCommand, a_missing_surface_is_named_and_fails_when_strict) {
   const TestFolder folder;
   const auto model =
-      folder.write("tiny.osim", pendulum("",
+      folder.write("tiny.osim", pendulum(muscle("m", from_ground_to_rod),
                                          "<attached_geometry><Mesh name=\"g\"><mesh_file>rod.vtp</mesh_file></Mesh>"
                                          "</attached_geometry>"));
   const ProgramResult result =
@@ -229,8 +284,10 @@ TEST(ImportCommand, a_missing_surface_is_named_and_fails_when_strict) {
 TEST(ImportCommand, a_joint_of_an_unknown_kind_is_named_and_fails_where_strict) {
   const TestFolder folder;
   const std::string text = opensim::document(
-      opensim::set("BodySet", opensim::body("rod")) +
-      opensim::set("JointSet", opensim::joint("ConveyorJoint", "belt", "/ground", "rod", opensim::coordinate("q"))) +
+      opensim::set("BodySet", opensim::body("rod") + opensim::body("box")) +
+      opensim::set("JointSet",
+                   opensim::joint("PinJoint", "hinge", "/ground", "rod", opensim::coordinate("swing")) +
+                       opensim::joint("ConveyorJoint", "belt", "/bodyset/rod", "box", opensim::coordinate("q"))) +
       opensim::set("ForceSet", muscle("m", point("/ground", "0.1 0.1 0") + point("/bodyset/rod", "0.05 -0.3 0"))));
   const std::string import =
       "import " + folder.write("m.osim", text).string() + " --out " + (folder.path() / "scene").string();

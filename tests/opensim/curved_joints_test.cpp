@@ -91,12 +91,14 @@ TEST(CurvedJoints, a_scapula_glides_on_the_thorax_and_wings_about_an_axis_in_its
   }
 }
 
-TEST(CurvedJoints, ellipsoids_without_radii_and_joints_with_too_few_coordinates_are_refused) {
+TEST(CurvedJoints, ellipsoids_without_radii_and_joints_with_too_many_coordinates_are_refused) {
   EXPECT_THAT(complaint_about(shoulder("")), testing::HasSubstr("thoracic_ellipsoid_radii_x_y_z"));
-  EXPECT_THAT(complaint_about(document(set("BodySet", body("rod")) +
-                                       set("JointSet", joint("EllipsoidJoint", "glide", "/ground", "rod",
-                                                             coordinate("a"), "<radii_x_y_z>1 1 1</radii_x_y_z>")))),
-              testing::HasSubstr("has 1 coordinates instead of 3"));
+  EXPECT_THAT(complaint_about(
+                  document(set("BodySet", body("rod")) +
+                           set("JointSet", joint("EllipsoidJoint", "glide", "/ground", "rod",
+                                                 coordinate("a") + coordinate("b") + coordinate("c") + coordinate("d"),
+                                                 "<radii_x_y_z>1 1 1</radii_x_y_z>")))),
+              testing::HasSubstr("has 4 coordinates instead of 3"));
 }
 
 }  // namespace gracilis::opensim

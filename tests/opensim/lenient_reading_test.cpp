@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <limits>
 
 /// Where OpenSim goes on, we go on, too, and tell.
 namespace gracilis::opensim {
@@ -212,6 +213,63 @@ TEST(LenientReading, a_joint_of_no_bodies_is_left_out) {
                           "<PinJoint name=\"nothing\"><socket_parent_frame></socket_parent_frame></PinJoint>")));
   EXPECT_EQ(model.joints.size(), 1u);
   EXPECT_THAT(model.unsupported.at(0), HasSubstr("'nothing': names no bodies"));
+}
+
+TEST(LenientReading, a_joint_that_names_one_body_alone_is_left_out) {
+  // By an empty name of its frame, as versions from 4 have it, and up to 3.2.
+  const Model model =
+      model_from(document(set("BodySet", body("rod") + body("lost")) +
+                          set("JointSet", joint("PinJoint", "hinge", "/ground", "rod", coordinate("swing")) +
+                                              joint("PinJoint", "half", "", "lost", coordinate("none")))));
+  EXPECT_EQ(model.joints.size(), 2u);
+  EXPECT_THAT(model.unsupported.at(0), HasSubstr("'half': names no bodies, or one alone"));
+  const Model old = model_from(document(
+      set("BodySet", body("rod", "<Joint><PinJoint name=\"half\"><parent_body></parent_body></PinJoint></Joint>")),
+      "30000"));
+  EXPECT_EQ(old.joints.at(0).type, "FreeJoint");
+}
+
+TEST(LenientReading, truth_is_told_in_capitals_too_as_simbody_reads_it) {
+  const Model model = model_from(document(
+      set("BodySet", body("rod")) +
+      set("JointSet", joint("PinJoint", "hinge", "/ground", "rod",
+                            "<Coordinate name=\"swing\"><locked>TRUE</locked><clamped>False</clamped></Coordinate>"))));
+  EXPECT_TRUE(model.coordinates.at(0).locked);
+  EXPECT_FALSE(model.coordinates.at(0).clamped);
+}
+
+TEST(LenientReading, a_body_whose_name_begins_with_a_slash_is_found) {
+  const Model model = model_from(document(
+      set("BodySet", body("/rod")) + set("JointSet",
+                                         "<PinJoint name=\"hinge\"><socket_parent_frame>/ground</socket_parent_frame>"
+                                         "<socket_child_frame>/rod</socket_child_frame></PinJoint>")));
+  EXPECT_EQ(model.joints.at(0).child_body, 1);
+}
+
+TEST(LenientReading, a_range_may_be_endless_and_one_that_ends_before_it_begins_is_turned_round) {
+  const auto swing = [](const std::string& range) {
+    return "<Coordinate name=\"swing\"><range>" + range + "</range></Coordinate>";
+  };
+  const auto read = [&](const std::string& range) {
+    return model_from(document(set("BodySet", body("rod")) +
+                               set("JointSet", joint("PinJoint", "hinge", "/ground", "rod", swing(range)))));
+  };
+  EXPECT_EQ(read("-1e308 1e308").coordinates.at(0).range_max, std::numeric_limits<Real>::infinity());
+  const Model turned = read("1 -2");
+  EXPECT_EQ(turned.coordinates.at(0).range_min, -2);
+  EXPECT_EQ(turned.coordinates.at(0).range_max, 1);
+  EXPECT_THAT(turned.unsupported.at(0), HasSubstr("ends before it begins"));
+}
+
+TEST(LenientReading, joints_on_an_ellipsoid_get_the_coordinates_that_the_file_leaves_out) {
+  const auto read = [](const std::string& kind, const std::string& radii) {
+    return model_from(
+        document(set("BodySet", body("rod")) + set("JointSet", joint(kind, "glide", "/ground", "rod", "", radii))));
+  };
+  EXPECT_EQ(read("EllipsoidJoint", "<radii_x_y_z>1 2 3</radii_x_y_z>").coordinates.size(), 3u);
+  EXPECT_EQ(read("ScapulothoracicJoint", "<thoracic_ellipsoid_radii_x_y_z>1 2 3</thoracic_ellipsoid_radii_x_y_z>")
+                .coordinates.size(),
+            4u);
 }
 
 }  // namespace gracilis::opensim

@@ -72,8 +72,13 @@ MuscleLine muscle_line(const Model& model, const Muscle& muscle, const std::vect
                       "longer than any muscle: check the places of its points"});
   if (!(muscle.max_isometric_force > 0))
     throw InputError({model.name, muscle.name, "has no force, so it has no volume", "leave the muscle out"});
-  const MuscleSize size{muscle.max_isometric_force, muscle.optimal_fiber_length, muscle.pennation_angle_at_optimal,
-                        settings.specific_tension};
+  if (!(muscle.optimal_fiber_length < 10))
+    throw InputError({model.name, muscle.name,
+                      fmt::format("has an optimal fiber length of {:.3g} m", muscle.optimal_fiber_length),
+                      "longer than any fiber: check its unit, which is m"});
+  // Models have fibers that lean to either side, or nearly across; scenes know 0 to 89 degrees.
+  const Real pennation = std::min(std::abs(muscle.pennation_angle_at_optimal), radians(89));
+  const MuscleSize size{muscle.max_isometric_force, muscle.optimal_fiber_length, pennation, settings.specific_tension};
   if (!(tendon_radius(size) < length / 4))
     throw InputError({model.name, muscle.name,
                       fmt::format("has a force of {:.3g} N on a line of {:.3g} m", muscle.max_isometric_force, length),
@@ -87,7 +92,7 @@ MuscleLine muscle_line(const Model& model, const Muscle& muscle, const std::vect
   result.line.tendon = share * tendon;
   result.line.origin_tendon = share * origin_tendon;
   result.line.optimal_fiber = muscle.optimal_fiber_length;
-  result.line.pennation = muscle.pennation_angle_at_optimal;
+  result.line.pennation = pennation;
   result.line.name = muscle.name;
   result.line.max_isometric_force = muscle.max_isometric_force;
   return result;

@@ -26,7 +26,7 @@ static std::string axis_text(const SceneAxis& axis, const Eigen::VectorXd& coord
   return fmt::format("\n[[joints.axes]]\ncoordinate = {}\naxis = {}\n{}capture_{} = {}\nrange_{} = [{}, {}]\n",
                      toml_text(axis.coordinate), toml_vector(axis.axis->axis),
                      axis.translation ? "translation = true\n" : "", suffix, value_of(axis, coordinates) * unit, suffix,
-                     axis.range_min * unit, axis.range_max * unit);
+                     scene_bound(axis.range_min) * unit, scene_bound(axis.range_max) * unit);
 }
 
 static std::string joint_text(const Model& model, const Joint& joint, const Skeleton& skeleton,

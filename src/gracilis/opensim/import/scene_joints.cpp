@@ -36,6 +36,8 @@ std::vector<SceneAxis> scene_axes(const Model& model, const Joint& joint) {
   return axes;
 }
 
+Real scene_bound(Real bound) { return std::clamp(bound, Real{-1e6}, Real{1e6}); }
+
 Real value_of(const SceneAxis& axis, const Eigen::VectorXd& coordinates) {
   std::vector<Real> arguments;
   for (const Index i : axis.axis->coordinates) arguments.push_back(coordinates[i]);

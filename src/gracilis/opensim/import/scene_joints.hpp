@@ -29,6 +29,9 @@ struct SceneCoordinate {
   bool translation = false;
 };
 
+/// A range's bound (rad or m) as scenes have it: finite, and so far off that nothing comes there.
+Real scene_bound(Real bound);
+
 /// Nothing where no axis of the coordinate's joint follows it alone and evenly.
 std::optional<SceneCoordinate> scene_coordinate(const Model& model, Index coordinate);
 

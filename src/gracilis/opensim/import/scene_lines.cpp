@@ -79,7 +79,7 @@ static std::string condition_text(const Model& model, const PathPoint& point) {
   Real low = scene->slope * point.range_min + scene->offset, high = scene->slope * point.range_max + scene->offset;
   if (scene->slope < 0) std::swap(low, high);
   return fmt::format("condition = {}\nrange_{} = [{}, {}]\n", toml_text(scene->name), scene->translation ? "mm" : "deg",
-                     unit * low, unit * high);
+                     unit * scene_bound(low), unit * scene_bound(high));
 }
 
 /// Where no axis of the scene follows a coordinate alone, what depends on it cannot be said.

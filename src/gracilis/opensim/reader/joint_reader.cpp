@@ -12,16 +12,25 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 
 namespace gracilis::opensim {
 
 /// The axes of joints that have a name of their own, by the coordinates in their order: 0 to 2 are rotations about x, y
-/// and z, 3 to 5 translations.
-static const std::map<std::string, std::vector<int>> plain_joints = {
-    {"PinJoint", {2}},          {"SliderJoint", {3}},       {"UniversalJoint", {0, 1}},
-    {"BallJoint", {0, 1, 2}},   {"GimbalJoint", {0, 1, 2}}, {"FreeJoint", {0, 1, 2, 3, 4, 5}},
-    {"PlanarJoint", {2, 3, 4}}, {"WeldJoint", {}}};
+/// and z, 3 to 5 translations. Of joints on an ellipsoid, whose axes are made elsewhere, only their number counts.
+static const std::map<std::string, std::vector<int>> plain_joints = {{"PinJoint", {2}},
+                                                                     {"SliderJoint", {3}},
+                                                                     {"UniversalJoint", {0, 1}},
+                                                                     {"BallJoint", {0, 1, 2}},
+                                                                     {"GimbalJoint", {0, 1, 2}},
+                                                                     {"FreeJoint", {0, 1, 2, 3, 4, 5}},
+                                                                     {"PlanarJoint", {2, 3, 4}},
+                                                                     {"WeldJoint", {}},
+                                                                     {"EllipsoidJoint", {0, 1, 2}},
+                                                                     {"ScapulothoracicJoint", {0, 1, 2, 2}}};
 
 static void add_coordinate(ModelReading& reading, const pugi::xml_node& node, Coordinate coordinate, Joint& joint) {
   if (coordinate.name.empty() || index_of(reading.model.coordinates, coordinate.name) >= 0)
@@ -85,6 +94,12 @@ static void read_prescribed(ModelReading& reading, const pugi::xml_node& node, C
                       "follows a function of time, of which the value at 0 s is taken; give its values by a motion");
 }
 
+/// What is so far off stands for no bound.
+static Real range_bound(Real given) {
+  const Real farthest = 1e6;  // rad or m
+  return std::abs(given) < farthest ? given : std::copysign(std::numeric_limits<Real>::infinity(), given);
+}
+
 static void read_coordinates(ModelReading& reading, const pugi::xml_node& node, Joint& joint) {
   const XmlContext& context = reading.context;
   std::vector<pugi::xml_node> nodes = objects_of(node, "coordinates");
@@ -96,8 +111,12 @@ static void read_coordinates(ModelReading& reading, const pugi::xml_node& node, 
     coordinate.default_value = context.number(each, "default_value", 0);
     const std::vector<Real> range = context.numbers(each, "range");
     if (range.size() == 2) {
-      coordinate.range_min = range[0];
-      coordinate.range_max = range[1];
+      coordinate.range_min = range_bound(range[0]);
+      coordinate.range_max = range_bound(range[1]);
+      if (range[1] < range[0]) {
+        std::swap(coordinate.range_min, coordinate.range_max);
+        reading.leave_out(each, "has a range that ends before it begins, which is read the other way round");
+      }
     }
     coordinate.locked = context.boolean(each, "locked", false);
     coordinate.clamped = context.boolean(each, "clamped", false);
@@ -214,17 +233,24 @@ static RigidTransform old_frame(const XmlContext& context, const pugi::xml_node&
   return body_fixed_xyz(rounded(orientation), rounded(location));
 }
 
+/// Whether a joint, which `child` holds where that is not empty, names two bodies; some files have none where OpenSim
+/// never looks.
+static bool names_bodies(const XmlContext& context, const pugi::xml_node& node, const std::string& child) {
+  for (const pugi::xml_node& frame : objects_of(node, "frames"))
+    if (std::string_view(frame.name()) == "PhysicalOffsetFrame" && context.socket(frame, "parent", "parent").empty())
+      return false;
+  if (!child.empty()) return !context.text(node, "parent_body").empty();
+  return !context.socket(node, "parent_frame", "parent_body").empty() &&
+         !context.socket(node, "child_frame", "child_body").empty();
+}
+
 static void read_joint(ModelReading& reading, const pugi::xml_node& node, const std::string& child) {
   const XmlContext& context = reading.context;
+  if (!names_bodies(context, node, child)) return reading.leave_out(node, "names no bodies, or one alone; left out");
   Joint joint;
   joint.name = name_of(node);
   joint.type = node.name();
   read_frames(reading, node, "frames", joint.name);
-  if (child.empty() && context.socket(node, "parent_frame", "parent_body").empty() &&
-      context.socket(node, "child_frame", "child_body").empty()) {
-    reading.leave_out(node, "names no bodies; left out");
-    return;
-  }
   if (child.empty()) {
     const PlacedFrame parent = reading.frame(node, context.socket(node, "parent_frame", "parent_body"), joint.name);
     const PlacedFrame own = reading.frame(node, context.socket(node, "child_frame", "child_body"), joint.name);

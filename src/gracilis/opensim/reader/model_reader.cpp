@@ -42,6 +42,8 @@ static std::string plain_reference(const std::string& reference, const std::stri
 
 PlacedFrame ModelReading::frame(const pugi::xml_node& node, const std::string& given, const std::string& owner) const {
   const std::string reference = given.find("..") == std::string::npos ? given : plain_reference(given, owner);
+  // Some bodies have a name that begins with a slash.
+  if (const Index body = index_of(model.bodies, reference); body >= 0) return {body, RigidTransform::Identity()};
   const std::string name = last_name(reference);
   const std::string above = reference.substr(0, reference.size() - name.size());
   if (above.size() > 1)

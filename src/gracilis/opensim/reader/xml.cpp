@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace gracilis::opensim {
@@ -109,8 +110,11 @@ Vec3 XmlContext::vector(const pugi::xml_node& node, const char* name, const Vec3
 }
 
 bool XmlContext::boolean(const pugi::xml_node& node, const char* name, bool otherwise) const {
-  const std::string content = text(node, name);
+  std::string content = text(node, name);
   if (content.empty()) return otherwise;
+  // As Simbody reads them.
+  std::transform(content.begin(), content.end(), content.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (content == "true" || content == "1") return true;
   if (content == "false" || content == "0") return false;
   fail(node, fmt::format("<{}> is '{}'; it must be true or false", name, content), "correct it");
