@@ -177,17 +177,17 @@ ClearRays clear_rays(const SectionRays& rays, const std::vector<SolidBone>& bone
       if (beside) room = beside(foot, ray, rays.lengths(i, k), room);
       rooms.room(i, k) = std::max(room, gap);
     }
-  const auto filled = [&] {
-    if (beside) return share_out(rooms);
-    Eigen::MatrixXd lengths(count, sections);
-    for (Eigen::Index k = 0; k < sections; ++k) lengths.col(k) = rooms.filled(k, 1);
-    return lengths;
-  };
-  const Eigen::MatrixXd before = filled();
-  ClearRays result{drawn_off_ridges(rays, before, bones), 1};
-  // Among others there is no room for what that takes.
-  if (!beside && result.lengths != before) {
-    rooms.room = (result.lengths.array() < before.array()).select(result.lengths, rooms.room);
+  ClearRays result;
+  if (beside) {
+    result.lengths = share_out(rooms);
+  } else {
+    const auto filled = [&] {
+      Eigen::MatrixXd lengths(count, sections);
+      for (Eigen::Index k = 0; k < sections; ++k) lengths.col(k) = rooms.filled(k, 1);
+      return lengths;
+    };
+    const Eigen::MatrixXd before = filled(), drawn = drawn_off_ridges(rays, before, bones);
+    rooms.room = (drawn.array() < before.array()).select(drawn, rooms.room);
     result.lengths = drawn_off_ridges(rays, filled(), bones);
   }
   result.volume_share = rooms.volume(result.lengths) / rooms.volume(rays.lengths);
