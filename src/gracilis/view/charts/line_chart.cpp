@@ -1,7 +1,7 @@
 #include <gracilis/view/charts/line_chart.hpp>
 
+#include <gracilis/core/words_of_name.hpp>
 #include <gracilis/io/atomic_file.hpp>
-#include <gracilis/view/words_of_name.hpp>
 
 #include <fmt/format.h>
 

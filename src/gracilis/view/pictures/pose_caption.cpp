@@ -1,7 +1,7 @@
 #include <gracilis/view/pictures/pose_caption.hpp>
 
 #include <gracilis/anatomy/joints/joint_pose.hpp>
-#include <gracilis/view/words_of_name.hpp>
+#include <gracilis/core/words_of_name.hpp>
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 #include <gracilis/view/pictures/preview.hpp>
 
+#include <gracilis/core/words_of_name.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/run/run_folder.hpp>
 #include <gracilis/view/pictures/evened_surface.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
 #include <gracilis/view/pictures/pose_caption.hpp>
-#include <gracilis/view/words_of_name.hpp>
 
 #include <algorithm>
 #include <cmath>

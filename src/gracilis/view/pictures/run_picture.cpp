@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/words_of_name.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/rotations.hpp>
 #include <gracilis/geometry/topology.hpp>
@@ -11,7 +12,6 @@
 #include <gracilis/view/pictures/pose_caption.hpp>
 #include <gracilis/view/pictures/preview.hpp>
 #include <gracilis/view/pictures/recorded_look.hpp>
-#include <gracilis/view/words_of_name.hpp>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 #include <gracilis/view/pictures/scene_picture.hpp>
 
+#include <gracilis/core/words_of_name.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
-#include <gracilis/view/words_of_name.hpp>
 
 #include <algorithm>
 #include <array>

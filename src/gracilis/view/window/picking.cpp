@@ -1,6 +1,6 @@
 #include <gracilis/view/window/picking.hpp>
 
-#include <gracilis/view/words_of_name.hpp>
+#include <gracilis/core/words_of_name.hpp>
 
 #include <fmt/format.h>
 #include <vtkCamera.h>
