@@ -19,7 +19,7 @@ move = '''
 from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
-bone, frame = inputs[0].VTKObject, inputs[1].VTKObject
+frame, bone = inputs[0].VTKObject, inputs[1].VTKObject
 numbers = frame.GetFieldData().GetArray('motion_of_' + name)
 matrix = vtkMatrix4x4()
 for i in range(12):
@@ -38,7 +38,8 @@ ColorBy(Show(muscles, view), ('CELLS', 'part'))
 for bone in bones:
     at_rest = XMLPolyDataReader(registrationName=bone + ' at rest',
                                 FileName=[os.path.join(folder, 'bones', bone + '.vtp')])
-    moved = ProgrammableFilter(registrationName=bone, Input=[at_rest, muscles])
+    # The muscles first: a filter has the times of its first input.
+    moved = ProgrammableFilter(registrationName=bone, Input=[muscles, at_rest])
     moved.OutputDataSetType = 'vtkPolyData'
     moved.Script = 'name = %r' % bone + move
     display = Show(moved, view)
