@@ -47,7 +47,7 @@ void require_new_scene(const fs::path& out, bool force) {
 
 static void write_mended(const FoundMuscle& muscle) {
   const fs::path& file = muscle.mended->file;
-  create_folder(file.parent_path());
+  create_folder_of(file);
   write_surface(file, muscle.mesh.vertices, muscle.mesh.faces);
 }
 

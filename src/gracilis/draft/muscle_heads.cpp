@@ -1,7 +1,6 @@
 #include <gracilis/draft/muscle_heads.hpp>
 
-#include <gracilis/geometry/nearest_triangle.hpp>
-#include <gracilis/geometry/winding_number.hpp>
+#include <gracilis/geometry/signed_distance.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,26 +21,15 @@ bool is_called_a_head_of(const FoundMuscle& head, const FoundMuscle& whole) {
          head.known->name.starts_with(whole.known->name + "_");
 }
 
-bool lies_in(const TriangleMesh& head, const NearestTriangle& surface, const WindingNumber& inside, Real reach) {
-  const Index step = 1 + head.vertex_count() / 100;
-  Index within = 0, count = 0;
-  for (Index v = 0; v < head.vertex_count(); v += step, ++count) {
-    const Vec3 p = head.vertices.col(v);
-    within += surface.query(p).distance < reach || inside.query(p) > 0.5;
-  }
-  return static_cast<Real>(within) >= most_of_it * static_cast<Real>(count);
-}
-
 std::vector<std::string> heads_of(const FoundMuscle& whole, const FoundFolder& found) {
   std::vector<const FoundMuscle*> heads;
   for (const FoundMuscle& each : found.muscles)
     if (is_called_a_head_of(each, whole)) heads.push_back(&each);
   if (heads.size() < 2) return {};
-  const NearestTriangle surface(whole.mesh);
-  const WindingNumber inside(whole.mesh);
+  const SignedDistance around(whole.mesh);
   std::vector<std::string> names;
   for (const FoundMuscle* head : heads)
-    if (lies_in(head->mesh, surface, inside, about_on_it * found.size)) names.push_back(head->name);
+    if (share_within(head->mesh, around, about_on_it * found.size, 100) >= most_of_it) names.push_back(head->name);
   return names;
 }
 

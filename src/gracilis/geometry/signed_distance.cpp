@@ -131,4 +131,12 @@ SignedDistance::Answer SignedDistance::query_from(Index guess, const Vec3& p) co
   return with_sign(nearest_triangle_.query_from(guess, p), p);
 }
 
+Real share_within(const TriangleMesh& mesh, const SignedDistance& other, Real reach, Index samples) {
+  const Index step = std::max<Index>(1, mesh.vertex_count() / samples);
+  Index within = 0, count = 0;
+  for (Index v = 0; v < mesh.vertex_count(); v += step, ++count)
+    within += other.query(mesh.vertices.col(v)).distance < reach;
+  return count == 0 ? 0 : static_cast<Real>(within) / static_cast<Real>(count);
+}
+
 }  // namespace gracilis

@@ -48,4 +48,8 @@ class SignedDistance {
   Points edge_normals_;                   ///< column 3 f + k: edge k → k+1 of face f
 };
 
+/// The share of a surface's vertices that lie nearer than `reach` (m) to another surface, or inside it; of about
+/// `samples` of them, spread over the surface. 0 where it has none.
+Real share_within(const TriangleMesh& mesh, const SignedDistance& other, Real reach, Index samples);
+
 }  // namespace gracilis

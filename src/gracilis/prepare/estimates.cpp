@@ -73,15 +73,6 @@ void require_affordable(const std::vector<NamedSurface>& muscles, const std::vec
   if (!problems.empty()) throw InputError(std::move(problems));
 }
 
-/// Share of some vertices, spread over the surface, that lie inside another one.
-static Real share_inside(const TriangleMesh& mesh, const SignedDistance& other, const Eigen::AlignedBox3d& box) {
-  const Index step = std::max<Index>(1, mesh.vertex_count() / 500);
-  Index inside = 0, count = 0;
-  for (Index v = 0; v < mesh.vertex_count(); v += step, ++count)
-    if (const Vec3 p = mesh.vertices.col(v); box.contains(p) && other.query(p).distance < 0) ++inside;
-  return count == 0 ? 0 : Real(inside) / count;
-}
-
 void require_apart(const std::vector<NamedSurface>& muscles, const std::vector<NamedSurface>& bones) {
   std::vector<Problem> problems;
   std::vector<const NamedSurface*> all;
@@ -97,7 +88,7 @@ void require_apart(const std::vector<NamedSurface>& muscles, const std::vector<N
                                     muscle.mesh.vertices.rowwise().maxCoeff());
       if (!box.intersects(own)) continue;
       if (!distance) distance = std::make_unique<SignedDistance>(other->mesh);
-      const Real share = share_inside(muscle.mesh, *distance, box);
+      const Real share = share_within(muscle.mesh, *distance, 0, 500);
       if (share > 0.5)
         problems.push_back({"", muscle.name,
                             "lies for the most part (" + std::to_string(std::lround(100 * share)) + " %) in " +

@@ -17,15 +17,6 @@ namespace gracilis {
 static constexpr std::ptrdiff_t most_exact_pairs = 5000;
 static constexpr std::size_t most_exact_pieces = 8;
 
-/// Some vertices, spread over the surface, and whether nearly all of them lie in another one, or on it.
-static bool lies_in(const TriangleMesh& mesh, const SignedDistance& other, Real tolerance) {
-  const Index step = std::max<Index>(1, mesh.vertex_count() / 300);
-  Index inside = 0, count = 0;
-  for (Index v = 0; v < mesh.vertex_count(); v += step, ++count)
-    if (other.query(mesh.vertices.col(v)).distance < tolerance) ++inside;
-  return Real(inside) >= 0.98 * Real(count);
-}
-
 Index drop_nested(std::vector<TriangleMesh>& pieces) {
   std::stable_sort(pieces.begin(), pieces.end(),
                    [](const TriangleMesh& l, const TriangleMesh& r) { return volume_of(l) > volume_of(r); });
@@ -37,7 +28,7 @@ Index drop_nested(std::vector<TriangleMesh>& pieces) {
     const Real tolerance = 1e-4 * box.diagonal().norm();
     bool nested = false;
     for (std::size_t k = 0; k < kept.size() && !nested; ++k)
-      nested = boxes[k].intersects(box) && lies_in(piece, around[k], tolerance);
+      nested = boxes[k].intersects(box) && share_within(piece, around[k], tolerance, 300) >= 0.98;
     if (nested) continue;
     boxes.push_back(box);
     around.emplace_back(piece);

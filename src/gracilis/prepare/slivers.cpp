@@ -37,12 +37,10 @@ Real length_of_shortest_edge(const TriangleMesh& mesh) {
 /// Marks the vertices within `reach` of where the other surface cuts itself.
 void keep_where_cut(const TriangleMesh& other, const std::vector<char>& cuts, const TriangleMesh& mesh, Real reach,
                     std::vector<char>& kept) {
-  TriangleMesh cut{other.vertices, {}};
+  std::vector<Index> chosen;
   for (Index f = 0; f < other.face_count(); ++f)
-    if (cuts[static_cast<std::size_t>(f)]) {
-      cut.faces.conservativeResize(3, cut.faces.cols() + 1);
-      cut.faces.rightCols(1) = other.faces.col(f);
-    }
+    if (cuts[static_cast<std::size_t>(f)]) chosen.push_back(f);
+  const TriangleMesh cut{other.vertices, other.faces(Eigen::all, chosen)};
   const NearestTriangle nearest(cut);
   for (Index v = 0; v < mesh.vertex_count(); ++v)
     if (nearest.query(mesh.vertices.col(v)).distance < reach) kept[static_cast<std::size_t>(v)] = 1;

@@ -36,7 +36,7 @@ void remember_frame_time(const std::filesystem::path& cache, const FrameCost& co
   if (cache.empty() || !(vertices > 0) || !(seconds > 0)) return;
   const std::filesystem::path file = file_of(cache, cost, vertices);
   try {
-    create_folder(file.parent_path());
+    create_folder_of(file);
     write_cache_file(file, format, fmt::format("{}\n", seconds / vertices));
   } catch (const Error&) {
     // Later runs do without.
