@@ -128,7 +128,7 @@ TEST(EndOnMuscle, tissue_pulls_at_the_muscle_below_as_that_pulls_at_it) {
                                     [](const ForceOn& each) { return each.on == 0; });
   ASSERT_NE(of_tube, forces[1].muscles.end());
   const Vec3 sum = on_tube + of_tube->wrench.force + of_rider->wrench.force;
-  EXPECT_LT(sum.norm(), 0.02 * on_tube.norm());
+  EXPECT_LT(sum.norm(), 0.001 * on_tube.norm());
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace {
 
 /// Parts of a surface nearer than this at rest are neighbors, in edges.
 constexpr Real neighborhood_edges = 4;
-/// Forces of two muscles that differ by more are not of one contact.
-constexpr Real most_evened = 1.25;
+/// Forces of two muscles that differ by more, or by a larger angle (rad), are not of one contact.
+constexpr Real most_evened = 1.25, most_turned = 0.1;
 
 /// All surfaces near a common origin, where single precision is fine enough.
 struct PlacedSurfaces {
@@ -113,6 +113,14 @@ std::vector<Real> gaps_at_rest(const std::vector<SeenVertex>& seen, Index count,
   return gaps;
 }
 
+/// Areas that free vertices stand for, m²: attached ones go with their bones and feel no muscle.
+Eigen::VectorXd free_areas(const Muscle& muscle) {
+  Eigen::VectorXd areas = vertex_areas(muscle.surface.vertices, muscle.surface.faces);
+  for (const Attachment& attachment : muscle.attachments)
+    for (const Index v : attachment.vertices) areas[v] = 0;
+  return areas;
+}
+
 Real widest(const std::vector<Real>& gaps) {
   Real most = 0;
   for (const Real gap : gaps) most = std::max(most, std::abs(gap));
@@ -142,6 +150,7 @@ struct Meeting {
 /// A muscle's planes to another and the force that they will push it by, N, once it has settled.
 struct FoundPlanes {
   std::vector<ContactPlane> planes;
+  std::vector<Vec3> places;  ///< m, of their vertices
   Vec3 force = Vec3::Zero();
 };
 
@@ -159,20 +168,32 @@ FoundPlanes planes_of(const Neighbors& neighbors, const PlacedSurfaces& placed, 
     const bool faces_it = placed.normals[from].col(each.vertex).dot(each.gap.normal) < 0;
     found.planes.push_back({each.vertex, meeting.to, normal, normal.dot(p) + lacking / 2,
                             faces_it ? std::max(gap, 0.0) / 2 : std::numeric_limits<Real>::infinity()});
+    found.places.push_back(p);
     if (lacking > 0) found.force += meeting.stiffness * neighbors.areas[from][each.vertex] * lacking / 2 * normal;
   }
   return found;
 }
 
-/// Two surfaces sample what they press on each other differently. Makes both forces as large as their mean along the
-/// line between them.
+/// Turns and scales planes so that their force is that.
+void press_by(const Vec3& force, FoundPlanes& found) {
+  Eigen::AngleAxisd turn(Eigen::Quaterniond::FromTwoVectors(found.force, force));
+  turn.angle() = std::min(turn.angle(), most_turned);
+  const Real share = std::clamp(force.norm() / found.force.norm(), 1 / most_evened, most_evened);
+  for (std::size_t i = 0; i < found.planes.size(); ++i) {
+    ContactPlane& plane = found.planes[i];
+    const Vec3 turned = turn * plane.normal;
+    plane.least += (turned - plane.normal).dot(found.places[i]);
+    plane.normal = turned;
+    plane.share = share;
+  }
+}
+
+/// Two surfaces sample what they press on each other differently. Makes both forces their mean.
 void even_out(FoundPlanes& first, FoundPlanes& second) {
-  const Vec3 line = (first.force - second.force).normalized();
-  const Real of_first = line.dot(first.force), of_second = -line.dot(second.force);
-  if (!(of_first > 0 && of_second > 0)) return;
-  const Real mean = (of_first + of_second) / 2;
-  for (ContactPlane& plane : first.planes) plane.share = std::clamp(mean / of_first, 1 / most_evened, most_evened);
-  for (ContactPlane& plane : second.planes) plane.share = std::clamp(mean / of_second, 1 / most_evened, most_evened);
+  const Vec3 mean = (first.force - second.force) / 2;
+  if (!(mean.dot(first.force) > 0 && mean.dot(second.force) < 0)) return;
+  press_by(mean, first);
+  press_by(-mean, second);
 }
 
 void append(const std::vector<ContactPlane>& found, std::vector<ContactPlane>& planes) {
@@ -186,7 +207,7 @@ Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSetting
   std::vector<Points> shapes;
   for (const Muscle& muscle : scene.muscles) {
     shapes.push_back(muscle.surface.vertices);
-    neighbors.areas.push_back(vertex_areas(muscle.surface.vertices, muscle.surface.faces));
+    neighbors.areas.push_back(free_areas(muscle));
     neighbors.surfaces.push_back(build_contact_surface(muscle.surface.faces, muscle.surface.vertex_count()));
     neighbors.trees.push_back(build_patch_tree(neighbors.surfaces.back(), shapes.back().cast<float>()));
   }

@@ -41,7 +41,7 @@ struct SelfMeeting {
 struct Neighbors {
   std::vector<ContactSurface> surfaces;
   std::vector<PatchTree> trees;
-  std::vector<Eigen::VectorXd> areas;  ///< m² at rest, that each vertex stands for
+  std::vector<Eigen::VectorXd> areas;  ///< m² at rest, that each vertex stands for; 0 of attached ones
   std::vector<Real> stiffness;         ///< N/m³, per muscle
   std::vector<NeighborPair> pairs;
   std::vector<SelfMeeting> selves;  ///< of muscles that keep out of themselves
