@@ -28,9 +28,9 @@ inline void export_block(const std::filesystem::path& folder, const std::string&
     }
   const CellLaw& law = block.laws.front();
   const FiberLaw& f = law.fibers;
-  fmt::print(out, "law 1\n{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n",
+  fmt::print(out, "law 1\n{:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}\n",
              law.matrix.shear, law.matrix.lambda, law.bulk, f.rest_tension, f.stiffness, f.active_tension,
-             f.optimal_stretch, law.direction.x(), law.direction.y(), law.direction.z());
+             f.optimal_stretch, law.direction.x(), law.direction.y(), law.direction.z(), law.matrix.stiffening);
   std::vector<std::string> fixed;  // side, node, axis, displacement
   const auto fix = [&](std::size_t side, std::size_t p, Index axis, Real place) {
     const SurfacePoint& point = block.muscle.points[p];

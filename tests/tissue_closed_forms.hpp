@@ -13,16 +13,24 @@ struct Uniaxial {
   Real stress = 0, volume_ratio = 1;
 };
 inline Uniaxial uniaxial(const CellLaw& law, Real stretch) {
-  const Real g = law.matrix.shear, j = 1 + g / volume_modulus(law) * (1 - 1 / stretch);
+  // The stiffened G depends on J, which is hardly changed by it.
+  Real j = 1, stiffened = law.matrix.shear;
+  for (int i = 0; i < 20; ++i) {
+    stiffened = shear_curve(law.matrix, stretch * stretch + 2 * j / stretch).slope;
+    j = 1 + (law.matrix.shear - stiffened / stretch) / volume_modulus(law);
+  }
   const Real fibers = law.direction.isZero(0) ? 0 : fiber_curve(law.fibers, stretch).slope;
-  return {g * (stretch - j / (stretch * stretch)) + fibers, j};
+  return {stiffened * (stretch - j / (stretch * stretch)) + fibers, j};
 }
 
 /// F = 1 + shear · x ⊗ z: the first Piola-Kirchhoff stress, Pa.
 inline Matrix3 simple_shear(const CellLaw& law, Real shear) {
-  Matrix3 f = Matrix3::Identity(), stress = Matrix3::Zero();
+  Matrix3 f = Matrix3::Identity();
   f(0, 2) = shear;
-  stress(0, 2) = stress(2, 0) = law.matrix.shear * shear;
+  const Real stiffened = shear_curve(law.matrix, f.squaredNorm()).slope;
+  Matrix3 stress = (stiffened - law.matrix.shear) * Matrix3::Identity();
+  stress(0, 2) = stiffened * shear;
+  stress(2, 0) = law.matrix.shear * shear;
   const Vec3 along = f * law.direction;
   if (!along.isZero(0))
     stress += fiber_curve(law.fibers, along.norm()).slope / along.norm() * along * law.direction.transpose();

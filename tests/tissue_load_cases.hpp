@@ -23,14 +23,14 @@ inline Measured measured(Real closed_form, Real ours, const Block& block, const 
 inline CellLaw muscle_law(Real activation, const Vec3& direction = Vec3::UnitZ()) {
   const TissueSettings s;
   const Real pull = s.fiber_tension + activation * s.largest_active_stress;
-  return {{std::max(s.matrix_shear_modulus, s.shear_per_tension * pull), s.matrix_lambda},
+  return {{std::max(s.matrix_shear_modulus, s.shear_per_tension * pull), s.matrix_lambda, s.matrix_stiffening},
           std::max(s.bulk_modulus, s.bulk_per_tension * pull),
           {s.fiber_tension, s.fiber_stiffness, activation * s.largest_active_stress, s.optimal_stretch},
           direction};
 }
 inline CellLaw matrix_law(Real bulk) {
   const TissueSettings s;
-  return {{s.matrix_shear_modulus, s.matrix_lambda}, bulk, {}, Vec3::Zero()};
+  return {{s.matrix_shear_modulus, s.matrix_lambda, s.matrix_stiffening}, bulk, {}, Vec3::Zero()};
 }
 
 inline Vec3 where_it_was(const Vec3& p) { return p; }

@@ -83,7 +83,8 @@ def energy_of(model, law):
     names = ["shear", "lame", "bulk", "tension", "stiffness", "active", "optimal"]
     for name, value in zip(names, law[:7]):
         model.add_initialized_data(name, value)
-    terms = ["shear/2*(Norm_sqr(F)-3)", "-shear*(Det(F)-1)", "lame/2*sqr(Det(F)-1)"]
+    model.add_initialized_data("stiffening", law[10])
+    terms = ["shear/2*(Norm_sqr(F)-3)", "shear*stiffening/6*pow(pos_part(Norm_sqr(F)-3),3)", "-shear*(Det(F)-1)", "lame/2*sqr(Det(F)-1)"]
     if law[2] > 0:
         terms.append("p*(Det(F)-1)-sqr(p)/(2*bulk)")
     definitions = "Def F:=Id(3)+Grad_u; "

@@ -52,6 +52,25 @@ TEST(TissueEnergies, stress_and_its_derivatives_of_the_matrix_are_those_of_its_e
   for (unsigned seed = 1; seed < 6; ++seed) expect_derivatives(matrix, {}, deformed(seed));
 }
 
+TEST(TissueEnergies, stress_and_its_derivatives_are_those_of_the_energy_of_a_matrix_that_stiffens) {
+  const MatrixLaw stiffening = {5e3, 1e5, 0.5};
+  for (unsigned seed = 1; seed < 6; ++seed) expect_derivatives(stiffening, {}, deformed(seed, 0.6));
+}
+
+TEST(TissueEnergies, a_matrix_that_stiffens_resists_as_much_at_first_and_ten_times_as_much_at_three_times_its_length) {
+  const MatrixLaw even = {5e3, 1e5, 0}, stiffening = {5e3, 1e5, 0.2};
+  const auto stress_at = [](const MatrixLaw& law, Real stretch) {
+    Matrix3 stress;
+    const Real across = 1 / std::sqrt(stretch);
+    tissue_energy(law, {}, Vec3::Zero(), Vec3(across, across, stretch).asDiagonal(), stress);
+    return stress(2, 2) - stress(0, 0) * across / stretch;  // with the pressure that frees the sides
+  };
+  EXPECT_NEAR(stress_at(stiffening, 1.1) / stress_at(even, 1.1), 1, 0.001);
+  EXPECT_NEAR(stress_at(stiffening, 2) / stress_at(even, 2), 1.8, 1e-6);
+  EXPECT_NEAR(stress_at(stiffening, 3) / stress_at(even, 3), 1 + 0.2 * 400.0 / 9, 1e-6);
+  EXPECT_EQ(shear_curve(stiffening, 2.9).slope, even.shear) << "squeezed";
+}
+
 TEST(TissueEnergies, stress_and_its_derivatives_of_the_fibers_are_those_of_their_energy) {
   for (unsigned seed = 1; seed < 6; ++seed) expect_derivatives({1, 0}, fibers, deformed(seed));
 }

@@ -19,7 +19,7 @@ std::vector<CellLaw> mixed_laws(const Lattice& lattice) {
   std::vector<CellLaw> laws;
   for (Index c = 0; c < lattice.cell_count(); ++c) {
     CellLaw& law = laws.emplace_back();
-    law.matrix = {5e3 * (1 + uniform(generator)), 1e5};
+    law.matrix = {5e3 * (1 + uniform(generator)), 1e5, uniform(generator)};
     law.bulk = 2e6 * (1 + uniform(generator));
     law.fibers = {2e4, c % 5 == 0 ? 0 : 5e4, c % 3 == 0 ? 0 : 3e5 * uniform(generator), 0.8 + 0.4 * uniform(generator)};
     if (c % 7 != 0) law.direction = Vec3(uniform(generator), -uniform(generator), 1).normalized();

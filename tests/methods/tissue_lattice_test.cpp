@@ -100,5 +100,22 @@ TEST(TissueLattice, the_harmonic_field_of_a_bar_is_linear_and_its_gradient_runs_
   }
 }
 
+TEST(TissueLattice, a_field_that_is_fed_evenly_is_as_steep_at_the_ends_of_a_bar_as_in_its_middle) {
+  const Lattice lattice = build_lattice(shapes::box({0, 0, 0}, {0.02, 0.02, 0.1}), 0.005);
+  std::vector<FieldSource> sources;
+  for (Real x = 0.0005; x < 0.02; x += 0.001)
+    for (Real y = 0.0005; y < 0.02; y += 0.001) {
+      sources.push_back({embed(lattice, Vec3(x, y, 0)), -1e-6});
+      sources.push_back({embed(lattice, Vec3(x, y, 0.1)), 1e-6});
+    }
+  // 400 sources of 1e-6 m through 4 cm²: a slope of 1.
+  const Points gradients = cell_gradients(lattice, fed_lattice_field(lattice, sources));
+  for (Index c = 0; c < lattice.cell_count(); ++c)
+    if (lattice.cells[static_cast<std::size_t>(c)].fill > 0.99) {
+      EXPECT_NEAR(gradients(2, c), 1, 0.02);
+      EXPECT_LT(gradients.col(c).head<2>().norm(), 0.02);
+    }
+}
+
 }  // namespace
 }  // namespace gracilis::tissue

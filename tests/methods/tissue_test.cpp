@@ -136,29 +136,6 @@ TEST(Tissue, large_motions_are_cut_into_steps_that_end_where_the_motion_ends) {
   EXPECT_EQ(steps_needed(muscle, now, now), 1);
 }
 
-TEST(Tissue, fibers_are_tenser_where_the_section_is_small) {
-  Scene scene = tube_scene();
-  Points& vertices = scene.muscles[0].surface.vertices;
-  // A spindle: half as wide at its ends.
-  for (Index v = 0; v < static_cast<Index>(vertices.cols()); ++v) {
-    const Real share = 0.5 + 0.5 * std::cos(pi / 2 * vertices(2, v) / 0.08);
-    vertices.col(v).head<2>() =
-        Eigen::Vector2d(0.0255, 0) + share * (vertices.col(v).head<2>() - Eigen::Vector2d(0.0255, 0));
-  }
-  const PreparedTissue muscle = prepare_tissue(scene, scene.muscles[0], {}, {});
-  Real middle = 0, ends = 0;
-  int middle_count = 0, end_count = 0;
-  for (Index c = 0; c < muscle.lattice.cell_count(); ++c) {
-    const Cell& cell = muscle.lattice.cells[static_cast<std::size_t>(c)];
-    const Real z = std::abs(muscle.lattice.nodes(2, cell.nodes[0]) + muscle.lattice.cell_size / 2);
-    if (cell.fill < 0.5) continue;
-    if (z < 0.01) middle += muscle.relative_tension[static_cast<std::size_t>(c)], ++middle_count;
-    if (z > 0.055 && z < 0.065) ends += muscle.relative_tension[static_cast<std::size_t>(c)], ++end_count;
-  }
-  // The share at 60 mm is 0.69, so the section is 0.48 of that in the middle.
-  EXPECT_NEAR(ends / end_count / (middle / middle_count), 1 / 0.48, 0.25);
-}
-
 TEST(Tissue, tension_comes_up_in_its_frames_and_then_nothing_changes) {
   Scene scene = tube_scene();
   scene.method.settings = {{"tension_frames", 3}, {"minimizer_iterations", 300}, {"minimizer_residual", 1e-6}};

@@ -189,6 +189,7 @@ LawLanes law_lanes(const CellLanes& cells, const std::vector<CellLaw>& laws) {
     const CellLaw& law = laws[static_cast<std::size_t>(cells.cells[cells.cells[at] < 0 ? first : at])];
     const FiberLaw fibers = law.direction.isZero(0) ? law.fibers.scaled(0) : law.fibers;
     lanes.shear.push_back(law.matrix.shear);
+    lanes.stiffening.push_back(law.matrix.stiffening);
     lanes.lambda.push_back(law.matrix.lambda);
     lanes.bulk.push_back(law.bulk);
     lanes.rest_tension.push_back(fibers.rest_tension);

@@ -33,6 +33,7 @@ CellLanes cell_lanes(const Lattice& lattice);
 /// The laws of the cells, a number per lane of each group.
 struct LawLanes {
   std::vector<Real> shear, lambda, bulk;                       ///< Pa
+  std::vector<Real> stiffening;                                ///< of MatrixLaw
   std::vector<Real> rest_tension, stiffness, active, optimal;  ///< of FiberLaw; no tension where there is no direction
   std::vector<Real> least_strain;                              ///< where fibers go slack
   std::array<std::vector<Real>, 3> direction;

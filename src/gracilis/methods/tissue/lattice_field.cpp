@@ -29,6 +29,16 @@ void add_laplacian(const Lattice& lattice, Triplets& entries) {
   for (Index n = 0; n < lattice.node_count(); ++n) entries.emplace_back(n, n, least_grip * lattice.cell_size);
 }
 
+Eigen::MatrixXd solve(const Lattice& lattice, const Triplets& entries, const Eigen::MatrixXd& right) {
+  Eigen::SparseMatrix<Real> matrix(lattice.node_count(), lattice.node_count());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  SparseLdlt factors;
+  factors.factor(matrix,
+                 "the harmonic fields of a tissue lattice have no solution: its cells or what grips it are not finite, "
+                 "or far too large or small");
+  return factors.solve(right);
+}
+
 }  // namespace
 
 Eigen::MatrixXd harmonic_lattice_fields(const Lattice& lattice, const std::vector<FieldGrip>& grips, Index columns) {
@@ -44,13 +54,17 @@ Eigen::MatrixXd harmonic_lattice_fields(const Lattice& lattice, const std::vecto
         entries.emplace_back(node, grip.at.nodes[j], weight * grip.at.weights[static_cast<Index>(j)]);
     }
   }
-  Eigen::SparseMatrix<Real> matrix(lattice.node_count(), lattice.node_count());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  SparseLdlt factors;
-  factors.factor(matrix,
-                 "the harmonic fields of a tissue lattice have no solution: its cells or what grips it are not finite, "
-                 "or far too large or small");
-  return factors.solve(right);
+  return solve(lattice, entries, right);
+}
+
+Eigen::VectorXd fed_lattice_field(const Lattice& lattice, const std::vector<FieldSource>& sources) {
+  Triplets entries;
+  add_laplacian(lattice, entries);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(lattice.node_count());
+  for (const FieldSource& source : sources)
+    for (std::size_t k = 0; k < 4; ++k)
+      right[source.at.nodes[k]] += source.flow * source.at.weights[static_cast<Index>(k)];
+  return solve(lattice, entries, right);
 }
 
 Points cell_gradients(const Lattice& lattice, const Eigen::VectorXd& field) {

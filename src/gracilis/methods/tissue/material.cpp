@@ -50,6 +50,13 @@ Curve fiber_curve(const FiberLaw& law, Real stretch) {
   return sum;
 }
 
+Curve shear_curve(const MatrixLaw& law, Real squared_size) {
+  const Real strain = squared_size - 3, drawn_out = std::max(strain, 0.0);
+  const Real stiffer = law.stiffening * drawn_out * drawn_out;
+  return {law.shear / 2 * (strain + stiffer * drawn_out / 3), law.shear * (1 + stiffer),
+          4 * law.shear * law.stiffening * drawn_out};
+}
+
 Curve volume_curve(const MatrixLaw& law, Real j) {
   Curve sum = {-law.shear * (j - 1) + law.lambda / 2 * (j - 1) * (j - 1), -law.shear + law.lambda * (j - 1),
                law.lambda};
@@ -67,8 +74,9 @@ Real tissue_energy(const MatrixLaw& matrix, const FiberLaw& fibers, const Vec3& 
                    Matrix3& stress) {
   const Matrix3 cofactor = cofactors(f);
   const Curve volume = volume_curve(matrix, f.col(0).dot(cofactor.col(0)));
-  Real energy = matrix.shear / 2 * (f.squaredNorm() - 3) + volume.energy;
-  stress = matrix.shear * f + volume.slope * cofactor;
+  const Curve shear = shear_curve(matrix, f.squaredNorm());
+  Real energy = shear.energy + volume.energy;
+  stress = shear.slope * f + volume.slope * cofactor;
   const Vec3 along = f * direction;
   const Real stretch = along.norm();
   if (stretch > 0) {
@@ -82,8 +90,11 @@ Real tissue_energy(const MatrixLaw& matrix, const FiberLaw& fibers, const Vec3& 
 Matrix9 tissue_hessian(const MatrixLaw& matrix, const FiberLaw& fibers, const Vec3& direction, const Matrix3& f) {
   const Matrix3 cofactor = cofactors(f);
   const Curve volume = volume_curve(matrix, f.col(0).dot(cofactor.col(0)));
-  const Eigen::Map<const Eigen::Matrix<Real, 9, 1>> c(cofactor.data());
-  Matrix9 h = matrix.shear * Matrix9::Identity() + volume.curvature * c * c.transpose();
+  const Curve shear = shear_curve(matrix, f.squaredNorm());
+  using Entries = Eigen::Map<const Eigen::Matrix<Real, 9, 1>>;
+  const Entries c(cofactor.data()), entries(f.data());
+  Matrix9 h = shear.slope * Matrix9::Identity() + shear.curvature * entries * entries.transpose() +
+              volume.curvature * c * c.transpose();
   // The cofactors are cross products of columns, so their derivatives by columns are cross product matrices.
   const auto cross = [](const Vec3& v) { return Matrix3{{0, -v.z(), v.y()}, {v.z(), 0, -v.x()}, {-v.y(), v.x(), 0}}; };
   for (Index a = 0; a < 3; ++a) {

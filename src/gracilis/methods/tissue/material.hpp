@@ -31,10 +31,14 @@ Real slack_strain(const FiberLaw& law);
 /// Active: the force-length curve of Blemker, Pinsky and Delp (2005), from 0.4 to 1.6 of the optimal stretch.
 Curve fiber_curve(const FiberLaw& law, Real stretch);
 
-/// Resists shear by `shear` (G, Pa), change of volume by `lambda` (Pa).
+/// Resists shear by `shear` (G, Pa), change of volume by `lambda` (Pa). Drawn out it gets stiffer: G is
+/// 1 + `stiffening` (|F|² - 3)² times as large, the last term of Yeoh (1993).
 struct MatrixLaw {
-  Real shear = 0, lambda = 0;
+  Real shear = 0, lambda = 0, stiffening = 0;
 };
+
+/// What the matrix adds by |F|², and the factors of F and of F ⊗ F in its first and second derivatives by F.
+Curve shear_curve(const MatrixLaw& law, Real squared_size);
 
 /// What the matrix adds by J = det F alone: stable neo-Hookean (Smith, de Goes and Kim 2018, without the logarithm that
 /// only moves the rest state) and, below `barrier_begin`, a barrier that is infinite at 0, so that nothing inverts. It

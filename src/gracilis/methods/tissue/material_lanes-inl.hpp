@@ -37,21 +37,17 @@ HWY_INLINE MatrixLanes plus_scaled(const MatrixLanes& a, N s, const MatrixLanes&
 }
 
 struct LawOfLanes {
-  N shear, lambda, bulk, rest_tension, stiffness, active, optimal, least_strain;
+  N shear, stiffening, lambda, bulk, rest_tension, stiffness, active, optimal, least_strain;
   Vectors direction;
 };
 
 HWY_INLINE LawOfLanes load_law(const tissue::LawLanes& laws, std::size_t at) {
   const auto load = [&](const std::vector<Real>& numbers) HWY_ATTR { return hn::LoadU(Doubles(), &numbers[at]); };
-  return {load(laws.shear),
-          load(laws.lambda),
-          load(laws.bulk),
-          load(laws.rest_tension),
-          load(laws.stiffness),
-          load(laws.active),
-          load(laws.optimal),
-          load(laws.least_strain),
-          {load(laws.direction[0]), load(laws.direction[1]), load(laws.direction[2])}};
+  return {load(laws.shear),        load(laws.stiffening),
+          load(laws.lambda),       load(laws.bulk),
+          load(laws.rest_tension), load(laws.stiffness),
+          load(laws.active),       load(laws.optimal),
+          load(laws.least_strain), {load(laws.direction[0]), load(laws.direction[1]), load(laws.direction[2])}};
 }
 
 /// A deformation gradient and what follows from it.
@@ -69,6 +65,14 @@ HWY_INLINE Deformation deformation_of(const MatrixLanes& f) {
 struct CurveLanes {
   N energy, slope;
 };
+
+/// `shear_curve` of material.hpp.
+HWY_INLINE CurveLanes shear_curve_lanes(const LawOfLanes& law, N squared_size) {
+  const N strain = squared_size - number(3), drawn_out = hn::Max(strain, number(0));
+  const N stiffer = law.stiffening * drawn_out * drawn_out;
+  return {number(0.5) * law.shear * hn::MulAdd(number(1.0 / 3) * stiffer, drawn_out, strain),
+          hn::MulAdd(law.shear, stiffer, law.shear)};
+}
 
 HWY_INLINE CurveLanes volume_curve_lanes(const LawOfLanes& law, N j) {
   const N growth = j - number(1);
@@ -119,9 +123,10 @@ HWY_INLINE N tissue_energy_lanes(const LawOfLanes& law, const Deformation& defor
                                  MatrixLanes& stress) {
   const MatrixLanes& f = deformation.gradient;
   const CurveLanes volume = volume_curve_lanes(law, deformation.volume_ratio);
-  stress = plus_scaled(scaled(law.shear, f), volume.slope, deformation.cofactors);
-  const N size2 = dot<DoubleMath>(f.column[0], f.column[0]) + dot<DoubleMath>(f.column[1], f.column[1]) +
-                  dot<DoubleMath>(f.column[2], f.column[2]);
+  const CurveLanes shear =
+      shear_curve_lanes(law, dot<DoubleMath>(f.column[0], f.column[0]) + dot<DoubleMath>(f.column[1], f.column[1]) +
+                                 dot<DoubleMath>(f.column[2], f.column[2]));
+  stress = plus_scaled(scaled(shear.slope, f), volume.slope, deformation.cofactors);
   const Vectors d = law.direction;
   const Vectors along = plus_scaled(plus_scaled(scaled(d.x, f.column[0]), d.y, f.column[1]), d.z, f.column[2]);
   // Where there is no direction nothing pulls either.
@@ -131,7 +136,7 @@ HWY_INLINE N tissue_energy_lanes(const LawOfLanes& law, const Deformation& defor
   stress.column[0] = plus_scaled(stress.column[0], d.x, pull);
   stress.column[1] = plus_scaled(stress.column[1], d.y, pull);
   stress.column[2] = plus_scaled(stress.column[2], d.z, pull);
-  return hn::MulAdd(number(0.5) * law.shear, size2 - number(3), volume.energy + fiber.energy);
+  return shear.energy + volume.energy + fiber.energy;
 }
 
 }  // namespace gracilis::HWY_NAMESPACE

@@ -4,6 +4,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/field_spline.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/methods/tissue/fiber_flux.hpp>
 #include <gracilis/methods/tissue/lattice_field.hpp>
 
 #include <algorithm>
@@ -13,13 +14,8 @@ namespace gracilis::tissue {
 
 namespace {
 
-/// How firmly attachments and fascia grip harmonic fields: a cell's side of attached surface so many times as firmly as
-/// one cell grips the next.
-constexpr Real attachment_grip = 100, fascia_grip = 10;
-/// The relative tension stays within its inverse and this: where the field is flat, nothing pulls without end.
-constexpr Real largest_relative_tension = 6;
-/// Of the mean gradient: less is no direction.
-constexpr Real least_gradient = 1e-3;
+/// How firmly fascia grips harmonic fields, as attachments do.
+constexpr Real fascia_grip = 10;
 
 void place_points(const Muscle& muscle, PreparedTissue& prepared) {
   const Eigen::VectorXd areas = vertex_areas(muscle.surface.vertices, muscle.surface.faces);
@@ -52,8 +48,11 @@ void spread_over_triangles(const TriangleMesh& surface, PreparedTissue& prepared
     const Vec3 a = corner(0).rest, ab = corner(1).rest - a, ac = corner(2).rest - a;
     const Real longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
     const int pieces = static_cast<int>(std::ceil(longest / spacing));
-    if (pieces < 2) continue;
     const Real area = ab.cross(ac).norm() / 2;
+    if (pieces < 2) {
+      for (Index k = 0; k < 3 && body >= 0; ++k) corner(k).held_area += area / 3;
+      continue;
+    }
     for (Index k = 0; k < 3; ++k) corner(k).area -= area / 3;
     const auto add = [&](Real u, Real v) {
       SurfacePoint point;
@@ -61,6 +60,7 @@ void spread_over_triangles(const TriangleMesh& surface, PreparedTissue& prepared
       point.at = embed(prepared.lattice, point.rest);
       point.area = area / (pieces * pieces);
       point.held_by = body;
+      point.held_area = body >= 0 ? point.area : 0;
       point.end = end;
       // A triangle may cut the corner of a cell that is none.
       if (point.at.cell < 0)
@@ -76,67 +76,6 @@ void spread_over_triangles(const TriangleMesh& surface, PreparedTissue& prepared
       }
   }
   for (SurfacePoint& point : prepared.points) point.area = std::max(point.area, 0.0);
-}
-
-/// The mean size of the gradients by filled volume. Cells with attachments count only where there are no others: in
-/// them fibers end, so that a part of each has none.
-Real mean_of_belly(const PreparedTissue& prepared, const Points& gradients) {
-  std::vector<char> holds(prepared.lattice.cells.size());
-  for (const SurfacePoint& point : prepared.points)
-    if (point.held_by >= 0) holds[static_cast<std::size_t>(point.at.cell)] = 1;
-  std::array<Real, 2> sum{}, filled{};
-  for (std::size_t c = 0; c < holds.size(); ++c) {
-    const auto which = static_cast<std::size_t>(holds[c]);
-    sum[which] += prepared.lattice.cells[c].fill * gradients.col(static_cast<Index>(c)).norm();
-    filled[which] += prepared.lattice.cells[c].fill;
-  }
-  return filled[0] > 0 ? sum[0] / filled[0] : sum[1] / filled[1];
-}
-
-/// What flows out of the field through the insertion's grips, m: the same goes through every section.
-Real flux_of(const std::vector<FieldGrip>& grips, const Eigen::VectorXd& field) {
-  Real flux = 0;
-  for (const FieldGrip& grip : grips) {
-    if (grip.column < 0) continue;
-    Real value = 0;
-    for (std::size_t k = 0; k < 4; ++k) value += grip.at.weights[static_cast<Index>(k)] * field[grip.at.nodes[k]];
-    flux += grip.grip * (1 - value);
-  }
-  return flux;
-}
-
-/// Fibers run along the gradient of the harmonic field from origin to insertion, whose size is the density of their
-/// flux: the inverse of the section that it goes through.
-void lay_fibers(PreparedTissue& prepared) {
-  const Lattice& lattice = prepared.lattice;
-  prepared.directions = Points::Zero(3, lattice.cell_count());
-  prepared.relative_tension.assign(lattice.cells.size(), 1);
-  prepared.fiber_density.assign(lattice.cells.size(), 0);
-  std::vector<FieldGrip> grips;
-  bool has_origin = false, has_insertion = false;
-  for (const SurfacePoint& point : prepared.points) {
-    if (point.held_by < 0) continue;
-    const bool is_insertion = point.end == AttachmentEnd::insertion;
-    (is_insertion ? has_insertion : has_origin) = true;
-    grips.push_back({point.at, attachment_grip * point.area / lattice.cell_size, is_insertion ? 0 : -1});
-  }
-  if (!has_origin || !has_insertion) return;
-  const Eigen::VectorXd field = harmonic_lattice_fields(lattice, grips, 1).col(0);
-  const Points gradients = cell_gradients(lattice, field.cwiseMax(0).cwiseMin(1));
-  const Real mean = mean_of_belly(prepared, gradients), flux = flux_of(grips, field);
-  prepared.mean_section = flux / mean;
-  Real squares = 0;
-  for (Index c = 0; c < lattice.cell_count(); ++c) {
-    const Real size = gradients.col(c).norm();
-    if (!(size > least_gradient * mean)) continue;
-    prepared.directions.col(c) = gradients.col(c) / size;
-    prepared.relative_tension[static_cast<std::size_t>(c)] =
-        std::clamp(size / mean, 1 / largest_relative_tension, largest_relative_tension);
-    prepared.fiber_density[static_cast<std::size_t>(c)] = size;
-    squares += filled_volume(lattice, lattice.cells[static_cast<std::size_t>(c)]) * size * size;
-  }
-  // So that its product with a tension, over all sections, is the mean of the tension's integrals over them.
-  for (Real& density : prepared.fiber_density) density *= flux / squares;
 }
 
 /// Every free vertex within reach of a bone is tied to it, the more weakly the further it is away. Where fibers gather
@@ -283,7 +222,8 @@ std::vector<CellLaw> cell_laws(const PreparedTissue& muscle, Real activation, Re
   std::vector<CellLaw> laws(muscle.lattice.cells.size());
   for (std::size_t c = 0; c < laws.size(); ++c) {
     const Real pull = muscle.relative_tension[c] * (fibers.rest_tension + fibers.active_tension);
-    laws[c].matrix = {std::max(s.matrix_shear_modulus, s.shear_per_tension * pull), s.matrix_lambda};
+    laws[c].matrix = {std::max(s.matrix_shear_modulus, s.shear_per_tension * pull), s.matrix_lambda,
+                      s.matrix_stiffening};
     laws[c].bulk = std::max(s.bulk_modulus, s.bulk_per_tension * pull);
     laws[c].fibers = fibers.scaled(muscle.relative_tension[c]);
     laws[c].direction = muscle.directions.col(static_cast<Index>(c));

@@ -25,6 +25,7 @@ struct SurfacePoint {
   Vec3 rest = Vec3::Zero();
   Real area = 0;                              ///< m², that it stands for
   Real vertex_area = 0;                       ///< m², of a vertex without points on its triangles; 0 of these
+  Real held_area = 0;                         ///< m², of it, that of triangles all of whose corners are held alike
   Index held_by = -1;                         ///< the body that it is attached to, or -1
   AttachmentEnd end = AttachmentEnd::origin;  ///< of the attachment, where it is held
   Index ties_begin = 0, ties_end = 0;

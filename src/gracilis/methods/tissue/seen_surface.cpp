@@ -154,8 +154,18 @@ void push_out(const PreparedTissue& muscle, const Surroundings& around, std::siz
   }
 }
 
-/// Vertices that contact, which is soft, lets come too near. The field, which is round where the bone has an edge, says
-/// which way is out, and the bone itself how far.
+/// The field, which is round where the bone has an edge, says which way is out, and the bone itself how far. It is not
+/// straight out, so once may not be enough.
+Vec3 pushed_out(const BoneGap& bone, const SignedDistance& exact, Real least, Vec3 there) {
+  for (int i = 0; i < bone_rounds; ++i) {
+    const Real distance = exact.query(there).distance;
+    if (!(distance < least)) break;
+    there += (least - distance) * sample_spline_precise(bone.field.grid, there).gradient.normalized();
+  }
+  return there;
+}
+
+/// Vertices that contact, which is soft, lets come too near.
 void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
                        const std::vector<SignedDistance>& distances, Points& x) {
   for (Index v = 0; v < muscle.vertex_count; ++v) {
@@ -169,10 +179,8 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
       const CachedBoneQuery& query = around.queries[b];
       if (query.distances[v] - largest_slope * (there - query.places.col(v)).norm() > least + field_error) continue;
       if (distance_in(bone, there) > least + field_error) continue;
-      const Real distance = distances[b].query(there).distance;
-      if (distance < least)
-        x.col(v) += (least - distance) * (around.bodies[body].linear() *
-                                          sample_spline_precise(bone.field.grid, there).gradient.normalized());
+      if (distances[b].query(there).distance < least)
+        x.col(v) = around.bodies[body] * pushed_out(bone, distances[b], least, there);
     }
   }
 }

@@ -20,6 +20,10 @@ std::span<const Setting<TissueSettings>> setting_table() {
       {"tension_frames", &S::tension_frames, "", 1, 100000,
        "Frames from the capture pose on in which the fibers' tension comes up evenly."},
       {"matrix_shear_modulus", &S::matrix_shear_modulus, "Pa", 1, 1e9, "Shear modulus of the tissue between fibers."},
+      {"matrix_stiffening", &S::matrix_stiffening, "", 0, 100,
+       "Where a cell is drawn out, its shear modulus is 1 + this times the square of |F|² - 3 times as large: 1.8 "
+       "where it "
+       "is twice as long, 10 where three times."},
       {"matrix_lambda", &S::matrix_lambda, "Pa", 1, 1e12,
        "Resistance of every tetrahedron against change of its own volume."},
       {"bulk_modulus", &S::bulk_modulus, "Pa", 0, 1e12, "Resistance of every cell against change of its volume."},

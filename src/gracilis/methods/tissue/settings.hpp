@@ -14,6 +14,7 @@ struct TissueSettings {
   Real largest_turn = radians(3);    ///< rad, between two bodies in one step
   int tension_frames = 10;           ///< in which the fibers' tension comes up
   Real matrix_shear_modulus = 5e3;   ///< Pa
+  Real matrix_stiffening = 0.2;      ///< of the shear modulus, where the matrix is drawn out
   Real matrix_lambda = 1e5;          ///< Pa, of every tetrahedron
   Real bulk_modulus = 2e6;           ///< Pa, of the mean volume of a cell
   Real shear_per_tension = 0.25;     ///< least shear modulus over the fibers' tension
