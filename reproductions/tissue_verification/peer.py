@@ -79,12 +79,13 @@ def constant_per_cell(mesh, cells):
 
 
 def energy_of(model, law):
-    """The potential per volume. Fibers keep a fifth of their tension where they are slack."""
+    """The potential per volume. The matrix stiffens where |F|² is above 3, as it is everywhere but for what volume shrinks by: next
+    to nothing, to the third power. Fibers keep a fifth of their tension where they are slack."""
     names = ["shear", "lame", "bulk", "tension", "stiffness", "active", "optimal"]
     for name, value in zip(names, law[:7]):
         model.add_initialized_data(name, value)
     model.add_initialized_data("stiffening", law[10])
-    terms = ["shear/2*(Norm_sqr(F)-3)", "shear*stiffening/6*pow(pos_part(Norm_sqr(F)-3),3)", "-shear*(Det(F)-1)", "lame/2*sqr(Det(F)-1)"]
+    terms = ["shear/2*(Norm_sqr(F)-3)", "shear*stiffening/6*pow(Norm_sqr(F)-3,3)", "-shear*(Det(F)-1)", "lame/2*sqr(Det(F)-1)"]
     if law[2] > 0:
         terms.append("p*(Det(F)-1)-sqr(p)/(2*bulk)")
     definitions = "Def F:=Id(3)+Grad_u; "

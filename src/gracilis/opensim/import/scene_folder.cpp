@@ -1,6 +1,7 @@
 #include <gracilis/opensim/import/scene_folder.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/opensim/import/made_muscles.hpp>
@@ -130,6 +131,12 @@ SceneFolderNotes write_scene_folder(const Model& model, const GeometryPlaces& pl
     if (settings.volumes.surfaces.count(muscle.name) > 0)
       on_surfaces += fmt::format("{},{},{},{}\n", muscle.name, (volume.surface.vertex_count() - 2) / volume.line.rays,
                                  volume.sections_on_surface, volume.centers_outside);
+    // Attachments are vertices of this surface, which a run would renumber.
+    if (const std::vector<std::string> repairs = repair_mesh(volume.surface).repairs; !repairs.empty()) {
+      notes.left_out.push_back(fmt::format("muscle '{}': its surface would have to be repaired ({}); left out",
+                                           muscle.name, fmt::join(repairs, ", ")));
+      continue;
+    }
     write_surface(folder / "muscles" / (name + ".vtp"), volume.surface.vertices, volume.surface.faces);
     text += muscle_text(model, name, volume, skeleton.poses(), coordinates, volumes, notes.left_out);
   }
