@@ -31,7 +31,7 @@ hip() {
   local name=$1
   shift
   is_finished "$out/$name" || quietly "$out/$name.txt" "$gracilis" demo "${motion[@]}" "$@" "${more[@]}" \
-    --metrics light --out "$out/$name" --force
+    --metrics light --no-pictures --out "$out/$name" --force
 }
 hip published --preset rbf-2024
 hip completed --set method=rbf

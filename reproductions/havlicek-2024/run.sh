@@ -52,7 +52,7 @@ hip() {
     [[ $kind == passive ]] || set -- --activation iliacus_r=0.3 "$@"
     set -- demo --flexion "$flexion" --step "$step" --preset "$preset" "$@"
   fi
-  quietly "$out/$name.txt" "$gracilis" "$@" --only "$only" "${more[@]}" --metrics light --out "$out/$name" --force
+  quietly "$out/$name.txt" "$gracilis" "$@" --only "$only" "${more[@]}" --metrics light --no-pictures --out "$out/$name" --force
 }
 
 # controlled MOTION PRESET: the cadaver's muscles driven by the joint control unit, into OUT/controlled.
@@ -61,7 +61,7 @@ controlled() {
   is_finished "$folder" && return
   mkdir -p "$out/controlled"
   quietly "$folder.txt" "$gracilis" run "$out/active.toml" --data "$data" --set "preset=$2" --set "motion.step_deg=$step" \
-    --set "motion.key_poses_deg=[[0,0,0],[${farthest[$1]}]]" --only "$only" "${more[@]}" --metrics light --out "$folder" --force
+    --set "motion.key_poses_deg=[[0,0,0],[${farthest[$1]}]]" --only "$only" "${more[@]}" --metrics light --no-pictures --out "$folder" --force
 }
 
 if [[ -n $has_data ]]; then

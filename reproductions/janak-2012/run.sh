@@ -20,7 +20,7 @@ hip() {
   shift
   for setting in "$@"; do set+=(--set "$setting"); done
   quietly "$folder.txt" "$gracilis" run "$root/scenes/lhdl_hip/flexion_at_once.toml" --data "$data" --set preset=janak-2012 \
-    --set sequence.ramp_frames=1 "${set[@]}" "${more[@]}" --threads 1 --no-fibers --metrics light --out "$folder" --force
+    --set sequence.ramp_frames=1 "${set[@]}" "${more[@]}" --threads 1 --no-fibers --metrics light --no-pictures --out "$folder" --force
 }
 mkdir -p "$out/runs"
 

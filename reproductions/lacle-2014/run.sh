@@ -78,7 +78,7 @@ cp "$here/transversals.toml" "$out/ten"
 # frames NAME SCENE
 frames() {
   is_finished "$out/run_$1" ||
-    quietly "$out/run_$1.txt" "$gracilis" run "$2" --set method=cylinder "${more[@]}" --every "$every" --no-ramp --no-fibers --yes \
+    quietly "$out/run_$1.txt" "$gracilis" run "$2" --set method=cylinder "${more[@]}" --every "$every" --no-ramp --no-fibers --no-pictures --yes \
       --out "$out/run_$1" --force
 }
 frames walk8 "$out/walk8/subject01_walk1_Kinematics.toml"

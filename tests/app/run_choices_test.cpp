@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace gracilis {
@@ -51,6 +52,19 @@ TEST_F(RunChoices, a_run_beyond_2_GB_needs_a_yes_where_nobody_can_be_asked) {
   EXPECT_THAT(refused.err, HasSubstr("--yes"));
   EXPECT_FALSE(std::filesystem::exists(folder.path("out")));
   EXPECT_EQ(run("--no-fibers --every 1000 --set method=skinning", huge).exit_code, 0);
+}
+
+TEST_F(RunChoices, without_pictures_everything_else_is_there) {
+  ASSERT_EQ(run("", good_scene(), "all").exit_code, 0);
+  const ProgramResult some = run("--no-pictures");
+  ASSERT_EQ(some.exit_code, 0) << some.err;
+  EXPECT_THAT(some.err, Not(HasSubstr("picture: ")));
+  EXPECT_EQ(run_program("verify " + folder.path("out").string()).exit_code, 0);
+  std::set<std::string> missing;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path("all")))
+    if (const std::string name = entry.path().filename(); !std::filesystem::exists(folder.path("out") / name))
+      missing.insert(name);
+  EXPECT_EQ(missing, (std::set<std::string>{"plots", "preview.png"}));
 }
 
 TEST_F(RunChoices, every_nth_frame_is_recorded_of_a_run_that_computes_all) {
