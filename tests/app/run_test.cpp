@@ -18,7 +18,8 @@ class RunCommand : public testing::Test {
   RunCommand() { setenv("XDG_CACHE_HOME", folder.path("cache").c_str(), 1); }
 
   ProgramResult run(const std::string& scene, const std::string& more = "") const {
-    return run_program("run " + folder.write("scene.toml", scene).string() + " --out " + out() + " " + more);
+    return run_program("run " + folder.write("scene.toml", scene).string() + " --no-pictures --out " + out() + " " +
+                       more);
   }
   std::string out() const { return folder.path("out").string(); }
 
