@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <shaped_hip.hpp>
+
 #include "builtin_scene_checks.hpp"
 
 #include <algorithm>
@@ -17,20 +19,15 @@
 namespace gracilis {
 namespace {
 
-const Scene& hip() {
-  static const Scene scene = builtin_hip();
-  return scene;
-}
-
-const Bone& bone_of_hip(const std::string& name) { return bone_of(hip(), name); }
+const Bone& bone_of_hip(const std::string& name) { return bone_of(shaped_hip(), name); }
 
 TEST(BuiltinHip, has_two_bodies_four_bones_and_six_muscles_that_cross_the_hip) {
-  EXPECT_EQ(hip().bodies, (std::vector<std::string>{"pelvis", "femur_r"}));
+  EXPECT_EQ(shaped_hip().bodies, (std::vector<std::string>{"pelvis", "femur_r"}));
   std::map<std::string, Index> bones;
-  for (const Bone& b : hip().bones) bones[b.name] = b.body;
+  for (const Bone& b : shaped_hip().bones) bones[b.name] = b.body;
   EXPECT_EQ(bones, (std::map<std::string, Index>{{"hip_bone_r", 0}, {"sacrum", 0}, {"hip_bone_l", 0}, {"femur_r", 1}}));
   std::set<std::string> muscles;
-  for (const Muscle& m : hip().muscles) {
+  for (const Muscle& m : shaped_hip().muscles) {
     muscles.insert(m.name);
     ASSERT_EQ(m.attachments.size(), 2u) << m.name;
     EXPECT_EQ(m.attachments[0].end, AttachmentEnd::origin);
@@ -43,11 +40,11 @@ TEST(BuiltinHip, has_two_bodies_four_bones_and_six_muscles_that_cross_the_hip) {
 }
 
 TEST(BuiltinHip, every_surface_is_a_closed_manifold_that_looks_outwards) {
-  for (const Bone& b : hip().bones) {
+  for (const Bone& b : shaped_hip().bones) {
     expect_sound(b.name, b.surface, b.name.starts_with("hip_bone") ? 1 : 0);  // the obturator foramen
     EXPECT_LT(b.surface.face_count(), 20000) << b.name;
   }
-  for (const Muscle& m : hip().muscles) {
+  for (const Muscle& m : shaped_hip().muscles) {
     expect_sound(m.name, m.surface, 0);
     EXPECT_GT(m.surface.face_count(), 1200) << m.name;
     EXPECT_LT(m.surface.face_count(), 3300) << m.name;
@@ -55,7 +52,7 @@ TEST(BuiltinHip, every_surface_is_a_closed_manifold_that_looks_outwards) {
 }
 
 TEST(BuiltinHip, triangles_of_muscles_are_even) {
-  for (const Muscle& m : hip().muscles) expect_even_triangles(m);
+  for (const Muscle& m : shaped_hip().muscles) expect_even_triangles(m);
 }
 
 TEST(BuiltinHip, volumes_are_those_of_the_literature) {
@@ -63,20 +60,20 @@ TEST(BuiltinHip, volumes_are_those_of_the_literature) {
   const std::map<std::string, Real> expected = {{"gluteus_maximus_r", 842.4}, {"gluteus_medius_r", 320.4},
                                                 {"gluteus_minimus_r", 103.6}, {"iliacus_r", 175.4},
                                                 {"adductor_brevis_r", 102.9}, {"adductor_longus_r", 160.8}};
-  for (const Muscle& m : hip().muscles)
+  for (const Muscle& m : shaped_hip().muscles)
     EXPECT_NEAR(1e6 * enclosed_volume(m.surface.vertices, m.surface.faces), expected.at(m.name),
                 0.01 * expected.at(m.name))
         << m.name;
 }
 
-TEST(BuiltinHip, muscles_keep_clear_of_bones_at_rest) { expect_clear_of_bones(hip()); }
+TEST(BuiltinHip, muscles_keep_clear_of_bones_at_rest) { expect_clear_of_bones(shaped_hip()); }
 
-TEST(BuiltinHip, muscles_keep_clear_of_each_other_at_rest) { expect_clear_of_each_other(hip()); }
+TEST(BuiltinHip, muscles_keep_clear_of_each_other_at_rest) { expect_clear_of_each_other(shaped_hip()); }
 
 TEST(BuiltinHip, attachments_are_areas_on_their_bones) {
   const SignedDistance hip_bone(bone_of_hip("hip_bone_r").surface), sacrum(bone_of_hip("sacrum").surface),
       femur(bone_of_hip("femur_r").surface);
-  for (const Muscle& m : hip().muscles) {
+  for (const Muscle& m : shaped_hip().muscles) {
     const auto areas = vertex_areas(m.surface.vertices, m.surface.faces);
     std::set<Index> seen;
     for (const Attachment& a : m.attachments) {
@@ -110,7 +107,7 @@ TEST(BuiltinHip, landmarks_lie_on_their_bones) {
 }
 
 TEST(BuiltinHip, the_joint_turns_about_the_head_without_the_bones_touching) {
-  const Joint& joint = hip().joints.at(0);
+  const Joint& joint = shaped_hip().joints.at(0);
   EXPECT_EQ(joint.name, "hip_r");
   ASSERT_EQ(joint.axes.size(), 3u);
   EXPECT_EQ(joint.axes[0].coordinate, "hip_flexion_r");
@@ -142,7 +139,7 @@ TEST(BuiltinHip, the_joint_turns_about_the_head_without_the_bones_touching) {
 }
 
 TEST(BuiltinHip, the_motion_flexes_to_ninety_degrees_one_by_one) {
-  const Motion& motion = hip().motion;
+  const Motion& motion = shaped_hip().motion;
   EXPECT_EQ(motion.coordinates, (std::vector<std::string>{"hip_flexion_r"}));
   ASSERT_EQ(motion.values.rows(), 91);
   ASSERT_EQ(motion.times.size(), 91u);
@@ -158,8 +155,9 @@ TEST(BuiltinHip, bones_of_one_body_do_not_overlap) {
 }
 
 TEST(BuiltinHip, the_same_bits_for_any_number_of_threads) {
+  const Scene& by_all = shaped_hip();
   const ThreadLimit limit(1);
-  expect_same_surfaces(builtin_hip(), hip());
+  expect_same_surfaces(builtin_hip(), by_all);
 }
 
 }  // namespace

@@ -1,14 +1,15 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/resolution/coarser_muscle.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/topology.hpp>
+
+#include <shaped_hip.hpp>
 
 #include <gtest/gtest.h>
 
 namespace gracilis {
 
 TEST(CoarserMuscle, has_edges_of_the_length_asked_for_and_keeps_shape_and_attachments) {
-  for (const Muscle& whole : builtin_hip().muscles) {
+  for (const Muscle& whole : shaped_hip().muscles) {
     const CoarserMuscle coarser = coarser_muscle(whole, 0.008);
     const TriangleMesh& surface = coarser.muscle.surface;
     EXPECT_TRUE(is_closed(surface.faces)) << whole.name;
@@ -32,7 +33,7 @@ TEST(CoarserMuscle, has_edges_of_the_length_asked_for_and_keeps_shape_and_attach
 }
 
 TEST(CoarserMuscle, without_an_edge_length_is_the_muscle_itself) {
-  const Muscle whole = builtin_hip().muscles.front();
+  const Muscle whole = shaped_hip().muscles.front();
   const CoarserMuscle same = coarser_muscle(whole, 0);
   EXPECT_EQ(same.muscle.surface.faces, whole.surface.faces);
   EXPECT_EQ(same.muscle.surface.vertices, whole.surface.vertices);

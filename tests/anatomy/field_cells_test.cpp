@@ -1,7 +1,8 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/geometry/distance_field.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
+
+#include <shaped_hip.hpp>
 
 #include <gtest/gtest.h>
 
@@ -99,7 +100,7 @@ TEST(FieldCells, cubic_ones_of_32_nodes_hold_a_cubic_polynomial_and_trilinear_on
 }
 
 TEST(FieldCells, of_the_published_resolution_err_by_up_to_a_tenth_of_a_millimetre_cubic_ones_by_a_third_of_that) {
-  for (const Bone& bone : builtin_hip().bones) {
+  for (const Bone& bone : shaped_hip().bones) {
     const FieldDomain published = domain_by_resolution(bone.surface, 128, 1.5);
     const std::array<Real, 2> coarse = errors(bone.surface, published.box.min(), published.box.sizes() / 128, 200);
     const std::array<Real, 2> fine = errors(bone.surface, published.box.min(), Vec3::Constant(0.001), 200);

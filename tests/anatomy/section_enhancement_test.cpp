@@ -1,9 +1,9 @@
-#include <gracilis/anatomy/builtin/builtin_hip.hpp>
 #include <gracilis/anatomy/sections/enhancement.hpp>
 #include <gracilis/anatomy/sections/surface_slices.hpp>
 #include <gracilis/geometry/section_frames.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 
+#include <shaped_hip.hpp>
 #include <shapes.hpp>
 
 #include <gmock/gmock.h>
@@ -223,8 +223,7 @@ TEST(Enhancement, sections_beyond_the_surface_stay) {
 }
 
 TEST(Enhancement, with_36_rays_all_centers_lie_inside_the_built_in_muscles) {
-  const Scene scene = builtin_hip();
-  for (const Muscle& muscle : scene.muscles) {
+  for (const Muscle& muscle : shaped_hip().muscles) {
     Points ends = Points::Zero(3, 2);
     Eigen::Vector2d counts = Eigen::Vector2d::Zero();
     for (const Attachment& attachment : muscle.attachments)
