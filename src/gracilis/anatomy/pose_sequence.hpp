@@ -30,8 +30,8 @@ struct SequenceParts {
   int hold = 0;    ///< that hold the last row
   int back = 0;    ///< back to the capture pose
 
-  int first_of_motion() const { return ramp + settle; }
-  int count() const { return ramp + settle + motion + hold + back; }
+  int first_of_motion() const { return ramp + settle; }               ///< the frame that shows the motion's first row
+  int count() const { return ramp + settle + motion + hold + back; }  ///< of all frames
 };
 /// Throws ConfigurationError where there are more than `max_frames` in all.
 SequenceParts sequence_parts(const Scene& scene, int max_frames = default_max_frames);

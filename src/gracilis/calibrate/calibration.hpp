@@ -17,10 +17,12 @@ namespace gracilis {
 
 /// What a scene's muscles are compared with.
 enum class TargetKind { moment_arms, lengths, volumes, shapes };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 4> choices_of(TargetKind) {
   return {"moment_arms", "lengths", "volumes", "shapes"};
 }
 
+/// Whether its values stand over a coordinate.
 inline bool is_curve(TargetKind kind) { return kind == TargetKind::moment_arms || kind == TargetKind::lengths; }
 
 /// What a target tells of one muscle.
@@ -55,6 +57,7 @@ struct CalibrationParameter {
 
 /// How values are looked for.
 enum class SearchMethod { least_squares, bobyqa, cobyla, sbplx };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 4> choices_of(SearchMethod) {
   return {"least-squares", "bobyqa", "cobyla", "sbplx"};
 }
@@ -89,6 +92,7 @@ Real place_of_value(const CalibrationParameter& parameter, Real value);
 std::string words_of(TargetKind kind);
 /// What its values are shown in, and how many of these are 1 m (m³).
 std::string shown_unit(TargetKind kind);
+/// How many of shown_unit are 1 m (m³).
 Real shown_factor(TargetKind kind);
 
 /// The targets that are aimed at, or those that are held out.

@@ -9,6 +9,7 @@ namespace gracilis {
 struct ParameterEstimate {
   Real value = 0, error = 0, from = 0, to = 0;
 };
+/// Of the parameter with this number, at the best values that were found.
 ParameterEstimate estimate_of(const CalibrationResult& result, std::size_t parameter);
 
 /// What a calibrated scene is made of, beside the parameters.

@@ -14,6 +14,7 @@ struct TargetSweep {
   std::vector<Real> at;              ///< rad, ascending; of one pose 0
   std::vector<std::size_t> targets;
 };
+/// One per pair of coordinate and pose; arms at the ends of a curve ask for neighbors beyond it, too.
 std::vector<TargetSweep> sweeps_of(const std::vector<CalibrationTarget>& targets);
 
 /// All that decides about an observation, but for the scene: a line each.

@@ -20,6 +20,7 @@ SceneMatch match_scene(const Calibration& calibration, const LoadedScene& loaded
 
 /// Across processes.
 std::string to_text(const SceneMatch& match);
+/// What to_text wrote. Throws InputError where it is not that.
 SceneMatch match_from_text(const std::string& text);
 
 /// Leaves out what the scene does not have.

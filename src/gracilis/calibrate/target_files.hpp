@@ -24,9 +24,12 @@ class TargetFiles {
               std::vector<std::filesystem::path>& inputs, std::vector<Problem>& of_files)
       : targets_(targets), data_(data), inputs_(inputs), of_files_(of_files) {}
 
+  /// Adds a part per muscle and source of a table of moment arms or lengths, by the target's kind.
   void read_curves(TomlReader& reader, const std::string& file, const CurveChoice& choice,
                    CalibrationTarget& target) const;
+  /// Adds a part per row of a .csv with the columns `muscle` and `volume_cm3`.
   void read_volumes(TomlReader& reader, const std::string& file, CalibrationTarget& target) const;
+  /// Adds the surface in a file, in the reader's `unit` ("m" where it has none), as a part of this muscle.
   void read_shape(TomlReader& reader, const std::string& muscle, const std::string& file,
                   CalibrationTarget& target) const;
 

@@ -7,7 +7,15 @@
 namespace gracilis {
 
 /// Exit codes of the program; part of its documented interface.
-enum class ExitCode { done = 0, internal = 1, usage = 2, unreadable_input = 3, unsupported = 4, quality = 5, interrupted = 130 };
+enum class ExitCode {
+  done = 0,
+  internal = 1,
+  usage = 2,
+  unreadable_input = 3,
+  unsupported = 4,
+  quality = 5,
+  interrupted = 130
+};
 
 /// One thing that is wrong with what the user gave us: where it is, what it is, and what to do about it.
 struct Problem {
@@ -23,6 +31,7 @@ std::string to_string(const Problem& problem);
 /// The base of everything Gracilis throws for a cause outside its own code; knows the exit code it leads to.
 class Error : public std::runtime_error {
  public:
+  /// `message` is what people read: one problem per line.
   Error(ExitCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
   ExitCode code() const { return code_; }  ///< what the program ends with
 
@@ -34,6 +43,7 @@ class Error : public std::runtime_error {
 class ConfigurationError : public Error {
  public:
   explicit ConfigurationError(std::vector<Problem> problems);  ///< a line of the message each
+  /// One problem alone.
   explicit ConfigurationError(Problem problem) : ConfigurationError(std::vector<Problem>{std::move(problem)}) {}
   const std::vector<Problem>& problems() const { return problems_; }  ///< one by one, as in the message
 
@@ -45,6 +55,7 @@ class ConfigurationError : public Error {
 class InputError : public Error {
  public:
   explicit InputError(std::vector<Problem> problems);  ///< a line of the message each
+  /// One problem alone.
   explicit InputError(Problem problem) : InputError(std::vector<Problem>{std::move(problem)}) {}
   const std::vector<Problem>& problems() const { return problems_; }  ///< one by one, as in the message
 
@@ -55,6 +66,7 @@ class InputError : public Error {
 /// The simulation produced something that must not be used, such as a non-finite value (exit code 5).
 class QualityError : public Error {
  public:
+  /// `message` names what is wrong, where, and what helps.
   explicit QualityError(const std::string& message) : Error(ExitCode::quality, message) {}
 };
 

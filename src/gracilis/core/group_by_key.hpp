@@ -12,6 +12,7 @@ namespace gracilis {
 struct GroupedByKey {
   std::vector<Index> begins, items;
 
+  /// The items with this key. Precondition: it is one of those that were grouped by.
   std::span<const Index> with(Index key) const {
     const auto k = static_cast<std::size_t>(key);
     return {items.begin() + begins[k], items.begin() + begins[k + 1]};

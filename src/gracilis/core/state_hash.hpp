@@ -17,6 +17,7 @@ inline std::uint64_t hash_bytes(const void* data, std::size_t size, std::uint64_
   return hash;
 }
 
+/// Of the bytes of a contiguous array, going on from `hash`.
 template <class Values>
 std::uint64_t hash_of(const Values& values, std::uint64_t hash = hash_seed) {
   return hash_bytes(values.data(), static_cast<std::size_t>(values.size()) * sizeof(*values.data()), hash);

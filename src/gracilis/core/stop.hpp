@@ -17,6 +17,7 @@ class Interrupted : public Error {
 /// scope counts. The flag must outlive it.
 class StopScope {
  public:
+  /// Heeds the flag until the scope ends.
   explicit StopScope(const std::atomic<bool>* flag);
   ~StopScope();
   StopScope(const StopScope&) = delete;

@@ -19,7 +19,7 @@ using RigidTransform = Eigen::Isometry3d;
 
 inline constexpr Real pi = 3.14159265358979323846;
 
-constexpr Real radians(Real degrees) { return degrees * (pi / 180); }
-constexpr Real degrees(Real radians) { return radians * (180 / pi); }
+constexpr Real radians(Real degrees) { return degrees * (pi / 180); }  ///< of an angle in degrees
+constexpr Real degrees(Real radians) { return radians * (180 / pi); }  ///< of an angle in radians
 
 }  // namespace gracilis

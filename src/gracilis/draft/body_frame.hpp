@@ -12,8 +12,8 @@ namespace gracilis {
 struct BoneAxis {
   Vec3 near = Vec3::Zero(), far = Vec3::Zero();
 
-  Vec3 direction() const { return (far - near).normalized(); }
-  Real length() const { return (far - near).norm(); }
+  Vec3 direction() const { return (far - near).normalized(); }  ///< unit, from near to far
+  Real length() const { return (far - near).norm(); }           ///< m
   /// 0 at the near end, 1 at the far one.
   Real share(const Vec3& p) const { return (p - near).dot(far - near) / (far - near).squaredNorm(); }
 };
@@ -27,7 +27,7 @@ struct BodyFrame {
   std::string how;
   Real certainty = 0;
 
-  Vec3 right() const { return anterior.cross(superior); }
+  Vec3 right() const { return anterior.cross(superior); }  ///< unit
   /// "right", "-anterior" ... of the body's right half; on the left one what turns about anterior or superior turns the
   /// other way, so that values keep their meaning.
   Vec3 named(const std::string& direction, BodySide side) const;

@@ -31,7 +31,7 @@ struct Site {
   Real from = 0, to = 1;
   bool or_before = false;  ///< only where the bone of the site before is not here
 
-  bool is_part() const { return from > 0 || to < 1; }
+  bool is_part() const { return from > 0 || to < 1; }  ///< not the whole bone
 };
 
 struct KnownMuscle {
@@ -46,7 +46,7 @@ struct KnownTendon {
   bool at_origin = false;            ///< of each of them; else at the insertion
   std::vector<std::string> muscles;  ///< names in the dictionary; the first is taken where several would do
 
-  bool joins(const KnownMuscle& muscle) const;
+  bool joins(const KnownMuscle& muscle) const;  ///< whether the muscle is one of them
 };
 
 struct KnownSegment {
@@ -72,7 +72,7 @@ struct KnownJoint {
   std::vector<KnownCoordinate> coordinates;
   std::vector<std::string> not_with = {};  ///< bones; "name*": all whose names begin so
 
-  bool is_of_spine() const { return kind == JointKind::disc || kind == JointKind::masses; }
+  bool is_of_spine() const { return kind == JointKind::disc || kind == JointKind::masses; }  ///< between vertebrae
 };
 
 struct Dictionary {
@@ -83,9 +83,11 @@ struct Dictionary {
   std::vector<KnownSegment> segments;  ///< parents before children
   std::vector<KnownJoint> joints;
 
+  /// By its name. Throws std::logic_error where there is none.
   const KnownSegment& segment(const std::string& name) const;
 };
 
+/// Everything that is compiled in; read once, at the first call.
 const Dictionary& dictionary();
 
 /// `name` with {s} as the ending of the side, and, where there is no {s}, as it is.

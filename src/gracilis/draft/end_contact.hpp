@@ -19,6 +19,7 @@ struct HeldVertices {
 /// What several questions about one muscle share.
 class MuscleEnds {
  public:
+  /// `surface` must outlive it; `size` is the body's, m.
   MuscleEnds(const TriangleMesh& surface, Real size);
 
   /// Vertices within the least of some distances to the zones at which they are enough to hold by; scattered ones are
@@ -33,8 +34,9 @@ class MuscleEnds {
   /// Both ends: of a vertex farthest from any, and farthest from that one.
   std::vector<HeldVertices> both_ends() const;
 
+  /// Whether so many vertices, with so much of the surface around them, are enough to hold by.
   bool is_enough(const std::vector<Index>& vertices) const;
-  const TriangleMesh& surface() const { return surface_; }
+  const TriangleMesh& surface() const { return surface_; }  ///< m
 
  private:
   std::vector<Index> without_crumbs(const std::vector<Index>& vertices) const;

@@ -11,6 +11,7 @@ namespace gracilis {
 struct MuscleSites {
   EndSites origin, insertion;
 
+  /// Of one end.
   const EndSites& at(AttachmentEnd end) const { return end == AttachmentEnd::origin ? origin : insertion; }
 };
 

@@ -18,6 +18,7 @@ struct NameMatch {
 
 /// The one whose alias has the most of the words, all of it among them; else the one that is spelled nearly so.
 NameMatch<KnownBone> find_bone(const NameWords& name);
+/// As find_bone.
 NameMatch<KnownMuscle> find_muscle(const NameWords& name);
 
 /// Whether the name tells something that is neither bone nor muscle, as a ligament.

@@ -14,6 +14,7 @@ enum class BodySide { none, right, left };
 /// What follows a name: "", "_r" or "_l".
 std::string side_ending(BodySide side);
 
+/// Left of right and the other way; none of none.
 BodySide other_side(BodySide side);
 
 /// How the words of names are read (words.toml).

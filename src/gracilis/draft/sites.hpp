@@ -24,16 +24,19 @@ struct EndSites {
 /// The bones with their nearest points and parts.
 class BoneParts {
  public:
+  /// Both must outlive it.
   BoneParts(const FoundFolder& found, const Skeleton& skeleton);
 
+  /// What of the sites is here on that side; where no bone is, the bodies that missing ones go with.
   EndSites end_sites(const std::vector<Site>& sites, BodySide side) const;
 
   /// The distance from p to the bone; infinite beyond `reach` or where the nearest point is outside of the zone.
   Real distance(const Zone& zone, const Vec3& p, Real reach) const;
+  /// Of a bone, by its number in FoundFolder::bones.
   const NearestTriangle& tree(std::size_t bone) const { return trees_[bone]; }
-  const std::string& body(std::size_t bone) const { return skeleton_.bodies[bone]; }
-  const FoundBone& bone(std::size_t bone) const { return found_.bones[bone]; }
-  std::size_t count() const { return trees_.size(); }
+  const std::string& body(std::size_t bone) const { return skeleton_.bodies[bone]; }  ///< that the bone goes with
+  const FoundBone& bone(std::size_t bone) const { return found_.bones[bone]; }        ///< by its number
+  std::size_t count() const { return trees_.size(); }                                 ///< of bones
 
  private:
   bool matches(const Site& site, const FoundBone& bone, BodySide side) const;

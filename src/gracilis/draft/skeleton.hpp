@@ -35,6 +35,7 @@ struct Skeleton {
   std::string body_of(const std::string& segment, BodySide side) const;
   /// Joints between the root and this body.
   int depth(const std::string& body) const;
+  /// The joint that moves this body; null of the root.
   const DraftJoint* joint_of(const std::string& child) const;
 
   std::map<std::string, std::string> body_of_segment;  ///< by the segment's name and side's ending

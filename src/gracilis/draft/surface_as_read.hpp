@@ -10,6 +10,7 @@ namespace gracilis {
 
 /// A muscle's surface as the reader of a scene has it: with its needles divided, if it is made of them.
 struct SurfaceAsRead {
+  /// Divides the needles of a surface as it is in its file (m).
   explicit SurfaceAsRead(const TriangleMesh& of_file);
 
   /// Where these vertices of the file are (ascending), and those that came between two of them: a cloud that names

@@ -14,6 +14,7 @@ struct ConstraintGraph {
   Index particle_count = 0;
   std::vector<Index> particles;
 
+  /// Groups of `arity` particles.
   Index constraint_count() const { return static_cast<Index>(particles.size()) / arity; }
 };
 

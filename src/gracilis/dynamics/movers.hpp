@@ -8,6 +8,7 @@ namespace gracilis {
 struct Movers {
   std::vector<char> listed;
 
+  /// Whether that surface moves.
   bool move(std::size_t surface) const { return listed.empty() || listed[surface] != 0; }
 };
 

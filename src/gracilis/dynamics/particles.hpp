@@ -16,8 +16,9 @@ struct Particles {
 
   Index count() const { return static_cast<Index>(xyzw.size() / 4) - idle_count; }  ///< without idle ones
   float* at(Index i) { return xyzw.data() + 4 * static_cast<std::size_t>(i); }  ///< x, y, z (m), inverse mass (1/kg)
-  const float* at(Index i) const { return xyzw.data() + 4 * static_cast<std::size_t>(i); }
+  const float* at(Index i) const { return xyzw.data() + 4 * static_cast<std::size_t>(i); }      ///< the same
   Eigen::Map<Eigen::Vector3f> position(Index i) { return Eigen::Map<Eigen::Vector3f>(at(i)); }  ///< m from the origin
+  /// Where a particle is, m from the origin.
   Eigen::Map<const Eigen::Vector3f> position(Index i) const { return Eigen::Map<const Eigen::Vector3f>(at(i)); }
   float inverse_mass(Index i) const { return at(i)[3]; }  ///< 1/kg; 0 of fixed ones
 };

@@ -13,6 +13,7 @@ struct VertexFaces {
   std::vector<Index> faces;
   Eigen::Matrix2Xi ends;  ///< for each of `faces`, its other two corners, counter-clockwise
 
+  /// The faces at a particle.
   std::span<const Index> around(Index particle) const {
     const auto at = static_cast<std::size_t>(particle);
     return {faces.begin() + offsets[at], faces.begin() + offsets[at + 1]};

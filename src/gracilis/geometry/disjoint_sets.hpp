@@ -11,6 +11,7 @@ namespace gracilis {
 /// Numbers from 0 to count - 1 in disjoint sets, each alone at first, with path halving.
 class DisjointSets {
  public:
+  /// So many numbers, each a set of its own.
   explicit DisjointSets(Index count) : parent_(static_cast<std::size_t>(count)) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }

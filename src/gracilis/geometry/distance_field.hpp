@@ -58,6 +58,7 @@ FieldSample sample(const DistanceField& field, const Eigen::Vector3f& p);
 /// The batched query: columns of `points` → distances (n) and, where asked for, gradients (3 × n).
 void sample(const DistanceField& field, const Points& points, Eigen::VectorXd& distances, Points* gradients = nullptr);
 
+/// The field as queries in single precision need it. Keeps pointing at its values.
 inline FieldGrid grid_of(const DistanceField& field) {
   return {field.origin.cast<float>(), field.cell_size.cast<float>().cwiseInverse(), field.nodes, field.values.data()};
 }
@@ -84,6 +85,7 @@ inline FieldGrid grid_of(const DistanceField& field) {
   return {v0 + z * (v1 - v0), per_cell.cwiseProduct(grid.cells_per_metre)};
 }
 
+/// The same of the field itself.
 inline FieldSample sample(const DistanceField& field, const Eigen::Vector3f& p) { return sample(grid_of(field), p); }
 
 }  // namespace gracilis

@@ -12,6 +12,7 @@ struct BoundedField {
   Eigen::Vector3f low, size;             ///< m; of the grid
 };
 
+/// The field must outlive the result.
 BoundedField bounded(const DistanceField& field);
 
 /// Distance and gradient within the grid; beyond it a lower bound of the distance (to the grid, plus the border's) and

@@ -40,6 +40,7 @@ ImplicitSolid thick_curve(const std::vector<ThickPoint>& points);
 /// Smaller of a and b, rounded where they differ by less than `blend`; lies at most blend/4 below the smaller one. A
 /// polynomial smooth minimum: quadratic in the blend zone, continuous first derivative.
 Real smooth_minimum(Real a, Real b, Real blend);
+/// Larger of a and b, rounded as smooth_minimum does; at most blend/4 above the larger one.
 inline Real smooth_maximum(Real a, Real b, Real blend) { return -smooth_minimum(-a, -b, blend); }
 
 /// Everything in any of `solids` (at least one), with fillets about `blend` wide.

@@ -31,6 +31,7 @@ class ThickSheet {
     Real along = 0;     ///< 0 at the first row, 1 at the last
     Real across = 0;    ///< 0 at the first column, 1 at the last
   };
+  /// How far a point (m) is from the sheet, and where on it.
   Nearest nearest(const Vec3& point) const;
   const Eigen::AlignedBox3d& bounds() const { return bounds_; }  ///< m
 

@@ -13,6 +13,7 @@ struct MeshDefect {
   Index first = -1;  ///< a vertex for defects of vertices, otherwise a face; -1: none
 
   explicit operator bool() const { return count > 0; }  ///< whether there is any
+  /// Counts one more; the first one is remembered.
   void add(Index element) {
     if (count++ == 0) first = element;
   }
@@ -43,10 +44,13 @@ struct MeshReport {
   Index genus = -1;  ///< number of handles, all components together; -1 unless closed and manifold
 
   Real diagonal() const { return (high - low).norm(); }  ///< m, of the bounding box
+  /// Every vertex, and every index is that of one.
   bool is_finite() const { return !out_of_range_faces && !non_finite_vertices; }
+  /// Each edge between two faces.
   bool is_closed() const { return is_finite() && face_count > 0 && !open_edges && !non_manifold_edges; }
+  /// A surface at every edge and vertex.
   bool is_manifold() const { return is_finite() && !non_manifold_edges && !pinched_vertices; }
-  bool is_oriented() const { return is_finite() && !inconsistent_edges; }
+  bool is_oriented() const { return is_finite() && !inconsistent_edges; }  ///< neighbors face the same way
 };
 
 /// Inspects any surface, however broken; never throws.

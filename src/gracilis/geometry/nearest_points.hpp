@@ -12,8 +12,9 @@ class NearestPoints {
  public:
   explicit NearestPoints(const Points& points);  ///< copies them
   ~NearestPoints();
+  /// One that is moved from may only be assigned to or destroyed.
   NearestPoints(NearestPoints&&) noexcept;
-  NearestPoints& operator=(NearestPoints&&) noexcept;
+  NearestPoints& operator=(NearestPoints&&) noexcept;  ///< as the constructor
 
   /// Numbers of the `count` nearest points, nearest first; all where there are fewer.
   std::vector<Index> query(const Vec3& p, std::size_t count) const;

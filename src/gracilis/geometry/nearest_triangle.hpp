@@ -23,8 +23,9 @@ class NearestTriangle {
  public:
   explicit NearestTriangle(const TriangleMesh& mesh);  ///< copies it
   ~NearestTriangle();
+  /// One that is moved from may only be assigned to or destroyed.
   NearestTriangle(NearestTriangle&&) noexcept;
-  NearestTriangle& operator=(NearestTriangle&&) noexcept;
+  NearestTriangle& operator=(NearestTriangle&&) noexcept;  ///< as the constructor
 
   /// The nearest point within `reach`, or face -1.
   NearestPoint query(const Vec3& p, Real reach = std::numeric_limits<Real>::infinity()) const;

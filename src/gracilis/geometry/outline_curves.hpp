@@ -21,6 +21,7 @@ enum class OutlineCurve {
   shortest_tour,     ///< shortest closed way through all points (Giesen 1999), improved until no exchange helps
   angular            ///< around the middle, by angle; in the plane
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 8> choices_of(OutlineCurve) {
   return {"nearest-neighbor", "nn-crust",      "crust",         "beta-skeleton",
           "alpha-shape",      "spanning-tree", "shortest-tour", "angular"};

@@ -9,6 +9,7 @@ namespace gracilis {
 /// nearest point of one of their edges. Voronoi regions after Ericson, Real-Time Collision Detection, 2005,
 /// section 5.1.5.
 Vec3 nearest_barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+/// The same in single precision.
 Eigen::Vector3f nearest_barycentric(const Eigen::Vector3f& p, const Eigen::Vector3f& a, const Eigen::Vector3f& b,
                                     const Eigen::Vector3f& c);
 

@@ -25,6 +25,7 @@ enum class RadialShape {
   thin_plate,     ///< s² log s
   power_minus_1,  ///< s² (s^a - 1)
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 13> choices_of(RadialShape) {
   return {"wendland-10", "wendland-11", "wendland-12", "wendland-30", "wendland-31", "wendland-32",  "wendland-33",
           "wendland-50", "wendland-51", "wendland-52", "gaussian",    "thin-plate",  "power-minus-1"};

@@ -11,6 +11,7 @@ namespace gracilis {
 struct RigidBlend {
   std::vector<Eigen::Vector4d> real, dual;
 };
+/// In the order of the motions.
 RigidBlend prepare_blend(std::span<const RigidTransform> motions);
 
 /// The weighted mean of rigid motions by dual quaternions (Kavan et al. 2008): rigid itself, equal to the motion when

@@ -14,8 +14,9 @@ class SparseLdlt {
  public:
   SparseLdlt();
   ~SparseLdlt();
+  /// One that is moved from may only be assigned to or destroyed.
   SparseLdlt(SparseLdlt&&) noexcept;
-  SparseLdlt& operator=(SparseLdlt&&) noexcept;
+  SparseLdlt& operator=(SparseLdlt&&) noexcept;  ///< as the constructor
 
   /// Only the lower half of the matrix is read. Matrices after the first have its pattern, which is looked at once.
   /// Throws QualityError, which says `failure`, where a pivot is zero or not finite.

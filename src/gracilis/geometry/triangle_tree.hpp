@@ -15,8 +15,9 @@ class TriangleTree {
  public:
   explicit TriangleTree(const TriangleMesh& mesh);  ///< copies what it needs
   ~TriangleTree();
+  /// One that is moved from may only be assigned to or destroyed.
   TriangleTree(TriangleTree&&) noexcept;
-  TriangleTree& operator=(TriangleTree&&) noexcept;
+  TriangleTree& operator=(TriangleTree&&) noexcept;  ///< as the constructor
 
   /// Told of a triangle that may be near, answers how near others still have to be (m); infinity: as before.
   using Near = float (*)(Index face, void* query);

@@ -14,9 +14,9 @@ namespace gracilis {
 /// error stays below 0.01.
 class WindingNumber {
  public:
-  explicit WindingNumber(const TriangleMesh& mesh);
+  explicit WindingNumber(const TriangleMesh& mesh);  ///< copies what it needs
 
-  Real query(const Vec3& p) const;
+  Real query(const Vec3& p) const;  ///< at a point; 0 of no triangles
 
  private:
   struct Node {

@@ -29,6 +29,7 @@ class CsvRows {
   /// A cell as a finite number, or a complaint that it is not `what`, as in "an angle".
   Real number(std::size_t column, std::string_view what) const;
 
+  /// Throws InputError about the line that was read last.
   [[noreturn]] void fail(const std::string& what, const std::string& remedy = "correct the line") const;
 
  private:

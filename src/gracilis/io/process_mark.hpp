@@ -19,6 +19,7 @@ ProcessMark own_mark();
 
 /// "HOST PROCESS STARTED", and back; nothing where the text is none.
 std::string to_text(const ProcessMark& mark);
+/// A mark's text as the mark; nothing where the text is none.
 std::optional<ProcessMark> parse_mark(std::string_view text);
 
 /// Whether the process is on this machine and runs no more; another one that has got its number since does not count.

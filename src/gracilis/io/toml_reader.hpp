@@ -35,26 +35,28 @@ class TomlReader {
   TomlReader(const toml::table& table, std::string title, std::vector<Problem>& problems)
       : table_(&table), title_(std::move(title)), problems_(&problems) {}
 
-  const toml::node* find(const std::string& key);  ///< null when the key is missing
-  bool has(const std::string& key) { return find(key) != nullptr; }
+  const toml::node* find(const std::string& key);                    ///< null when the key is missing
+  bool has(const std::string& key) { return find(key) != nullptr; }  ///< whether the key is there
 
-  std::optional<std::string> text(const std::string& key);
-  std::optional<bool> flag(const std::string& key);
-  std::optional<Real> number(const std::string& key, const NumberRange& range = {});
+  std::optional<std::string> text(const std::string& key);                            ///< not empty
+  std::optional<bool> flag(const std::string& key);                                   ///< true or false
+  std::optional<Real> number(const std::string& key, const NumberRange& range = {});  ///< within the range
+  /// `least` to `most`.
   std::optional<Index> integer(const std::string& key, Index least, Index most);
-  std::optional<Vec3> vector(const std::string& key);
-  std::optional<Eigen::Vector2d> pair(const std::string& key);
+  std::optional<Vec3> vector(const std::string& key);                          ///< three numbers
+  std::optional<Eigen::Vector2d> pair(const std::string& key);                 ///< two numbers
   std::optional<Eigen::MatrixXd> rows(const std::string& key, Index columns);  ///< array of arrays of numbers
   std::vector<Real> numbers(const std::string& key);                           ///< array of numbers
   std::vector<std::string> texts(const std::string& key);                      ///< one string or an array of them
   std::vector<Index> indices(const std::string& key);                          ///< array of integers, not negative
+  /// [key]; problems go where this reader's go.
   std::optional<TomlReader> table(const std::string& key);
   std::vector<TomlReader> tables(const std::string& key);  ///< [[key]]
 
   /// As above, and adds a problem when the key is missing; then the result is empty.
   std::string required_text(const std::string& key);
-  std::optional<Real> required_number(const std::string& key, const NumberRange& range = {});
-  std::optional<Vec3> required_vector(const std::string& key);
+  std::optional<Real> required_number(const std::string& key, const NumberRange& range = {});  ///< as required_text
+  std::optional<Vec3> required_vector(const std::string& key);                                 ///< as required_text
 
   /// Reads every setting of the struct that stands in the table.
   template <class Settings>
@@ -65,13 +67,17 @@ class TomlReader {
   /// The value of a setting where it stands in the table and may be that; adds a problem where it may not.
   std::optional<SettingValue> setting(const SettingInfo& info);
 
+  /// At the value of the key, or at the table where the key is missing.
   void add_problem(const std::string& key, const std::string& what, const std::string& remedy = "");
+  /// At a value.
   void add_problem(const toml::node& node, const std::string& what, const std::string& remedy);
+  /// One that knows its place.
   void add_problem(Problem problem) { problems_->push_back(std::move(problem)); }
+  /// Adds a problem for each key that nobody asked for.
   void reject_unknown_keys();
 
-  Problem place() const { return place_of(*table_); }
-  const std::string& title() const { return title_; }
+  Problem place() const { return place_of(*table_); }  ///< of the table, with nothing said about it yet
+  const std::string& title() const { return title_; }  ///< what the table is, for messages
 
  private:
   static std::optional<SettingValue> setting_value(const toml::node& node);

@@ -33,10 +33,11 @@ class ValueReader {
   /// error.
   std::size_t count(std::string_view text, std::size_t bytes_each = 1);
 
-  bool at_end() const { return position_ >= bytes_.size(); }
+  bool at_end() const { return position_ >= bytes_.size(); }  ///< no byte is left
   /// Steps back before the last word read.
   void unread_word() { position_ = word_begin_; }
 
+  /// Throws InputError about the place that was read last.
   [[noreturn]] void fail(const std::string& what, const std::string& remedy = "export the file again") const;
 
  private:

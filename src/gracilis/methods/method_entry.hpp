@@ -41,9 +41,10 @@ struct PhaseTime {
 class PhaseTimer {
  public:
   virtual ~PhaseTimer() = default;
-  virtual Index triangles() const = 0;
+  virtual Index triangles() const = 0;  ///< of the muscle's surface
   /// The iteration first, then its phases.
   virtual std::vector<std::string_view> phases() const = 0;
+  /// Runs a phase, by its number in `phases`, so many times from the same state.
   virtual PhaseTime time(std::size_t phase, int repeats) const = 0;
 };
 
@@ -74,8 +75,8 @@ struct MethodEntry {
   /// Of methods that make fibers of their own, which runs record in every frame; none: fibers follow the surface.
   OwnFibers (*own_fibers)(const Scene&, const Muscle&) = nullptr;
   /// Of methods that iterate; none: it does not. Takes the muscle alone through the poses, to the middle of the last.
-  /// The fields of all bones, by the scene's settings and, where it `has_far_fields`, those that reach far, must outlive
-  /// the timer.
+  /// The fields of all bones, by the scene's settings and, where it `has_far_fields`, those that reach far, must
+  /// outlive the timer.
   std::unique_ptr<PhaseTimer> (*phase_timer)(const Scene&, const Muscle&, const std::vector<DistanceField>& fields,
                                              const std::vector<DistanceField>& far_fields,
                                              const std::vector<Pose>&) = nullptr;

@@ -13,8 +13,10 @@ enum class Predictor {
   carried,  ///< carried by what carries the surface
   arap      ///< carried, then brought nearer to an as-rigid-as-possible surface (methods/arap_predictor.hpp)
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(Predictor) { return {"none", "carried", "arap"}; }
 
+/// Where a solver begins, for settings with a member `predictor`.
 template <class Settings>
 Setting<Settings> predictor_row() {
   return {"predictor",

@@ -11,6 +11,7 @@ Setting<Settings> bone_margin_row() {
   return {"bone_margin", &Settings::bone_margin, "m", 0, 0.1, "Distance that free vertices keep from bones."};
 }
 
+/// Whether vertices nearer than that at rest keep their distance instead.
 template <class Settings>
 Setting<Settings> bone_rest_gap_row() {
   return {"bone_rest_gap",

@@ -44,7 +44,7 @@ struct ActivationPlan {
   std::vector<JointControlUnit> units;
   std::vector<ActivationOfPose> functions;
 
-  bool empty() const { return signals.empty() && units.empty() && functions.empty(); }
+  bool empty() const { return signals.empty() && units.empty() && functions.empty(); }  ///< says nothing of any muscle
 };
 
 /// True when the plan says how active this muscle is.

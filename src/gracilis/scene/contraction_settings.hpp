@@ -10,6 +10,7 @@ enum class SurfacePaths {
                   ///< grow with the angle to the fiber direction and with the distance from the fiber
   nearest_joined  ///< published: the vertices nearest to each fiber's points, joined by shortest ways
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(SurfacePaths) { return {"along_fibers", "nearest_joined"}; }
 
 /// How one muscle contracts. Defaults, units and ranges: its table.

@@ -11,6 +11,7 @@ enum class FiberTemplate {
   curved,    ///< arcs that bulge to one side
   fan        ///< converge towards the insertion
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 4> choices_of(FiberTemplate) { return {"parallel", "pennate", "curved", "fan"}; }
 
 /// Where fibers end.
@@ -19,6 +20,7 @@ enum class FiberEnds {
   attachments,  ///< on attachments
   aponeuroses   ///< on aponeuroses, which are the belly's broad sides where nothing is known of them
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(FiberEnds) { return {"automatic", "attachments", "aponeuroses"}; }
 
 /// The fibers of one muscle. Defaults, units and ranges: setting_table<FiberSettings>().

@@ -11,6 +11,7 @@ struct Wrench {
   Vec3 force = Vec3::Zero();   ///< N
   Vec3 moment = Vec3::Zero();  ///< N·m
 
+  /// A force (N) that acts at a point (m from the one that the moment is about).
   void add(const Vec3& at, const Vec3& acting) {
     force += acting;
     moment += at.cross(acting);

@@ -19,7 +19,7 @@ struct NamedSurface {
   /// Of a muscle: those that it is pulled apart from; not given: all others and bones; none: it stays where it is.
   std::optional<std::vector<std::string>> apart_from = {};
 
-  bool stays() const { return apart_from && apart_from->empty(); }
+  bool stays() const { return apart_from && apart_from->empty(); }  ///< gives way to nothing
 };
 
 /// Has only those muscles give way that `apart` names: "a" to all others and bones, "a:b" each to the other alone, and

@@ -56,6 +56,7 @@ Real shortest_decimal(float value);
 /// A member of Settings that users may set.
 template <class Settings>
 struct Setting : SettingInfo {
+  /// A member with the bounds, both allowed, and the meaning that people read; `of_all`: muscles of a scene share it.
   template <class T, class Owner>
   requires std::derived_from<Settings, Owner> Setting(std::string_view name, T Owner::*member, std::string_view in_unit,
                                                       Real least, Real greatest, std::string_view sentence,

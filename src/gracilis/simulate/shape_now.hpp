@@ -12,6 +12,7 @@ namespace gracilis {
 struct FacesAround {
   std::vector<Index> offsets, faces;
 };
+/// Of a surface with so many vertices.
 FacesAround faces_around(const Eigen::Matrix3Xi& faces, Index vertex_count);
 
 /// A muscle's surface at one instant, made quickly and asked how far points are from it.

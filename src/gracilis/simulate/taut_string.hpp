@@ -8,9 +8,12 @@ namespace gracilis {
 
 /// The bones where they are at one instant.
 struct PlacedBones {
+  /// Where these bodies have them.
   PlacedBones(const BoneSpace& bones, const std::vector<RigidTransform>& bodies);
 
+  /// Distance (m) at a point of the world, and its gradient in the bone's frame.
   FieldSample sample(std::size_t bone, const Vec3& p) const { return space.sample(bone, to_local[bone] * p); }
+  /// Turns a direction from the bone's frame to the world's.
   Vec3 in_world(std::size_t bone, const Eigen::Vector3f& direction) const {
     return to_local[bone].linear().transpose() * direction.cast<Real>();
   }

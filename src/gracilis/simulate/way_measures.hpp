@@ -24,6 +24,7 @@ struct LineBesideWay {
   Real turn = 0;      ///< rad, by which the way turns in all, in eight pieces
   Real standoff = 0;  ///< m, mean distance of the line's points from those at the same shares of the way
 };
+/// Of a line and its way, both from the same end, m.
 LineBesideWay beside_way(const Points& line, const Points& way);
 
 /// How much longer a line is than it must be, as a share, at least 0. It must be as many times longer than its way as

@@ -41,7 +41,7 @@ struct MuscleStrings {
   std::vector<std::vector<Index>> neighbors;  ///< of each string
   StringLanes lanes;                          ///< all of this for the vector kernel
 
-  Index node(Index string, Index i) const { return string * nodes + i; }
+  Index node(Index string, Index i) const { return string * nodes + i; }  ///< the i-th of a string
 };
 
 /// Whether a muscle is attached to several bodies: with one alone it just goes along, and needs no strings.

@@ -30,7 +30,7 @@ class NodeForces {
   /// Says that no node of a string moved further than this since it was last assembled, m.
   void string_moved(Index string, Real distance) { travelled_[static_cast<std::size_t>(string)] += distance; }
 
-  const MuscleStrings& muscle() const { return muscle_; }
+  const MuscleStrings& muscle() const { return muscle_; }  ///< whose strings they are
 
  private:
   struct Node;

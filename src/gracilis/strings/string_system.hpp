@@ -9,6 +9,7 @@ namespace gracilis::strings {
 /// The block tridiagonal system of one string's inner nodes: H_i x_i - k (x_{i-1} + x_{i+1}) = -g_i, with the ends at
 /// rest.
 struct StringSystem {
+  /// For a string of so many nodes, ends included.
   explicit StringSystem(Index nodes);
 
   Real tension = 0;                        ///< k, 1/m

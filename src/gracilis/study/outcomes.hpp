@@ -21,6 +21,7 @@ struct OutcomeValues {
 /// metric the largest over muscles and frames.
 class OutcomeTable {
  public:
+  /// `study` must outlive it.
   explicit OutcomeTable(const Study& study);
 
   /// The next run; null: it has not been measured.

@@ -21,10 +21,12 @@ class RunClaim {
   /// Nothing where another process works on it. Throws InputError where the folder cannot be written.
   static std::optional<RunClaim> take(const std::filesystem::path& folder);
 
+  /// The claim goes along.
   RunClaim(RunClaim&&) = default;
   RunClaim& operator=(RunClaim&&) = delete;
   ~RunClaim();
 
+  /// Says that this process is alive; nothing happens where the lock cannot be written.
   void renew() const;
 
  private:

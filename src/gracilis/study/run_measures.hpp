@@ -12,6 +12,7 @@ namespace gracilis {
 struct MetricName {
   std::string name, unit;  ///< "vertex_depth", "mm"; unit "1" where it has none
 };
+/// By the column's ending, as in "vertex_depth_mm".
 MetricName metric_name(const std::string& column);
 
 /// What a complete run measured: measures.csv, and mean fiber lengths where it followed fibers.

@@ -18,9 +18,9 @@ namespace gracilis {
 ///                          (definition.txt); what a killed one leaves behind is gone on with
 ///   runs.csv ...           what `collect` writes, see collect.hpp
 std::filesystem::path complete_folder(const Study& study, const StudyRun& run);
-std::filesystem::path working_folder(const Study& study, const StudyRun& run);
-std::filesystem::path failure_file(const Study& study, const StudyRun& run);
-std::filesystem::path failure_log(const Study& study, const StudyRun& run);
+std::filesystem::path working_folder(const Study& study, const StudyRun& run);  ///< under_way/NAME
+std::filesystem::path failure_file(const Study& study, const StudyRun& run);    ///< failures/NAME.json
+std::filesystem::path failure_log(const Study& study, const StudyRun& run);     ///< failures/NAME.log
 
 /// How a run came to be: study.json beside its run.json, or what failures/ keeps.
 struct RunRecord {
@@ -33,6 +33,7 @@ struct RunRecord {
   std::string host;
 };
 
+/// As JSON. Throws InputError where it cannot be written.
 void write_run_record(const std::filesystem::path& file, const RunRecord& record);
 /// Nothing where there is none, or one that cannot be read.
 std::optional<RunRecord> read_run_record(const std::filesystem::path& file);

@@ -16,7 +16,8 @@ struct PlacePairs {
   Eigen::VectorXd distances;        ///< m, between the two as they lie now
   Index of_template = 0;  ///< so many pairs begin at samples of the template's surface, the others at the subject's
 
-  Index count() const { return static_cast<Index>(from.cols()); }
+  Index count() const { return static_cast<Index>(from.cols()); }  ///< of pairs
+  /// Whether the normals of a pair point about the same way: their cosine is above this.
   bool faces_alike(Index pair, Real least_cosine) const {
     return from_normals.col(pair).dot(to_normals.col(pair)) > least_cosine;
   }
@@ -33,13 +34,13 @@ class PairedBone {
   /// With the template's vertices at `moved`.
   PlacePairs pairs(const Points& moved) const;
 
-  const std::string& name() const { return name_; }
-  const TriangleMesh& from() const { return from_; }
-  const TriangleMesh& to() const { return to_; }
-  const Points& from_points() const { return from_points_; }
-  const Points& to_points() const { return to_points_; }
-  const NearestTriangle& from_tree() const { return from_tree_; }
-  const NearestTriangle& to_tree() const { return to_tree_; }
+  const std::string& name() const { return name_; }                ///< of both bones
+  const TriangleMesh& from() const { return from_; }               ///< the template's, at rest, m
+  const TriangleMesh& to() const { return to_; }                   ///< the subject's, m
+  const Points& from_points() const { return from_points_; }       ///< samples of it
+  const Points& to_points() const { return to_points_; }           ///< likewise
+  const NearestTriangle& from_tree() const { return from_tree_; }  ///< of the template's
+  const NearestTriangle& to_tree() const { return to_tree_; }      ///< of the subject's
 
  private:
   std::string name_;

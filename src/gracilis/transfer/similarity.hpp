@@ -12,15 +12,15 @@ struct Similarity {
   Real scale = 1;
   Vec3 shift = Vec3::Zero();
 
-  Eigen::Matrix3d linear() const { return scale * rotation; }
-  Vec3 at(const Vec3& p) const { return linear() * p + shift; }
+  Eigen::Matrix3d linear() const { return scale * rotation; }    ///< scale * rotation
+  Vec3 at(const Vec3& p) const { return linear() * p + shift; }  ///< where it takes p
 };
 
 /// Points known by name on both sides; they count as much as all surface together.
 struct NamedPoints {
   Points from = Points(3, 0), to = Points(3, 0);
 
-  Index count() const { return static_cast<Index>(from.cols()); }
+  Index count() const { return static_cast<Index>(from.cols()); }  ///< of pairs
 };
 
 struct SimilarityFit {

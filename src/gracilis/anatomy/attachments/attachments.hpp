@@ -79,6 +79,7 @@ struct AttachmentArea {
   /// Long and thin, or no triangle wide.
   bool sliver() const { return width < length / 10; }
 };
+/// Of these vertices of a muscle (m); all zero where there are none.
 AttachmentArea attachment_area(const TriangleMesh& muscle, std::span<const Index> vertices);
 
 /// Fewer vertices than this hold a muscle by a few points only.

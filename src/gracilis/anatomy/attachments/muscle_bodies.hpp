@@ -23,6 +23,7 @@ struct HostPlace {
   Vec3 weights = Vec3::Zero();        ///< of the corners, sum 1
   Vec3 offset = Vec3::Zero();         ///< m, from there to the point; turns with the patch
 };
+/// Of a point (m) by the nearest triangle; `faces` are those of the host.
 HostPlace host_place(const NearestTriangle& host, const Eigen::Matrix3Xi& faces, const Vec3& point);
 
 /// The muscles in groups: whose ends lie on no other first, then those that lie on these, and so on.

@@ -8,6 +8,7 @@ namespace gracilis::builtin_shapes {
 
 /// A point in millimetres with a radius in millimetres: anatomy is read and written in these.
 inline ThickPoint thick(Real x, Real y, Real z, Real radius) { return {1e-3 * Vec3(x, y, z), 1e-3 * radius}; }
+/// The same without a radius; the result is in m.
 inline Vec3 millimetres(Real x, Real y, Real z) { return 1e-3 * Vec3(x, y, z); }
 
 }  // namespace gracilis::builtin_shapes

@@ -21,6 +21,7 @@ struct Containment {
   Index outside = 0;  ///< farther out than 1e-9 m
   Real farthest = 0;  ///< m
 };
+/// Of all points of the fibers (m) in the surface that `distance` is of.
 Containment containment(const SignedDistance& distance, const Polylines& fibers);
 
 }  // namespace gracilis

@@ -15,9 +15,9 @@ class FiberRoom {
   /// lie inside.
   FiberRoom(const TriangleMesh& surface, const TriangleMesh& sheets, Index nodes_inside);
 
-  const TriangleMesh& surface() const { return surface_; }
-  const SignedDistance& distance() const { return distance_; }
-  const SolidGrid& grid() const { return grid_; }
+  const TriangleMesh& surface() const { return surface_; }      ///< m
+  const SignedDistance& distance() const { return distance_; }  ///< from the surface
+  const SolidGrid& grid() const { return grid_; }               ///< of what lies inside
   /// The surface and the sheets.
   const TriangleTree& bounds() const { return bounds_; }
   /// Whether fibers also end at seams: where sheets are given, all are.

@@ -18,8 +18,9 @@ class JointControl {
   /// Precondition: the unit has samples and as many columns as names. Of samples with the same angles the mean counts.
   explicit JointControl(const JointControlUnit& unit);
   ~JointControl();
+  /// One that is moved from may only be assigned to or destroyed.
   JointControl(JointControl&&) noexcept;
-  JointControl& operator=(JointControl&&) noexcept;
+  JointControl& operator=(JointControl&&) noexcept;  ///< as the constructor
 
   /// Activations of the governed muscles, in the unit's order, at angles (rad) in the order of the unit's coordinates.
   Eigen::VectorXd at(const Eigen::VectorXd& angles) const;
@@ -48,6 +49,7 @@ struct MovingBody {
   Index body = -1;
   Vec3 center = Vec3::Zero();
 };
+/// Body -1 and a zero center where the scene has no joint of the unit's name.
 MovingBody moving_body(const Scene& scene, const JointControlUnit& unit);
 
 }  // namespace gracilis

@@ -27,6 +27,7 @@ Pose pose_at(const Scene& scene, std::span<const Real> coordinates);
 
 /// A coordinate as people read it: degrees, or millimetres of a translation.
 inline Real shown_value(const JointAxis& axis, Real value) { return axis.translation ? 1000 * value : degrees(value); }
+/// The unit of shown_value: "deg" or "mm".
 inline const char* shown_unit(const JointAxis& axis) { return axis.translation ? "mm" : "deg"; }
 
 }  // namespace gracilis

@@ -14,7 +14,7 @@ struct MuscleOverlap {
   Real first_deepest = 0, second_deepest = 0;     ///< m
   bool is_through = false;                        ///< one passes through the other
 
-  Real deepest() const { return first_deepest > second_deepest ? first_deepest : second_deepest; }
+  Real deepest() const { return first_deepest > second_deepest ? first_deepest : second_deepest; }  ///< m, of either
 };
 
 /// A muscle of which free vertices lie inside a bone in the capture pose.

@@ -24,6 +24,7 @@ struct OverlappingSurface {
                                        ///< another tendon, does not keep bellies from being taken apart
 };
 
+/// Precondition: the overlap is that of these two surfaces, in this order.
 OverlapSides overlap_sides(const RestOverlap& overlap, const OverlappingSurface& first,
                            const OverlappingSurface& second);
 

@@ -15,6 +15,7 @@ struct InsideVertices {
   std::vector<Real> depths;       ///< m, above 0
   Points outward = Points(3, 0);  ///< unit, from each to the nearest point of the other surface; 0 where it lies on it
 
+  /// In m; 0 where none is inside.
   Real deepest() const { return depths.empty() ? 0 : *std::max_element(depths.begin(), depths.end()); }
 };
 
@@ -23,7 +24,7 @@ struct RestOverlap {
   Index first = 0, second = 0;  ///< surfaces, first < second
   InsideVertices of_first, of_second;
 
-  Real deepest() const { return std::max(of_first.deepest(), of_second.deepest()); }
+  Real deepest() const { return std::max(of_first.deepest(), of_second.deepest()); }  ///< m, of both
 };
 
 /// Which surfaces overlap, by exact distances in double precision (SignedDistance), in the order of pairs. Overlaps

@@ -24,7 +24,7 @@ CastRadii cast_radii(const SectionCut& cut, const Eigen::VectorXd& angles, const
 struct RayMatch {
   Index positive = 0, negative = 0;  ///< the ray on that side, and the one that passed through the center
 
-  bool operator==(const RayMatch&) const = default;
+  bool operator==(const RayMatch&) const = default;  ///< the same two rays
 };
 
 /// All matches, in the order in which they wind through the section: ascending and turned so that they begin behind the

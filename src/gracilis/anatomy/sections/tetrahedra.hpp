@@ -38,6 +38,7 @@ struct SectionShape {
   bool convex = false;
 };
 
+/// Of one section's ring of corners, seen along its normal. Precondition: 0 <= section < the number of sections.
 SectionShape section_shape(const SectionRings& rings, Index section);
 
 /// Physiological cross-section, m²: \f$V \cos\alpha / l\f$, α the pennation, l the optimal fiber length (eq. 6.2).

@@ -23,6 +23,7 @@ struct ShapeLimitSet {
   float mean_edge = 0;
 };
 
+/// Of a surface at rest; the numbers of vertices are those of particles.
 ShapeLimitSet build_shape_limits(const SurfaceShape& rest);
 
 /// The particles that are beyond `share` of a limit or of the way to it, in ascending order.

@@ -19,6 +19,7 @@ struct VolumeSet {
   double target = 0;                ///< m³
   double compliance = 0;            ///< m³·m³/J
 
+  /// Of group_width particles.
   Index group_count() const { return static_cast<Index>(particles.size()) / group_width; }
 };
 

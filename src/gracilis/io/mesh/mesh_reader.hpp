@@ -24,6 +24,7 @@ class MeshFiles {
   MeshFiles(const MeshFiles&) = delete;
   MeshFiles& operator=(const MeshFiles&) = delete;
 
+  /// As read_mesh.
   TriangleMesh read(const std::filesystem::path& path, Real unit, const std::string& part = {});
 
   /// Names of the meshes that a .glb places (GlbFile::parts); none of any other file.

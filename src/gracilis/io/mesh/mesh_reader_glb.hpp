@@ -13,6 +13,7 @@ namespace gracilis {
 /// or by several threads. Everything throws InputError.
 class GlbFile {
  public:
+  /// Reads the file.
   explicit GlbFile(const std::filesystem::path& path);
   ~GlbFile();
   GlbFile(const GlbFile&) = delete;

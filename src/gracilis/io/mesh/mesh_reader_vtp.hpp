@@ -13,16 +13,18 @@ namespace gracilis {
 /// once. Everything throws InputError where the file is damaged or has no piece of that name.
 class VtpFile {
  public:
+  /// Reads the file.
   explicit VtpFile(const std::filesystem::path& path);
   ~VtpFile();
 
-  const std::filesystem::path& path() const;
-  std::size_t size() const;  ///< bytes, as on the disk
+  const std::filesystem::path& path() const;  ///< of the file
+  std::size_t size() const;                   ///< bytes, as on the disk
   /// Whether there is a piece whose attribute Name says so (write_vtp_pieces).
   bool has(const std::string& piece) const;
   /// The polygons and strips of all pieces, or of one: ascii, binary and appended arrays of any type, compressed or
   /// not.
   PolygonMesh read() const;
+  /// Of the piece of this name.
   PolygonMesh read(const std::string& piece) const;
   /// The point data `name`, 3 × n, of the first piece where none is named; 3 × 0 when there is no such array. Throws
   /// InputError where the numbers are not threes, too.

@@ -13,13 +13,13 @@ class VtkMessages {
   VtkMessages(const VtkMessages&) = delete;
   VtkMessages& operator=(const VtkMessages&) = delete;
 
-  bool has_errors() const { return !errors_.empty(); }
+  bool has_errors() const { return !errors_.empty(); }  ///< any so far
   /// The first error as one line without VTK's source file, line and addresses; empty when there was none.
   const std::string& first_error() const { return errors_; }
-  const std::string& first_warning() const { return warnings_; }
+  const std::string& first_warning() const { return warnings_; }  ///< as first_error
 
-  void add_error(const std::string& text);
-  void add_warning(const std::string& text);
+  void add_error(const std::string& text);    ///< what VTK calls with an error
+  void add_warning(const std::string& text);  ///< and with a warning
 
  private:
   std::string errors_;

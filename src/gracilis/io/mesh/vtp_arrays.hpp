@@ -16,6 +16,7 @@ namespace gracilis {
 struct NumberBudget {
   std::size_t left = 0;
 
+  /// Of a file of this size.
   explicit NumberBudget(std::size_t file_bytes) : left(file_bytes + (std::size_t{1} << 20)) {}
 };
 

@@ -28,13 +28,16 @@ void write_compact_fibers(const std::filesystem::path& folder, const Scene& scen
 /// more than `most_bytes` together. May be asked by several threads.
 class CompactShapes {
  public:
+  /// `folder` is a run folder of the layout `compact`; nothing is read yet.
   explicit CompactShapes(std::filesystem::path folder, std::size_t most_bytes = 256 << 20);
   ~CompactShapes();
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_; }  ///< of the run
+  /// A muscle's surface, m. Throws InputError where the frame's file is damaged or has none of that name.
   TriangleMesh muscle(const std::string& name, int frame) const;
   /// Where its motion has taken it.
   TriangleMesh bone(const std::string& name, int frame) const;
+  /// A frame's file, read where nobody has asked for it lately. Throws InputError.
   std::shared_ptr<const VtpFile> file(int frame) const;
   /// How many files of frames were read so far.
   int files_read() const;
@@ -48,6 +51,7 @@ class CompactShapes {
 /// Fibers of a run's frames, bound to their surfaces when they are first asked for. May be asked by several threads.
 class CompactFibers {
  public:
+  /// Of the same run; nothing is read yet.
   explicit CompactFibers(std::shared_ptr<const CompactShapes> shapes);
   ~CompactFibers();
 

@@ -52,6 +52,7 @@ Polylines recorded_fibers(const RecordedRun& run, const std::string& muscle, int
 
 /// The same about the run's place, for what is drawn or written in single precision.
 TriangleMesh placed_surface(const RecordedRun& run, const std::string& name, int frame);
+/// As placed_surface, of a muscle's fibers.
 Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int frame);
 
 /// Per vertex of a muscle: 1 where it is of an origin, 1 where of an insertion, share of belly against tendon (0 to 1).
@@ -77,6 +78,7 @@ std::vector<int> spread_frames(int count, int most);
 struct CoordinateLabel {
   std::string name, unit;
 };
+/// Of a column of coordinates; a column without a known unit keeps its name.
 CoordinateLabel coordinate_label(const std::string& column);
 
 }  // namespace gracilis

@@ -67,8 +67,8 @@ class RunFolder {
   /// Writes run.pvd.
   void finish();
 
-  const std::filesystem::path& path() const { return folder_; }
-  int frame_count() const { return frame_count_; }
+  const std::filesystem::path& path() const { return folder_; }  ///< of the folder
+  int frame_count() const { return frame_count_; }               ///< written so far
 
  private:
   void write_index();

@@ -18,6 +18,7 @@ struct NamedTransversal {
   std::vector<std::string> bones;
 };
 
+/// Those of a scene, by the names of muscles and bones.
 std::vector<NamedTransversal> named_transversals(const Scene& scene);
 
 /// What run.json says about a run, beside the versions of the libraries, the time and the machine.

@@ -6,6 +6,7 @@
 /// [[activations]].
 namespace gracilis::sections {
 
+/// One table; what is wrong with it goes to the reader's problems.
 ActivationDescription read_activation(TomlReader table);
 
 /// Adds what drives the described muscles to the scene's plan. Precondition: the scene has its joints.

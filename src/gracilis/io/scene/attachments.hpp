@@ -12,6 +12,7 @@
 /// [[muscles.attachments]] and the landmarks that they name.
 namespace gracilis::sections {
 
+/// One table; what is wrong with it goes to the reader's problems.
 AttachmentDescription read_attachment(TomlReader table);
 
 /// Selects the vertices that attachments hold.

@@ -9,7 +9,9 @@
 /// [[bones]] and [[joints]].
 namespace gracilis::sections {
 
+/// One table of [[bones]]; what is wrong with it goes to the reader's problems.
 BoneDescription read_bone(TomlReader table);
+/// One table of [[joints]], likewise.
 JointDescription read_joint(TomlReader table);
 
 /// The index of the body with this name, which is added where there is none yet.

@@ -6,6 +6,7 @@
 /// [[joint_control_units]].
 namespace gracilis::sections {
 
+/// One table; what is wrong with it goes to the reader's problems.
 ControlUnitDescription read_control_unit(TomlReader table);
 
 /// Adds the unit with its samples, which are joined from a motion and results where they stand in no file of their own.

@@ -19,6 +19,7 @@ DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& s
                                 const std::filesystem::path& folder, const WarnFunction& warn = {});
 /// Those of all bones of a scene, in their order, by the scene's settings or by others; kept in the default folder.
 std::vector<DistanceField> cached_bone_fields(const Scene& scene);
+/// The same by these settings; what is wrong with the cache goes to `warn`.
 std::vector<DistanceField> cached_bone_fields(const Scene& scene, const DistanceFieldSettings& settings,
                                               const WarnFunction& warn = {});
 

@@ -6,6 +6,7 @@
 /// [motion].
 namespace gracilis::sections {
 
+/// The table; what is wrong with it goes to the reader's problems.
 MotionDescription read_motion(TomlReader table);
 
 /// Sets the scene's motion from its table file or through its key poses. Columns of a file that are no coordinates of

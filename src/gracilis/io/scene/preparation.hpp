@@ -17,7 +17,9 @@ void pull_only_known(std::vector<NamedSurface>& muscles, const std::vector<std::
 /// [prepare].
 namespace gracilis::sections {
 
+/// The muscles' surfaces by name, m, with what each is pulled apart from; in the scene's order.
 std::vector<NamedSurface> muscle_surfaces(const SceneInProgress& progress);
+/// Likewise of the bones.
 std::vector<NamedSurface> bone_surfaces(const SceneInProgress& progress);
 
 /// Puts prepared surfaces in the place of the muscles' own. Precondition: the scene is described as to be prepared.

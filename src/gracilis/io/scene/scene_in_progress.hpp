@@ -27,12 +27,14 @@ struct SceneInProgress {
   std::vector<Problem> problems = {};         ///< of the stage under way
   std::unique_ptr<MeshFiles> files = std::make_unique<MeshFiles>();
 
+  /// Of the stage under way, at this place.
   void add_problem(Problem place, const std::string& what, const std::string& remedy = "") {
     place.what = what;
     place.remedy = remedy;
     problems.push_back(std::move(place));
   }
 
+  /// A line each.
   void add_warnings(const std::vector<std::string>& lines) {
     loaded.warnings.insert(loaded.warnings.end(), lines.begin(), lines.end());
   }

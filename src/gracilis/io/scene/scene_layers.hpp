@@ -15,6 +15,7 @@ namespace gracilis {
 inline constexpr std::array<std::string_view, 8> setting_sections = {
     "settings", "contact", "surfaces", "distance_field", "sequence", "fibers", "contraction", "prepare"};
 
+/// Whether it is one of setting_sections.
 inline bool is_setting_section(std::string_view name) {
   return std::find(setting_sections.begin(), setting_sections.end(), name) != setting_sections.end();
 }

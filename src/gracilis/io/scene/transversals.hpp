@@ -6,6 +6,7 @@
 /// [[transversals]].
 namespace gracilis::sections {
 
+/// One table; what is wrong with it goes to the reader's problems.
 TransversalDescription read_transversal(TomlReader table);
 
 /// Adds the transversals to the scene. Those that move a muscle which was left out are left out, too. Precondition: the

@@ -20,6 +20,7 @@ struct RowColumns {
   std::string labels = "time", row;
   std::size_t count = 1;
 
+  /// A column. Throws QualityError where the value is not finite.
   void add(const std::string& label, Real value);
   /// _x, _y and _z
   void add(const std::string& label, const Vec3& vector);

@@ -14,6 +14,7 @@ enum class ArapVolume {
   scaling,    ///< free vertices about the muscle's center, (Cervenka 2024, eq. 4.2)
   multiplier  ///< what pushes evenly on the surface, passed on through it
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(ArapVolume) { return {"none", "scaling", "multiplier"}; }
 
 /// Of one muscle.

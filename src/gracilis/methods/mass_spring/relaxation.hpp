@@ -56,6 +56,7 @@ struct RelaxationRule {
   Real step = 0.4;             ///< s
   Real smallest_step = 0;      ///< s; above 0 steps are adaptive, the same for all muscles
 };
+/// What of the settings is shared by all muscles.
 RelaxationRule relaxation_rule(const MassSpringSettings& settings);
 
 /// What happened.

@@ -11,6 +11,7 @@ enum class SpringLayout {
   delaunay,  ///< edges of the Delaunay tetrahedra of all particles
   nearest    ///< each with its nearest ones
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 4> choices_of(SpringLayout) {
   return {"cubic-6", "cubic-26", "delaunay", "nearest"};
 }
@@ -20,6 +21,7 @@ enum class FixedNear {
   attachments,  ///< those near an attached vertex, with its body
   bones         ///< those near any bone (published)
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(FixedNear) { return {"attachments", "bones"}; }
 
 /// Where particles are before springs move them.
@@ -27,6 +29,7 @@ enum class MassSpringCarry {
   bodies,       ///< carried by a blend of the motions of the bodies that the muscle is attached to
   nearest_bone  ///< each as the bone nearest to it (published)
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(MassSpringCarry) { return {"bodies", "nearest-bone"}; }
 
 /// What springs go on from.
@@ -34,6 +37,7 @@ enum class MassSpringStart {
   capture,  ///< the capture pose, every frame anew (published): a shape follows from its pose alone
   last      ///< the last frame
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(MassSpringStart) { return {"capture", "last"}; }
 
 /// How velocities are damped.
@@ -42,6 +46,7 @@ enum class DampingRule {
   fitted,    ///< eq. 2.11
   none
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(DampingRule) { return {"critical", "fitted", "none"}; }
 
 /// What keeps particles out of bones.
@@ -50,6 +55,7 @@ enum class MassSpringBones {
   spheres,  ///< spheres that stand for the bones' surfaces (published)
   none
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(MassSpringBones) { return {"fields", "spheres", "none"}; }
 
 /// Of one muscle; those that all muscles share are read from the scene.

@@ -30,6 +30,7 @@ struct PlacedSpheres {
 struct Response {
   Vec3 a = Vec3::Zero(), b = Vec3::Zero();
 };
+/// Of spheres with centers at a and b, m; `reach` is the sum of their radii.
 Response response(const Vec3& a, const Vec3& b, Real reach, bool a_is_fixed, bool b_is_fixed);
 
 /// All pairs of `count` players in rounds, each of whom is in one pair of a round at most (the circle method of

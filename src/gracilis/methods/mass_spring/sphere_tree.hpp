@@ -30,7 +30,7 @@ class SphereTree {
   /// do not intersect. Divides boxes of both where needed.
   static std::vector<std::array<Index, 2>> intersecting(SphereTree& one, SphereTree& other);
 
-  std::size_t box_count() const { return boxes_.size(); }
+  std::size_t box_count() const { return boxes_.size(); }  ///< so far; queries divide boxes
 
  private:
   struct Box {

@@ -11,7 +11,7 @@ struct Spheres {
   Points centers = Points(3, 0);  ///< m
   std::vector<Real> radii;        ///< m
 
-  Index count() const { return static_cast<Index>(radii.size()); }
+  Index count() const { return static_cast<Index>(radii.size()); }  ///< of spheres
 };
 
 /// A muscle's radii, per particle: the mean distance to the vertices (m) of which it is the nearest among the particles

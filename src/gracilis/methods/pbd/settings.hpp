@@ -10,6 +10,7 @@ enum class PbdCollision {
   fields,  ///< their distance fields
   voxels   ///< boxes that are full or empty (published)
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(PbdCollision) { return {"fields", "voxels"}; }
 
 /// Which way a vertex that moved into a bone goes back.
@@ -17,6 +18,7 @@ enum class PbdPushBack {
   normal,  ///< the shortest way out
   entry    ///< the way that it came in (published)
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(PbdPushBack) { return {"normal", "entry"}; }
 
 /// Of one muscle. Defaults are stable ones; what was published is the preset `pbd-2020`.

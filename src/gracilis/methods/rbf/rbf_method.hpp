@@ -13,6 +13,7 @@ enum class RbfReference {
   carried,  ///< that of the capture pose, carried along with the bodies
   space     ///< that which the capture pose has in the same place of space, as published (Cervenka 2024, eq. 6.6)
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(RbfReference) { return {"carried", "space"}; }
 
 /// What the functions' weights do when their centers move.
@@ -20,6 +21,7 @@ enum class RbfWeights {
   refitted,  ///< so that points that moved along keep their values
   kept       ///< nothing, as published
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(RbfWeights) { return {"refitted", "kept"}; }
 
 /// How a muscle keeps its volume.
@@ -27,6 +29,7 @@ enum class RbfVolume {
   none,
   offset  ///< one number by which the surface's level is moved
 };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(RbfVolume) { return {"none", "offset"}; }
 
 /// Of one muscle.

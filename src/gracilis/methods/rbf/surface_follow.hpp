@@ -18,6 +18,7 @@ struct FollowedSurface {
   Real volume = 0;          ///< m³
 };
 
+/// Of a muscle's surface in the capture pose, with its topology and what bodies carry of it.
 FollowedSurface followed_surface(const TriangleMesh& mesh, const MeshTopology& topology, const BodyCarriers& carriers);
 
 /// What the surface is asked for beside its level.

@@ -5,6 +5,7 @@
 
 namespace gracilis {
 
+/// A row for each setting.
 template <>
 std::span<const Setting<strings::StringSettings>> setting_table();
 

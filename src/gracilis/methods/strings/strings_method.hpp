@@ -17,6 +17,7 @@ namespace gracilis {
 /// strings::far_field_settings. Precondition: the scene is valid.
 std::unique_ptr<DeformationMethod> make_strings_method(const Scene& scene, std::vector<DistanceField> far_fields);
 
+/// What others know of the method.
 MethodEntry strings_entry();
 
 }  // namespace gracilis

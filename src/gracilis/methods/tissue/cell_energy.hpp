@@ -19,6 +19,7 @@ struct CellWeights {
   std::array<Real, 5> shares{};   ///< in the mean J: of what is really filled, or the surface's volume would drift
   Real volume = 0;                ///< m³
 };
+/// Of a cell with edges of `cell_size` (m); `fills` are the filled shares of its tetrahedra.
 CellWeights cell_weights(const CubeCut& cut, Real cell_size, const std::array<Real, 5>& fills);
 
 /// Energy of a cell (J), its derivative by the corners (N), and the least J of its tetrahedra.

@@ -24,10 +24,12 @@ struct CellLanes {
   std::vector<Real> shares;           ///< of tetrahedra in the mean J
   std::vector<std::size_t> slot;      ///< of cells: where their corner 0 stands; the others follow by whole groups
 
-  Index group_count() const { return static_cast<Index>(parities.size()); }
-  std::size_t corner_count() const { return corners.size(); }
+  Index group_count() const { return static_cast<Index>(parities.size()); }  ///< of cells of one parity
+  std::size_t corner_count() const { return corners.size(); }  ///< of all groups, lanes that are left over included
 };
 
+/// The lattice's cells in groups of one parity; lanes that are left over stand on their group's first cell and have no
+/// volume.
 CellLanes cell_lanes(const Lattice& lattice);
 
 /// The laws of the cells, a number per lane of each group.
@@ -41,6 +43,7 @@ struct LawLanes {
   Real least_volume_ratio = 0;  ///< below it a tetrahedron counts as inverted
 };
 
+/// One law per cell of the lattice; lanes that are left over take that of their group's first cell.
 LawLanes law_lanes(const CellLanes& cells, const std::vector<CellLaw>& laws);
 
 /// Derivatives of the cells' energy by their corners (N), a number per corner and axis.

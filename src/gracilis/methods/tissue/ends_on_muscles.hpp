@@ -41,7 +41,7 @@ struct PlacedTissue {
   const PreparedTissue& muscle;
   const Points& nodes;
 
-  Vec3 place(Index point) const { return point_at(muscle, nodes, point); }
+  Vec3 place(Index point) const { return point_at(muscle, nodes, point); }  ///< of one of its points, m
 };
 
 /// Holds the guest's points where the host's surface is.

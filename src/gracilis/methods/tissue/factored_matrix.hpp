@@ -16,7 +16,7 @@ class FactoredMatrix {
   /// Throws QualityError where the matrix is not positive definite.
   explicit FactoredMatrix(const Eigen::SparseMatrix<Real>& matrix);
 
-  bool empty() const { return order_.empty(); }
+  bool empty() const { return order_.empty(); }  ///< nothing has been factored
   /// Replaces each b by the points x with matrix · xᵀ = bᵀ, 3 × n, in single precision.
   void solve(std::span<Points> bs) const;
 

@@ -54,9 +54,9 @@ struct Lattice {
   std::vector<Cell> cells;  ///< ordered by z, y, x of their place
   std::unordered_map<std::int64_t, Index> cell_at;
 
-  Index node_count() const { return static_cast<Index>(nodes.cols()); }
-  Index cell_count() const { return static_cast<Index>(cells.size()); }
-  Real cell_volume() const { return cell_size * cell_size * cell_size; }
+  Index node_count() const { return static_cast<Index>(nodes.cols()); }   ///< corners of cells, shared ones once
+  Index cell_count() const { return static_cast<Index>(cells.size()); }   ///< all that are kept
+  Real cell_volume() const { return cell_size * cell_size * cell_size; }  ///< m³, of the whole cube
 };
 
 /// The least share that a tetrahedron counts as filled with where stiffness is meant: thin sheets and tendons keep

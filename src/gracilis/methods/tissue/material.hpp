@@ -45,6 +45,7 @@ Curve shear_curve(const MatrixLaw& law, Real squared_size);
 /// grows with the shear modulus, which grows with tension: else what pulls hard squeezes a tetrahedron to nothing, and
 /// no step of a minimizer is short enough for it.
 inline constexpr Real barrier_begin = 0.3, barrier_per_shear = 20;
+/// At this J. Precondition: it is above 0.
 Curve volume_curve(const MatrixLaw& law, Real volume_ratio);
 
 /// Energy per volume at rest of matrix and fibers at the deformation gradient F, without what holds the cell's volume.

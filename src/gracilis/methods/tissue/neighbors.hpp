@@ -46,7 +46,7 @@ struct Neighbors {
   std::vector<NeighborPair> pairs;
   std::vector<SelfMeeting> selves;  ///< of muscles that keep out of themselves
 
-  bool none() const { return pairs.empty() && selves.empty(); }
+  bool none() const { return pairs.empty() && selves.empty(); }  ///< nothing meets anything
 };
 
 /// How far apart muscles see each other at most, m: what they move in a step is less.
@@ -60,6 +60,7 @@ struct MeetingSettings {
   Real stiffness = 0;  ///< N/m³
   bool self = false;   ///< also to itself
 };
+/// Of a scene's muscles in the capture pose; one of `settings` per muscle.
 Neighbors prepare_neighbors(const Scene& scene, const std::vector<MeetingSettings>& settings);
 
 /// Whether muscles look at themselves anew, or keep the planes that they found when they last did.

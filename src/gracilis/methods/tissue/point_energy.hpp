@@ -34,7 +34,9 @@ inline PointState contact(Real distance, const Vec3& normal, Real gap, Real stif
 
 /// Second derivatives, N/m. The surface of a contact counts as flat in them.
 Matrix3 spring_hessian(Real stiffness);
+/// Of `tie`, likewise.
 Matrix3 tie_hessian(const Vec3& offset, const Vec3& along, Real stiffness, Real yield);
+/// Of `contact`, likewise.
 Matrix3 contact_hessian(Real distance, const Vec3& normal, Real gap, Real stiffness);
 
 }  // namespace gracilis::tissue

@@ -43,6 +43,7 @@ struct MovingMuscle {
   Real milliseconds = 0;
 };
 
+/// Calls act() and adds the time that it took to the muscle's.
 template <class Act>
 void timed(MovingMuscle& moving, const Act& act) {
   const Real before = moving.milliseconds;
@@ -52,6 +53,7 @@ void timed(MovingMuscle& moving, const Act& act) {
   moving.milliseconds = before + taken.count();
 }
 
+/// Calls act(m) for each muscle, side by side, timed.
 template <class Act>
 void for_each_timed(std::vector<MovingMuscle>& moving, const Act& act) {
   parallel_for_each(moving.size(), [&](std::size_t m) { timed(moving[m], [&] { act(m); }); });

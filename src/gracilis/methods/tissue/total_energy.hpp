@@ -73,7 +73,9 @@ Eigen::SparseMatrix<Real> scalar_stiffness(const PreparedTissue& muscle, const s
 
 /// Where a point is: rest plus what its cell has moved; all of them, 3 × points; and the surface's vertices alone.
 Vec3 point_at(const PreparedTissue& muscle, const Points& nodes, Index point);
+/// All points of the muscle, 3 × points, m (point_at).
 Points points_at(const PreparedTissue& muscle, const Points& nodes);
+/// The vertices of its surface alone, m (point_at).
 Points surface_at(const PreparedTissue& muscle, const Points& nodes);
 
 /// The least volume of a tetrahedron over that at rest.

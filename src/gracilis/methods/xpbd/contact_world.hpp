@@ -16,6 +16,7 @@ struct MuscleContactWorld {
   ContactWorld surfaces;
   VirtualEdgeWorld edges;
   MuscleTies ties;
+  /// Anything meets, or lies on, anything.
   bool meets() const { return !surfaces.pairs.empty() || !edges.pairs.empty() || ties.any(); }
 };
 

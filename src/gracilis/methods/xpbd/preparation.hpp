@@ -63,7 +63,7 @@ struct PreparedMuscle {
   AlignedVector<float> along_fibers;  ///< per tension slot: squared cosine between it and the fibers
   std::vector<Index> contact_bodies;  ///< per contact set: the body of its bone
 
-  Index particle_count() const { return static_cast<Index>(rest.cols()); }
+  Index particle_count() const { return static_cast<Index>(rest.cols()); }  ///< as many as the surface has vertices
 };
 
 /// Builds tables, masses, predictor shares and contact gaps of a muscle, and contractions where the scene's activation

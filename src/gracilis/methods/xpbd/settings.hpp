@@ -14,22 +14,27 @@ namespace gracilis {
 
 /// How time passes for a muscle. `quasi_static` carries no velocity from frame to frame; `dynamic` does.
 enum class TimeMode { quasi_static, dynamic };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(TimeMode) { return {"quasi_static", "dynamic"}; }
 
 /// Which angle measure the dihedral constraint uses: the stable atan2 or the published arccos.
 enum class DihedralFormula { atan2, arccos };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(DihedralFormula) { return {"atan2", "arccos"}; }
 
 /// What the predicted surface follows: the muscle's fibers, pulled tight among the bones like strings, or a blend of
 /// the motions of the bodies that it is attached to.
 enum class Skinning { strings, bodies };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(Skinning) { return {"strings", "bodies"}; }
 
 /// Which way fibers run at an edge: along the gradient of the harmonic coordinate from origins to insertions, or as the
 /// nearest fiber does (Havlíček 2024, eq. 4.1).
 enum class FiberDirection { harmonic, nearest_fiber };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 2> choices_of(FiberDirection) { return {"harmonic", "nearest_fiber"}; }
 
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(MotionGuard) { return {"none", "turned_direction", "kept_path"}; }
 
 /// How a step is solved.
@@ -106,8 +111,11 @@ XpbdSettings xpbd_settings(const Scene& scene, const Muscle& muscle);
 /// How muscles keep out of each other: not at all, point against surface and edge against edge, or as published by
 /// pairs of vertices.
 enum class MuscleContact { none, surface, virtual_edges };
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(MuscleContact) { return {"none", "surface", "virtual-edges"}; }
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(EdgeResolution) { return {"push", "unit_sum", "vector_sum"}; }
+/// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(CoincidingEdgeRule) { return {"keep", "drop", "reseed"}; }
 
 /// Contact between muscles and of a muscle with itself, beside how surfaces or virtual edges meet.

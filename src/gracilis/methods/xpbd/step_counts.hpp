@@ -24,6 +24,7 @@ struct StepCounts {
 /// The columns that the counts are told in.
 std::vector<MetricInfo> step_metrics();
 
+/// The counts as these columns.
 MuscleReport report_of(const StepCounts& counts);
 
 }  // namespace gracilis::xpbd

@@ -15,7 +15,7 @@ struct MuscleTies {
   std::vector<TiedSurfaces> surfaces;            ///< hosts before their guests
   std::vector<CarriedBody> bodies;               ///< in the same order; patches of particles
   std::vector<std::vector<std::size_t>> groups;  ///< of muscles, hosts first; empty: nothing lies on a muscle
-  bool any() const { return !bodies.empty(); }
+  bool any() const { return !bodies.empty(); }   ///< something lies on a muscle
 };
 
 /// `muscles` are those of the scene, in its order.

@@ -26,6 +26,7 @@ std::vector<FiberPoint> points_of(Skeleton& skeleton, const KnownFibers& known, 
 /// of angles.
 PathErrors point_errors(Skeleton& skeleton, const Path& path, const Path* own, const KnownFibers& known);
 
+/// One line for people; `beside_model`: the errors are those from the model's own muscle.
 std::string point_errors_text(const PathErrors& errors, bool beside_model);
 
 /// The model's muscle, or a new one, along these points. Fibers are no longer than they were in the capture pose: what

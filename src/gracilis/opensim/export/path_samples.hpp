@@ -13,6 +13,7 @@ struct PathSamples {
   /// angles; of translations a length, such as half of their range. Empty: all are angles.
   Eigen::VectorXd scales = {};
 
+  /// Of one coordinate.
   Real scale(Eigen::Index coordinate) const { return scales.size() > 0 ? scales[coordinate] : 1; }
 };
 

@@ -20,7 +20,9 @@ struct CurveEnd {
 /// how near it comes to where these lines meet. A curve's first piece begins it, others begin where the last one ended.
 void add_corner(BezierCurve& curve, const CurveEnd& from, const CurveEnd& to, Real curviness);
 
+/// The curve at x; beyond its ends it goes on straight.
 Real value(const BezierCurve& curve, Real x);
+/// Its derivative there.
 Real slope(const BezierCurve& curve, Real x);
 
 }  // namespace gracilis::opensim

@@ -28,8 +28,9 @@ struct Function {
   Real scale = 1;
 };
 
+/// The same everywhere.
 Function constant(Real value);
-Function linear(Real slope, Real value_at_zero);
+Function linear(Real slope, Real value_at_zero);  ///< slope x + value_at_zero
 
 /// The cubic spline through (x, y) as SIMM and OpenSim's SimmSpline have it: at both ends the third derivative is that
 /// of the cubic through the four outermost points; the parabola through three points, the line through two (Forsythe,
@@ -37,8 +38,10 @@ Function linear(Real slope, Real value_at_zero);
 Function simm_spline(const std::vector<Real>& x, const std::vector<Real>& y);
 /// The cubic spline through (x, y) with no curvature at its ends.
 Function natural_spline(const std::vector<Real>& x, const std::vector<Real>& y);
+/// Straight from point to point (x, y), and on beyond the ends. x increases; at least two points.
 Function piecewise_linear(const std::vector<Real>& x, const std::vector<Real>& y);
 
+/// amplitude sin(angular_frequency x + phase) + offset.
 Function sine(Real amplitude, Real angular_frequency, Real phase, Real offset);
 
 /// amplitude Π sin(x_i + phase_i).
@@ -51,6 +54,7 @@ std::vector<std::vector<int>> monomials(int dimension, int order);
 /// The value at `arguments` (rad, m), and its partial derivatives by the arguments named in `by`, one after the other
 /// (at most two). A function that takes fewer arguments ignores the others.
 Real value(const Function& function, const std::vector<Real>& arguments);
+/// The partial derivative, as `value` says.
 Real derivative(const Function& function, const std::vector<Real>& arguments, const std::vector<int>& by);
 
 }  // namespace gracilis::opensim

@@ -20,6 +20,7 @@ struct MillardShape {
 
 /// The four curves that such a muscle is made of (Millard et al. 2013).
 struct MillardCurves {
+  /// By default those of a muscle that names no parameters.
   explicit MillardCurves(const MillardShape& shape = {});
   BezierCurve active;    ///< force by fiber length
   BezierCurve velocity;  ///< force by fiber speed, longer is positive

@@ -10,6 +10,7 @@ namespace gracilis::opensim {
 
 /// A bone that muscles keep out of.
 struct SolidBone {
+  /// `surface` is closed, m.
   explicit SolidBone(const TriangleMesh& surface);
 
   SignedDistance distance;
@@ -39,6 +40,7 @@ struct SectionRays {
   Points feet, directions;
   Eigen::MatrixXd lengths;
 
+  /// Where the rays end, m.
   Points corners() const;
 };
 
@@ -51,6 +53,7 @@ struct ClearRays {
   Eigen::MatrixXd lengths;  ///< m
   Real volume_share = 1;    ///< of the volume before
 };
+/// Nothing is moved: the result says how long the rays become.
 ClearRays clear_rays(const SectionRays& rays, const std::vector<SolidBone>& bones, const RoomBeside& beside = {});
 
 /// Sections with these radii (m) along a line, brought out of the bones. Centers within a bone or closer to one than 4

@@ -18,6 +18,7 @@ inline std::string toml_text(const std::string& text) {
   return result + "\"";
 }
 
+/// [x, y, z] with the shortest numbers that read back as the same bits.
 inline std::string toml_vector(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
 
 }  // namespace gracilis::opensim

@@ -17,7 +17,9 @@ void add_force(BodyForces& forces, Index body, const RigidTransform& pose, const
 struct AppliedForces {
   BodyForces bodies;
   Eigen::VectorXd coordinates;
+  /// None, with room for the model's bodies and coordinates.
   explicit AppliedForces(const Model& model);
+  /// `others` times a factor; of the same model.
   void add(const AppliedForces& others, Real times = 1);
 };
 
@@ -32,7 +34,7 @@ class Skeleton {
   Skeleton(const Skeleton&) = delete;
   Skeleton& operator=(const Skeleton&) = delete;
 
-  const Model& model() const;
+  const Model& model() const;  ///< that it was made of
 
   /// Puts the bodies where the coordinates say (rad, m).
   void place(const Eigen::VectorXd& coordinates);
@@ -42,6 +44,7 @@ class Skeleton {
   /// Generalized forces (N·m for angles, N for lengths) of forces on the bodies as placed: the virtual work per change
   /// of each coordinate.
   Eigen::VectorXd generalized_forces(const BodyForces& forces) const;
+  /// The same with what acts on coordinates themselves.
   Eigen::VectorXd generalized_forces(const AppliedForces& forces) const;
 
   /// Generalized forces that the joints must give, beside gravity and `applied`, for the bodies as placed to move with
@@ -55,6 +58,7 @@ class Skeleton {
   /// By how much the model's loops are open as placed (m, rad; several numbers each), and how that changes with each
   /// coordinate: numbers × coordinates.
   Eigen::VectorXd loop_errors() const;
+  /// How loop_errors change: numbers × coordinates.
   Eigen::MatrixXd loop_slopes() const;
   /// What closes the loops pulls on bodies with, for a multiplier per number of loop_errors: their generalized forces
   /// are loop_slopes().transpose() times multipliers.

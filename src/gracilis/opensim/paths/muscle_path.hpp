@@ -10,6 +10,7 @@ namespace gracilis::opensim {
 /// Where a point lies in its body, and whether the path runs through it. Beyond the range of its coordinate a moving
 /// point stays where the range ends, as in OpenSim.
 Vec3 location_of(const Model& model, const PathPoint& point, const Eigen::VectorXd& coordinates);
+/// Whether the path runs through it: at a condition, where its coordinate is within the range.
 bool is_active(const PathPoint& point, const Eigen::VectorXd& coordinates);
 
 /// The surfaces that a path may run around, for the bodies at `poses`.

@@ -134,6 +134,7 @@ struct Muscle {
 
 /// Which curves a muscle has, by its type: all that are neither Thelen's nor Millard's have De Groote's.
 enum class MuscleCurves { thelen, millard, de_groote };
+/// By its type's name.
 MuscleCurves curves_of(const Muscle& muscle);
 
 /// A force that is not a muscle's: on one coordinate, at a point, or about an axis.

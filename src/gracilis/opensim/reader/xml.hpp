@@ -37,9 +37,13 @@ struct XmlContext {
   pugi::xml_node property(const pugi::xml_node& node, const char* name) const;
   /// Its text without white space around it; empty where it is missing.
   std::string text(const pugi::xml_node& node, const char* name) const;
+  /// One number; `otherwise` where it is missing, an InputError where it is something else.
   Real number(const pugi::xml_node& node, const char* name, Real otherwise) const;
+  /// All of its numbers, none where it is missing; finite but for ranges.
   std::vector<Real> numbers(const pugi::xml_node& node, const char* name) const;
+  /// Three numbers; as `number`.
   Vec3 vector(const pugi::xml_node& node, const char* name, const Vec3& otherwise) const;
+  /// True or false, 1 or 0, in any case; as `number`.
   bool boolean(const pugi::xml_node& node, const char* name, bool otherwise) const;
   /// What a socket leads to: `<socket_NAME>` (4.x), a connector (3.3 to 4.0 betas) or `<NAME>` (3.x), in this order.
   std::string socket(const pugi::xml_node& node, const std::string& name, const char* old_name) const;
@@ -51,6 +55,7 @@ std::vector<pugi::xml_node> objects_of(const pugi::xml_node& parent, const char*
 /// "/jointset/knee_r/knee_angle_r" becomes "knee_angle_r".
 std::string last_name(const std::string& path);
 
+/// Its attribute `name`; empty where it has none.
 std::string name_of(const pugi::xml_node& node);
 
 }  // namespace gracilis::opensim

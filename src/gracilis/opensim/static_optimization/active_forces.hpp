@@ -12,9 +12,10 @@ namespace gracilis::opensim {
 struct ActiveForces {
   std::vector<const Muscle*> muscles;
   std::vector<const Actuator*> actuators;
+  /// Those of the model; it must outlive this.
   explicit ActiveForces(const Model& model);
-  Eigen::Index count() const { return static_cast<Eigen::Index>(muscles.size() + actuators.size()); }
-  std::vector<std::string> names() const;
+  Eigen::Index count() const { return static_cast<Eigen::Index>(muscles.size() + actuators.size()); }  ///< of both
+  std::vector<std::string> names() const;  ///< in this order
 };
 
 /// What one newton (N·m) of an actuator does.

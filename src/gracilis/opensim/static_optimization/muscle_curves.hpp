@@ -20,10 +20,11 @@ Real tendon_factor(const Muscle& muscle, Real length);
 struct FiberGeometry {
   Real height = 0;    ///< m, of all fibers
   Real shortest = 0;  ///< m
+  /// By the muscle's optimal fiber and its pennation there.
   explicit FiberGeometry(const Muscle& muscle);
   /// The fiber's length (m) along the tendon's line.
   Real along(Real fiber) const;
-  Real cosine(Real fiber) const { return along(fiber) / fiber; }
+  Real cosine(Real fiber) const { return along(fiber) / fiber; }  ///< of the pennation of fibers so long (m)
 };
 
 }  // namespace gracilis::opensim

@@ -10,6 +10,7 @@ namespace gracilis::opensim {
 struct Kinematics {
   const CoordinateMotion& motion;
   Eigen::MatrixXd speeds, accelerations;
+  /// Fits the splines; the motion must outlive it.
   explicit Kinematics(const CoordinateMotion& the_motion);
 };
 

@@ -23,6 +23,7 @@ struct ComparisonColumn {
   int digits = 0;          ///< after the point
   bool least_is_best = false;
 };
+/// In the order of the page.
 const std::vector<ComparisonColumn>& comparison_columns();
 
 /// One muscle by one method.

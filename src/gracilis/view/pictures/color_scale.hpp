@@ -26,6 +26,7 @@ struct ColorScale {
 /// that half and double are equally far from 1; stress (Pa) and tension (N) by the decimal one.
 const std::vector<ColorScale>& color_scales();
 
+/// The one of color_scales for this.
 const ColorScale& color_scale(ColorBy by);
 
 /// What stands beside the bar where values from the first to the second are shown: an end that they go beyond says so.

@@ -10,6 +10,7 @@ namespace gracilis {
 /// still seen.
 class EvenedSurface {
  public:
+  /// A surface at rest, m.
   explicit EvenedSurface(const TriangleMesh& rest);
 
   /// One place per vertex, m. Precondition: as many vertices as at rest.

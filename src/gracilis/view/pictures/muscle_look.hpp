@@ -33,11 +33,13 @@ MuscleLook muscle_look(const Muscle& muscle);
 Points natural_colors(const MuscleLook& look, std::string_view name);
 /// The color of a muscle's fibers beside that, and of its belly.
 Color fiber_paint(std::string_view name);
+/// The same for all muscles.
 Color tendon_paint();
 
 /// Of the texture of stripes: how bright it is (0 to 1) from one end of its width to the other, which is `stripe_width`
 /// long and repeats.
 inline constexpr Real stripe_width = 0.032;  ///< m
+/// At so many places, evenly spaced.
 std::vector<Real> stripe_brightness(std::size_t count);
 
 }  // namespace gracilis

@@ -17,6 +17,7 @@ struct CaptionedFrames {
   int first_motion_frame = 0;  ///< those before it lead from the capture pose to the motion
 };
 
+/// Of all frames of a run.
 CaptionedFrames captioned_frames(const RecordedRun& run);
 
 /// Of the poses of all frames of a scene.

@@ -24,6 +24,7 @@ Picture preview_picture(const Scene& scene, const std::vector<Pose>& poses, cons
 struct CameraDirection {
   Vec3 looking = Vec3::UnitY(), up = Vec3::UnitZ();
 };
+/// Along the joint's axis about which these poses turn the bones most; see preview_picture.
 CameraDirection preview_camera(const Scene& scene, const std::vector<Pose>& poses);
 
 /// Reads the frames back from the run folder and writes its preview.png. Throws Error; exit code 4 says that this

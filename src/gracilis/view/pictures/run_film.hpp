@@ -20,7 +20,7 @@ class RunFilm {
   RunFilm(const RunFilm&) = delete;
   RunFilm& operator=(const RunFilm&) = delete;
 
-  int count() const { return count_; }
+  int count() const { return count_; }  ///< of pictures
   /// Precondition: 0 <= i < count(). Throws as run_picture and PictureDrawer do.
   PixelImage image(int i);
 

@@ -52,6 +52,7 @@ class RunPainter {
   /// run must outlive this.
   RunPainter(const RecordedRun& run, RunPictureOptions options);
 
+  /// Of one frame. Throws as recorded_surface where the run lacks something.
   Panel panel(int frame) const;
   /// Two corners of the room that the run takes from a frame on, as the camera sees it: of some frames.
   Points room(int first = 0) const;

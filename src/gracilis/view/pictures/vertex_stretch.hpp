@@ -10,6 +10,7 @@ namespace gracilis {
 /// How much a surface's edges are stretched around each vertex.
 class VertexStretch {
  public:
+  /// A surface at rest, m.
   explicit VertexStretch(const TriangleMesh& rest);
   /// Per vertex the lengths of its edges together over those at rest; 1 where there is no edge. Precondition: as many
   /// points as at rest.

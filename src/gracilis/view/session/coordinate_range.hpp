@@ -15,7 +15,7 @@ struct CoordinateRange {
   Real from = 0, to = 0;
   Real step = 0;  ///< more than 0; 0: it stays at `from`
 
-  bool moves() const { return step != 0; }
+  bool moves() const { return step != 0; }  ///< from one value to another
 };
 
 /// "NAME=FROM:TO:STEP" or "NAME=VALUE", as `--coord` has it. Throws ConfigurationError.

@@ -23,6 +23,7 @@ struct SessionListener {
   std::function<void(int first, int last)> begin = {};            ///< before the first frame is computed
   std::function<void(int done, int last)> progress = {};          ///< after each frame; may throw Interrupted
 
+  /// Says it, where somebody listens.
   void tell(MessageKind kind, const std::string& text) const {
     if (say) say(kind, text);
   }

@@ -13,11 +13,13 @@ namespace gracilis {
 /// What became of the gates and of constraints that could not do their work, over the frames of a run.
 class SessionSummary {
  public:
+  /// `scene` must outlive it; `level` is what the run measures.
   SessionSummary(const Scene& scene, MeasureLevel level);
 
+  /// The next frame, with its measures.
   void add(const FrameRecord& record);
 
-  bool all_gates_met() const { return missed_muscles() == 0; }
+  bool all_gates_met() const { return missed_muscles() == 0; }  ///< by every muscle in every frame so far
   /// "gates: ...", one line.
   std::string gates_line() const;
   /// The frame and muscle farthest beyond a gate, and why that matters; empty where all are met.

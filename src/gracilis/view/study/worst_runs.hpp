@@ -13,8 +13,9 @@ namespace gracilis {
 /// them measures.csv tells.
 class WorstRuns {
  public:
-  explicit WorstRuns(std::size_t count) : count_(count) {}
+  explicit WorstRuns(std::size_t count) : count_(count) {}  ///< of so many runs
 
+  /// A run by its number in the study; kept where it is among the worst.
   void add(std::size_t run, const RunMeasures& measures);
 
   /// As HTML: each with what it reaches of which bar, its parameters, and a picture of that frame. Pictures are left

@@ -25,6 +25,7 @@ class FrameMaker {
   void fill_fibers(const std::vector<Polylines>& fibers, ShownFrame& frame);
   /// Of the fibers at each vertex (Pa), and of all fibers of each muscle (N); empty entries: nobody knows.
   void fill_stress(const std::vector<Eigen::VectorXd>& stresses, ShownFrame& frame) const;
+  /// Of the fibers that are shown, N; `tensions` per muscle and fiber.
   static void fill_tension(const std::vector<Eigen::VectorXd>& tensions, ShownFrame& frame);
 
   /// Values per vertex of a muscle's whole surface, at those that are shown.
@@ -38,7 +39,7 @@ class FrameMaker {
   void paint(std::size_t muscle, const MuscleLook& look, ShownShapes& shapes) const;
   /// The vertices of a muscle's whole surface at which arrows begin.
   const std::vector<Index>& arrow_vertices(std::size_t muscle) const { return arrow_vertices_[muscle]; }
-  const std::vector<TriangleMesh>& bones() const { return bones_; }
+  const std::vector<TriangleMesh>& bones() const { return bones_; }  ///< at rest, m
 
  private:
   std::vector<TriangleMesh> muscles_, bones_;

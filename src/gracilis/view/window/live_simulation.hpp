@@ -31,19 +31,21 @@ class LiveSimulation {
   LiveSimulation(const LiveSimulation&) = delete;
   LiveSimulation& operator=(const LiveSimulation&) = delete;
 
-  const ShownShapes& shapes() const { return shapes_; }
+  const ShownShapes& shapes() const { return shapes_; }  ///< what of the scene does not change
   /// Where a coordinate shall go (rad, m), in the order of coordinate_names().
   void aim(std::size_t coordinate, Real value);
+  /// Where it shall go, rad or m.
   Real aim_of(std::size_t coordinate) const;
   /// Aims at coordinates as pull_bone does (bone_pull.hpp).
   bool pull(std::size_t bone, const Vec3& point, const Vec3& target, const Vec3& looking);
   /// How active a muscle shall be, 0 to 1.
   void activate(std::size_t muscle, Real activation);
+  /// How active it shall be, 0 to 1.
   Real activation_of(std::size_t muscle) const;
   /// Through the scene's own motion, until it ends or a slider is moved.
   void play_motion();
-  void pause(bool on);
-  bool is_paused() const;
+  void pause(bool on);     ///< stops steps, or lets them go on
+  bool is_paused() const;  ///< by `pause`
   /// One more step while paused, even where nothing is left to move.
   void step_once();
   /// Makes the last frame again, with what is wished for now.

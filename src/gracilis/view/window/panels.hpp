@@ -40,6 +40,7 @@ struct OptionEntry {
   std::string key, name, value;
   std::function<void()> act;
 };
+/// A line each from `top` downwards: a button with its key, name and value.
 void add_options(int left, int top, const std::vector<OptionEntry>& entries, Overlay& overlay);
 
 /// Sliders from `top` downwards; those that would come below `bottom` are on further pages. Returns where they end.

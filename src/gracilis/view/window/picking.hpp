@@ -16,9 +16,12 @@ struct WindowProjection {
   Vec3 middle;           ///< in the window's middle, m
   Real pixels_per_metre = 1, width = 0, height = 0;
 
+  /// Pixels from the lower left corner, and m towards the eye.
   Vec3 in_window(const Vec3& place) const;
+  /// The inverse of in_window, m.
   Vec3 in_world(const Vec3& in_window) const;
 };
+/// Of the renderer's camera as it is. Precondition: it projects in parallel.
 WindowProjection projection_of(vtkRenderer& renderer);
 
 /// What of the surfaces that are shown is seen at a pixel.
@@ -28,6 +31,7 @@ struct SurfaceHit {
   Index vertex = 0;           ///< the nearest corner of the triangle
   Vec3 place = Vec3::Zero();  ///< m
 };
+/// The one nearest to the eye among muscles and bones that are not hidden; pixels from the lower left corner.
 std::optional<SurfaceHit> surface_at(int x, int y, const ShownShapes& shapes, const ShownFrame& frame,
                                      const WindowState& state, const WindowProjection& projection);
 

@@ -22,7 +22,7 @@ class RunLoader {
   RunLoader(const RunLoader&) = delete;
   RunLoader& operator=(const RunLoader&) = delete;
 
-  const ShownShapes& shapes() const { return shapes_; }
+  const ShownShapes& shapes() const { return shapes_; }  ///< what of the run does not change
   /// The bones' surfaces at rest, in the order of shapes().bones.
   const std::vector<TriangleMesh>& bones() const { return maker_->bones(); }
 

@@ -76,6 +76,7 @@ class ShapeHistory {
   /// Keeps the last `capacity` frames.
   explicit ShapeHistory(int capacity = 1 << 30) : capacity_(capacity) {}
 
+  /// The next frame; beyond the capacity the first one goes.
   void append(ShownFrame frame);
   /// In place of a frame that is kept; nothing happens when it no longer is.
   void replace(int number, ShownFrame frame);
@@ -83,6 +84,7 @@ class ShapeHistory {
   void forget_passes(int number);
   /// The frames begin() ... end() - 1 are kept.
   int begin() const;
+  /// See begin.
   int end() const;
   /// That frame, or the nearest that is kept. Precondition: there is one.
   std::shared_ptr<const ShownFrame> at(int number) const;

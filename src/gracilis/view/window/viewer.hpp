@@ -28,6 +28,7 @@ class Viewer {
   /// All three must outlive this.
   Viewer(const ShownShapes& shapes, ShapeHistory& history, const WindowOptions& options);
 
+  /// Opens the window and returns when it is closed.
   WindowReport run();
 
  private:

@@ -12,7 +12,7 @@ struct FaceSet {
   std::array<std::vector<Index>, 3> particles;
   std::vector<ColorRange> colors;  ///< faces of one color share no particle
 
-  Index count() const { return static_cast<Index>(particles[0].size()); }
+  Index count() const { return static_cast<Index>(particles[0].size()); }  ///< of faces
 };
 
 /// Those faces, over `particle_count` particles, in the order of their colors.

@@ -11,10 +11,13 @@ namespace gracilis {
 /// iteration to iteration, a face's is that of the last listing.
 Index project_edge_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
                             Particles& particles);
+/// Of the middles of edges that keep a gap of their own (project_edge_contacts).
 Index project_middle_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
                               Particles& particles);
+/// Of the deepest points of large faces (project_edge_contacts).
 Index project_face_contacts(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
                             NearField& near, Particles& particles);
+/// Of the particles themselves (project_edge_contacts).
 Index project_particle_contacts(const FieldContactSet& set, const FieldPlacement& placement, NearField& near,
                                 Particles& particles);
 

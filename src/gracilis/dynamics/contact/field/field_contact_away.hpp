@@ -13,6 +13,7 @@ struct SurfaceMotion {
   Eigen::AlignedBox3f box;  ///< of where they are
 };
 
+/// From one place of the particles to the next; infinite where their numbers differ.
 SurfaceMotion surface_motion(const Particles& from, const Particles& to);
 
 /// How far the obstacle's frame carried anything in the box against the particles' frame, m.

@@ -31,6 +31,7 @@ void clear_near(NearField& near);
 /// Lists the edges, and the faces, that may come near before the next listing, by the clearances of their particles.
 void list_edges(const FieldContactSet& set, const DistanceSet& distances, const FieldPlacement& placement,
                 const Particles& particles, NearField& near);
+/// As list_edges, of the faces.
 void list_faces(const FieldContactSet& set, const FaceSet& faces, const FieldPlacement& placement,
                 const Particles& particles, NearField& near);
 

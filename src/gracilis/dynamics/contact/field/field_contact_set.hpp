@@ -46,6 +46,7 @@ struct FieldPlacement {
   float release = 0;  ///< from the captured gaps (0) to the released ones (1)
 
   Eigen::Vector3f to_obstacle(const Eigen::Vector3f& x) const { return rotation * x + translation; }  ///< m
+  /// The inverse of to_obstacle, m.
   Eigen::Vector3f from_obstacle(const Eigen::Vector3f& q) const { return rotation.transpose() * (q - translation); }
 };
 

@@ -57,7 +57,7 @@ struct NearEdges {
   AlignedVector<float> seen_above;              ///< and how far above its gap at least, m
   std::vector<ColorRange> colors;
 
-  Index count() const { return static_cast<Index>(a.size()); }
+  Index count() const { return static_cast<Index>(a.size()); }  ///< of slots, padding included
 };
 inline constexpr float unknown_point = -1;  ///< nobody has looked yet; what was seen is that of the middle
 
@@ -69,7 +69,7 @@ struct NearFaces {
   std::vector<CachedQuery> seen;       ///< that point when the obstacle was last asked, and how far above its gap
   std::vector<ColorRange> colors;
 
-  Index count() const { return static_cast<Index>(slots.size()); }
+  Index count() const { return static_cast<Index>(slots.size()); }  ///< of faces
 };
 
 /// A lower bound of how far a whole surface is away from an obstacle.

@@ -14,6 +14,7 @@ struct BoundsLanes {
   std::vector<Index> nodes;
   Rows low, high, low_normal, high_normal;  ///< one entry per node, and what fills up the last group: nowhere
 
+  /// Takes the bounds of these nodes of the tree.
   void load(const PatchTree& tree, const std::vector<Index>& patches);
 };
 

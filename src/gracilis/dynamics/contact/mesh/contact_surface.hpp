@@ -25,6 +25,7 @@ struct ContactSurface {
   VertexFaces vertex_faces;
   std::vector<Index> particle_edge_offsets, particle_edges;  ///< edges at each particle
 
+  /// The edges that end at a particle.
   std::span<const Index> edges_at(Index particle) const {
     const auto at = static_cast<std::size_t>(particle);
     return {particle_edges.begin() + particle_edge_offsets[at], particle_edges.begin() + particle_edge_offsets[at + 1]};

@@ -25,9 +25,12 @@ struct PatchTree {
     Eigen::Array4f low = Eigen::Array4f(infinity, infinity, infinity, 0);
     Eigen::Array4f high = Eigen::Array4f(-infinity, -infinity, -infinity, 0);
 
+    /// So that it holds the point.
     void extend(const Eigen::Array4f& point) { low = low.min(point), high = high.max(point); }
+    /// Likewise.
     void extend(const Eigen::Vector3f& point) { extend(Eigen::Array4f(point.x(), point.y(), point.z(), 0)); }
-    Box merged(const Box& other) const { return {low.min(other.low), high.max(other.high)}; }
+    Box merged(const Box& other) const { return {low.min(other.low), high.max(other.high)}; }  ///< holds both
+    /// Moves both corners, m.
     void move(const Eigen::Vector3f& by) {
       const Eigen::Array4f along(by.x(), by.y(), by.z(), 0);
       low += along, high += along;
@@ -37,6 +40,7 @@ struct PatchTree {
   struct Bounds {
     Box places, normals;
 
+    /// Holds both.
     Bounds merged(const Bounds& other) const { return {places.merged(other.places), normals.merged(other.normals)}; }
   };
 
@@ -52,6 +56,7 @@ struct PatchTree {
   Eigen::Matrix3Xf areas;               ///< area vectors of the faces
   Eigen::Matrix3Xf outward;             ///< at each particle the sum of those around it
 
+  /// The particles of a bundle.
   std::span<const Index> particles_of(std::size_t bundle) const {
     return {particles.begin() + particle_offsets[bundle], particles.begin() + particle_offsets[bundle + 1]};
   }

@@ -11,12 +11,14 @@ struct TrianglePack {
   struct Vectors {
     Lanes x, y, z;
 
+    /// Lane by lane, as what follows.
     Vectors operator-(const Vectors& other) const { return {x - other.x, y - other.y, z - other.z}; }
-    Lanes dot(const Vectors& other) const { return x * other.x + y * other.y + z * other.z; }
+    Lanes dot(const Vectors& other) const { return x * other.x + y * other.y + z * other.z; }  ///< scalar products
+    /// Vector products.
     Vectors cross(const Vectors& other) const {
       return {y * other.z - z * other.y, z * other.x - x * other.z, x * other.y - y * other.x};
     }
-    Vectors scaled(const Lanes& by) const { return {x * by, y * by, z * by}; }
+    Vectors scaled(const Lanes& by) const { return {x * by, y * by, z * by}; }  ///< each by its own number
     /// One vector per column, its fourth coordinate 0.
     Rows columns() const {
       Rows rows;

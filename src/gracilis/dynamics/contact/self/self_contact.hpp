@@ -21,6 +21,7 @@ struct SelfRule {
   float side(const std::array<Index, 2>& edge, const std::array<Index, 2>& other) const;
   /// Parts near each other at rest keep less than the margin, m.
   float most_gap(Index particle, Index face) const;
+  /// The same for two edges, given by their ends.
   float most_gap(const std::array<Index, 2>& edge, const std::array<Index, 2>& other) const;
 };
 

@@ -9,11 +9,13 @@ namespace gracilis {
 /// Makes the normals that are asked for, each once. Others stay those of some earlier time.
 class NormalMaker {
  public:
+  /// All must outlive it; normals go into the state.
   NormalMaker(const ContactWorld& world, const std::vector<const Particles*>& particles, ContactWorldState& state);
 
-  void ask(std::size_t surface, Index particle);
+  void ask(std::size_t surface, Index particle);  ///< for a particle's normal
+  /// For those at the corners of the candidate's face, which is the surface's.
   void ask_corners(std::size_t surface, const VertexFaceCandidate& candidate);
-  void ask_ends(std::size_t surface, Index edge);
+  void ask_ends(std::size_t surface, Index edge);  ///< for those at the ends of an edge
 
   /// Makes those asked for since the last time.
   void make();

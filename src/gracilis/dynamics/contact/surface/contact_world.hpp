@@ -85,6 +85,7 @@ struct ContactWorldState {
   int frames = 0;                          ///< begun so far; every update_period-th searches anew
 };
 
+/// Whether one of the pair's surfaces is among the movers.
 inline bool any_moves(const SurfacePair& pair, const Movers& movers) {
   return movers.move(static_cast<std::size_t>(pair.first)) || movers.move(static_cast<std::size_t>(pair.second));
 }

@@ -44,6 +44,7 @@ inline ExitSide exit_of_first(const ContactWorld& world, const SurfacePair& pair
   const auto second = static_cast<std::size_t>(pair.second);
   return {world.surfaces[second], world.rest[second], pair.first_ways};
 }
+/// The other way: where particles of the second come out of the first.
 inline ExitSide exit_of_second(const ContactWorld& world, const SurfacePair& pair) {
   const auto first = static_cast<std::size_t>(pair.first);
   return {world.surfaces[first], world.rest[first], pair.second_ways};

@@ -14,6 +14,7 @@ struct OverlapRelease {
   const std::vector<char>& overlaps;  ///< which of the probe's particles lie in the target at rest; empty: none
   float speed = 0;                    ///< m per step, SurfacePair::release
 
+  /// Whether the probe's particle lies in the target at rest.
   bool overlapped_at_rest(Index particle) const {
     return !overlaps.empty() && overlaps[static_cast<std::size_t>(particle)];
   }
