@@ -15,6 +15,9 @@ namespace gracilis {
 
 namespace {
 
+/// Nearer to a surface (m) a vertex lies on it and not inside, where rounding alone would say which way is out.
+constexpr Real on_surface = 1e-9;
+
 Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
   Eigen::AlignedBox3d box;
   for (const auto vertex : mesh.vertices.colwise()) box.extend(Vec3(vertex));
@@ -39,7 +42,7 @@ InsideVertices vertices_inside(const TriangleMesh& mesh, const Solid& other, con
     if (!other.box.contains(p) || (!left_out.empty() && left_out[static_cast<std::size_t>(v)])) continue;
     const SignedDistance::Answer answer = face < 0 ? other.distance.query(p) : other.distance.query_from(face, p);
     face = answer.nearest.face;
-    if (!(answer.distance < 0)) continue;
+    if (!(answer.distance < -on_surface)) continue;
     inside.vertices.push_back(v);
     inside.depths.push_back(-answer.distance);
     outward.push_back((answer.nearest.point - p).stableNormalized());
