@@ -13,6 +13,7 @@
 #endif
 #include <gracilis/simulate/run.hpp>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -100,6 +101,13 @@ inline WholeRun run_whole(const Scene& scene, int stride = 1,
   EXPECT_EQ(run_scene(scene, poses, *method, nullptr, never, add), RunEnd::complete);
   EXPECT_EQ(run.frames, static_cast<int>(poses.size()));
   return run;
+}
+
+/// No muscle misses a gate in this frame.
+inline void expect_no_gate_missed(const Scene& scene, const FrameRecord& record) {
+  for (std::size_t m = 0; m < scene.muscles.size(); ++m)
+    EXPECT_THAT(missed_gates(record.measures[m], {}), testing::IsEmpty())
+        << scene.muscles[m].name << ", frame " << record.frame.number;
 }
 
 /// What must hold in every frame of every scene.

@@ -1,8 +1,7 @@
 #include <gracilis/draft/joint_landmarks.hpp>
 
 #include <gracilis/core/errors.hpp>
-
-#include <Eigen/Geometry>
+#include <gracilis/geometry/rotations.hpp>
 
 #include <algorithm>
 
@@ -31,7 +30,7 @@ Vec3 line_through(const Points& landmarks, const JointQuestion& q) {
 /// Turns the axes together, so that they keep their angles, until the first one lies along the line.
 void turn_to(const Vec3& line, std::vector<Vec3>& axes) {
   const Vec3 first = axes.front();
-  const auto turn = Eigen::Quaternion<Real>::FromTwoVectors(first, line.dot(first) < 0 ? Vec3(-line) : line);
+  const Eigen::Quaterniond turn = turn_from_to(first, line.dot(first) < 0 ? Vec3(-line) : line);
   for (Vec3& axis : axes) axis = turn * axis;
 }
 

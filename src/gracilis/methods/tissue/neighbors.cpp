@@ -4,7 +4,9 @@
 #include <gracilis/dynamics/contact/mesh/particle_normals.hpp>
 #include <gracilis/dynamics/contact/surface/vertex_face_search.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/rotations.hpp>
 #include <gracilis/geometry/topology.hpp>
+#include <gracilis/scene/attached_vertices.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -116,8 +118,9 @@ std::vector<Real> gaps_at_rest(const std::vector<SeenVertex>& seen, Index count,
 /// Areas that free vertices stand for, m²: attached ones go with their bones and feel no muscle.
 Eigen::VectorXd free_areas(const Muscle& muscle) {
   Eigen::VectorXd areas = vertex_areas(muscle.surface.vertices, muscle.surface.faces);
-  for (const Attachment& attachment : muscle.attachments)
-    for (const Index v : attachment.vertices) areas[v] = 0;
+  const std::vector<char> attached = attached_vertices(muscle);
+  for (Index v = 0; v < areas.size(); ++v)
+    if (attached[static_cast<std::size_t>(v)]) areas[v] = 0;
   return areas;
 }
 
@@ -176,7 +179,7 @@ FoundPlanes planes_of(const Neighbors& neighbors, const PlacedSurfaces& placed, 
 
 /// Turns and scales planes so that their force is that.
 void press_by(const Vec3& force, FoundPlanes& found) {
-  Eigen::AngleAxisd turn(Eigen::Quaterniond::FromTwoVectors(found.force, force));
+  Eigen::AngleAxisd turn(turn_from_to(found.force, force));
   turn.angle() = std::min(turn.angle(), most_turned);
   const Real share = std::clamp(force.norm() / found.force.norm(), 1 / most_evened, most_evened);
   for (std::size_t i = 0; i < found.planes.size(); ++i) {

@@ -155,14 +155,15 @@ void push_out(const PreparedTissue& muscle, const Surroundings& around, std::siz
 }
 
 /// The field, which is round where the bone has an edge, says which way is out, and the bone itself how far. It is not
-/// straight out, so once may not be enough.
-Vec3 pushed_out(const BoneGap& bone, const SignedDistance& exact, Real least, Vec3 there) {
+/// straight out, so once may not be enough. In the bone's frame.
+Vec3 push_out_of(const BoneGap& bone, const SignedDistance& exact, Real least, const Vec3& there) {
+  Vec3 push = Vec3::Zero();
   for (int i = 0; i < bone_rounds; ++i) {
-    const Real distance = exact.query(there).distance;
+    const Real distance = exact.query(there + push).distance;
     if (!(distance < least)) break;
-    there += (least - distance) * sample_spline_precise(bone.field.grid, there).gradient.normalized();
+    push += (least - distance) * sample_spline_precise(bone.field.grid, there + push).gradient.normalized();
   }
-  return there;
+  return push;
 }
 
 /// Vertices that contact, which is soft, lets come too near.
@@ -179,8 +180,7 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
       const CachedBoneQuery& query = around.queries[b];
       if (query.distances[v] - largest_slope * (there - query.places.col(v)).norm() > least + field_error) continue;
       if (distance_in(bone, there) > least + field_error) continue;
-      if (distances[b].query(there).distance < least)
-        x.col(v) = around.bodies[body] * pushed_out(bone, distances[b], least, there);
+      x.col(v) += around.bodies[body].linear() * push_out_of(bone, distances[b], least, there);
     }
   }
 }
