@@ -1,4 +1,7 @@
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/topology.hpp>
+#include <gracilis/methods/tissue/preparation.hpp>
+#include <gracilis/methods/tissue/seen_surface.hpp>
 #include <gracilis/methods/tissue/tissue_method.hpp>
 #include <gracilis/simulate/measures.hpp>
 
@@ -67,6 +70,51 @@ TEST(TissueSeenSurface, a_coarse_tube_that_is_bent_around_bones_keeps_its_volume
     EXPECT_LT((made.muscles[0].points - last).colwise().norm().maxCoeff(), 0.0045) << frame;
     last = made.muscles[0].points;
   }
+}
+
+/// The tube of `tube_scene` at rest, where planes say that another muscle begins 1 mm inside of some of its vertices.
+struct PressedTube {
+  Scene scene = tube_scene();
+  tissue::PreparedTissue muscle;
+  Points at_rest, seen;
+
+  explicit PressedTube(const std::function<bool(const Vec3&)>& is_pressed) {
+    scene.bones.clear();
+    muscle = tissue::prepare_tissue(scene, scene.muscles[0], {}, {});
+    at_rest = scene.muscles[0].surface.vertices;
+    std::vector<tissue::ContactPlane> planes;
+    for (Index v = 0; v < muscle.vertex_count; ++v)
+      if (is_pressed(at_rest.col(v))) planes.push_back({v, 0, -Vec3::UnitX(), 0.001 - at_rest(0, v)});
+    const std::vector<RigidTransform> bodies(scene.bodies.size(), RigidTransform::Identity());
+    tissue::Surroundings around = tissue::surroundings(muscle, bodies, tissue::cell_laws(muscle, 0, 1));
+    tissue::set_planes(muscle, std::move(planes), around);
+    seen = tissue::seen_surface(muscle, around, {}, muscle.lattice.nodes);
+  }
+};
+
+TEST(TissueSeenSurface, what_goes_back_out_of_another_muscle_takes_no_volume) {
+  const auto is_pressed = [](const Vec3& p) { return p.x() > 0.028 && std::abs(p.z()) < 0.04; };
+  const PressedTube tube(is_pressed);
+  Real least_pushed = 1;
+  for (Index v = 0; v < tube.seen.cols(); ++v)
+    if (is_pressed(tube.at_rest.col(v))) least_pushed = std::min(least_pushed, tube.at_rest(0, v) - tube.seen(0, v));
+  EXPECT_GT(least_pushed, 0.0007);
+  const Eigen::Matrix3Xi& faces = tube.muscle.faces;
+  EXPECT_NEAR(enclosed_volume(tube.seen, faces) / enclosed_volume(tube.at_rest, faces), 1, 1e-5);
+}
+
+TEST(TissueSeenSurface, a_vertex_that_lies_alone_in_another_muscle_goes_back_by_a_share_of_its_edges) {
+  const Points rest = tube_scene().muscles[0].surface.vertices;
+  Index nearest = 0;
+  (rest.colwise() - Vec3(0.0355, 0, 0)).colwise().squaredNorm().minCoeff(&nearest);
+  const PressedTube tube([&](const Vec3& p) { return p == rest.col(nearest); });
+  Real longest = 0;
+  for (const MeshEdge& edge : build_topology(tube.muscle.faces, rest.cols()).edges)
+    if (edge.a == nearest || edge.b == nearest)
+      longest = std::max(longest, (rest.col(edge.a) - rest.col(edge.b)).norm());
+  const Real pushed = rest(0, nearest) - tube.seen(0, nearest);
+  EXPECT_GT(pushed, std::min(0.001, longest / 4) * 0.95);
+  EXPECT_LT(pushed, std::min(0.001, longest / 4) + 1e-9);
 }
 
 }  // namespace

@@ -30,4 +30,9 @@ TEST(TissueScenes, tendons_at_the_patella_keep_every_gate_while_the_knee_bends) 
                     "[[0,0],[0,80]]", "5");
 }
 
+/// They share a tendon at the ischium, and their thin ends are pressed on each other there.
+TEST(TissueScenes, biceps_and_semitendinosus_keep_every_gate_while_hip_and_knee_bend) {
+  expect_gates_kept("leg", {"biceps_femoris_long_r", "semitendinosus_r"}, "[[0,0],[60,60]]", "4");
+}
+
 }  // namespace gracilis

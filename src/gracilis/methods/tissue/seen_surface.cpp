@@ -18,6 +18,8 @@ constexpr Real volume_tolerance = 1e-6;
 constexpr Real candidates_within = 0.001;
 /// A vertex whose triangles face different ways moves as if they had this share of their area.
 constexpr Real least_facing = 0.3;
+/// A vertex goes no further back from another muscle than its neighbor does and this share of the edge between them.
+constexpr Real steepest_push = 0.25;
 
 /// `there`: in the bone's frame.
 Real distance_in(const BoneGap& bone, const Vec3& there) {
@@ -198,7 +200,8 @@ Vec3 back_to_planes(const Surroundings& around, Index v, const Vec3& tissue) {
 }
 
 /// Each of two muscles that soft contact lets into each other goes back to the planes between them. One vertex alone
-/// may be told by a plane of another muscle's far side, so none goes further than a neighbor does.
+/// may be told by a plane of another muscle's far side, so none goes much further than a neighbor does. What volume
+/// this takes the rest of the surface gives back.
 void push_out_of_muscles(const PreparedTissue& muscle, const Surroundings& around, const Points& tissue, Points& x) {
   if (around.planes.empty()) return;
   Points pushes = Points::Zero(3, muscle.vertex_count);
@@ -207,15 +210,20 @@ void push_out_of_muscles(const PreparedTissue& muscle, const Surroundings& aroun
     if (muscle.points[static_cast<std::size_t>(v)].held_by < 0)
       pushes.col(v) = back_to_planes(around, v, tissue.col(v));
   const Eigen::VectorXd lengths = pushes.colwise().norm();
+  if (lengths.isZero(0)) return;
   for (const Eigen::Vector3i face : muscle.faces.colwise())
     for (Index k = 0; k < 3; ++k) {
       const Index v = face[k];
       if (!(lengths[v] > 0)) continue;
-      for (const Index neighbor : {face[(k + 1) % 3], face[(k + 2) % 3]})
-        allowed[v] = std::max(allowed[v], pushes.col(neighbor).dot(pushes.col(v)) / lengths[v]);
+      for (const Index neighbor : {face[(k + 1) % 3], face[(k + 2) % 3]}) {
+        const Real as_far = pushes.col(neighbor).dot(pushes.col(v)) / lengths[v];
+        allowed[v] = std::max(allowed[v], as_far + steepest_push * (tissue.col(neighbor) - tissue.col(v)).norm());
+      }
     }
+  const Real volume = enclosed_volume(x, muscle.faces);
   for (Index v = 0; v < muscle.vertex_count; ++v)
     if (lengths[v] > 0) x.col(v) += std::min(1.0, allowed[v] / lengths[v]) * pushes.col(v);
+  meet_volume(muscle, volume_slopes(muscle, x), volume, x);
 }
 
 }  // namespace
