@@ -187,12 +187,14 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
   }
 }
 
-/// From where soft contact lets a vertex come, through other muscles, back to the planes between them.
+/// From where soft contact lets a vertex come, through other muscles, back to the planes between them. Not to those of
+/// its own muscle: in a fold that is crushed they tell vertices beside each other to go different ways.
 Vec3 back_to_planes(const Surroundings& around, Index v, const Vec3& tissue) {
   Vec3 push = Vec3::Zero();
   const auto p = static_cast<std::size_t>(v);
   for (Index i = around.planes_begin[p]; i < around.planes_begin[p + 1]; ++i) {
     const ContactPlane& plane = around.planes[static_cast<std::size_t>(i)];
+    if (plane.muscle < 0) continue;
     const Real deep = plane.least - plane.spare - plane.normal.dot(tissue + push);
     if (deep > 0) push += deep * plane.normal;
   }
