@@ -123,7 +123,7 @@ TEST(Intersections, an_edge_through_a_plate_is_found_although_both_ends_are_outs
   Points points(3, 4);
   points.col(0) = Vec3(0, 0, 0.5), points.col(1) = Vec3(0.1, 0, -0.5);
   points.col(2) = Vec3(3, 0, 0.5), points.col(3) = Vec3(3, 0, -0.5);
-  EXPECT_EQ(depths_inside(points, plate).maxCoeff(), 0);
+  EXPECT_EQ(Solid(plate).depths(points).maxCoeff(), 0);
   EXPECT_EQ(crossing_edges(points, {{0, 1}, {0, 2}, {2, 3}}, plate), (std::vector<Index>{0}));
 }
 
@@ -131,7 +131,7 @@ TEST(Containment, depth_is_the_distance_to_the_surface_inside_and_zero_elsewhere
   Points points(3, 4);
   points.col(0) = Vec3(0.5, 0.5, 0.9), points.col(1) = Vec3(0.5, 0.5, 1.1), points.col(2) = Vec3(0.5, 0.5, 0.5);
   points.col(3) = Vec3(0.5, 0.5, 1);
-  const Eigen::VectorXd depths = depths_inside(points, unit_box());
+  const Eigen::VectorXd depths = Solid(unit_box()).depths(points);
   EXPECT_NEAR(depths[0], 0.1, 1e-12);
   EXPECT_EQ(depths[1], 0);
   EXPECT_NEAR(depths[2], 0.5, 1e-12);
@@ -141,7 +141,7 @@ TEST(Containment, depth_is_the_distance_to_the_surface_inside_and_zero_elsewhere
 TEST(Containment, a_surface_turned_inside_out_has_the_same_inside) {
   TriangleMesh box = unit_box();
   box.faces.row(0).swap(box.faces.row(1));
-  EXPECT_NEAR(depths_inside(Vec3(0.5, 0.5, 0.9), box)[0], 0.1, 1e-12);
+  EXPECT_NEAR(Solid(box).depths(Vec3(0.5, 0.5, 0.9))[0], 0.1, 1e-12);
 }
 
 TEST(Folding, a_dihedral_that_opens_and_closes_turns_by_the_angle_it_was_given) {

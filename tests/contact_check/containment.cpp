@@ -14,8 +14,11 @@ namespace gracilis::contact_check {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
-using Primitive = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using OneMesh = CGAL::Tag_true;
+using TrianglesKept = CGAL::Tag_true;
+using Primitive = CGAL::AABB_face_graph_triangle_primitive<SurfaceMesh, CGAL::Default, OneMesh, TrianglesKept>;
+using FaceTree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+using Side = CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel, CGAL::Default, FaceTree>;
 
 /// Every face with three vertices of its own, so that surfaces which are no manifold can be asked, too.
 static SurfaceMesh loose_faces(const TriangleMesh& mesh) {
@@ -32,16 +35,26 @@ static SurfaceMesh loose_faces(const TriangleMesh& mesh) {
   return loose;
 }
 
-Eigen::VectorXd depths_inside(const Points& points, const TriangleMesh& closed) {
+struct Solid::Tree {
+  explicit Tree(const TriangleMesh& closed)
+      : surface(loose_faces(closed)), tree(faces(surface).first, faces(surface).second, surface) {
+    tree.build();
+  }
+
+  const SurfaceMesh surface;
+  FaceTree tree;
+};
+
+Solid::Solid(const TriangleMesh& closed) : tree_(std::make_shared<const Tree>(closed)) {}
+
+Eigen::VectorXd Solid::depths(const Points& points) const {
   Eigen::VectorXd depths = Eigen::VectorXd::Zero(points.cols());
-  if (closed.face_count() == 0) return depths;
-  const SurfaceMesh surface = loose_faces(closed);
-  Tree tree(faces(surface).first, faces(surface).second, surface);
-  tree.build();
-  const CGAL::Side_of_triangle_mesh<SurfaceMesh, Kernel> side(tree);
+  if (!tree_ || tree_->tree.empty()) return depths;
+  const Side side(tree_->tree);
   for (Index i = 0; i < points.cols(); ++i) {
     const Point point(points(0, i), points(1, i), points(2, i));
-    if (side(point) == CGAL::ON_BOUNDED_SIDE) depths[i] = std::sqrt(CGAL::to_double(tree.squared_distance(point)));
+    if (side(point) == CGAL::ON_BOUNDED_SIDE)
+      depths[i] = std::sqrt(CGAL::to_double(tree_->tree.squared_distance(point)));
   }
   return depths;
 }

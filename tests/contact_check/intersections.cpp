@@ -40,8 +40,9 @@ static CGAL::Bbox_3 bounds(const Points& points) {
 }
 
 std::vector<IndexPair> intersecting_faces(const TriangleMesh& one, const TriangleMesh& other) {
-  std::vector<Box> ours = face_boxes(one, bounds(other.vertices));
-  std::vector<Box> theirs = face_boxes(other, bounds(one.vertices));
+  const CGAL::Bbox_3 box = bounds(one.vertices), other_box = bounds(other.vertices);
+  if (!CGAL::do_overlap(box, other_box)) return {};
+  std::vector<Box> ours = face_boxes(one, other_box), theirs = face_boxes(other, box);
   std::vector<IndexPair> found;
   CGAL::box_intersection_d(ours.begin(), ours.end(), theirs.begin(), theirs.end(), [&](const Box& a, const Box& b) {
     if (CGAL::do_intersect(triangle_of(one, a.info()), triangle_of(other, b.info())))
@@ -107,8 +108,9 @@ std::vector<Index> crossing_edges(const Points& points, const Edges& edges, cons
     const IndexPair& ends = edges[static_cast<std::size_t>(edge)];
     return Segment(point_of(points, ends[0]), point_of(points, ends[1]));
   };
-  const CGAL::Bbox_3 region = bounds(other.vertices);
-  std::vector<Box> ours, theirs = face_boxes(other, bounds(points));
+  const CGAL::Bbox_3 box = bounds(points), region = bounds(other.vertices);
+  if (!CGAL::do_overlap(box, region)) return {};
+  std::vector<Box> ours, theirs = face_boxes(other, box);
   for (Index e = 0; e < static_cast<Index>(edges.size()); ++e) {
     const Segment side = segment(e);
     if (CGAL::do_overlap(side.bbox(), region) && !side.is_degenerate()) ours.emplace_back(side.bbox(), e);

@@ -1,7 +1,5 @@
 #include "judge.hpp"
 
-#include "containment.hpp"
-
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -11,6 +9,12 @@
 namespace gracilis::contact_check {
 
 static constexpr Real deep = 0.2e-3;  // m
+
+static std::vector<Solid> solids_of(const std::vector<TriangleMesh>& surfaces) {
+  std::vector<Solid> solids(surfaces.size());
+  tbb::parallel_for(std::size_t{0}, surfaces.size(), [&](std::size_t s) { solids[s] = Solid(surfaces[s]); });
+  return solids;
+}
 
 static std::vector<Index> with_an_end_inside(const Edges& edges, const Eigen::VectorXd& depths) {
   std::vector<Index> inside;
@@ -23,6 +27,10 @@ static std::vector<Index> with_an_end_inside(const Edges& edges, const Eigen::Ve
 
 Judge::Judge(std::vector<JudgedMuscle> muscles, std::vector<JudgedBone> bones)
     : muscles_(std::move(muscles)), bones_(std::move(bones)), rest_(muscles_.size()) {
+  std::vector<TriangleMesh> muscles_at_rest, bones_at_rest;
+  for (const JudgedMuscle& muscle : muscles_) muscles_at_rest.push_back(muscle.rest);
+  for (const JudgedBone& bone : bones_) bones_at_rest.push_back(bone.rest);
+  const std::vector<Solid> solids = solids_of(muscles_at_rest), bone_solids = solids_of(bones_at_rest);
   for (Index a = 0; a < static_cast<Index>(muscles_.size()); ++a)
     for (Index b = a + 1; b < static_cast<Index>(muscles_.size()); ++b) pairs_.push_back({a, b, 0});
   tbb::parallel_for(std::size_t{0}, muscles_.size(), [&](std::size_t m) {
@@ -33,17 +41,15 @@ Judge::Judge(std::vector<JudgedMuscle> muscles, std::vector<JudgedBone> bones)
     for (const Dihedral& dihedral : rest.dihedrals) rest.angles.push_back(dihedral_angle_of(dihedral, mesh.vertices));
     rest.volume = enclosed_volume(mesh.vertices, mesh.faces);
     rest.self_pairs = static_cast<Index>(self_intersecting_faces(mesh).size());
-    for (const JudgedBone& bone : bones_) {
-      rest.bone_edges.push_back(crossing_edges(mesh.vertices, rest.edges, bone.rest));
-      rest.forgiven_edges.push_back(with_an_end_inside(rest.edges, depths_inside(mesh.vertices, bone.rest)));
+    for (std::size_t b = 0; b < bones_.size(); ++b) {
+      rest.bone_edges.push_back(crossing_edges(mesh.vertices, rest.edges, bones_[b].rest));
+      rest.forgiven_edges.push_back(with_an_end_inside(rest.edges, bone_solids[b].depths(mesh.vertices)));
       std::vector<Index>& forgiven = rest.forgiven_edges.back();
       forgiven.insert(forgiven.end(), rest.bone_edges.back().begin(), rest.bone_edges.back().end());
       std::sort(forgiven.begin(), forgiven.end());
     }
-    for (const JudgedMuscle& other : muscles_) {
-      rest.depths.push_back(&other == &muscles_[m] ? Eigen::VectorXd::Zero(mesh.vertex_count()).eval()
-                                                   : depths_inside(mesh.vertices, other.rest));
-    }
+    for (std::size_t other = 0; other < muscles_.size(); ++other)
+      rest.depths.push_back((other == m ? Solid() : solids[other]).depths(mesh.vertices));
   });
   tbb::parallel_for(std::size_t{0}, pairs_.size(), [&](std::size_t p) {
     const auto& rest = [&](Index m) -> const TriangleMesh& { return muscles_[static_cast<std::size_t>(m)].rest; };
@@ -67,7 +73,8 @@ static Vec3 face_center(const TriangleMesh& mesh, Index face) {
   return mesh.vertices(Eigen::all, mesh.faces.col(face)).rowwise().mean();
 }
 
-PairVerdict Judge::judge_pair(const PairRest& pair, const std::vector<TriangleMesh>& now) const {
+PairVerdict Judge::judge_pair(const PairRest& pair, const std::vector<TriangleMesh>& now,
+                              const std::vector<Solid>& solids) const {
   PairVerdict verdict;
   verdict.first = pair.first, verdict.second = pair.second;
   verdict.face_pairs_rest = pair.face_pairs;
@@ -77,7 +84,7 @@ PairVerdict Judge::judge_pair(const PairRest& pair, const std::vector<TriangleMe
   for (const IndexPair& faces : found)
     verdict.faces_at += face_center(muscles_[one].rest, faces[0]) / static_cast<Real>(found.size());
   const auto add_depths = [&](std::size_t in, std::size_t of) {
-    const Eigen::VectorXd depths = depths_inside(now[of].vertices, now[in]);
+    const Eigen::VectorXd depths = solids[in].depths(now[of].vertices);
     const Eigen::VectorXd& rest = rest_[of].depths[in];
     verdict.depth = std::max(verdict.depth, depths.maxCoeff());
     verdict.depth_rest = std::max(verdict.depth_rest, rest.maxCoeff());
@@ -155,13 +162,14 @@ FrameVerdict Judge::judge(int number, const std::vector<Points>& muscles, const 
   for (std::size_t b = 0; b < bones_.size(); ++b) bones_now.push_back({bones[b], bones_[b].rest.faces});
   for (const TriangleMesh& mesh : now) verdict.finite = verdict.finite && mesh.vertices.allFinite();
   if (!verdict.finite) return verdict;
+  const std::vector<Solid> solids = solids_of(now);
   verdict.pairs.resize(pairs_.size());
   verdict.muscles.resize(muscles_.size());
   tbb::parallel_for(std::size_t{0}, pairs_.size() + muscles_.size(), [&](std::size_t task) {
     if (task < muscles_.size())
       verdict.muscles[task] = judge_muscle(task, now[task], bones_now);
     else
-      verdict.pairs[task - muscles_.size()] = judge_pair(pairs_[task - muscles_.size()], now);
+      verdict.pairs[task - muscles_.size()] = judge_pair(pairs_[task - muscles_.size()], now, solids);
   });
   return verdict;
 }

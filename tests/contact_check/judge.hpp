@@ -1,5 +1,6 @@
 #pragma once
 
+#include "containment.hpp"
 #include "folding.hpp"
 #include "intersections.hpp"
 
@@ -84,7 +85,8 @@ class Judge {
     Index first = 0, second = 0, face_pairs = 0;
   };
 
-  PairVerdict judge_pair(const PairRest& pair, const std::vector<TriangleMesh>& now) const;
+  PairVerdict judge_pair(const PairRest& pair, const std::vector<TriangleMesh>& now,
+                         const std::vector<Solid>& solids) const;
   MuscleVerdict judge_muscle(std::size_t muscle, const TriangleMesh& now, const std::vector<TriangleMesh>& bones) const;
 
   std::vector<JudgedMuscle> muscles_;
