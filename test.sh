@@ -18,7 +18,10 @@ for option in "$@"; do
       targets=(quick_tests)
       selection=(--label-regex '^quick$')
       ;;
-    --long) selection=() ;;
+    --long)
+      targets=(all long_tests)
+      selection=()
+      ;;
     --asan) preset=asan ;;
     --tsan)
       preset=tsan

@@ -18,3 +18,7 @@ foreach(test view.GuideWalk.every_command_works
              draft.SceneCommand.a_folder_becomes_a_scene_with_a_picture_that_runs_and_tells_its_guesses)
   set_tests_properties(${test} PROPERTIES COST 15)
 endforeach()
+# Where no one asked for `long_tests`, CTest has one in their place that says so.
+foreach(module app scenarios study)
+  set_tests_properties(${module}_long_tests_NOT_BUILT PROPERTIES LABELS long)
+endforeach()
