@@ -22,7 +22,8 @@ struct Slab {
       is_fixed.push_back(rest.vertices(0, v) < 1e-9 || rest.vertices(0, v) > 0.2 - 1e-9);
   }
   Points fitted(const Points& places, Real smoothing = 0.02, Index largest_factorized = 30000) const {
-    return GradientFit(rest, is_fixed, trust, smoothing, largest_factorized).fitted({places, gradients});
+    return GradientFit(rest, is_fixed, trust, smoothing, largest_factorized)
+        .fitted(GradientFit::Aim{places, gradients});
   }
   /// Places that waver by so much (m) from vertex to vertex.
   Points wavering(Real by) const {
@@ -99,10 +100,16 @@ TEST(GradientFit, conjugate_gradients_find_what_the_factorization_does) {
 
 TEST(GradientFit, of_two_aims_each_is_fitted_as_alone) {
   const Slab slab;
-  const GradientFit::Aim first{slab.wavering(0.002), slab.gradients}, second{1.1 * first.places, slab.gradients};
+  const GradientFit::Aim first{slab.wavering(0.002), slab.gradients};
+  const GradientFit::Aim second{1.1 * first.places, {slab.gradients.size(), 1.2 * Eigen::Matrix3d::Identity()}};
+  GradientFit::AimOf<6> both{Eigen::Matrix<Real, 6, Eigen::Dynamic>(6, first.places.cols()), {}};
+  both.places << first.places, second.places;
+  for (std::size_t v = 0; v < first.gradients.size(); ++v)
+    both.gradients.emplace_back() << first.gradients[v], second.gradients[v];
   for (const Index largest_factorized : {30000, 0}) {
     const GradientFit fit(slab.rest, slab.is_fixed, slab.trust, 0.02, largest_factorized);
-    const auto [one, other] = fit.fitted(first, second);
+    const auto fitted = fit.fitted(both);
+    const Points one = fitted.topRows<3>(), other = fitted.bottomRows<3>();
     EXPECT_EQ(one, fit.fitted(first));
     EXPECT_EQ(other, fit.fitted(second));
     EXPECT_NE(one, other);

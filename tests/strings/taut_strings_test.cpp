@@ -87,6 +87,15 @@ TEST(TautStrings, over_a_bone_that_is_far_off_strings_do_not_slide) {
   EXPECT_GT(far, 0) << "none is far";
 }
 
+TEST(TautStrings, strings_that_a_vector_unit_takes_together_lie_together) {
+  const MuscleStrings& muscle = arm().muscle;
+  const auto middle = [&](Index s) { return Vec3(muscle.fibers.col(muscle.node(s, muscle.nodes / 2))); };
+  // Four of 48 fill a twelfth of a round section, so they lie within a square whose diagonal is 0.72 of its radius, or
+  // in a strip some longer; spread over the section they are a diameter apart.
+  for (Index first = 0; first < muscle.strings; first += 4)
+    for (Index s = first; s < first + 4; ++s) EXPECT_LT((middle(s) - middle(first)).norm(), 0.012) << s;
+}
+
 TEST(TautStrings, shares_of_bodies_sum_to_one) {
   EXPECT_LT((arm().muscle.shares.colwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
 }

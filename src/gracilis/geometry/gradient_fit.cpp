@@ -62,36 +62,37 @@ Eigen::SparseMatrix<Real> GradientFit::normal_matrix() const {
 }
 
 /// One column per unknown.
-Points GradientFit::right_side(const Aim& aim) const {
-  const Points& places = aim.places;
-  const std::vector<Eigen::Matrix3d>& gradients = aim.gradients;
-  Points sum(3, unknowns_);
-  for (Index v = 0; v < places.cols(); ++v)
-    if (const Index i = number_of(v); i >= 0) sum.col(i) = place_weights_[v] * places.col(v);
+template <int Rows>
+Eigen::Matrix<Real, Rows, Eigen::Dynamic> GradientFit::right_side(const AimOf<Rows>& aim) const {
+  using Column = Eigen::Matrix<Real, Rows, 1>;
+  Eigen::Matrix<Real, Rows, Eigen::Dynamic> sum(Rows, unknowns_);
+  for (Index v = 0; v < aim.places.cols(); ++v)
+    if (const Index i = number_of(v); i >= 0) sum.col(i) = place_weights_[v] * aim.places.col(v);
   for (const Link& link : links_) {
-    const Vec3 vector =
-        (gradients[static_cast<std::size_t>(link.a)] + gradients[static_cast<std::size_t>(link.b)]) * (link.rest / 2);
-    const auto pull = [&](Index vertex, Index other, const Vec3& from_other) {
-      const Index i = number_of(vertex);
-      if (i < 0) return;
-      sum.col(i) += link.weight * from_other;
-      if (number_of(other) < 0) sum.col(i) += link.weight * places.col(other);
-    };
-    pull(link.a, link.b, -vector);
-    pull(link.b, link.a, vector);
+    const Index a = number_of(link.a), b = number_of(link.b);
+    const auto &at_a = aim.gradients[static_cast<std::size_t>(link.a)],
+               &at_b = aim.gradients[static_cast<std::size_t>(link.b)];
+    const Vec3 rest = link.weight / 2 * link.rest;
+    const Column vector = (at_a + at_b) * rest;
+    if (a >= 0) sum.col(a) -= vector;
+    if (b >= 0) sum.col(b) += vector;
+    if (a >= 0 && b < 0) sum.col(a) += link.weight * aim.places.col(link.b);
+    if (b >= 0 && a < 0) sum.col(b) += link.weight * aim.places.col(link.a);
   }
   return sum;
 }
 
 /// From the places on.
-Points GradientFit::iterated(const Points& right_side, const Points& places) const {
-  Points guess(3, unknowns_);
+template <int Rows>
+Eigen::Matrix<Real, Rows, Eigen::Dynamic> GradientFit::iterated(
+    const Eigen::Matrix<Real, Rows, Eigen::Dynamic>& right_side,
+    const Eigen::Matrix<Real, Rows, Eigen::Dynamic>& places) const {
+  Eigen::Matrix<Real, Rows, Eigen::Dynamic> guess(Rows, unknowns_), solution(Rows, unknowns_);
   for (Index v = 0; v < places.cols(); ++v)
     if (const Index i = number_of(v); i >= 0) guess.col(i) = places.col(v);
   Eigen::ConjugateGradient<Eigen::SparseMatrix<Real>, Eigen::Lower | Eigen::Upper> iteration(matrix_);
   iteration.setTolerance(fit_residual);
-  Points solution(3, unknowns_);
-  parallel_for(3, 1, [&](Index begin, Index end) {
+  parallel_for(Rows, 1, [&](Index begin, Index end) {
     for (Index axis = begin; axis < end; ++axis)
       solution.row(axis) =
           iteration.solveWithGuess(right_side.row(axis).transpose(), guess.row(axis).transpose()).transpose();
@@ -99,25 +100,19 @@ Points GradientFit::iterated(const Points& right_side, const Points& places) con
   return solution;
 }
 
-Points GradientFit::with_solution(const Points& places, const Points& solution) const {
-  Points fitted = places;
-  for (Index v = 0; v < places.cols(); ++v)
+template <int Rows>
+Eigen::Matrix<Real, Rows, Eigen::Dynamic> GradientFit::fitted(const AimOf<Rows>& aim) const {
+  Eigen::Matrix<Real, Rows, Eigen::Dynamic> fitted = aim.places;
+  if (unknowns_ == 0) return fitted;
+  const Eigen::Matrix<Real, Rows, Eigen::Dynamic> sums = right_side(aim);
+  const Eigen::Matrix<Real, Rows, Eigen::Dynamic> solution =
+      is_factorized_ ? factors_.solve_points(sums) : iterated(sums, aim.places);
+  for (Index v = 0; v < fitted.cols(); ++v)
     if (const Index i = number_of(v); i >= 0) fitted.col(v) = solution.col(i);
   return fitted;
 }
 
-Points GradientFit::fitted(const Aim& aim) const {
-  if (unknowns_ == 0) return aim.places;
-  const Points sums = right_side(aim);
-  return with_solution(aim.places, is_factorized_ ? factors_.solve_points(sums) : iterated(sums, aim.places));
-}
-
-std::pair<Points, Points> GradientFit::fitted(const Aim& first, const Aim& second) const {
-  if (unknowns_ == 0 || !is_factorized_) return {fitted(first), fitted(second)};
-  Eigen::Matrix<Real, 6, Eigen::Dynamic> sums(6, unknowns_);
-  sums << right_side(first), right_side(second);
-  const Eigen::Matrix<Real, 6, Eigen::Dynamic> solution = factors_.solve_points(sums);
-  return {with_solution(first.places, solution.topRows<3>()), with_solution(second.places, solution.bottomRows<3>())};
-}
+template Points GradientFit::fitted(const AimOf<3>&) const;
+template Eigen::Matrix<Real, 6, Eigen::Dynamic> GradientFit::fitted(const AimOf<6>&) const;
 
 }  // namespace gracilis

@@ -3,7 +3,6 @@
 #include <gracilis/geometry/sparse_ldlt.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
-#include <utility>
 #include <vector>
 
 namespace gracilis {
@@ -25,16 +24,18 @@ class GradientFit {
   GradientFit(const TriangleMesh& rest, const std::vector<char>& is_fixed, const Eigen::VectorXd& trust, Real smoothing,
               Index largest_factorized = 30000);
 
-  /// What one surface is to come near to.
-  struct Aim {
-    Points places;
-    std::vector<Eigen::Matrix3d> gradients;  ///< per vertex, of the place now by the place at rest
+  /// What a surface is to come near to; with six rows two surfaces, one above the other.
+  template <int Rows>
+  struct AimOf {
+    Eigen::Matrix<Real, Rows, Eigen::Dynamic> places;
+    std::vector<Eigen::Matrix<Real, Rows, 3>> gradients;  ///< per vertex, of the place now by the place at rest
   };
+  using Aim = AimOf<3>;
 
-  /// Fixed vertices are where the places say.
-  Points fitted(const Aim& aim) const;
-  /// Two surfaces, each as alone, in the time of little more than one: what takes the time is to read the factors.
-  std::pair<Points, Points> fitted(const Aim& first, const Aim& second) const;
+  /// Fixed vertices are where the places say. Two surfaces take little more time than one: what takes the time is to
+  /// read links and factors.
+  template <int Rows>
+  Eigen::Matrix<Real, Rows, Eigen::Dynamic> fitted(const AimOf<Rows>& aim) const;
 
  private:
   struct Link {
@@ -52,9 +53,11 @@ class GradientFit {
 
   Index number_of(Index vertex) const { return numbers_[static_cast<std::size_t>(vertex)]; }
   Eigen::SparseMatrix<Real> normal_matrix() const;
-  Points right_side(const Aim& aim) const;
-  Points iterated(const Points& right_side, const Points& places) const;
-  Points with_solution(const Points& places, const Points& solution) const;
+  template <int Rows>
+  Eigen::Matrix<Real, Rows, Eigen::Dynamic> right_side(const AimOf<Rows>& aim) const;
+  template <int Rows>
+  Eigen::Matrix<Real, Rows, Eigen::Dynamic> iterated(const Eigen::Matrix<Real, Rows, Eigen::Dynamic>& right_side,
+                                                     const Eigen::Matrix<Real, Rows, Eigen::Dynamic>& places) const;
 };
 
 }  // namespace gracilis

@@ -25,7 +25,9 @@ class LaneSteps {
         w_(workspace),
         width_(static_cast<std::size_t>(lanes_.width)),
         inner_(static_cast<std::size_t>(lanes_.nodes - 1)),
-        sections_move_(settings_.sections_first && has_neighbors()) {}
+        sections_move_(settings_.sections_first && has_neighbors()) {
+    if (has_neighbors()) list_neighbors();
+  }
 
   void relax(const strings::Relaxation& relaxation) {
     const float stop_move = std::max(static_cast<float>(relaxation.stop_move), strings::least_lane_move);
@@ -72,12 +74,24 @@ class LaneSteps {
     turn_sections(iteration == 0 ? first_steps : further_steps, w_);
   }
 
+  /// Per group of lanes, the strings that are a neighbor in any of them: most are in none.
+  void list_neighbors() {
+    w_.neighbors.clear(), w_.neighbors_end.clear();
+    for (std::size_t s = 0; s < width_; s += hn::Lanes(D())) {
+      for (std::size_t j = 0; j < static_cast<std::size_t>(lanes_.strings); ++j)
+        if (!hn::AllTrue(D(), hn::Eq(load(lanes_.neighbor_weight, j * width_ + s), hn::Zero(D()))))
+          w_.neighbors.push_back(j);
+      w_.neighbors_end.push_back(w_.neighbors.size());
+    }
+  }
+
   /// Where its neighbors want a node.
   HWY_INLINE Point among_neighbors(std::size_t i, std::size_t s) const {
     const V zero = hn::Zero(D());
-    const std::size_t row = i * width_;
+    const std::size_t row = i * width_, group = s / hn::Lanes(D());
     Point there{zero, zero, zero};
-    for (std::size_t j = 0; j < static_cast<std::size_t>(lanes_.strings); ++j) {
+    for (std::size_t k = group == 0 ? 0 : w_.neighbors_end[group - 1]; k < w_.neighbors_end[group]; ++k) {
+      const std::size_t j = w_.neighbors[k];
       const V weight = load(lanes_.neighbor_weight, j * width_ + s);
       there.x = hn::MulAdd(weight, lanes_of(w_.before[0][row + j]), there.x);
       there.y = hn::MulAdd(weight, lanes_of(w_.before[1][row + j]), there.y);

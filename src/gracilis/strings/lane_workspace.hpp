@@ -19,6 +19,9 @@ struct LaneWorkspace {
 
   std::vector<float> last_move, travelled;  ///< per string, m
 
+  /// Strings that are a neighbor in any lane of a group, group after group, and where each group's end.
+  std::vector<std::size_t> neighbors, neighbors_end;
+
   /// A bone from here: to cells of its grid, and from there back for directions.
   struct Bone {
     Eigen::Matrix<float, 3, 4> to_cells, from_cells;

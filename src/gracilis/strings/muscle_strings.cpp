@@ -5,7 +5,9 @@
 #include <gracilis/strings/relaxation.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <tuple>
 
 namespace gracilis::strings {
 
@@ -28,6 +30,32 @@ Index body_at(const Muscle& muscle, AttachmentEnd end, const Vec3& place) {
     }
   }
   return body;
+}
+
+/// Sorts lines so that groups of any power of two of them, one after the other, lie together: halves are parted where
+/// their middles spread most.
+void part_lines(std::vector<std::pair<Vec3, Index>>& lines, std::size_t begin, std::size_t end) {
+  if (end - begin < 3) return;
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = begin; i < end; ++i) box.extend(lines[i].first);
+  Index axis = 0;
+  box.sizes().maxCoeff(&axis);
+  std::sort(lines.begin() + static_cast<std::ptrdiff_t>(begin), lines.begin() + static_cast<std::ptrdiff_t>(end),
+            [&](const auto& a, const auto& b) {
+              return std::tie(a.first[axis], a.second) < std::tie(b.first[axis], b.second);
+            });
+  const std::size_t half = begin + std::bit_floor(end - begin - 1);
+  part_lines(lines, begin, half);
+  part_lines(lines, half, end);
+}
+
+Polylines side_by_side(const Polylines& fibers) {
+  std::vector<std::pair<Vec3, Index>> lines;
+  for (Index f = 0; f < fibers.count(); ++f) lines.emplace_back(fibers.line(f).rowwise().mean(), f);
+  part_lines(lines, 0, lines.size());
+  Polylines sorted;
+  for (const auto& [middle, f] : lines) sorted.append(fibers.line(f));
+  return sorted;
 }
 
 void lay_along_fibers(const Muscle& muscle, const Polylines& fibers, MuscleStrings& result) {
@@ -177,7 +205,7 @@ std::optional<MuscleStrings> muscle_strings(const Scene& scene, const Muscle& mu
   Muscle fibered = muscle;
   fibered.fibers.count = settings.count;
   fibered.fibers.segments = settings.segments;
-  const Polylines fibers = attached_fibers_of(fibered);
+  const Polylines fibers = side_by_side(attached_fibers_of(fibered));
   if (fibers.count() == 0 || !fibers.points.allFinite()) return std::nullopt;
   MuscleStrings result;
   result.settings = settings;

@@ -103,15 +103,32 @@ Eigen::VectorXd trust_beyond_attachments(const Points& rest, const std::vector<I
   return trust;
 }
 
-/// The sum of two shapes of a surface: at rest width, and by how much all of it moves per unit of widening.
-struct WidenedSurface {
-  Points narrow, widening;
-  Points at(Real share) const { return narrow + share * widening; }
-};
+/// Two shapes of a surface, one above the other: at rest width, and by how much all of it moves per unit of widening.
+using WidenedSurface = Eigen::Matrix<Real, 6, Eigen::Dynamic>;
 
-/// The widening for which the surface encloses its volume at rest, by secants; the volume is a cubic in it.
+/// The volume that the first shape plus so many times the second encloses: coefficients of a cubic.
+Eigen::Vector4d volume_by_widening(const WidenedSurface& surface, const Eigen::Matrix3Xi& faces) {
+  using Corner = Eigen::Matrix<Real, 6, 1>;
+  Eigen::Vector4d six_volumes = Eigen::Vector4d::Zero();
+  const Corner origin = surface.col(0);
+  for (Index face = 0; face < faces.cols(); ++face) {
+    const Corner a = surface.col(faces(0, face)) - origin, b = surface.col(faces(1, face)) - origin,
+                 c = surface.col(faces(2, face)) - origin;
+    const Vec3 a0 = a.head<3>(), a1 = a.tail<3>(), b0 = b.head<3>(), b1 = b.tail<3>(), c0 = c.head<3>(),
+               c1 = c.tail<3>();
+    const Vec3 area0 = b0.cross(c0), area1 = b0.cross(c1) + b1.cross(c0), area2 = b1.cross(c1);
+    six_volumes +=
+        Eigen::Vector4d(a0.dot(area0), a1.dot(area0) + a0.dot(area1), a1.dot(area1) + a0.dot(area2), a1.dot(area2));
+  }
+  return six_volumes / 6;
+}
+
+/// The widening for which the surface encloses its volume at rest, by secants.
 Real widening_to_volume(const WidenedSurface& surface, const Eigen::Matrix3Xi& faces, Real volume) {
-  const auto excess = [&](Real share) { return enclosed_volume(surface.at(share), faces) / volume - 1; };
+  const Eigen::Vector4d cubic = volume_by_widening(surface, faces) / volume;
+  const auto excess = [&](Real share) {
+    return cubic[0] + share * (cubic[1] + share * (cubic[2] + share * cubic[3])) - 1;
+  };
   Real before = 0, excess_before = excess(before);
   Real now = std::clamp(-excess_before, narrowest, widest);
   for (int round = 0; round < volume_rounds && now != before; ++round) {
@@ -135,7 +152,7 @@ StringSkin bind_skin(const MuscleStrings& muscle, const TriangleMesh& surface,
     for (Index v = begin; v < end; ++v) bindings[static_cast<std::size_t>(v)] = bind_vertex(muscle, rest.col(v));
   });
   StringSkin skin;
-  skin.offsets.resize(3, count), skin.directions.resize(3, count), skin.along.resize(count);
+  skin.offsets.resize(3, count), skin.directions.resize(3, count), skin.widening.resize(count);
   skin.attached_body = attached_body;
   skin.volume = enclosed_volume(rest, surface.faces);
   for (Index v = 0; v < count; ++v) {
@@ -146,7 +163,8 @@ StringSkin bind_skin(const MuscleStrings& muscle, const TriangleMesh& surface,
       skin.nodes.push_back(node);
       skin.weights.push_back(static_cast<float>(weight));
     }
-    skin.offsets.col(v) = binding.offset, skin.directions.col(v) = binding.direction, skin.along[v] = binding.along;
+    skin.offsets.col(v) = binding.offset, skin.directions.col(v) = binding.direction,
+    skin.widening[v] = std::sin(pi * binding.along);
   }
   skin.begin.push_back(static_cast<Index>(skin.nodes.size()));
   std::vector<char> is_attached;
@@ -178,92 +196,100 @@ Points node_widening(const MuscleStrings& muscle, const Points& fibers) {
 }
 
 /// Per node the length of its string over that at rest.
-std::vector<Real> string_stretches(const MuscleStrings& muscle, const Points& places) {
-  std::vector<Real> stretches;
+Eigen::ArrayXd string_stretches(const MuscleStrings& muscle, const Points& places) {
+  Eigen::ArrayXd stretches(places.cols());
   for (Index s = 0; s < muscle.strings; ++s) {
     const Index first = muscle.node(s, 0);
-    const Real stretch = polyline_length(places.middleCols(first, muscle.nodes)) /
-                         polyline_length(muscle.taut.middleCols(first, muscle.nodes));
-    stretches.insert(stretches.end(), static_cast<std::size_t>(muscle.nodes), stretch);
+    stretches.segment(first, muscle.nodes) = polyline_length(places.middleCols(first, muscle.nodes)) /
+                                             polyline_length(muscle.taut.middleCols(first, muscle.nodes));
   }
   return stretches;
 }
 
-/// Weighted means over a vertex's nodes.
-struct Followed {
-  Vec3 place = Vec3::Zero(), widening = Vec3::Zero();
-  Eigen::Vector4d turn = Eigen::Vector4d::Zero();
-  Real stretch = 0;
+/// What nodes say of the vertices that follow them: per node how far it moved further than all do on average, its
+/// widening (m), by how much its string is stretched, an unused number, and its turn as a quaternion. Side by side and
+/// in single precision, as XPBD has its particles: a vector unit takes four at once.
+using NodeColumn = Eigen::Array<float, 12, 1>;
+struct FollowedNodes {
+  Vec3 moved;  ///< on average
+  Eigen::Array<float, 12, Eigen::Dynamic> columns;
 };
 
-/// Where strings are, and what follows from it for their nodes.
-struct StringFrames {
-  FiberFrames frames;
-  Points widening;
-  std::vector<Real> stretches;
-};
-
-Followed follow_nodes(const StringSkin& skin, Index vertex, const StringFrames& now) {
-  const auto v = static_cast<std::size_t>(vertex);
-  Followed followed;
-  const Eigen::Vector4d first = now.frames.turns.col(skin.nodes[static_cast<std::size_t>(skin.begin[v])]);
-  Real sum = 0;
-  for (auto k = static_cast<std::size_t>(skin.begin[v]); k < static_cast<std::size_t>(skin.begin[v + 1]); ++k) {
-    const Real weight = static_cast<Real>(skin.weights[k]);
-    const Index node = skin.nodes[k];
-    followed.place += weight * now.frames.fibers.col(node);
-    followed.widening += weight * now.widening.col(node);
-    followed.stretch += weight * now.stretches[static_cast<std::size_t>(node)];
-    // q and -q are the same rotation; the mean wants them on one side.
-    followed.turn += (first.dot(now.frames.turns.col(node)) < 0 ? -weight : weight) * now.frames.turns.col(node);
-    sum += weight;
-  }
-  followed.place /= sum;
-  followed.widening /= sum;
-  followed.stretch /= sum;
-  followed.turn.normalize();
-  return followed;
+/// q and -q are the same rotation; a mean wants those of neighbors on one side.
+void turn_to_one_side(const MuscleStrings& muscle, Eigen::Matrix4Xd& turns) {
+  for (Index s = 0; s < muscle.strings; ++s)
+    for (Index i = s == 0 ? 1 : 0; i < muscle.nodes; ++i) {
+      const Index neighbor = i > 0 ? muscle.node(s, i - 1) : muscle.node(s - 1, 0);
+      auto turn = turns.col(muscle.node(s, i));
+      if (turns.col(neighbor).dot(turn) < 0) turn = -turn;
+    }
 }
 
-GradientFit::Aim room_for(Index vertices) {
-  return {Points(3, vertices), std::vector<Eigen::Matrix3d>(static_cast<std::size_t>(vertices))};
+FollowedNodes followed_nodes(const MuscleStrings& muscle, const StringState& state) {
+  FiberFrames frames = fiber_frames(muscle, state);
+  turn_to_one_side(muscle, frames.turns);
+  const Points moved = frames.fibers - muscle.fibers;
+  FollowedNodes nodes{moved.rowwise().mean(), {}};
+  nodes.columns.setZero(12, moved.cols());
+  nodes.columns.topRows<3>() = (moved.colwise() - nodes.moved).cast<float>();
+  nodes.columns.middleRows<3>(3) = node_widening(muscle, frames.fibers).cast<float>();
+  nodes.columns.row(6) = (string_stretches(muscle, state.places) - 1).transpose().cast<float>();
+  nodes.columns.bottomRows<4>() = frames.turns.cast<float>();
+  return nodes;
+}
+
+/// Weighted means over a vertex's nodes.
+struct Followed {
+  Vec3 moved, widening;
+  Eigen::Vector4d turn;
+  Real stretch;
+};
+
+Followed follow_nodes(const StringSkin& skin, Index vertex, const FollowedNodes& nodes) {
+  const auto v = static_cast<std::size_t>(vertex);
+  NodeColumn sums = NodeColumn::Zero();
+  for (auto k = static_cast<std::size_t>(skin.begin[v]); k < static_cast<std::size_t>(skin.begin[v + 1]); ++k) {
+    const float weight = skin.weights[k];
+    const float* node = nodes.columns.col(skin.nodes[k]).data();
+    for (Index i = 0; i < sums.size(); ++i) sums[i] += weight * node[i];
+  }
+  const Eigen::Matrix<Real, 12, 1> means = sums.cast<Real>();
+  return {nodes.moved + means.head<3>(), means.segment<3>(3), means.tail<4>().normalized(), 1 + means[6]};
 }
 
 }  // namespace
 
 SkinnedSurface skinned_by_strings(const MuscleStrings& muscle, const StringSkin& skin, const Points& rest,
                                   const Eigen::Matrix3Xi& faces, const StringState& state) {
-  FiberFrames frames = fiber_frames(muscle, state);
-  Points node_widths = node_widening(muscle, frames.fibers);
-  const StringFrames now{std::move(frames), std::move(node_widths), string_stretches(muscle, state.places)};
+  const FollowedNodes nodes = followed_nodes(muscle, state);
   const Index count = static_cast<Index>(rest.cols());
   SkinnedSurface skinned{Points(3, count), Eigen::Matrix4Xd(4, count)};
-  GradientFit::Aim narrow = room_for(count), widening = room_for(count);
+  GradientFit::AimOf<6> aim{WidenedSurface(6, count), {}};
+  aim.gradients.resize(static_cast<std::size_t>(count));
   parallel_for(count, 512, [&](Index begin, Index end) {
     for (Index vertex = begin; vertex < end; ++vertex) {
       const auto v = static_cast<std::size_t>(vertex);
-      const Followed followed = follow_nodes(skin, vertex, now);
+      const Followed followed = follow_nodes(skin, vertex, nodes);
       skinned.turns.col(vertex) = followed.turn;
+      auto place = aim.places.col(vertex);
+      auto& gradient = aim.gradients[v];
       if (const Index body = skin.attached_body[v]; body >= 0) {
         const RigidTransform& moved = state.bodies[static_cast<std::size_t>(body)];
-        narrow.places.col(vertex) = moved * Vec3(rest.col(vertex)), narrow.gradients[v] = moved.linear();
-        widening.places.col(vertex).setZero(), widening.gradients[v].setZero();
+        place << moved * Vec3(rest.col(vertex)), Vec3::Zero();
+        gradient << moved.linear(), Eigen::Matrix3d::Zero();
         continue;
       }
       const Eigen::Matrix3d turn = Eigen::Quaterniond(followed.turn).toRotationMatrix();
       const Vec3 direction = skin.directions.col(vertex), offset = skin.offsets.col(vertex);
-      const Eigen::Matrix3d along = direction * direction.transpose();
-      const Eigen::Matrix3d turned_across = turn - turn * along;
-      const Real share = std::sin(pi * skin.along[vertex]);
-      narrow.places.col(vertex) = followed.place + turn * offset;
-      narrow.gradients[v] = followed.stretch * turn * along + turned_across / std::sqrt(followed.stretch);
-      widening.places.col(vertex) = followed.widening + share * turned_across * offset;
-      widening.gradients[v] = share * turned_across;
+      const Eigen::Matrix3d turned_along = (turn * direction) * direction.transpose();
+      const Eigen::Matrix3d turned_across = turn - turned_along;
+      const Eigen::Matrix3d widened = skin.widening[vertex] * turned_across;
+      place << rest.col(vertex) + followed.moved + (turn * offset - offset), followed.widening + widened * offset;
+      gradient << followed.stretch * turned_along + turned_across / std::sqrt(followed.stretch), widened;
     }
   });
-  auto [narrow_fit, widening_fit] = skin.fit->fitted(narrow, widening);
-  const WidenedSurface widened{std::move(narrow_fit), std::move(widening_fit)};
-  skinned.vertices = widened.at(widening_to_volume(widened, faces, skin.volume));
+  const WidenedSurface fitted = skin.fit->fitted(aim);
+  skinned.vertices = fitted.topRows<3>() + widening_to_volume(fitted, faces, skin.volume) * fitted.bottomRows<3>();
   return skinned;
 }
 

@@ -15,7 +15,7 @@ struct StringSkin {
   std::vector<float> weights;  ///< ... and how much, sum 1 per vertex
   Points offsets;              ///< from the weighted mean of its nodes' fibers to the vertex, at rest, m
   Points directions;           ///< of the fibers about each vertex at rest, unit
-  Eigen::VectorXd along;       ///< place of each vertex along the fibers, 0 at origins to 1 at insertions
+  Eigen::VectorXd widening;    ///< of each vertex per unit of widening: 1 half-way along the fibers, 0 at both ends
   std::vector<Index> attached_body;        ///< per vertex, or -1
   std::shared_ptr<const GradientFit> fit;  ///< smooths what the fibers say
   Real volume = 0;                         ///< m³, enclosed at rest
