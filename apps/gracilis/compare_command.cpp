@@ -8,6 +8,7 @@
 #include <gracilis/anatomy/pose_sequence.hpp>
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/io/scene/scene_changes.hpp>
 #include <gracilis/io/suggestions.hpp>
@@ -17,6 +18,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -107,6 +109,23 @@ std::vector<int> frames_of(const CompareOptions& options, const RecordedRun& run
   return frames;
 }
 
+/// The table's rows with the names of its columns; what a run does not tell is null.
+void print_json(const std::filesystem::path& folder, const std::vector<ComparedRun>& runs,
+                const std::vector<ComparisonRow>& rows) {
+  nlohmann::ordered_json methods = nlohmann::json::array(), numbers = methods;
+  for (const ComparedRun& run : runs)
+    methods.push_back({{"method", run.method}, {"run", (folder / run.method).string()}, {"trouble", run.trouble}});
+  for (const ComparisonRow& row : rows) {
+    nlohmann::ordered_json told = {{"method", row.method}, {"muscle", row.muscle}};
+    for (std::size_t c = 0; c < row.values.size(); ++c) told[std::string(comparison_columns()[c].key)] = row.values[c];
+    numbers.push_back(std::move(told));
+  }
+  fmt::print("{}", json_text({{"page", (folder / "comparison.html").string()},
+                              {"table", (folder / "comparison.csv").string()},
+                              {"methods", methods},
+                              {"rows", numbers}}));
+}
+
 void write_comparison(const CompareOptions& options, const std::string& scene, const std::vector<ComparedRun>& runs) {
   const std::vector<int> frames = frames_of(options, runs[0].run);
   const std::filesystem::path& folder = options.session.out;
@@ -121,6 +140,7 @@ void write_comparison(const CompareOptions& options, const std::string& scene, c
     spdlog::warn("no pictures: {}", error.what());
   }
   write_comparison_page(folder / "comparison.html", scene, runs, rows, pictures);
+  if (options.session.json) return print_json(folder, runs, rows);
   fmt::print("{}\n{}\n", (folder / "comparison.html").string(), (folder / "comparison.csv").string());
 }
 
@@ -203,6 +223,7 @@ void add_compare_command(CLI::App& program, const std::vector<std::string>& word
                                           "Keep the runs that are in the folder, and go on where one was interrupted");
   command->add_flag("--force", options->session.force, "Replace the runs that are in the folder")->excludes(resume);
   command->add_flag("--yes", options->session.yes, "Do not ask before runs that take more than 2 GB together");
+  command->add_flag("--json", options->session.json, "Print the table as JSON, for programs");
   command->footer(
       "Exit codes: 0 all methods ran; 2 an unknown method, or one that cannot take the scene; 3 a file is missing or "
       "cannot be written; 5 a method failed (the page says which, and shows what it did until then); 130 interrupted.");

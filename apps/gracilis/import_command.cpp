@@ -5,6 +5,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/shell_word.hpp>
 #include <gracilis/io/counted.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/value_reader.hpp>
@@ -16,6 +17,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -32,7 +34,7 @@ struct ImportOptions {
   std::vector<fs::path> geometry, motions;
   std::vector<std::string> pose;
   opensim::SceneFolderSettings settings;
-  bool strict = false;
+  bool strict = false, json = false;
 };
 
 /// The motions given; without one, the pose of the default coordinates.
@@ -96,6 +98,16 @@ void say_next(const opensim::Model& model, const std::vector<opensim::NamedMotio
   }
 }
 
+void print_json(const opensim::Model& model, const std::vector<std::string>& scenes, const fs::path& folder,
+                const opensim::SceneFolderNotes& notes) {
+  fmt::print("{}", json_text({{"scenes", scenes},
+                              {"muscles", files_in(folder / "muscles")},
+                              {"bones", files_in(folder / "bones")},
+                              {"coordinates", model.coordinates.size()},
+                              {"sheets", notes.sheets},
+                              {"left_out", notes.left_out}}));
+}
+
 /// Reads the scenes as a run will. What it would refuse is taken back: throws what is wrong with it.
 void check_scenes(const ImportOptions& options, const opensim::Model& model,
                   const std::vector<opensim::NamedMotion>& motions) {
@@ -137,8 +149,13 @@ int import_model(ImportOptions options) {
   for (const std::string& line : notes.left_out) spdlog::warn("{}", line);
   for (const std::string& line : notes.sheets) spdlog::info("{}", line);
   check_scenes(options, model, motions);
+  std::vector<std::string> scenes;
   for (const opensim::NamedMotion& motion : motions)
-    fmt::print("{}\n", (options.out / (opensim::motion_file_name(motion) + ".toml")).string());
+    scenes.push_back((options.out / (opensim::motion_file_name(motion) + ".toml")).string());
+  if (options.json)
+    print_json(model, scenes, options.out, notes);
+  else
+    for (const std::string& scene : scenes) fmt::print("{}\n", scene);
   say_next(model, motions, options.out);
   if (options.strict && !notes.left_out.empty())
     throw Error(ExitCode::unsupported, fmt::format("{} elements were left out (--strict)", notes.left_out.size()));
@@ -224,6 +241,7 @@ void add_import_command(CLI::App& program, Command& chosen) {
                     "Heads of one muscle (glut_max1_r, glut_max2_r ...) become one sheet over their lines");
   command->add_option("--out", options->out, "Folder for the scene")->required();
   command->add_flag("--strict", options->strict, "Fail where something is left out (exit code 4)");
+  command->add_flag("--json", options->json, "Print the scenes and what was left out as JSON, for programs");
   command->callback([&chosen, options] { chosen = [options] { return import_model(*options); }; });
 }
 

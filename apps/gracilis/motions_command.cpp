@@ -3,12 +3,14 @@
 #include "opensim_model.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/opensim/kinematics/sample_motions.hpp>
 #include <gracilis/scene/names.hpp>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +28,7 @@ struct MotionsOptions {
   fs::path model, out;
   std::vector<std::string> joints, ranges;
   Real speed_deg = 30;
+  bool json = false;
   opensim::SampleSettings settings;
 };
 
@@ -84,14 +87,17 @@ int write_motions(const MotionsOptions& options) {
   for (const std::string& range : options.ranges) read_range(model, range, options, settings);
   fs::create_directories(options.out);
   std::set<std::string> taken;
+  nlohmann::ordered_json told = nlohmann::json::array();
   for (const opensim::Joint& joint : model.joints) {
     if (!is_asked_for(options, joint)) continue;
     for (const opensim::SampleMotion& sample : opensim::sample_motions(model, joint, settings)) {
       const fs::path path = options.out / (file_name_of(sample.name, taken) + ".mot");
       write_sto(path, opensim::coordinate_table(model, sample.motion));
-      fmt::print("{}\n", path.string());
+      told.push_back({{"file", path.string()}, {"joint", joint.name}, {"rows", sample.motion.times.size()}});
+      if (!options.json) fmt::print("{}\n", path.string());
     }
   }
+  if (options.json) fmt::print("{}", json_text({{"motions", told}}));
   return static_cast<int>(ExitCode::done);
 }
 
@@ -132,6 +138,7 @@ void add_motions_command(CLI::App& program, Command& chosen) {
       ->capture_default_str();
   command->add_option("--seed", options->settings.seed, "Of latin")->capture_default_str();
   command->add_option("--out", options->out, "Folder for the motions (.mot)")->required();
+  command->add_flag("--json", options->json, "Print the files with joints and rows as JSON, for programs");
   command->callback([&chosen, options] { chosen = [options] { return write_motions(*options); }; });
 }
 

@@ -6,10 +6,12 @@
 #include <gracilis/core/shell_word.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/mesh/likely_unit.hpp>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -25,7 +27,7 @@ struct NewOptions {
   std::vector<fs::path> files, bones;
   fs::path out = "scene.toml";
   std::string unit;
-  bool force = false;
+  bool force = false, json = false;
 };
 
 void require_surfaces(const NewOptions& options) {
@@ -79,10 +81,23 @@ std::vector<Problem> drafted(const FolderFiles& files, const NewOptions& options
   }
 }
 
-void write_whole(const SceneDraft& draft, const fs::path& out) {
-  write_and_show(draft, out, fs::path(out).replace_extension(".png"));
+void write_whole(const SceneDraft& draft, const NewOptions& options) {
+  const fs::path& out = options.out;
+  write_and_show(draft, out, fs::path(out).replace_extension(".png"), options.json);
+  if (options.json) return;
   fmt::print("next: gracilis run {} --out {}\n", shell_word(out.string()),
              shell_word(fs::path(out).replace_extension("").string()));
+}
+
+/// A scene that does not run yet: what is in it, and why there is not more.
+void print_gaps(const SceneDraft& draft, const fs::path& out, const std::vector<Problem>& why) {
+  nlohmann::ordered_json problems = nlohmann::json::array();
+  for (const Problem& problem : why) problems.push_back(to_string(problem));
+  fmt::print("{}", json_text({{"scene", out.string()},
+                              {"bones", draft.found.bones.size()},
+                              {"muscles", draft.found.muscles.size()},
+                              {"left_out", draft.left_out},
+                              {"missing", problems}}));
 }
 
 void write_with_gaps(const FolderFiles& files, const NewOptions& options, const std::vector<Problem>& why) {
@@ -93,8 +108,9 @@ void write_with_gaps(const FolderFiles& files, const NewOptions& options, const 
     throw InputError(problems);
   }
   write_draft_files(draft, options.out);
-  tell(draft);
+  if (!options.json) tell(draft);
   for (const Problem& problem : why) spdlog::warn("{}", to_string(problem));
+  if (options.json) return print_gaps(draft, options.out, why);
   fmt::print("missing: joints, where muscles are held, a motion; fill them in where {} says '# missing:'\n{}\n",
              options.out.string(), options.out.string());
   fmt::print("next: gracilis inspect {}\n", shell_word(options.out.string()));
@@ -107,7 +123,7 @@ int write_new_scene(const NewOptions& options) {
   std::optional<SceneDraft> draft;
   const std::vector<Problem> why = drafted(files, options, draft);
   if (draft)
-    write_whole(*draft, options.out);
+    write_whole(*draft, options);
   else
     write_with_gaps(files, options, why);
   return static_cast<int>(ExitCode::done);
@@ -125,6 +141,7 @@ void add_new_command(CLI::App& program, Command& chosen) {
       ->check(CLI::IsMember({"m", "cm", "mm"}));
   command->add_option("--out", options->out, "Scene file to write (default: scene.toml)");
   command->add_flag("--force", options->force, "Replace the scene file");
+  command->add_flag("--json", options->json, "Print what was found, guessed or missing as JSON, for programs");
   command->callback([&chosen, options] { chosen = [options] { return write_new_scene(*options); }; });
 }
 

@@ -3,6 +3,7 @@
 #include "opensim_model.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/suggestions.hpp>
 #include <gracilis/io/value_reader.hpp>
 #include <gracilis/opensim/paths/path_tables.hpp>
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <memory>
@@ -25,7 +27,7 @@ namespace fs = std::filesystem;
 struct PathsOptions {
   fs::path model, motion, out;
   std::string sweep, prefix, lengths = "geodesic";
-  bool strict = false;
+  bool strict = false, json = false;
 };
 
 /// What tables and plots are over: the swept coordinate, in degrees or m, or else the time.
@@ -117,10 +119,15 @@ int write_paths(const PathsOptions& options) {
       axis_of(model, motion, sweeps ? options.sweep.substr(0, options.sweep.find('=')) : std::string());
   const std::string start = file_name_of(options.prefix.empty() ? model.name : options.prefix);
   std::set<std::string> taken, plots_taken;
+  nlohmann::ordered_json files = nlohmann::json::array(), apart = files;
+  const auto say_written = [&](const fs::path& path) {
+    files.push_back(path.string());
+    if (!options.json) fmt::print("{}\n", path.string());
+  };
   const auto write = [&](const std::string& what, const Table& table) {
     fs::path path = options.out / (start + "_" + file_name_of(what, taken) + ".sto");
     write_sto(path, table);
-    fmt::print("{}\n", path.string());
+    say_written(path);
     return path;
   };
   const auto write_and_plot = [&](const std::string& what, const Table& table, const std::string& title,
@@ -131,14 +138,14 @@ int write_paths(const PathsOptions& options) {
       // OpenSim wants time first, everybody else the angle.
       const fs::path plain = fs::path(written).replace_extension(".csv");
       write_csv(plain, with_first_column(table, axis, axis.column));
-      fmt::print("{}\n", plain.string());
+      say_written(plain);
     }
     const std::vector<std::string> muscles = changing_muscles(table);
     if (muscles.empty()) return;
     const fs::path path = options.out / "plots" / (start + "_" + file_name_of(title, plots_taken) + ".svg");
     write_chart(path, muscles_chart(all, {axis.name, axis.plot_factor, axis.label}, muscles, model.name + ": " + title,
                                     y_label));
-    fmt::print("{}\n", path.string());
+    say_written(path);
   };
   warn_of_other_ways(tables, ways);
   write_and_plot("MuscleAnalysis_Length", ways ? tables.way_lengths : tables.lengths, "lengths", "length (mm)");
@@ -150,6 +157,16 @@ int write_paths(const PathsOptions& options) {
                    rotation ? "moment arm (mm)" : "shortening (mm per m)");
   }
   if (sweeps) write("coordinates", opensim::coordinate_table(model, motion));
+  if (options.json) {
+    for (const opensim::LengthsApart& each : opensim::lengths_apart(tables))
+      apart.push_back({{"muscle", each.muscle}, {"most_mm", 1000 * each.most}});
+    fmt::print("{}", json_text({{"model", model.name},
+                                {"muscles", model.muscles.size()},
+                                {"rows", motion.times.size()},
+                                {"over", axis.name},
+                                {"files", files},
+                                {"lengths_apart", apart}}));
+  }
   return static_cast<int>(ExitCode::done);
 }
 
@@ -170,6 +187,7 @@ void add_paths_command(CLI::App& program, Command& chosen) {
           "(default: geodesic)")
       ->check(CLI::IsMember({"geodesic", "opensim"}));
   command->add_flag("--strict", options->strict, "Fail where the model holds what is not supported (exit code 4)");
+  command->add_flag("--json", options->json, "Print what was written, and whose lengths differ, as JSON, for programs");
   command->callback([&chosen, options] { chosen = [options] { return write_paths(*options); }; });
 }
 

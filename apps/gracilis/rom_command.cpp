@@ -69,7 +69,6 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
     std::vector<std::string> coordinates;
     std::filesystem::path reference;
     SessionOptions session;
-    bool json = false;
   };
   const auto options = std::make_shared<Options>();
   CLI::App* command = program.add_subcommand("rom", "Run through a joint's range of motion; writes moment arms, too");
@@ -88,7 +87,7 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
       "moment_arm_mm, and perhaps coordinate, source, min and max; a moment_arms.sto of another 'rom'; or an OpenSim "
       "model (.osim), whose muscles' arms are taken over the same range");
   add_session_options(*command, options->session);
-  command->add_flag("--json", options->json, "Print what lines say of moment arms as JSON, for programs");
+  command->get_option("--json")->description("Print what lines say of moment arms as JSON, for programs");
   CLI::Option* tables_only = command->add_flag(
       "--tables-only", options->session.tables_only,
       "Write fiber lengths, moment arms and their plots, but no run: no surfaces, measures or lines of action");
@@ -112,11 +111,11 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
             {"--reference", "", "is about one coordinate", "let one move and give the others one value"});
       if (with_model) references = model_arms(options->reference, loaded.scene, ranges);
       options->session.fiber_actions = true;
-      options->session.print_folder = !options->json;
+      options->session.print_folder = !options->session.json;
       const int code = run_session(loaded, options->session);
       if (code != static_cast<int>(ExitCode::interrupted))
         tell(options->session.out, write_moment_arms(options->session.out, loaded.scene, moved, references),
-             options->json);
+             options->session.json);
       return code;
     };
   });

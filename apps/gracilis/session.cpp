@@ -45,6 +45,8 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
           "fifth to a tenth of the room (surfaces; compact where they took more than 2 GB or 20,000 files)")
       ->transform(CLI::CheckedTransformer(layouts));
   command.add_flag("--verbose", options.verbose, "Also list muscles, attachments, counters and every gate missed");
+  command.add_flag("--json", options.json,
+                   "Print how the run went as JSON, for programs: frames, seconds, gates, warnings, picture");
   command.add_flag("--strict", options.strict, "Exit with code 5 when a frame misses a quality gate");
 }
 
@@ -74,7 +76,10 @@ int run_session(const LoadedScene& loaded, const SessionOptions& options) {
   };
   const SessionResult result =
       plan ? record_session(loaded, chosen, *std::move(plan), listener) : record_tables(loaded, chosen, listener);
-  if (options.print_folder && result.code != ExitCode::interrupted) fmt::print("{}\n", result.folder.string());
+  if (options.print_folder && options.json)
+    fmt::print("{}", result.told);
+  else if (options.print_folder && result.code != ExitCode::interrupted)
+    fmt::print("{}\n", result.folder.string());
   return static_cast<int>(result.code);
 }
 

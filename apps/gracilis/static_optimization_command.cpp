@@ -5,6 +5,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/opensim/kinematics/low_pass.hpp>
 #include <gracilis/opensim/reader/model_notes.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
@@ -14,6 +15,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <nlohmann/json.hpp>
 
 #include <map>
 #include <memory>
@@ -30,7 +32,7 @@ struct OptimizationOptions {
   fs::path setup, model, motion, loads, out, known_forces;
   opensim::ReactionSettings reactions = {{}, {"child"}, {"ground"}};
   std::vector<fs::path> forces;
-  bool replace = false, isometric = false, strict = false;
+  bool replace = false, isometric = false, strict = false, json = false;
   std::optional<Real> begin, end, cutoff, exponent;
   std::optional<opensim::MuscleForces> muscles;
   std::optional<int> every;
@@ -93,19 +95,35 @@ opensim::CoordinateMotion motion_of(const opensim::Model& model, const opensim::
   return motion;
 }
 
-void write_table(const opensim::StaticOptimizationSetup& setup, const fs::path& out, const std::string& what,
-                 const Table& table) {
-  const fs::path path = out / fmt::format("{}_{}.sto", file_name_of(setup.name), file_name_of(what));
-  write_sto(path, table);
-  fmt::print("{}\n", path.string());
+/// Writes tables into a folder, and keeps their names.
+struct ResultFiles {
+  fs::path folder;
+  std::string start;
+  std::vector<std::string> written = {};
+
+  void write(const std::string& what, const Table& table) {
+    const fs::path path = folder / fmt::format("{}_{}.sto", file_name_of(start), file_name_of(what));
+    write_sto(path, table);
+    written.push_back(path.string());
+  }
+};
+
+void write_results(const std::string& analysis, const opensim::StaticOptimizationResult& result, ResultFiles& files) {
+  files.write(analysis + "_activation", result.activations);
+  files.write(analysis + "_force", result.forces);
+  if (!result.fiber_lengths.columns.empty()) files.write(analysis + "_fiber_length", result.fiber_lengths);
 }
 
-void write_results(const opensim::StaticOptimizationSetup& setup, const fs::path& out,
-                   const opensim::StaticOptimizationResult& result) {
-  write_table(setup, out, setup.analysis + "_activation", result.activations);
-  write_table(setup, out, setup.analysis + "_force", result.forces);
-  if (!result.fiber_lengths.columns.empty())
-    write_table(setup, out, setup.analysis + "_fiber_length", result.fiber_lengths);
+/// What was written, at which instants muscles were too weak and by how much (N·m or N), and what else is to be known.
+void print_json(const ResultFiles& files, std::size_t rows, const std::vector<opensim::InfeasibleInstant>& infeasible,
+                const std::vector<std::string>& notes) {
+  nlohmann::ordered_json weak = nlohmann::json::array();
+  for (const opensim::InfeasibleInstant& each : infeasible) {
+    nlohmann::ordered_json missing = nlohmann::json::object();
+    for (const auto& [coordinate, amount] : each.missing) missing[coordinate] = amount;
+    weak.push_back({{"time", each.time}, {"missing", missing}});
+  }
+  fmt::print("{}", json_text({{"rows", rows}, {"files", files.written}, {"too_weak", weak}, {"notes", notes}}));
 }
 
 int optimize(const OptimizationOptions& options) {
@@ -118,11 +136,14 @@ int optimize(const OptimizationOptions& options) {
   const std::vector<std::size_t> rows = opensim::rows_of(setup, motion.times);
   if (rows.empty())
     throw ConfigurationError({setup.coordinates.string(), "", "has no row between the times asked for", ""});
+  std::vector<std::string> notes;
   const std::string unmeasured =
       opensim::unmeasured_loads_note(loads, motion.times[rows.front()], motion.times[rows.back()]);
-  if (!unmeasured.empty()) spdlog::warn("{}: {}", setup.external_loads.string(), unmeasured);
+  if (!unmeasured.empty()) notes.push_back(fmt::format("{}: {}", setup.external_loads.string(), unmeasured));
+  for (const std::string& note : notes) spdlog::warn("{}", note);
   fs::create_directories(options.out);
-  bool weak = false;
+  ResultFiles files{options.out, setup.name};
+  std::vector<opensim::InfeasibleInstant> infeasible;
   Table forces;
   if (setup.optimizes) {
     Progress progress(0, static_cast<int>(rows.size()));
@@ -130,18 +151,25 @@ int optimize(const OptimizationOptions& options) {
         model, motion, loads, rows, setup.settings, [&](std::size_t done) { progress.show(static_cast<int>(done)); });
     progress.clear();
     for (const std::string& note : opensim::weakness_notes(result)) spdlog::warn("{}", note);
-    weak = !result.infeasible.empty();
+    infeasible = result.infeasible;
     forces = result.forces;
-    write_results(setup, options.out, result);
+    write_results(setup.analysis, result, files);
   }
   if (setup.reactions) {
     if (!setup.reactions->forces.empty()) forces = read_table(setup.reactions->forces);
-    write_table(setup, options.out, setup.reactions->name + "_ReactionLoads",
+    files.write(setup.reactions->name + "_ReactionLoads",
                 opensim::joint_reactions(model, motion, loads, rows, forces, setup.reactions->settings));
   }
   // Last, so that nobody takes the results for those of the whole model.
-  if (const std::string note = opensim::missing_forces_note(model); !note.empty()) spdlog::warn("{}", note);
-  const bool failed = options.strict && weak;
+  if (const std::string note = opensim::missing_forces_note(model); !note.empty()) {
+    spdlog::warn("{}", note);
+    notes.push_back(note);
+  }
+  if (options.json)
+    print_json(files, rows.size(), infeasible, notes);
+  else
+    for (const std::string& file : files.written) fmt::print("{}\n", file);
+  const bool failed = options.strict && !infeasible.empty();
   return static_cast<int>(failed ? ExitCode::quality : ExitCode::done);
 }
 
@@ -191,6 +219,8 @@ void add_static_optimization_command(CLI::App& program, Command& chosen) {
       ->check(CLI::ExistingFile);
   command->add_flag("--strict", options->strict,
                     "Fail where something is not supported (exit code 4) or muscles are too weak (5)");
+  command->add_flag("--json", options->json,
+                    "Print what was written, and where muscles are too weak, as JSON, for programs");
   command->callback([&chosen, options] { chosen = [options] { return optimize(*options); }; });
 }
 

@@ -162,6 +162,10 @@ int plan(const StudyOptions& options) {
     if (run_some(study, options, {}, {probe.name}).interrupted) return static_cast<int>(ExitCode::interrupted);
     standings = standings_of(study, GRACILIS_VERSION);
   }
+  if (options.json) {
+    fmt::print("{}", json_text(plan_json(study, standings)));
+    return static_cast<int>(ExitCode::done);
+  }
   fmt::print("{}", plan_table(study, standings));
   for (const std::string& line : estimate_lines(study, standings)) spdlog::info("{}", line);
   return static_cast<int>(ExitCode::done);
@@ -173,13 +177,23 @@ int collect(const StudyOptions& options) {
   spdlog::info("{} runs, {:.0f} numbers; {} failed, {} are not complete yet", end.collected, end.rows, end.failed,
                end.left);
   if (!end.remark.empty()) spdlog::warn("{}", end.remark);
+  std::vector<std::string> files;
   for (const char* file : {"measures.csv", "frames.csv", "runs.csv", "failures.csv"})
-    fmt::print("{}\n", (study.folder / file).string());
-  if (!options.hdf5) return static_cast<int>(ExitCode::done);
-  const TrajectoryEnd trajectories = write_trajectories(study, GRACILIS_VERSION);
-  for (const std::string& line : trajectories.skipped) spdlog::warn("left out of the trajectories: {}", line);
-  spdlog::info("trajectories of {} runs", trajectories.runs);
-  fmt::print("{}\n", (study.folder / trajectory_file).string());
+    files.push_back((study.folder / file).string());
+  if (options.hdf5) {
+    const TrajectoryEnd trajectories = write_trajectories(study, GRACILIS_VERSION);
+    for (const std::string& line : trajectories.skipped) spdlog::warn("left out of the trajectories: {}", line);
+    spdlog::info("trajectories of {} runs", trajectories.runs);
+    files.push_back((study.folder / trajectory_file).string());
+  }
+  if (options.json)
+    fmt::print("{}", json_text({{"collected", end.collected},
+                                {"failed", end.failed},
+                                {"left", end.left},
+                                {"remark", end.remark},
+                                {"files", files}}));
+  else
+    for (const std::string& file : files) fmt::print("{}\n", file);
   return static_cast<int>(ExitCode::done);
 }
 
@@ -217,6 +231,7 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
   CLI::App* planned = add_part(*study, "plan", "List the runs, and estimate their cost from one of them", *options);
   planned->add_flag("--names", options->names_only, "The names of the runs alone, a line each");
   planned->add_flag("--no-probe", options->no_probe, "Do no run to estimate from");
+  planned->add_flag("--json", options->json, "Print runs and estimate as JSON, for programs")->excludes("--names");
   CLI::App* running = add_part(*study, "run", "Do what is not complete", *options);
   running->add_option("--shard", options->shard, "I/N: every Nth run from the Ith on (1/1)");
   running->add_option("--run", options->names, "These runs alone, by their names")->excludes("--shard");
@@ -235,6 +250,7 @@ void add_study_command(CLI::App& program, const std::vector<std::string>& words,
   CLI::App* collecting = add_part(*study, "collect", "Write one table of all measures, and one of all runs", *options);
   collecting->add_flag("--hdf5", options->hdf5,
                        "Also write trajectories.h5: surfaces, fibers, poses and measures of every frame (HDF5)");
+  collecting->add_flag("--json", options->json, "Print counts and files as JSON, for programs");
   CLI::App* reporting =
       add_part(*study, "report", "Distributions, sensitivities and the worst runs in one HTML file", *options);
   reporting->add_option("--out", options->report, "File to write (default: report.html in the study's folder)");

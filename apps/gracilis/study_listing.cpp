@@ -60,6 +60,19 @@ std::vector<std::string> estimate_lines(const Study& study, const std::vector<Ru
                       size_text(bytes * static_cast<double>(standings.size())))};
 }
 
+nlohmann::ordered_json plan_json(const Study& study, const std::vector<RunStanding>& standings) {
+  nlohmann::ordered_json runs = nlohmann::json::array();
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    nlohmann::ordered_json values = nlohmann::json::object();
+    for (std::size_t p = 0; p < study.parameters.size(); ++p) values[study.parameters[p]] = study.runs[i].values[p];
+    runs.push_back({{"name", study.runs[i].name},
+                    {"state", name_of(standings[i].state)},
+                    {"values", values},
+                    {"alone", command_alone(study, study.runs[i])}});
+  }
+  return {{"runs", runs}, {"estimate", estimate_lines(study, standings)}};
+}
+
 static constexpr RunState states[] = {RunState::complete,    RunState::failed, RunState::under_way,
                                       RunState::interrupted, RunState::stale,  RunState::to_do};
 

@@ -15,6 +15,9 @@ std::vector<RunStanding> standings_of(const Study& study, const std::string& ver
 /// A .csv: run, state, parameters, and the command that does the run alone.
 std::string plan_table(const Study& study, const std::vector<RunStanding>& standings);
 
+/// The same for programs, with the lines of estimate_lines.
+nlohmann::ordered_json plan_json(const Study& study, const std::vector<RunStanding>& standings);
+
 /// What is left costs, from what is complete: time, room on the disk, memory.
 std::vector<std::string> estimate_lines(const Study& study, const std::vector<RunStanding>& standings);
 

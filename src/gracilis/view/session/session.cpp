@@ -9,6 +9,7 @@
 #include <gracilis/core/stop.hpp>
 #include <gracilis/io/counted.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/run/measures_table.hpp>
 #include <gracilis/io/run/run_folder.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
@@ -207,12 +208,31 @@ class Session {
     if (const std::string worst = summary_.worst_line(); !worst.empty()) caution(worst);
   }
 
+  /// Empty where there is none.
+  std::string picture() const {
+    const std::filesystem::path drawn = folder_.path() / "preview.png";
+    return is_there(drawn) ? drawn.string() : "";
+  }
+
   /// Where to look, and what to do next.
   void say_next() const {
     const std::string run = shell_word(folder_.path().string());
-    if (const auto picture = folder_.path() / "preview.png"; is_there(picture))
-      note(fmt::format("picture: {}", picture.string()));
+    if (const std::string drawn = picture(); !drawn.empty()) note(fmt::format("picture: {}", drawn));
     note(fmt::format("next: gracilis report {0}   (a page for the browser), or gracilis view {0}", run));
+  }
+
+  /// What people are told in lines.
+  std::string told(const char* status) const {
+    nlohmann::ordered_json drawn;
+    if (const std::string file = picture(); !file.empty()) drawn = file;
+    return json_text({{"folder", folder_.path().string()},
+                      {"status", status},
+                      {"frames", folder_.frame_count()},
+                      {"seconds", seconds_passed()},
+                      {"gates", summary_.as_json()},
+                      {"warnings", warnings_},
+                      {"picture", drawn},
+                      {"next", "gracilis report " + shell_word(folder_.path().string())}});
   }
 
   void write_manifest(const std::string& status) const {
@@ -278,10 +298,11 @@ class Session {
         caution(fmt::format("stopped after frame {}; --resume goes on from there", folder_.frame_count() - 1));
       else
         caution("stopped before the first frame; --resume begins it");
-      return {ExitCode::interrupted, folder_.path()};
+      return {ExitCode::interrupted, folder_.path(), told("interrupted")};
     }
     if (options_.print_folder) say_next();
-    return {options_.strict && !summary_.all_gates_met() ? ExitCode::quality : ExitCode::done, folder_.path()};
+    return {options_.strict && !summary_.all_gates_met() ? ExitCode::quality : ExitCode::done, folder_.path(),
+            told("complete")};
   }
 
   const LoadedScene& loaded_;
@@ -299,7 +320,7 @@ class Session {
   std::vector<std::string> warnings_, guessed_;
   static constexpr int frames_timed = 10;
   static constexpr std::size_t frames_worth_keeping = 5;  ///< the first ones are slower
-  std::chrono::steady_clock::time_point began_, timed_from_;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now(), timed_from_;
   double said_each_ = 0;  ///< s a frame, as it was told; 0: nothing was
   int first_ = 0;
 };

@@ -37,6 +37,7 @@ struct SessionListener {
 struct SessionResult {
   ExitCode code = ExitCode::done;  ///< interrupted, with every frame so far on disk; quality under `strict`
   std::filesystem::path folder;
+  std::string told = {};  ///< for programs (JSON): status, frames, seconds, gates, warnings, and what to look at
 };
 
 /// The options of a run that goes on are those that it began with.

@@ -28,6 +28,7 @@ struct SessionOptions {
   bool tables_only = false;          ///< record_tables (table_session.hpp) instead of a run
   bool pictures = true;              ///< charts and a preview at the end
   bool print_folder = true;          ///< its path to stdout, once the run is complete
+  bool json = false;                 ///< its summary to stdout instead, as JSON
   std::vector<std::string> command;  ///< the command line, for the manifest
 };
 

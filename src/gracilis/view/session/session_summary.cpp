@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -65,6 +66,24 @@ std::vector<std::string> SessionSummary::missed_lines() const {
       lines.push_back(fmt::format("{} misses quality gates in {} frames, first in frame {}: {}", scene_.muscles[m].name,
                                   muscles_[m].frames_missed, muscles_[m].first_missed, muscles_[m].first_reason));
   return lines;
+}
+
+nlohmann::ordered_json SessionSummary::as_json() const {
+  nlohmann::ordered_json muscles = nlohmann::json::array(), worst;
+  for (std::size_t m = 0; m < muscles_.size(); ++m)
+    if (muscles_[m].frames_missed > 0)
+      muscles.push_back({{"muscle", scene_.muscles[m].name},
+                         {"frames", muscles_[m].frames_missed},
+                         {"first_frame", muscles_[m].first_missed},
+                         {"reason", muscles_[m].first_reason}});
+  if (!all_gates_met())
+    worst = {{"frame", worst_frame_},
+             {"muscle", scene_.muscles[worst_muscle_].name},
+             {"gate", worst_.text},
+             {"consequence", worst_.consequence}};
+  return {{"met", all_gates_met()}, {"frames", frames_missed_},
+          {"of_frames", frames_},   {"not_measured", unmeasured_gates(level_)},
+          {"worst", worst},         {"missed_by", muscles}};
 }
 
 std::string SessionSummary::trouble_of(const PerMuscle& muscle) const {

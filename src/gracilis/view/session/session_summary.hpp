@@ -4,6 +4,8 @@
 #include <gracilis/scene/scene.hpp>
 #include <gracilis/simulate/run.hpp>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +28,9 @@ class SessionSummary {
   std::string worst_line() const;
   /// Per muscle that misses gates: in how many frames, and what it missed first.
   std::vector<std::string> missed_lines() const;
+  /// All of it for programs: whether gates are met, how many muscles and frames miss some, what was not measured; the
+  /// worst, null where all are met; and the muscles that miss gates with the reason first met.
+  nlohmann::ordered_json as_json() const;
   /// Per muscle, what constraints could not do, as in "3 projections skipped"; without those where nothing happened.
   std::vector<std::pair<std::string, std::string>> counters() const;
 
