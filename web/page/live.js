@@ -78,7 +78,7 @@ const page = {
 function addSlider(list, id, name, attributes, unit, explain) {
   const row = make('div', '', {class: 'row'}), label = make('label', name, {for: id});
   const slider = make('input', '', {type: 'range', id, ...attributes});
-  const output = make('output', '', {for: id});
+  const output = make('output', '', {for: id, 'aria-live': 'off'});  // the slider says it; numbers change with every frame
   row.append(label, slider, output);
   list.append(row);
   const say = () => slider.setAttribute('aria-valuetext', `${shownNumber(Number(slider.value))} ${unit}`);
