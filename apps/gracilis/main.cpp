@@ -45,7 +45,7 @@ namespace gracilis {
 /// command.
 static int run_words(int count, char** arguments) {
   const std::vector<std::string> words(arguments, arguments + count);
-  CLI::App program("Gracilis: bones, muscle surfaces and a motion become deforming, contracting muscles.", "gracilis");
+  CLI::App program("Gracilis: bones, muscle surfaces and a motion become deforming, contracting muscles", "gracilis");
   program.formatter(std::make_shared<HelpText>());  // commands take theirs from the program
   bool as_json = false;
   CLI::Option* version = program.set_version_flag(

@@ -99,6 +99,12 @@ TEST(Manual, commands_that_say_more_than_the_name_of_a_file_say_it_as_json_too) 
   EXPECT_EQ(without, name_files);
 }
 
+TEST(Manual, no_sentence_of_a_page_ends_with_two_full_stops) {
+  for (const fs::directory_entry& page : fs::directory_iterator(manual_folder()))
+    EXPECT_FALSE(std::regex_search(manual_page(page.path().filename().string()), std::regex("[a-z)][.][.]\n")))
+        << page.path();
+}
+
 TEST(Manual, man_has_nothing_to_warn_about) {
   const bool mandoc = has_program("mandoc");
   if (!mandoc && !has_program("man")) GTEST_SKIP() << "neither mandoc nor man is installed";
