@@ -124,6 +124,13 @@ TEST_F(LivePage, is_moved_by_keys_alone_and_reads_no_numbers_aloud_that_change_w
       "unitOf({}).factor");
   EXPECT_EQ(browser_->evaluate("document.activeElement.getAttribute('aria-valuetext')"),
             browser_->evaluate("element('hip_flexion_r').value + ' degrees'"));
+  browser_->evaluate("element('canvas').focus()");
+  const PageJson before = browser_->evaluate("[page.stage.orbit.turn, page.stage.orbit.halfHeight]");
+  browser_->press("ArrowLeft");
+  browser_->press("+");
+  const PageJson after = browser_->evaluate("[page.stage.orbit.turn, page.stage.orbit.halfHeight]");
+  EXPECT_NE(after[0], before[0]) << "the view has turned";
+  EXPECT_LT(after[1], before[1]) << "and come nearer";
   // An <output> is read whenever it changes, unless it says otherwise.
   EXPECT_EQ(browser_->evaluate("[...document.querySelectorAll('output:not([aria-live=off])')].map(each => each.id)"),
             PageJson::array());
