@@ -38,30 +38,41 @@ static double bytes_below(const std::filesystem::path& folder) {
   return bytes;
 }
 
-std::vector<std::string> estimate_lines(const Study& study, const std::vector<RunStanding>& standings) {
-  double seconds = 0, peak = 0, bytes = 0;
+/// What runs take, by those that are complete.
+struct CostEstimate {
   int complete = 0, left = 0;
+  double seconds_each = 0, peak_bytes = 0, bytes_each = 0;  ///< a mean, the largest, of the first one
+};
+
+static CostEstimate cost_estimate(const Study& study, const std::vector<RunStanding>& standings) {
+  CostEstimate cost;
   for (std::size_t i = 0; i < standings.size(); ++i) {
     const bool is_left = standings[i].state != RunState::complete && standings[i].state != RunState::failed;
-    left += is_left ? 1 : 0;
+    cost.left += is_left ? 1 : 0;
     if (standings[i].state != RunState::complete) continue;
-    ++complete;
-    seconds += standings[i].record->seconds;
-    peak = std::max(peak, standings[i].record->peak_bytes);
-    if (complete == 1) bytes = bytes_below(complete_folder(study, study.runs[i]));
+    ++cost.complete;
+    cost.seconds_each += standings[i].record->seconds;
+    cost.peak_bytes = std::max(cost.peak_bytes, standings[i].record->peak_bytes);
+    if (cost.complete == 1) cost.bytes_each = bytes_below(complete_folder(study, study.runs[i]));
   }
-  if (complete == 0)
+  if (cost.complete > 0) cost.seconds_each /= cost.complete;
+  return cost;
+}
+
+std::vector<std::string> estimate_lines(const Study& study, const std::vector<RunStanding>& standings) {
+  const CostEstimate cost = cost_estimate(study, standings);
+  if (cost.complete == 0)
     return {fmt::format("{} runs; none is complete, so that their cost is not known", standings.size())};
-  const double each = seconds / complete;
-  return {fmt::format("{} runs, {} complete, {} left", standings.size(), complete, left),
-          fmt::format("{:.1f} s a run (mean of {}): about {} for what is left in one process, {} in 16", each, complete,
-                      duration_text(each * left), duration_text(each * std::ceil(left / 16.0))),
-          fmt::format("{} of memory a run at most; {} on the disk a run, {} in all", size_text(peak), size_text(bytes),
-                      size_text(bytes * static_cast<double>(standings.size())))};
+  return {fmt::format("{} runs, {} complete, {} left", standings.size(), cost.complete, cost.left),
+          fmt::format("{:.1f} s a run (mean of {}): about {} for what is left in one process, {} in 16",
+                      cost.seconds_each, cost.complete, duration_text(cost.seconds_each * cost.left),
+                      duration_text(cost.seconds_each * std::ceil(cost.left / 16.0))),
+          fmt::format("{} of memory a run at most; {} on the disk a run, {} in all", size_text(cost.peak_bytes),
+                      size_text(cost.bytes_each), size_text(cost.bytes_each * static_cast<double>(standings.size())))};
 }
 
 nlohmann::ordered_json plan_json(const Study& study, const std::vector<RunStanding>& standings) {
-  nlohmann::ordered_json runs = nlohmann::json::array();
+  nlohmann::ordered_json runs = nlohmann::json::array(), each;
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     nlohmann::ordered_json values = nlohmann::json::object();
     for (std::size_t p = 0; p < study.parameters.size(); ++p) values[study.parameters[p]] = study.runs[i].values[p];
@@ -70,7 +81,12 @@ nlohmann::ordered_json plan_json(const Study& study, const std::vector<RunStandi
                     {"values", values},
                     {"alone", command_alone(study, study.runs[i])}});
   }
-  return {{"runs", runs}, {"estimate", estimate_lines(study, standings)}};
+  const CostEstimate cost = cost_estimate(study, standings);
+  if (cost.complete > 0)
+    each = {{"seconds", cost.seconds_each},
+            {"peak_memory_mb", 1e-6 * cost.peak_bytes},
+            {"disk_mb", 1e-6 * cost.bytes_each}};
+  return {{"runs", runs}, {"complete", cost.complete}, {"left", cost.left}, {"cost_of_a_run", each}};
 }
 
 static constexpr RunState states[] = {RunState::complete,    RunState::failed, RunState::under_way,

@@ -15,7 +15,7 @@ std::vector<RunStanding> standings_of(const Study& study, const std::string& ver
 /// A .csv: run, state, parameters, and the command that does the run alone.
 std::string plan_table(const Study& study, const std::vector<RunStanding>& standings);
 
-/// The same for programs, with the lines of estimate_lines.
+/// The same for programs, and how many runs are complete and left and what a run costs, null where none is complete.
 nlohmann::ordered_json plan_json(const Study& study, const std::vector<RunStanding>& standings);
 
 /// What is left costs, from what is complete: time, room on the disk, memory.

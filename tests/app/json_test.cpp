@@ -128,7 +128,9 @@ TEST(Json, of_a_study_lists_the_plan_and_the_collected) {
   const Json plan = told("study plan " + study);
   ASSERT_EQ(plan.at("runs").size(), 6u);
   EXPECT_THAT(plan.at("runs")[0].at("alone").get<std::string>(), HasSubstr("gracilis"));
-  EXPECT_FALSE(plan.at("estimate").empty());
+  EXPECT_EQ(plan.at("complete"), 1);
+  EXPECT_EQ(plan.at("left"), 5);
+  for (const char* cost : {"seconds", "peak_memory_mb", "disk_mb"}) EXPECT_GT(plan.at("cost_of_a_run").at(cost), 0);
   const Json collected = told("study collect " + study);
   EXPECT_EQ(collected.at("collected"), 1) << "the one that the plan ran";
   EXPECT_EQ(collected.at("left"), 5);
