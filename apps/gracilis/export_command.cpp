@@ -1,15 +1,18 @@
 #include "export_command.hpp"
 
 #include "console.hpp"
+#include "exported_paths.hpp"
 #include "run_scene.hpp"
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/json_file.hpp>
 #include <gracilis/io/run/run_manifest.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
 #include <gracilis/methods/registry.hpp>
 #include <gracilis/opensim/export/arm_courses.hpp>
 #include <gracilis/opensim/export/export_check.hpp>
+#include <gracilis/opensim/export/muscle_points.hpp>
 #include <gracilis/opensim/export/replace_paths.hpp>
 #include <gracilis/opensim/export/run_paths.hpp>
 #include <gracilis/opensim/export/run_points.hpp>
@@ -44,14 +47,18 @@ struct ExportOptions {
   Index points = 12;
   opensim::MuscleFitSettings fit;
   Index sampled = 0;  ///< poses that --sample asked for
+  bool json = false;
 };
+
+/// What a format says beside the name of what it wrote, for programs; mostly nothing.
+using Told = nlohmann::ordered_json;
 
 /// One thing that `--to` can say.
 struct ExportFormat {
   const char* name;
   const char* default_out;  ///< within the run's folder
   const char* meaning;
-  void (*write)(const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options);
+  Told (*write)(const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options);
 };
 
 std::vector<int> frames_or_all(const RecordedRun& run, const std::vector<int>& chosen) {
@@ -133,7 +140,7 @@ opensim::Model closed_model(const std::filesystem::path& path) {
   return model;
 }
 
-void export_functions(const std::filesystem::path& out, const ExportOptions& options) {
+Told export_functions(const std::filesystem::path& out, const ExportOptions& options) {
   if (options.model.empty())
     spdlog::warn("without --model polynomials are fitted to the run's own poses alone, and the joints are the scene's");
   const opensim::Model model =
@@ -146,10 +153,38 @@ void export_functions(const std::filesystem::path& out, const ExportOptions& opt
   for (const opensim::FittedMuscle& muscle : fitted.muscles) spdlog::info("{}", opensim::fit_line(model, muscle));
   say_left_out(fitted.left_out);
   spdlog::info("{}", opensim::fit_summary(model, fitted.muscles));
-  if (model.muscles.empty()) return;
-  opensim::Model after = model;
-  opensim::replace_paths(out, after);
-  compare_paths(model, after, lengths.coordinates, options, {opensim::fit_summary(model, fitted.muscles)});
+  if (!model.muscles.empty()) {
+    opensim::Model after = model;
+    opensim::replace_paths(out, after);
+    compare_paths(model, after, lengths.coordinates, options, {opensim::fit_summary(model, fitted.muscles)});
+  }
+  return as_json(model, fitted);
+}
+
+Told export_path_points(const std::filesystem::path& out, const ExportOptions& options) {
+  if (options.model.empty())
+    throw ConfigurationError({"--to osim-points", "", "needs the model", "add --model MODEL.osim"});
+  const opensim::Model model = closed_model(options.model);
+  const opensim::LengthSamples samples = lengths_for(model, options, options.points);
+  if (options.sampled > 0 && !samples.spread)
+    spdlog::warn("--sample: only a run by strings can be solved in other poses; points are fitted to the run's own");
+  const opensim::PointExport exported =
+      opensim::export_points(options.run, options.model, model, samples, options.points, out);
+  for (const opensim::WrittenPath& path : exported.written)
+    spdlog::info("{}: {} points; {}", path.muscle, path.points,
+                 opensim::point_errors_text(path.errors, path.beside_model));
+  say_left_out(exported.left_out);
+  if (!options.check.empty() || !options.page.empty()) {
+    opensim::Model after = model;
+    for (const opensim::Muscle& muscle : muscles_in(out, model)) {
+      const Index known = opensim::index_of(after.muscles, muscle.name);
+      if (known < 0) continue;
+      after.muscles[static_cast<std::size_t>(known)].path = muscle.path;
+      after.muscles[static_cast<std::size_t>(known)].tendon_slack_length = muscle.tendon_slack_length;
+    }
+    compare_paths(model, after, samples.coordinates, options, {});
+  }
+  return as_json(exported);
 }
 
 /// A new format is a line here.
@@ -158,61 +193,48 @@ const std::vector<ExportFormat>& formats() {
       {"gltf", "run.glb", "one .glb that plays in viewers, muscles as morph targets",
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
          export_gltf(run, out, options.animation);
+         return Told();
        }},
       {"usd", "run.usda",
        "one .usda (OpenUSD's text) that plays in Blender, Houdini and usdview, muscles as meshes whose points move, "
        "fibers as curves",
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
          export_usd(run, out, options.animation);
+         return Told();
        }},
       {"csv", "csv", "a folder with all tables, and the muscles' points in --frames",
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
          export_csv(run, out, options.frames.empty() ? options.frames : frames_or_all(run, options.frames));
+         return Told();
        }},
       {"obj", "obj", "a folder with one .obj per frame",
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
          export_obj(run, out, frames_or_all(run, options.frames));
+         return Told();
        }},
       {"surfaces", "surfaces", "a folder with one .vtp per muscle, bone and frame, as compact runs do not have them",
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
          export_surfaces(run, out, frames_or_all(run, options.frames));
+         return Told();
        }},
       {"tetrahedra", "tetrahedra",
        "a folder with the volumes of muscles made of sections: .vtu with compartments and masses, and tables, in "
        "--frames",
        [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
          export_tetrahedra(run, out, frames_or_all(run, options.frames), options.specific_tension);
+         return Told();
        }},
       {"osim-function", "function_paths.osim",
        "the fibers' mean lengths as polynomials of the coordinates, which OpenSim 4.5 and later read as "
        "FunctionBasedPaths",
        [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
-         export_functions(out, options);
+         return export_functions(out, options);
        }},
       {"osim-points", "point_paths.osim",
        "the mean fibers as path points of the --model, a force set that OpenSim appends to it or puts in the place of "
        "its forces",
        [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
-         if (options.model.empty())
-           throw ConfigurationError({"--to osim-points", "", "needs the model", "add --model MODEL.osim"});
-         const opensim::Model model = closed_model(options.model);
-         const opensim::LengthSamples samples = lengths_for(model, options, options.points);
-         if (options.sampled > 0 && !samples.spread)
-           spdlog::warn(
-               "--sample: only a run by strings can be solved in other poses; points are fitted to the run's own");
-         const opensim::PointExport written =
-             opensim::export_points(options.run, options.model, model, samples, options.points, out);
-         for (const std::string& line : written.lines) spdlog::info("{}", line);
-         say_left_out(written.left_out);
-         if (options.check.empty() && options.page.empty()) return;
-         opensim::Model after = model;
-         for (const opensim::Muscle& muscle : muscles_in(out, model)) {
-           const Index known = opensim::index_of(after.muscles, muscle.name);
-           if (known < 0) continue;
-           after.muscles[static_cast<std::size_t>(known)].path = muscle.path;
-           after.muscles[static_cast<std::size_t>(known)].tendon_slack_length = muscle.tendon_slack_length;
-         }
-         compare_paths(model, after, samples.coordinates, options, {});
+         return export_path_points(out, options);
        }}};
   return list;
 }
@@ -271,6 +293,8 @@ void add_export_command(CLI::App& program, Command& chosen) {
   command->add_flag("--run-alone", options->fit.run_alone,
                     "Fit to the run's lengths alone; otherwise muscles become the model's own path and a correction "
                     "(osim-function)");
+  command->add_flag("--json", options->json,
+                    "Print what was written, and how far exported paths are from the run, as JSON, for programs");
   command->callback([&chosen, options] {
     chosen = [options] {
       for (const ExportFormat& format : formats()) {
@@ -278,8 +302,14 @@ void add_export_command(CLI::App& program, Command& chosen) {
         const RecordedRun run = open_recorded_run(options->run);
         const std::filesystem::path out = options->out.empty() ? options->run / format.default_out : options->out;
         create_folder_of(out);
-        format.write(run, out, *options);
-        fmt::print("{}\n", out.string());
+        const Told told = format.write(run, out, *options);
+        if (!options->json) {
+          fmt::print("{}\n", out.string());
+          continue;
+        }
+        nlohmann::ordered_json all = {{"written", out.string()}};
+        all.update(told.is_null() ? Told::object() : told);
+        fmt::print("{}", json_text(all));
       }
       return static_cast<int>(ExitCode::done);
     };

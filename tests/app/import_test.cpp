@@ -146,6 +146,19 @@ TEST(ImportCommand, points_are_fitted_to_strings_in_poses_that_fill_the_range) {
   EXPECT_THAT(read_text(folder.path() / "run/point_paths.osim"), testing::HasSubstr("PathPoint"));
   EXPECT_THAT(read_text(folder.path() / "run/point_paths.osim"),
               testing::HasSubstr("<KshapeActive>0.7</KshapeActive>"));
+  const nlohmann::json told = nlohmann::json::parse(run_program(points + " --json").out);
+  EXPECT_EQ(told.at("written"), run + "/point_paths.osim");
+  ASSERT_EQ(told.at("paths").size(), 1u);
+  EXPECT_EQ(told.at("paths")[0].at("muscle"), "m");
+  EXPECT_GE(told.at("paths")[0].at("points"), 2);
+  EXPECT_GT(told.at("paths")[0].at("beside_run").at("arm_rms_mm"), 0);
+  const nlohmann::json fitted = nlohmann::json::parse(
+      run_program("export " + run + " --to osim-function --json --model " + (folder.path() / "tiny.osim").string())
+          .out);
+  ASSERT_EQ(fitted.at("fits").size(), 1u);
+  EXPECT_EQ(fitted.at("fits")[0].at("coordinates"), nlohmann::json({"swing"}));
+  EXPECT_GT(fitted.at("fits")[0].at("beside_model").at("length_rms_mm"), 0);
+  EXPECT_TRUE(fitted.at("left_out").empty());
 }
 
 /// Fibers of sections lie beside the line that carries them: what they change by as it moves is no deforming of the

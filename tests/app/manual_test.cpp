@@ -86,7 +86,7 @@ TEST(Manual, every_command_that_help_lists_has_a_page_with_all_its_options) {
 
 TEST(Manual, commands_that_say_more_than_the_name_of_a_file_say_it_as_json_too) {
   // What they print is the name of one file that they wrote, a scene (.toml), or nothing.
-  const std::set<std::string> name_files = {"export", "print-config", "render", "report", "study report", "view"};
+  const std::set<std::string> name_files = {"print-config", "render", "report", "study report", "view"};
   std::set<std::string> without;
   for (const std::string& command : commands_below("")) {
     const std::vector<std::string> below = commands_below(command);

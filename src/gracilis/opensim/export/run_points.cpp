@@ -114,9 +114,8 @@ PointExport export_points(const std::filesystem::path& folder, const std::filesy
     const Index index = index_of(model.muscles, muscle.name);
     const Path* own = index < 0 ? nullptr : &model.muscles[static_cast<std::size_t>(index)].path;
     const Path& path = read.muscles[static_cast<std::size_t>(index_of(read.muscles, muscle.name))].path;
-    result.lines.push_back(
-        fmt::format("{}: {} points; {}", muscle.name, path.points.size(),
-                    point_errors_text(point_errors(read_skeleton, path, own, known), muscle.arms.cols() == 0)));
+    result.written.push_back(
+        {muscle.name, path.points.size(), point_errors(read_skeleton, path, own, known), muscle.arms.cols() == 0});
   }
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <gracilis/opensim/export/path_samples.hpp>
 #include <gracilis/opensim/export/run_lengths.hpp>
 
 #include <filesystem>
@@ -8,9 +9,17 @@
 
 namespace gracilis::opensim {
 
-/// What became of a run's muscles, a line each.
+/// A muscle's path as it was written, and how far it is from the run.
+struct WrittenPath {
+  std::string muscle;
+  std::size_t points = 0;
+  PathErrors errors;
+  bool beside_model = false;  ///< the run knows no arms: errors are beside the model's path
+};
+
+/// What became of a run's muscles.
 struct PointExport {
-  std::vector<std::string> lines;     ///< those written: how far lengths and arms are from the run's
+  std::vector<WrittenPath> written;
   std::vector<std::string> left_out;  ///< those that keep the model's path: which, and why
 };
 
