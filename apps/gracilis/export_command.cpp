@@ -50,7 +50,7 @@ struct ExportOptions {
   bool json = false;
 };
 
-/// What a format says beside the name of what it wrote, for programs; mostly nothing.
+/// For programs: what was written, and what a format adds to it.
 using Told = nlohmann::ordered_json;
 
 /// One thing that `--to` can say.
@@ -58,7 +58,7 @@ struct ExportFormat {
   const char* name;
   const char* default_out;  ///< within the run's folder
   const char* meaning;
-  Told (*write)(const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options);
+  void (*write)(const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options, Told& told);
 };
 
 std::vector<int> frames_or_all(const RecordedRun& run, const std::vector<int>& chosen) {
@@ -191,50 +191,44 @@ Told export_path_points(const std::filesystem::path& out, const ExportOptions& o
 const std::vector<ExportFormat>& formats() {
   static const std::vector<ExportFormat> list = {
       {"gltf", "run.glb", "one .glb that plays in viewers, muscles as morph targets",
-       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options, Told&) {
          export_gltf(run, out, options.animation);
-         return Told();
        }},
       {"usd", "run.usda",
        "one .usda (OpenUSD's text) that plays in Blender, Houdini and usdview, muscles as meshes whose points move, "
        "fibers as curves",
-       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options, Told&) {
          export_usd(run, out, options.animation);
-         return Told();
        }},
       {"csv", "csv", "a folder with all tables, and the muscles' points in --frames",
-       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options, Told&) {
          export_csv(run, out, options.frames.empty() ? options.frames : frames_or_all(run, options.frames));
-         return Told();
        }},
       {"obj", "obj", "a folder with one .obj per frame",
-       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options, Told&) {
          export_obj(run, out, frames_or_all(run, options.frames));
-         return Told();
        }},
       {"surfaces", "surfaces", "a folder with one .vtp per muscle, bone and frame, as compact runs do not have them",
-       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options, Told&) {
          export_surfaces(run, out, frames_or_all(run, options.frames));
-         return Told();
        }},
       {"tetrahedra", "tetrahedra",
        "a folder with the volumes of muscles made of sections: .vtu with compartments and masses, and tables, in "
        "--frames",
-       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options) {
+       [](const RecordedRun& run, const std::filesystem::path& out, const ExportOptions& options, Told&) {
          export_tetrahedra(run, out, frames_or_all(run, options.frames), options.specific_tension);
-         return Told();
        }},
       {"osim-function", "function_paths.osim",
        "the fibers' mean lengths as polynomials of the coordinates, which OpenSim 4.5 and later read as "
        "FunctionBasedPaths",
-       [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
-         return export_functions(out, options);
+       [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options, Told& told) {
+         told.update(export_functions(out, options));
        }},
       {"osim-points", "point_paths.osim",
        "the mean fibers as path points of the --model, a force set that OpenSim appends to it or puts in the place of "
        "its forces",
-       [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options) {
-         return export_path_points(out, options);
+       [](const RecordedRun&, const std::filesystem::path& out, const ExportOptions& options, Told& told) {
+         told.update(export_path_points(out, options));
        }}};
   return list;
 }
@@ -302,14 +296,9 @@ void add_export_command(CLI::App& program, Command& chosen) {
         const RecordedRun run = open_recorded_run(options->run);
         const std::filesystem::path out = options->out.empty() ? options->run / format.default_out : options->out;
         create_folder_of(out);
-        const Told told = format.write(run, out, *options);
-        if (!options->json) {
-          fmt::print("{}\n", out.string());
-          continue;
-        }
-        nlohmann::ordered_json all = {{"written", out.string()}};
-        all.update(told.is_null() ? Told::object() : told);
-        fmt::print("{}", json_text(all));
+        Told told = {{"written", out.string()}};
+        format.write(run, out, *options, told);
+        fmt::print("{}", options->json ? json_text(told) : out.string() + "\n");
       }
       return static_cast<int>(ExitCode::done);
     };

@@ -7,7 +7,10 @@
 
 namespace gracilis {
 
-/// For programs: of each muscle that was fitted order, coordinates and errors (mm) beside the model's path and the run;
+/// For programs, mm (of translations: mm per m): `length_rms_mm`, `length_largest_mm`, `arm_rms_mm`, `arm_largest_mm`.
+nlohmann::ordered_json as_json(const opensim::PathErrors& errors);
+
+/// Of each muscle that was fitted order, coordinates and errors (mm) beside the model's path and the run;
 /// and what was left out.
 nlohmann::ordered_json as_json(const opensim::Model& model, const opensim::FittedMuscles& fitted);
 

@@ -1,6 +1,7 @@
 #include "wrap_command.hpp"
 
 #include "console.hpp"
+#include "exported_paths.hpp"
 #include "opensim_model.hpp"
 #include "scene_options.hpp"
 
@@ -53,15 +54,11 @@ void say_shared(const SharedBodies& shared) {
 
 void print_json(const WrappedMuscles& wrapped) {
   nlohmann::ordered_json muscles = nlohmann::json::array();
-  for (const WrappedMuscle& muscle : wrapped.told)
-    muscles.push_back({{"muscle", muscle.name},
-                       {"points", muscle.points},
-                       {"poses", muscle.poses},
-                       {"held_out", muscle.held_out},
-                       {"length_rms_mm", 1000 * muscle.errors.length_root_mean_square},
-                       {"length_largest_mm", 1000 * muscle.errors.length_largest},
-                       {"arm_rms_mm", 1000 * muscle.errors.arm_root_mean_square},
-                       {"arm_largest_mm", 1000 * muscle.errors.arm_largest}});
+  for (const WrappedMuscle& muscle : wrapped.told) {
+    muscles.push_back(
+        {{"muscle", muscle.name}, {"points", muscle.points}, {"poses", muscle.poses}, {"held_out", muscle.held_out}});
+    muscles.back().update(as_json(muscle.errors));
+  }
   fmt::print("{}", json_text({{"muscles", muscles}, {"left_out", wrapped.left_out}}));
 }
 

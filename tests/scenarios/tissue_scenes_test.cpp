@@ -7,15 +7,7 @@ std::vector<std::string> by_tissue(const std::string& key_poses, const std::stri
   return {"method=tissue", "motion.key_poses_deg=" + key_poses, "motion.step_deg=" + step};
 }
 
-/// That no muscle misses a gate in any frame.
-void expect_gates_kept(const Scene& scene) {
-  const auto method = make_method(scene, [&](const DistanceFieldSettings&) { return cached_bone_fields(scene); });
-  const std::atomic<bool> never = false;
-  const auto look = [&](const FrameRecord& record) { expect_no_gate_missed(scene, record); };
-  EXPECT_EQ(run_scene(scene, pose_sequence(scene), *method, nullptr, never, look), RunEnd::complete);
-}
-
-/// The same of the shared data's folder of that name.
+/// A scene of the shared data's folder of that name.
 void expect_gates_kept(const std::string& name, const std::vector<std::string>& only, const std::string& key_poses,
                        const std::string& step) {
   const std::filesystem::path folder = data_folder() / name;
