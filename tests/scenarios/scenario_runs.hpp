@@ -112,7 +112,8 @@ inline void expect_no_gate_missed(const Scene& scene, const FrameRecord& record)
 
 /// By the scene's own method no muscle misses a gate in any frame.
 inline void expect_gates_kept(const Scene& scene) {
-  const auto method = make_method(scene, [&](const DistanceFieldSettings&) { return cached_bone_fields(scene); });
+  const auto method =
+      make_method(scene, [&](const DistanceFieldSettings& settings) { return cached_bone_fields(scene, settings); });
   const std::atomic<bool> never = false;
   const auto look = [&](const FrameRecord& record) { expect_no_gate_missed(scene, record); };
   EXPECT_EQ(run_scene(scene, pose_sequence(scene), *method, nullptr, never, look), RunEnd::complete);
