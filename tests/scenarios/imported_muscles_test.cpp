@@ -127,6 +127,13 @@ TEST(ImportedWalk, tendons_around_the_ankle_keep_out_of_bellies_and_miss_no_gate
   expect_gates(scene, run_whole(scene));
 }
 
+TEST(ImportedWalk, a_muscle_over_a_ridge_of_bone_beside_others_misses_no_gate) {
+  SKIP_WITHOUT_DATA();
+  const Scene scene = walking({"ercspn_l", "ercspn_r", "intobl_l", "extobl_l"}, true);
+  ASSERT_EQ(scene.muscles.size(), 4u);
+  expect_gates(scene, run_whole(scene));
+}
+
 TEST(ImportedPendulum, a_tendon_that_its_line_draws_into_a_belly_keeps_out_of_it) {
   using namespace opensim;
   const auto sized = [](int force, const char* fiber, const char* slack) {

@@ -179,7 +179,7 @@ ClearRays clear_rays(const SectionRays& rays, const std::vector<SolidBone>& bone
     }
   ClearRays result;
   if (beside) {
-    result.lengths = share_out(rooms);
+    result.lengths = drawn_off_ridges(rays, share_out(rooms), bones);
   } else {
     const auto filled = [&] {
       Eigen::MatrixXd lengths(count, sections);
