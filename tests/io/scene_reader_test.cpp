@@ -232,6 +232,18 @@ TEST_F(SceneReader, a_motion_beyond_the_range_is_warned_about_and_followed) {
   EXPECT_NEAR(degrees(loaded.scene.motion.values.maxCoeff()), 35, 1e-12);
 }
 
+TEST_F(SceneReader, a_motion_far_beyond_the_range_is_told_in_few_digits) {
+  const LoadedScene loaded = read(with(good_scene(), "range_deg = [-10, 20]", "range_deg = [-1e300, -2e15]"));
+  EXPECT_THAT(loaded.warnings, testing::Contains(HasSubstr("beyond the model's range of -1e+300 to -2e+15;")));
+}
+
+TEST_F(SceneReader, a_joint_whose_center_is_in_another_unit_is_warned_about) {
+  EXPECT_THAT(read(good_scene()).warnings, testing::Each(testing::Not(HasSubstr("its center is"))));
+  const LoadedScene loaded = read(with(good_scene(), "center_unit = \"mm\"", "center_unit = \"m\""));
+  EXPECT_THAT(loaded.warnings, testing::Contains(HasSubstr("joint 'hip': its center is 21.17 m from the bones of "
+                                                           "'pelvis' and 'femur'")));
+}
+
 TEST_F(SceneReader, a_handful_of_vertices_is_warned_about) {
   EXPECT_THAT(read(good_scene()).warnings,
               testing::Contains(HasSubstr("'top' of muscle is held by a handful of vertices (4)")));

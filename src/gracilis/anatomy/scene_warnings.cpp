@@ -2,14 +2,18 @@
 
 #include <gracilis/anatomy/attachments/attachments.hpp>
 #include <gracilis/anatomy/joints/joint_pose.hpp>
+#include <gracilis/geometry/measures.hpp>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace gracilis {
 
-/// At most one digit after the point.
+/// At most one digit after the point, and few digits of what no body does.
 static std::string rounded(Real value) {
+  if (std::abs(value) >= 1e6) return fmt::format("{:.4g}", value);
   std::string text = std::to_string(std::round(value * 10) / 10);
   text.resize(text.find('.') + 2);
   return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
@@ -28,6 +32,27 @@ static void warn_about_range(const Motion& motion, const JointAxis& axis, std::v
                      rounded(shown_value(axis, axis.range_max)) + "; it is followed as it is");
 }
 
+/// Where a joint's center is further from the bones of both bodies than these are large it is elsewhere than was meant.
+static void warn_about_center(const Scene& scene, const Joint& joint, std::vector<std::string>& warnings) {
+  Eigen::AlignedBox3d bones;
+  bool of_parent = false, of_child = false;
+  for (const Bone& bone : scene.bones) {
+    if (bone.body != joint.parent_body && bone.body != joint.child_body) continue;
+    bones.extend(bounding_box(bone.surface.vertices));
+    of_parent = of_parent || bone.body == joint.parent_body;
+    of_child = of_child || bone.body == joint.child_body;
+  }
+  const auto turns = [](const JointAxis& axis) { return !axis.translation; };
+  if (!of_parent || !of_child || std::none_of(joint.axes.begin(), joint.axes.end(), turns)) return;
+  const Real away = bones.exteriorDistance(Vec3(joint.frame.translation())), across = bones.diagonal().norm();
+  if (!(away > across)) return;
+  warnings.push_back(
+      fmt::format("joint '{}': its center is {:.4g} m from the bones of '{}' and '{}', which are {:.4g} m "
+                  "across; 'center_unit' says in which unit it is given",
+                  joint.name, away, scene.bodies[static_cast<std::size_t>(joint.parent_body)],
+                  scene.bodies[static_cast<std::size_t>(joint.child_body)], across));
+}
+
 static void warn_about_size(const Muscle& muscle, const Attachment& attachment, std::vector<std::string>& warnings) {
   const std::string who = "attachment '" + attachment.name + "' of " + muscle.name;
   if (static_cast<Index>(attachment.vertices.size()) < handful) {
@@ -42,8 +67,10 @@ static void warn_about_size(const Muscle& muscle, const Attachment& attachment, 
 
 std::vector<std::string> warnings_about(const Scene& scene) {
   std::vector<std::string> warnings;
-  for (const Joint& joint : scene.joints)
+  for (const Joint& joint : scene.joints) {
+    warn_about_center(scene, joint, warnings);
     for (const JointAxis& axis : joint.axes) warn_about_range(scene.motion, axis, warnings);
+  }
   for (const Muscle& muscle : scene.muscles)
     for (const Attachment& attachment : muscle.attachments) warn_about_size(muscle, attachment, warnings);
   return warnings;
