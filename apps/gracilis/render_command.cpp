@@ -5,6 +5,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/run/recorded_corrections.hpp>
 #include <gracilis/view/pictures/gif.hpp>
 #include <gracilis/view/pictures/picture_layout.hpp>
 #include <gracilis/view/pictures/run_film.hpp>
@@ -83,6 +84,18 @@ void warn_of_missing(const RecordedRun& run, const RunPictureOptions& options) {
   if (fibers && !any) spdlog::warn("{}: has no fibers (run it without --no-fibers)", folder);
 }
 
+/// Those of what constraints moved where all runs tell it, or else of forces.
+void choose_arrows(const std::vector<RecordedRun>& runs, std::vector<int> frames, RunPictureOptions& chosen) {
+  if (!std::all_of(runs.begin(), runs.end(), has_corrections)) {
+    chosen.arrow_scale = force_arrow_scale(runs);
+    return;
+  }
+  constexpr int most_frames = 12;  // of a film, whose arrows all have one scale
+  if (frames.empty()) frames = spread_frames(runs[0].frame_count, most_frames);
+  const std::vector<std::string>& muscles = chosen.muscles.empty() ? runs[0].muscles : chosen.muscles;
+  chosen.corrections = correction_arrow_size(runs[0], muscles, frames, RunPainter(runs[0], chosen).extent());
+}
+
 int render(const RenderOptions& options) {
   std::vector<RecordedRun> runs = {open_recorded_run(options.run)};
   for (const std::filesystem::path& folder : options.compare) runs.push_back(open_recorded_run(folder));
@@ -94,7 +107,7 @@ int render(const RenderOptions& options) {
   chosen.turn = radians(options.turn), chosen.tilt = radians(options.tilt);
   for (const RecordedRun& run : runs) warn_of_missing(run, chosen);
   if (chosen.bones == std::vector<std::string>{"none"}) chosen.bones.clear(), chosen.without_bones = true;
-  if (options.arrows) chosen.arrow_scale = force_arrow_scale(runs);
+  if (options.arrows) choose_arrows(runs, options.frames, chosen);
   std::vector<RunPainter> painters;
   for (const RecordedRun& run : runs) painters.emplace_back(run, chosen);
 
@@ -170,13 +183,15 @@ void add_render_command(CLI::App& program, Command& chosen) {
   command->add_option("--hide", options->picture.hidden, "Muscles and bones that are not shown")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--focus", options->picture.focus, "The muscle or bone that fills the picture");
+  command->add_option("--focus", options->picture.focus,
+                      "The muscle or bone that fills the picture, or an end: NAME:origin, NAME:insertion");
   command->add_option("--zoom", options->picture.zoom, "How many times larger, 0.1 to 50 (1)")
       ->check(CLI::Range(0.1, 50.0));
   command->add_option("--opacity", options->picture.opacity, "Of muscles, 0.05 to 1")->check(CLI::Range(0.05, 1.0));
   command->add_flag("--fibers", options->picture.fibers, "Show fibers inside muscles that one sees through");
-  command->add_flag("--arrows", options->arrows,
-                    "Show the forces at muscles' ends, by a scale that the legend tells (runs by tissue)");
+  command->add_flag(
+      "--arrows", options->arrows,
+      "Show what constraints moved (runs with --corrections), or the forces at muscles' ends (runs by tissue)");
   command->add_option("--title", options->title, "A line above");
   command->add_flag("--transparent", options->transparent, "No background (.png)");
   command->add_flag("--gif", options->gif, "A film as .gif, whatever the file is called");

@@ -91,8 +91,8 @@ void add_rom_command(CLI::App& program, const std::vector<std::string>& words, C
   CLI::Option* tables_only = command->add_flag(
       "--tables-only", options->session.tables_only,
       "Write fiber lengths, moment arms and their plots, but no run: no surfaces, measures or lines of action");
-  for (const char* of_runs :
-       {"--resume", "--every", "--no-ramp", "--no-fibers", "--no-pictures", "--metrics", "--layout", "--strict"})
+  for (const char* of_runs : {"--resume", "--every", "--no-ramp", "--no-fibers", "--no-pictures", "--metrics",
+                              "--layout", "--strict", "--corrections"})
     tables_only->excludes(command->get_option(of_runs));
   options->session.command = words;
   command->callback([&chosen, options] {

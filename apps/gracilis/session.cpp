@@ -27,6 +27,8 @@ void add_session_options(CLI::App& command, SessionOptions& options) {
   command.add_flag("--no-ramp", options.without_ramps,
                    "Do not record the frames between the capture pose and the motion; the capture pose stays frame 0");
   command.add_flag("--no-fibers", options.without_fibers, "Do not follow fibers");
+  command.add_flag("--corrections", options.corrections,
+                   "Frames also tell what each kind of constraint moved each vertex by (method xpbd)");
   command.add_flag_callback(
       "--no-pictures", [&options] { options.pictures = false; }, "Draw no charts and no preview at the end");
   std::map<std::string, MeasureLevel> levels;

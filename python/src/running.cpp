@@ -87,7 +87,8 @@ SessionResult record(const LoadedScene& loaded, const SessionOptions& options, c
 
 py::object run(const SceneHandle& scene, const std::optional<std::filesystem::path>& out, const py::object& progress,
                bool resume, bool force, int every, bool ramps, bool fibers, const std::string& metrics,
-               const std::optional<std::string>& layout, bool arms, int threads, bool strict, bool large) {
+               const std::optional<std::string>& layout, bool arms, bool corrections, int threads, bool strict,
+               bool large) {
   if (every < 1) refuse("every", "must be 1 or more");
   if (threads < 0) refuse("threads", "must be 0 or more");
   if (resume && force) refuse("resume", "a run that is replaced does not go on", "give resume=True or force=True");
@@ -104,6 +105,7 @@ py::object run(const SceneHandle& scene, const std::optional<std::filesystem::pa
   options.measures = level_called(metrics);
   options.layout = layout_called(layout);
   options.fiber_actions = arms;
+  options.corrections = corrections;
   options.print_folder = false;
   options.command = {"gracilis.run"};
   const std::shared_ptr<const LoadedScene> loaded = scene.loaded;
@@ -188,14 +190,14 @@ moment_arms gives arms alone, without a folder.)");
   module.def("run", &run, py::arg("scene"), py::arg("out") = py::none(), py::kw_only(),
              py::arg("progress") = py::none(), py::arg("resume") = false, py::arg("force") = false,
              py::arg("every") = 1, py::arg("ramps") = true, py::arg("fibers") = true, py::arg("metrics") = "full",
-             py::arg("layout") = py::none(), py::arg("arms") = false, py::arg("threads") = 0, py::arg("strict") = false,
-             py::arg("large") = false,
+             py::arg("layout") = py::none(), py::arg("arms") = false, py::arg("corrections") = false,
+             py::arg("threads") = 0, py::arg("strict") = false, py::arg("large") = false,
              R"(Takes the scene through its whole motion into a run folder, as `gracilis run` does with the same bits.
 
 out: the folder (runs/NAME of the scene). progress: called after each frame as progress(done, last), perhaps on another
 thread; what it raises ends the run. Ctrl-C ends it, too, with every frame so far on disk; resume=True goes on, force=True replaces a run. every:
 record every which frame. ramps, fibers: whether to record them. metrics: none, light or full. layout: surfaces or
-compact. arms: also moment arms (method strings). strict: QualityError where a gate is missed. large: allow more than
+compact. arms: also moment arms (method strings). corrections: what constraints moved, too (method xpbd). strict: QualityError where a gate is missed. large: allow more than
 2 GB. Returns the Run.)");
 }
 

@@ -1,3 +1,4 @@
+#include <gracilis/io/run/recorded_corrections.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/io/run/run_folder.hpp>
 
@@ -92,6 +93,26 @@ TEST_F(RunChoices, a_thinned_run_resumes_as_it_was_begun) {
   const auto as_json = nlohmann::json::parse(run_program("verify --json " + folder.path("out").string()).out);
   EXPECT_EQ(as_json.at("status"), "complete");
   EXPECT_TRUE(as_json.at("findings").empty());
+}
+
+TEST_F(RunChoices, corrections_lie_in_the_frames_whatever_the_layout_and_after_a_resume) {
+  ASSERT_EQ(run("--corrections", good_scene(), "loose").exit_code, 0);
+  ASSERT_EQ(run("--corrections --layout compact").exit_code, 0);
+  std::filesystem::remove(shapes_file(folder.path("out"), 12));
+  ASSERT_EQ(run("--resume").exit_code, 0);
+  const RecordedRun loose = recorded("loose"), compact = recorded();
+  EXPECT_TRUE(recorded_corrections(loose, "muscle", 0).empty());
+  const Corrections told = recorded_corrections(loose, "muscle", 12);
+  ASSERT_TRUE(told.contains("bone contact"));
+  EXPECT_GT(told.at("distance").norm(), 0);
+  EXPECT_EQ(recorded_corrections(compact, "muscle", 12), told);
+  EXPECT_EQ(run_program("verify " + folder.path("out").string()).exit_code, 0);
+  const std::string picture = folder.path("arrows.png").string();
+  EXPECT_EQ(run_program("render " + folder.path("loose").string() + " --arrows --frames 12 --out " + picture).exit_code,
+            0);
+  const ProgramResult refused = run("--corrections --set method=skinning", good_scene(), "none");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("tells nothing of what its constraints move"));
 }
 
 TEST_F(RunChoices, without_ramp_frames_the_motion_follows_the_capture_pose) {

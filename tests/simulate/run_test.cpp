@@ -1,4 +1,5 @@
 #include <gracilis/core/errors.hpp>
+#include <gracilis/methods/registry.hpp>
 #include <gracilis/simulate/run.hpp>
 
 #include <gracilis/core/state_hash.hpp>
@@ -198,6 +199,60 @@ TEST(RunScene, records_chosen_frames_of_all_that_are_computed_and_resumes_them_b
     if (frame < 2) continue;
     EXPECT_EQ(hash_of(rest.records[static_cast<std::size_t>(frame) - 2].frame.muscles[0].points), hash);
   }
+}
+
+/// What each kind moved, all kinds together.
+Points all_of(const Corrections& corrections) {
+  Points sum;
+  for (const auto& [kind, moved] : corrections) sum = sum.size() == 0 ? moved : Points(sum + moved);
+  return sum;
+}
+
+TEST(RunScene, corrections_are_all_that_moves_a_muscle_at_rest_that_nothing_carries) {
+  Scene scene = tube_scene();
+  scene.method = find_preset("thesis-2024")->method;
+  Recorder recorder;
+  run_scene(scene, poses_of(scene, 2), *xpbd_on_tube(scene), nullptr, never, recorder.function(), nullptr,
+            {.corrections = true});
+  ASSERT_EQ(recorder.records.size(), 2u);
+  EXPECT_TRUE(recorder.records[0].corrections.at(0).empty());
+  const Corrections& told = recorder.records[1].corrections.at(0);
+  for (const char* kind : {"distance", "dihedral", "volume", "bone contact"}) {
+    ASSERT_TRUE(told.contains(kind)) << kind;
+    EXPECT_GT(told.at(kind).norm(), 0) << kind;
+  }
+  Points moved = recorder.records[1].frame.muscles[0].points - recorder.records[0].frame.muscles[0].points;
+  Points corrected = all_of(told);
+  for (const Attachment& end : scene.muscles[0].attachments)
+    for (const Index v : end.vertices) moved.col(v).setZero(), corrected.col(v).setZero();
+  EXPECT_GT(moved.norm(), 1e-4);
+  EXPECT_NEAR((moved - corrected).norm(), 0, 1e-3 * moved.norm());
+}
+
+TEST(RunScene, corrections_of_a_recorded_frame_are_of_all_poses_since_the_one_before) {
+  const Scene scene = tube_scene();
+  const std::vector<Pose> poses = poses_of(scene, 6);
+  Recorder whole, some, rest;
+  run_scene(scene, poses, *xpbd_on_tube(scene), nullptr, never, whole.function(), nullptr, {.corrections = true});
+  const RunChoices choices = {.recorded = {0, 2, 5}, .corrections = true};
+  run_scene(scene, poses, *xpbd_on_tube(scene), nullptr, never, some.function(), nullptr, choices);
+  ASSERT_EQ(some.numbers(), (std::vector<int>{0, 1, 2}));
+  const ResumePoint resume{some.records[0].frame, some.records[1].frame};
+  run_scene(scene, poses, *xpbd_on_tube(scene), &resume, never, rest.function(), nullptr, choices);
+  Points sum = Points::Zero(3, scene.muscles[0].surface.vertex_count());
+  for (const std::size_t i : {3U, 4U, 5U}) sum += all_of(whole.records[i].corrections[0]);
+  EXPECT_GT(sum.norm(), 0);
+  EXPECT_NEAR((all_of(some.records[2].corrections[0]) - sum).norm(), 0, 1e-9);
+  EXPECT_EQ(all_of(rest.records[0].corrections[0]), all_of(some.records[2].corrections[0]));
+}
+
+TEST(RunScene, corrections_of_a_method_without_passes_are_refused) {
+  const Scene scene = tube_scene();
+  Stepping method(scene);
+  Recorder recorder;
+  EXPECT_THROW(
+      run_scene(scene, poses_of(scene, 2), method, nullptr, never, recorder.function(), nullptr, {.corrections = true}),
+      ConfigurationError);
 }
 
 TEST(RunScene, resumed_after_the_last_frame_has_nothing_to_do) {

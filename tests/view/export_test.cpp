@@ -171,4 +171,18 @@ TEST(ExportCsv, holds_the_tables_and_the_points_that_are_asked_for) {
   while (std::getline(points, line)) ++lines;
   EXPECT_EQ(lines, 1 + leg.scene.muscles[0].surface.vertex_count());
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "csv/measures.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "csv/corrections.csv"));
+}
+
+TEST(ExportCsv, tells_how_far_each_kind_of_constraint_moved_a_muscle_where_the_run_knows_it) {
+  const TestFolder folder;
+  FlexingLeg leg(3);
+  leg.corrects = true;
+  export_csv(leg.written(folder.path() / "run"), folder.path() / "csv", {});
+  std::stringstream text;
+  text << std::ifstream(folder.path() / "csv/corrections.csv").rdbuf();
+  EXPECT_EQ(text.str(),
+            "frame,muscle,kind,mean_mm,largest_mm\n"
+            "1,gluteus_maximus_r,bone contact,1,1\n1,gluteus_maximus_r,distance,0.2,0.2\n"
+            "2,gluteus_maximus_r,bone contact,1,1\n2,gluteus_maximus_r,distance,0.2,0.2\n");
 }

@@ -150,6 +150,48 @@ TEST_F(RunPicture, arrows_are_as_long_as_forces_are_large_and_the_legend_tells_t
   EXPECT_NEAR((weak.col(weak.cols() - 1) - weak.col(weak.cols() - 2)).norm(), 0.002, 1e-6);
 }
 
+TEST_F(RunPicture, arrows_tell_what_each_kind_of_constraint_moved_and_how_much_longer_they_are_than_that) {
+  FlexingLeg leg(6);
+  leg.corrects = true;
+  const RecordedRun run = leg.written(folder.path() / "run");
+  RunPictureOptions options;
+  options.focus = "gluteus_maximus_r";
+  const Real extent = RunPainter(run, options).extent();
+  EXPECT_NEAR(extent, 0.08 * std::sqrt(3), 0.001);  // the diagonal of a sphere's box
+  options.corrections = correction_arrow_size(run, run.muscles, {5}, extent);
+  // 1 mm ten times as long is 10 mm; twenty times would be more than a twelfth of the extent, 11.5 mm.
+  EXPECT_EQ(options.corrections.times, 10);
+  const Panel panel = RunPainter(run, options).panel(5);
+  ASSERT_EQ(panel.surfaces.size(), 5u);  // a bone, a muscle with two kinds, and one that nothing moved
+  EXPECT_EQ(panel.surfaces[2].name, "moved by distance (×10)");
+  const PaintedSurface& bones = panel.surfaces[3];
+  EXPECT_EQ(bones.name, "moved by bone contact (×10)");
+  EXPECT_NE(bones.color, panel.surfaces[2].color);
+  const Points& muscle = panel.surfaces[1].mesh.vertices;
+  // Up from the muscle's lowest vertex to 10 mm above its highest.
+  EXPECT_NEAR(bones.mesh.vertices.row(1).maxCoeff(), muscle.row(1).maxCoeff() + 0.01, 1e-3);
+  EXPECT_NEAR(bones.mesh.vertices.row(1).minCoeff(), muscle.row(1).minCoeff(), 1e-3);
+  EXPECT_TRUE(RunPainter(run, options).panel(0).surfaces.size() == 3) << "nothing has moved yet";
+}
+
+TEST_F(RunPicture, an_end_of_a_muscle_fills_the_picture) {
+  FlexingLeg leg(3);
+  leg.scene.muscles[0].attachments = {{"o", AttachmentEnd::origin, 0, {0, 1, 2}}};
+  const RecordedRun run = leg.written(folder.path() / "run");
+  RunPictureOptions options;
+  options.focus = "gluteus_maximus_r:origin";
+  const RunPainter painter(run, options);
+  const Panel panel = painter.panel(2);
+  const Points expected = recorded_surface(run, "gluteus_maximus_r", 2).vertices.leftCols(3);
+  EXPECT_EQ(panel.room, expected);
+  for (const PaintedSurface& surface : panel.surfaces) EXPECT_FALSE(surface.framed);
+  EXPECT_LT(painter.extent(), 0.06);
+  EXPECT_EQ(panel.surfaces[1].opacity, 1) << "the muscle itself is not seen through";
+  EXPECT_EQ(panel.surfaces[2].opacity, 0.25);
+  options.focus = "gluteus_maximus_r:insertion";
+  EXPECT_THROW(RunPainter(run, options), ConfigurationError);
+}
+
 TEST_F(RunPicture, arrows_of_a_run_without_forces_are_refused) {
   const auto refused = [&](const RecordedRun& run, const char* why) {
     try {

@@ -6,6 +6,7 @@
 #include <gracilis/core/stop.hpp>
 
 #include <future>
+#include <optional>
 #include <utility>
 
 namespace gracilis {
@@ -100,6 +101,8 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
       method.restore({poses.begin(), poses.begin() + next}, resume->before, resume->last);
       for (int i = 0; i < next; ++i) measurer.pass(poses[static_cast<std::size_t>(i)]);
     }
+    std::optional<CorrectionSum> corrections;
+    if (choices.corrections) corrections.emplace(method, scene.muscles.size());
     FrameRecorder recorder(measurer, tracker, record, may_record_beside(method));
     int frame = next;
     std::vector<Pose> passed;
@@ -116,6 +119,7 @@ RunEnd run_scene(const Scene& scene, const std::vector<Pose>& poses, Deformation
       }
       now.frame.number = frame;
       frame += is_frame;
+      if (corrections && is_frame) now.corrections = corrections->take();
       if (!wanted) {
         passed.push_back(poses[static_cast<std::size_t>(next)]);
         continue;

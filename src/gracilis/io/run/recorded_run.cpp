@@ -269,7 +269,7 @@ Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int f
   return fibers;
 }
 
-static std::shared_ptr<const VtpFile> file_of_muscle(const RecordedRun& run, const std::string& muscle, int frame) {
+std::shared_ptr<const VtpFile> file_of_muscle(const RecordedRun& run, const std::string& muscle, int frame) {
   if (run.compact_shapes) return run.compact_shapes->file(frame);
   return std::make_shared<const VtpFile>(frame_file(run.folder, muscle, frame));
 }

@@ -55,6 +55,9 @@ TriangleMesh placed_surface(const RecordedRun& run, const std::string& name, int
 /// As placed_surface, of a muscle's fibers.
 Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int frame);
 
+/// The file that holds a muscle in a frame. Throws InputError.
+std::shared_ptr<const VtpFile> file_of_muscle(const RecordedRun& run, const std::string& muscle, int frame);
+
 /// Per vertex of a muscle: 1 where it is of an origin, 1 where of an insertion, share of belly against tendon (0 to 1).
 /// 3 × 0 when the run was made before runs told it.
 Points recorded_tissue(const RecordedRun& run, const std::string& muscle);

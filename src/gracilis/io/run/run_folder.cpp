@@ -199,17 +199,27 @@ void RunFolder::write_frame(const FrameRecord& record) {
   if (const std::optional<RunTable> table = force_table(scene_, record, rows))
     append_measures(folder_ / table->name, table->head, table->row);
   append_measures(folder_ / "measures.csv", measures_header(scene_), measures_rows(scene_, record));
-  layout_ == RunLayout::compact ? write_compact(record) : write_surfaces(record.frame);
+  layout_ == RunLayout::compact ? write_compact(record) : write_surfaces(record);
   frame_count_ = record.frame.number + 1;
   if (std::chrono::steady_clock::now() - indexed_ > std::chrono::seconds(1)) write_index();
 }
 
-std::vector<VertexArray> RunFolder::arrays_of(std::size_t muscle, const Frame& frame) const {
+std::string correction_name(const std::string& kind) {
+  std::string name = "moved_by_" + kind + "_m";
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+std::vector<VertexArray> RunFolder::arrays_of(std::size_t muscle, const FrameRecord& record) const {
+  const Frame& frame = record.frame;
   const MuscleShape& shape = frame.muscles[muscle];
   std::vector<VertexArray> arrays = velocity_array(shape);
   if (shape.fiber_stresses.size() > 0) arrays.push_back({fiber_stress_name, shape.fiber_stresses});
   if (frame.number == 0)
     arrays.push_back(tissue_array(scene_.muscles[muscle], tendon_length_of(scene_, scene_.muscles[muscle])));
+  if (!record.corrections.empty())
+    for (const auto& [kind, moved] : record.corrections[muscle])
+      arrays.push_back({correction_name(kind), moved.reshaped(), 3});
   return arrays;
 }
 
@@ -238,12 +248,13 @@ static void make_alike(std::vector<std::vector<VertexArray>>& arrays, const Fram
 void RunFolder::write_compact(const FrameRecord& record) const {
   const Frame& frame = record.frame;
   std::vector<std::vector<VertexArray>> arrays(scene_.muscles.size());
-  parallel_for_each(arrays.size(), [&](std::size_t m) { arrays[m] = arrays_of(m, frame); });
+  parallel_for_each(arrays.size(), [&](std::size_t m) { arrays[m] = arrays_of(m, record); });
   make_alike(arrays, frame);
   write_compact_shapes(folder_, scene_, frame, arrays);
 }
 
-void RunFolder::write_surfaces(const Frame& frame) const {
+void RunFolder::write_surfaces(const FrameRecord& record) const {
+  const Frame& frame = record.frame;
   const auto muscle_count = static_cast<Index>(scene_.muscles.size());
   const auto bone_count = static_cast<Index>(scene_.bones.size());
   parallel_for(muscle_count + bone_count, 1, [&](Index begin, Index end) {
@@ -252,7 +263,7 @@ void RunFolder::write_surfaces(const Frame& frame) const {
         const Muscle& muscle = scene_.muscles[static_cast<std::size_t>(i)];
         const MuscleShape& shape = frame.muscles[static_cast<std::size_t>(i)];
         write_surface(frame_file(folder_, muscle.name, frame.number), shape.points, muscle.surface.faces,
-                      arrays_of(static_cast<std::size_t>(i), frame));
+                      arrays_of(static_cast<std::size_t>(i), record));
       } else {
         const Bone& bone = scene_.bones[static_cast<std::size_t>(i - muscle_count)];
         const RigidTransform& motion = frame.pose.bodies[static_cast<std::size_t>(bone.body)];

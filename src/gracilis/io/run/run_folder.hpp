@@ -25,7 +25,8 @@ enum class ExistingRun { refuse, replace, resume };
 ///   run.pvd                        opens the animation in ParaView; always names frames that are there only
 ///   frames/<name>_0000.vtp         one per muscle, bone and frame, m; frame 0 has the input's bits
 ///                                  and tells which of a muscle's vertices are of an origin, an
-///                                  insertion, and how much of a belly
+///                                  insertion, and how much of a belly; where corrections were asked for, the others
+///                                  tell what each kind of constraint moved a vertex by, m (correction_name)
 ///   shapes/0000.vtp                instead, where the run is compact: all muscles of a frame, and the bones' motions;
 ///   bones/<name>.vtp, paraview.py  then each bone in the capture pose, and a script that shows all in ParaView
 ///   measures.csv                   one row per frame and muscle; the units stand in the names of the columns
@@ -73,10 +74,10 @@ class RunFolder {
  private:
   void write_index();
   void write_compact(const FrameRecord& record) const;
-  std::vector<VertexArray> arrays_of(std::size_t muscle, const Frame& frame) const;
+  std::vector<VertexArray> arrays_of(std::size_t muscle, const FrameRecord& record) const;
   void remove_frames() const;
   void write_fibers(const FrameRecord& record);
-  void write_surfaces(const Frame& frame) const;
+  void write_surfaces(const FrameRecord& record) const;
   void truncate_tables(int announced) const;
 
   std::filesystem::path folder_;
@@ -95,6 +96,10 @@ inline constexpr const char* tissue_name = "origin_insertion_belly";
 
 /// Point data of muscles whose method knows stresses: of the fibers at each vertex, Pa.
 inline constexpr const char* fiber_stress_name = "fiber_stress_pa";
+
+/// Point data of muscles in a run with corrections: what this kind of constraint moved each vertex by since the frame
+/// before, m; 3 per vertex. "moved_by_bone_contact_m" of "bone contact".
+std::string correction_name(const std::string& kind);
 
 /// The muscles' shapes as recorded. Throws InputError when a file is missing, damaged or of another surface.
 Frame read_frame(const std::filesystem::path& folder, const Scene& scene, int number, const Pose& pose);

@@ -171,7 +171,7 @@ nlohmann::ordered_json read_manifest(const std::filesystem::path& folder) {
       is_text, "a text");
   require({"seconds"}, is_real, "a number");
   require({"frames", "threads", "processors", "every", "first_motion_frame"}, is_count, "a count");
-  require({"ramps", "fibers"}, is_flag, "true or false");
+  require({"ramps", "fibers", "corrections"}, is_flag, "true or false");
   require({"command", "guessed", "warnings"}, is_texts, "a list of texts");
   require(
       {"inputs"}, [](const Json& json) { return is_list_of(json, is_input); }, "a list of files and hashes");
@@ -231,6 +231,7 @@ void write_manifest(const std::filesystem::path& path, const RunManifest& manife
       {"every", manifest.every},
       {"ramps", manifest.ramps},
       {"fibers", manifest.fibers},
+      {"corrections", manifest.corrections},
       {"first_motion_frame", manifest.first_motion_frame},
       {"metrics", manifest.metrics},
       {"counters", counters},

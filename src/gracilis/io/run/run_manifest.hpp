@@ -35,6 +35,7 @@ struct RunManifest {
   int every = 1;                                              ///< which of the motion's frames are recorded
   bool ramps = true;             ///< whether those on the way from and to the capture pose are
   bool fibers = true;            ///< whether fibers are followed
+  bool corrections = false;      ///< whether frames tell what constraints moved
   int first_motion_frame = 0;    ///< of those recorded: those before it lead from the capture pose to the motion
   std::string metrics = "full";  ///< what is measured: none, light or full
   std::vector<std::pair<std::string, ActionLine>> lines;           ///< of muscles that have one, by their names

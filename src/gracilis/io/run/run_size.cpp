@@ -1,5 +1,6 @@
 #include <gracilis/io/run/run_size.hpp>
 
+#include <gracilis/dynamics/solver/constraint_table.hpp>
 #include <gracilis/methods/registry.hpp>
 
 #include <fmt/format.h>
@@ -71,6 +72,12 @@ RunSize estimated_size(const Scene& scene, int frames, bool with_fibers, RunLayo
     ++frame.files;
   }
   return {frame.bytes * frames, frame.files * frames};
+}
+
+double correction_bytes(const Scene& scene) {
+  double vertices = 0;
+  for (const Muscle& muscle : scene.muscles) vertices += muscle.surface.vertex_count();
+  return vertex_bytes * vertices * static_cast<double>(constraint_table().size());
 }
 
 std::string size_text(double bytes) {

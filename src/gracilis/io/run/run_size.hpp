@@ -18,6 +18,9 @@ struct RunSize {
 /// points of fibers. Of compact frames the most: coordinates that can be packed take less.
 RunSize estimated_size(const Scene& scene, int frames, bool with_fibers, RunLayout layout = RunLayout::surfaces);
 
+/// Bytes that corrections add to a frame: of each kind that a solver may have, three numbers a vertex.
+double correction_bytes(const Scene& scene);
+
 /// "8.1 GB", "310 MB", "12 kB".
 std::string size_text(double bytes);
 

@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/input_file.hpp>
+#include <gracilis/io/run/recorded_corrections.hpp>
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/view/pictures/muscle_colors.hpp>
 #include <gracilis/view/pictures/palette.hpp>
@@ -58,6 +59,19 @@ static std::string csv_of(const Table& table) {
   return text + "\n";
 }
 
+/// How far each kind of constraint moved a muscle's vertices in every frame.
+static std::string corrections_csv(const RecordedRun& run) {
+  std::string text = "frame,muscle,kind,mean_mm,largest_mm\n";
+  auto out = std::back_inserter(text);
+  for (int frame = 1; frame < run.frame_count; ++frame)
+    for (const std::string& muscle : run.muscles)
+      for (const auto& [kind, moved] : recorded_corrections(run, muscle, frame)) {
+        const Eigen::VectorXd lengths = 1e3 * moved.colwise().norm();
+        fmt::format_to(out, "{},{},{},{:.6g},{:.6g}\n", frame, muscle, kind, lengths.mean(), lengths.maxCoeff());
+      }
+  return text;
+}
+
 void export_csv(const RecordedRun& run, const fs::path& folder, const std::vector<int>& frames) {
   create_folder(folder);
   write_text_atomically(folder / "measures.csv", read_text(run.folder / "measures.csv"));
@@ -65,6 +79,7 @@ void export_csv(const RecordedRun& run, const fs::path& folder, const std::vecto
     const fs::path table = run.folder / (name + ".sto");
     if (fs::exists(table)) write_text_atomically(folder / (name + ".csv"), csv_of(read_table(table)));
   }
+  if (has_corrections(run)) write_text_atomically(folder / "corrections.csv", corrections_csv(run));
   for (const std::string& muscle : run.muscles) {
     std::string text = "frame,vertex,x_m,y_m,z_m\n";
     auto out = std::back_inserter(text);

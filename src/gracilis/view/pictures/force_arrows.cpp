@@ -15,7 +15,7 @@ namespace gracilis {
 
 namespace {
 
-constexpr Real longest_arrow = 0.06, shortest_arrow = 0.0005;  // m, as drawn
+constexpr Real longest_arrow = 0.06;  // m, as drawn
 constexpr std::array<const char*, 2> end_names = {"origin", "insertion"};
 
 /// After Okabe and Ito (2008), and unlike muscles.
@@ -23,8 +23,9 @@ const std::array<Color, 2> end_colors = {Color(0.00, 0.45, 0.70), Color(0.00, 0.
 
 Table force_table_of(const RecordedRun& run) {
   if (!std::filesystem::exists(run.folder / force_file))
-    throw ConfigurationError({run.folder.string(), "", "the run knows no forces",
-                              "run the scene again with --set method=tissue, or draw it without --arrows"});
+    throw ConfigurationError(
+        {run.folder.string(), "", "the run knows no forces",
+         "run the scene again with --set method=tissue, by xpbd with --corrections, or draw it without --arrows"});
   return read_table(run.folder / force_file);
 }
 
@@ -95,19 +96,18 @@ std::vector<PaintedSurface> ForceArrows::of(std::size_t muscle, const TriangleMe
   return arrows;
 }
 
-TriangleMesh arrow_surface(const Vec3& root, const Vec3& along) {
-  constexpr Index sides = 16;
+TriangleMesh arrow_surface(const Vec3& root, const Vec3& along, const ArrowShape& shape) {
   const Real length = along.norm();
-  if (!(length >= shortest_arrow)) return {};
-  const Real head = std::min(length / 2, 0.012), brim = head / 3, shaft = brim / 3, tip = brim / 50;
+  if (!(length >= shape.shortest)) return {};
+  const Real head = std::min(length / 2, shape.most_head), brim = head / 3, shaft = brim / 3, tip = brim / 50;
   // The brim stands a hair before the shaft's end, since sections of one place have no plane.
   const std::array<Real, 4> places = {0, length - head, length - head * 0.999, length};
   const Eigen::RowVector4d radii(shaft, shaft, brim, tip);
   Points line(3, 4);
   for (Index k = 0; k < 4; ++k) line.col(k) = root + places[static_cast<std::size_t>(k)] / length * along;
   const Points corners =
-      section_vertices(line, section_frames(line, along.unitOrthogonal()), radii.replicate(sides, 1));
-  return {corners, section_faces(4, sides)};
+      section_vertices(line, section_frames(line, along.unitOrthogonal()), radii.replicate(shape.sides, 1));
+  return {corners, section_faces(4, shape.sides)};
 }
 
 }  // namespace gracilis

@@ -35,7 +35,14 @@ class ForceArrows {
   std::vector<std::vector<Index>> attached_;  ///< two per muscle: vertices
 };
 
-/// A closed arrow from `root` to `root + along`, m; empty where it is shorter than half a millimetre.
-TriangleMesh arrow_surface(const Vec3& root, const Vec3& along);
+/// How an arrow looks.
+struct ArrowShape {
+  Real most_head = 0.012;  ///< m; a short arrow's head is half of it
+  Index sides = 16;        ///< of a section, 3 or more
+  Real shortest = 0.0005;  ///< m; what is shorter is not drawn
+};
+
+/// A closed arrow from `root` to `root + along`, m; empty where it is too short.
+TriangleMesh arrow_surface(const Vec3& root, const Vec3& along, const ArrowShape& shape = {});
 
 }  // namespace gracilis

@@ -14,9 +14,11 @@
 #include <gracilis/view/pictures/recorded_look.hpp>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 
 namespace gracilis {
@@ -75,6 +77,7 @@ static void require_forces(const RecordedRun& run, ColorBy color_by) {
 
 RunPainter::RunPainter(const RecordedRun& run, RunPictureOptions options)
     : run_(run), options_(std::move(options)), captions_(captioned_frames(run)) {
+  find_focus();
   require_names();
   if (options_.color_by == ColorBy::fiber_strain || options_.color_by == ColorBy::tension) options_.fibers = true;
   require_forces(run, options_.color_by);
@@ -112,7 +115,46 @@ void RunPainter::require_names() const {
   for (const std::string& name : options_.muscles) require(name, run_.muscles, "muscle");
   for (const std::string& name : options_.bones) require(name, run_.bones, "bone");
   for (const std::string& name : options_.hidden) require(name, all, "muscle or bone");
-  if (!options_.focus.empty()) require(options_.focus, all, "muscle or bone");
+  if (!focus_.empty()) require(focus_, all, "muscle or bone");
+}
+
+/// "psoas_r:insertion" is what is attached there.
+void RunPainter::find_focus() {
+  focus_ = options_.focus;
+  for (const auto& [row, end] : {std::pair{0, ":origin"}, {1, ":insertion"}}) {
+    if (!focus_.ends_with(end)) continue;
+    focus_.resize(focus_.size() - std::strlen(end));
+    if (!contains(run_.muscles, focus_)) return;
+    const Points tissue = recorded_tissue(run_, focus_);
+    for (Index v = 0; v < tissue.cols(); ++v)
+      if (tissue(row, v) > 0.5) focus_end_.push_back(v);
+    if (focus_end_.empty())
+      throw ConfigurationError(
+          {run_.folder.string(), "", fmt::format("{} has no {}", focus_, end + 1), "focus on " + focus_});
+    return;
+  }
+}
+
+Points RunPainter::framed_points(const std::string& name, int frame) const {
+  const Points all = recorded_surface(run_, name, frame).vertices;
+  return focus_end_.empty() ? all : Points(all(Eigen::all, focus_end_));
+}
+
+std::vector<std::string> RunPainter::framed_names() const {
+  std::vector<std::string> names;
+  for (const std::vector<std::string>* all : {&run_.bones, &run_.muscles})
+    for (const std::string& name : *all)
+      if (shown(name) && framed(name)) names.push_back(name);
+  return names;
+}
+
+Real RunPainter::extent() const {
+  Eigen::AlignedBox3d box;
+  for (const std::string& name : framed_names()) {
+    const Points points = framed_points(name, 0);
+    for (const auto& point : points.colwise()) box.extend(Vec3(point));
+  }
+  return box.isEmpty() ? 0 : box.diagonal().norm() / options_.zoom;
 }
 
 bool RunPainter::shown(const std::string& name) const {
@@ -215,28 +257,32 @@ Panel RunPainter::panel(int frame) const {
   const Color bone = shows_values() && !of_lines ? Color(0.72, 0.74, 0.75) : bone_color();
   for (const std::string& name : run_.bones)
     if (shown(name)) {
-      panel.surfaces.push_back({"", recorded_surface(run_, name, frame), bone, 1, framed(name)});
+      panel.surfaces.push_back({"", recorded_surface(run_, name, frame), bone, 1, framed(name) && focus_end_.empty()});
       panel.surfaces.back().solid = solids_.contains(name);
     }
   for (std::size_t m = 0; m < run_.muscles.size(); ++m) {
     if (!shown(run_.muscles[m])) continue;
     const std::string name = options_.color_by == ColorBy::muscle ? words_of_name(run_.muscles[m]) : "";
     PaintedSurface surface{name, recorded_surface(run_, run_.muscles[m], frame), muscle_color(run_.muscles[m])};
-    surface.framed = framed(run_.muscles[m]);
+    surface.framed = framed(run_.muscles[m]) && focus_end_.empty();
     surface.solid = solids_.contains(run_.muscles[m]);
-    surface.opacity = options_.fibers || arrows_ ? std::min(options_.opacity, 0.3) : options_.opacity;
-    if (!surface.framed) surface.opacity = std::min(surface.opacity, 0.25);  // the one in focus is seen through them
+    surface.opacity = options_.fibers || draws_arrows() ? std::min(options_.opacity, 0.3) : options_.opacity;
+    if (!framed(run_.muscles[m]))
+      surface.opacity = std::min(surface.opacity, 0.25);  // the one in focus is seen through
     surface.colors = vertex_colors(m, surface.mesh, frame);
     if (options_.color_by == ColorBy::natural) surface.stripes = looks_[m].stripes;
     std::vector<PaintedSurface> arrows;
     if (arrows_) arrows = arrows_->of(m, surface.mesh, frame);
+    if (options_.corrections.times > 0)
+      arrows = correction_arrows(run_, run_.muscles[m], surface.mesh.vertices, frame, options_.corrections);
     if (evens()) surface.mesh.vertices = evened_[m].of(surface.mesh.vertices);
     for (PaintedSurface& arrow : arrows) arrow.framed = surface.framed;
     panel.surfaces.push_back(std::move(surface));
     std::move(arrows.begin(), arrows.end(), std::back_inserter(panel.surfaces));
     if (options_.fibers) panel.lines.push_back(fibers(m, frame));
-    if (options_.fibers) panel.lines.back().framed = framed(run_.muscles[m]);
+    if (options_.fibers) panel.lines.back().framed = panel.surfaces.back().framed;
   }
+  if (!focus_end_.empty()) panel.room = framed_points(focus_, frame);
   return panel;
 }
 
@@ -253,10 +299,7 @@ std::vector<int> telling_frames(const RecordedRun& run, int first) {
 
 Points RunPainter::room(int first) const {
   constexpr int most_frames = 36;
-  std::vector<std::string> names;
-  for (const std::vector<std::string>* all : {&run_.bones, &run_.muscles})
-    for (const std::string& name : *all)
-      if (shown(name) && framed(name)) names.push_back(name);
+  const std::vector<std::string> names = framed_names();
   const std::vector<int> frames = spread_frames(run_.frame_count - first, most_frames);
   const CameraDirection camera = camera_of(run_, options_);
   const Vec3 right = camera.looking.cross(camera.up).normalized();
@@ -266,7 +309,7 @@ Points RunPainter::room(int first) const {
   parallel_for_each(frames.size(), [&](std::size_t i) {
     corners[i].resize(3, 2 * static_cast<Index>(names.size()));
     for (std::size_t n = 0; n < names.size(); ++n) {
-      const Points seen = axes.transpose() * recorded_surface(run_, names[n], first + frames[i]).vertices;
+      const Points seen = axes.transpose() * framed_points(names[n], first + frames[i]);
       corners[i].col(2 * static_cast<Index>(n)) = seen.rowwise().minCoeff();
       corners[i].col(2 * static_cast<Index>(n) + 1) = seen.rowwise().maxCoeff();
     }

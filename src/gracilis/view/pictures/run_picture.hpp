@@ -3,6 +3,7 @@
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/view/pictures/color_scale.hpp>
+#include <gracilis/view/pictures/correction_arrows.hpp>
 #include <gracilis/view/pictures/evened_surface.hpp>
 #include <gracilis/view/pictures/force_arrows.hpp>
 #include <gracilis/view/pictures/muscle_look.hpp>
@@ -30,9 +31,10 @@ struct RunPictureOptions {
   std::vector<std::string> bones;    ///< to show; empty: all
   std::vector<std::string> hidden;   ///< muscles and bones that are not shown
   bool without_bones = false;
-  std::string focus;  ///< the muscle or bone that fills the picture; empty: everything does
+  std::string focus;  ///< what fills the picture: a muscle, a bone, or MUSCLE:origin, :insertion; empty: everything
   Real zoom = 1;
   Real arrow_scale = 0;  ///< m per N, of forces at muscles' ends, which one sees through then; 0: no arrows
+  CorrectionArrowSize corrections = {};  ///< of arrows for what constraints moved
 };
 
 /// anterior, posterior, lateral, medial, superior, inferior, and anteromedial ... posterolateral.
@@ -56,6 +58,8 @@ class RunPainter {
   Panel panel(int frame) const;
   /// Two corners of the room that the run takes from a frame on, as the camera sees it: of some frames.
   Points room(int first = 0) const;
+  /// m: the diagonal of what is framed, in the capture pose, as large as it is drawn.
+  Real extent() const;
 
   /// The least and largest value that panels have shown by color so far.
   std::pair<Real, Real> values_seen() const { return seen_; }
@@ -64,8 +68,13 @@ class RunPainter {
   Color color_of(Real value) const;
   bool shows_values() const { return options_.color_by != ColorBy::muscle && options_.color_by != ColorBy::natural; }
   /// Colors and arrows that tell values stand where these were measured.
-  bool evens() const { return !shows_values() && options_.arrow_scale == 0; }
-  bool framed(const std::string& name) const { return options_.focus.empty() || options_.focus == name; }
+  bool evens() const { return !shows_values() && !draws_arrows(); }
+  bool draws_arrows() const { return options_.arrow_scale > 0 || options_.corrections.times > 0; }
+  bool framed(const std::string& name) const { return focus_.empty() || focus_ == name; }
+  /// Of what is framed: all of a surface, or the end of a muscle that is in focus.
+  Points framed_points(const std::string& name, int frame) const;
+  std::vector<std::string> framed_names() const;
+  void find_focus();
   Points vertex_colors(std::size_t muscle, const TriangleMesh& mesh, int frame) const;
   PaintedLines fibers(std::size_t muscle, int frame) const;
   bool shown(const std::string& name) const;
@@ -74,6 +83,8 @@ class RunPainter {
   const RecordedRun& run_;
   RunPictureOptions options_;
   CaptionedFrames captions_;
+  std::string focus_;             ///< a muscle or bone; empty: everything
+  std::vector<Index> focus_end_;  ///< its vertices that are in focus; empty: all
   mutable std::pair<Real, Real> seen_{std::numeric_limits<Real>::infinity(), -std::numeric_limits<Real>::infinity()};
   std::vector<TriangleMesh> bones_;         ///< at rest
   std::set<std::string> solids_;            ///< bones and muscles that are closed

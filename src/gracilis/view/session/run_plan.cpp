@@ -44,7 +44,9 @@ RunPlan plan_run(const LoadedScene& loaded, const SessionOptions& options) {
         std::lower_bound(plan.recorded.begin(), plan.recorded.end(), plan.first_motion_frame) - plan.recorded.begin());
   }
   const auto size_as = [&](RunLayout layout) {
-    return estimated_size(loaded.scene, plan.frames, !options.without_fibers, layout);
+    RunSize size = estimated_size(loaded.scene, plan.frames, !options.without_fibers, layout);
+    if (options.corrections) size.bytes += correction_bytes(loaded.scene) * plan.frames;
+    return size;
   };
   const RunSize as_surfaces = size_as(RunLayout::surfaces);
   const bool is_large = as_surfaces.bytes > asking_bytes || as_surfaces.files > most_surface_files;

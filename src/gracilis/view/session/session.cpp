@@ -70,10 +70,8 @@ class Session {
     const ResumePoint* resume = folder_.resume_point() ? &*folder_.resume_point() : nullptr;
     if (resume) go_on_after(resume->last.number);
     RunEnd end = RunEnd::complete;
-    const int last = plan_.frames - 1;
-    const int first = resume ? resume->last.number : 0;
+    const int last = plan_.frames - 1, first = first_ = resume ? resume->last.number : 0;
     began_ = timed_from_ = std::chrono::steady_clock::now();
-    first_ = first;
     if (listener_.begin) listener_.begin(first, last);
     try {
       end = run_scene(loaded_.scene, poses_, *method_, resume, stop_,
@@ -83,7 +81,8 @@ class Session {
                         if (listener_.progress) listener_.progress(record.frame.number, last);
                         say_how_long(record.frame.number - first, last - record.frame.number);
                       },
-                      tracker_ ? &*tracker_ : nullptr, {options_.fiber_actions, options_.measures, plan_.recorded});
+                      tracker_ ? &*tracker_ : nullptr,
+                      {options_.fiber_actions, options_.measures, plan_.recorded, options_.corrections});
     } catch (const Interrupted&) {
       end = RunEnd::interrupted;
     } catch (const QualityError& error) {
@@ -110,6 +109,7 @@ class Session {
     for (const std::string& warning : overlap_warnings(overlaps_)) warn(warning);
     method_ =
         make_method(loaded_.scene, [this](const DistanceFieldSettings& settings) { return bone_fields(settings); });
+    if (options_.corrections) require_passes(*method_);
     if (options_.without_fibers) return;
     note("fibers");
     const Frame capture = capture_frame(loaded_.scene, capture_pose(loaded_.scene.bodies.size()), *method_);
@@ -200,10 +200,9 @@ class Session {
       detail(line);
       warnings_.push_back(std::move(line));
     }
-    const double seconds = seconds_passed();
     if (const int frames = folder_.frame_count() - 1 - first_; frames > 0)
-      note(fmt::format("time: {} for {}, {:.2f} s each", duration_text(seconds),
-                       counted(static_cast<std::size_t>(frames), "frame"), seconds / frames));
+      note(fmt::format("time: {} for {}, {:.2f} s each", duration_text(seconds_passed()),
+                       counted(static_cast<std::size_t>(frames), "frame"), seconds_passed() / frames));
     summary_.all_gates_met() ? note(summary_.gates_line()) : caution(summary_.gates_line());
     if (const std::string worst = summary_.worst_line(); !worst.empty()) caution(worst);
   }
@@ -249,6 +248,7 @@ class Session {
     manifest.every = options_.every;
     manifest.ramps = !options_.without_ramps;
     manifest.fibers = !options_.without_fibers;
+    manifest.corrections = options_.corrections;
     const CameraDirection camera = preview_camera(loaded_.scene, recorded_poses_);
     manifest.preview_looking = camera.looking;
     manifest.preview_up = camera.up;
@@ -336,6 +336,7 @@ SessionOptions as_begun(const LoadedScene& loaded, const SessionOptions& given) 
   options.every = std::max(1, manifest.value("every", 1));
   options.without_ramps = !manifest.value("ramps", true);
   options.without_fibers = !manifest.value("fibers", true);
+  options.corrections = manifest.value("corrections", false);
   options.measures =
       measure_level_called(manifest.value("metrics", name_of(MeasureLevel::full))).value_or(options.measures);
   return options;

@@ -23,12 +23,13 @@ struct SessionOptions {
   bool without_ramps = false;   ///< do not record the frames that lead from and to the capture pose
   bool without_fibers = false;  ///< do not follow fibers
   MeasureLevel measures = MeasureLevel::full;
-  std::optional<RunLayout> layout;   ///< none: compact where surfaces took more than asking_bytes (run_plan.hpp)
-  bool fiber_actions = false;        ///< also write moment arms and lines of action, where the method knows them
-  bool tables_only = false;          ///< record_tables (table_session.hpp) instead of a run
-  bool pictures = true;              ///< charts and a preview at the end
-  bool print_folder = true;          ///< its path to stdout, once the run is complete
-  bool json = false;                 ///< its summary to stdout instead, as JSON
+  std::optional<RunLayout> layout;  ///< none: compact where surfaces took more than asking_bytes (run_plan.hpp)
+  bool fiber_actions = false;       ///< also write moment arms and lines of action, where the method knows them
+  bool corrections = false;         ///< frames also tell what each kind of constraint moved, where the method has these
+  bool tables_only = false;         ///< record_tables (table_session.hpp) instead of a run
+  bool pictures = true;             ///< charts and a preview at the end
+  bool print_folder = true;         ///< its path to stdout, once the run is complete
+  bool json = false;                ///< its summary to stdout instead, as JSON
   std::vector<std::string> command;  ///< the command line, for the manifest
 };
 

@@ -7,32 +7,6 @@ namespace gracilis {
 
 static constexpr Real wanted_length = 0.015, shortest = 0.0005;  // m, as drawn
 
-Color arrow_color(ConstraintKind kind) {
-  switch (kind) {
-    case ConstraintKind::distance:
-      return Color(0.90, 0.62, 0.00);
-    case ConstraintKind::tension:
-      return Color(0.84, 0.37, 0.00);
-    case ConstraintKind::dihedral:
-      return Color(0.34, 0.71, 0.91);
-    case ConstraintKind::volume:
-      return Color(0.00, 0.62, 0.45);
-    case ConstraintKind::strain_limit:
-    case ConstraintKind::shape_limit:
-      return Color(0.80, 0.47, 0.65);
-    case ConstraintKind::muscle_contact:
-      return Color(0.00, 0.45, 0.70);
-    case ConstraintKind::slivers:
-      return Color(0.94, 0.89, 0.26);
-    case ConstraintKind::rest_proximities:
-      return Color(0.55, 0.55, 0.55);
-    case ConstraintKind::bone_contact:
-    case ConstraintKind::none:
-      break;
-  }
-  return Color::Constant(0.15);
-}
-
 int iteration_count(const ShownFrame& frame) {
   int last = -1;
   for (const ShownPass& pass : frame.passes) last = std::max(last, pass.iteration);

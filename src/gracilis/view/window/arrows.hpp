@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gracilis/dynamics/solver/constraint_table.hpp>
+#include <gracilis/view/pictures/correction_arrows.hpp>
 #include <gracilis/view/window/glyphs.hpp>
 #include <gracilis/view/window/shape_history.hpp>
 #include <gracilis/view/window/window_state.hpp>
@@ -8,9 +9,6 @@
 #include <vector>
 
 namespace gracilis {
-
-/// After Okabe and Ito (2008): told apart by color-blind readers, too.
-Color arrow_color(ConstraintKind kind);
 
 /// Where an arrow begins and what it stands for.
 struct Displacement {
