@@ -1,4 +1,5 @@
 #include "activations_command.hpp"
+#include "neighbors_command.hpp"
 
 #include <gracilis/anatomy/joints/joint_control.hpp>
 #include <gracilis/core/errors.hpp>
@@ -150,6 +151,7 @@ void add_activations_command(CLI::App& program, Command& chosen) {
       ->default_str("sum");
   joining->add_option("--forces", options->forces, "Forces for the weighted mean: a file or a folder");
   joining->callback([&chosen, options] { chosen = [options] { return join(*options); }; });
+  add_neighbors_command(*command, chosen);
 }
 
 }  // namespace gracilis

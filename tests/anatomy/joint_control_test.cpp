@@ -48,6 +48,22 @@ TEST(JointControl, a_sample_is_hit_within_a_tolerance) {
   EXPECT_EQ(at(JointControl(unit), 2.01), 0.5);
 }
 
+TEST(JointControl, tells_which_samples_it_asks) {
+  JointControlUnit unit = unit_of({5, 0, 2, 5}, {0.9, 0.1, 0.5, 0.7}, 1e-6);
+  unit.neighbors = 2;
+  const JointControl control(unit);
+  EXPECT_EQ(control.angles_deg().rows(), 3) << "two of the same angles are one";
+  const auto asked_at = [&](Real angle) {
+    std::vector<Real> angles;
+    for (const Index row : control.neighbors(Eigen::VectorXd::Constant(1, radians(angle))))
+      angles.push_back(std::round(control.angles_deg()(row, 0)));
+    return angles;
+  };
+  EXPECT_EQ(asked_at(4), (std::vector<Real>{5, 2}));
+  EXPECT_EQ(asked_at(-9), (std::vector<Real>{0, 2}));
+  EXPECT_EQ(asked_at(2), (std::vector<Real>{2})) << "one that is hit is the answer";
+}
+
 TEST(JointControl, asks_as_many_samples_as_it_is_told) {
   JointControlUnit unit = unit_of({0, 2, 5}, {0.1, 0.5, 0.9}, 1e-9);
   unit.neighbors = 2;

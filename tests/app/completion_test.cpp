@@ -84,7 +84,7 @@ TEST_F(Completion, commands_and_options_come_from_the_tables_of_help) {
   EXPECT_THAT(words("gracilis ru"), ElementsAre("run"));
   EXPECT_THAT(words("gracilis "), Contains("static-optimization"));
   EXPECT_THAT(words("gracilis "), Not(Contains("complete")));
-  EXPECT_THAT(words("gracilis activations "), ElementsAre("join"));
+  EXPECT_THAT(words("gracilis activations "), ElementsAre("join", "neighbors"));
   EXPECT_THAT(words("gracilis run --no-"), ElementsAre("--no-ramp", "--no-fibers", "--no-pictures"));
   EXPECT_THAT(words("gracilis run leg.toml --metrics "), ElementsAre("full", "light", "none"));
   EXPECT_THAT(words("gracilis run leg.toml --metrics=l"), ElementsAre("--metrics=light"));

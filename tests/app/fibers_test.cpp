@@ -235,5 +235,35 @@ TEST_F(FiberCommands, activations_join_writes_samples_and_lists_problems) {
       3);
 }
 
+TEST_F(FiberCommands, activations_neighbors_shows_which_samples_are_asked) {
+  const std::string head = "x\nversion=1\nnRows=4\nnColumns=3\ninDegrees=yes\nendheader\n";
+  const std::string samples =
+      folder
+          .write("samples.sto",
+                 head + "time\tflexion\tturn\tmuscle\n0\t0\t0\t0.1\n1\t10\t0\t0.2\n2\t0\t10\t0.3\n3\t10\t10\t0.4\n")
+          .string();
+  const std::string motion =
+      folder.write("motion.mot", head + "time\tturn\tflexion\tother\n0\t0\t0\t7\n1\t0\t2\t7\n2\t0\t4\t7\n3\t0\t8\t7\n")
+          .string();
+  const std::string out = folder.path("neighbors").string();
+  const auto content = [&](const std::string& name) {
+    std::stringstream text;
+    text << std::ifstream(folder.path(name)).rdbuf();
+    return text.str();
+  };
+  const std::string command = "activations neighbors " + samples + " " + motion + " --neighbors 2 --out " + out;
+  const ProgramResult result = run_program(command);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("2 of 4 samples are asked in 4 poses"));
+  // The first pose is a sample's own: no other one is asked there.
+  EXPECT_EQ(content("neighbors/neighbors.csv"), "flexion_deg,turn_deg,poses\n0,0,4\n0,10,0\n10,0,3\n10,10,0\n");
+  EXPECT_THAT(content("neighbors/flexion_turn.svg"), HasSubstr("2 of 4 samples are asked in 4 poses"));
+  const nlohmann::json told = nlohmann::json::parse(run_program(command + " --coord flexion --json").out);
+  EXPECT_EQ(told.at("samples"), 2);
+  EXPECT_EQ(told.at("asked"), 2);
+  EXPECT_TRUE(std::filesystem::exists(out + "/flexion.svg"));
+  EXPECT_THAT(run_program(command + " --coord flexoin").err, HasSubstr("has no coordinate 'flexoin'"));
+}
+
 }  // namespace
 }  // namespace gracilis

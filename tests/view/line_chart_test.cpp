@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 namespace gracilis {
@@ -39,6 +40,12 @@ TEST(LineChart, named_lines_of_one_color_are_told_apart_by_their_dashes) {
                                    {"third", {0, 1}, {4, 4}, red}}});
   EXPECT_EQ(count(svg, "stroke-dasharray"), 4) << "two lines, and two in the legend";
   EXPECT_EQ(count(svg, "stroke-dasharray=\"7 3\""), 2);
+}
+
+TEST(LineChart, draws_dots_in_place_of_a_line) {
+  const std::string svg = to_svg({"", "", "", {{"a", {0, 1, 2}, {0, std::nan(""), 2}, Color::Zero(), 1, 3}}});
+  EXPECT_EQ(count(svg, "<circle"), 2);
+  EXPECT_EQ(count(svg, "<polyline"), 0);
 }
 
 TEST(LineChart, breaks_a_line_where_a_value_is_not_finite_and_draws_none_of_nothing) {

@@ -35,6 +35,13 @@ Neighbors nearest(const KdTree& tree, const Eigen::VectorXd& q, std::size_t coun
   return found;
 }
 
+/// Those whose activations count at q (degrees): the nearest, at most `count`, or the one that is hit.
+Neighbors asked(const KdTree& tree, const Eigen::VectorXd& q, std::size_t count, Real hit_deg) {
+  Neighbors found = nearest(tree, q, std::min(count, tree.kdtree_get_point_count()));
+  if (found.squares[0] <= hit_deg * hit_deg) found.rows.resize(1), found.squares.resize(1);
+  return found;
+}
+
 /// Rows with the same angles become one with the mean of their activations.
 void merge_repeated(Samples& angles, Eigen::MatrixXd& activations) {
   std::map<std::vector<Real>, std::pair<Eigen::VectorXd, int>> merged;
@@ -88,10 +95,16 @@ JointControl& JointControl::operator=(JointControl&&) noexcept = default;
 
 Index JointControl::sample_count() const { return static_cast<Index>(tree_->angles.rows()); }
 
+std::vector<Index> JointControl::neighbors(const Eigen::VectorXd& angles) const {
+  const Neighbors found = asked(*tree_->index, angles * degrees(1), neighbors_, hit_deg_);
+  return {found.rows.begin(), found.rows.end()};
+}
+
+const Eigen::MatrixXd& JointControl::angles_deg() const { return tree_->angles; }
+
 Eigen::VectorXd JointControl::at(const Eigen::VectorXd& angles) const {
-  const auto count = std::min(neighbors_, static_cast<std::size_t>(tree_->angles.rows()));
-  const Neighbors found = nearest(*tree_->index, angles * degrees(1), count);
-  if (found.squares[0] <= hit_deg_ * hit_deg_) return tree_->activations.row(found.rows[0]);
+  const Neighbors found = asked(*tree_->index, angles * degrees(1), neighbors_, hit_deg_);
+  if (found.rows.size() == 1) return tree_->activations.row(found.rows[0]);
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(tree_->activations.cols());
   Real total = 0;
   for (std::size_t i = 0; i < found.rows.size(); ++i) {

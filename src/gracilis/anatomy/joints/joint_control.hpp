@@ -25,6 +25,11 @@ class JointControl {
   /// Activations of the governed muscles, in the unit's order, at angles (rad) in the order of the unit's coordinates.
   Eigen::VectorXd at(const Eigen::VectorXd& angles) const;
 
+  /// The samples that are asked there, nearest first, as rows of angles_deg(); one where it is hit.
+  std::vector<Index> neighbors(const Eigen::VectorXd& angles) const;
+  /// The samples' angles, one per row, degrees; those of the same angles are one.
+  const Eigen::MatrixXd& angles_deg() const;
+
   /// F, 1/deg².
   Real falloff() const { return falloff_; }
   Index sample_count() const;  ///< those of the same angles are one

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace gracilis {
@@ -60,6 +61,17 @@ std::string dashes(const std::vector<ChartSeries>& all, std::size_t number) {
       std::count_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(number),
                     [&](const ChartSeries& other) { return !other.name.empty() && other.color == all[number].color; });
   return repeats == 0 ? "" : repeats == 1 ? " stroke-dasharray=\"7 3\"" : " stroke-dasharray=\"2 2\"";
+}
+
+/// A dot wherever both numbers are finite.
+std::string dots_of(const ChartSeries& series, const std::function<Real(Real)>& x_of,
+                    const std::function<Real(Real)>& y_of) {
+  std::string dots;
+  for (std::size_t i = 0; i < std::min(series.x.size(), series.y.size()); ++i)
+    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i]))
+      dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:g}\" fill=\"{}\"/>\n", x_of(series.x[i]),
+                          y_of(series.y[i]), series.dots, hex(series.color));
+  return dots;
 }
 
 std::string text_at(Real x, Real y, const std::string& anchor, int size, const std::string& text,
@@ -132,6 +144,10 @@ std::string to_svg(const LineChart& chart) {
 
   for (std::size_t s = 0; s < chart.series.size(); ++s) {
     const ChartSeries& series = chart.series[s];
+    if (series.dots > 0) {
+      svg += dots_of(series, x_of, y_of);
+      continue;
+    }
     std::string points;
     const auto flush = [&] {
       if (!points.empty())

@@ -14,6 +14,7 @@ struct ChartSeries {
   std::vector<Real> x, y;
   Color color = Color::Zero();
   Real width = 1;  ///< pixels
+  Real dots = 0;   ///< pixels, the radius of dots in place of a line; 0: a line
 };
 
 /// Lines over a common axis, as people draw them in this field.
