@@ -63,9 +63,8 @@ static std::string sentence(const nlohmann::ordered_json& told) {
       1e4 * value("physiological_cross_section_m2"), 100 * value("share_outside"), 1e3 * value("farthest_outside_m"));
 }
 
-/// Writes the fibers carried onto the surface; returns how well they cover it, by both ways to carry them.
-static nlohmann::ordered_json write_surface_fibers(const Muscle& muscle, const Polylines& fibers,
-                                                   const std::filesystem::path& out) {
+/// How well the fibers carried onto the surface cover it, by both ways to carry them.
+static nlohmann::ordered_json surface_coverage(const Muscle& muscle, const Polylines& fibers) {
   nlohmann::ordered_json told = nlohmann::json::array();
   if (fibers.count() == 0) return told;
   for (const SurfacePaths kind : {SurfacePaths::along_fibers, SurfacePaths::nearest_joined}) {
@@ -76,17 +75,18 @@ static nlohmann::ordered_json write_surface_fibers(const Muscle& muscle, const P
                     {"segments", found.segments.size()},
                     {"share_rejected", Real(found.rejected) / Real(std::max<std::size_t>(edges, 1))},
                     {"share_covered", found.coverage}});
-    if (published) continue;
-    std::vector<Points> lines;
-    LineScalars shared{"fibers", {}};
-    for (const FiberSegment& segment : found.segments) {
-      lines.emplace_back(3, 2);
-      lines.back() << muscle.surface.vertices.col(segment.a), muscle.surface.vertices.col(segment.b);
-      shared.values.push_back(segment.fibers);
-    }
-    write_polylines(out / (muscle.name + "_surface_fibers.vtp"), join(lines), {shared});
   }
   return told;
+}
+
+/// Those along which the muscle contracts by its settings; returns them as lines.
+static Polylines write_surface_fibers(const Muscle& muscle, const std::filesystem::path& out) {
+  const SurfaceFibers found = contracting_fibers(muscle);
+  const Polylines lines = segment_lines(found, muscle.surface.vertices);
+  LineScalars shared{"fibers", {}};
+  for (const FiberSegment& segment : found.segments) shared.values.push_back(segment.fibers);
+  if (lines.count() > 0) write_polylines(out / (muscle.name + "_surface_fibers.vtp"), lines, {shared});
+  return lines;
 }
 
 static void print(const nlohmann::ordered_json& told) {
@@ -99,12 +99,14 @@ static void print(const nlohmann::ordered_json& told) {
         100 * carried["share_rejected"].get<Real>(), 100 * carried["share_covered"].get<Real>());
 }
 
-static void draw(const Scene& scene, const std::vector<Polylines>& fibers, const std::filesystem::path& out) {
+/// NAME.png of all muscles, and MUSCLE_NAME.png of each.
+static void draw(const Scene& scene, const std::vector<Polylines>& fibers, const std::filesystem::path& out,
+                 const std::string& name) {
   try {
-    render_picture(all_fibers_picture(scene, fibers), out / "fibers.png");
+    render_picture(all_fibers_picture(scene, fibers), out / (name + ".png"));
     for (std::size_t i = 0; i < scene.muscles.size(); ++i) {
       render_picture(muscle_fiber_picture(scene.muscles[i], fibers[i], muscle_color(scene.muscles[i].name)),
-                     out / (scene.muscles[i].name + "_fibers.png"));
+                     out / (scene.muscles[i].name + "_" + name + ".png"));
     }
   } catch (const Error& error) {
     if (error.code() != ExitCode::unsupported) throw;
@@ -116,7 +118,7 @@ static int write_fibers(const LoadedScene& loaded, const std::filesystem::path& 
   for (const std::string& warning : loaded.warnings) spdlog::warn("{}", warning);
   std::error_code error;
   std::filesystem::create_directories(out, error);
-  std::vector<Polylines> fibers;
+  std::vector<Polylines> fibers, on_surface;
   nlohmann::ordered_json all = nlohmann::json::array();
   for (const Muscle& muscle : loaded.scene.muscles) {
     fibers.push_back(fibers_of(muscle));
@@ -126,11 +128,13 @@ static int write_fibers(const LoadedScene& loaded, const std::filesystem::path& 
                      {"origin_pennation_deg", in_degrees(measures.origin_pennation)},
                      {"insertion_pennation_deg", in_degrees(measures.insertion_pennation)}});
     all.push_back(description(muscle, fibers.back(), measures));
-    all.back()["on_surface"] = write_surface_fibers(muscle, fibers.back(), out);
+    all.back()["on_surface"] = surface_coverage(muscle, fibers.back());
+    on_surface.push_back(write_surface_fibers(muscle, out));
     if (!as_json) print(all.back());
   }
   if (as_json) fmt::print("{}", json_text(all));
-  draw(loaded.scene, fibers, out);
+  draw(loaded.scene, fibers, out, "fibers");
+  draw(loaded.scene, on_surface, out, "surface_fibers");
   return static_cast<int>(ExitCode::done);
 }
 

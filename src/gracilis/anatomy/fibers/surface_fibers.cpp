@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/fibers/surface_fibers.hpp>
 
+#include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
@@ -191,6 +192,22 @@ SurfaceFibers surface_fibers_from_lines(const Muscle& muscle, const Polylines& l
   collect_segments(x, nullptr, result);
   result.coverage = coverage(muscle, topology, result.segments);
   return result;
+}
+
+SurfaceFibers contracting_fibers(const Muscle& muscle) {
+  if (muscle.given_surface_fibers.count() > 0) return surface_fibers_from_lines(muscle, muscle.given_surface_fibers);
+  Muscle finer = muscle;
+  finer.fibers.segments = muscle.contraction.segments;
+  return surface_fibers(muscle, fibers_of(finer), muscle.contraction.paths, muscle.contraction.reject_across);
+}
+
+Polylines segment_lines(const SurfaceFibers& fibers, const Points& vertices) {
+  std::vector<Points> lines;
+  for (const FiberSegment& segment : fibers.segments) {
+    lines.emplace_back(3, 2);
+    lines.back() << vertices.col(segment.a), vertices.col(segment.b);
+  }
+  return join(lines);
 }
 
 Points directions_of_fibers(const Polylines& fibers, const Points& places) {

@@ -34,6 +34,13 @@ SurfaceFibers surface_fibers(const Muscle& muscle, const Polylines& fibers,
 /// Fibers drawn by hand on the surface: their points' nearest vertices, joined by shortest ways; no edge is rejected.
 SurfaceFibers surface_fibers_from_lines(const Muscle& muscle, const Polylines& lines);
 
+/// The segments along which a muscle contracts by its settings unless all edges pull (`spread`): of lines drawn by hand
+/// where there are any, or of its fibers in as many pieces as the settings say.
+SurfaceFibers contracting_fibers(const Muscle& muscle);
+
+/// The segments as lines of two points each.
+Polylines segment_lines(const SurfaceFibers& fibers, const Points& vertices);
+
 /// Which way fibers run at places (3 × k): the weighted mean direction of the fiber pieces nearest to each, unit; zero
 /// where they cancel. Precondition: there is a fiber.
 Points directions_of_fibers(const Polylines& fibers, const Points& places);

@@ -26,10 +26,7 @@ struct Pull {
 
 /// The lines that say how the muscle contracts.
 Polylines contracting_lines(const Muscle& muscle) {
-  if (muscle.given_surface_fibers.count() > 0) return muscle.given_surface_fibers;
-  Muscle finer = muscle;
-  if (!muscle.contraction.spread) finer.fibers.segments = muscle.contraction.segments;
-  return fibers_of(finer);
+  return muscle.given_surface_fibers.count() > 0 ? muscle.given_surface_fibers : fibers_of(muscle);
 }
 
 std::vector<Index> attached_particles(const PreparedMuscle& muscle) {
@@ -43,6 +40,7 @@ std::vector<Index> attached_particles(const PreparedMuscle& muscle) {
 /// the fibers: over all directions in a plane 3 c² c⁴ is 0.94 on average, so the tension is that of the strips within a
 /// few percent.
 std::vector<Pull> spread_pulls(const PreparedMuscle& muscle, const MeshTopology& topology, const Polylines& lines) {
+  if (lines.count() == 0) return {};
   Points middles(3, static_cast<Index>(topology.edges.size()));
   for (std::size_t e = 0; e < topology.edges.size(); ++e)
     middles.col(static_cast<Index>(e)) =
@@ -75,11 +73,8 @@ void take_strips(const PreparedMuscle& muscle, std::vector<Pull>& pulls) {
 }
 
 /// The segments of the surface fibers.
-std::vector<Pull> segment_pulls(const Muscle& muscle, const PreparedMuscle& prepared, const Polylines& lines) {
-  const SurfaceFibers fibers =
-      muscle.given_surface_fibers.count() > 0
-          ? surface_fibers_from_lines(muscle, lines)
-          : surface_fibers(muscle, lines, muscle.contraction.paths, muscle.contraction.reject_across);
+std::vector<Pull> segment_pulls(const Muscle& muscle, const PreparedMuscle& prepared) {
+  const SurfaceFibers fibers = contracting_fibers(muscle);
   std::vector<Index> particle_of(prepared.order.size());
   for (std::size_t p = 0; p < prepared.order.size(); ++p)
     particle_of[static_cast<std::size_t>(prepared.order[p])] = static_cast<Index>(p);
@@ -94,11 +89,11 @@ std::vector<Pull> segment_pulls(const Muscle& muscle, const PreparedMuscle& prep
 }  // namespace
 
 void build_contractions(const Muscle& muscle, const MeshTopology& topology, PreparedMuscle& prepared) {
-  const Polylines lines = contracting_lines(muscle);
-  if (lines.count() == 0) return;
   const bool by_area = muscle.contraction.spread || muscle.contraction.area_scaling;
-  const std::vector<Pull> pulls =
-      muscle.contraction.spread ? spread_pulls(prepared, topology, lines) : segment_pulls(muscle, prepared, lines);
+  const std::vector<Pull> pulls = muscle.contraction.spread
+                                      ? spread_pulls(prepared, topology, contracting_lines(muscle))
+                                      : segment_pulls(muscle, prepared);
+  if (pulls.empty()) return;
   std::vector<Real> belly =
       belly_shares(prepared.rest, topology, attached_particles(prepared), prepared.settings.tendon_length);
   for (std::size_t p = 0; p < prepared.belly.size(); ++p) belly[p] *= prepared.belly[p];
