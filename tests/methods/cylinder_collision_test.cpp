@@ -133,14 +133,27 @@ TEST(CylinderMethod, what_did_not_come_free_is_told_and_its_time_counted) {
   EXPECT_EQ(metric(report.muscles[0].metrics, "unresolved_transversals"), 0);
   EXPECT_GT(metric(report.muscles[0].metrics, "collision_rounds"), 0);
   EXPECT_GT(report.muscles[0].milliseconds, 0);
-  // The press in the middle of the rod, from side to side: the section cannot leave it within 20 rounds.
+  // The press in the middle of the rod, from side to side: the section cannot leave it.
   Scene wide = scene;
+  wide.method.settings["transversal_rounds"] = 20;
   wide.bones[1].surface = shapes::box({-0.06, -0.05, 0.03}, {0.06, 0.05, 0.05});
   const auto caught = make_cylinder_method(wide);
   wide.transversals[0].bones = {1};
   report = caught->advance(pose_at(wide, std::vector<Real>{0.055}), usual_time_step);
   EXPECT_EQ(metric(report.muscles[0].metrics, "unresolved_transversals"), 1);
   EXPECT_EQ(metric(report.muscles[0].metrics, "collision_rounds"), 20);
+}
+
+TEST(CylinderMethod, a_section_that_lies_deep_takes_more_rounds_to_come_free) {
+  Scene scene = pressed_scene();
+  const auto unresolved_in = [&](int rounds) {
+    scene.method.settings["transversal_rounds"] = rounds;
+    const StepReport report =
+        make_cylinder_method(scene)->advance(pose_at(scene, std::vector<Real>{-0.0205}), usual_time_step);
+    return metric(report.muscles[0].metrics, "unresolved_transversals");
+  };
+  EXPECT_EQ(unresolved_in(20), 1);
+  EXPECT_EQ(unresolved_in(60), 0);
 }
 
 TEST(CylinderMethod, other_methods_refuse_transversals) {

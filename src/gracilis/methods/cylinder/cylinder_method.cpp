@@ -15,6 +15,20 @@
 
 namespace gracilis {
 
+struct CylinderSettings {
+  int transversal_rounds = 60;
+};
+
+template <>
+std::span<const Setting<CylinderSettings>> setting_table() {
+  using S = CylinderSettings;
+  static const Setting<S> table[] = {
+      {"transversal_rounds", &S::transversal_rounds, "", 1, 10000,
+       "Rounds in which tagged sections give way in a frame, at most; a section that lies deep takes some 40.", true},
+  };
+  return table;
+}
+
 namespace {
 
 /// What stays the same of one muscle with an action line.
@@ -104,8 +118,14 @@ namespace {
 class Resolution {
  public:
   Resolution(const std::vector<Transversal>& transversals, const std::vector<Bone>& bones,
-             const std::vector<TriangleTree>& hits, const Pose& pose, std::vector<CylinderShape>& shapes)
-      : transversals_(transversals), bones_(bones), hits_(hits), pose_(pose), shapes_(shapes) {
+             const std::vector<TriangleTree>& hits, const Pose& pose, int most_rounds,
+             std::vector<CylinderShape>& shapes)
+      : transversals_(transversals),
+        bones_(bones),
+        hits_(hits),
+        pose_(pose),
+        most_rounds_(most_rounds),
+        shapes_(shapes) {
     for (const Transversal& each : transversals) {
       const SectionRings& rings = rings_of(each.moved);
       Held state{section_area(rings, each.moved.section), Eigen::VectorXd(rings.rays),
@@ -116,11 +136,11 @@ class Resolution {
     }
   }
 
-  /// At most 20 rounds. Adds the time to the reports of the muscles that give way, and to all what did not come free.
+  /// Adds the time to the reports of the muscles that give way, and to all what did not come free.
   void run(std::vector<MuscleReport>& reports) {
     std::vector<int> unresolved(shapes_.size(), 0), rounds(shapes_.size(), 0);
     bool any = true;
-    for (int round = 0; round < most_rounds && any; ++round) {
+    for (int round = 0; round < most_rounds_ && any; ++round) {
       any = false;
       for (std::size_t i = 0; i < transversals_.size(); ++i) {
         const auto muscle = static_cast<std::size_t>(transversals_[i].moved.muscle);
@@ -144,8 +164,6 @@ class Resolution {
   }
 
  private:
-  static constexpr int most_rounds = 20;
-
   struct Held {
     Real area = 0;
     Eigen::VectorXd radii;
@@ -183,13 +201,17 @@ class Resolution {
   const std::vector<Bone>& bones_;
   const std::vector<TriangleTree>& hits_;
   const Pose& pose_;
+  int most_rounds_;
   std::vector<CylinderShape>& shapes_;
   std::vector<Held> held_;
 };
 
 class CylinderMethod final : public DeformationMethod {
  public:
-  explicit CylinderMethod(const Scene& scene) : lines_(scene.muscles), transversals_(scene.transversals) {
+  explicit CylinderMethod(const Scene& scene)
+      : lines_(scene.muscles),
+        transversals_(scene.transversals),
+        settings_(with_values(CylinderSettings{}, scene.method.settings)) {
     const Pose capture = capture_pose(scene.bodies.size());
     if (!transversals_.empty()) bones_ = scene.bones;
     for (const Bone& bone : bones_) hits_.emplace_back(bone.surface);
@@ -227,7 +249,7 @@ class CylinderMethod final : public DeformationMethod {
         report.muscles[m].milliseconds = taken.count();
       }
     });
-    Resolution(transversals_, bones_, hits_, pose, shapes).run(report.muscles);
+    Resolution(transversals_, bones_, hits_, pose, settings_.transversal_rounds, shapes).run(report.muscles);
     for (std::size_t m = 0; m < muscles_.size(); ++m) {
       if (!surfaces_[m]) next[m] = shapes[m].vertices();
       if (!next[m].allFinite()) throw QualityError("muscle " + lines_[m].name + ": a section is not finite");
@@ -248,6 +270,7 @@ class CylinderMethod final : public DeformationMethod {
  private:
   std::vector<Muscle> lines_;  ///< the scene's, which need not outlive this
   std::vector<Transversal> transversals_;
+  CylinderSettings settings_;
   std::vector<Bone> bones_;
   std::vector<TriangleTree> hits_;                        ///< of each bone
   std::vector<CylinderMuscle> muscles_;                   ///< with an action line
@@ -261,6 +284,7 @@ class CylinderMethod final : public DeformationMethod {
 MethodEntry cylinder_entry() {
   return {.name = "cylinder",
           .meaning = "sections across an action line, or across the middle of a surface, without a solver",
+          .settings = describe_settings<CylinderSettings>(),
           .metrics = {{"collision_rounds", 0}, {"unresolved_transversals", 0, "transversals that did not come free"}},
           .make = [](const Scene& scene, const BoneFieldSource&) { return make_cylinder_method(scene); },
           .takes_transversals = true};
