@@ -111,6 +111,10 @@ TEST(MassSpring, springs_bring_the_lengths_that_the_motion_changed_back) {
     const StepReport report = method->advance(flexed(scene, radians(45)), usual_time_step);
     changes.push_back(metric(report.muscles[0].metrics, "length_changes_mm"));
     EXPECT_EQ(metric(report.muscles[0].metrics, "iterations"), iterations);
+    const Real particles = metric(report.muscles[0].metrics, "particles");
+    EXPECT_EQ(particles, 64 * 20);
+    EXPECT_GT(metric(report.muscles[0].metrics, "boundary_particles"), 0);
+    EXPECT_LT(metric(report.muscles[0].metrics, "boundary_particles"), particles) << "inner fibers meet nobody";
   }
   EXPECT_LT(changes[1], 0.8 * changes[0]);
   EXPECT_LT(changes[2], changes[1]) << "what is left is the lengthened muscle's";

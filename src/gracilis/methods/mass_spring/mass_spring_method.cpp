@@ -171,7 +171,9 @@ class MassSpringMethod final : public DeformationMethod {
             {"verlet_step_s", done.mean_step},
             {"contacts", static_cast<Real>(collisions[m])},
             {"displacement_mm", 1000 * muscles[m].displacement},
-            {"length_changes_mm", 1000 * mass_spring::length_changes(models_[m].net, states_[m].particles)}}});
+            {"length_changes_mm", 1000 * mass_spring::length_changes(models_[m].net, states_[m].particles)},
+            {"particles", static_cast<Real>(models_[m].radii.size())},
+            {"boundary_particles", static_cast<Real>(mass_spring::boundary_particles(models_[m]))}}});
     return report;
   }
 
@@ -237,7 +239,9 @@ MethodEntry mass_spring_entry() {
                       {"verlet_step_s", 4},
                       {"contacts", 0},
                       {"displacement_mm", 6},
-                      {"length_changes_mm", 3}},
+                      {"length_changes_mm", 3},
+                      {"particles", 0},
+                      {"boundary_particles", 0}},
           .validate = problems_of,
           .make =
               [](const Scene& scene, const BoneFieldSource& fields) {

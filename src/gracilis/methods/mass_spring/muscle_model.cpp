@@ -90,6 +90,11 @@ MuscleModel muscle_model(const Scene& scene, const Muscle& muscle, const std::ve
   return model;
 }
 
+Index boundary_particles(const MuscleModel& model) {
+  return static_cast<Index>(
+      std::count_if(model.radii.begin(), model.radii.end(), [](Real radius) { return radius > 0; }));
+}
+
 MuscleSpheres muscle_spheres(const MuscleModel& model) {
   MuscleSpheres spheres;
   for (Index p = 0; p < static_cast<Index>(model.radii.size()); ++p) {

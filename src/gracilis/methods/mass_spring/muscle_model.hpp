@@ -37,6 +37,9 @@ MuscleModel muscle_model(const Scene& scene, const Muscle& muscle, const std::ve
 /// The spheres of the particles that have a radius.
 MuscleSpheres muscle_spheres(const MuscleModel& model);
 
+/// How many particles have a sphere: those that take part in collisions.
+Index boundary_particles(const MuscleModel& model);
+
 /// How every particle is carried from the capture pose to this one, before springs move it.
 std::vector<RigidTransform> particle_motions(const MuscleModel& model, const Pose& pose);
 
