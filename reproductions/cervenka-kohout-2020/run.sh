@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What Cervenka and Kohout (2020) showed of position based dynamics: 1 rad of hip flexion in 100 frames, back in 100, 100 of rest, for
-# four muscles of the cadaver, and a box squeezed between two plates. Two minutes of processor time.
+# four muscles of the cadaver, and a box squeezed between two plates; Figures 1 to 21 and Table 1. Three minutes of processor time.
 #   reproductions/cervenka-kohout-2020/run.sh [--thin] [--data FOLDER] [--out FOLDER] [--set KEY=VALUE ...]
 # Leaves OUT/curves/MUSCLE.csv (a row per frame), OUT/summary.csv (published beside ours), the plots of both runs, and OUT/index.html.
 # --thin: the box alone.
@@ -78,6 +78,13 @@ ours() {
 } >"$out/summary.csv"
 column -s, -t "$out/summary.csv" 2>/dev/null || cat "$out/summary.csv"
 
+if [[ -z $thin ]]; then
+  if [[ -d $data/lhdl-hip ]]; then
+    quietly "$out/fibers.txt" "$gracilis" fibers "$root/scenes/lhdl_hip/cervenka_kohout_2020.toml" --data "$data" --only gluteus_maximus_r --out "$out/fibers"
+    quietly "$out/surface_fibers.txt" "$gracilis" fibers "$root/scenes/lhdl_hip/superficial_fibers.toml" --data "$data" --out "$out/surface_fibers"
+  fi
+  python3 -B "$root/reproductions/family/pictures.py" "$gracilis" "$out" "$here"
+fi
 python3 -B "$here/make.py" "$out" "$here"
 echo "$out/index.html"
 

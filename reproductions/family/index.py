@@ -8,11 +8,11 @@ import sys
 from publication import STYLE
 
 
-def figure(name, each, command):
+def figure(name, each):
     kind = "svg" if os.path.exists(os.path.join(OUT, name, "figures", each["name"] + ".svg")) else "png"
     return (f'<figure><a href="{name}/index.html"><img alt="{html.escape(each["title"])}" '
             f'src="{name}/figures/{each["name"]}.{kind}"></a><figcaption><b>{html.escape(each["title"])}</b>'
-            f'<code>{html.escape(command)}</code></figcaption></figure>')
+            f'<code>{html.escape(each["command"])}</code></figcaption></figure>')
 
 
 def section(name):
@@ -21,7 +21,7 @@ def section(name):
         return f"<h2>{name}</h2><p>Not made: its data are not here, or it failed.</p>"
     with open(path) as file:
         made = json.load(file)
-    drawn = "".join(figure(name, each, made["command"]) for each in made["figures"])
+    drawn = "".join(figure(name, each) for each in made["figures"])
     return (f'<h2><a href="{name}/index.html">{html.escape(made["title"])}</a></h2>'
             f'<div class="figures thumbs">{drawn}</div>')
 

@@ -4,13 +4,16 @@ import csv
 import html
 import json
 import os
+import re
+import struct
 
 import charts
+import pictures
 
 STYLE = """body{font:15px/1.5 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}
 .figures{display:flex;flex-wrap:wrap;gap:18px}figure{margin:0;max-width:100%}figcaption{max-width:380px;font-size:13px}
 figcaption b{display:block;font-size:15px}svg,img{background:#fff;max-width:100%;height:auto}
-figure img{width:380px}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;border-bottom:1px solid #ddd;text-align:right}
+figure img{width:380px}.broad,.broad img{width:100%}.broad figcaption{max-width:none}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;border-bottom:1px solid #ddd;text-align:right}
 td.word,th.word{text-align:left}code{background:#f4f4f4;padding:0 3px}.thumbs figure{width:210px}.thumbs svg,.thumbs img{width:210px;height:auto}
 .key{display:inline-block;width:22px;height:4px;margin:0 5px 3px 14px}"""
 COLUMNS = ["source", "quantity", "unit", "published", "ours", "ratio", "remark"]
@@ -63,16 +66,40 @@ def table(rows, columns=None):
     return f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
 
 
+def write_curves(path, series, x_label, y_label):
+    """The points of a chart; of a band the lower ones as "CURVE (low)" and the upper ones as "CURVE (high)"."""
+    with open(path, "w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["curve", x_label, y_label])
+        for s in series:
+            curves = {f"{s.name} (low)": s.points, f"{s.name} (high)": s.band} if s.band else {s.name: s.points}
+            for curve, points in curves.items():
+                writer.writerows([curve.strip(), f"{x:.6g}", f"{y:.6g}"] for x, y in points)
+
+
 def list_figures(out, title, command, drawn):
-    """OUT/figures/NUMBER.svg of SVGs by their titles, and OUT/figures.json, which the index page reads."""
+    """OUT/figures/NUMBER.svg of charts (SVG, series, labels of both axes) by their titles, NUMBER.csv with their points, and OUT/figures.json,
+    which the index page reads."""
     os.makedirs(os.path.join(out, "figures"), exist_ok=True)
     figures = []
-    for number, (name, svg) in enumerate(drawn.items(), 1):
-        figures.append({"name": f"{number:02}", "title": name})
+    for number, (name, (svg, *curves)) in enumerate(drawn.items(), 1):
+        write_curves(os.path.join(out, "figures", f"{number:02}.csv"), *curves)
+        figures.append({"name": f"{number:02}", "title": name, "command": command})
         with open(os.path.join(out, "figures", f"{number:02}.svg"), "w") as file:
             file.write(svg)
     with open(os.path.join(out, "figures.json"), "w") as file:
         json.dump({"title": title, "command": command, "figures": figures}, file)
+
+
+def broad(drawn):
+    """A row of its own for a picture of many panels."""
+    return ' class="broad"' if drawn.startswith('<img class="broad"') else ""
+
+
+def figure_order(title):
+    """By the publication's first figure that the title names, those of appendices behind; what names none comes last."""
+    found = re.search(r"Figures? ([A-Z]?)\.?(\d+)(?:\.(\d+))?", title)
+    return (found[1] or " ", int(found[2]), int(found[3] or 0)) if found else ("~", 0, 0)
 
 
 class Page:
@@ -82,24 +109,17 @@ class Page:
         self.out, self.title, self.about, self.command = out, title, about, command
         self.figures, self.rows, self.missing = [], [], []
 
-    def chart(self, name, title, remark, series, x_label, y_label, **more):
-        """A chart, OUT/figures/NAME.svg, and its points, NAME.csv (NAME_field.csv: what lies under them); of a band the lower
-        ones as "CURVE (low)" and the upper ones as "CURVE (high)"."""
+    def chart(self, name, title, remark, series, x_label, y_label, command="", **more):
+        """A chart, OUT/figures/NAME.svg, and its points, NAME.csv (NAME_field.csv: what lies under them). `command`: what made its numbers, where that is not the page's."""
         svg = charts.chart(title, series, x_label, y_label, **more)
         if not svg:
             return
         self._write(f"{name}.svg", svg)
-        with open(self._path(f"{name}.csv"), "w", newline="") as file:
-            writer = csv.writer(file)
-            writer.writerow(["curve", x_label, y_label])
-            for s in series:
-                curves = {f"{s.name} (low)": s.points, f"{s.name} (high)": s.band} if s.band else {s.name: s.points}
-                for curve, points in curves.items():
-                    writer.writerows([curve.strip(), f"{x:.6g}", f"{y:.6g}"] for x, y in points)
+        write_curves(self._path(f"{name}.csv"), series, x_label, y_label)
         field = more.get("field")
         if field:
             self._field(name, field, x_label, y_label)
-        self.figures.append((name, title, remark, svg))
+        self.figures.append((name, title, remark, svg, command or self.command))
 
     def _field(self, name, field, x_label, y_label):
         """NAME_field.csv: the middle of each colored rectangle and the value there."""
@@ -112,8 +132,17 @@ class Page:
                 writer.writerows([f"{x0 + (x1 - x0) * (i + 0.5) / len(row):.6g}", f"{y:.6g}", f"{value:.6g}"]
                                  for i, value in enumerate(row))
 
-    def picture(self, name, title, remark, path):
-        """A PNG, which the page holds."""
+    def pictures(self, here):
+        """All that HERE/pictures.toml lists; those that are not there are named with what they would need."""
+        for entry in pictures.listed(here):
+            path = pictures.picture_of(self.out, entry)
+            if os.path.exists(path):
+                self.picture(entry["name"], entry["title"], entry["remark"], path, pictures.command_of(entry))
+            else:
+                self.cannot(entry["title"], entry["needs"])
+
+    def picture(self, name, title, remark, path, command=""):
+        """A PNG, which the page holds, and what drew it (empty: the page's command)."""
         if not os.path.exists(path):
             return
         with open(path, "rb") as file:
@@ -121,19 +150,22 @@ class Page:
         with open(self._path(f"{name}.png"), "wb") as file:
             file.write(data)
         encoded = base64.b64encode(data).decode()
+        width, height = struct.unpack(">II", data[16:24])
+        kind = ' class="broad"' if width > 2 * height else ""
         self.figures.append((name, title, remark,
-                             f'<img alt="{html.escape(title)}" src="data:image/png;base64,{encoded}">'))
+                             f'<img{kind} alt="{html.escape(title)}" src="data:image/png;base64,{encoded}">', command or self.command))
 
     def cannot(self, what, why):
         self.missing.append({"of the publication": what, "what it would need": why})
 
     def write(self):
+        self.figures.sort(key=lambda figure: figure_order(figure[1]))
         with open(os.path.join(self.out, "results.csv"), "w", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS)
             writer.writeheader()
             writer.writerows(self.rows)
-        figures = "".join(f'<figure id="{name}">{drawn}<figcaption><b>{html.escape(title)}</b>{html.escape(remark)}'
-                          f'</figcaption></figure>' for name, title, remark, drawn in self.figures)
+        figures = "".join(f'<figure id="{name}"{broad(drawn)}>{drawn}<figcaption><b>{html.escape(title)}</b>{html.escape(remark)}'
+                          f'</figcaption></figure>' for name, title, remark, drawn, _ in self.figures)
         missing = f"<h2>What is not made</h2>{table(self.missing)}" if self.missing else ""
         with open(os.path.join(self.out, "index.html"), "w") as file:
             file.write(f"""<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{html.escape(self.title)}</title>
@@ -144,7 +176,7 @@ class Page:
 """)
         with open(os.path.join(self.out, "figures.json"), "w") as file:
             json.dump({"title": self.title, "command": self.command,
-                       "figures": [{"name": n, "title": t} for n, t, _, _ in self.figures]}, file)
+                       "figures": [{"name": n, "title": t, "command": c} for n, t, _, _, c in self.figures]}, file)
 
     def _path(self, name):
         os.makedirs(os.path.join(self.out, "figures"), exist_ok=True)

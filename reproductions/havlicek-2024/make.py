@@ -1,78 +1,23 @@
 #!/usr/bin/env python3
-"""make.py OUT HERE: the page, results.csv and figures from the runs OUT/passive, OUT/active, OUT/pbd,
-OUT/sweep/* and OUT/controlled/*, and OUT/samples.sto."""
+"""make.py OUT HERE: the page, results.csv and figures from the runs and pictures that run.sh left in OUT."""
 import csv
 import glob
 import json
-import math
 import os
 import re
 import sys
-import tomllib
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "family"))
 import publication  # noqa: E402
 from charts import COLORS, Series  # noqa: E402
 
+import control  # noqa: E402
+from runs import exploded, fibers, mean, measures, poses, settings, worst  # noqa: E402
+
 RUNS = {"passive": ("XPBD, passive", "#d55e00"), "active": ("XPBD, active", "#cc79a7"), "pbd": ("PBD, 3 iterations", "#0072b2")}
-MOTIONS = {"flexion": ("hip_flexion_r", "7.1"), "extension": ("hip_flexion_r", "7.4"), "abduction": ("hip_adduction_r", "7.5"),
-           "rotation": ("hip_rotation_r", "7.6")}
-SHOWN = {"flexion": "20, 50 and 90 degrees.", "extension": "10, 30 and 40 degrees.", "abduction": "10, 35 and 45 degrees.",
-         "rotation": "15, 45 and 60 degrees inwards."}
-COORDINATES = ["hip_flexion_r", "hip_adduction_r", "hip_rotation_r"]
 EXPLODED = 1.5  # a muscle's edges so many times as long as at rest, in the mean
-
-
-def settings(folder):
-    """What a run's first muscle had, by the keys of published.csv."""
-    with open(f"{folder}/run.json") as file:
-        text = tomllib.loads(json.load(file)["settings"])
-    muscle = text["muscles"][0]
-    found = {f"{part}.{key}": value for part in ("settings", "contraction", "fibers") for key, value in muscle[part].items()}
-    found.update({f"{part}.{key}": value for part in ("contact", "distance_field") for key, value in text[part].items()})
-    return found
-
-
-def fibers(folder):
-    """Of each muscle its fibers' lengths, m, over the first coordinate, degrees: {muscle: [(angle, [length, ...])]}."""
-    columns, rows = publication.sto_rows(f"{folder}/fiber_lengths.sto")
-    found = {}
-    for row in rows:
-        by_muscle = {}
-        for name, value in zip(columns, row):
-            if name.rsplit("_f", 1)[-1].isdigit() and "_f" in name:
-                by_muscle.setdefault(name.rsplit("_f", 1)[0], []).append(value)
-        for muscle, lengths in by_muscle.items():
-            found.setdefault(muscle, []).append((row[1], lengths))
-    return found
-
-
-def mean(values):
-    return sum(values) / len(values)
-
-
-def measures(folder, column, coordinate="hip_flexion_r"):
-    """{muscle: [(coordinate, value)]}, the coordinate in degrees."""
-    found = {}
-    with open(f"{folder}/measures.csv", newline="") as file:
-        for row in csv.DictReader(file):
-            found.setdefault(row["muscle"], []).append((float(row[f"{coordinate}_deg"]), float(row[column])))
-    return found
-
-
-def poses(folder):
-    """The joint's angles of each frame, degrees."""
-    with open(f"{folder}/measures.csv", newline="") as file:
-        rows = {row["frame"]: tuple(float(row[f"{name}_deg"]) for name in COORDINATES) for row in csv.DictReader(file)}
-    return list(rows.values())
-
-
-def worst(folder, column):
-    """[(flexion, value)] of the muscle whose value is farthest from 1 there."""
-    rows = {}
-    for number, row in enumerate(zip(*measures(folder, column).values())):
-        rows[number] = max(row, key=lambda point: abs(point[1] - 1))
-    return list(rows.values())
+SAME = {"zero_iteration_threshold": ("contact.contact_distance", "one distance for all iterations"),
+        "volume_time_diff": ("settings.time_step", "one time step for all but distances and dihedrals")}
 
 
 def fiber_charts(page, out):
@@ -85,13 +30,15 @@ def fiber_charts(page, out):
             high = [(angle, 1000 * max(lengths)) for angle, lengths in rows]
             series += [Series(label, low, color, band=high),
                        Series(label, [(angle, 1000 * mean(lengths)) for angle, lengths in rows], color)]
-        page.chart(f"fibers_{muscle}", f"As Figures 7.10 and 7.11: {muscle.replace('_', ' ')}",
-                   "Lengths of 100 fibers: their mean, and from the least to the largest.", series, "hip flexion, degrees", "fiber length, mm")
+        figure = "7.10" if muscle.startswith("gluteus") else "7.11"
+        page.chart(f"fibers_{muscle}", f"Figure {figure}: fiber lengths, {muscle.replace('_', ' ')}",
+                   "Lengths of 100 fibers: their mean, and from the least to the largest. The published curves have no numbers.", series,
+                   "hip flexion, degrees", "fiber length, mm")
     return by_run
 
 
 def sweeps(page, out):
-    """Charts of the sweep, and where a muscle first exploded, if one did: {(kind, step): (flexion, muscle) or None}."""
+    """Charts of the sweep, and where muscles first exploded: {(kind, step): {muscle: flexion}}."""
     found = {}
     for kind in ("passive", "active"):
         folders = {1.0: f"{out}/{kind}"}
@@ -99,53 +46,70 @@ def sweeps(page, out):
         series = []
         for (step, folder), color in zip(sorted(folders.items()), COLORS):
             series.append(Series(f"{step:g}°", worst(folder, "edge_ratio_max_free"), color))
-            over = [(flexion, muscle) for muscle, rows in measures(folder, "edge_ratio_mean").items()
-                    for flexion, value in rows if value > EXPLODED]
-            found[kind, step] = min(over, default=None)
+            found[kind, step] = exploded(folder, EXPLODED)
         page.chart(f"sweep_{kind}", f"Section 6.6.2: step of the {kind} flexion",
                    "Worst muscle's longest free edge, by the flexion in a frame.",
                    series, "hip flexion, degrees", "longest free edge over rest")
     return found
 
 
-def controlled(page, out):
-    """Figures of the motions by the joint control unit: what it says of each muscle, and shapes."""
-    for motion, (coordinate, figure) in MOTIONS.items():
-        for preset in ("thesis-2024", "physical"):
-            folder = f"{out}/controlled/{motion}_{preset}"
-            if not os.path.exists(f"{folder}/measures.csv"):
-                continue
-            for column, label in (("activation", "activation"), ("volume_ratio", "volume over rest")):
-                series = [Series(muscle.replace("_", " "), rows) for muscle, rows in sorted(measures(folder, column, coordinate).items())]
-                page.chart(f"{motion}_{preset}_{column}", f"As Figure {figure}: {motion} by the joint control unit, {preset}",
-                           "Static optimization's samples, as the unit answers." if column == "activation" else "From the capture pose on.",
-                           series, f"{coordinate.replace('_', ' ')}, degrees", label)
-            page.picture(f"{motion}_{preset}", f"As Figure {figure}: {motion} by the joint control unit, {preset}",
-                         SHOWN[motion], f"{folder}.png")
+def tell_sweeps(found, ours, remarks):
+    steps = ", ".join(f"{kind} {step:g}°" for kind, step in found)
+    remarks["explosion"] = f"none of the four muscles in steps of {steps}: no muscle's edges {EXPLODED} times as long as at rest in the mean; see " \
+                           "the leg's rows for muscles that do"
+    first = min((flexion for muscles in found.values() for flexion in muscles.values()), default=None)
+    if first is not None:
+        ours["explosion"] = first
+        remarks["explosion"] = "; ".join(f"{kind} {step:g}°: {', '.join(muscles) or 'none'}" for (kind, step), muscles in found.items())
 
 
-def neighbors(page, out, count):
-    """Section 6.5.1: the samples, and those that are among the `count` nearest of some frame of a motion."""
-    if not os.path.exists(f"{out}/samples.sto"):
-        return
-    columns, rows = publication.sto_rows(f"{out}/samples.sto")
-    places = [columns.index(name) for name in COORDINATES]
-    samples = sorted({tuple(row[i] for i in places) for row in rows})
-    for motion in MOTIONS:
-        folder = f"{out}/controlled/{motion}_thesis-2024"
+def corrections(page, out):
+    """Figures 6.4 and 6.5 as curves: how far each kind of constraint moves gluteus maximus in a frame, by `gracilis export --to csv`."""
+    by_kind, flexion = {}, [row[0] for row in next(iter(measures(f"{out}/corrections", "volume_ratio").values()))]
+    with open(f"{out}/corrections_csv/corrections.csv", newline="") as file:
+        for row in csv.DictReader(file):
+            by_kind.setdefault(row["kind"], []).append((flexion[int(row["frame"])], float(row["mean_mm"]), float(row["largest_mm"])))
+    for column, name, label in ((1, "mean", "mean correction of a vertex in a frame, mm"), (2, "largest", "largest correction of a vertex in a frame, mm")):
+        page.chart(f"figure_6_5_{name}", f"Figures 6.4 and 6.5 as curves: {name} corrections by kind", "What each kind of constraint moves vertices of gluteus maximus, "
+                   "alone, in its 70 iterations together.",
+                   [Series(kind, [(row[0], row[column]) for row in rows]) for kind, rows in by_kind.items() if any(row[2] > 0 for row in rows)],
+                   "hip flexion, degrees", label, command="gracilis export OUT/corrections --to csv --out OUT/corrections_csv")
+
+
+def many_muscles(page, out, ours, remarks):
+    """Section 7.2: what explodes at once among 26 muscles, and how the others fare."""
+    for stiffness in ("100", "1e5"):
+        folder = f"{out}/leg_all_{stiffness}"
         if not os.path.exists(f"{folder}/measures.csv"):
             continue
-        asked, used = poses(folder), set()
-        for pose in asked:
-            used.update(sorted(samples, key=lambda sample: math.dist(sample, pose))[:count])
-        for across in (1, 2):
-            def flat(points):
-                return [(point[0], point[across]) for point in points]
-            page.chart(f"neighbors_{motion}_{COORDINATES[across]}", f"Section 6.5.1: samples and neighbors, {motion}",
-                       f"{len(used)} of {len(samples)} samples are among the {count} nearest of some frame.",
-                       [Series("samples", flat(samples), "#bbbbbb", marks=True), Series("neighbors used", flat(sorted(used)), "#0072b2", marks=True),
-                        Series("the motion", flat(asked), "#d55e00")],
-                       "hip flexion, degrees", f"{COORDINATES[across].replace('_', ' ')}, degrees")
+        found = exploded(folder, EXPLODED)
+        ours[f"leg_exploded_{stiffness}"] = f"{len(found)} of 26"
+        remarks[f"leg_exploded_{stiffness}"] = ", ".join(found) + "; the shared leg has other muscles than the publication's twenty"
+    for name, label in (("leg_published", "published parameters"), ("leg_stiff", "distance stiffness 1e5")):
+        if os.path.exists(f"{out}/{name}/measures.csv"):
+            page.chart(f"{name}_edges", f"Beside Figure {'7.9' if name == 'leg_published' else '7.8'}: mean edges, {label}",
+                       "Muscles that explode at once are left out; one whose curve leaves the chart explodes.",
+                       [Series(muscle, rows) for muscle, rows in measures(f"{out}/{name}", "edge_ratio_mean").items()],
+                       "hip flexion, degrees", "mean edge over rest", y_range=(0.8, 2), width=480)
+
+
+def table_6_1(ours, out):
+    """The flexion's table: its angles, and which coordinates others keep at 0."""
+    flexed = [pose for pose in poses(f"{out}/passive", control.COORDINATES) if pose[1:] == (0.0, 0.0)]
+    angles = [pose[0] for pose in flexed]
+    ours.update(motion_rows=len(angles), motion_first=angles[0], motion_step=angles[1] - angles[0], motion_last=angles[-1])
+
+
+def fiber_shares(ours, remarks, out):
+    path = f"{out}/fibers.json"
+    if not os.path.exists(path):
+        return
+    with open(path) as file:
+        told = json.load(file)
+    for muscle in told:
+        published = muscle["on_surface"][1]
+        ours[f"across_{muscle['muscle']}"] = 100 * published["share_rejected"]
+        remarks[f"across_{muscle['muscle']}"] = "of the edges that the nearest vertices' ways take, those more than 60 degrees off the fibers"
 
 
 def main(out, here):
@@ -160,35 +124,32 @@ def main(out, here):
     page.chart("longest_edge", "Longest free edge of the worst muscle", "Where a muscle explodes, edges show it first.",
                [Series(label, worst(f"{out}/{name}", "edge_ratio_max_free"), color) for name, (label, color) in RUNS.items()],
                "hip flexion, degrees", "longest free edge over rest")
-    exploded = sweeps(page, out)
-    for name, (label, _) in RUNS.items():
-        for view, figure in (("anterior", "7.1 and A.5"), ("lateral", "A.6")):
-            page.picture(f"{name}_{view}", f"As Figures {figure}: {label}, {view}", "20, 50 and 90 degrees of flexion.", f"{out}/{name}_{view}.png")
+    found = sweeps(page, out)
     ours = {key: float(value) for key, value in settings(f"{out}/passive").items() if isinstance(value, (int, float))}
     with open(f"{out}/config.toml") as file:
         ours["neighbors"] = float(re.search(r"^# neighbors = (\d+)", file.read(), re.MULTILINE)[1])
-    remarks = {"resolution_factor": "left out: at 1 it does nothing"}
+    remarks = {"resolution_factor": "left out: at 1 it does nothing", "do_not_solve": "a switch for tests that nothing here has"}
+    for key, (setting, remark) in SAME.items():
+        ours[key], remarks[key] = ours[setting], remark
     if by_run["passive"].get("adductor_brevis_r", [(0, [])])[-1][0] > 80:
         ours["adductor_brevis_shortest"] = min(by_run["passive"]["adductor_brevis_r"], key=lambda row: mean(row[1]))[0]
-    first = min((at for at in exploded.values() if at), default=None)
-    steps = ", ".join(f"{kind} {step:g}°" for kind, step in exploded)
-    remarks["explosion"] = f"none in steps of {steps}: no muscle's edges {EXPLODED} times as long as at rest in the mean"
-    if first:
-        ours["explosion"] = first[0]
-        remarks["explosion"] = "; ".join(f"{kind} {step:g}°: {at[1]} at {at[0]:.0f}" if at else f"{kind} {step:g}°: none"
-                                         for (kind, step), at in exploded.items())
+        remarks["adductor_brevis_shortest"] = "by the mean; its insertion is drawn out from the first degrees on, which lengthens every fiber"
+    tell_sweeps(found, ours, remarks)
+    corrections(page, out)
+    control.controlled(page, out)
+    control.neighbors(page, out)
+    active = control.optimized(page, out)
+    if active is not None:
+        ours["extended_active"], remarks["extended_active"] = active, f"of 43 muscles of the right leg, above {control.ACTIVE}; the knee is as in the walk's first frame"
+    many_muscles(page, out, ours, remarks)
+    table_6_1(ours, out)
+    fiber_shares(ours, remarks, out)
     page.rows = publication.beside(publication.read_published(f"{here}/published.csv"), ours, remarks)
-    controlled(page, out)
-    neighbors(page, out, int(ours["neighbors"]))
+    page.pictures(here)
     if not os.path.isdir(f"{out}/controlled"):
-        page.cannot("Figures 7.4 to 7.6 and A.7 to A.14: extension, abduction and rotation by the joint control unit", "the cadaver's hip and "
-                    "OpenSim's walking model (--data)")
-    page.cannot("Figures A.7 to A.14: the other views of those motions", "nothing: gracilis render OUT/controlled/MOTION_thesis-2024 --view VIEW")
-    page.cannot("Figures A.3 and A.4: surface fibers used for verification", "nothing: gracilis render OUT/passive --frames 0 --fibers")
-    page.cannot("Figures 6.4 and 6.5: what constraints move in each iteration", "gracilis view draws it of a live scene; runs do not hold it")
-    page.cannot("Figures 7.7 to 7.9, A.1 and A.2: a hip and leg with twenty muscles", "the publication's set of muscles")
-    page.cannot("Figures 7.2 and 7.3, of the publication of 2020", "see reproductions/cervenka-kohout-2020")
-    page.cannot("Figures 6.1 to 6.3 and 6.6: pictures of flaws", "the publication's muscles")
+        page.cannot("Activations of Figures 7.1 and 7.4 to 7.6", "the cadaver's hip and OpenSim's walking model (--data)")
+    page.cannot("Figures 7.7 to 7.9, A.1 and A.2 with the publication's own muscles", "sixteen muscles of the cadaver that were not published; Z-Anatomy's stand in")
+    page.cannot("Numbers of Figures 7.10 and 7.11", "the curves' values: the figures have axes, but the text tells none of them")
     page.write()
 
 

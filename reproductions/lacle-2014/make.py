@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""make.py OUT HERE [--thin]: the page, results.csv and figures from what run.sh left in OUT."""
+"""make.py OUT HERE MODEL: the page, results.csv and figures from what run.sh left in OUT."""
 import csv
 import glob
 import json
@@ -12,6 +12,9 @@ import tomllib
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "family"))
 import publication  # noqa: E402
 from charts import Series, published  # noqa: E402
+
+import parameters  # noqa: E402
+import sections  # noqa: E402
 
 RAYS, SCALARS = (6, 8, 10, 12), (1, 2, 3, 4, 5, 6)
 
@@ -45,8 +48,8 @@ def uncovered(corners):
 
 
 class Reproduction:
-    def __init__(self, out, here):
-        self.out, self.here, self.ours, self.remarks = out, here, {}, {}
+    def __init__(self, out, here, model):
+        self.out, self.here, self.model, self.ours, self.remarks = out, here, model, {}, {}
         self.page = publication.Page(
             out, "Cylinder musculotendons (Laclé 2014)",
             "The publication has 48 lines of a model of the lower limbs and an artist's surfaces, fitted by hand. Here lines are those of "
@@ -58,6 +61,7 @@ class Reproduction:
         self.ours["half_slack"] = tendon_mm(f"{self.out}/tendon/model") / 1000
         self.ours["half_slack_fitted"] = tendon_mm(f"{self.out}/tendon/smaller") / 1000
         self.remarks["half_slack"] = "the model's own slack length, 0.2228 m"
+        parameters.add_to(self.ours, self.remarks, self.out, self.model)
 
     def counts(self):
         for path in glob.glob(f"{self.out}/counts/*.json"):
@@ -69,13 +73,15 @@ class Reproduction:
         with open(f"{self.out}/slices.json") as file:
             surfaces = json.load(file)
         self.ours["vertices_surfaces"] = sum(s["vertices"] for s in surfaces)
-        self.remarks["vertices_surfaces"] = f"{len(surfaces)} muscles of one leg"
+        self.remarks["vertices_surfaces"] = f"{len(surfaces)} muscles of one leg; published: 48 of both"
         found = [s for surface in surfaces for s in surface["slices"] if s["outlines"] > 0]
         quotients = [s["isoperimetric_quotient"] for s in found]
         concave = sum(not s["convex"] for s in found)
         self.ours.update(slices=len(found), round_share=100 * sum(q > 0.5 for q in quotients) / len(found),
                          concave_share=f"{concave} of {len(found)}", median_quotient=statistics.median(quotients),
                          mean_less_median=statistics.mean(quotients) - statistics.median(quotients))
+        for key in ("round_share", "median_quotient", "mean_less_median"):
+            self.remarks[key] = "another body's surfaces"
         if concave == len(found):
             self.remarks["concave_share"] = "a slice through coarse triangles has a corner that turns the other way"
         split = {True: [], False: []}
@@ -107,6 +113,7 @@ class Reproduction:
             key = f"outside_{level}_{scalar}_{count}"
             self.ours[key] = sum(int(r["of_these_centers_outside"]) for r in table)
             totals[level] = sum(int(r["that_cut_the_surface"]) for r in table)
+            self.remarks[key] = f"of {totals[level]} sections of 22 muscles; another body's surfaces"
             curves.setdefault(level, {}).setdefault(count, []).append((scalar, 100 * self.ours[key] / totals[level]))
         for level, total in totals.items():
             self.ours[f"sections_{level}"] = total
@@ -154,35 +161,31 @@ class Reproduction:
         frames = sorted(f for f in rounds if f > 0)
         own = [int(float(row["collision_rounds"])) for row in measures if row["muscle"] == "vas_int_r" and int(row["frame"]) > 0]
         self.ours["rounds"] = f"{min(own)} to {max(own)}"
-        self.remarks["rounds"] = f"of vastus intermedius, over the walk. Not free after 20: {max(stuck.values())} of 25 at most, " \
+        self.remarks["rounds"] = f"of vastus intermedius, over the walk. Not free after 60: {max(stuck.values())} of 25 at most, " \
                                  f"in {sum(stuck[f] > 0 for f in frames)} of {len(frames)} frames ({', '.join(sorted(held))})"
         self.page.chart("figure_5_6", "Figure 5.6, over a walk", "Rounds until all of a muscle's sections are free, the most of any muscle, "
-                        "and transversals that are not free after 20. Published: three sections of vastus intermedius in 8, 4 and 6 rounds.",
+                        "and transversals that are not free after 60. Published: three sections of vastus intermedius in 8, 4 and 6 rounds.",
                         [Series("rounds", [(f, rounds[f]) for f in frames]),
                          Series("vastus intermedius", list(zip(frames, own))),
                          Series("not free", [(f, stuck[f]) for f in frames])], "frame", "rounds, transversals")
 
-    def pictures(self):
-        for name, title, remark, file in (
-                ("figure_5_1a", "Figure 5.1, before", "Round sections about the model's lines.", "leg_before.png"),
-                ("figure_5_1b", "Figure 5.1, after", "The same sections on Z-Anatomy's surfaces: 6 corners, CSS 6, LSS 1.", "leg_after.png"),
-                ("figure_5_5a", "Figure 5.5, without", "Ten muscles in a step of the walk.", "free.png"),
-                ("figure_5_5b", "Figure 5.5, with transversals", "The same frame with 25 of them.", "yielding.png")):
-            self.page.picture(name, title, remark, f"{self.out}/{file}")
+    def inner_points(self):
+        sections.add_to(self.page, self.ours, self.out)
 
     def make(self):
         self.published = publication.read_published(f"{self.here}/published.csv")
-        for part in (self.tendons, self.counts, self.slices, self.polygons, self.outside, self.planes, self.speed, self.pictures):
+        for part in (self.tendons, self.counts, self.slices, self.polygons, self.outside, self.planes, self.inner_points, self.speed):
             part()
         self.page.rows = publication.beside(self.published, self.ours, self.remarks) + self.page.rows
         self.page.cannot("Figures 3.5 to 3.7: the skeleton in the character Ralph", "the character's skin and bones")
-        self.page.cannot("Figures 5.2 and 5.3: the publication's own examples", "the surfaces of the Ultimate Human Model (commercial)")
-        self.page.cannot("Figure 5.4: tibialis anterior in eight scales", "a surface of tibialis anterior; the shared leg ends at the knee")
+        self.page.pictures(self.here)
+        self.page.cannot("Figures 5.2 to 5.4 of the publication's own muscles", "the surfaces of the Ultimate Human Model (commercial); the shared leg's stand in")
+        self.page.cannot("Figure 5.2's matches (yellow)", "import tells inner points, not the rays' matches that they are from")
         self.page.cannot("Figure 3.22's numbers", "the figure itself: its text does not tell them")
-        self.page.cannot("Tables 3.1, 3.2 and 3.4: parameters, kinds of constraints, the order of matches", "nothing: they are no results")
+        self.page.cannot("Table 3.4: the order of matches", "nothing: it is an algorithm's; tests/anatomy/section_enhancement_test.cpp holds it")
         self.page.cannot("Frames per second with drawing", "the publication's graphics card and character")
         self.page.write()
 
 
 if __name__ == "__main__":
-    Reproduction(*sys.argv[1:3]).make()
+    Reproduction(*sys.argv[1:4]).make()

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Cylinder musculotendons (Laclé 2014): Tables 3.3 and 5.1 to 5.3, Figures 3.15 and 5.1 to 5.6, and frames per second, on OpenSim's
+# Cylinder musculotendons (Laclé 2014): Tables 3.1 to 3.4 and 5.1 to 5.3, Figures 3.9, 3.15, 3.22 and 5.1 to 5.6, and frames per second, on OpenSim's
 # walking model and the leg of Z-Anatomy. A few minutes of one core.
 #   reproductions/lacle-2014/run.sh [--thin] [--data FOLDER] [--out FOLDER] [--set KEY=VALUE ...]
 # Leaves OUT/index.html, OUT/results.csv (published beside ours) and OUT/figures. --thin: fewer scales, every 25th frame, no pictures.
@@ -39,10 +39,10 @@ while read -r level count; do
   "$gracilis" inspect --json "$out/counts/${level}_$count/muscles/"*.vtp >"$out/counts/${level}_$count.json"
 done <<<"$scales"$'\n'"1 36"
 
-# The leg's surfaces beside the file that names them; Figure 3.15: three slices of each.
+# The leg's surfaces beside the file that names them; Figure 3.15: three slices of each, and of two more, 72 in all.
 mkdir -p "$out/leg"
 cp -r "$data/leg/muscles" "$data/leg/leg_mended" "$here/surfaces.toml" "$out/leg"
-surfaces=$(sed -n 's/.*files = "\([^"]*\)".*/\1/p' "$here/surfaces.toml")
+surfaces="$(sed -n 's/.*files = "\([^"]*\)".*/\1/p' "$here/surfaces.toml") muscles/superior_gemellus_r.ply muscles/obturator_internus_r.ply"
 (cd "$out/leg" && "$gracilis" inspect --json --slices 3 $surfaces) >"$out/slices.json"
 
 # Tables 5.2 and 5.3: centers outside of the surfaces, by the published heuristic alone; the last also as mended here.
@@ -86,20 +86,31 @@ frames walk36 "$out/walk36/subject01_walk1_Kinematics.toml"
 frames free "$out/ten/subject01_walk1_Kinematics.toml"
 frames yielding "$out/ten/transversals.toml"
 
-# Figures 5.1, 5.4 and 5.5.
+# rest NAME SCENE OPTION...: the one frame of a scene that stands still, into OUT/rest.
+rest() {
+  local folder=$out/rest/$1 scene=$2
+  shift 2
+  mkdir -p "$out/rest"
+  is_finished "$folder" || quietly "$folder.txt" "$gracilis" run "$scene" --set method=cylinder "$@" --no-ramp --no-fibers --metrics none \
+    --no-pictures --out "$folder" --force
+}
+
+# Figures 5.2 and 5.4: sections and their inner points, and how many vertices they have.
+for folder in "$out"/outside/[12]_1_*/; do "$gracilis" inspect --json "$folder"muscles/*.vtp >"${folder%/}.json"; done
+rest sections "$out/outside/1_6_12/rest.toml"
+cp "$out/outside/1_6_12/model.toml" "$out/rest/sections.toml"
+quietly "$out/rest/sections_csv.txt" "$gracilis" export "$out/rest/sections" --to csv --frames 0 --out "$out/rest/sections_csv"
+
+# Figures 5.1 and 5.3 to 5.5.
 if [[ -z $thin ]]; then
+  for scalar in 3 6; do rest "css${scalar}_gracilis" "$out/outside/2_${scalar}_8/rest.toml" --only grac_r; done
+  for level in 1 2; do
+    for count in "${rays[@]}"; do rest "lss${level}_$count" "$out/outside/${level}_1_$count/rest.toml" --only sar_r; done
+  done
   into "$out/leg_before" "${fitted[@]}" "${geometry[@]}" --scaling 1 --rays 6
   into "$out/leg_after" "${fitted[@]}" "${geometry[@]}" "${onto[@]}" --scaling 1 --more-rays 6 --rays 6 --centers published
-  other=femur_l,tibia_l,l_fibula,l_talus,l_foot,l_bofoot,l_pelvis,hat_jaw,hat_skull,hat_spine,hat_ribs
-  for side in before after; do
-    frames "leg_$side" "$out/leg_$side/rest.toml"
-    quietly "$out/leg_$side.txt" "$gracilis" render "$out/run_leg_$side" --frames 0 --hide "$other" --color-by muscle --view lateral \
-      --out "$out/leg_$side.png"
-  done
-  for side in free yielding; do
-    quietly "$out/picture_$side.txt" "$gracilis" render "$out/run_$side" --frames 80 --hide "$other" --color-by muscle --view posterior \
-      --focus glut_max2_r --out "$out/$side.png"
-  done
+  for side in before after; do frames "leg_$side" "$out/leg_$side/rest.toml"; done
+  python3 -B "$root/reproductions/family/pictures.py" "$gracilis" "$out" "$here"
 fi
-python3 -B "$here/make.py" "$out" "$here" ${thin:+--thin}
+python3 -B "$here/make.py" "$out" "$here" "$model"
 echo "$out/index.html"

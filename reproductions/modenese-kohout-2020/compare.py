@@ -69,12 +69,12 @@ def main(validation, sweeps, out, methods):
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
         writer.writerows(table)
-    with open(f"{out}/index.html", "w") as file:
-        file.write(page.page(out, references, by_method, table))
     told = {row["source"] + row["coordinate"] + row["muscle"] for row in table}
-    for reference in references:
-        if reference.source + reference.coordinate + reference.muscle not in told:
-            print(f"no scene for {reference.muscle} about {reference.coordinate} ({reference.source})", file=sys.stderr)
+    missing = [reference for reference in references if reference.source + reference.coordinate + reference.muscle not in told]
+    for reference in missing:
+        print(f"no scene for {reference.muscle} about {reference.coordinate} ({reference.source})", file=sys.stderr)
+    with open(f"{out}/index.html", "w") as file:
+        file.write(page.page(out, references, by_method, table, missing))
 
 
 if __name__ == "__main__":
