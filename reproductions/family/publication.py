@@ -14,7 +14,7 @@ STYLE = """body{font:15px/1.5 sans-serif;max-width:1100px;margin:2em auto;paddin
 .figures{display:flex;flex-wrap:wrap;gap:18px}figure{margin:0;max-width:100%}figcaption{max-width:380px;font-size:13px}
 figcaption b{display:block;font-size:15px}svg,img{background:#fff;max-width:100%;height:auto}
 figure img{width:380px}.broad,.broad img{width:100%}.broad figcaption{max-width:none}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;border-bottom:1px solid #ddd;text-align:right}
-td.word,th.word{text-align:left}code{background:#f4f4f4;padding:0 3px}.thumbs figure{width:210px}.thumbs svg,.thumbs img{width:210px;height:auto}
+td.word,th.word{text-align:left}code{background:#f4f4f4;padding:0 3px;overflow-wrap:anywhere}.thumbs figure{width:210px}.thumbs svg,.thumbs img{width:210px;height:auto}
 .key{display:inline-block;width:22px;height:4px;margin:0 5px 3px 14px}"""
 COLUMNS = ["source", "quantity", "unit", "published", "ours", "ratio", "remark"]
 
