@@ -130,7 +130,7 @@ for kind in passive active; do
 done
 if [[ -n $cadaver ]]; then
   published=(fibers "$out/active.toml" --data "$data" --set preset=thesis-2024)
-  [[ -f $out/fibers.json ]] || quietly "$out/fibers.json" "$gracilis" "${published[@]}" --only "$only" --json --out "$out/fibers"
+  "$gracilis" "${published[@]}" --only "$only" --json --out "$out/fibers" 2>"$out/fibers.txt" >"$out/fibers.json"
   quietly "$out/few_fibers.txt" "$gracilis" "${published[@]}" --only iliacus_r --set fibers.count=16 --set contraction.segments=15 --out "$out/few_fibers"
   extended
   [[ ! -d $data/leg ]] || many_muscles
