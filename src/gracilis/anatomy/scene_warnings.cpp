@@ -4,16 +4,22 @@
 #include <gracilis/anatomy/joints/joint_pose.hpp>
 #include <gracilis/geometry/measures.hpp>
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace gracilis {
 
+static std::string four_digits(Real value) {
+  std::ostringstream text;
+  text.precision(4);
+  text << value;
+  return text.str();
+}
+
 /// At most one digit after the point, and few digits of what no body does.
 static std::string rounded(Real value) {
-  if (std::abs(value) >= 1e6) return fmt::format("{:.4g}", value);
+  if (std::abs(value) >= 1e6) return four_digits(value);
   std::string text = std::to_string(std::round(value * 10) / 10);
   text.resize(text.find('.') + 2);
   return text.ends_with(".0") ? text.substr(0, text.size() - 2) : text;
@@ -46,11 +52,10 @@ static void warn_about_center(const Scene& scene, const Joint& joint, std::vecto
   if (!of_parent || !of_child || std::none_of(joint.axes.begin(), joint.axes.end(), turns)) return;
   const Real away = bones.exteriorDistance(Vec3(joint.frame.translation())), across = bones.diagonal().norm();
   if (!(away > across)) return;
-  warnings.push_back(
-      fmt::format("joint '{}': its center is {:.4g} m from the bones of '{}' and '{}', which are {:.4g} m "
-                  "across; 'center_unit' says in which unit it is given",
-                  joint.name, away, scene.bodies[static_cast<std::size_t>(joint.parent_body)],
-                  scene.bodies[static_cast<std::size_t>(joint.child_body)], across));
+  const auto body = [&](Index index) { return "'" + scene.bodies[static_cast<std::size_t>(index)] + "'"; };
+  warnings.push_back("joint '" + joint.name + "': its center is " + four_digits(away) + " m from the bones of " +
+                     body(joint.parent_body) + " and " + body(joint.child_body) + ", which are " + four_digits(across) +
+                     " m across; 'center_unit' says in which unit it is given");
 }
 
 static void warn_about_size(const Muscle& muscle, const Attachment& attachment, std::vector<std::string>& warnings) {
