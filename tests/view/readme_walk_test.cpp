@@ -111,6 +111,8 @@ struct Step {
 const std::vector<Step> steps = {
     {"demo elbow", "demo elbow --out elbow", "elbow/preview.png"},
     {"run my_hip.toml", "run out/my_hip.toml --out out/my_hip", "out/my_hip/preview.png"},
+    {"run SCENE --corrections", "run out/my_hip.toml --corrections --no-fibers --no-pictures --out moved"},
+    {"render RUN --arrows", "render moved --arrows --out arrows.png"},
     {"scene FOLDER --out leg.toml", "scene scans --out leg.toml", "leg.png"},
     {"new FILES...", "new scans/*.vtp --out new.toml", "new.png"},
     {"fibers SCENE", "fibers out/my_hip.toml --out fibers", "fibers/fibers.png"},
