@@ -5,6 +5,7 @@
 #include <gracilis/geometry/measures.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace gracilis {
@@ -25,17 +26,17 @@ std::vector<Index> first_at_same_place(const Points& vertices) {
   std::iota(first.begin(), first.end(), 0);
   if (count == 0) return first;
   const Real tolerance = 1e-9 * (vertices.rowwise().maxCoeff() - vertices.rowwise().minCoeff()).norm();
-  // Sorted by x, duplicates are near each other; the tolerance is so small that few candidates need a look.
+  // Sorted along a direction that no grid's planes lie across, few others come between two at one place.
+  const Vec3 direction = Vec3(1, std::sqrt(2), std::sqrt(3)).normalized();
+  const Eigen::VectorXd along = (vertices.colwise() - vertices.col(0)).transpose() * direction;
   std::vector<Index> order = first;
-  std::sort(order.begin(), order.end(), [&](Index i, Index j) {
-    return vertices(0, i) != vertices(0, j) ? vertices(0, i) < vertices(0, j) : i < j;
-  });
+  std::sort(order.begin(), order.end(),
+            [&](Index i, Index j) { return along[i] != along[j] ? along[i] < along[j] : i < j; });
   DisjointSets sets(count);
   for (std::size_t i = 0; i < order.size(); ++i) {
     for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const Vec3 difference = vertices.col(order[j]) - vertices.col(order[i]);
-      if (difference.x() > tolerance) break;
-      if (difference.norm() <= tolerance) sets.join(order[i], order[j]);
+      if (along[order[j]] - along[order[i]] > 2 * tolerance) break;  // twice: of rounding
+      if ((vertices.col(order[j]) - vertices.col(order[i])).norm() <= tolerance) sets.join(order[i], order[j]);
     }
   }
   std::vector<Index> smallest(static_cast<std::size_t>(count), -1);
