@@ -37,7 +37,7 @@ MendFunction surface_mending() {
   return [](const std::string& name, const TriangleMesh& mesh) {
     log_lines("mending " + name);
     FixedSurface fixed = mended_surface(mesh, name);
-    return MendedSurface{std::move(fixed.mesh), std::move(fixed.repairs)};
+    return MendedSurface{std::move(fixed.mesh), std::move(fixed.repairs), std::move(fixed.heads)};
   };
 }
 

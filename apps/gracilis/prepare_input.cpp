@@ -100,10 +100,11 @@ std::vector<NamedSurface> read_surfaces(const std::vector<fs::path>& files, cons
   return surfaces;
 }
 
-/// Closed pieces of the surface, mended.
-std::vector<TriangleMesh> mended_pieces(const NamedSurface& surface, const PrepareSettings& settings) {
+/// Closed pieces of the surface, mended; heads that cut each other stay apart where `by_heads`.
+std::vector<TriangleMesh> mended_pieces(const NamedSurface& surface, const PrepareSettings& settings, bool by_heads) {
   try {
-    return pieces_of(fix_surface(surface.mesh, surface.name, TimeLimit(settings.time_limit)).mesh);
+    FixedSurface fixed = fix_surface(surface.mesh, surface.name, TimeLimit(settings.time_limit));
+    return by_heads && !fixed.heads.empty() ? std::move(fixed.heads) : pieces_of(fixed.mesh);
   } catch (const OutOfTime&) {
     throw InputError(out_of_time(surface.name, settings));
   }
@@ -119,7 +120,7 @@ std::vector<NamedSurface> rearranged(std::vector<NamedSurface> surfaces, const P
   std::vector<NamedSurface> parts;
   for (const NamedSurface& surface : surfaces) try {
       int number = 0;
-      for (TriangleMesh& piece : mended_pieces(surface, settings)) {
+      for (TriangleMesh& piece : mended_pieces(surface, settings, !options.merge)) {
         if (options.merge)
           all.push_back(std::move(piece));
         else

@@ -87,6 +87,29 @@ TEST(SurfacesTaken, what_a_run_takes_with_flaws_is_mended_where_that_is_asked_fo
   EXPECT_FALSE(mended({}, "piriformis_r"));
 }
 
+TEST(SurfacesTaken, heads_that_were_united_in_mending_become_muscles_unless_they_are_here_by_themselves) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  const TriangleMesh left = shapes::sphere(Vec3::Zero(), 0.02, 3), right = shapes::sphere(Vec3(0.03, 0, 0), 0.02, 3);
+  const auto put = [&](const std::string& name, const TriangleMesh& mesh) {
+    write_surface(folder.path() / "hip" / "muscles" / name, mesh.vertices, mesh.faces);
+  };
+  put("gastrocnemius.R.vtp", shapes::both(left, right));
+  const MendFunction mend = [&](const std::string&, const TriangleMesh&) {
+    return MendedSurface{shapes::both(left, shapes::sphere(Vec3(0.05, 0, 0), 0.02, 3)), {"united"}, {left, right}};
+  };
+  const auto names = [&] {
+    std::vector<std::string> all;
+    for (const FoundMuscle& muscle : find_surfaces(list_folder(folder.path() / "hip"), "", "", mend).muscles)
+      if (muscle.name.starts_with("gastrocnemius")) all.push_back(muscle.name);
+    return all;
+  };
+  EXPECT_THAT(names(), testing::ElementsAre("gastrocnemius_1_r", "gastrocnemius_2_r"));
+  put("gastrocnemius medial.R.vtp", left);
+  put("gastrocnemius lateral.R.vtp", shapes::sphere(Vec3(0.05, 0, 0), 0.02, 3));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("gastrocnemius_medial_r", "gastrocnemius_lateral_r"));
+}
+
 TEST(SurfacesTaken, files_named_like_those_of_a_scene_are_taken_unless_a_drafted_scene_wrote_them) {
   const TestFolder folder;
   write_body(folder.path() / "hip", hip(), hip_names);
@@ -118,6 +141,21 @@ TEST(SurfacesTaken, of_two_surfaces_of_one_name_that_is_taken_which_a_run_takes)
   ASSERT_NE(taken, found.muscles.end());
   EXPECT_EQ(taken->file.parent_path().filename(), "mended");
   EXPECT_THAT(found.left_out, testing::ElementsAre(testing::HasSubstr("piriformis_r is there already, from")));
+}
+
+TEST(SurfacesTaken, of_two_surfaces_of_one_name_that_a_run_takes_the_sound_one_is_taken) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.02, 3);
+  const TriangleMesh nested = shapes::both(ball, shapes::sphere(Vec3::Zero(), 0.015, 3));
+  for (const char* name : {"as_scanned", "mended"}) std::filesystem::create_directory(folder.path() / "hip" / name);
+  write_surface(folder.path() / "hip" / "as_scanned" / "piriformis.R.vtp", nested.vertices, nested.faces);
+  write_surface(folder.path() / "hip" / "mended" / "piriformis.R.vtp", ball.vertices, ball.faces);
+  const FoundFolder found = find_surfaces(folder.path() / "hip");
+  const auto taken = std::find_if(found.muscles.begin(), found.muscles.end(),
+                                  [](const FoundMuscle& each) { return each.name == "piriformis_r"; });
+  ASSERT_NE(taken, found.muscles.end());
+  EXPECT_EQ(taken->file.parent_path().filename(), "mended");
 }
 
 TEST(SurfacesTaken, a_muscle_whose_heads_are_here_is_left_out_and_one_that_only_is_called_like_them_is_not) {

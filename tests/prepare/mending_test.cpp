@@ -63,6 +63,30 @@ TEST(Mending, where_pieces_were_united_no_edge_is_far_shorter_than_the_others) {
   EXPECT_NEAR(volume_of(mended), volume_of(united), 1e-3 * volume_of(united));
 }
 
+/// A spindle along z (m), thick in the middle.
+TriangleMesh spindle(Real x, Real bottom, Real top, Real radius) {
+  TriangleMesh mesh = sphere(Vec3::Zero(), 1, 3);
+  mesh.vertices.topRows(2) *= radius;
+  mesh.vertices.row(2) *= (top - bottom) / 2;
+  mesh.vertices.colwise() += Vec3(x, 0, (top + bottom) / 2);
+  return mesh;
+}
+
+TEST(Mending, heads_that_cut_each_other_are_told_apart_from_pieces_of_a_muscle) {
+  const TriangleMesh long_head = spindle(0, 0, 20 * edge, 2 * edge),
+                     short_head = spindle(3 * edge, 0, 12 * edge, 1.5 * edge),
+                     lower_half = spindle(0, -10 * edge, 1 * edge, 2 * edge),
+                     woven = spindle(0.5 * edge, 1 * edge, 18 * edge, 1.9 * edge);
+  const FixedSurface heads = mended_surface(both(long_head, short_head), "heads");
+  EXPECT_EQ(heads.heads.size(), 2u);
+  EXPECT_EQ(pieces_of(heads.mesh).size(), 1u);
+  for (const TriangleMesh& other : {lower_half, woven}) {
+    const FixedSurface whole = mended_surface(both(long_head, other), "whole");
+    EXPECT_EQ(pieces_of(whole.mesh).size(), 1u);
+    EXPECT_TRUE(whole.heads.empty());
+  }
+}
+
 TEST(Mending, takes_no_longer_than_it_may) {
   const TriangleMesh ball = sphere(Vec3::Zero(), 2 * edge, 5), other = sphere(Vec3(1 * edge, 0, 0), 2 * edge, 5);
   EXPECT_THROW(mended_surface(both(ball, other), "balls", {.time_limit = 1e-3}), InputError);

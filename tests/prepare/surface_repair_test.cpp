@@ -258,6 +258,28 @@ TEST(SurfaceRepair, flat_pieces_beside_a_solid_are_dropped_with_a_word) {
   EXPECT_THAT(fixed.repairs, testing::Contains(testing::HasSubstr("dropped 1 piece")));
 }
 
+/// The part of a ball's surface above a height, open below.
+TriangleMesh cap_of_ball(const Vec3& center, Real radius, Real height) {
+  TriangleMesh cap = sphere(center, radius, 4);
+  Index kept = 0;
+  for (Index f = 0; f < cap.face_count(); ++f)
+    if (cap.vertices(2, cap.faces.col(f)[0]) - center.z() > height)
+      cap.faces.col(kept++) = Eigen::Vector3i(cap.faces.col(f));
+  cap.faces.conservativeResize(3, kept);
+  return cap;
+}
+
+TEST(SurfaceRepair, an_open_sheet_beside_a_solid_is_dropped_and_a_solid_with_a_large_hole_is_closed) {
+  const TriangleMesh ball = sphere(Vec3::Zero(), 2 * cm, 3);
+  const FixedSurface beside_sheet = fix_surface(merged({ball, cap_of_ball(Vec3(8, 0, 0) * cm, 4 * cm, 3.2 * cm)}), "a");
+  EXPECT_NEAR(volume(beside_sheet.mesh), volume(ball), 1e-12);
+  EXPECT_THAT(beside_sheet.repairs, testing::Contains(testing::HasSubstr("dropped 1 open sheet")));
+  const FixedSurface beside_half = fix_surface(merged({ball, cap_of_ball(Vec3(8, 0, 0) * cm, 1.5 * cm, 0)}), "b");
+  EXPECT_EQ(pieces_of(beside_half.mesh).size(), 2u);
+  // Alone a sheet is all there is.
+  EXPECT_GT(volume(fix_surface(cap_of_ball(Vec3::Zero(), 4 * cm, 3.2 * cm), "c").mesh), 0);
+}
+
 TEST(SurfaceRepair, random_triangles_give_a_solid_or_a_refusal) {
   std::uint32_t state = 1;
   const auto next = [&](Index below) {

@@ -166,16 +166,16 @@ struct Taking {
     }
   }
 
-  bool run_takes(const NamedSurfaceFile& each) const {
+  /// The less, the better it is: 0 of a surface that a run takes and nothing is wrong with, 2 of one that it refuses.
+  int badness(const NamedSurfaceFile& each) const {
     try {
-      load(each, SurfaceRole::muscle);
-      return true;
+      return flaws_of(load(each, SurfaceRole::muscle)).empty() ? 0 : 1;
     } catch (const InputError&) {
-      return false;
+      return 2;
     }
   }
 
-  /// The surfaces in their order, but of several muscles of one name those first that a run takes as they are.
+  /// The surfaces in their order, but of several muscles of one name the soundest first.
   std::vector<const NamedSurfaceFile*> in_order() const {
     std::vector<const NamedSurfaceFile*> order;
     std::map<std::string, std::vector<std::size_t>> places;
@@ -185,10 +185,10 @@ struct Taking {
     }
     for (const auto& [name, of_name] : places) {
       if (of_name.size() < 2) continue;
-      std::vector<const NamedSurfaceFile*> sorted;
-      for (const std::size_t place : of_name) sorted.push_back(order[place]);
-      std::stable_partition(sorted.begin(), sorted.end(), [&](const auto* each) { return run_takes(*each); });
-      for (std::size_t i = 0; i < sorted.size(); ++i) order[of_name[i]] = sorted[i];
+      std::vector<std::pair<int, const NamedSurfaceFile*>> sorted;
+      for (const std::size_t place : of_name) sorted.emplace_back(badness(*order[place]), order[place]);
+      std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      for (std::size_t i = 0; i < sorted.size(); ++i) order[of_name[i]] = sorted[i].second;
     }
     return order;
   }
@@ -297,6 +297,7 @@ FoundFolder find_surfaces(const FolderFiles& files, const fs::path& subject, con
   Taking taking{found, files, mend};
   for (const NamedSurfaceFile* each : taking.in_order()) taking.take(*each);
   leave_out_wholes(found);
+  take_heads_apart(found);
   return found;
 }
 

@@ -16,6 +16,7 @@ namespace gracilis {
 struct MendedSurface {
   TriangleMesh mesh;
   std::vector<std::string> repairs = {};  ///< a clause each
+  std::vector<TriangleMesh> heads = {};   ///< of which it was united, where each is to be a muscle of its own
   std::string why = {};                   ///< what was wrong
   bool refused = true;                    ///< by a run; else a run would take it
   std::filesystem::path file = {};        ///< where it is written, in metres and, of a mirrored body, mirrored

@@ -1,11 +1,14 @@
 #include <gracilis/draft/muscle_heads.hpp>
 
+#include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
+#include <gracilis/io/mesh/load_surface.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,6 +37,37 @@ std::vector<std::string> heads_of(const FoundMuscle& whole, const FoundFolder& f
 }
 
 }  // namespace
+
+/// Each of its heads as a muscle, called by its number; none where a run would refuse one.
+static std::vector<FoundMuscle> heads_as_muscles(const FoundMuscle& whole) try {
+  const std::string side = side_ending(whole.side);
+  const std::string stem = whole.name.substr(0, whole.name.size() - (whole.name.ends_with(side) ? side.size() : 0));
+  std::vector<FoundMuscle> heads;
+  for (const TriangleMesh& mesh : whole.mended->heads) {
+    FoundMuscle& head = heads.emplace_back(whole);
+    head.name = fmt::format("{}_{}{}", stem, heads.size(), side);
+    head.mesh = check_surface(mesh, 1, SurfaceRole::muscle, head.name).mesh;
+    head.mended->heads.clear();
+    head.mended->repairs = {fmt::format("one of {} pieces that cut each other", whole.mended->heads.size())};
+  }
+  return heads;
+} catch (const InputError&) {
+  return {};
+}
+
+void take_heads_apart(FoundFolder& found) {
+  std::set<std::string> names;
+  for (const FoundMuscle& muscle : found.muscles) names.insert(muscle.name);
+  std::vector<FoundMuscle> muscles;
+  for (FoundMuscle& muscle : found.muscles) {
+    std::vector<FoundMuscle> heads;
+    if (muscle.mended && muscle.mended->heads.size() > 1) heads = heads_as_muscles(muscle);
+    const auto is_taken = [&](const FoundMuscle& head) { return names.contains(head.name); };
+    if (heads.empty() || std::any_of(heads.begin(), heads.end(), is_taken)) heads = {std::move(muscle)};
+    for (FoundMuscle& head : heads) muscles.push_back(std::move(head));
+  }
+  found.muscles = std::move(muscles);
+}
 
 void leave_out_wholes(FoundFolder& found) {
   std::vector<std::string> wholes;

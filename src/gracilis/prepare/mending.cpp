@@ -33,6 +33,7 @@ FixedSurface mended_surface(const TriangleMesh& mesh, const std::string& name, c
     give_volume_back(fixed.mesh, volume, settings.volume_tolerance, limit);
   }
   if (!fixed.repairs.empty()) drop_slivers(fixed.mesh, limit);
+  for (TriangleMesh& head : fixed.heads) drop_slivers(head, limit);
   return fixed;
 } catch (const OutOfTime&) {
   throw InputError(out_of_time(name, settings));

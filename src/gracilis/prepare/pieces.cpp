@@ -7,6 +7,8 @@
 #include <gracilis/prepare/rebuilding.hpp>
 #include <gracilis/prepare/solids.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -37,6 +39,50 @@ Index drop_nested(std::vector<TriangleMesh>& pieces) {
   const auto dropped = static_cast<Index>(pieces.size() - kept.size());
   pieces = std::move(kept);
   return dropped;
+}
+
+namespace {
+
+/// From where to where, along some line.
+struct Extent {
+  Real low, high;
+  Real length() const { return high - low; }
+};
+
+Extent extent_along(const Vec3& direction, const TriangleMesh& mesh) {
+  const Eigen::RowVectorXd along = direction.transpose() * mesh.vertices;
+  return {along.minCoeff(), along.maxCoeff()};
+}
+
+/// Along which the vertices are spread most.
+Vec3 long_axis(const TriangleMesh& mesh) {
+  const Points from_middle = mesh.vertices.colwise() - mesh.vertices.rowwise().mean();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(from_middle * from_middle.transpose()).eigenvectors().col(2);
+}
+
+}  // namespace
+
+bool may_be_heads(const std::vector<TriangleMesh>& pieces) {
+  constexpr Real least_volume = 0.1, least_length = 0.5, least_beside = 2.0 / 3, most_within = 0.3;
+  if (pieces.size() < 2) return false;
+  const TriangleMesh whole = merged(pieces);
+  const Vec3 axis = long_axis(whole);
+  const Extent all = extent_along(axis, whole), first = extent_along(axis, pieces.front());
+  Real sum = 0;
+  for (const TriangleMesh& piece : pieces) sum += volume_of(piece);
+  const auto runs_beside = [&](const TriangleMesh& piece) {
+    const Extent own = extent_along(axis, piece);
+    const Real beside = std::min(own.high, first.high) - std::max(own.low, first.low);
+    return volume_of(piece) >= least_volume * sum && own.length() >= least_length * all.length() &&
+           beside >= least_beside * own.length();
+  };
+  if (!std::all_of(pieces.begin(), pieces.end(), runs_beside)) return false;
+  for (std::size_t outer = 0; outer + 1 < pieces.size(); ++outer) {
+    const SignedDistance around(pieces[outer]);
+    for (std::size_t k = outer + 1; k < pieces.size(); ++k)
+      if (share_within(pieces[k], around, 0, 300) > most_within) return false;
+  }
+  return true;
 }
 
 /// Pairs of triangles of the two that meet and have no corner in common: pieces that were joined in a vertex or an edge

@@ -13,6 +13,11 @@ namespace gracilis {
 /// many. The pieces must be closed and oriented outwards; they come back with the largest volume first.
 Index drop_nested(std::vector<TriangleMesh>& pieces);
 
+/// Whether pieces may be the heads of one muscle rather than scraps of it: each runs along at least half of the whole
+/// and beside the largest, encloses a tenth of all, and lies in none of the others. The pieces must be closed and
+/// oriented outwards, the largest first.
+bool may_be_heads(const std::vector<TriangleMesh>& pieces);
+
 /// What came of uniting surfaces.
 struct United {
   std::vector<TriangleMesh> pieces;

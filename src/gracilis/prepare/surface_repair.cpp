@@ -23,6 +23,8 @@ constexpr Real flattest = 5e-5;
 constexpr Real crumb_share = 0.01;    ///< of the area; smaller pieces go
 constexpr Real least_area = 0.6;      ///< share that should be left of a surface
 constexpr Real least_volume = 0.002;  ///< share of all pieces'; less is a crumb, whatever its area
+/// Share of an open piece's area that its area vectors sum up to: all of it where it is flat, of half a ball a half.
+constexpr Real least_one_way = 2.0 / 3;
 
 std::string counted(Index count, const std::string& thing, const std::string& things) {
   return std::to_string(count) + " " + (count == 1 ? thing : things);
@@ -62,12 +64,26 @@ void make_manifold(FixedSurface& fixed) {
 
 /// What was done to all pieces together.
 struct Tally {
-  Index filled = 0, flat = 0, tiny = 0, mended = 0, rebuilt = 0, nested = 0;
+  Index filled = 0, flat = 0, sheets = 0, tiny = 0, mended = 0, rebuilt = 0, nested = 0;
 };
 
+/// A piece without holes.
+struct ClosedPiece {
+  TriangleMesh mesh;
+  bool was_sheet = false;
+};
+
+/// Whether most of an open piece looks one way: a sheet, which has no inside.
+bool is_sheet(const TriangleMesh& piece, const MeshReport& report) {
+  Vec3 sum = Vec3::Zero();
+  for (const Eigen::Vector3i face : piece.faces.colwise()) sum += area_vector(piece.vertices, face);
+  return report.open_edges && sum.norm() / 2 > least_one_way * report.area;
+}
+
 /// Closes one piece; empty where that cannot be, or where nothing is enclosed.
-TriangleMesh closed_piece(TriangleMesh piece, Tally& tally, const TimeLimit& limit) {
+ClosedPiece closed_piece(TriangleMesh piece, Tally& tally, const TimeLimit& limit) {
   MeshReport report = inspect_mesh(piece);
+  const bool was_sheet = is_sheet(piece, report);
   if (report.open_edges) {
     const Index filled = fill_holes(piece, std::numeric_limits<Real>::max(), true, limit);
     tally.filled += filled;
@@ -75,10 +91,32 @@ TriangleMesh closed_piece(TriangleMesh piece, Tally& tally, const TimeLimit& lim
   }
   if (!is_solid(report) || report.volume < 0) report = inspect_mesh(piece = repair_mesh(piece).mesh);
   if (!is_solid(report) || is_flat(report)) {
-    piece = {};
     ++tally.flat;
+    return {};
   }
-  return piece;
+  return {std::move(piece), was_sheet};
+}
+
+/// Sheets beside a larger solid: what closing them encloses is made up. Returns how many.
+Index drop_sheets(std::vector<ClosedPiece>& pieces) {
+  Real largest = 0;
+  for (const ClosedPiece& piece : pieces)
+    if (!piece.was_sheet) largest = std::max(largest, volume_of(piece.mesh));
+  return static_cast<Index>(std::erase_if(
+      pieces, [&](const ClosedPiece& piece) { return piece.was_sheet && volume_of(piece.mesh) < largest; }));
+}
+
+std::vector<TriangleMesh> closed_pieces(const TriangleMesh& whole, Tally& tally, const TimeLimit& limit) {
+  std::vector<ClosedPiece> closed;
+  for (TriangleMesh& piece : pieces_of(whole)) {
+    limit.check();
+    closed.push_back(closed_piece(std::move(piece), tally, limit));
+    if (closed.back().mesh.face_count() == 0) closed.pop_back();
+  }
+  tally.sheets = drop_sheets(closed);
+  std::vector<TriangleMesh> pieces;
+  for (ClosedPiece& piece : closed) pieces.push_back(std::move(piece.mesh));
+  return pieces;
 }
 
 /// Returns how many.
@@ -108,6 +146,7 @@ void tell(const Tally& tally, FixedSurface& fixed) {
   };
   add(tally.filled, "filled ", "hole", "holes");
   add(tally.flat, "dropped ", "piece", "pieces", " that could not be closed or enclose nothing");
+  add(tally.sheets, "dropped ", "open sheet", "open sheets", ", whose closing would have made up what it encloses");
   add(tally.tiny, "dropped ", "tiny piece", "tiny pieces");
   add(tally.mended, "cut out where ", "piece cuts itself and filled", "pieces cut themselves and filled", " the holes");
   add(tally.rebuilt, "rebuilt ", "piece", "pieces", " from what it encloses, on a grid");
@@ -158,12 +197,7 @@ FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, cons
   Tally tally;
   const TriangleMesh whole = fixed.mesh;
   const Real area = surface_area(whole.vertices, whole.faces);
-  std::vector<TriangleMesh> pieces;
-  for (TriangleMesh& piece : pieces_of(whole)) {
-    limit.check();
-    piece = closed_piece(std::move(piece), tally, limit);
-    if (piece.face_count() > 0) pieces.push_back(std::move(piece));
-  }
+  std::vector<TriangleMesh> pieces = closed_pieces(whole, tally, limit);
   tally.tiny = drop_tiny(pieces);
   if (pieces.empty()) {
     rebuild(fixed, name, limit);
@@ -174,14 +208,17 @@ FixedSurface fix_surface(const TriangleMesh& mesh, const std::string& name, cons
   if (pieces.empty()) refuse(name);
   tally.nested = drop_nested(pieces);
   const std::size_t count = pieces.size();
+  std::vector<TriangleMesh> heads = may_be_heads(pieces) ? pieces : std::vector<TriangleMesh>();
   United all = united(std::move(pieces), limit);
   // A union may enclose bubbles.
   all.pieces = pieces_of(merged(all.pieces));
   drop_tiny(all.pieces);
   tell(tally, fixed);
-  if (all.united > 0)
+  if (all.united > 0) {
+    fixed.heads = std::move(heads);
     fixed.repairs.push_back("united " + counted(static_cast<Index>(count), "piece", "pieces") + " that cut each other" +
                             (all.exact ? "" : ", on a grid"));
+  }
   fixed.mesh = merged(all.pieces);
   if (all.pieces.size() > 1) take(repair_mesh(fixed.mesh, crumb_share), fixed);
   if (tally.flat > 0 && surface_area(fixed.mesh.vertices, fixed.mesh.faces) < least_area * area)

@@ -13,6 +13,7 @@ namespace gracilis {
 struct FixedSurface {
   TriangleMesh mesh;
   std::vector<std::string> repairs;
+  std::vector<TriangleMesh> heads = {};  ///< closed pieces of which it was united, where they may be a muscle's heads
 };
 
 /// Repairs any triangle surface, in this order: what geometry/mesh_repair.hpp does; where that is not enough, equal
