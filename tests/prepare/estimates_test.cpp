@@ -1,4 +1,5 @@
 #include <gracilis/core/errors.hpp>
+#include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/prepare_surfaces.hpp>
 #include <gracilis/prepare/time_limit.hpp>
 
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <limits>
 #include <thread>
@@ -61,6 +63,12 @@ TEST(PreparationEstimates, time_counts_while_there_is_a_processor) {
   EXPECT_FALSE(limit.is_over()) << "nothing was done meanwhile";
   const auto begin = std::chrono::steady_clock::now();
   while (!limit.is_over()) ASSERT_LT(std::chrono::steady_clock::now() - begin, std::chrono::minutes(1));
+}
+
+TEST(PreparationEstimates, time_counts_while_millions_of_edges_are_split) {
+  const std::clock_t begin = std::clock();
+  EXPECT_THROW(remesh_isotropic(ball(), 0.00005, 1, TimeLimit(0.2)), OutOfTime);
+  EXPECT_LT(Real(std::clock() - begin) / CLOCKS_PER_SEC, 3);
 }
 
 TEST(PreparationEstimates, everything_that_is_wrong_is_told_at_once) {

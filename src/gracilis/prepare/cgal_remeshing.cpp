@@ -5,6 +5,7 @@
 
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 
+#include <cstddef>
 #include <exception>
 
 namespace gracilis {
@@ -22,6 +23,24 @@ struct WatchedProjection {
   const TimeLimit* limit;
 };
 
+/// The surface's points; looks at the clock now and then, since millions of edges may be split between two projections.
+struct WatchedPoints {
+  using key_type = CgalMesh::Vertex_index;
+  using value_type = CgalPoint;
+  using reference = const CgalPoint&;
+  using category = boost::read_write_property_map_tag;
+
+  friend reference get(const WatchedPoints& points, key_type v) {
+    if (++*points.looks % 4096 == 0) points.limit->check();
+    return points.surface->point(v);
+  }
+  friend void put(const WatchedPoints& points, key_type v, const CgalPoint& p) { points.surface->point(v) = p; }
+
+  CgalMesh* surface;
+  const TimeLimit* limit;
+  std::size_t* looks;
+};
+
 }  // namespace
 
 std::optional<TriangleMesh> remesh_isotropic(const TriangleMesh& mesh, Real edge_length, int iterations,
@@ -31,10 +50,12 @@ std::optional<TriangleMesh> remesh_isotropic(const TriangleMesh& mesh, Real edge
   std::optional<CgalMesh> given = to_cgal(mesh);
   if (!given) return std::nullopt;
   const NearestTriangle surface_given(mesh);
+  std::size_t looks = 0;
   try {
     pmp::isotropic_remeshing(given->faces(), edge_length, *given,
                              CGAL::parameters::number_of_iterations(static_cast<unsigned>(iterations))
                                  .number_of_relaxation_steps(3)
+                                 .vertex_point_map(WatchedPoints{&*given, &limit, &looks})
                                  .projection_functor(WatchedProjection{&*given, &surface_given, &limit}));
     given->collect_garbage();
     return from_cgal(*given);
