@@ -87,27 +87,30 @@ TEST(SurfacesTaken, what_a_run_takes_with_flaws_is_mended_where_that_is_asked_fo
   EXPECT_FALSE(mended({}, "piriformis_r"));
 }
 
-TEST(SurfacesTaken, heads_that_were_united_in_mending_become_muscles_unless_they_are_here_by_themselves) {
+TEST(SurfacesTaken, united_heads_on_bones_that_move_apart_become_muscles_unless_they_are_here_by_themselves) {
   const TestFolder folder;
   write_body(folder.path() / "hip", hip(), hip_names);
-  const TriangleMesh left = shapes::sphere(Vec3::Zero(), 0.02, 3), right = shapes::sphere(Vec3(0.03, 0, 0), 0.02, 3);
+  const TriangleMesh left = shapes::sphere(Vec3::Zero(), 0.02, 3), right = shapes::sphere(Vec3(0.03, 0, 0), 0.02, 3),
+                     away = shapes::sphere(Vec3(0.05, 0, 0), 0.02, 3);
   const auto put = [&](const std::string& name, const TriangleMesh& mesh) {
     write_surface(folder.path() / "hip" / "muscles" / name, mesh.vertices, mesh.faces);
   };
+  put("biceps femoris.R.vtp", shapes::both(left, right));
   put("gastrocnemius.R.vtp", shapes::both(left, right));
   const MendFunction mend = [&](const std::string&, const TriangleMesh&) {
-    return MendedSurface{shapes::both(left, shapes::sphere(Vec3(0.05, 0, 0), 0.02, 3)), {"united"}, {left, right}};
+    return MendedSurface{shapes::both(left, away), {"united"}, {left, right}};
   };
   const auto names = [&] {
     std::vector<std::string> all;
     for (const FoundMuscle& muscle : find_surfaces(list_folder(folder.path() / "hip"), "", "", mend).muscles)
-      if (muscle.name.starts_with("gastrocnemius")) all.push_back(muscle.name);
+      if (muscle.name.starts_with("biceps") || muscle.name.starts_with("gastrocnemius")) all.push_back(muscle.name);
     return all;
   };
-  EXPECT_THAT(names(), testing::ElementsAre("gastrocnemius_1_r", "gastrocnemius_2_r"));
-  put("gastrocnemius medial.R.vtp", left);
-  put("gastrocnemius lateral.R.vtp", shapes::sphere(Vec3(0.05, 0, 0), 0.02, 3));
-  EXPECT_THAT(names(), testing::UnorderedElementsAre("gastrocnemius_medial_r", "gastrocnemius_lateral_r"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("biceps_femoris_1_r", "biceps_femoris_2_r", "gastrocnemius_r"));
+  put("biceps femoris long.R.vtp", left);
+  put("biceps femoris short.R.vtp", away);
+  EXPECT_THAT(names(),
+              testing::UnorderedElementsAre("biceps_femoris_long_r", "biceps_femoris_short_r", "gastrocnemius_r"));
 }
 
 TEST(SurfacesTaken, files_named_like_those_of_a_scene_are_taken_unless_a_drafted_scene_wrote_them) {

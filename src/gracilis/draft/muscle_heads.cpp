@@ -1,6 +1,7 @@
 #include <gracilis/draft/muscle_heads.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/draft/sites.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/io/mesh/load_surface.hpp>
 
@@ -38,6 +39,16 @@ std::vector<std::string> heads_of(const FoundMuscle& whole, const FoundFolder& f
 
 }  // namespace
 
+/// Whether its heads begin or end on segments that move against each other.
+static bool has_heads_that_move_apart(const FoundMuscle& whole) {
+  if (!whole.known || !whole.mended || whole.mended->heads.size() < 2) return false;
+  const auto differ = [](const std::vector<Site>& sites) {
+    return std::any_of(sites.begin(), sites.end(),
+                       [&](const Site& site) { return segment_of(site) != segment_of(sites.front()); });
+  };
+  return differ(whole.known->origin) || differ(whole.known->insertion);
+}
+
 /// Each of its heads as a muscle, called by its number; none where a run would refuse one.
 static std::vector<FoundMuscle> heads_as_muscles(const FoundMuscle& whole) try {
   const std::string side = side_ending(whole.side);
@@ -61,7 +72,7 @@ void take_heads_apart(FoundFolder& found) {
   std::vector<FoundMuscle> muscles;
   for (FoundMuscle& muscle : found.muscles) {
     std::vector<FoundMuscle> heads;
-    if (muscle.mended && muscle.mended->heads.size() > 1) heads = heads_as_muscles(muscle);
+    if (has_heads_that_move_apart(muscle)) heads = heads_as_muscles(muscle);
     const auto is_taken = [&](const FoundMuscle& head) { return names.contains(head.name); };
     if (heads.empty() || std::any_of(heads.begin(), heads.end(), is_taken)) heads = {std::move(muscle)};
     for (FoundMuscle& head : heads) muscles.push_back(std::move(head));

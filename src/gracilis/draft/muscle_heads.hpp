@@ -9,7 +9,7 @@ namespace gracilis {
 void leave_out_wholes(FoundFolder& found);
 
 /// Puts in the place of a muscle that was mended by uniting its heads each of them as a muscle of its own, `name_1_r`
-/// and so on: they move against each other.
+/// and so on, where anatomy has them on bones that move against each other.
 void take_heads_apart(FoundFolder& found);
 
 }  // namespace gracilis

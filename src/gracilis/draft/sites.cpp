@@ -12,7 +12,8 @@ const std::set<std::string> hip_wholes = {"hip_bone", "pelvis"};
 /// How far beyond a part of a long bone, as shares of its length, its attachments reach in other people.
 constexpr Real part_margin = 0.05;
 
-/// The segment that a site's bones belong to.
+}  // namespace
+
 std::string segment_of(const Site& site) {
   if (site.bone.starts_with("#")) return site.bone.substr(1);
   const bool many = site.bone.ends_with("*");
@@ -21,8 +22,6 @@ std::string segment_of(const Site& site) {
     if (many ? bone.name.starts_with(start) : bone.name == start) return bone.segment;
   return "";
 }
-
-}  // namespace
 
 BoneParts::BoneParts(const FoundFolder& found, const Skeleton& skeleton) : found_(found), skeleton_(skeleton) {
   for (const FoundBone& bone : found.bones) trees_.emplace_back(bone.mesh);

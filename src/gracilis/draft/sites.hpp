@@ -8,6 +8,9 @@
 
 namespace gracilis {
 
+/// The segment that a site's bones belong to.
+std::string segment_of(const Site& site);
+
 /// A part of a bone that is here.
 struct Zone {
   std::size_t bone = 0;  ///< in FoundFolder::bones
