@@ -19,11 +19,15 @@ def controlled(page, out):
             folder = f"{out}/controlled/{motion}_{preset}"
             if not os.path.exists(f"{folder}/measures.csv"):
                 continue
-            for column, label in (("activation", "activation"), ("volume_ratio", "volume over rest")):
-                series = [Series(muscle.replace("_", " "), rows) for muscle, rows in sorted(measures(folder, column, coordinate).items())]
+            for column, label in (("activation", "activation"), ("volume_ratio", "volume error, %")):
+                told = {muscle: [(angle, 100 * (value - 1) if column == "volume_ratio" else value) for angle, value in rows]
+                        for muscle, rows in measures(folder, column, coordinate).items()}
+                reach = max([0.1] + [abs(value) for rows in told.values() for _, value in rows])
+                series = [Series(muscle.replace("_", " "), rows) for muscle, rows in sorted(told.items())]
                 page.chart(f"{motion}_{preset}_{column}", f"Beside Figure {figure}: {motion} by the joint control unit, {preset}",
                            "Static optimization's samples, as the unit answers." if column == "activation" else "From the capture pose on.",
-                           series, f"{coordinate.replace('_', ' ')}, degrees", label)
+                           series, f"{coordinate.replace('_', ' ')}, degrees", label,
+                           y_range=(-1.1 * reach, 1.1 * reach) if column == "volume_ratio" else (0, 1.05))
 
 
 def neighbors(page, out):

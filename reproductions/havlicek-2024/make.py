@@ -63,13 +63,17 @@ def tell_sweeps(found, ours, remarks):
         remarks["explosion"] = "; ".join(f"{kind} {step:g}°: {', '.join(muscles) or 'none'}" for (kind, step), muscles in found.items())
 
 
-def corrections(page, out):
+def corrections(page, out, ours, remarks):
     """Figures 6.4 and 6.5 as curves: how far each kind of constraint moves gluteus maximus in a frame, by `gracilis export --to csv`."""
     by_kind, flexion = {}, [row[0] for row in next(iter(measures(f"{out}/corrections", "volume_ratio").values()))]
     with open(f"{out}/corrections_csv/corrections.csv", newline="") as file:
         for row in csv.DictReader(file):
             by_kind.setdefault(row["kind"], []).append((flexion[int(row["frame"])], float(row["mean_mm"]), float(row["largest_mm"])))
-    for column, name, label in ((1, "mean", "mean correction of a vertex in a frame, mm"), (2, "largest", "largest correction of a vertex in a frame, mm")):
+    if flexion[-1] > 80:
+        ours["dihedrals_lead"] = max(own[0] for own, held in zip(by_kind["dihedral"], by_kind["bone contact"]) if own[2] <= held[2]) + 1
+        remarks["dihedrals_lead"] = "from there on dihedrals move some vertex farther than the bone holds any off, up to " \
+                                    f"{max(row[2] for row in by_kind['dihedral']):.0f} mm; the muscle does not explode all the same"
+    for column, name, label in ((1, "mean", "mean correction, mm"), (2, "largest", "largest correction, mm")):
         page.chart(f"figure_6_5_{name}", f"Figures 6.4 and 6.5 as curves: {name} corrections by kind", "What each kind of constraint moves vertices of gluteus maximus, "
                    "alone, in its 70 iterations together.",
                    [Series(kind, [(row[0], row[column]) for row in rows]) for kind, rows in by_kind.items() if any(row[2] > 0 for row in rows)],
@@ -135,7 +139,7 @@ def main(out, here):
         ours["adductor_brevis_shortest"] = min(by_run["passive"]["adductor_brevis_r"], key=lambda row: mean(row[1]))[0]
         remarks["adductor_brevis_shortest"] = "by the mean; its insertion is drawn out from the first degrees on, which lengthens every fiber"
     tell_sweeps(found, ours, remarks)
-    corrections(page, out)
+    corrections(page, out, ours, remarks)
     control.controlled(page, out)
     control.neighbors(page, out)
     active = control.optimized(page, out)

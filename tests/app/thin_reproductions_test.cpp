@@ -110,7 +110,7 @@ void expect_driven_motions(const Reproduction& made) {
     EXPECT_GT(most->second - least->second, 0.001) << motion;  // it follows the pose
     const auto volume = made.curve(name + "volume_ratio", "iliacus r");
     ASSERT_EQ(volume.size(), 9U) << motion;
-    EXPECT_NEAR(volume.back().second, 1, 0.05) << motion;
+    EXPECT_NEAR(volume.back().second, 0, 5) << motion;  // %
     const auto samples = made.curve(std::string("neighbors_") + motion + "_hip_adduction_r", "samples"),
                used = made.curve(std::string("neighbors_") + motion + "_hip_adduction_r", "neighbors used");
     EXPECT_GE(used.size(), 10U) << motion;
