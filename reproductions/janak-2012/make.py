@@ -151,6 +151,7 @@ def resolutions(page, runs, ours, remarks):
             ours[f"at_{where}_{each}"] = seconds
             remarks[f"at_{where}_{each}"] = f"{where} s of the walk"
             for row in runs.last[name]:
+                remarks[f"boundary_{row['muscle']}_{each}"] = "particles with a vertex of their own; imported surfaces have some 500 vertices"
                 ours[f"boundary_{row['muscle']}_{each}"], ours[f"particles_{row['muscle']}_{each}"] = float(row["boundary_particles"]), float(row["particles"])
         detected.append(Series("the cadaver's hip" if where == "hip" else f"thigh, {where} s of the walk", spent))
     instants = [where for where in found if where != "hip"]
