@@ -81,11 +81,12 @@ TEST(JanakReproduction, springs_come_to_rest_and_short_steps_take_longer) {
   ASSERT_EQ(springs.size(), 2U);
   EXPECT_GT(springs[1].first, 1.9 * springs[0].first);
   EXPECT_GT(springs[1].second, springs[0].second);
-  // Figure 5.3: particles of each muscle come to rest.
-  for (const char* muscle : {"gluteus maximus r", "psoas major r"}) {
-    const auto motion = made.curve("figure_5_3_nearest", muscle);
-    ASSERT_EQ(motion.size(), 2U) << muscle;
-    EXPECT_LT(motion[1].second, motion[0].second) << muscle;
+  // Figure 5.9: the springs of each muscle come nearer to their lengths; figure 5.3 has a curve of each.
+  for (const char* muscle : {"gluteus maximus r", "gluteus medius r", "iliacus r", "adductor brevis r"}) {
+    const auto changes = made.curve("figure_5_9_hip_curves", muscle);
+    ASSERT_EQ(changes.size(), 3U) << muscle;
+    EXPECT_LT(changes[2].second, changes[0].second) << muscle;
+    EXPECT_EQ(made.curve("figure_5_3_nearest", muscle).size(), 2U) << muscle;
   }
   // Table 5.2, of an imported muscle.
   if (!Reproduction::has_data("opensim")) return;
