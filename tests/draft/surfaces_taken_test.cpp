@@ -130,35 +130,37 @@ TEST(SurfacesTaken, files_named_like_those_of_a_scene_are_taken_unless_a_drafted
   EXPECT_EQ(files().tables.size(), 0u);
 }
 
-TEST(SurfacesTaken, of_two_surfaces_of_one_name_that_is_taken_which_a_run_takes) {
+/// What is found of a hip with one muscle in two folders.
+static FoundFolder found_of_two(const TriangleMesh& as_scanned, const TriangleMesh& mended) {
   const TestFolder folder;
   write_body(folder.path() / "hip", hip(), hip_names);
-  TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.02, 3), open = ball;
-  open.faces.conservativeResize(3, open.faces.cols() - 10);
-  for (const char* name : {"as_scanned", "mended"}) std::filesystem::create_directory(folder.path() / "hip" / name);
-  write_surface(folder.path() / "hip" / "as_scanned" / "piriformis.R.vtp", open.vertices, open.faces);
-  write_surface(folder.path() / "hip" / "mended" / "piriformis.R.vtp", ball.vertices, ball.faces);
-  const FoundFolder found = find_surfaces(folder.path() / "hip");
+  const auto write = [&](const char* name, const TriangleMesh& surface) {
+    std::filesystem::create_directory(folder.path() / "hip" / name);
+    write_surface(folder.path() / "hip" / name / "piriformis.R.vtp", surface.vertices, surface.faces);
+  };
+  write("as_scanned", as_scanned);
+  write("mended", mended);
+  return find_surfaces(folder.path() / "hip");
+}
+
+static void expect_mended_is_taken(const FoundFolder& found) {
   const auto taken = std::find_if(found.muscles.begin(), found.muscles.end(),
                                   [](const FoundMuscle& each) { return each.name == "piriformis_r"; });
   ASSERT_NE(taken, found.muscles.end());
   EXPECT_EQ(taken->file.parent_path().filename(), "mended");
+}
+
+TEST(SurfacesTaken, of_two_surfaces_of_one_name_that_is_taken_which_a_run_takes) {
+  TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.02, 3), open = ball;
+  open.faces.conservativeResize(3, open.faces.cols() - 10);
+  const FoundFolder found = found_of_two(open, ball);
+  expect_mended_is_taken(found);
   EXPECT_THAT(found.left_out, testing::ElementsAre(testing::HasSubstr("piriformis_r is there already, from")));
 }
 
 TEST(SurfacesTaken, of_two_surfaces_of_one_name_that_a_run_takes_the_sound_one_is_taken) {
-  const TestFolder folder;
-  write_body(folder.path() / "hip", hip(), hip_names);
   const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 0.02, 3);
-  const TriangleMesh nested = shapes::both(ball, shapes::sphere(Vec3::Zero(), 0.015, 3));
-  for (const char* name : {"as_scanned", "mended"}) std::filesystem::create_directory(folder.path() / "hip" / name);
-  write_surface(folder.path() / "hip" / "as_scanned" / "piriformis.R.vtp", nested.vertices, nested.faces);
-  write_surface(folder.path() / "hip" / "mended" / "piriformis.R.vtp", ball.vertices, ball.faces);
-  const FoundFolder found = find_surfaces(folder.path() / "hip");
-  const auto taken = std::find_if(found.muscles.begin(), found.muscles.end(),
-                                  [](const FoundMuscle& each) { return each.name == "piriformis_r"; });
-  ASSERT_NE(taken, found.muscles.end());
-  EXPECT_EQ(taken->file.parent_path().filename(), "mended");
+  expect_mended_is_taken(found_of_two(shapes::both(ball, shapes::sphere(Vec3::Zero(), 0.015, 3)), ball));
 }
 
 TEST(SurfacesTaken, a_muscle_whose_heads_are_here_is_left_out_and_one_that_only_is_called_like_them_is_not) {
