@@ -59,7 +59,7 @@ static std::string head(const Model& model, bool apart) {
             : "; lines run through each other, so contact between muscles is off",
       apart ? "\"surface\"" : "\"none\"");
   if (!apart) return text;
-  return text + fmt::format("\n[settings]\niterations = {}   # what many press on each other takes longer to settle\n",
+  return text + fmt::format("\n[settings]\niterations = {}   # twice the default: contact passes through many\n",
                             iterations_apart);
 }
 
