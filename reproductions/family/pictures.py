@@ -2,8 +2,7 @@
 """pictures.py GRACILIS OUT HERE: draws what HERE/pictures.toml lists, of runs that are complete in OUT, into OUT/pictures.
 
 An entry has a name, a title, a remark, and either a run (below OUT) with options of `gracilis render` (in which OUT/ is that
-folder), or a file (below OUT)
-that another command has drawn, with that command. `needs` tells what it would need where it cannot be drawn."""
+folder), or a file (below OUT) that another command has drawn, with that command. `needs` tells what it would need where it cannot be drawn."""
 import os
 import shlex
 import subprocess

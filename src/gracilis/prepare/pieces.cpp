@@ -2,12 +2,11 @@
 
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
+#include <gracilis/geometry/principal_axes.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/prepare/cgal.hpp>
 #include <gracilis/prepare/rebuilding.hpp>
 #include <gracilis/prepare/solids.hpp>
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <array>
@@ -54,19 +53,13 @@ Extent extent_along(const Vec3& direction, const TriangleMesh& mesh) {
   return {along.minCoeff(), along.maxCoeff()};
 }
 
-/// Along which the vertices are spread most.
-Vec3 long_axis(const TriangleMesh& mesh) {
-  const Points from_middle = mesh.vertices.colwise() - mesh.vertices.rowwise().mean();
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(from_middle * from_middle.transpose()).eigenvectors().col(2);
-}
-
 }  // namespace
 
 bool may_be_heads(const std::vector<TriangleMesh>& pieces) {
   constexpr Real least_volume = 0.1, least_length = 0.5, least_beside = 2.0 / 3, most_within = 0.3;
   if (pieces.size() < 2) return false;
   const TriangleMesh whole = merged(pieces);
-  const Vec3 axis = long_axis(whole);
+  const Vec3 axis = spread_of(whole.vertices).most();
   const Extent all = extent_along(axis, whole), first = extent_along(axis, pieces.front());
   Real sum = 0;
   for (const TriangleMesh& piece : pieces) sum += volume_of(piece);

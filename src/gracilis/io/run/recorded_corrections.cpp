@@ -15,8 +15,7 @@ Corrections recorded_corrections(const RecordedRun& run, const std::string& musc
   for (const ConstraintRow& row : constraint_table()) {
     Points moved = file->vectors(correction_name(row.name), piece_of_muscle(run.layout, muscle));
     if (moved.cols() == 0) continue;
-    if (const auto found = run.vertex_counts.find(muscle); found != run.vertex_counts.end())
-      require_vertices(file->path(), static_cast<Index>(moved.cols()), found->second);
+    require_count(run, muscle, frame, moved.cols());
     require_finite(moved, file->path(), "a correction");
     corrections[row.name] = std::move(moved);
   }

@@ -200,7 +200,7 @@ Eigen::MatrixXd measure_of(const RecordedRun& run, const std::string& measure) {
 }
 
 /// Throws InputError unless there are as many of a surface's vertices as in frame 0.
-static void require_count(const RecordedRun& run, const std::string& name, int frame, Eigen::Index count) {
+void require_count(const RecordedRun& run, const std::string& name, int frame, Eigen::Index count) {
   if (const auto found = run.vertex_counts.find(name); found != run.vertex_counts.end())
     require_vertices(file_of_surface(run.folder, run.layout, name, frame), static_cast<Index>(count), found->second);
 }

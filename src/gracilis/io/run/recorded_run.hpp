@@ -55,6 +55,9 @@ TriangleMesh placed_surface(const RecordedRun& run, const std::string& name, int
 /// As placed_surface, of a muscle's fibers.
 Polylines placed_fibers(const RecordedRun& run, const std::string& muscle, int frame);
 
+/// Throws InputError unless a surface of the run has so many vertices, as it has in frame 0.
+void require_count(const RecordedRun& run, const std::string& name, int frame, Eigen::Index count);
+
 /// The file that holds a muscle in a frame. Throws InputError.
 std::shared_ptr<const VtpFile> file_of_muscle(const RecordedRun& run, const std::string& muscle, int frame);
 

@@ -177,21 +177,21 @@ ClearRays clear_rays(const SectionRays& rays, const std::vector<SolidBone>& bone
       if (beside) room = beside(foot, ray, rays.lengths(i, k), room);
       rooms.room(i, k) = std::max(room, gap);
     }
-  ClearRays result;
-  if (beside) {
-    result.lengths = drawn_off_ridges(rays, share_out(rooms), bones);
-  } else {
-    const auto filled = [&] {
-      Eigen::MatrixXd lengths(count, sections);
-      for (Eigen::Index k = 0; k < sections; ++k) lengths.col(k) = rooms.filled(k, 1);
-      return lengths;
-    };
-    const Eigen::MatrixXd before = filled(), drawn = drawn_off_ridges(rays, before, bones);
-    rooms.room = (drawn.array() < before.array()).select(drawn, rooms.room);
-    result.lengths = drawn_off_ridges(rays, filled(), bones);
+  const auto filled = [&] {
+    if (beside) return share_out(rooms);
+    Eigen::MatrixXd lengths(count, sections);
+    for (Eigen::Index k = 0; k < sections; ++k) lengths.col(k) = rooms.filled(k, 1);
+    return lengths;
+  };
+  const Eigen::MatrixXd before = filled();
+  Eigen::MatrixXd lengths = drawn_off_ridges(rays, before, bones);
+  // What that takes goes elsewhere in the section; among others there is no room for it.
+  if (!beside && lengths != before) {
+    rooms.room = (lengths.array() < before.array()).select(lengths, rooms.room);
+    lengths = drawn_off_ridges(rays, filled(), bones);
   }
-  result.volume_share = rooms.volume(result.lengths) / rooms.volume(rays.lengths);
-  return result;
+  const Real volume_share = rooms.volume(lengths) / rooms.volume(rays.lengths);
+  return {std::move(lengths), volume_share};
 }
 
 ClearSections clear_of_bones(const Points& line, const Eigen::VectorXd& radii, int rays,

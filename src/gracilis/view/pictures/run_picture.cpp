@@ -14,7 +14,6 @@
 #include <gracilis/view/pictures/recorded_look.hpp>
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -150,10 +149,7 @@ std::vector<std::string> RunPainter::framed_names() const {
 
 Real RunPainter::extent() const {
   Eigen::AlignedBox3d box;
-  for (const std::string& name : framed_names()) {
-    const Points points = framed_points(name, 0);
-    for (const auto& point : points.colwise()) box.extend(Vec3(point));
-  }
+  for (const std::string& name : framed_names()) box.extend(bounding_box(framed_points(name, 0)));
   return box.isEmpty() ? 0 : box.diagonal().norm() / options_.zoom;
 }
 
