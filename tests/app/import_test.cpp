@@ -110,6 +110,14 @@ TEST(ImportCommand, an_imported_model_runs_by_sections_and_goes_back_to_opensim)
   ASSERT_EQ(cells.exit_code, 0) << cells.err;
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "run/tetrahedra/m_0001.vtu"));
   EXPECT_THAT(read_text(folder.path() / "run/tetrahedra/sections.csv"), testing::HasSubstr("1,m,0,0.000,tendon,"));
+  const TestFolder even;
+  ASSERT_EQ(import_swing(even, "--tendon both-ends --rays 8").exit_code, 0);
+  const std::string even_run = (even.path() / "run").string();
+  ASSERT_EQ(
+      run_program("run " + (even.path() / "scene/swing.toml").string() + " --set method=cylinder --out " + even_run)
+          .exit_code,
+      0);
+  EXPECT_EQ(run_program("export " + even_run + " --to tetrahedra --frames 0,1").exit_code, 0);
   const ProgramResult points =
       run_program("export " + run + " --to osim-points --model " + (folder.path() / "tiny.osim").string());
   ASSERT_EQ(points.exit_code, 0) << points.err;
@@ -256,6 +264,8 @@ TEST(ImportCommand, the_number_of_sections_may_be_chosen_down_to_the_lines_own_p
   EXPECT_EQ(vertices_of_swing("--rays 6 --scaling 9"), 513 * 6 + 2);
   EXPECT_EQ(vertices_of_swing("--rays 6 --scaling 2 --tendon-sections"), 6 * 6 + 2);
   EXPECT_EQ(vertices_of_swing("--rays 6 --scaling 0 --tendon-sections --tendon both-ends"), 4 * 6 + 2);
+  // Else the line, which is 403 mm long, is divided evenly.
+  EXPECT_EQ(vertices_of_swing("--rays 6 --section-distance-mm 20"), 22 * 6 + 2);
 }
 
 TEST(ImportCommand, surfaces_of_muscles_and_another_skeleton_come_from_files) {

@@ -52,6 +52,20 @@ TEST_F(SceneReader, a_wrap_s_kind_and_plane_must_be_known) {
               HasSubstr("'kind' must be \"cylinder\", \"sphere\", \"ellipsoid\" or \"torus\""));
 }
 
+TEST_F(SceneReader, even_parts_of_a_line_cannot_stand_beside_parts_by_its_points) {
+  const auto with_sections = [](const std::string& sections) {
+    return with(good_scene(), "[motion]",
+                "[muscles.action_line]\nrays = 6\nbodies = [\"pelvis\", \"femur\"]\n"
+                "points_mm = [[5, 5, 29], [5, 5, 11]]\n" +
+                    sections + "[motion]");
+  };
+  EXPECT_THAT(problems(with_sections("parts = 4\n")), Not(HasSubstr("'parts'")));
+  for (const char* other : {"scaling = 2\n", "tendon_sections = true\n"})
+    EXPECT_THAT(problems(with_sections(std::string("parts = 4\n") + other)),
+                HasSubstr("'parts' puts all sections: it cannot stand beside 'scaling' or 'tendon_sections'"));
+  EXPECT_THAT(problems(with_sections("parts = 0\n")), HasSubstr("'parts' must be an integer from 1 to 10000"));
+}
+
 TEST_F(SceneReader, wrong_types_and_missing_keys_are_named) {
   EXPECT_THAT(problems(with(good_scene(), "\"pelvis.ply\"", "7")),
               HasSubstr("scene.toml:5:8: 'file' must be a text in quotes"));

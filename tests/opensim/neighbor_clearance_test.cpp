@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 namespace gracilis::opensim {
 
@@ -87,11 +89,35 @@ TEST(NeighborClearance, a_tendon_leans_softly_out_of_a_belly_and_by_30_mm_at_mos
   for (Eigen::Index k = 0; k < 10; ++k) EXPECT_LE((way.col(k + 1) - way.col(k)).norm(), 0.5 * 0.02 + 1e-9) << k;
 }
 
-TEST(NeighborClearance, bellies_of_like_size_and_tendons_beside_them_stay_on_their_lines) {
-  const RoundMuscle belly = spindle(0.004), other = spindle(0), tendon = upright(-0.03, 0.003);
-  EXPECT_EQ(beside_bellies(other, {belly}), other.centers);
+TEST(NeighborClearance, muscles_that_leave_each_other_room_stay_on_their_lines) {
+  const RoundMuscle belly = spindle(0.021), other = spindle(0), tendon = upright(-0.03, 0.003);
+  EXPECT_EQ(beside_bellies(other, {belly}), other.centers) << "half of their radii lies between them";
   EXPECT_EQ(beside_bellies(tendon, {belly}), tendon.centers);
   EXPECT_EQ(beside_bellies(tendon, {}), tendon.centers);
+}
+
+TEST(NeighborClearance, of_two_bellies_on_nearly_one_line_each_gives_way_to_its_side) {
+  const RoundMuscle left = spindle(0), right = spindle(0.004);
+  const Points to_left = beside_bellies(left, {right}), to_right = beside_bellies(right, {left});
+  for (Eigen::Index k = 0; k < 11; ++k) {
+    EXPECT_NEAR(to_left(0, k) + to_right(0, k), 0.004, 1e-9) << k << ": they are as thick";
+    EXPECT_LE(to_left(0, k), 0) << k;
+  }
+  EXPECT_GT(to_right(0, 5) - to_left(0, 5), 0.8 * 0.02) << "half of their radii, but for what softness takes";
+}
+
+TEST(NeighborClearance, of_tendons_that_run_together_none_is_left_without_room) {
+  std::map<std::string, RoundMuscle> muscles;
+  for (const auto& [name, place] : std::map<std::string, Vec3>{
+           {"a", {0, 0, 0}}, {"b", {0.001, 0, 0}}, {"c", {0, 0.001, 0}}, {"d", {0.001, 0.0015, 0}}}) {
+    muscles[name] = upright(0, 0.006);
+    muscles[name].centers.colwise() += place;
+  }
+  const std::map<std::string, RoundMuscle> beside = beside_bellies(muscles, {});
+  for (const auto& [one, muscle] : beside)
+    for (const auto& [other, neighbor] : beside)
+      for (Eigen::Index k = 3; k < 8 && one < other; ++k)
+        EXPECT_GT((muscle.centers.col(k) - neighbor.centers.col(k)).norm(), 0.7 * 0.006) << one << other << k;
 }
 
 }  // namespace gracilis::opensim

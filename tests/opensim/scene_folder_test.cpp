@@ -4,12 +4,12 @@
 #include <gracilis/anatomy/sections/spindle.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/mesh_inspection.hpp>
-#include <gracilis/geometry/section_frames.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/io/scene/scene_reader.hpp>
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/opensim/import/scene_folder.hpp>
 #include <gracilis/opensim/kinematics/skeleton.hpp>
+#include <gracilis/scene/section_line.hpp>
 #include <gracilis/scene/validate.hpp>
 
 #include <shapes.hpp>
@@ -210,7 +210,7 @@ static int centers_outside(const std::string& muscle, const std::string& file) {
   const MuscleVolume volume = muscle_volume(model, line, skeleton.poses(), q, settings);
   EXPECT_GT(volume.sections_on_surface, 8) << muscle;
   const SignedDistance distance(settings.surfaces.at(muscle));
-  const Points sections = subdivide_line(volume.line.points, volume.line.scaling);
+  const Points sections = section_line(volume.line).centers;
   int outside = 0;
   for (Eigen::Index k = 1; k + 1 < sections.cols(); ++k) {
     const Vec3 center = volume.line.centers.col(k);

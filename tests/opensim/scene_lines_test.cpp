@@ -9,6 +9,7 @@
 #include <gracilis/methods/cylinder/cylinder_method.hpp>
 #include <gracilis/opensim/import/scene_folder.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
+#include <gracilis/scene/section_line.hpp>
 #include <gracilis/scene/validate.hpp>
 
 #include <gmock/gmock.h>
@@ -126,6 +127,25 @@ TEST(SceneLines, sections_stay_as_many_and_whole_while_points_come_and_go) {
   method->write(frame);
   for (std::size_t m = 0; m < frame.muscles.size(); ++m)
     EXPECT_LT((frame.muscles[m].points - imported.scene.muscles[m].surface.vertices).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(SceneLines, sections_are_as_far_apart_everywhere_however_near_to_each_other_the_path_s_points_lie) {
+  const TestFolder folder;
+  const Model model = read_model(folder.write(
+      "m.osim", document(set("BodySet", body("rod")) +
+                         set("JointSet", joint("PinJoint", "hinge", "/ground", "rod", coordinate("swing"))) +
+                         set("ForceSet",
+                             muscle("m", point("/ground", "0.1 0 0") + point("/ground", "0.1 -0.005 0") +
+                                             point("/ground", "0.1 -0.01 0") + point("/bodyset/rod", "0.1 -0.4 0"))))));
+  SceneFolderSettings settings;
+  settings.volumes.section_distance = 0.015;
+  CoordinateMotion rest{{0}, default_coordinates(model).transpose(), {}};
+  write_scene_folder(model, {folder.path(), {}, {}}, {{"rest", rest}}, settings, folder.path() / "out");
+  const Scene scene = read_scene(folder.path() / "out/rest.toml", {}).scene;
+  const Points centers = section_line(scene.muscles[0].action_line).centers;
+  ASSERT_EQ(centers.cols(), 28) << "0.4 m in parts of 15 mm at most";
+  for (Eigen::Index k = 1; k < centers.cols(); ++k)
+    EXPECT_NEAR((centers.col(k) - centers.col(k - 1)).norm(), 0.4 / 27, 1e-9) << k;
 }
 
 TEST(SceneLines, sections_lie_on_the_pulley_where_the_line_does) {

@@ -109,7 +109,7 @@ struct ActionLine {
   Real pennation = 0;      ///< rad, at the optimal fiber length
   /// How the line runs in other poses; without points, `points` move with their bodies.
   LinePath path = {};
-  /// Of a head's sections along its line, from 0 to 1; none: where `scaling` puts them.
+  /// Of its sections along the line, from 0 to 1; none: where `scaling` puts them.
   std::vector<Real> shares = {};
   std::vector<ActionLine> heads = {};  ///< of a sheet, from edge to edge; it has no points of its own then
   Index side = 0;                      ///< of a sheet: parts of each side of a section, between its outer heads

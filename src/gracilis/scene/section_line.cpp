@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace gracilis {
 
@@ -48,6 +49,18 @@ SectionLine section_line(const ActionLine& line) {
   if (sections.tendon_ends.size() == 2 && sections.tendon_ends[1] <= sections.tendon_ends[0])
     sections.tendon_ends = {sections.tendon_ends[1], sections.tendon_ends[0] + 1};
   return sections;
+}
+
+bool are_shares(const std::vector<Real>& shares) {
+  const auto within = [](Real share) { return share >= 0 && share <= 1; };
+  return shares.size() >= 2 && std::all_of(shares.begin(), shares.end(), within) &&
+         std::adjacent_find(shares.begin(), shares.end(), std::greater_equal<>()) == shares.end();
+}
+
+std::vector<Real> even_shares(Index parts) {
+  std::vector<Real> shares;
+  for (Index i = 0; i <= parts; ++i) shares.push_back(static_cast<Real>(i) / parts);
+  return shares;
 }
 
 ActionLine middle_line(const Muscle& muscle) {

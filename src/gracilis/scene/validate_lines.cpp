@@ -79,11 +79,7 @@ struct LineValidation {
     const std::size_t sections = sound ? sheet.heads[0].shares.size() : 0;
     for (const ActionLine& head : sheet.heads) {
       sound = check_points(where + ", head '" + head.name + "'", head) && sound;
-      const auto within = [](Real share) { return share >= 0 && share <= 1; };
-      if (sections >= 2 && head.shares.size() == sections && head.heads.empty() &&
-          std::all_of(head.shares.begin(), head.shares.end(), within) &&
-          std::adjacent_find(head.shares.begin(), head.shares.end(), std::greater_equal<>()) == head.shares.end())
-        continue;
+      if (head.shares.size() == sections && head.heads.empty() && are_shares(head.shares)) continue;
       add(where, "its heads need ascending shares from 0 to 1, as many each, two or more",
           "correct 'shares' of [[muscles.action_line.heads]]");
       sound = false;
@@ -93,6 +89,7 @@ struct LineValidation {
 
   /// The same of a line's points. Counted before they are made: the file may ask for more than there is room for.
   static std::int64_t section_count(const ActionLine& line, std::int64_t vertices) {
+    if (!line.shares.empty()) return static_cast<std::int64_t>(line.shares.size());
     const std::int64_t sections = (static_cast<std::int64_t>(line.points.cols() - 1) << line.scaling) + 1;
     const bool counted = !line.tendon_sections || line.rays * sections + 2 > vertices;
     return counted ? sections : section_line(line).centers.cols();
@@ -103,6 +100,8 @@ struct LineValidation {
     const ActionLine& line = muscle.action_line;
     if (line.rays < 6 || line.rays % 2 != 0) add(where, "its sections must have an even number of corners, 6 or more");
     const std::int64_t vertices = muscle.surface.vertex_count();
+    if (line.heads.empty() && !line.shares.empty() && !are_shares(line.shares))
+      add(where, "its sections need ascending shares from 0 to 1, two or more", "correct [muscles.action_line]");
     const std::int64_t sections = !line.heads.empty()         ? check_heads(where, line)
                                   : check_points(where, line) ? section_count(line, vertices)
                                                               : 0;

@@ -47,6 +47,7 @@ static nlohmann::ordered_json action_lines(const RunManifest& manifest) {
   for (const auto& [muscle, line] : manifest.lines)
     lines[muscle] = {{"rays", line.rays},
                      {"scaling", line.scaling},
+                     {"shares", line.shares},
                      {"tendon_m", line.tendon},
                      {"origin_tendon_m", line.origin_tendon},
                      {"tendon_sections", line.tendon_sections},

@@ -7,6 +7,7 @@
 #include <gracilis/io/scene/files.hpp>
 #include <gracilis/io/scene/method_reader.hpp>
 #include <gracilis/io/scene/surfaces.hpp>
+#include <gracilis/scene/section_line.hpp>
 
 namespace gracilis::sections {
 
@@ -80,7 +81,10 @@ static void read_action_line(TomlReader table, MuscleDescription& description) {
     read_head(std::move(head), line.heads.back(), description.heads.emplace_back());
   }
   line.scaling = table.integer("scaling", 0, 16).value_or(0);
+  if (const std::optional<Index> parts = table.integer("parts", 1, 10000)) line.shares = even_shares(*parts);
   line.tendon_sections = table.flag("tendon_sections").value_or(false);
+  if (!line.shares.empty() && (table.has("scaling") || line.tendon_sections))
+    table.add_problem("parts", "'parts' puts all sections: it cannot stand beside 'scaling' or 'tendon_sections'");
   if (const std::optional<Eigen::MatrixXd> rows = table.rows("centers_mm", 3)) line.centers = rows->transpose() / 1000;
   read_line(table, line, description.line);
   table.reject_unknown_keys();

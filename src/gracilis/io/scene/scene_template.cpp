@@ -126,10 +126,11 @@ count = 100
 threshold = 0.02
 
 # Optional: the line that the muscle's surface was made about, as 'gracilis import' writes it: sections of so many corners
-# at its points, and between them where each part is halved 'scaling' times.
+# where the line is divided into so many equal parts; or, with 'scaling' instead, at its points and between them where
+# each part is halved so often.
 # [muscles.action_line]
 # rays = 12
-# scaling = 3
+# parts = 30                                     # or scaling = 3
 # points_mm = [[-100, 20, 60], [-70, -220, 130]] # origin first
 # bodies = ["pelvis", "femur_r"]                 # of each point
 # tendon_mm = 40                                 # optional: length at the insertion; origin_tendon_mm likewise

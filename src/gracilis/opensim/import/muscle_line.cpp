@@ -4,6 +4,7 @@
 #include <gracilis/geometry/polylines.hpp>
 #include <gracilis/opensim/import/belly_length.hpp>
 #include <gracilis/opensim/paths/muscle_path.hpp>
+#include <gracilis/scene/section_line.hpp>
 
 #include <fmt/format.h>
 
@@ -61,6 +62,8 @@ static int scaling_for(const Points& line, Real distance) {
   return scaling;
 }
 
+Index part_count(Real length, Real longest) { return static_cast<Index>(std::ceil(length / longest - 1e-9)); }
+
 MuscleLine muscle_line(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                        const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
   const Line line = line_of(model, muscle, poses, coordinates);
@@ -88,7 +91,10 @@ MuscleLine muscle_line(const Model& model, const Muscle& muscle, const std::vect
   const Real share = std::min(1.0, 0.8 * length / std::max(tendon + origin_tendon, 1e-9));
 
   MuscleLine result{{line.points, line.bodies, settings.rays}, size, share};
-  result.line.scaling = settings.scaling.value_or(scaling_for(line.points, settings.section_distance));
+  if (settings.scaling || settings.tendon_sections)
+    result.line.scaling = settings.scaling.value_or(scaling_for(line.points, settings.section_distance));
+  else
+    result.line.shares = even_shares(std::max<Index>(2, part_count(length, settings.section_distance)));
   result.line.tendon = share * tendon;
   result.line.origin_tendon = share * origin_tendon;
   result.line.optimal_fiber = muscle.optimal_fiber_length;

@@ -19,6 +19,9 @@ struct MuscleLine {
 MuscleLine muscle_line(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                        const Eigen::VectorXd& coordinates, const VolumeSettings& settings);
 
+/// In how many parts a length (m) is divided so that none is longer than `longest` (m).
+Index part_count(Real length, Real longest);
+
 /// Radii of round sections (m) at these places along the line (m, ascending), by spindle_radii.
 Eigen::VectorXd radii_at(const MuscleLine& muscle, const std::vector<Real>& places);
 

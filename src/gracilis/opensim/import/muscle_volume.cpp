@@ -46,7 +46,7 @@ static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const 
 RoundMuscle round_muscle(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                          const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
   const MuscleLine line = muscle_line(model, muscle, poses, coordinates, settings);
-  const Points fine = subdivide_line(line.line.points, line.line.scaling);
+  const Points fine = section_line(line.line).centers;
   const Eigen::VectorXd radii = radii_at(line, distances_along(fine));
   return {settings.bones ? clear_centers(fine, radii, *settings.bones) : fine, radii};
 }
@@ -91,7 +91,7 @@ static void add_tendon_sections(MuscleVolume& volume) {
 MuscleVolume muscle_volume(const Model& model, const Muscle& muscle, const std::vector<RigidTransform>& poses,
                            const Eigen::VectorXd& coordinates, const VolumeSettings& settings) {
   const MuscleLine line = muscle_line(model, muscle, poses, coordinates, settings);
-  const Points fine = subdivide_line(line.line.points, line.line.scaling);
+  const Points fine = section_line(line.line).centers;
   MuscleVolume volume;
   volume.line = line.line;
   volume.tendon_share = line.tendon_share;

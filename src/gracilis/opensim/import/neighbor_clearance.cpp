@@ -11,8 +11,10 @@ namespace gracilis::opensim {
 
 static constexpr Real half_gap = 0.00025;     // m
 static constexpr Real thin = 0.5;             // times a belly's radius; what is thicker shares the room with it
+static constexpr Real side_by_side = 0.5;     // of both radii, that lines of muscles about as thick are apart
 static constexpr Real most_lean = 0.5;        // mm per mm, of a line that gives way against where it ran
 static constexpr Real farthest_aside = 0.03;  // m, that a center goes
+static constexpr int rounds_of_giving_way = 8;
 static constexpr int rounds_of_softening = 3;
 static constexpr int steps = 16;  // along a ray, and halvings of the step in which it leaves its own room
 
@@ -69,9 +71,16 @@ RoomBeside room_beside(std::vector<RoundMuscle> muscles) {
   };
 }
 
-/// Whether a section with this radius is thin beside a place of another muscle and lies in it.
-static bool is_thin_in(const NearestPlace& place, const Vec3& center, Real radius) {
-  return radius < thin * place.radius && (center - place.foot).norm() < place.radius + radius;
+/// How far a section with this radius is to be from a place of another muscle, m: beside it where it is thin, else so
+/// far that both have room, to which both give way. What is thin in this one gives way alone.
+static Real wanted_distance(const NearestPlace& place, Real radius) {
+  if (radius < thin * place.radius) return place.radius + radius + 2 * half_gap;
+  return thin * radius > place.radius ? 0 : side_by_side * (place.radius + radius);
+}
+
+/// How much of that way is its own.
+static Real own_share(const NearestPlace& place, Real radius) {
+  return radius < thin * place.radius ? 1 : place.radius / (place.radius + radius);
 }
 
 /// Along a unit direction from a point that is `from` a center, how far it is to where it is `distance` from that.
@@ -80,24 +89,25 @@ static Real way_to_distance(const Vec3& from, const Vec3& direction, Real distan
   return std::sqrt(std::max(along * along - from.squaredNorm() + distance * distance, 0.0)) - along;
 }
 
-/// The ways of a muscle's thin sections out of another; zero for those that lie in no thicker part of it. All that
-/// follow each other go to the side to which they lie from its line on the whole.
+/// The ways of a muscle's sections out of another; zero for those that are far enough from its line. All that follow
+/// each other go to the side to which they lie from it on the whole.
 static Points ways_out(const RoundMuscle& muscle, const RoundMuscle& other) {
   const Eigen::Index count = muscle.centers.cols();
   Points from(3, count), ways = Points::Zero(3, count);
-  Eigen::VectorXd touch(count);
+  Eigen::VectorXd wanted(count), share(count);
   Eigen::Index begin = 0;
   for (Eigen::Index k = 0; k <= count; ++k) {
     if (k < count) {
       const Vec3 center = muscle.centers.col(k);
       const NearestPlace place = nearest_place(other, center);
       from.col(k) = center - place.foot;
-      touch[k] = place.radius + muscle.radii[k] + 2 * half_gap;
-      if (is_thin_in(place, center, muscle.radii[k])) continue;
+      wanted[k] = wanted_distance(place, muscle.radii[k]);
+      share[k] = own_share(place, muscle.radii[k]);
+      if (from.col(k).norm() < wanted[k]) continue;
     }
     const Vec3 side = from.middleCols(begin, k - begin).rowwise().sum();
     for (Eigen::Index i = begin; i < k && side.norm() > 0; ++i)
-      ways.col(i) = way_to_distance(from.col(i), side.normalized(), touch[i]) * side.normalized();
+      ways.col(i) = share[i] * way_to_distance(from.col(i), side.normalized(), wanted[i]) * side.normalized();
     begin = k + 1;
   }
   return ways;
@@ -123,15 +133,16 @@ static void hold_ends(const Points& line, Points& shift) {
   }
 }
 
-Points beside_bellies(const RoundMuscle& muscle, const std::vector<RoundMuscle>& others) {
-  const Points& line = muscle.centers;
-  Points shift = Points::Zero(3, line.cols());
+/// The centers after one round of giving way; `line` is where they were before the first.
+static Points given_way(const Points& line, const RoundMuscle& muscle, const std::vector<RoundMuscle>& others) {
+  Points longest = Points::Zero(3, line.cols());
   for (const RoundMuscle& other : others) {
     const Points ways = ways_out(muscle, other);
     for (Eigen::Index k = 0; k < line.cols(); ++k)
-      if (ways.col(k).squaredNorm() > shift.col(k).squaredNorm()) shift.col(k) = ways.col(k);
+      if (ways.col(k).squaredNorm() > longest.col(k).squaredNorm()) longest.col(k) = ways.col(k);
   }
-  if (shift.isZero(0)) return line;
+  if (longest.isZero(0)) return muscle.centers;
+  Points shift = muscle.centers + longest - line;
   take_along(line, shift);
   for (int round = 0; round < rounds_of_softening; ++round) {
     const Points before = shift;
@@ -140,6 +151,10 @@ Points beside_bellies(const RoundMuscle& muscle, const std::vector<RoundMuscle>&
   }
   hold_ends(line, shift);
   return line + shift;
+}
+
+Points beside_bellies(const RoundMuscle& muscle, const std::vector<RoundMuscle>& others) {
+  return given_way(muscle.centers, muscle, others);
 }
 
 static std::vector<RoundMuscle> all_but(const std::vector<std::string>& names,
@@ -153,8 +168,12 @@ static std::vector<RoundMuscle> all_but(const std::vector<std::string>& names,
 std::map<std::string, RoundMuscle> beside_bellies(const std::map<std::string, RoundMuscle>& muscles,
                                                   const std::vector<SolidBone>& bones) {
   std::map<std::string, RoundMuscle> beside = muscles;
-  for (auto& [name, muscle] : beside)
-    muscle.centers = clear_centers(beside_bellies(muscle, all_but({name}, muscles)), muscle.radii, bones);
+  for (int round = 0; round < rounds_of_giving_way; ++round) {
+    const std::map<std::string, RoundMuscle> before = beside;
+    for (auto& [name, muscle] : beside)
+      muscle.centers = given_way(muscles.at(name).centers, before.at(name), all_but({name}, before));
+  }
+  for (auto& [name, muscle] : beside) muscle.centers = clear_centers(muscle.centers, muscle.radii, bones);
   return beside;
 }
 

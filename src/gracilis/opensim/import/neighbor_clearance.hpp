@@ -19,13 +19,14 @@ struct RoundMuscle {
 /// one more of it than a thin one, and half a millimetre is left between them.
 RoomBeside room_beside(std::vector<RoundMuscle> muscles);
 
-/// The muscle's centers with thin sections, as those of a tendon, brought out of thicker parts of the others: to where
-/// the two touch, those that lie in the same muscle one after the other to the same side, by 30 mm at most. Sections
-/// beside them go along, so that the line bends softly; the first and the last stay, since muscles may well have one
-/// place there.
+/// The muscle's centers beside the others' lines, those that are too near to the same line one after the other on the
+/// same side of it, 30 mm aside at most. Thin sections, as those of a tendon, go out of thicker parts of the others, to
+/// where the two touch; of two that are about as thick each does its part, until half of their radii lies between their
+/// lines, which leaves both room. Sections beside them go along, so that the line bends softly; the first and the last
+/// stay, since muscles may well have one place there.
 Points beside_bellies(const RoundMuscle& muscle, const std::vector<RoundMuscle>& others);
 
-/// The same of all of these, by their names, outside of the bones.
+/// All of these, by their names, when each has given way to the others several times, outside of the bones.
 std::map<std::string, RoundMuscle> beside_bellies(const std::map<std::string, RoundMuscle>& muscles,
                                                   const std::vector<SolidBone>& bones);
 

@@ -69,7 +69,9 @@ std::string muscle_text(const Model& model, const std::string& name, const Muscl
                                  toml_text(name), toml_text("muscles/" + name + ".vtp"), line.rays);
   if (line.heads.empty()) {
     const Muscle& own = in_model(line);
-    text += fmt::format("scaling = {}\n", line.scaling) + line_text(model, line, belly_text(own, settings));
+    text += (line.shares.empty() ? fmt::format("scaling = {}\n", line.scaling)
+                                 : fmt::format("parts = {}\n", line.shares.size() - 1)) +
+            line_text(model, line, belly_text(own, settings));
     if (line.centers.cols() > 0) text += fmt::format("centers_mm = {}\n", points_text(line.centers));
     text += line_path_text(model, own, poses, coordinates, "muscles.action_line", left_out);
   } else {

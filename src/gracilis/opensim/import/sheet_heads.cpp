@@ -41,7 +41,7 @@ static SheetParts parts_of(const std::vector<SheetHead>& heads, const VolumeSett
     scaled = std::max(scaled, static_cast<Index>((head.own.line.points.cols() - 1) << head.own.line.scaling));
   }
   const Real longest = settings.scaling ? length / static_cast<Real>(scaled) : settings.section_distance;
-  const auto count = [&](Real part) { return static_cast<Index>(std::ceil(part / longest - 1e-9)); };
+  const auto count = [&](Real part) { return part_count(part, longest); };
   return {count(origin_tendon), std::max(Index{2}, count(length - origin_tendon - tendon)), count(tendon)};
 }
 

@@ -39,6 +39,7 @@ static ActionLine recorded_line(const RecordedRun& run, const std::string& muscl
     };
     line.rays = count("rays", 1000);
     line.scaling = count("scaling", 16);
+    line.shares = json.value("shares", std::vector<Real>{});
     line.tendon = json.at("tendon_m").get<Real>();
     line.origin_tendon = json.at("origin_tendon_m").get<Real>();
     line.tendon_sections = json.value("tendon_sections", false);
@@ -86,8 +87,11 @@ void export_tetrahedra(const RecordedRun& run, const std::filesystem::path& fold
     if (line.rays == 0) continue;
     any = true;
     const Points rest = recorded_surface(run, muscle, 0).vertices;
-    const std::int64_t section_count = (std::int64_t{line.points.cols()} - 1) * (std::int64_t{1} << line.scaling) + 1;
-    const bool fits = line.points.cols() >= 2 && rest.cols() >= line.rays * section_count + 2;
+    const std::int64_t section_count =
+        line.shares.empty() ? (std::int64_t{line.points.cols()} - 1) * (std::int64_t{1} << line.scaling) + 1
+                            : static_cast<std::int64_t>(line.shares.size());
+    const bool fits = line.points.cols() >= 2 && (line.shares.empty() || are_shares(line.shares)) &&
+                      rest.cols() >= line.rays * section_count + 2;
     const Points fine = fits ? section_line(line).centers : Points(3, 0);
     if (rest.cols() != line.rays * fine.cols() + 2 || (line.centers.cols() > 0 && line.centers.cols() != fine.cols()))
       throw InputError({run.folder.string(), muscle, "is not made of its line's sections", "run the scene again"});
