@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""make.py OUT HERE: the page, results.csv and figures from the tables and runs in OUT."""
+"""make.py OUT HERE [--complete]: the page, results.csv and figures from the tables and runs in OUT."""
 import os
 import sys
 
@@ -13,7 +13,7 @@ import muscles  # noqa: E402
 from tables import Results  # noqa: E402
 
 
-def main(out, here):
+def main(out, here, *options):
     page = publication.Page(
         out, "Radial basis functions for muscles (Červenka 2024)",
         "The report tells what its author's papers found, seldom in numbers, and draws signals and muscles that are not given. Here the "
@@ -37,8 +37,8 @@ def main(out, here):
             ("Section 5.11: 78.74 % on the same outlines", "TLEM 2.0's points and the measure of accuracy, which the report does not define; seven of the fifteen curves"),
             ("Section 4.5 to 4.7: frames of other publications", "those publications' programs")):
         page.cannot(what, why)
-    page.write()
+    page.write(complete="--complete" in options)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:3])
+    main(*sys.argv[1:])

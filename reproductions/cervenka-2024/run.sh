@@ -15,11 +15,7 @@ motion=(--flexion 90 --set fibers.count=15) shown=20,50,90
 [[ -z $thin ]] || motion=(--flexion 10 --set fibers.count=5 --set centers=100 --only "gluteus_maximus_r,iliacus_r")
 
 measured=()
-if [[ -d $data/lhdl-hip && -d $data/leg/patches ]]; then
-  measured=(--data "$data")
-else
-  echo "measured muscles and attachments skipped: there is no $data/lhdl-hip or no $data/leg" >&2
-fi
+! has lhdl-hip leg/patches || measured=(--data "$data")
 mkdir -p "$out/tables"
 [[ -f $out/tables/done ]] || {
   quietly "$out/tables.txt" "$tables" "$out/tables" $thin "${measured[@]}"
@@ -45,5 +41,5 @@ if [[ -z $thin ]]; then
   quietly "$out/picture_iliacus.txt" "$gracilis" render "$out/pbd" --frames 0,45,90 --muscles iliacus_r --hide femur_r --focus iliacus_r --fibers --view anterior \
     --out "$out/iliacus.png"
 fi
-python3 -B "$here/make.py" "$out" "$here"
+python3 -B "$here/make.py" "$out" "$here" $complete
 echo "$out/index.html"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""make.py OUT HERE: the page of what run.sh left in OUT: curves/SURFACE.csv and summary.csv."""
+"""make.py OUT HERE [--complete]: the page of what run.sh left in OUT: curves/SURFACE.csv and summary.csv."""
 import csv
 import glob
 import os
@@ -50,7 +50,7 @@ def fiber_charts(page, out):
                    "frame", "fiber length, mm")
 
 
-def main(out, here):
+def main(out, here, *options):
     page = publication.Page(
         out, "Position based dynamics (Červenka and Kohout 2020)",
         "1 rad of hip flexion in 100 frames, back in 100, and 100 of rest, for four muscles of the published cadaver, and a box between two "
@@ -75,8 +75,8 @@ def main(out, here):
     page.cannot("Figures 9 and 10 by Kukačka's and Cholt's algorithms", "those programs; the pictures show fibers by this project's fields")
     page.cannot("Numbers of Figures 11 to 21", "the curves' values: the text tells what the table has of them")
     page.cannot("Figure 22: muscles as lines", "it is another publication's drawing")
-    page.write()
+    page.write(complete="--complete" in options)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:3])
+    main(*sys.argv[1:])

@@ -6,6 +6,7 @@ import json
 import os
 import re
 import struct
+import sys
 
 import charts
 import pictures
@@ -16,6 +17,7 @@ figcaption b{display:block;font-size:15px}svg,img{background:#fff;max-width:100%
 figure img{width:380px}.broad,.broad img{width:100%}.broad figcaption{max-width:none}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;border-bottom:1px solid #ddd;text-align:right}
 td.word,th.word{text-align:left}code{background:#f4f4f4;padding:0 3px;overflow-wrap:anywhere}.thumbs figure{width:210px}.thumbs svg,.thumbs img{width:210px;height:auto}
 .key{display:inline-block;width:22px;height:4px;margin:0 5px 3px 14px}"""
+NOT_MADE = "not made"
 COLUMNS = ["source", "quantity", "unit", "published", "ours", "ratio", "remark"]
 
 
@@ -52,7 +54,7 @@ def beside(published, ours, remarks=None):
         ratio = f"{b / a:.3g}" if a and b is not None else ""
         rows.append({"source": row["source"], "quantity": row["quantity"], "unit": row["unit"],
                      "published": row["published"], "ours": shown(value), "ratio": ratio,
-                     "remark": (remarks or {}).get(row["key"], "" if value is not None else "not made")})
+                     "remark": (remarks or {}).get(row["key"], "" if value is not None else NOT_MADE)})
     return rows
 
 
@@ -108,11 +110,13 @@ class Page:
     def __init__(self, out, title, about, command):
         self.out, self.title, self.about, self.command = out, title, about, command
         self.figures, self.rows, self.missing = [], [], []
+        self.lacks = []  # what a complete pass would have had
 
     def chart(self, name, title, remark, series, x_label, y_label, command="", **more):
         """A chart, OUT/figures/NAME.svg, and its points, NAME.csv (NAME_field.csv: what lies under them). `command`: what made its numbers, where that is not the page's."""
         svg = charts.chart(title, series, x_label, y_label, **more)
         if not svg:
+            self.lacks.append(title)
             return
         self._write(f"{name}.svg", svg)
         write_curves(self._path(f"{name}.csv"), series, x_label, y_label)
@@ -139,11 +143,13 @@ class Page:
             if os.path.exists(path):
                 self.picture(entry["name"], entry["title"], entry["remark"], path, pictures.command_of(entry))
             else:
+                self.lacks.append(entry["title"])
                 self.cannot(entry["title"], entry["needs"])
 
     def picture(self, name, title, remark, path, command=""):
         """A PNG, which the page holds, and what drew it (empty: the page's command)."""
         if not os.path.exists(path):
+            self.lacks.append(title)
             return
         with open(path, "rb") as file:
             data = file.read()
@@ -158,7 +164,8 @@ class Page:
     def cannot(self, what, why):
         self.missing.append({"of the publication": what, "what it would need": why})
 
-    def write(self):
+    def write(self, complete=False):
+        """`complete`: names what the page lacks, and ends with exit code 1 where it lacks something."""
         self.figures.sort(key=lambda figure: figure_order(figure[1]))
         with open(os.path.join(self.out, "results.csv"), "w", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS)
@@ -177,6 +184,9 @@ class Page:
         with open(os.path.join(self.out, "figures.json"), "w") as file:
             json.dump({"title": self.title, "command": self.command,
                        "figures": [{"name": n, "title": t, "command": c} for n, t, _, _, c in self.figures]}, file)
+        lacks = self.lacks + [f"{row['source']}: {row['quantity']}" for row in self.rows if row["remark"] == NOT_MADE]
+        if complete and lacks:
+            sys.exit("\n".join(f"not made: {what}" for what in lacks))
 
     def _path(self, name):
         os.makedirs(os.path.join(self.out, "figures"), exist_ok=True)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""make.py OUT HERE: the page, results.csv and figures from the runs and pictures that run.sh left in OUT."""
+"""make.py OUT HERE [--complete]: the page, results.csv and figures from the runs and pictures that run.sh left in OUT."""
 import csv
 import glob
 import json
@@ -116,7 +116,7 @@ def fiber_shares(ours, remarks, out):
         remarks[f"across_{muscle['muscle']}"] = "of the edges that the nearest vertices' ways take, those more than 60 degrees off the fibers"
 
 
-def main(out, here):
+def main(out, here, *options):
     page = publication.Page(
         out, "Extended position based dynamics (Havlíček 2024)",
         "Flexion of a hip by the preset <code>thesis-2024</code>, passive and active, beside <code>pbd-2020</code>. The publication's fiber lengths "
@@ -154,8 +154,8 @@ def main(out, here):
         page.cannot("Activations of Figures 7.1 and 7.4 to 7.6", "the cadaver's hip and OpenSim's walking model (--data)")
     page.cannot("Figures 7.7 to 7.9, A.1 and A.2 with the publication's own muscles", "sixteen muscles of the cadaver that were not published; Z-Anatomy's stand in")
     page.cannot("Numbers of Figures 7.10 and 7.11", "the curves' values: the figures have axes, but the text tells none of them")
-    page.write()
+    page.write(complete="--complete" in options)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:3])
+    main(*sys.argv[1:])

@@ -18,7 +18,7 @@ declare -A farthest=([flexion]=90,0,0 [extension]=-40,0,0 [abduction]=0,-45,0 [r
 }
 model=$data/opensim/subject01_simbody_adjusted_StaticOp.osim
 has_data=
-[[ ! -d $data/lhdl-hip || ! -d $data/opensim ]] || has_data=yes
+! has lhdl-hip opensim || has_data=yes
 [[ -z $thin && -n $has_data ]] || cadaver=
 
 # Samples for the hip's joint control unit (section 6.5.1): motions through its range, and their activations by static optimization.
@@ -133,9 +133,9 @@ if [[ -n $cadaver ]]; then
   "$gracilis" "${published[@]}" --only "$only" --json --out "$out/fibers" 2>"$out/fibers.txt" >"$out/fibers.json"
   quietly "$out/few_fibers.txt" "$gracilis" "${published[@]}" --only iliacus_r --set fibers.count=16 --set contraction.segments=15 --out "$out/few_fibers"
   extended
-  [[ ! -d $data/leg ]] || many_muscles
+  ! has leg || many_muscles
 fi
 [[ -n $thin ]] || python3 -B "$root/reproductions/family/pictures.py" "$gracilis" "$out" "$here"
 "$gracilis" print-config >"$out/config.toml"
-python3 -B "$here/make.py" "$out" "$here"
+python3 -B "$here/make.py" "$out" "$here" $complete
 echo "$out/index.html"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""make.py OUT HERE: the page, results.csv and figures from the runs in OUT/runs."""
+"""make.py OUT HERE [--complete]: the page, results.csv and figures from the runs in OUT/runs."""
 import csv
 import glob
 import os
@@ -169,7 +169,7 @@ def resolutions(page, runs, ours, remarks):
     page.chart("figure_5_18", "Figure 5.18: time of springs", "100 iterations; 64 fibers a muscle, the cadaver's five.", [Series("springs", springs)], "particles", "time, s")
 
 
-def main(out, here):
+def main(out, here, *options):
     runs, ours, remarks = Runs(f"{out}/runs"), {}, {}
     page = publication.Page(
         out, "Mass-spring systems (Janák 2012)",
@@ -187,8 +187,8 @@ def main(out, here):
     page.cannot("Figure 5.1: fourteen frames of the testing data", "the walk of the VPHOP data set")
     page.cannot("Figure 5.13, and the lower half of 5.14: the PK method", "LHPBuilder's other method, which was not published with the thesis")
     page.cannot("Figures 5.3, 5.9 to 5.12 and 5.15 to 5.18 of the publication's own muscles", "the VPHOP data set; an imported thigh of the same muscles stands in")
-    page.write()
+    page.write(complete="--complete" in options)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:3])
+    main(*sys.argv[1:])

@@ -7,10 +7,7 @@
 # thigh, no pictures.
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../family/options.sh" janak-2012 "$@"
-[[ -d $data/lhdl-hip ]] || {
-  echo "skipped: there is no $data/lhdl-hip" >&2
-  exit 0
-}
+has lhdl-hip || exit 0
 layouts=(cubic-6 cubic-26 delaunay nearest) counts=(10 20 50 100 200 500 1000 1500) neighbors=(10 15 20 25) resolutions=(20 40 60 80)
 steps=(25 50 75 100 150 200) many=(300 500) instants=(0.5 0.89 1.27 1.66 1.99) # of the walk, s: as far through it as the published ones
 thigh=rect_fem_r,semiten_r,semimem_r,sar_r,vas_med_r,vas_int_r,vas_lat_r,add_brev_r,add_long_r,add_mag2_r,grac_r,pect_r,bifemlh_r # Table 5.2
@@ -77,7 +74,7 @@ collisions hip
 time_steps hip
 resolution resolution hip
 
-if [[ -d $data/opensim ]]; then
+if has opensim; then
   rm -rf "$out/leg"
   quietly "$out/leg.txt" "$gracilis" import "$data/opensim/subject01_simbody_adjusted_StaticOp.osim" --geometry "$data/opensim/geometry" \
     --muscles "$thigh" --motion "$data/opensim/subject01_walk1_Kinematics.sto" --out "$out/leg"
@@ -96,5 +93,5 @@ if [[ -d $data/opensim ]]; then
   fi
 fi
 [[ -n $thin ]] || python3 -B "$root/reproductions/family/pictures.py" "$gracilis" "$out" "$here"
-python3 -B "$here/make.py" "$out" "$here"
+python3 -B "$here/make.py" "$out" "$here" $complete
 echo "$out/index.html"

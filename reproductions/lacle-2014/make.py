@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""make.py OUT HERE MODEL: the page, results.csv and figures from what run.sh left in OUT."""
+"""make.py OUT HERE MODEL [--complete]: the page, results.csv and figures from what run.sh left in OUT."""
 import csv
 import glob
 import json
@@ -48,7 +48,8 @@ def uncovered(corners):
 
 
 class Reproduction:
-    def __init__(self, out, here, model):
+    def __init__(self, out, here, model, *options):
+        self.complete = "--complete" in options
         self.out, self.here, self.model, self.ours, self.remarks = out, here, model, {}, {}
         self.page = publication.Page(
             out, "Cylinder musculotendons (Laclé 2014)",
@@ -184,8 +185,8 @@ class Reproduction:
         self.page.cannot("Figure 3.22's numbers", "the figure itself: its text does not tell them")
         self.page.cannot("Table 3.4: the order of matches", "nothing: it is an algorithm's; tests/anatomy/section_enhancement_test.cpp holds it")
         self.page.cannot("Frames per second with drawing", "the publication's graphics card and character")
-        self.page.write()
+        self.page.write(self.complete)
 
 
 if __name__ == "__main__":
-    Reproduction(*sys.argv[1:4]).make()
+    Reproduction(*sys.argv[1:]).make()

@@ -6,10 +6,7 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../family/options.sh" lacle-2014 "$@"
 model=$data/opensim/subject01_simbody_adjusted_StaticOp.osim
-[[ -f $model && -d $data/leg/muscles ]] || {
-  echo "skipped: there is no $model or no $data/leg" >&2
-  exit 0
-}
+has opensim leg/muscles || exit 0
 rays=(6 8 10 12) counted=(0 1 2) cast=(1 2) scalars=(1 2 3 4 5 6) every=1
 [[ -z $thin ]] || { rays=(6 12) counted=(0 1) cast=(1) scalars=(1 6) every=25; }
 # The 24 lines of each side that the publication takes (its appendix A).
@@ -112,5 +109,5 @@ if [[ -z $thin ]]; then
   for side in before after; do frames "leg_$side" "$out/leg_$side/rest.toml"; done
   python3 -B "$root/reproductions/family/pictures.py" "$gracilis" "$out" "$here"
 fi
-python3 -B "$here/make.py" "$out" "$here" "$model"
+python3 -B "$here/make.py" "$out" "$here" "$model" $complete
 echo "$out/index.html"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""compare.py VALIDATION SWEEPS OUT METHOD...: OUT/table.csv, a row per method and published curve, and OUT/index.html."""
+"""compare.py VALIDATION SWEEPS OUT METHOD... [--complete]: OUT/table.csv, a row per method and published curve, and OUT/index.html."""
 import csv
 import math
 import sys
@@ -52,7 +52,15 @@ def compared(curve, reference):
         f"{largest_step(curve.mean):.2f}"]))
 
 
-def main(validation, sweeps, out, methods):
+def tell_lacks(table, methods):
+    """Ends with exit code 1 where a method has no row beside a curve that others have one beside."""
+    compared_with = {method: {tuple(row[key] for key in COLUMNS[1:5]) for row in table if row["method"] == method} for method in methods}
+    lacks = [f"not made: {method} {' '.join(key)}" for method in methods for key in sorted(set().union(*compared_with.values()) - compared_with[method])]
+    if lacks:
+        sys.exit("\n".join(lacks))
+
+
+def main(validation, sweeps, out, methods, complete):
     references = published(validation)
     by_method = {method: arms_of_method(sweeps, method) for method in methods}
     # What was published of the cadaver's fibers stands beside the methods.
@@ -75,7 +83,9 @@ def main(validation, sweeps, out, methods):
         print(f"no scene for {reference.muscle} about {reference.coordinate} ({reference.source})", file=sys.stderr)
     with open(f"{out}/index.html", "w") as file:
         file.write(page.page(out, references, by_method, table, missing))
+    if complete:
+        tell_lacks(table, methods)
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:4], sys.argv[4:])
+    main(*sys.argv[1:4], [word for word in sys.argv[4:] if word != "--complete"], "--complete" in sys.argv)
