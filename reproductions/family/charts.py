@@ -22,6 +22,11 @@ class Series:
         self.marks, self.dash, self.band, self.size = marks, dash, band, size
 
 
+def lines(curves):
+    """A line for each entry {name: points}."""
+    return [Series(name.replace("_", " "), points) for name, points in curves.items()]
+
+
 class Field:
     """Colors under a chart: rows of values from below, each from left to right, that fill the ranges. Values beyond
     `low` and `high` have the colors of these. `about_zero`: low is -high, and both signs have a color of their own."""

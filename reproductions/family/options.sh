@@ -50,3 +50,8 @@ quietly() {
     exit 1
   }
 }
+
+# reproduce: what HERE/steps.toml and HERE/pictures.toml list, and the page.
+reproduce() {
+  python3 -B "$root/reproductions/family/reproduce.py" "$gracilis" "$here" "$out" "$data" $thin "${more[@]}"
+}

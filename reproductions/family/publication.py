@@ -1,12 +1,14 @@
 """One self-contained page per publication: its figures and tables, published beside ours; and what cannot be made."""
 import base64
 import csv
+import fnmatch
 import html
 import json
 import os
 import re
 import struct
 import sys
+import tomllib
 
 import charts
 import pictures
@@ -195,3 +197,68 @@ class Page:
     def _write(self, name, text):
         with open(self._path(name), "w") as file:
             file.write(text)
+
+
+def differs(published, ours):
+    """By more than half a percent, or in words."""
+    a, b = number(published), number(ours)
+    return abs(b - a) > 0.005 * abs(a) if a is not None and b is not None else published != ours
+
+
+def matching(patterns, key):
+    """Of a table's entries the first whose name, in which * stands for anything, is the key; and its name."""
+    return next(((name, entry) for name, entry in patterns.items() if fnmatch.fnmatchcase(key, name)), (None, None))
+
+
+class WordedPage(Page):
+    """A page whose words stand in HERE/page.toml: title, about, figures (title, remark, x and y), remarks on values that differ from the published
+    ones, what is left out for good, and what cannot be made. Names and keys may have * for anything, and words {NAME} that the caller tells."""
+
+    def __init__(self, out, here, data):
+        self.data = data
+        with open(os.path.join(here, "page.toml"), "rb") as file:
+            self.words = tomllib.load(file)
+        super().__init__(out, self.words["title"], self.words["about"], f"reproductions/{os.path.basename(here)}/run.sh")
+        self.published = read_published(os.path.join(here, "published.csv"))
+        self.ours, self.told, self.drawn = {}, {}, set()
+        for entry in self.words.get("not_made", []):
+            self.cannot(entry["what"], entry["needs"])
+
+    def draw(self, name, series, told=None, **more):
+        """The figure of this name in page.toml; `told`: its words."""
+        pattern, entry = matching(self.words["figures"], name)
+        self.drawn.add(pattern)
+        title, remark, x, y = (entry.get(key, "").format(**told or {}) for key in ("title", "remark", "x", "y"))
+        self.chart(name, title, remark, series, x, y, command=entry.get("command", "").format(**told or {}), **{**entry.get("size", {}), **more})
+
+    def value(self, key):
+        """The published one, a number."""
+        return next(number(row["published"]) for row in self.published if row["key"] == key)
+
+    def put(self, key, value, **told):
+        """Ours beside the published value of this key; `told`: words of its remark."""
+        if value is not None:
+            self.ours[key], self.told[key] = value, told
+
+    def remark(self, key):
+        if key in self.words.get("left_out", {}):
+            return self.words["left_out"][key]
+        if key not in self.ours:
+            return NOT_MADE
+        return (matching(self.words.get("remarks", {}), key)[1] or "").format(**self.told[key])
+
+    def write(self, complete=False):
+        rows = beside(self.published, self.ours, {row["key"]: self.remark(row["key"]) for row in self.published})
+        self.rows = rows + self.rows
+        self.lacks += [entry["title"] for pattern, entry in self.words["figures"].items() if pattern not in self.drawn]
+        self.lacks += [f"remark on {row['source']}: {row['quantity']}" for row in rows if not row["remark"] and row["published"] and differs(row["published"], row["ours"])]
+        super().write(complete)
+        missed = [f"missed its bar: {own['quantity']}, {row['ours']}" for row, own in zip(rows, self.published) if beyond(own, row["ours"])]
+        if missed:
+            sys.exit("\n".join(missed))
+
+
+def beyond(published, ours):
+    """Whether ours is outside of the bar that published.csv has for it in `least` and `most`."""
+    value, least, most = number(ours), number(published.get("least")), number(published.get("most"))
+    return value is not None and not ((least is None or value >= least) and (most is None or value <= most))
