@@ -1,36 +1,38 @@
-"""What the model tells of its muscles: Tables 3.1 to 3.3."""
+"""What the model tells of tibialis anterior, the publication's example: Tables 3.1 to 3.3."""
 import math
 import tomllib
 import xml.etree.ElementTree as xml
 
-LINE = "tib_ant_r"  # the publication's example
-
-
-def length(points):
-    return sum(math.dist(a, b) for a, b in zip(points, points[1:]))
+LINE = "tib_ant_r"
 
 
 def action_line(folder):
+    """Its length, m, and half of its tendon's slack length, m, as import has them."""
     with open(f"{folder}/model.toml", "rb") as file:
-        return tomllib.load(file)["muscles"][0]["action_line"]
+        line = tomllib.load(file)["muscles"][0]["action_line"]
+    return sum(math.dist(a, b) for a, b in zip(line["points_mm"], line["points_mm"][1:])) / 1000, line["tendon_mm"] / 1000
 
 
-def add_to(ours, remarks, out, model):
-    tree = xml.parse(model).getroot()
+def numbers(element, key):
+    found = [float(word) for word in element.find(key).text.split()]
+    return found[0] if len(found) == 1 else " ".join(f"{each:.3g}" for each in found)
+
+
+def tell(page):
+    tree = xml.parse(f"{page.data}/opensim/subject01_simbody_adjusted_StaticOp.osim").getroot()
     muscle = next(each for each in tree.iter() if each.get("name") == LINE and each.find("max_isometric_force") is not None)
-    body = next(each for each in tree.iter("Body") if each.get("name") == "tibia_r")
-    for key, where in (("max_isometric_force", muscle), ("optimal_fiber_length", muscle), ("tendon_slack_length", muscle),
-                       ("pennation_angle_at_optimal", muscle), ("mass", body), ("mass_center", body)):
-        text = where.find(key).text.split()
-        ours[f"parameter_{key}"] = float(text[0]) if len(text) == 1 else " ".join(f"{float(each):.3g}" for each in text)
-        remarks[f"parameter_{key}"] = "read by import" if where is muscle else "read by static-optimization"
+    tibia = next(each for each in tree.iter("Body") if each.get("name") == "tibia_r")
+    for key in ("max_isometric_force", "optimal_fiber_length", "tendon_slack_length", "pennation_angle_at_optimal"):
+        page.put(f"parameter_{key}", numbers(muscle, key))
+    for key in ("mass", "mass_center"):
+        page.put(f"parameter_{key}", numbers(tibia, key))
     for kind in ("PathWrap", "ConditionalPathPoint", "MovingPathPoint"):
-        ours[f"constraint_{kind}"] = sum(1 for _ in tree.iter(kind))
-        remarks[f"constraint_{kind}"] = "of this model; followed in every pose, where the publication holds each point on"
-    full, smaller = action_line(f"{out}/tendon/model"), action_line(f"{out}/tendon/smaller")
-    optimal, pennation, slack = (ours[f"parameter_{key}"] for key in ("optimal_fiber_length", "pennation_angle_at_optimal", "tendon_slack_length"))
+        page.put(f"constraint_{kind}", sum(1 for _ in tree.iter(kind)))
+    optimal, pennation, slack = (numbers(muscle, key) for key in ("optimal_fiber_length", "pennation_angle_at_optimal", "tendon_slack_length"))
+    length, half = action_line(f"{page.out}/tendon/model")
+    fitted, half_fitted = action_line(f"{page.out}/tendon/smaller")
     resting = optimal * math.cos(pennation) + slack  # eq. 3.7
-    line, scaled = length(full["points_mm"]) / 1000, length(smaller["points_mm"]) / 1000
-    ours.update(line_optimal=optimal, line_pennation=pennation, line_slack=slack, line_length=line, line_length_fitted=scaled, line_resting=resting,
-                line_resting_fitted=resting * scaled / line, line_slack_fitted=2 * smaller["tendon_mm"] / 1000)
-    remarks["line_length_fitted"] = "this skeleton is 0.292/0.303 as large"
+    for key, value in {"line_optimal": optimal, "line_pennation": pennation, "line_slack": slack, "line_length": length, "line_length_fitted": fitted,
+                       "line_resting": resting, "line_resting_fitted": resting * fitted / length, "line_slack_fitted": 2 * half_fitted,
+                       "half_slack": half, "half_slack_fitted": half_fitted}.items():
+        page.put(key, value)

@@ -1,14 +1,11 @@
 """Sections that are brought onto a surface: Figures 5.2 and 5.4."""
-import csv
-import glob
-import json
 import math
-import os
 import tomllib
 
+import runs
 from charts import Series, published
 
-RAYS, SHOWN = 12, 4
+RAYS = 12
 
 
 def minus(a, b):
@@ -37,10 +34,8 @@ def halved(points):
 
 def rings(path):
     """Corners of each section, mm."""
-    with open(path, newline="") as file:
-        corners = [[1000 * float(row[f"{axis}_m"]) for axis in "xyz"] for row in csv.DictReader(file)]
-    count = (len(corners) - 2) // RAYS
-    return [corners[k * RAYS:(k + 1) * RAYS] for k in range(count)]
+    corners = [[1000 * row[f"{axis}_m"] for axis in "xyz"] for row in runs.rows(path)]
+    return [corners[k:k + RAYS] for k in range(0, len(corners) - 2, RAYS)]
 
 
 def in_plane(ring, origin):
@@ -57,27 +52,21 @@ def in_plane(ring, origin):
 
 def moved_most(out):
     """(how far, muscle, section, the line's point, the inner point, corners), the farthest first, one of a muscle."""
-    with open(f"{out}/rest/sections.toml", "rb") as file:
+    with open(f"{out}/outside/1_6_12/model.toml", "rb") as file:
         muscles = tomllib.load(file)["muscles"]
     found = []
     for muscle in muscles:
         line, name = muscle["action_line"], muscle["name"]
         before, ring = halved(line["points_mm"]), rings(f"{out}/rest/sections_csv/points_{name}.csv")
-        inner = [(math.dist(a, b), name, k, a, b, ring[k]) for k, (a, b) in enumerate(zip(before, line["centers_mm"])) if 0 < k < len(before) - 1]
-        found.append(max(inner))
+        found.append(max((math.dist(before[k], line["centers_mm"][k]), name, k, before[k], line["centers_mm"][k], ring[k]) for k in range(1, len(before) - 1)))
     return sorted(found, reverse=True)
 
 
-def add_to(page, ours, out):
-    for number, (far, name, section, before, after, ring) in enumerate(moved_most(out)[:SHOWN]):
+def draw(page):
+    for letter, (far, name, section, before, after, ring) in zip("abcd", moved_most(page.out)):
         flat = in_plane(ring, after)
         outline = [flat(corner) for corner in ring]
-        page.chart(f"figure_5_2_{'abcd'[number]}", f"Figure 5.2 {'abcd'[number]}: an inner point, {name}",
-                   f"Section {section} of {RAYS} corners (CSS 6, LSS 1) seen along the line; the line's point (gray) is moved {far:.1f} mm into the muscle.",
-                   [Series("section", outline + outline[:1], "#0072b2"), published("the line's point", [flat(before)], marks=True),
-                    Series("way to the inner point", [flat(before), flat(after)], "#d55e00"), Series("inner point", [flat(after)], "#d55e00", marks=True)],
-                   "mm", "mm", square=True)
-    for path in glob.glob(f"{out}/outside/[12]_1_*.json"):
-        level, _, count = os.path.basename(path)[:-len(".json")].split("_")
-        with open(path) as file:
-            ours[f"scale_{level}_{count}"] = sum(surface["vertices"] for surface in json.load(file) if surface["file"].endswith("sar_r.vtp"))
+        page.draw(f"figure_5_2_{letter}",
+                  [Series("section", outline + outline[:1], "#0072b2"), published("the line's point", [flat(before)], marks=True),
+                   Series("way to the inner point", [flat(before), flat(after)], "#d55e00"), Series("inner point", [flat(after)], "#d55e00", marks=True)],
+                  {"letter": letter, "muscle": name, "section": section, "corners": RAYS, "far": far})
