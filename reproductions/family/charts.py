@@ -112,6 +112,19 @@ def bounds(values, margin=0.05):
     return low - room, high + room
 
 
+def legend_rows(legend, width):
+    """Entries (name, drawn) in rows, three in each at most, and no more than there is room for: a letter takes some 6.2 units."""
+    rows, room = [], 0
+    for name, drawn in legend:
+        needs = 6.2 * (len(name) + 4)
+        if not rows or len(rows[-1]) == 3 or needs > room:
+            rows.append([])
+            room = width
+        rows[-1].append(drawn)
+        room -= needs
+    return rows
+
+
 def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, y_range=None, square=False, field=None):
     """An SVG's text. `square`: a unit is as long on both axes. `field`: what lies under the curves."""
     if field:
@@ -148,7 +161,7 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
     parts.append(f'<text x="{LEFT + across / 2:.0f}" y="{height - 4}" text-anchor="middle">{html.escape(x_label)}</text>')
     parts.append(f'<text transform="translate(11,{TOP + high / 2:.0f}) rotate(-90)" text-anchor="middle">'
                  f'{html.escape(y_label)}</text>')
-    colors = iter(COLORS * 9)
+    colors = iter([(color, dash) for dash in (False, True) * 9 for color in COLORS])  # what comes after all colors is dashed
     legend = []
     inside = []
     if field:
@@ -157,7 +170,7 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
                       f'preserveAspectRatio="none" href="{field.image(field.rows[::-1])}"/>')
         parts.append(color_bar(field, LEFT + across + 6, high))
     for s in series:
-        color = s.color or next(colors)
+        color, dashed = (s.color, s.dash) if s.color else next(colors)
         if s.band:
             for area in areas(s.points, s.band):
                 corners = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(at, area))
@@ -166,17 +179,18 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
             rim = ' stroke="#fff" stroke-width="0.8"' if field and s.size > 2 else ""
             inside += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{s.size}" fill="{color}"{rim}/>' for x, y in map(at, finite(s.points))]
         else:
-            dash = ' stroke-dasharray="5 3"' if s.dash else ""
+            dash = ' stroke-dasharray="5 3"' if s.dash or dashed else ""
             inside += [line(piece, f'stroke="{color}" stroke-width="1.8"{dash}') for piece in pieces(s.points)]
         if s.name and s.points and not s.band:  # the curve through a band tells of it
-            legend.append(f'<tspan fill="{color}">■ {html.escape(s.name)}</tspan>')
+            legend.append((s.name, f'<tspan fill="{color}">{"┅" if dashed and not s.dash else "■"} {html.escape(s.name)}</tspan>'))
     clip = f"c{zlib.crc32(repr((title, x_label, y_label, width, height)).encode()):x}"
     parts.append(f'<clipPath id="{clip}"><rect x="{LEFT}" y="{TOP}" width="{across}" height="{high}"/></clipPath>'
                  f'<g clip-path="url(#{clip})">{"".join(inside)}</g>')
     parts.append(f'<rect x="{LEFT}" y="{TOP}" width="{across}" height="{high}" fill="none" stroke="#999"/>')
-    extra = 15 * ((len(legend) + 2) // 3)
-    for row in range(0, len(legend), 3):
-        parts.append(f'<text x="{LEFT}" y="{height + 12 + 5 * row}">{" &#160; ".join(legend[row:row + 3])}</text>')
+    rows = legend_rows(legend, width - LEFT)
+    for row, names in enumerate(rows):
+        parts.append(f'<text x="{LEFT}" y="{height + 12 + 15 * row}">{" &#160; ".join(names)}</text>')
+    extra = 15 * len(rows)
     return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height + extra}" '
             f'viewBox="0 0 {width} {height + extra}" font-size="11" font-family="sans-serif" role="img" '
             f'aria-label="{html.escape(title)}"><rect width="100%" height="100%" fill="#fff"/>{"".join(parts)}</svg>')

@@ -89,8 +89,9 @@ def resolutions(page):
     for each, times in spent.items():
         page.put(f"collisions_{each:g}", statistics.mean(times), instants=len(times))
     if 80 in spent:
-        for key, kind in (("growth_collisions", "collisions"), ("growth_particles", "particles")):
-            page.put(key, page.ours[f"{kind}_80"] / page.ours[f"{kind}_20"])
+        growth = {kind: page.ours[f"{kind}_80"] / page.ours[f"{kind}_20"] for kind in ("collisions", "particles", "boundary")}
+        page.put("growth_particles", growth["particles"])
+        page.put("growth_collisions", growth["collisions"], growth=growth["boundary"])
     page.draw("figure_5_17", lines({("the cadaver's hip" if where == "hip_resolution" else f"thigh, {where.split('_')[-1]} s of the walk"): points
                                     for where, points in detected.items()}))
     page.draw("figure_5_18", [Series("springs", springs)])
