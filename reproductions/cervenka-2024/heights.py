@@ -1,6 +1,6 @@
 """Heights over a square: placements of centers and compression (sections 3.1.3, 5.1, 5.3 and 5.6)."""
 from charts import Field, Series, published
-from tables import groups, log
+from runs import groups, log, table
 
 SHOWN = ("grid", "Halton", "extrema, stationary curvature and borders", "greedy")
 
@@ -19,71 +19,57 @@ def field_of(rows, column, label, reach=None):
     return Field(values, (-half, 1 + half), (-half, 1 + half), label, low, high, about_zero=bool(reach))
 
 
-def pictures(results):
-    heights = groups(results.table("heights"), "field")
-    centers = groups(results.table("centers"), "field", "placement")
+def pictures(page):
+    """Figures 5.1, 5.3 and 5.6."""
+    heights, centers = groups(table(page, "heights"), "field"), groups(table(page, "centers"), "field", "placement")
 
-    def points(field, placement):
-        return [(row["x"], row["y"]) for row in centers[field, placement]]
+    def dots(name, placement):
+        return [Series("points of inflection" if placement == "points of inflection" else "centers",
+                       [(row["x"], row["y"]) for row in centers[name, placement]], "#d55e00", marks=True, size=2.4)]
 
     names = list(heights)
     for name in names[:2]:
-        field = field_of(heights[name], "height", "height")
-        results.page.chart(f"figure_5_1_{short(name).replace(' ', '_')}", f"Figure 5.1: points of inflection, {short(name)}",
-                           "Nodes beside which the curvature, half the Laplacian, changes its sign.",
-                           [Series("points of inflection", points(name, "points of inflection"), "#d55e00", marks=True, size=2.4)],
-                           "x over the side", "y over the side", field=field, square=True, height=308)
+        page.draw(f"figure_5_1_{short(name).replace(' ', '_')}", dots(name, "points of inflection"), {"field": short(name)},
+                  field=field_of(heights[name], "height", "height"))
     bumps = heights[names[0]]
-    results.page.chart("figure_5_3", "Figure 5.3: an approximation", f"The {short(names[0])} by functions at extrema, stationary curvature and borders (dots).",
-                       [Series("centers", points(names[0], SHOWN[2]), "#d55e00", marks=True, size=2.4)],
-                       "x over the side", "y over the side", field=field_of(bumps, "placed", "height"), square=True, height=308)
     off = [dict(row, off=1000 * (row["placed"] - row["height"])) for row in bumps]
-    reach = max(abs(row["off"]) for row in off)
-    results.page.chart("figure_5_3_error", "Figure 5.3: its error", "Approximated less given.", [], "x over the side", "y over the side",
-                       field=field_of(off, "off", "error, 1/1000", reach), square=True, height=308)
+    told = {"field": short(names[0])}
+    page.draw("figure_5_3", dots(names[0], SHOWN[2]), told, field=field_of(bumps, "placed", "height"))
+    page.draw("figure_5_3_error", [], field=field_of(off, "off", "error, 1/1000", max(abs(row["off"]) for row in off)))
     for placement in SHOWN:
-        results.page.chart(f"figure_5_6_{placement.split(',')[0].lower()}", f"Figure 5.6: placement, {placement}",
-                           f"Centers on the {short(names[0])}.", [Series("centers", points(names[0], placement), "#d55e00", marks=True, size=2.4)],
-                           "x over the side", "y over the side", field=field_of(bumps, "height", "height"), square=True, height=308)
+        page.draw(f"figure_5_6_{placement.split(',')[0].lower()}", dots(names[0], placement), {**told, "placement": placement},
+                  field=field_of(bumps, "height", "height"))
 
 
-def placements(results):
-    table = results.table("placements")
-    names = list(groups(table, "placement"))
-    count = int(table[0]["functions"])
-    legend = "; ".join(f"{i} {name}" for i, name in enumerate(names, 1))
-    results.page.chart("placement_errors", "Sections 5.1, 5.3, 5.6: placements beside each other", f"{count} Gaussians with the best of four reaches: {legend}.",
-                       [Series(short(field), [(names.index(row["placement"]) + 1, log(row["percent"])) for row in rows], marks=True)
-                        for field, rows in groups(table, "field").items()],
-                       "placement", "log10 of the error, % of variance")
-    for field, rows in groups(table, "field").items():
-        errors = {row["placement"]: row["percent"] for row in rows}
+def placements(page):
+    rows = table(page, "placements")
+    names, count = list(groups(rows, "placement")), int(rows[0]["functions"])
+    by_field = {short(field): each for field, each in groups(rows, "field").items()}
+    page.draw("placement_errors", [Series(field, [(names.index(row["placement"]) + 1, log(row["percent"])) for row in each], marks=True)
+                                   for field, each in by_field.items()],
+              {"functions": count, "placements": "; ".join(f"{i} {name}" for i, name in enumerate(names, 1))})
+    for field, each in by_field.items():
+        errors = {row["placement"]: row["percent"] for row in each}
         best = min(errors, key=errors.get)
-        results.add("sections 5.1 to 5.6", f"{short(field)}: error of a grid over that of the best placement", "", errors["grid"] / errors[best],
-                    f"{best}, {count} functions")
+        page.put(f"grid_over_best_{field}", errors["grid"] / errors[best], best=best, functions=count)
 
 
-def compression(results):
-    table = results.table("compression")
-    series = [Series(f"{short(field)}, {placement}", [(row["share_percent"], log(row["percent"])) for row in rows], dash=placement == "greedy")
-              for (field, placement), rows in groups(table, "field", "placement").items()]
-    band = float(results.told("compression_low")), float(results.told("compression_high"))
+def compression(page):
+    """Section 5.6."""
+    rows = table(page, "compression")
+    series = [Series(f"{short(field)}, {placement}", [(row["share_percent"], log(row["percent"])) for row in each], dash=placement == "greedy")
+              for (field, placement), each in groups(rows, "field", "placement").items()]
+    band = page.value("compression_low"), page.value("compression_high")
     bottom = min(y for s in series for _, y in s.points) - 0.3
-    lines = [published(f"published: {band[0]:g} and {band[1]:g} %" if i == 0 else "", [(x, bottom), (x, 3)], dash=True) for i, x in enumerate(band)]
-    results.page.chart("compression", "Section 5.6: compression of height fields", "Error by the share of the 1681 heights that are kept as centers.",
-                       lines + series, "share of the heights that are centers, %", "log10 of the error, % of variance",
-                       y_range=(bottom, 2.3), width=480)
-    least = {}
-    for field, rows in groups(table, "field").items():
-        kept = [row["share_percent"] for row in rows if row["placement"] == "Halton" and row["percent"] < 1]
-        if kept:
-            least[short(field)] = min(kept)
-    if least:
-        for key, pick in (("compression_low", min), ("compression_high", max)):
-            field = pick(least, key=least.get)
-            results.put(key, least[field], f"{field}, for an error below 1 %, of the shares that were tried; the fields are smooth, the papers' own not told")
+    told = [published(f"published: {band[0]:g} and {band[1]:g} %" if x == band[0] else "", [(x, bottom), (x, 3)], dash=True) for x in band]
+    page.draw("compression", told + series, y_range=(bottom, 2.3))
+    kept = groups([row for row in rows if row["placement"] == "Halton" and row["percent"] < 1], "field")
+    least = {short(field): min(row["share_percent"] for row in each) for field, each in kept.items()}
+    for key, pick in (("compression_low", min), ("compression_high", max)) if least else ():
+        field = pick(least, key=least.get)
+        page.put(key, least[field], field=field)
 
 
-def add_to(results):
+def tell(page):
     for part in (pictures, placements, compression):
-        part(results)
+        part(page)

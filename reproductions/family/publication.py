@@ -231,9 +231,12 @@ class WordedPage(Page):
         title, remark, x, y = (entry.get(key, "").format(**told or {}) for key in ("title", "remark", "x", "y"))
         self.chart(name, title, remark, series, x, y, command=entry.get("command", "").format(**told or {}), **{**entry.get("size", {}), **more})
 
+    def text(self, key):
+        """What was published."""
+        return next(row["published"] for row in self.published if row["key"] == key)
+
     def value(self, key):
-        """The published one, a number."""
-        return next(number(row["published"]) for row in self.published if row["key"] == key)
+        return number(self.text(key))
 
     def put(self, key, value, **told):
         """Ours beside the published value of this key; `told`: words of its remark."""

@@ -1,5 +1,6 @@
 """What runs leave behind."""
 import csv
+import math
 import os
 import re
 
@@ -26,6 +27,15 @@ def groups(table, *keys):
     for row in table:
         found.setdefault(row[keys[0]] if len(keys) == 1 else tuple(row[key] for key in keys), []).append(row)
     return found
+
+
+def table(page, name):
+    """Rows of a table that a program has left in OUT/tables."""
+    return rows(f"{page.out}/tables/{name}.csv")
+
+
+def log(value):
+    return math.log10(max(value, 1e-30))
 
 
 def measures(folder):
