@@ -1,7 +1,7 @@
 # What the reproductions' scripts share: sourced with their own name and options.
 #   source family/options.sh NAME "$@"
-# Sets root, here, data, out, thin (empty, or --thin), gracilis, more (what is left of the options), and complete (--complete where the page
-# has to have all; empty with --thin). What OUT has from a pass with other options, data or another version goes.
+# Sets root, here, data, out, thin (empty, or --thin), gracilis, and more (what is left of the options). What OUT has from a pass with
+# other options, data or another version goes.
 name=$1
 shift
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../$name" && pwd)
@@ -10,13 +10,13 @@ data=${GRACILIS_DATA:-$root/../shared/data}
 out=$root/out/$name
 gracilis=${GRACILIS:-$root/build/release/bin/gracilis}
 thin=
-complete=--complete
 more=()
 while (($#)); do
   case $1 in
     --data) data=$2; shift ;;
     --out) out=$2; shift ;;
-    --thin) thin=--thin complete= ;;
+    --thin) thin=--thin ;;
+    --methods) more+=(--words "method=$2"); shift ;;
     --set) more+=(--set "$2"); shift ;;
     *)
       echo "usage: reproductions/$name/run.sh [--thin] [--data FOLDER] [--out FOLDER] [--set KEY=VALUE ...]" >&2
@@ -28,27 +28,15 @@ done
 source "$root/reproductions/family/stamp.sh"
 begin_in "$out" "$gracilis" "${thin:-full}" --data "$data" "${more[@]}"
 
-# has FOLDER...: whether the data have all of these. Where not, that is told, and the page need not have all.
+# has FOLDER...: whether the data have all of these. Where not, that is told.
 has() {
   local each
   for each; do
     [[ -d $data/$each ]] || {
       echo "skipped: there is no $data/$each" >&2
-      complete=
       return 1
     }
   done
-}
-
-# quietly LOG COMMAND...: what it says goes to the log; an exit code but 0 and 5 (a missed gate) is told and ends the script.
-quietly() {
-  local log=$1 code=0
-  shift
-  "$@" >"$log" 2>&1 || code=$?
-  ((code == 0 || code == 5)) || {
-    echo "failed with exit code $code, see $log: $*" >&2
-    exit 1
-  }
 }
 
 # reproduce: what HERE/steps.toml and HERE/pictures.toml list, and the page.

@@ -40,13 +40,6 @@ def read_published(path):
         return list(csv.DictReader(file))
 
 
-def sto_rows(path):
-    """Columns and rows of a .sto file."""
-    with open(path) as file:
-        lines = file.read().split("endheader\n", 1)[1].splitlines()
-    return lines[0].split("\t"), [[float(cell) for cell in line.split("\t")] for line in lines[1:]]
-
-
 def beside(published, ours, remarks=None):
     """Rows of results.csv. `ours` and `remarks` by the keys of the published rows."""
     rows = []
@@ -79,20 +72,6 @@ def write_curves(path, series, x_label, y_label):
             curves = {f"{s.name} (low)": s.points, f"{s.name} (high)": s.band} if s.band else {s.name: s.points}
             for curve, points in curves.items():
                 writer.writerows([curve.strip(), f"{x:.6g}", f"{y:.6g}"] for x, y in points)
-
-
-def list_figures(out, title, command, drawn):
-    """OUT/figures/NUMBER.svg of charts (SVG, series, labels of both axes) by their titles, NUMBER.csv with their points, and OUT/figures.json,
-    which the index page reads."""
-    os.makedirs(os.path.join(out, "figures"), exist_ok=True)
-    figures = []
-    for number, (name, (svg, *curves)) in enumerate(drawn.items(), 1):
-        write_curves(os.path.join(out, "figures", f"{number:02}.csv"), *curves)
-        figures.append({"name": f"{number:02}", "title": name, "command": command})
-        with open(os.path.join(out, "figures", f"{number:02}.svg"), "w") as file:
-            file.write(svg)
-    with open(os.path.join(out, "figures.json"), "w") as file:
-        json.dump({"title": title, "command": command, "figures": figures}, file)
 
 
 def broad(drawn):

@@ -34,16 +34,17 @@ def each_of(step, words):
 
 
 class Steps:
-    def __init__(self, gracilis, here, out, data, options, thin):
-        """`options`: further words for every run."""
-        self.gracilis, self.out, self.options, self.thin = gracilis, out, options, thin
+    def __init__(self, gracilis, here, out, data, thin, sets=(), lists=None):
+        """`sets`: KEY=VALUE for every run; `lists`: words in place of those in the file."""
+        self.gracilis, self.out, self.thin = gracilis, out, thin
+        self.options = [word for each in sets for word in ("--set", each)]
         self.folders = {"OUT": out, "DATA": data, "HERE": here, "ROOT": os.path.dirname(os.path.dirname(here))}
         self.here = here
         self.lacks = set()  # folders that the data lack
         with open(os.path.join(here, "steps.toml"), "rb") as file:
             listed = tomllib.load(file)
         bare = listed.get("without_data", {})
-        self.words = {**listed.get("words", {}), **(bare if not self.has(bare.get("of", [])) else {}), **(listed.get("thin", {}) if thin else {})}
+        self.words = {**listed.get("words", {}), **(bare if not self.has(bare.get("of", [])) else {}), **(listed.get("thin", {}) if thin else {}), **(lists or {})}
         self.steps = listed["steps"]
 
     def has(self, folders):
@@ -68,7 +69,7 @@ class Steps:
         words = [path for word in shlex.split(command) for path in (sorted(glob.glob(self.placed(word))) if "*" in word else [self.placed(word)])]
         if words[0].startswith("gracilis"):
             words[0] = os.path.join(os.path.dirname(self.gracilis), words[0]) if words[0] != "gracilis" else self.gracilis
-        return words + (self.options if words[1:2] in (["run"], ["demo"]) else [])
+        return words + (self.options if words[1:2] in (["run"], ["demo"], ["rom"]) else [])
 
     def make(self):
         for makes, step, words in self.listed():

@@ -1,13 +1,14 @@
 """Published and measured moment arms (mm, -dL/dq, flexion, adduction and inward rotation positive) and those of runs."""
-import csv
-import glob
 import os
 import re
+
+import runs
 
 # The scenes have some names of their own.
 NAMES = {"psoas_r": "psoas_major_r", "biceps_brachii_r": "biceps_long", "triceps_long_r": "triceps_long",
          "triceps_lateral_r": "triceps_lateral", "triceps_medial_r": "triceps_medial"}
 COORDINATES = {"elbow_flexion_r": "elbow_flexion"}
+SWEPT = {"hip_flexion": "hip_flexion_r", "hip_adduction": "hip_adduction_r", "elbow": "elbow_flexion", "knee": "knee_flexion_r"}  # the coordinate of each sweep
 
 
 class Curve:
@@ -27,15 +28,10 @@ def at(points, x):
     return None
 
 
-def rows(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def fibers_of_the_cadaver(folder):
     curves = {}
     for motion in ("flexion", "adduction"):
-        for row in rows(f"{folder}/modenese_kohout_2020_hip_{motion}.csv"):
+        for row in runs.rows(f"{folder}/modenese_kohout_2020_hip_{motion}.csv"):
             key = (motion, row["muscle"])
             curve = curves.setdefault(key, Curve("Modenese 2020, same cadaver", f"hip_{motion}_r",
                                                  NAMES.get(row["muscle"], row["muscle"])))
@@ -47,7 +43,7 @@ def fibers_of_the_cadaver(folder):
 def finite_elements(folder):
     """Bounds alone. Published with extension positive for gluteal muscles about flexion."""
     curves = {}
-    for row in rows(f"{folder}/blemker_delp_2005_bounds.csv"):
+    for row in runs.rows(f"{folder}/blemker_delp_2005_bounds.csv"):
         key = (row["motion"], row["muscle"])
         curve = curves.setdefault(key, Curve("Blemker 2005, finite elements", f"hip_{row['motion']}_r",
                                              NAMES.get(row["muscle"], row["muscle"])))
@@ -61,7 +57,7 @@ def finite_elements(folder):
 def columns(path, source, muscle, coordinate_of, scale):
     """A curve for each column but the first, which is hip flexion."""
     curves = []
-    table = rows(path)
+    table = runs.rows(path)
     for name in list(table[0])[1:]:
         coordinate, label = coordinate_of(name)
         curve = Curve(source + label, coordinate, muscle, "hip_flexion_r")
@@ -81,7 +77,7 @@ def measured(folder):
 
 def models(folder):
     curves = {}
-    for row in rows(f"{folder}/models_elbow_knee_ankle.csv"):
+    for row in runs.rows(f"{folder}/models_elbow_knee_ankle.csv"):
         coordinate = COORDINATES.get(row["coordinate"], row["coordinate"])
         muscle = NAMES.get(row["muscle"], row["muscle"]) if coordinate == "elbow_flexion" else row["muscle"]
         curve = curves.setdefault((coordinate, muscle, row["model"]), Curve(row["model"] + ", model", coordinate, muscle))
@@ -98,16 +94,9 @@ def published(folder):
     return curves
 
 
-def read_sto(path):
-    with open(path) as file:
-        lines = file.read().split("endheader\n")[1].splitlines()
-    names = lines[0].split("\t")
-    return names, [[float(cell) for cell in line.split("\t")] for line in lines[1:] if line]
-
-
 def arms_of_sweep(folder, method, coordinate):
     """The curves of every muscle in a folder of `gracilis rom`."""
-    names, table = read_sto(f"{folder}/moment_arms.sto")
+    names, table = runs.sto(f"{folder}/moment_arms.sto")
     curves = {}
     for i, name in enumerate(names):
         fiber = re.fullmatch(r"(.+)_f\d+", name)
@@ -127,21 +116,24 @@ def arms_of_sweep(folder, method, coordinate):
     return [curve for curve in curves.values() if len(curve.mean) > 1]
 
 
-def arms_of_method(folder, method):
-    """All sweeps of a method. Those about another coordinate than the one that is changed are short ones, of which the
-    arm at 0 counts: COORDINATE_at_ANGLE, the hip flexed by ANGLE."""
-    coordinates = {"hip_flexion": "hip_flexion_r", "hip_adduction": "hip_adduction_r", "elbow": "elbow_flexion",
-                   "knee": "knee_flexion_r"}
-    curves = []
-    for name, coordinate in coordinates.items():
-        if os.path.exists(f"{folder}/{method}/{name}/moment_arms.sto"):
-            curves += arms_of_sweep(f"{folder}/{method}/{name}", method, coordinate)
-    flexed = {}
-    for path in sorted(glob.glob(f"{folder}/{method}/*_at_*/moment_arms.sto")):
-        coordinate, angle = re.fullmatch(r"(.+)_at_(-?\d+)", os.path.basename(os.path.dirname(path))).groups()
-        for short in arms_of_sweep(os.path.dirname(path), method, coordinate):
+def sweeps_of(folder, method):
+    """Those about another coordinate than the one that is changed are short ones, of which the arm at 0 counts: COORDINATE_at_ANGLE, the hip flexed."""
+    curves, flexed = [], {}
+    for name in sorted(os.listdir(folder)):
+        if not os.path.exists(f"{folder}/{name}/moment_arms.sto"):
+            continue
+        if name in SWEPT:
+            curves += arms_of_sweep(f"{folder}/{name}", method, SWEPT[name])
+            continue
+        coordinate, angle = name.split("_at_")
+        for short in arms_of_sweep(f"{folder}/{name}", method, coordinate):
             curve = flexed.setdefault((coordinate, short.muscle), Curve(method, coordinate, short.muscle, "hip_flexion_r"))
             curve.mean.append((float(angle), at(short.mean, 0)))
     for curve in flexed.values():
         curve.mean.sort()
     return curves + list(flexed.values())
+
+
+def arms_of_method(folder):
+    """{method: its curves} of all sweeps in the folder."""
+    return {method: sweeps_of(f"{folder}/{method}", method) for method in sorted(os.listdir(folder)) if os.path.isdir(f"{folder}/{method}")}

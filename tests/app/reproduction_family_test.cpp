@@ -31,9 +31,49 @@ struct FamilyFolder : SceneFolder {
                    " " + options + "; echo \"code $?\"");
   }
 
+  std::string text(const std::string& name) const { return said_by("cat " + path(name).string()); }
+
   std::string python(const std::string& text) const {
     write("script.py", "import sys\nsys.path.insert(0, '" + family() + "')\n" + text);
     return said_by("cd " + path("").string() + " && timeout 20 python3 -B script.py; echo \"code $?\"");
+  }
+};
+
+/// A reproduction of two steps for each of two lengths, one of a template and one that only full passes have.
+struct ListedSteps : FamilyFolder {
+  ListedSteps() {
+    write("here/steps.toml", R"([words]
+length = [1, 2]
+greeting = "told {length} {whom}"
+whom = "twice"
+[thin]
+length = [1]
+[without_data]
+of = ["cadaver"]
+whom = "once"
+[[steps]]
+makes = "made/{length}"
+command = "sh -c 'echo {greeting} >>OUT/count; mkdir -p OUT/made/{length}; test ! -e OUT/broken'"
+[[steps]]
+makes = "said"
+command = "echo in DATA"
+tells = true
+full = true
+[[steps]]
+makes = "of_cadaver"
+command = "touch OUT/of_cadaver"
+data = ["cadaver"]
+[[steps]]
+makes = "scene.toml"
+template = "scene.toml"
+)");
+    write("here/scene.toml", "samples = \"OUT/samples.sto\"\n");
+  }
+  std::string make(const std::string& thin) const {
+    return python(
+        "import os\nimport steps\nos.makedirs('out', exist_ok=True)\n"
+        "todo = steps.Steps('gracilis', os.path.abspath('here'), os.path.abspath('out'), 'data', " +
+        thin + ")\ntodo.make()\nprint(sorted(os.listdir('out')), todo.lacks)\n");
   }
 };
 
@@ -95,6 +135,66 @@ TEST(ReproductionFamily, a_complete_pass_fails_and_names_what_its_page_lacks) {
   EXPECT_EQ(page("{'length': 1}", "complete=True"), "not made: Figure 2: empty\nnot made: page 4: a mass\ncode 1\n");
   EXPECT_EQ(page("{'length': 1}", ""), "code 0\n");
   EXPECT_EQ(page("{'length': 1, 'mass': 2}", "complete=True"), "not made: Figure 2: empty\ncode 1\n");
+}
+
+TEST(ReproductionFamily, steps_are_made_for_every_word_of_a_list_and_only_once) {
+  const ListedSteps folder;
+  EXPECT_THAT(folder.make("True"), HasSubstr("['count', 'made', 'scene.toml'] {'cadaver'}\ncode 0"));
+  EXPECT_EQ(folder.text("out/count"), "told 1 once\n");
+  EXPECT_EQ(folder.text("out/scene.toml"), "samples = \"" + folder.path("out").string() + "/samples.sto\"\n");
+  folder.write("data/cadaver/bone.ply", "");
+  EXPECT_THAT(folder.make("False"),
+              HasSubstr("'of_cadaver', 'of_cadaver.txt', 'said', 'said.txt', 'scene.toml'] set()"));
+  EXPECT_EQ(folder.text("out/count"), "told 1 once\ntold 1 twice\ntold 2 twice\n");  // another command is another step
+  EXPECT_EQ(folder.text("out/said"), "in data\n");
+  EXPECT_THAT(folder.make("False"), HasSubstr("code 0"));
+  EXPECT_EQ(folder.text("out/count"), "told 1 once\ntold 1 twice\ntold 2 twice\n");
+}
+
+TEST(ReproductionFamily, a_step_that_fails_ends_the_pass_and_is_made_again) {
+  const ListedSteps folder;
+  folder.write("out/broken", "");
+  const std::string said = folder.make("True");
+  EXPECT_THAT(said, HasSubstr("failed with exit code 1"));
+  EXPECT_THAT(said, HasSubstr("code 1\n"));
+  EXPECT_THAT(folder.text("out/made/1.txt"), HasSubstr("exit code 1 after"));
+  fs::remove(folder.path("out/broken"));
+  EXPECT_THAT(folder.make("True"), HasSubstr("code 0"));
+  EXPECT_EQ(folder.text("out/count"), "told 1 once\ntold 1 once\n");
+}
+
+TEST(ReproductionFamily, a_complete_page_has_a_sentence_where_values_differ_and_bars_hold_always) {
+  const FamilyFolder folder;
+  folder.write("here/page.toml", R"(title = "t"
+about = "a"
+[figures."figure_*"]
+title = "Figure {number}"
+x = "x"
+y = "y"
+[left_out]
+switch = "does nothing here"
+[remarks]
+"mass_*" = "of {what}"
+)");
+  folder.write(
+      "here/published.csv",
+      "key,quantity,unit,published,source,least,most\nlength,a length,m,1,page 3,,\nmass_1,a mass,kg,2,page 4,,\n"
+      "switch,a switch,,1,page 5,,\nerror,an error,%,below 1,page 6,,1\n");
+  const auto page = [&](const std::string& puts, const std::string& complete) {
+    return folder.python(
+        "import os\nimport publication\nfrom charts import Series\nos.makedirs('out', exist_ok=True)\n"
+        "page = publication.WordedPage('out', 'here', 'data')\n" +
+        puts + "page.write(complete=" + complete + ")\n");
+  };
+  const std::string drawn = "page.draw('figure_1', [Series('a', [(0, 1), (1, 2)])], {'number': 1})\n",
+                    same = drawn + "page.put('length', 1.001)\npage.put('mass_1', 3, what='a bone')\n";
+  EXPECT_EQ(page(same + "page.put('error', 'below 1')\n", "True"), "code 0\n");
+  EXPECT_THAT(folder.text("out/results.csv"), HasSubstr("page 4,a mass,kg,2,3,1.5,of a bone"));
+  EXPECT_THAT(folder.text("out/results.csv"), HasSubstr("page 5,a switch,,1,,,does nothing here"));
+  EXPECT_EQ(page(same + "page.put('error', 0.5)\n", "True"), "not made: remark on page 6: an error\ncode 1\n");
+  EXPECT_EQ(page(drawn + "page.put('length', 1.1)\npage.put('error', 0.5)\n", "False"), "code 0\n");
+  EXPECT_THAT(page("page.put('length', 1)\n", "True"), HasSubstr("not made: Figure {number}\n"));
+  EXPECT_EQ(page("page.put('error', 2)\n", "False"), "missed its bar: an error, 2\ncode 1\n");
 }
 
 TEST(ReproductionFamily, lines_are_broken_where_points_are_not_finite) {
