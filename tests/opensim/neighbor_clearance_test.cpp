@@ -1,5 +1,7 @@
 #include <gracilis/opensim/import/neighbor_clearance.hpp>
 
+#include <shapes.hpp>
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -87,6 +89,22 @@ TEST(NeighborClearance, a_tendon_leans_softly_out_of_a_belly_and_by_30_mm_at_mos
   EXPECT_GT(way.colwise().norm().maxCoeff(), 0.02);
   EXPECT_LE(way.colwise().norm().maxCoeff(), 0.03 + 1e-9);
   for (Eigen::Index k = 0; k < 10; ++k) EXPECT_LE((way.col(k + 1) - way.col(k)).norm(), 0.5 * 0.02 + 1e-9) << k;
+}
+
+TEST(NeighborClearance, a_muscle_that_gives_way_does_not_go_through_a_bone) {
+  std::vector<SolidBone> bones;
+  bones.emplace_back(shapes::box({-0.012, -0.05, -0.2}, {-0.01, 0.05, 0.2}));
+  const std::map<std::string, RoundMuscle> beside =
+      beside_bellies({{"left", spindle(0)}, {"right", spindle(0.004)}}, bones);
+  const Points& left = beside.at("left").centers;
+  EXPECT_LT(left.row(0).minCoeff(), -0.003) << "it gives way";
+  EXPECT_GT(left.row(0).minCoeff(), -0.01) << "up to the plate, of which the other side is near";
+}
+
+TEST(NeighborClearance, a_muscle_on_the_line_of_another_is_no_thread) {
+  const RoundMuscle muscle = upright(0, 0.02);
+  const ClearSections clear = clear_of_bones(muscle.centers, muscle.radii, 12, {}, room_beside({muscle}));
+  EXPECT_GE(clear.radii.minCoeff(), 0.25 * 0.02 - 1e-12);
 }
 
 TEST(NeighborClearance, muscles_that_leave_each_other_room_stay_on_their_lines) {

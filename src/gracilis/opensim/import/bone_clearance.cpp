@@ -15,6 +15,7 @@ static constexpr Real center_clearance = 0.004;  // m
 static constexpr Real farthest = 0.03;           // m, that a center goes
 static constexpr Real widest = 1.6;              // times its radius that a corner goes out
 static constexpr Real widest_beside = 2.2;       // the same beside other muscles
+static constexpr Real least_beside = 0.25;       // times its radius that a corner keeps beside other muscles
 static constexpr Real deepest_known = 0.06;      // m; no place in a bone is deeper
 
 SolidBone::SolidBone(const TriangleMesh& surface)
@@ -66,9 +67,8 @@ Real distance_to(const std::vector<SolidBone>& bones, const Vec3& p, Real most) 
   return most;
 }
 
-/// How far one comes from a point outside of the bones along a unit direction, `length` at most: no step is longer than
-/// the distance that is left.
-static Real way_along(const std::vector<SolidBone>& bones, const Vec3& from, const Vec3& direction, Real length) {
+/// No step is longer than the distance that is left.
+Real way_along(const std::vector<SolidBone>& bones, const Vec3& from, const Vec3& direction, Real length) {
   Real way = 0;
   for (int step = 0; step < 100 && way < length; ++step) {
     const Real room = distance_to(bones, from + way * direction, length);
@@ -174,7 +174,9 @@ ClearRays clear_rays(const SectionRays& rays, const std::vector<SolidBone>& bone
     for (Eigen::Index i = 0; i < count; ++i) {
       const Vec3 foot = rays.feet.col(k * count + i), ray = rays.directions.col(k * count + i);
       Real room = way_along(bones, foot, ray, rooms.widest * rays.lengths(i, k));
-      if (beside) room = beside(foot, ray, rays.lengths(i, k), room);
+      // A line in the midst of others would become a thread; what overlaps then is drawn apart.
+      if (beside)
+        room = std::max(beside(foot, ray, rays.lengths(i, k), room), std::min(room, least_beside * rays.lengths(i, k)));
       rooms.room(i, k) = std::max(room, gap);
     }
   const auto filled = [&] {

@@ -20,6 +20,10 @@ struct SolidBone {
 /// How far away the bones are, negative within one, as far as it is less than `most`, m.
 Real distance_to(const std::vector<SolidBone>& bones, const Vec3& p, Real most);
 
+/// How far one comes from a point outside of the bones along a unit direction until one is 0.5 mm away, `length` at
+/// most, m.
+Real way_along(const std::vector<SolidBone>& bones, const Vec3& from, const Vec3& direction, Real length);
+
 /// Sections across a line: their centers, and their corners' distances from these (rays × sections, m).
 struct ClearSections {
   Points centers;
@@ -46,9 +50,9 @@ struct SectionRays {
 
 /// How long the rays are so that corners keep out of the bones: drawn in to 0.5 mm before one, and until edges between
 /// them are outside (drawn_off_ridges), and the others out, by 1.6 times at most, so that sections keep their areas.
-/// Where something is beside the muscle, corners are drawn in before that, too, and others go out by 2.2 times at most;
-/// what sections lack then the others take, up to twice their areas, so that the muscle keeps its volume, but for what
-/// ridges take. Precondition: feet lie outside of the bones.
+/// Where something is beside the muscle, corners are drawn in before that, too, down to a quarter of their rays, and
+/// others go out by 2.2 times at most; what sections lack then the others take, up to twice their areas, so that the
+/// muscle keeps its volume, but for what ridges take. Precondition: feet lie outside of the bones.
 struct ClearRays {
   Eigen::MatrixXd lengths;  ///< m
   Real volume_share = 1;    ///< of the volume before

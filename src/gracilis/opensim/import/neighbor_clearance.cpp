@@ -165,13 +165,26 @@ static std::vector<RoundMuscle> all_but(const std::vector<std::string>& names,
   return others;
 }
 
+/// Where centers come on their way to others before there is a bone.
+static Points before_bones(const Points& from, const Points& to, const std::vector<SolidBone>& bones) {
+  Points reached = from;
+  for (Eigen::Index k = 0; k < from.cols(); ++k) {
+    const Vec3 way = to.col(k) - from.col(k);
+    if (const Real length = way.norm(); length > 0)
+      reached.col(k) += way_along(bones, from.col(k), way / length, length) / length * way;
+  }
+  return reached;
+}
+
 std::map<std::string, RoundMuscle> beside_bellies(const std::map<std::string, RoundMuscle>& muscles,
                                                   const std::vector<SolidBone>& bones) {
   std::map<std::string, RoundMuscle> beside = muscles;
   for (int round = 0; round < rounds_of_giving_way; ++round) {
     const std::map<std::string, RoundMuscle> before = beside;
-    for (auto& [name, muscle] : beside)
-      muscle.centers = given_way(muscles.at(name).centers, before.at(name), all_but({name}, before));
+    for (auto& [name, muscle] : beside) {
+      const Points wanted = given_way(muscles.at(name).centers, before.at(name), all_but({name}, before));
+      muscle.centers = before_bones(muscle.centers, wanted, bones);
+    }
   }
   for (auto& [name, muscle] : beside) muscle.centers = clear_centers(muscle.centers, muscle.radii, bones);
   return beside;

@@ -26,7 +26,8 @@ RoomBeside room_beside(std::vector<RoundMuscle> muscles);
 /// stay, since muscles may well have one place there.
 Points beside_bellies(const RoundMuscle& muscle, const std::vector<RoundMuscle>& others);
 
-/// All of these, by their names, when each has given way to the others several times, outside of the bones.
+/// All of these, by their names, when each has given way to the others several times, outside of the bones, through
+/// which none goes.
 std::map<std::string, RoundMuscle> beside_bellies(const std::map<std::string, RoundMuscle>& muscles,
                                                   const std::vector<SolidBone>& bones);
 
