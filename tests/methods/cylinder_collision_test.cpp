@@ -144,6 +144,18 @@ TEST(CylinderMethod, what_did_not_come_free_is_told_and_its_time_counted) {
   EXPECT_EQ(metric(report.muscles[0].metrics, "collision_rounds"), 20);
 }
 
+TEST(CylinderMethod, a_section_that_does_not_come_free_is_not_thrown_away) {
+  // A blade just before the next section, which cuts the way to that one's corners however far the tagged section goes.
+  Scene scene = pressed_scene();
+  scene.bones[1].surface = shapes::box({0.02, -0.05, 0.0585}, {0.1, 0.05, 0.0595});
+  const auto method = make_cylinder_method(scene);
+  const StepReport report = method->advance(pose_at(scene, std::vector<Real>{-0.02}), usual_time_step);
+  EXPECT_EQ(metric(report.muscles[0].metrics, "unresolved_transversals"), 1);
+  Frame frame;
+  method->write(frame);
+  EXPECT_NEAR(frame.muscles[0].points.middleCols(24, 12).rowwise().mean().x(), 0, 1e-9);
+}
+
 TEST(CylinderMethod, a_section_that_lies_deep_takes_more_rounds_to_come_free) {
   Scene scene = pressed_scene();
   const auto unresolved_in = [&](int rounds) {

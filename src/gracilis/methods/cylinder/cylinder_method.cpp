@@ -126,14 +126,7 @@ class Resolution {
         pose_(pose),
         most_rounds_(most_rounds),
         shapes_(shapes) {
-    for (const Transversal& each : transversals) {
-      const SectionRings& rings = rings_of(each.moved);
-      Held state{section_area(rings, each.moved.section), Eigen::VectorXd(rings.rays),
-                 std::vector<bool>(static_cast<std::size_t>(rings.rays))};
-      for (Index i = 0; i < rings.rays; ++i)
-        state.radii[i] = (rings.corner(each.moved.section, i) - rings.centers.col(each.moved.section)).norm();
-      held_.push_back(std::move(state));
-    }
+    for (const Transversal& each : transversals) held_.emplace_back(rings_of(each.moved), each.moved.section);
   }
 
   /// Adds the time to the reports of the muscles that give way, and to all what did not come free.
@@ -154,9 +147,14 @@ class Resolution {
     }
     // What the last round moved may be free now.
     for (std::size_t i = 0; any && i < transversals_.size(); ++i) {
-      const SectionRings before = rings_of(transversals_[i].moved);
-      if (give_way(transversals_[i], held_[i])) ++unresolved[static_cast<std::size_t>(transversals_[i].moved.muscle)];
-      rings_of(transversals_[i].moved) = before;
+      const SectionCorner& moved = transversals_[i].moved;
+      const SectionRings before = rings_of(moved);
+      YieldingSection state = held_[i];
+      const bool caught = give_way(transversals_[i], state);
+      rings_of(moved) = before;
+      if (!caught) continue;
+      ++unresolved[static_cast<std::size_t>(moved.muscle)];
+      take_back(rings_of(moved), moved.section, held_[i]);
     }
     for (std::size_t muscle = 0; muscle < reports.size(); ++muscle)
       reports[muscle].metrics = {{"collision_rounds", static_cast<Real>(rounds[muscle])},
@@ -164,17 +162,11 @@ class Resolution {
   }
 
  private:
-  struct Held {
-    Real area = 0;
-    Eigen::VectorXd radii;
-    std::vector<bool> fixed;
-  };
-
   SectionRings& rings_of(const SectionCorner& corner) const {
     return shapes_[static_cast<std::size_t>(corner.muscle)].rings;
   }
 
-  bool give_way(const Transversal& each, Held& state) const {
+  bool give_way(const Transversal& each, YieldingSection& state) const {
     SectionRings& rings = rings_of(each.moved);
     bool moved = false;
     std::vector<Obstacle> obstacles;
@@ -192,7 +184,7 @@ class Resolution {
     const Obstacle any = [&](const Vec3& a, const Vec3& b) {
       return std::any_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& cuts) { return cuts(a, b); });
     };
-    if (!yield_to_obstacle(rings, each.moved.section, any, state.radii, state.fixed)) return moved;
+    if (!yield_to_obstacle(rings, each.moved.section, any, state)) return moved;
     inflate(rings, each.moved.section, state.area, state.fixed);
     return true;
   }
@@ -203,7 +195,7 @@ class Resolution {
   const Pose& pose_;
   int most_rounds_;
   std::vector<CylinderShape>& shapes_;
-  std::vector<Held> held_;
+  std::vector<YieldingSection> held_;
 };
 
 class CylinderMethod final : public DeformationMethod {

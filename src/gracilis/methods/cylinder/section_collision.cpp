@@ -58,8 +58,12 @@ bool yield_to_transversal(SectionRings& rings, const SectionCorner& corner, Real
   return true;
 }
 
-bool yield_to_obstacle(SectionRings& rings, Index section, const Obstacle& cuts, const Eigen::VectorXd& radii_before,
-                       std::vector<bool>& fixed) {
+YieldingSection::YieldingSection(const SectionRings& rings, Index section)
+    : area(section_area(rings, section)), radii(rings.rays), fixed(static_cast<std::size_t>(rings.rays), false) {
+  for (Index i = 0; i < rings.rays; ++i) radii[i] = (rings.corner(section, i) - rings.centers.col(section)).norm();
+}
+
+bool yield_to_obstacle(SectionRings& rings, Index section, const Obstacle& cuts, YieldingSection& state) {
   const Index rays = rings.rays, neighbor = section + 1 < rings.sections() ? section + 1 : section - 1;
   std::vector<bool> shrinks(static_cast<std::size_t>(rays), false), pushes = shrinks;
   bool any = false;
@@ -78,9 +82,9 @@ bool yield_to_obstacle(SectionRings& rings, Index section, const Obstacle& cuts,
   for (Index i = 0; i < rays; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const Vec3 radius = rings.corner(section, i) - center;
-    const bool spent = radius.norm() < 0.05 * radii_before[i];
+    const bool spent = radius.norm() < 0.05 * state.radii[i];
     if (shrinks[at]) {
-      fixed[at] = true;
+      state.fixed[at] = true;
       if (!spent) rings.corner(section, i) = center + 0.9 * radius;
     }
     if ((shrinks[at] && spent) || pushes[at]) {
@@ -88,8 +92,16 @@ bool yield_to_obstacle(SectionRings& rings, Index section, const Obstacle& cuts,
       ++pushing;
     }
   }
-  if (pushing > 0) shift(rings, section, push / pushing);
+  if (pushing > 0) {
+    shift(rings, section, push / pushing);
+    state.pushed += push / pushing;
+  }
   return true;
+}
+
+void take_back(SectionRings& rings, Index section, YieldingSection& state) {
+  shift(rings, section, -state.pushed);
+  state.pushed.setZero();
 }
 
 void inflate(SectionRings& rings, Index section, Real area, const std::vector<bool>& fixed) {

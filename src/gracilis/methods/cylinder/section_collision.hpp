@@ -27,12 +27,25 @@ using Obstacle = std::function<bool(const Vec3& a, const Vec3& b)>;
 /// (Möller and Trumbore 1997).
 Obstacle obstacle_of(const SectionRings& rings);
 
+/// What a section remembers from round to round: how it was before, per ray whether it is held, and how far obstacles
+/// have moved its center.
+struct YieldingSection {
+  YieldingSection(const SectionRings& rings, Index section);
+
+  Real area = 0;          // m²
+  Eigen::VectorXd radii;  // m
+  std::vector<bool> fixed;
+  Vec3 pushed = Vec3::Zero();  // m
+};
+
 /// One round for one section: where the way from a corner to the next one cuts the obstacle both radii shrink by a
 /// tenth and are fixed; where one is nearly spent (5 % of what it was), or the way to the next corner of the following
-/// section cuts it, the center moves by a tenth of the opposite radius. `fixed` remembers per ray what was held.
-/// Returns whether anything was cut.
-bool yield_to_obstacle(SectionRings& rings, Index section, const Obstacle& cuts, const Eigen::VectorXd& radii_before,
-                       std::vector<bool>& fixed);
+/// section cuts it, the center moves by a tenth of the opposite radius. Returns whether anything was cut.
+bool yield_to_obstacle(SectionRings& rings, Index section, const Obstacle& cuts, YieldingSection& state);
+
+/// Moves the center back to where no obstacle had moved it: of a section that does not come free, for what it meets
+/// beside the following section it would meet however far it goes.
+void take_back(SectionRings& rings, Index section, YieldingSection& state);
 
 /// Scales the free radii alike so that the section has `area` (m²) again; at most to three times their length.
 void inflate(SectionRings& rings, Index section, Real area, const std::vector<bool>& fixed);
