@@ -50,7 +50,7 @@ def row_of(page, row):
     """What the page says of a row of the table."""
     said = f"Root mean square {row['rms_mm']} mm, {row['largest_mm']} at most, {row['angles']} angles from {row['from_deg']} to {row['to_deg']}"
     said += f"; covers {row['coverage_percent']} %. " if row["coverage_percent"] else ". "
-    sentences = [matching(page.words[table], key)[1] for table, key in (("published", f"{row['coordinate']} {row['source']}"), ("methods", row["method"]))]
+    sentences = [matching(page.words[table], key)[1] for table, key in (("published", f"{row['coordinate']} {row['source']}"), ("methods", f"{row['method']} {row['coordinate']}"))]
     over = "" if row["over"] == row["coordinate"] else f" over {row['over']}"
     ratio = "" if abs(float(row["published_mm"])) < 1 else f"{float(row['ours_mm']) / float(row['published_mm']):.3g}"
     return {"source": row["source"], "quantity": f"{row['muscle']}, {row['coordinate']}{over}, {row['method']}".replace("_", " "), "unit": "mm",
