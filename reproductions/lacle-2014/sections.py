@@ -62,11 +62,19 @@ def moved_most(out):
     return sorted(found, reverse=True)
 
 
+def matches(out):
+    """{(muscle, section): [(a point, the other)]}: where opposite rays met the surface on the same side of the line's point."""
+    of_sections = runs.groups(runs.rows(f"{out}/outside/1_6_12/matches.csv"), "muscle", "section")
+    return {key: [tuple([row[f"{end}{axis}_mm"] for axis in "xyz"] for end in ("", "to_")) for row in rows] for key, rows in of_sections.items()}
+
+
 def draw(page):
+    found = matches(page.out)
     for letter, (far, name, section, before, after, ring) in zip("abcd", moved_most(page.out)):
         flat = in_plane(ring, after)
         outline = [flat(corner) for corner in ring]
-        page.draw(f"figure_5_2_{letter}",
+        pairs = [Series("" if i else "matches", [flat(a), flat(b)], "#e69f00") for i, (a, b) in enumerate(found.get((name, section), []))]
+        page.draw(f"figure_5_2_{letter}", pairs +
                   [Series("section", outline + outline[:1], "#0072b2"), published("the line's point", [flat(before)], marks=True),
                    Series("way to the inner point", [flat(before), flat(after)], "#d55e00"), Series("inner point", [flat(after)], "#d55e00", marks=True)],
                   {"letter": letter, "muscle": name, "section": section, "corners": RAYS, "far": far})

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 
 namespace gracilis {
 
@@ -195,6 +196,19 @@ TEST(Enhancement, sections_move_into_the_surface_and_their_corners_onto_it) {
   }
   EXPECT_EQ(sections.centers.col(0), line.col(0));
   EXPECT_EQ(sections.centers.col(16), line.col(16));
+  // Both points of a match lie on the surface, and a center in the middle of what they span.
+  std::map<Index, std::vector<MatchedPoints>> of_section;
+  for (const MatchedPoints& match : sections.matches) {
+    EXPECT_NEAR(distance.query(match.positive).distance, 0, 1e-9);
+    EXPECT_NEAR(distance.query(match.negative).distance, 0, 1e-9);
+    of_section[match.section].push_back(match);
+  }
+  EXPECT_GT(of_section.size(), 8U);
+  for (const auto& [k, matches] : of_section)
+    if (matches.size() % 2 == 1 && k > 0 && k < 16) {
+      const MatchedPoints& between = matches[matches.size() / 2];
+      EXPECT_LT((sections.centers.col(k) - (between.positive + between.negative) / 2).norm(), 1e-12) << k;
+    }
 }
 
 TEST(Enhancement, a_center_that_the_published_heuristic_does_not_find_is_mended_or_stays) {

@@ -17,6 +17,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
 namespace gracilis::opensim {
 
 static const char* tetrahedron = "v 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
@@ -177,6 +180,16 @@ TEST(SceneFolder, sections_are_brought_onto_a_surface_that_is_known) {
     if (corner.y() < 0.045 && corner.y() > -0.245 && std::abs(std::abs(corner.x() - 0.01) - 0.02) < 1e-9) ++on_box;
   }
   EXPECT_GT(on_box, 100);
+  // Beside the line: rays match its two sides.
+  settings.volumes.surfaces["m"] = shapes::box({0.01, -0.25, -0.02}, {0.03, 0.05, 0.02});
+  std::filesystem::remove(folder.path() / "model.toml");
+  write_scene_folder(model, {}, {}, settings, folder.path());
+  std::ifstream matches(folder.path() / "matches.csv");
+  std::string header, first;
+  std::getline(matches, header);
+  std::getline(matches, first);
+  EXPECT_EQ(header, "muscle,section,x_mm,y_mm,z_mm,to_x_mm,to_y_mm,to_z_mm");
+  EXPECT_THAT(first, testing::MatchesRegex("m,[0-9]+(,-?[0-9.]+){6}"));
   settings.volumes.surfaces["m"] = shapes::box({5, 5, 5}, {6, 6, 6});
   std::filesystem::remove(folder.path() / "model.toml");
   EXPECT_THAT(write_scene_folder(model, {}, {}, settings, folder.path()).left_out,

@@ -97,8 +97,15 @@ static Vec2 middle_of_longest_way(const SectionCut& cut, Real angle) {
   return best;
 }
 
-/// Where the center should be, in the section's plane. `radius` is that of the ring from which rays begin.
-static Vec2 better_center(const SectionCut& cut, const Eigen::VectorXd& radii, const EnhancementSettings& settings) {
+/// Where the center should be, in the section's plane, and the points that it is from.
+struct InnerPoint {
+  Vec2 center = Vec2::Zero();
+  std::vector<std::array<Vec2, 2>> matches;
+};
+
+/// `radii` are those of the ring from which rays begin.
+static InnerPoint better_center(const SectionCut& cut, const Eigen::VectorXd& radii,
+                                const EnhancementSettings& settings) {
   const auto count = static_cast<Index>(radii.size());
   for (Index rays = count * settings.more_rays;; rays *= 2) {
     const Eigen::VectorXd angles = even_angles(rays);
@@ -107,13 +114,17 @@ static Vec2 better_center(const SectionCut& cut, const Eigen::VectorXd& radii, c
     const CastRadii cast = cast_radii(cut, angles, begin);
     const std::vector<RayMatch> matches = find_matches(cast);
     if (matches.empty()) {
-      if (!settings.mend || rays > 576 || cut.contains(Vec2::Zero())) return Vec2::Zero();
+      if (!settings.mend || rays > 576 || cut.contains(Vec2::Zero())) return {};
       continue;
     }
-    const Vec2 point = inner_point(matches, angles, cast.radii);
-    if (!settings.mend || cut.contains(point)) return point;
+    InnerPoint inner{inner_point(matches, angles, cast.radii), {}};
+    for (const RayMatch& match : matches)
+      inner.matches.push_back({cast.radii[match.positive] * direction(angles[match.positive]),
+                               cast.radii[match.negative] * direction(angles[match.negative])});
     // Between the two sides of a bent section: back onto one of them.
-    return middle_of_longest_way(cut, angles[matches[matches.size() / 2].positive]);
+    if (settings.mend && !cut.contains(inner.center))
+      inner.center = middle_of_longest_way(cut, angles[matches[matches.size() / 2].positive]);
+    return inner;
   }
 }
 
@@ -144,14 +155,17 @@ EnhancedSections enhance(const Points& line, const Vec3& first, const Eigen::Mat
   const Eigen::Index sections = line.cols();
   assert(radii.cols() == sections && radii.rows() >= 6 && radii.rows() % 2 == 0 && settings.more_rays >= 1);
   const std::vector<bool> none(static_cast<std::size_t>(sections));
-  EnhancedSections result{line, section_frames(line, first, settings.planes), radii, none, none};
+  EnhancedSections result{line, section_frames(line, first, settings.planes), radii, none, none, {}};
   const SectionFrames planes = result.frames;
   for (Eigen::Index k = 0; k < sections; ++k) {
     const SectionCut cut = cut_of(surface, line, planes, k);
     if (cut.empty()) continue;
-    const Vec2 inner = better_center(cut, radii.col(k), settings);
-    const Vec3 x = planes.first_rays.col(k), y = planes.normals.col(k).cross(x);
-    result.centers.col(k) += inner.x() * x + inner.y() * y;
+    const InnerPoint inner = better_center(cut, radii.col(k), settings);
+    const Vec3 x = planes.first_rays.col(k), y = planes.normals.col(k).cross(x), old = line.col(k);
+    const auto placed = [&](const Vec2& point) -> Vec3 { return old + point.x() * x + point.y() * y; };
+    result.centers.col(k) = placed(inner.center);
+    for (const auto& [positive, negative] : inner.matches)
+      result.matches.push_back({static_cast<Index>(k), placed(positive), placed(negative)});
   }
   result.frames = section_frames(result.centers, first, settings.planes);
   const Eigen::VectorXd angles = even_angles(static_cast<Index>(radii.rows()));

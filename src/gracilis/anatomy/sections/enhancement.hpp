@@ -42,12 +42,19 @@ struct EnhancementSettings {
   SectionPlanes planes = SectionPlanes::centered;
 };
 
+/// Where a match's two rays met the surface.
+struct MatchedPoints {
+  Index section = 0;
+  Vec3 positive, negative;  ///< m
+};
+
 struct EnhancedSections {
   Points centers;
   SectionFrames frames;
-  Eigen::MatrixXd radii;     ///< rays × sections, m, all positive
-  std::vector<bool> cut;     ///< the section's plane cuts the surface
-  std::vector<bool> inside;  ///< its center lies inside, at the ends before they went back
+  Eigen::MatrixXd radii;               ///< rays × sections, m, all positive
+  std::vector<bool> cut;               ///< the section's plane cuts the surface
+  std::vector<bool> inside;            ///< its center lies inside, at the ends before they went back
+  std::vector<MatchedPoints> matches;  ///< by section, as find_matches orders them; those that its inner point is from
 };
 
 /// Moves the line's points inside the surface and the sections' corners onto it: rays along `more_rays` times as many

@@ -38,6 +38,7 @@ static void add_surface(const Points& fine, const Eigen::VectorXd& radii, const 
   const EnhancedSections sections = enhance(fine, Vec3::UnitX(), round, known->second, settings.enhancement);
   volume.surface.vertices = section_vertices(sections.centers, sections.frames, sections.radii);
   volume.line.centers = sections.centers;
+  volume.matches = sections.matches;
   for (std::size_t k = 0; k < sections.cut.size(); ++k)
     if (sections.cut[k] && !sections.inside[k]) ++volume.centers_outside;
   volume.sections_on_surface = static_cast<Index>(std::count(sections.cut.begin(), sections.cut.end(), true));

@@ -17,12 +17,13 @@ struct HeldVertices {
 
 struct MuscleVolume {
   TriangleMesh surface;
-  Real volume_share = 1;           ///< of the volume asked for that bones and other muscles left room for
-  Real tendon_share = 1;           ///< of the tendon's length that the line left room for
-  ActionLine line;                 ///< its bodies are the model's
-  std::vector<HeldVertices> held;  ///< origin and insertion; of a sheet, those of each of its heads' bodies
-  Index sections_on_surface = 0;   ///< of those brought onto a surface that is known
-  Index centers_outside = 0;       ///< of these, whose centers lie outside of it
+  Real volume_share = 1;               ///< of the volume asked for that bones and other muscles left room for
+  Real tendon_share = 1;               ///< of the tendon's length that the line left room for
+  ActionLine line;                     ///< its bodies are the model's
+  std::vector<HeldVertices> held;      ///< origin and insertion; of a sheet, those of each of its heads' bodies
+  Index sections_on_surface = 0;       ///< of those brought onto a surface that is known
+  Index centers_outside = 0;           ///< of these, whose centers lie outside of it
+  std::vector<MatchedPoints> matches;  ///< that centers were found by, before sections of tendons are put in between
 };
 
 /// A closed surface around a muscle's path for the bodies at `poses` (Laclé 2014, after the line's own points; radii by

@@ -88,6 +88,17 @@ static void write_motion(const Model& model, const NamedMotion& motion, const fs
                   motion.motion.times.size()));
 }
 
+/// Rows of matches.csv.
+static std::string matches_text(const std::string& muscle, const std::vector<MatchedPoints>& matches) {
+  std::string text;
+  for (const MatchedPoints& match : matches) {
+    const Vec3 from = 1000 * match.positive, to = 1000 * match.negative;
+    text += fmt::format("{},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", muscle, match.section, from.x(), from.y(),
+                        from.z(), to.x(), to.y(), to.z());
+  }
+  return text;
+}
+
 /// What is to be told of a muscle's shape.
 static void tell_shape(const MadeMuscle& muscle, const SceneFolderSettings& settings,
                        std::vector<std::string>& left_out) {
@@ -129,7 +140,7 @@ SceneFolderNotes write_scene_folder(const Model& model, const GeometryPlaces& pl
   for (const ModelBone& bone : bones.bones) names.insert(bone.name);
   for (const Joint& joint : model.joints)
     for (const SceneAxis& axis : scene_axes(model, joint)) names.insert(axis.coordinate);
-  std::string on_surfaces = "muscle,sections,that_cut_the_surface,of_these_centers_outside\n";
+  std::string on_surfaces = "muscle,sections,that_cut_the_surface,of_these_centers_outside\n", matches;
   for (const MadeMuscle& muscle : made_muscles(model, skeleton.poses(), coordinates, settings, volumes, notes)) {
     const MuscleVolume& volume = muscle.volume;
     const std::string name = file_name_of(muscle.name, names);
@@ -137,6 +148,7 @@ SceneFolderNotes write_scene_folder(const Model& model, const GeometryPlaces& pl
     if (settings.volumes.surfaces.count(muscle.name) > 0)
       on_surfaces += fmt::format("{},{},{},{}\n", muscle.name, (volume.surface.vertex_count() - 2) / volume.line.rays,
                                  volume.sections_on_surface, volume.centers_outside);
+    matches += matches_text(muscle.name, volume.matches);
     // Attachments are vertices of this surface, which a run would renumber.
     if (const std::vector<std::string> repairs = repair_mesh(volume.surface).repairs; !repairs.empty()) {
       notes.left_out.push_back(fmt::format("muscle '{}': its surface would have to be repaired ({}); left out",
@@ -147,7 +159,10 @@ SceneFolderNotes write_scene_folder(const Model& model, const GeometryPlaces& pl
     text += muscle_text(model, name, volume, skeleton.poses(), coordinates, volumes, notes.left_out);
   }
   write_text_atomically(folder / "model.toml", text);
-  if (!settings.volumes.surfaces.empty()) write_text_atomically(folder / "surfaces.csv", on_surfaces);
+  if (!settings.volumes.surfaces.empty()) {
+    write_text_atomically(folder / "surfaces.csv", on_surfaces);
+    write_text_atomically(folder / "matches.csv", "muscle,section,x_mm,y_mm,z_mm,to_x_mm,to_y_mm,to_z_mm\n" + matches);
+  }
   for (const NamedMotion& motion : motions) write_motion(model, motion, folder);
   return notes;
 }
