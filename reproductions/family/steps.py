@@ -3,7 +3,7 @@
 A table `words` says what stands for {NAME}; where that is a list and NAME is in `makes`, there is a step for each of its entries. {makes} is what
 the step makes. `thin` has words that take their place with --thin, `without_data` those where the data lack a folder of its `of`. A step has what it
 `makes`; the `command`, in which OUT, DATA, HERE and ROOT (the project) are folders, or a `template` beside the list, which is copied with these filled in; `tells`,
-where the command's answer is what it makes; `data`, folders without which there is no such step; `full`, where --thin leaves it out; and `only_thin`."""
+where the command's answer is what it makes; `data`, folders without which there is no such step; and `full`, where --thin leaves it out."""
 import glob
 import itertools
 import os
@@ -43,9 +43,12 @@ class Steps:
         self.lacks = set()  # folders that the data lack
         with open(os.path.join(here, "steps.toml"), "rb") as file:
             listed = tomllib.load(file)
-        bare = listed.get("without_data", {})
-        self.words = {**listed.get("words", {}), **(bare if not self.has(bare.get("of", [])) else {}), **(listed.get("thin", {}) if thin else {}), **(lists or {})}
-        self.steps = listed["steps"]
+        self.steps, self.words = listed["steps"], listed.get("words", {})
+        if not self.has(listed.get("without_data", {}).get("of", [])):
+            self.words.update(listed["without_data"])
+        if thin:
+            self.words.update(listed.get("thin", {}))
+        self.words.update(lists or {})
 
     def has(self, folders):
         lacks = [name for name in folders if not os.path.isdir(os.path.join(self.folders["DATA"], name))]
@@ -60,7 +63,7 @@ class Steps:
     def listed(self):
         """(what it makes, its step, its words) of every step of this pass."""
         for step in self.steps:
-            if not step.get("full" if self.thin else "only_thin") and self.has(step.get("data", [])):
+            if not (self.thin and step.get("full")) and self.has(step.get("data", [])):
                 for words in each_of(step, self.words):
                     makes = filled(step["makes"], words)
                     yield makes, step, {**words, "makes": makes}
