@@ -52,7 +52,7 @@ class Steps:
 
     def has(self, folders):
         lacks = [name for name in folders if not os.path.isdir(os.path.join(self.folders["DATA"], name))]
-        for name in set(lacks) - self.lacks:
+        for name in sorted(set(lacks) - self.lacks):
             print(f"skipped: there is no {self.folders['DATA']}/{name}", file=sys.stderr)
         self.lacks |= set(lacks)
         return not lacks
