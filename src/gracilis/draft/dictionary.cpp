@@ -119,7 +119,8 @@ void add_muscles(const toml::table& table, Dictionary& known) {
     std::vector<std::string> names = texts(row["aliases"]);
     const std::string name = row["name"].value_or(std::string());
     names.push_back(name);
-    known.muscles.push_back({name, aliases_of(names, known.words), sites(row["origin"]), sites(row["insertion"])});
+    known.muscles.push_back({name, aliases_of(names, known.words), sites(row["origin"]), sites(row["insertion"]),
+                             1e-3 * row["fiber_mm"].value_or(0.0)});
   }
 }
 

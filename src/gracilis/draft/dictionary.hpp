@@ -38,6 +38,7 @@ struct KnownMuscle {
   std::string name;
   std::vector<Alias> aliases;
   std::vector<Site> origin, insertion;
+  Real fiber_length = 0;  ///< m, of a grown person, of a muscle whose fibers run from one aponeurosis to another
 };
 
 /// A tendon of several muscles.

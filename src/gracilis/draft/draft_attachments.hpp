@@ -7,6 +7,7 @@
 #include <gracilis/scene/scene.hpp>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct DraftAttachment {
 struct DraftMuscle {
   const FoundMuscle* found = nullptr;
   std::vector<DraftAttachment> attachments;
+  std::optional<Real> pennation = {};  ///< rad, of fibers that end on aponeuroses
+  Guess pennation_guess = {};
 };
 
 /// m; no vertex but the cloud's own lies so near to one of its points, unless the surface is finer (reach_of).

@@ -97,6 +97,8 @@ struct Writing {
     for (const Guess& guess : draft.guesses) in_list(guess);
     for (const DraftMuscle& muscle : draft.muscles)
       for (const DraftAttachment& each : muscle.attachments) in_list(each.guess);
+    for (const DraftMuscle& muscle : draft.muscles)
+      if (muscle.pennation) in_list(muscle.pennation_guess);
     line("]");
     if (landmarks.empty()) return;
     line("\n[landmarks]");
@@ -169,7 +171,15 @@ struct Writing {
       text += surface(*muscle.found);
       for (const DraftAttachment& each : muscle.attachments) attachment(each);
       if (muscle.attachments.empty()) missing_attachments();
+      if (muscle.pennation) pennate_fibers(muscle);
     }
+  }
+
+  void pennate_fibers(const DraftMuscle& muscle) {
+    text += "\n" + guessed_line(muscle.pennation_guess);
+    line("[muscles.fibers] # or give the sheets as 'aponeurosis' of attachments, or fascicles as 'tracts'");
+    line("ends = \"aponeuroses\"");
+    line("pennation_deg = " + number(degrees(*muscle.pennation), 0));
   }
 
   /// A bone by its place in the folder, or an example's name.

@@ -2,6 +2,7 @@
 
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/draft/pennate_fibers.hpp>
 #include <gracilis/draft/tendon_ends.hpp>
 #include <gracilis/geometry/mirrored_mesh.hpp>
 #include <gracilis/io/csv_rows.hpp>
@@ -114,6 +115,7 @@ void draft_muscles(SceneDraft& draft, const Landmarks& landmarks) {
   }
   leave_out_unused_patches(draft);
   lay_on_muscles(draft.muscles, draft.found.size);
+  parallel_for_each(draft.muscles.size(), [&](std::size_t m) { guess_pennation(draft.found.size, draft.muscles[m]); });
 }
 
 /// Whether a body hangs on the joint.
