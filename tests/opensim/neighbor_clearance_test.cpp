@@ -45,9 +45,9 @@ static Real area(const Eigen::VectorXd& radii) {
 
 TEST(NeighborClearance, a_muscle_pressed_against_another_keeps_its_volume_and_gets_no_steps) {
   const RoundMuscle muscle = upright(0, 0.02);
-  // It crosses the upper half, 10 mm away.
+  // It crosses the upper half, 18 mm away.
   RoundMuscle other{Points(3, 2), Eigen::VectorXd::Constant(2, 0.02)};
-  other.centers << 0.01, 0.01, -0.1, 0.1, 0.06, 0.06;
+  other.centers << 0.018, 0.018, -0.1, 0.1, 0.06, 0.06;
   const ClearSections clear = clear_of_bones(muscle.centers, muscle.radii, 12, {}, room_beside({other}));
   EXPECT_EQ(clear.centers, muscle.centers);
   EXPECT_NEAR(clear.volume_share, 1, 0.01);
@@ -58,7 +58,7 @@ TEST(NeighborClearance, a_muscle_pressed_against_another_keeps_its_volume_and_ge
     EXPECT_LE((clear.radii.col(k + 1) - clear.radii.col(k)).cwiseAbs().maxCoeff(), 0.5 * 0.02 + 1e-12) << k;
   }
   EXPECT_NEAR(volume / (0.2 * area(Eigen::VectorXd::Constant(12, 0.02))), 1, 0.01);
-  EXPECT_LT(smallest, 0.006);
+  EXPECT_NEAR(smallest, 0.009, 0.0003) << "they meet half way";
 }
 
 /// A belly between two tendons, 20 mm wide in the middle.
@@ -104,7 +104,7 @@ TEST(NeighborClearance, a_muscle_that_gives_way_does_not_go_through_a_bone) {
 TEST(NeighborClearance, a_muscle_on_the_line_of_another_is_no_thread) {
   const RoundMuscle muscle = upright(0, 0.02);
   const ClearSections clear = clear_of_bones(muscle.centers, muscle.radii, 12, {}, room_beside({muscle}));
-  EXPECT_GE(clear.radii.minCoeff(), 0.25 * 0.02 - 1e-12);
+  EXPECT_GE(clear.radii.minCoeff(), 0.4 * 0.02 - 1e-12);
 }
 
 TEST(NeighborClearance, muscles_that_leave_each_other_room_stay_on_their_lines) {

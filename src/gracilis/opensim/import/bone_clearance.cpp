@@ -15,7 +15,7 @@ static constexpr Real center_clearance = 0.004;  // m
 static constexpr Real farthest = 0.03;           // m, that a center goes
 static constexpr Real widest = 1.6;              // times its radius that a corner goes out
 static constexpr Real widest_beside = 2.2;       // the same beside other muscles
-static constexpr Real least_beside = 0.25;       // times its radius that a corner keeps beside other muscles
+static constexpr Real least_beside = 0.4;        // times its radius that a corner keeps beside other muscles
 static constexpr Real deepest_known = 0.06;      // m; no place in a bone is deeper
 
 SolidBone::SolidBone(const TriangleMesh& surface)

@@ -50,7 +50,7 @@ struct SectionRays {
 
 /// How long the rays are so that corners keep out of the bones: drawn in to 0.5 mm before one, and until edges between
 /// them are outside (drawn_off_ridges), and the others out, by 1.6 times at most, so that sections keep their areas.
-/// Where something is beside the muscle, corners are drawn in before that, too, down to a quarter of their rays, and
+/// Where something is beside the muscle, corners are drawn in before that, too, down to 0.4 of their rays, and
 /// others go out by 2.2 times at most; what sections lack then the others take, up to twice their areas, so that the
 /// muscle keeps its volume, but for what ridges take. Precondition: feet lie outside of the bones.
 struct ClearRays {
