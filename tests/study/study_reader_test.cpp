@@ -1,15 +1,14 @@
+#include "io/test_files.hpp"
+
 #include <gracilis/core/errors.hpp>
 #include <gracilis/study/study_reader.hpp>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 namespace gracilis {
 
@@ -18,17 +17,15 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-std::filesystem::path file_with(const std::string& name, const std::string& text) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + name);
-  std::ofstream(file) << text;
-  return file;
+Study study_in(const std::string& toml) {
+  const TestFolder folder;
+  return read_study(folder.write("study.toml", toml));
 }
-
-Study study_in(const std::string& toml) { return read_study(file_with("gracilis_study_reader_test.toml", toml)); }
 
 /// What is wrong with a description: its messages.
 std::vector<std::string> problems_of(const std::string& text, const std::string& ending = ".toml") {
-  const std::filesystem::path file = file_with("gracilis_study_problems_test" + ending, text);
+  const TestFolder folder;
+  const std::filesystem::path file = folder.write("study" + ending, text);
   std::vector<std::string> messages;
   try {
     read_study(file);
@@ -73,18 +70,19 @@ TEST(StudyReader, values_of_a_range_are_spread_evenly_by_its_logarithm_or_whole)
 }
 
 TEST(StudyReader, a_table_is_a_run_per_row_and_empty_cells_leave_keys_as_they_are) {
-  const Study study =
-      read_study(file_with("gracilis_study_table_test.csv",
-                           "run,scene,preset,psoas_r.pressure\nfirst,demo,fast,\nsecond,legs/a.toml,,1.1\n"));
+  const TestFolder folder;
+  const Study study = read_study(
+      folder.write("study.csv", "run,scene,preset,psoas_r.pressure\nfirst,demo,fast,\nsecond,legs/a.toml,,1.1\n"));
   ASSERT_EQ(study.runs.size(), 2u);
   EXPECT_EQ(study.runs[0].name, "first");
   EXPECT_THAT(study.runs[0].set, ElementsAre("preset=fast"));
   EXPECT_THAT(study.runs[1].set, ElementsAre("psoas_r.pressure=1.1"));
-  EXPECT_EQ(scene_file(study, study.runs[1]), std::filesystem::temp_directory_path() / "legs/a.toml");
+  EXPECT_EQ(scene_file(study, study.runs[1]), folder.path() / "legs/a.toml");
 }
 
 TEST(StudyReader, data_named_from_the_folder_that_one_stands_in_are_found_from_every_other) {
-  const std::filesystem::path file = file_with("gracilis_study_data_test.toml", "scene = \"demo\"\ndata = \"data\"\n");
+  const TestFolder folder;
+  const std::filesystem::path file = folder.write("study.toml", "scene = \"demo\"\ndata = \"data\"\n");
   EXPECT_EQ(read_study(std::filesystem::relative(file)).data, file.parent_path() / "data");
 
   const char* variable = std::getenv("GRACILIS_DATA");
