@@ -10,6 +10,9 @@
 
 namespace gracilis::opensim {
 
+/// Times as far apart as those of one line are sections of a sheet, which would cross where it bends.
+static constexpr Real wider = 1.5;
+
 /// From edge to edge: by where the middles of their lines lie along the direction in which these spread most; the edge
 /// nearer to the first of the model's heads comes first.
 static void sort_across(std::vector<SheetHead>& heads) {
@@ -40,7 +43,7 @@ static SheetParts parts_of(const std::vector<SheetHead>& heads, const VolumeSett
     tendon += share * head.own.line.tendon;
     scaled = std::max(scaled, static_cast<Index>((head.own.line.points.cols() - 1) << head.own.line.scaling));
   }
-  const Real longest = settings.scaling ? length / static_cast<Real>(scaled) : settings.section_distance;
+  const Real longest = settings.scaling ? length / static_cast<Real>(scaled) : wider * settings.section_distance;
   const auto count = [&](Real part) { return part_count(part, longest); };
   return {count(origin_tendon), std::max(Index{2}, count(length - origin_tendon - tendon)), count(tendon)};
 }

@@ -23,7 +23,7 @@ enum class TendonPlace {
 /// How muscles that are lines become volumes.
 struct VolumeSettings {
   int rays = 12;                  ///< corners of a section, even
-  Real section_distance = 0.008;  ///< m, at most this far apart
+  Real section_distance = 0.008;  ///< m, at most this far apart; of sheets 1.5 times
   std::optional<int> scaling;     ///< instead: how often each part of the line is halved (Laclé's LSS), 0 to 16
   Real specific_tension = 6.1e5;  ///< N/m²
   TendonPlace tendon = TendonPlace::beyond_belly;
