@@ -221,7 +221,7 @@ void add_import_command(CLI::App& program, Command& chosen) {
       ->add_option_function<double>(
           "--section-distance-mm",
           [options](double distance) { options->settings.volumes.section_distance = distance / 1000; },
-          "Sections divide a muscle's line evenly, at most so far apart (8)")
+          "Sections divide a muscle's line evenly, at most so far apart (8), those of a sheet 1.5 times")
       ->check(CLI::Range(0.5, 1000.0));
   command
       ->add_option("--scaling", options->settings.volumes.scaling,

@@ -36,7 +36,7 @@ def fibers_of_the_cadaver(folder):
             curve = curves.setdefault(key, Curve("Modenese 2020, same cadaver", f"hip_{motion}_r",
                                                  NAMES.get(row["muscle"], row["muscle"])))
             for name, points in (("mean", curve.mean), ("min", curve.low), ("max", curve.high)):
-                points.append((float(row["angle_deg"]), 1000 * float(row[name])))
+                points.append((row["angle_deg"], 1000 * row[name]))
     return list(curves.values())
 
 
@@ -49,8 +49,8 @@ def finite_elements(folder):
                                              NAMES.get(row["muscle"], row["muscle"])))
         turned = row["motion"] == "flexion" and row["muscle"].startswith("gluteus")
         is_high = (row["bound"] == "ub") != turned
-        arm = 10 * float(row["moment_arm_cm_as_published"]) * (-1 if turned else 1)
-        (curve.high if is_high else curve.low).append((float(row["angle_deg"]), arm))
+        arm = 10 * row["moment_arm_cm_as_published"] * (-1 if turned else 1)
+        (curve.high if is_high else curve.low).append((row["angle_deg"], arm))
     return list(curves.values())
 
 
@@ -61,7 +61,7 @@ def columns(path, source, muscle, coordinate_of, scale):
     for name in list(table[0])[1:]:
         coordinate, label = coordinate_of(name)
         curve = Curve(source + label, coordinate, muscle, "hip_flexion_r")
-        curve.mean = [(float(row["hip_flexion"]), scale * float(row[name])) for row in table]
+        curve.mean = [(row["hip_flexion"], scale * row[name]) for row in table]
         curves.append(curve)
     return curves
 
@@ -81,7 +81,7 @@ def models(folder):
         coordinate = COORDINATES.get(row["coordinate"], row["coordinate"])
         muscle = NAMES.get(row["muscle"], row["muscle"]) if coordinate == "elbow_flexion" else row["muscle"]
         curve = curves.setdefault((coordinate, muscle, row["model"]), Curve(row["model"] + ", model", coordinate, muscle))
-        curve.mean.append((float(row["angle_deg"]), float(row["moment_arm_mm"])))
+        curve.mean.append((row["angle_deg"], row["moment_arm_mm"]))
     return list(curves.values())
 
 

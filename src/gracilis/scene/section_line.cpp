@@ -51,6 +51,11 @@ SectionLine section_line(const ActionLine& line) {
   return sections;
 }
 
+std::int64_t section_count(const ActionLine& line) {
+  if (!line.shares.empty()) return static_cast<std::int64_t>(line.shares.size());
+  return (static_cast<std::int64_t>(line.points.cols() - 1) << line.scaling) + 1;
+}
+
 bool are_shares(const std::vector<Real>& shares) {
   const auto within = [](Real share) { return share >= 0 && share <= 1; };
   return shares.size() >= 2 && std::all_of(shares.begin(), shares.end(), within) &&

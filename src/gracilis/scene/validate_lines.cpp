@@ -87,11 +87,10 @@ struct LineValidation {
     return sound ? static_cast<std::int64_t>(sections) : 0;
   }
 
-  /// The same of a line's points. Counted before they are made: the file may ask for more than there is room for.
-  static std::int64_t section_count(const ActionLine& line, std::int64_t vertices) {
-    if (!line.shares.empty()) return static_cast<std::int64_t>(line.shares.size());
-    const std::int64_t sections = (static_cast<std::int64_t>(line.points.cols() - 1) << line.scaling) + 1;
-    const bool counted = !line.tendon_sections || line.rays * sections + 2 > vertices;
+  /// The same of a line.
+  static std::int64_t made_sections(const ActionLine& line, std::int64_t vertices) {
+    const std::int64_t sections = section_count(line);
+    const bool counted = !line.tendon_sections || !line.shares.empty() || line.rays * sections + 2 > vertices;
     return counted ? sections : section_line(line).centers.cols();
   }
 
@@ -103,7 +102,7 @@ struct LineValidation {
     if (line.heads.empty() && !line.shares.empty() && !are_shares(line.shares))
       add(where, "its sections need ascending shares from 0 to 1, two or more", "correct [muscles.action_line]");
     const std::int64_t sections = !line.heads.empty()         ? check_heads(where, line)
-                                  : check_points(where, line) ? section_count(line, vertices)
+                                  : check_points(where, line) ? made_sections(line, vertices)
                                                               : 0;
     if (sections == 0) return;
     if (vertices != line.rays * sections + 2)

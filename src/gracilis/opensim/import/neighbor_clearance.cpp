@@ -1,5 +1,6 @@
 #include <gracilis/opensim/import/neighbor_clearance.hpp>
 
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/polylines.hpp>
 
 #include <algorithm>
@@ -71,16 +72,18 @@ RoomBeside room_beside(std::vector<RoundMuscle> muscles) {
   };
 }
 
-/// How far a section with this radius is to be from a place of another muscle, m: beside it where it is thin, else so
-/// far that both have room, to which both give way. What is thin in this one gives way alone.
-static Real wanted_distance(const NearestPlace& place, Real radius) {
-  if (radius < thin * place.radius) return place.radius + radius + 2 * half_gap;
-  return thin * radius > place.radius ? 0 : side_by_side * (place.radius + radius);
-}
+/// How far a section is to be from a place of another muscle, m, and how much of the way there is its own.
+struct GivingWay {
+  Real distance = 0, share = 1;
+};
 
-/// How much of that way is its own.
-static Real own_share(const NearestPlace& place, Real radius) {
-  return radius < thin * place.radius ? 1 : place.radius / (place.radius + radius);
+/// A section with this radius goes beside what it is thin in; else both give way until both have room, but not to what
+/// is thin in this one.
+static GivingWay giving_way(const NearestPlace& place, Real radius) {
+  const Real both = place.radius + radius;
+  if (radius < thin * place.radius) return {both + 2 * half_gap, 1};
+  if (place.radius < thin * radius) return {0, 0};
+  return {side_by_side * both, place.radius / both};
 }
 
 /// Along a unit direction from a point that is `from` a center, how far it is to where it is `distance` from that.
@@ -94,20 +97,21 @@ static Real way_to_distance(const Vec3& from, const Vec3& direction, Real distan
 static Points ways_out(const RoundMuscle& muscle, const RoundMuscle& other) {
   const Eigen::Index count = muscle.centers.cols();
   Points from(3, count), ways = Points::Zero(3, count);
-  Eigen::VectorXd wanted(count), share(count);
+  std::vector<GivingWay> wanted(static_cast<std::size_t>(count));
   Eigen::Index begin = 0;
   for (Eigen::Index k = 0; k <= count; ++k) {
     if (k < count) {
       const Vec3 center = muscle.centers.col(k);
       const NearestPlace place = nearest_place(other, center);
       from.col(k) = center - place.foot;
-      wanted[k] = wanted_distance(place, muscle.radii[k]);
-      share[k] = own_share(place, muscle.radii[k]);
-      if (from.col(k).norm() < wanted[k]) continue;
+      GivingWay& own = wanted[static_cast<std::size_t>(k)] = giving_way(place, muscle.radii[k]);
+      if (from.col(k).norm() < own.distance) continue;
     }
     const Vec3 side = from.middleCols(begin, k - begin).rowwise().sum();
-    for (Eigen::Index i = begin; i < k && side.norm() > 0; ++i)
-      ways.col(i) = share[i] * way_to_distance(from.col(i), side.normalized(), wanted[i]) * side.normalized();
+    for (Eigen::Index i = begin; i < k && side.norm() > 0; ++i) {
+      const auto& [distance, share] = wanted[static_cast<std::size_t>(i)];
+      ways.col(i) = share * way_to_distance(from.col(i), side.normalized(), distance) * side.normalized();
+    }
     begin = k + 1;
   }
   return ways;
@@ -133,10 +137,17 @@ static void hold_ends(const Points& line, Points& shift) {
   }
 }
 
+/// Whether no section of one can be as near to the other as giving_way asks.
+static bool are_far_apart(const RoundMuscle& a, const RoundMuscle& b) {
+  return bounding_box(a.centers).exteriorDistance(bounding_box(b.centers)) >
+         a.radii.maxCoeff() + b.radii.maxCoeff() + 2 * half_gap;
+}
+
 /// The centers after one round of giving way; `line` is where they were before the first.
 static Points given_way(const Points& line, const RoundMuscle& muscle, const std::vector<RoundMuscle>& others) {
   Points longest = Points::Zero(3, line.cols());
   for (const RoundMuscle& other : others) {
+    if (are_far_apart(muscle, other)) continue;
     const Points ways = ways_out(muscle, other);
     for (Eigen::Index k = 0; k < line.cols(); ++k)
       if (ways.col(k).squaredNorm() > longest.col(k).squaredNorm()) longest.col(k) = ways.col(k);

@@ -87,11 +87,8 @@ void export_tetrahedra(const RecordedRun& run, const std::filesystem::path& fold
     if (line.rays == 0) continue;
     any = true;
     const Points rest = recorded_surface(run, muscle, 0).vertices;
-    const std::int64_t section_count =
-        line.shares.empty() ? (std::int64_t{line.points.cols()} - 1) * (std::int64_t{1} << line.scaling) + 1
-                            : static_cast<std::int64_t>(line.shares.size());
     const bool fits = line.points.cols() >= 2 && (line.shares.empty() || are_shares(line.shares)) &&
-                      rest.cols() >= line.rays * section_count + 2;
+                      rest.cols() >= line.rays * section_count(line) + 2;
     const Points fine = fits ? section_line(line).centers : Points(3, 0);
     if (rest.cols() != line.rays * fine.cols() + 2 || (line.centers.cols() > 0 && line.centers.cols() != fine.cols()))
       throw InputError({run.folder.string(), muscle, "is not made of its line's sections", "run the scene again"});
