@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 
 namespace gracilis::tissue {
@@ -111,6 +112,34 @@ TEST(TissueLanes, what_is_squeezed_below_the_least_volume_counts_as_inverted) {
     const Real energy = cell_lane_energy(cells, laws, 0, cells.group_count(), nodes, forces);
     EXPECT_EQ(std::isfinite(energy), least < 0.064);
   }
+}
+
+TEST(TissueLanes, a_pressure_works_by_the_volume_that_cells_gain_and_its_forces_are_the_derivative_of_that) {
+  const Lattice lattice = box_lattice();
+  const CellLanes cells = cell_lanes(lattice);
+  LawLanes laws = law_lanes(cells, mixed_laws(lattice));
+  CornerForces forces, pressed;
+  for (CornerForces* each : {&forces, &pressed})
+    for (std::vector<Real>& axis : *each) axis.resize(cells.corner_count());
+  const Real pressure = 2e4, volume = std::accumulate(cells.volumes.begin(), cells.volumes.end(), Real{0});
+  const auto work = [&](const Points& nodes) {
+    laws.pressure = 0;
+    const Real without = cell_lane_energy(cells, laws, 0, cells.group_count(), nodes, forces);
+    laws.pressure = pressure;
+    return without - cell_lane_energy(cells, laws, 0, cells.group_count(), nodes, pressed);
+  };
+  EXPECT_NEAR(work(1.1 * lattice.nodes) / (pressure * volume * (1.331 - 1)), 1, 1e-9);
+  EXPECT_NEAR(work(lattice.nodes), 0, 1e-12);
+  // Along a motion of the corners the forces lose what the work gains.
+  const Points nodes = stirred(lattice, 1e-3), way = stirred(lattice, 1e-3) - lattice.nodes;
+  const Real step = 1e-4, gained = (work(nodes + step * way) - work(nodes - step * way)) / (2 * step);
+  work(nodes);
+  Real lost = 0;
+  for (std::size_t corner = 0; corner < cells.corner_count(); ++corner)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      lost += (forces[axis][corner] - pressed[axis][corner]) *
+              way(static_cast<Index>(axis), static_cast<Index>(cells.corners[corner] / 3));
+  EXPECT_NEAR(lost / gained, 1, 1e-6);
 }
 
 TEST(TissueLanes, each_cell_stands_in_one_lane_whatever_their_number) {

@@ -167,7 +167,7 @@ TEST(Tissue, a_fully_active_muscle_is_straighter_keeps_its_volume_and_inverts_no
       EXPECT_GT(metric(report.muscles[0].metrics, "least_volume_ratio"), 0.05);
     }
     const Points points = frame_of(*method, pose, 20).muscles[0].points;
-    EXPECT_NEAR(enclosed_volume(points, scene.muscles[0].surface.faces) / volume, 1, 0.01);
+    EXPECT_NEAR(enclosed_volume(points, scene.muscles[0].surface.faces) / volume, 1, 0.001);
     return points.row(0).maxCoeff();
   };
   const Real relaxed = front(0), active = front(1);
@@ -213,7 +213,7 @@ TEST_F(TissueOnHip, the_shape_at_a_pose_does_not_depend_on_the_way_there_and_the
   for (const Real angle : {10, 20, 30, 40, 30, 20}) {
     const StepReport report = flex(angle);
     EXPECT_GT(metric(report.muscles[0].metrics, "least_volume_ratio"), 0.1) << angle;
-    EXPECT_NEAR(enclosed_volume(shape(), surface.faces) / volume, 1, 0.005) << angle;
+    EXPECT_NEAR(enclosed_volume(shape(), surface.faces) / volume, 1, 0.001) << angle;
     if (there.size() == 0 && angle == 20) there = shape();
   }
   const Eigen::RowVectorXd apart = (shape() - there).colwise().norm();

@@ -36,6 +36,12 @@ TEST(TissueScenes, a_scanned_adductor_brevis_keeps_every_gate_in_extension) {
   expect_gates_kept(cadaver_scene("extension", {"adductor_brevis_r"}, by_tissue("[[0,0,0],[-30,0,0]]", "5")));
 }
 
+/// The hip presses it flat, at some 10 kPa.
+TEST(TissueScenes, a_scanned_iliacus_keeps_its_volume_while_the_hip_flexes) {
+  SKIP_WITHOUT_DATA();
+  expect_gates_kept(cadaver_scene("flexion", {"iliacus_r"}, by_tissue("[[0,0,0],[90,0,0]]", "5")));
+}
+
 /// They share a tendon at the ischium, and their thin ends are pressed on each other there.
 TEST(TissueScenes, biceps_and_semitendinosus_keep_every_gate_while_hip_and_knee_bend) {
   expect_gates_kept("leg", {"biceps_femoris_long_r", "semitendinosus_r"}, "[[0,0],[60,60]]", "4");

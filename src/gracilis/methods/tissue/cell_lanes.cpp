@@ -44,8 +44,9 @@ class CellGroup {
     if (!hn::AllTrue(Doubles(), is_positive)) return false;
     N volume = number(0);
     for (std::size_t t = 0; t < 5; ++t) volume = volume + tetrahedron_volume(t);
-    const N growth = mean - number(1), pressure = volume * law_.bulk * growth;
-    energy = hn::MulAdd(number(0.5) * pressure, growth, energy);
+    const N growth = mean - number(1), inner = volume * number(laws.pressure);
+    const N resisting = volume * law_.bulk * growth, pressure = resisting - inner;
+    energy = hn::MulAdd(hn::MulSub(number(0.5), resisting, inner), growth, energy);
     std::array<Vectors, 8> sums;
     sums.fill({number(0), number(0), number(0)});
     for (std::size_t t = 0; t < 5; ++t) {

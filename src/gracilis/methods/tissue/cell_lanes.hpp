@@ -41,6 +41,7 @@ struct LawLanes {
   std::array<std::vector<Real>, 3> direction;
   bool any_active = false;
   Real least_volume_ratio = 0;  ///< below it a tetrahedron counts as inverted
+  Real pressure = 0;            ///< Pa, alike in all cells: what is missing of the muscle's volume makes it grow
 };
 
 /// One law per cell of the lattice; lanes that are left over take that of their group's first cell.

@@ -14,6 +14,11 @@ namespace {
 
 /// How far muscles are thought to move before they look at each other again, over how far they did in the last step.
 constexpr Real moves_expected = 2;
+/// How much of its volume the pressure that keeps it may give a muscle back: one that is crushed between bones has no
+/// place to grow.
+constexpr Real most_given_back = 0.01;
+/// How much of what is missing is asked for at once: all of it is too much where a muscle is not at rest yet.
+constexpr Real asked_at_once = 0.5;
 
 void look_at_neighbors(TissueMuscles& tissues, std::vector<MovingMuscle>& moving, const Look& look) {
   // What is seen of them meets, and the tissue gives way by as much.
@@ -30,6 +35,25 @@ void look_at_neighbors(TissueMuscles& tissues, std::vector<MovingMuscle>& moving
   }
 }
 
+/// The pressure under which the muscle's cells would grow by their own volume, Pa.
+Real bulk_of(const PreparedTissue& muscle, const std::vector<CellLaw>& laws) {
+  Real volume = 0, gives_way = 0;
+  for (std::size_t c = 0; c < laws.size(); ++c) {
+    const Real filled = filled_volume(muscle.lattice, muscle.lattice.cells[c]);
+    volume += filled;
+    gives_way += filled / (laws[c].bulk + laws[c].matrix.lambda);
+  }
+  return volume / gives_way;
+}
+
+/// What keeps the muscle's volume, by the method of multipliers (Nocedal and Wright 2006, chapter 17.3).
+void note_pressure(const PreparedTissue& muscle, const Points& nodes, Equilibrium& found) {
+  if (!(muscle.settings.bulk_modulus > 0)) return;
+  const Real bulk = bulk_of(muscle, found.laws), most = most_given_back * bulk;
+  const Real missing = 1 - filled_volume_ratio(muscle.lattice, nodes);
+  found.next_pressure = std::clamp(found.around.laws.pressure + asked_at_once * missing * bulk, -most, most);
+}
+
 int iterations_of(const TissueMuscles& tissues, std::size_t m) {
   return (tissues.muscles[m].settings.minimizer_iterations + tissues.rounds - 1) / tissues.rounds;
 }
@@ -38,6 +62,7 @@ void note(const PreparedTissue& muscle, const Minimized& done, MovingMuscle& mov
   moving.done = done;
   moving.iterations += done.iterations;
   require_finite(muscle, moving.nodes.allFinite());
+  note_pressure(muscle, moving.nodes, moving.equilibrium);
 }
 
 void settle_alone(const TissueMuscles& tissues, std::size_t m, MovingMuscle& moving) {
@@ -61,6 +86,7 @@ void settle_group(const TissueMuscles& tissues, const std::vector<std::size_t>& 
 }
 
 void settle_all(const TissueMuscles& tissues, std::vector<MovingMuscle>& moving) {
+  for (MovingMuscle& each : moving) each.equilibrium.around.laws.pressure = each.equilibrium.next_pressure;
   parallel_for_each(moving.size() + tissues.groups_joined.size(), [&](std::size_t i) {
     if (i >= moving.size())
       settle_group(tissues, tissues.groups_joined[i - moving.size()], moving);

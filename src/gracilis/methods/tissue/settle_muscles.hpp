@@ -29,6 +29,7 @@ TissueMuscles prepare_tissues(const Scene& scene, const std::vector<DistanceFiel
 struct Equilibrium {
   std::vector<CellLaw> laws;
   Surroundings around;
+  Real next_pressure = 0;  ///< Pa, of LawLanes, that would keep the muscle's volume: for when it settles next
 };
 
 /// A muscle on its way to a pose.

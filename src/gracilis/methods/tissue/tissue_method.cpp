@@ -138,6 +138,7 @@ class TissueMethod final : public DeformationMethod {
     moving.equilibrium.laws = cell_laws(tissues_.muscles[m], activation, tension);
     // They hold at any instant, so nothing is lost where this pose fails.
     moving.equilibrium.around.queries = std::move(equilibria_[m].around.queries);
+    moving.equilibrium.next_pressure = equilibria_[m].next_pressure;
     return moving;
   }
 
