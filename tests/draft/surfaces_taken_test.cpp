@@ -130,6 +130,17 @@ TEST(SurfacesTaken, files_named_like_those_of_a_scene_are_taken_unless_a_drafted
   EXPECT_EQ(files().tables.size(), 0u);
 }
 
+TEST(SurfacesTaken, folders_behind_links_are_looked_into_once_also_where_links_lead_in_a_circle) {
+  const TestFolder folder;
+  write_body(folder.path() / "hip", hip(), hip_names);
+  const std::size_t surfaces = list_folder(folder.path() / "hip").surfaces.size();
+  std::filesystem::create_directory(folder.path() / "linked");
+  std::filesystem::create_directory_symlink(folder.path() / "hip", folder.path() / "linked" / "hip");
+  std::filesystem::create_directory_symlink(folder.path() / "linked", folder.path() / "linked" / "again");
+  EXPECT_GT(surfaces, 0u);
+  EXPECT_EQ(list_folder(folder.path() / "linked").surfaces.size(), surfaces);
+}
+
 /// What is found of a hip with one muscle in two folders.
 static FoundFolder found_of_two(const TriangleMesh& as_scanned, const TriangleMesh& mended) {
   const TestFolder folder;

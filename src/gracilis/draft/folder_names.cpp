@@ -122,16 +122,18 @@ fs::path mended_folder(const fs::path& scene) { return scene.parent_path() / (sc
 
 FolderFiles list_folder(const fs::path& folder) {
   std::error_code failed;
-  fs::recursive_directory_iterator entry(folder, failed), end;
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::follow_directory_symlink, failed), end;
   if (failed) throw InputError({folder.string(), "", "cannot be read as a folder: " + failed.message(), ""});
   FolderFiles files;
+  std::set<fs::path> entered = {fs::canonical(folder, failed)};  // links may lead to each other
   std::vector<fs::path> surfaces;
   for (; entry != end; entry.increment(failed)) {
     if (failed) throw InputError({folder.string(), "", "cannot be read: " + failed.message(), ""});
     const fs::path& path = entry->path();
     const bool hidden = path.filename().string().starts_with(".");
     if (entry->is_directory(failed)) {
-      if (hidden || fs::exists(path / "run.json", failed) || is_of_a_scene(path, mended_ending))
+      if (hidden || fs::exists(path / "run.json", failed) || is_of_a_scene(path, mended_ending) ||
+          !entered.insert(fs::canonical(path, failed)).second)
         entry.disable_recursion_pending();
     } else if (!hidden && surface_endings.contains(lower_case_extension(path))) {
       surfaces.push_back(path);
