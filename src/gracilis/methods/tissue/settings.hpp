@@ -16,7 +16,7 @@ struct TissueSettings {
   Real matrix_shear_modulus = 5e3;   ///< Pa
   Real matrix_stiffening = 0.2;      ///< of the shear modulus, where the matrix is drawn out
   Real matrix_lambda = 1e5;          ///< Pa, of every tetrahedron
-  Real bulk_modulus = 2e6;           ///< Pa, of the mean volume of a cell
+  Real bulk_modulus = 1e6;           ///< Pa, of the mean volume of a cell
   Real shear_per_tension = 0.25;     ///< least shear modulus over the fibers' tension
   Real bulk_per_tension = 30;        ///< least bulk modulus over the fibers' tension
   Real fiber_tension = 2e4;          ///< Pa, passive, at the length in the capture pose

@@ -16,7 +16,7 @@ namespace {
 constexpr Real moves_expected = 2;
 /// How much of its volume the pressure that keeps it may give a muscle back: one that is crushed between bones has no
 /// place to grow.
-constexpr Real most_given_back = 0.01;
+constexpr Real most_given_back = 0.02;
 /// How much of what is missing is asked for at once: all of it is too much where a muscle is not at rest yet.
 constexpr Real asked_at_once = 0.5;
 
