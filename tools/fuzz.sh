@@ -5,16 +5,18 @@
 #   tools/fuzz.sh MINUTES [TARGET...]
 #
 # each for so many minutes or a million executions, whichever comes first. What is found is kept in
-# build/fuzz/found/TARGET; once it is mended it belongs in tests/fuzz/regressions/TARGET.
+# build/fuzz/found/TARGET; once it is mended it belongs in tests/fuzz/regressions/TARGET. JOBS (all processors) compile.
 set -eu
 [ $# -ge 1 ] || { sed -n '2,9s/^# \{0,1\}//p' "$0" >&2; exit 2; }
 minutes=$1
+jobs=${JOBS:-$(nproc)}
 shift
 cd "$(dirname "$0")/.."
 command -v clang++ >/dev/null || { echo "there is no clang++: apt-get install clang" >&2; exit 4; }
-cmake --preset asan -B build/fuzz -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DGRACILIS_FUZZ=ON \
-  -DGRACILIS_BUILD_TESTS=OFF >/dev/null
-cmake --build build/fuzz --target fuzz_readers
+cmake --preset release >/dev/null
+cmake --build build/release --parallel "$jobs" --target gracilis_toolkit
+cmake -S tests/fuzz -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ >/dev/null
+cmake --build build/fuzz --parallel "$jobs"
 [ $# -gt 0 ] || set -- $(ls tests/fuzz/seeds)
 export LSAN_OPTIONS="suppressions=$PWD/tests/leaks_of_others.txt:print_suppressions=0"
 failed=0

@@ -1,7 +1,7 @@
 #include "targets.hpp"
 
+#include <gracilis/calibrate/target_reader.hpp>
 #include <gracilis/core/errors.hpp>
-#include <gracilis/io/cache_file.hpp>
 #include <gracilis/io/mesh/mesh_reader.hpp>
 #include <gracilis/io/mesh/polyline_file.hpp>
 #include <gracilis/io/run/output_hashes.hpp>
@@ -12,14 +12,17 @@
 #include <gracilis/io/scene/prepared_cache.hpp>
 #include <gracilis/io/scene/scene_description.hpp>
 #include <gracilis/io/tables/activation_samples.hpp>
+#include <gracilis/io/tables/arm_reference.hpp>
 #include <gracilis/io/tables/table.hpp>
 #include <gracilis/opensim/import/bone_files.hpp>
 #include <gracilis/opensim/import/skeleton_fit.hpp>
 #include <gracilis/opensim/reader/model_reader.hpp>
 #include <gracilis/opensim/static_optimization/setup_reader.hpp>
+#include <gracilis/study/run_record.hpp>
+#include <gracilis/study/study_reader.hpp>
+#include <gracilis/transfer/transfer_inputs.hpp>
 
 #include <io/tiny_run.hpp>
-#include <shapes.hpp>
 
 #include <unistd.h>
 
@@ -81,33 +84,20 @@ Target mesh(const std::string& format) {
   return {format, [format](std::string_view bytes) { read_mesh(folder().write("mesh." + format, bytes), 0.001); }};
 }
 
-/// The content of the only file of a cache folder, sealed as if it had been written so.
-void reseal(const fs::path& cache, const std::string& extension, std::string_view format, std::string_view bytes) {
-  for (const fs::directory_entry& entry : fs::directory_iterator(cache))
-    if (entry.path().extension() == extension) write_cache_file(entry.path(), format, std::string(bytes));
+/// Forces for a model that has one body and one coordinate.
+void read_forces(const fs::path& file) {
+  static const opensim::Model model = opensim::read_model(folder().write(
+      "pendulum.osim",
+      "<OpenSimDocument Version='40000'><Model><BodySet><objects><Body name='rod'/></objects></BodySet><JointSet>"
+      "<objects><PinJoint name='hinge'><socket_parent_frame>/ground</socket_parent_frame><socket_child_frame>"
+      "/bodyset/rod</socket_child_frame><coordinates><Coordinate name='swing'/></coordinates></PinJoint></objects>"
+      "</JointSet></Model></OpenSimDocument>"));
+  opensim::Model changed = model;
+  opensim::read_force_set(file, true, changed);
 }
 
-void read_field_cache(std::string_view bytes) {
-  const fs::path cache = folder().path() / "fields";
-  const Bone bone{"ball", 0, shapes::sphere(Vec3::Zero(), 0.01, 1)};
-  DistanceFieldSettings settings;
-  settings.cell_size = 0.02;
-  cached_bone_field(bone, settings, cache);
-  reseal(cache, ".field", "gracilis field 6", bytes);
-  cached_bone_field(bone, settings, cache);
-}
-
-void read_prepared_cache(std::string_view bytes) {
-  const fs::path cache = folder().path() / "muscles";
-  const std::vector<NamedSurface> muscles = {{"psoas", shapes::box(Vec3::Zero(), Vec3::Ones())}};
-  const PrepareFunction keep = [](const std::vector<NamedSurface>& surfaces, const std::vector<NamedSurface>&,
-                                  const PrepareSettings&, const std::function<void(const std::string&)>&) {
-    return PreparedSurfaces{{surfaces[0].mesh}, {}};
-  };
-  const auto silent = [](const std::string&) {};
-  cached_preparation(muscles, {}, {}, keep, silent, cache);
-  reseal(cache, ".muscles", "gracilis muscles 2", bytes);
-  cached_preparation(muscles, {}, {}, keep, silent, cache);
+void require(bool understood) {
+  if (!understood) throw InputError({"bytes", "", "are not what was expected", "give others"});
 }
 
 }  // namespace
@@ -147,8 +137,17 @@ const std::vector<Target>& targets() {
          folder().write(output_hashes_name, bytes);
          read_output_hashes(folder().path());
        }},
-      {"field", read_field_cache},
-      {"prepared", read_prepared_cache}};
+      {"study", [](std::string_view bytes) { read_study(folder().write("study.toml", bytes)); }},
+      {"runs", [](std::string_view bytes) { read_study(folder().write("runs.csv", bytes)); }},
+      {"targets", [](std::string_view bytes) { read_targets(folder().write("targets.toml", bytes)); }},
+      {"arms", [](std::string_view bytes) { read_arm_reference(folder().write("arms.csv", bytes)); }},
+      {"points", [](std::string_view bytes) { read_landmark_points(folder().write("points.toml", bytes), 1); }},
+      {"volumes", [](std::string_view bytes) { read_volumes(folder().write("volumes.csv", bytes)); }},
+      {"record", [](std::string_view bytes) { read_run_record(folder().write("study.json", bytes)); }},
+      {"forces", [](std::string_view bytes) { read_forces(folder().write("forces.xml", bytes)); }},
+      // What stands behind the seal, without which nothing of a file is looked at.
+      {"field", [](std::string_view bytes) { require(parse_field(bytes).has_value()); }},
+      {"prepared", [](std::string_view bytes) { require(parse_prepared(bytes, 1).has_value()); }}};
   return all;
 }
 

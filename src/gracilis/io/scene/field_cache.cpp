@@ -10,8 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <optional>
-#include <string_view>
 
 namespace gracilis {
 
@@ -54,41 +52,43 @@ static std::string content_of(const DistanceField& field) {
 }
 
 /// What is kept is believed only within bounds: a checksum tells that it is what was written, not that this was sound.
-static bool read_content(const std::string& content, DistanceField& field) {
+std::optional<DistanceField> parse_field(std::string_view content) {
   FieldHeader header{};
-  if (content.size() < sizeof header) return false;
+  DistanceField field;
+  if (content.size() < sizeof header) return std::nullopt;
   std::memcpy(&header, content.data(), sizeof header);
   std::size_t count = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    if (header.nodes[axis] < 2 || header.nodes[axis] > 100000) return false;
+    if (header.nodes[axis] < 2 || header.nodes[axis] > 100000) return std::nullopt;
     if (!std::isfinite(header.origin[axis]) || !(header.cell_size[axis] > 0) || !std::isfinite(header.cell_size[axis]))
-      return false;
+      return std::nullopt;
     field.nodes[static_cast<std::size_t>(axis)] = header.nodes[axis];
     count *= static_cast<std::size_t>(header.nodes[axis]);
   }
-  if (content.size() - sizeof header != sizeof(float) * count) return false;
+  if (content.size() - sizeof header != sizeof(float) * count) return std::nullopt;
   field.origin = Vec3(header.origin);
   field.cell_size = Vec3(header.cell_size);
   field.values.resize(count);
   std::memcpy(field.values.data(), content.data() + sizeof header, sizeof(float) * count);
-  return std::all_of(field.values.begin(), field.values.end(), [](float value) { return std::isfinite(value); });
+  if (!std::all_of(field.values.begin(), field.values.end(), [](float value) { return std::isfinite(value); }))
+    return std::nullopt;
+  return field;
 }
 
-static bool read_field(const fs::path& file, DistanceField& field, const WarnFunction& warn) {
+static std::optional<DistanceField> read_field(const fs::path& file, const WarnFunction& warn) {
   const std::optional<std::string> content = read_cache_file(file, field_format, warn);
-  if (!content) return false;
-  if (read_content(*content, field)) return true;
-  warn_of_cache_file(file, "holds no distance field", warn);
-  return false;
+  if (!content) return std::nullopt;
+  std::optional<DistanceField> field = parse_field(*content);
+  if (!field) warn_of_cache_file(file, "holds no distance field", warn);
+  return field;
 }
 
 DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& settings, const fs::path& folder,
                                 const WarnFunction& warn) {
   if (folder.empty()) return build_bone_field(bone, settings);
   const fs::path file = file_of(bone, settings, folder);
-  DistanceField field;
-  if (read_field(file, field, warn)) return field;
-  field = build_bone_field(bone, settings);
+  if (std::optional<DistanceField> kept = read_field(file, warn)) return *std::move(kept);
+  DistanceField field = build_bone_field(bone, settings);
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) return field;

@@ -5,6 +5,9 @@
 #include <gracilis/scene/scene.hpp>
 
 #include <filesystem>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 namespace gracilis {
 
@@ -17,6 +20,8 @@ std::filesystem::path default_cache_folder();
 /// nothing.
 DistanceField cached_bone_field(const Bone& bone, const DistanceFieldSettings& settings,
                                 const std::filesystem::path& folder, const WarnFunction& warn = {});
+/// The field that a file of the cache holds behind its seal; nothing where these bytes are none.
+std::optional<DistanceField> parse_field(std::string_view content);
 /// Those of all bones of a scene, in their order, by the scene's settings or by others; kept in the default folder.
 std::vector<DistanceField> cached_bone_fields(const Scene& scene);
 /// The same by these settings; what is wrong with the cache goes to `warn`.

@@ -7,10 +7,7 @@
 #include <gracilis/io/scene/preparation_report.hpp>
 #include <gracilis/scene/setting_table.hpp>
 
-#include <algorithm>
 #include <cstring>
-#include <optional>
-#include <string_view>
 
 namespace gracilis {
 
@@ -62,15 +59,21 @@ static bool take_mesh(std::string_view& content, TriangleMesh& mesh) {
          (counts[1] == 0 || (mesh.faces.minCoeff() >= 0 && mesh.faces.maxCoeff() < counts[0]));
 }
 
-static bool read_meshes(const fs::path& file, std::vector<TriangleMesh>& meshes, const WarnFunction& warn) {
+std::optional<std::vector<TriangleMesh>> parse_prepared(std::string_view content, std::size_t count) {
+  std::vector<TriangleMesh> meshes(count);
+  for (TriangleMesh& mesh : meshes)
+    if (!take_mesh(content, mesh)) return std::nullopt;
+  if (!content.empty()) return std::nullopt;
+  return meshes;
+}
+
+static std::optional<std::vector<TriangleMesh>> read_meshes(const fs::path& file, std::size_t count,
+                                                            const WarnFunction& warn) {
   const std::optional<std::string> content = read_cache_file(file, muscles_format, warn);
-  if (!content) return false;
-  std::string_view rest(*content);
-  const bool sound =
-      std::all_of(meshes.begin(), meshes.end(), [&](TriangleMesh& mesh) { return take_mesh(rest, mesh); }) &&
-      rest.empty();
-  if (!sound) warn_of_cache_file(file, "does not hold the muscles", warn);
-  return sound;
+  if (!content) return std::nullopt;
+  std::optional<std::vector<TriangleMesh>> meshes = parse_prepared(*content, count);
+  if (!meshes) warn_of_cache_file(file, "does not hold the muscles", warn);
+  return meshes;
 }
 
 std::vector<TriangleMesh> cached_preparation(const std::vector<NamedSurface>& muscles,
@@ -79,10 +82,11 @@ std::vector<TriangleMesh> cached_preparation(const std::vector<NamedSurface>& mu
                                              const std::function<void(const std::string&)>& say, const fs::path& folder,
                                              const WarnFunction& warn) {
   const fs::path file = folder.empty() ? fs::path() : file_of(muscles, bones, settings, folder);
-  std::vector<TriangleMesh> meshes(muscles.size());
-  if (!folder.empty() && read_meshes(file, meshes, warn)) {
-    say("prepared muscles: " + file.string());
-    return meshes;
+  if (!folder.empty()) {
+    if (std::optional<std::vector<TriangleMesh>> kept = read_meshes(file, muscles.size(), warn)) {
+      say("prepared muscles: " + file.string());
+      return *std::move(kept);
+    }
   }
   if (!prepare) {
     throw ConfigurationError(

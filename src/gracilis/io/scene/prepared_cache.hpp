@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace gracilis {
@@ -20,5 +22,8 @@ std::vector<TriangleMesh> cached_preparation(const std::vector<NamedSurface>& mu
                                              const PrepareFunction& prepare,
                                              const std::function<void(const std::string&)>& say,
                                              const std::filesystem::path& folder, const WarnFunction& warn = {});
+
+/// The surfaces of so many muscles that a file of the cache holds behind its seal; nothing where these bytes are none.
+std::optional<std::vector<TriangleMesh>> parse_prepared(std::string_view content, std::size_t count);
 
 }  // namespace gracilis
