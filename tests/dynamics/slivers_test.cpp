@@ -44,6 +44,16 @@ TEST(Slivers, know_their_tip_by_the_opposite_longest_side) {
   EXPECT_NEAR(tip.offset.norm(), 0.0005, 1e-8);
 }
 
+TEST(Slivers, know_where_their_tip_is_beside_its_side_wherever_the_surface_lies) {
+  Strip strip(0.0005);
+  strip.rest.position(4).x() = 0.0025f;
+  for (Index p = 0; p < strip.rest.count(); ++p) strip.rest.position(p) += Eigen::Vector3f(0.1f, -0.2f, 0.3f);
+  const SliverTip tip = build_sliver_set(strip.faces, strip.rest, 0.1f).tips.at(0);
+  // Places of 0.3 m are known to 3e-8 m, a side of 0.01 m hence to 3e-6 of its length.
+  EXPECT_NEAR(tip.a == 0 ? tip.share : 1 - tip.share, 0.25, 1e-5);
+  EXPECT_NEAR(tip.offset.norm(), 0.0005, 1e-7);
+}
+
 TEST(Slivers, at_rest_nothing_moves) {
   const Strip strip(0.0005);
   Particles particles = strip.rest;
