@@ -224,6 +224,35 @@ TEST(Enhancement, a_center_that_the_published_heuristic_does_not_find_is_mended_
   EXPECT_LT(distance.query(enhance(line, Vec3::UnitX(), radii, surface, {12, false}).centers.col(1)).distance, 0);
 }
 
+TEST(Enhancement, rays_that_meet_nothing_take_the_mean_of_those_that_do) {
+  // Two rods: the point between them that the published heuristic finds lies outside, and some rays miss both.
+  const TriangleMesh one = shapes::box({0.03, -0.005, -0.05}, {0.05, 0.005, 0.05}),
+                     other = shapes::box({0.013, 0.028, -0.05}, {0.027, 0.042, 0.05});
+  TriangleMesh rods;
+  rods.vertices.resize(3, 16);
+  rods.vertices << one.vertices, other.vertices;
+  rods.faces.resize(3, 24);
+  rods.faces << one.faces, Eigen::Matrix3Xi(other.faces.array() + 8);
+  Points line(3, 3);
+  line << 0, 0, 0, 0, 0, 0, -0.04, 0, 0.04;
+  const EnhancedSections sections =
+      enhance(line, Vec3::UnitX(), Eigen::MatrixXd::Constant(6, 3, 0.005), rods, {.mend = false});
+  ASSERT_FALSE(sections.inside[1]);
+  const Vec3 x = sections.frames.first_rays.col(1), y = sections.frames.normals.col(1).cross(x);
+  const CastRadii cast =
+      cast_radii({rods, sections.centers.col(1), x, y}, even_angles(6), Eigen::VectorXd::Constant(6, 0.005));
+  Real sum = 0;
+  int met = 0;
+  for (Eigen::Index i = 0; i < 6; ++i)
+    if (cast.found[static_cast<std::size_t>(i)] && cast.radii[i] > 0) sum += cast.radii[i], ++met;
+  ASSERT_GT(met, 0);
+  ASSERT_LT(met, 6);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const bool has_met = cast.found[static_cast<std::size_t>(i)] && cast.radii[i] > 0;
+    EXPECT_NEAR(sections.radii(i, 1), has_met ? cast.radii[i] : sum / met, 1e-12) << i;
+  }
+}
+
 TEST(Enhancement, sections_beyond_the_surface_stay) {
   const TriangleMesh surface = shapes::box({-0.01, -0.01, 0.05}, {0.01, 0.01, 0.095});
   Points ends(3, 2);

@@ -98,6 +98,28 @@ TEST(SurfaceFibers, drawn_by_hand_join_the_nearest_vertices) {
   EXPECT_NEAR(length, 0.16, 1e-9) << "a straight line of edges";
 }
 
+TEST(SurfaceFibers, stay_near_a_fiber_of_two_pieces_that_goes_around_the_muscle) {
+  const Muscle muscle = tube_muscle();
+  Points bent(3, 3);  // from the front to the side and back
+  bent << 0.015, 0, 0.015, 0, 0.015, 0, 0, 0.1, 0.2;
+  const SurfaceFibers found = surface_fibers(muscle, join({bent}));
+  ASSERT_EQ(found.paths.size(), 1u);
+  Real least_x = 1;
+  for (const Index v : found.paths[0]) least_x = std::min(least_x, muscle.surface.vertices(0, v));
+  EXPECT_LT(least_x, 0.005) << "at the side x is 0; a straight way stays at 0.015";
+}
+
+TEST(SurfaceFibers, run_as_the_nearest_fibers_do) {
+  Points up(3, 3), across(3, 3);
+  up << 0, 0, 0, 0, 0, 0, 0, 0.01, 0.02;
+  across << 0.5, 0.51, 0.52, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5;
+  Points places(3, 2);
+  places << 0.001, 0.51, 0, 0.501, 0.01, 0.5;
+  const Points directions = directions_of_fibers(join({up, across}), places);
+  EXPECT_GT(directions(2, 0), 0.999);
+  EXPECT_GT(directions(0, 1), 0.999);
+}
+
 TEST(SurfaceFibers, there_are_none_without_fibers) {
   EXPECT_TRUE(surface_fibers(tube_muscle(), Polylines()).segments.empty());
 }

@@ -139,7 +139,12 @@ const std::vector<Target>& targets() {
        }},
       {"study", [](std::string_view bytes) { read_study(folder().write("study.toml", bytes)); }},
       {"runs", [](std::string_view bytes) { read_study(folder().write("runs.csv", bytes)); }},
-      {"targets", [](std::string_view bytes) { read_targets(folder().write("targets.toml", bytes)); }},
+      {"targets",
+       [](std::string_view bytes) {
+         static const fs::path curves =
+             folder().write("curves.csv", "muscle,angle_deg,moment_arm_mm\npsoas,10,-30\npsoas,20,-31\n");
+         read_targets(folder().write("targets.toml", bytes));
+       }},
       {"arms", [](std::string_view bytes) { read_arm_reference(folder().write("arms.csv", bytes)); }},
       {"points", [](std::string_view bytes) { read_landmark_points(folder().write("points.toml", bytes), 1); }},
       {"volumes", [](std::string_view bytes) { read_volumes(folder().write("volumes.csv", bytes)); }},

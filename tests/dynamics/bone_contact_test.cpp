@@ -1,0 +1,49 @@
+#include <gracilis/dynamics/solver/bone_contact.hpp>
+
+#include "around_a_ball.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace gracilis {
+namespace {
+
+/// An edge whose ends are outside of the ball and whose middle is 1 mm inside, as a whole system.
+SurfaceSystem system_of_an_edge(int balls) {
+  SurfaceSystem system;
+  Points ends(3, 2);
+  ends << -0.012, 0.012, 0.029, 0.029, 0, 0;
+  system.rest = make_particles(ends, Eigen::Vector2d(1, 1));
+  system.distances = build_distance_set({{0, 1, 0.024, 0}}, 2);
+  FieldContactSet contact;
+  contact.field = bounded(ball());
+  set_gap(contact, 2, 0.0005f);
+  contact.captured.edge_sag.assign(system.distances.a.size(), 0);
+  contact.released.edge_sag = contact.captured.edge_sag;
+  system.contacts.assign(static_cast<std::size_t>(balls), contact);
+  return system;
+}
+
+/// Its middle's distance from the center of the one ball that it meets; any others are far away.
+Real pushed_out_by(int which, int balls) {
+  const SurfaceSystem system = system_of_an_edge(balls);
+  SurfaceState state = make_state(system);
+  std::vector<FieldPlacement> placements(static_cast<std::size_t>(balls));
+  for (int b = 0; b < balls; ++b)
+    if (b != which) placements[static_cast<std::size_t>(b)].translation = Eigen::Vector3f(1, 0, 0);
+  refresh_contacts(system, placements, state);
+  find_edge_points(system, placements, state);
+  EXPECT_GT(project_bone_contact(system, placements, state), 0);
+  return ((state.particles.position(0) + state.particles.position(1)) / 2).norm();
+}
+
+}  // namespace
+
+TEST(BoneContact, edges_are_pushed_out_of_each_obstacle_the_first_the_last_and_a_single_one) {
+  EXPECT_NEAR(pushed_out_by(0, 1), radius + 0.0005, 3e-5);
+  EXPECT_NEAR(pushed_out_by(0, 2), radius + 0.0005, 3e-5);
+  EXPECT_NEAR(pushed_out_by(1, 2), radius + 0.0005, 3e-5);
+}
+
+}  // namespace gracilis
