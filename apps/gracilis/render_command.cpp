@@ -99,6 +99,7 @@ void choose_arrows(const std::vector<RecordedRun>& runs, std::vector<int> frames
 int render(const RenderOptions& options) {
   std::vector<RecordedRun> runs = {open_recorded_run(options.run)};
   for (const std::filesystem::path& folder : options.compare) runs.push_back(open_recorded_run(folder));
+  check_frames(options.frames, runs[0]);
   RunPictureOptions chosen = options.picture;
   const auto& scales = color_scales();
   chosen.color_by = static_cast<ColorBy>(
@@ -120,7 +121,6 @@ int render(const RenderOptions& options) {
   create_folder_of(options.out);
   const int first = options.without_ramp ? std::min(runs[0].first_motion_frame, runs[0].frame_count - 1) : 0;
   if (!film) {
-    check_frames(options.frames, runs[0]);
     Picture picture =
         run_picture(runs, painters, options.frames.empty() ? telling_frames(runs[0], first) : options.frames, chosen);
     picture.title = options.title;

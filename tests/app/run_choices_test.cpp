@@ -110,6 +110,10 @@ TEST_F(RunChoices, corrections_lie_in_the_frames_whatever_the_layout_and_after_a
   const std::string picture = folder.path("arrows.png").string();
   EXPECT_EQ(run_program("render " + folder.path("loose").string() + " --arrows --frames 12 --out " + picture).exit_code,
             0);
+  const ProgramResult beyond =
+      run_program("render " + folder.path("loose").string() + " --arrows --frames 13 --out " + picture);
+  EXPECT_EQ(beyond.exit_code, 2);
+  EXPECT_THAT(beyond.err, HasSubstr("there is no frame 13"));
   const ProgramResult refused = run("--corrections --set method=skinning", good_scene(), "none");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_THAT(refused.err, HasSubstr("tells nothing of what its constraints move"));

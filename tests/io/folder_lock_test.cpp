@@ -7,6 +7,7 @@
 #include <io/test_files.hpp>
 #include <io/tiny_run.hpp>
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -191,4 +192,23 @@ TEST(AtomicFile, a_link_in_the_way_of_a_temporary_is_never_followed) {
   EXPECT_EQ(content(victim), "untouched");
   EXPECT_EQ(content(folder.path() / "a.txt"), "new");
   EXPECT_FALSE(fs::is_symlink(folder.path() / "a.txt"));
+}
+
+TEST(AtomicFile, what_is_no_file_is_never_replaced_by_one) {
+  const TestFolder folder;
+  const fs::path pipe = folder.path() / "pipe.txt", device = folder.path() / "device.txt", part = folder.path() / "part";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink("/dev/null", device);
+  fs::create_directory(part);
+  for (const fs::path& path : {pipe, device, part}) {
+    try {
+      write_text_atomically(path, "text");
+      ADD_FAILURE() << path << " was replaced";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), HasSubstr(path.string() + ": is no file that could be replaced")) << path;
+    }
+  }
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_TRUE(fs::is_symlink(device));
+  EXPECT_TRUE(fs::is_directory(part));
 }

@@ -56,7 +56,16 @@ static void sync_to_disk(const fs::path& temporary, const fs::path& path) {
   if (result != 0) throw_write_error(path, std::string("cannot be written: ") + std::strerror(reason));
 }
 
+/// A file that is renamed onto a device or a pipe takes its place, for everybody.
+static void require_replaceable(const fs::path& path) {
+  std::error_code ignored;
+  const fs::file_status there = fs::status(path, ignored);
+  if (fs::exists(there) && !fs::is_regular_file(there))
+    throw InputError({path.string(), "", "is no file that could be replaced", "name another file"});
+}
+
 void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
+  require_replaceable(path);
   const fs::path temporary = new_temporary(path);
   try {
     write(temporary);

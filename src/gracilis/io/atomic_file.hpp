@@ -9,7 +9,7 @@ namespace gracilis {
 /// Writes a file that appears whole or not at all: `write` fills a temporary file beside `path` (same extension), which
 /// is then synced and renamed. The temporary is made anew under a name that no other process of any machine uses, so
 /// that many may write the same file at once: one of them wins. On any failure it is removed, what stood at `path` is
-/// untouched, and Error is thrown with the path and the system's reason.
+/// untouched, and Error is thrown with the path and the system's reason. Devices, pipes and folders are never replaced.
 void write_file_atomically(const std::filesystem::path& path,
                            const std::function<void(const std::filesystem::path&)>& write);
 
