@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Tells how many small errors in the numerical core the tests would notice.
 
-    tools/mutation.py [--count N] [--seed S] [--module MODULE]... [--then PROGRAM]... [--before WORDS]
+    tools/mutation.py [--count N] [--seed S] [--module MODULE]... [--then PROGRAM]... [--before WORDS] [--again]
 
 Changes one sign, comparison, logical word or constant of src/gracilis/{dynamics,geometry,anatomy} at a time (a mutant),
 runs the module's tests until one fails (killed), then those of its neighbors and of every --then (such as methods_tests).
@@ -9,7 +9,8 @@ Which mutants is a matter of the seed alone; the numbers of which the built-in b
 (anatomy/builtin) are data and left alone. It stands on a release build with its tests (cmake --preset release), whose
 files it leaves as they are: a mutant is compiled alone and linked before the library, and the linker takes the first of
 two functions of one name. Results are kept in build/mutation/seed_S.jsonl; called again, it goes on behind them.
---before: words before each compiler call, such as "nice".
+--before: words before each compiler call, such as "nice". --again: those that survived are judged anew, by tests that
+have come since; --tests says which (as --gtest_filter does), where all of them take too long.
 """
 
 import argparse
@@ -144,7 +145,7 @@ def processor_seconds():
     return used.ru_utime + used.ru_stime
 
 
-def fails(program, seconds):
+def fails(program, seconds, tests="*"):
     """Why its tests fail, or an empty text. They end after so many seconds of processor time, so that nothing else that
     runs beside them decides."""
     def limited():
@@ -152,7 +153,7 @@ def fails(program, seconds):
         resource.setrlimit(resource.RLIMIT_CPU, (int(seconds), int(seconds)))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
-    call = [str(program), "--gtest_brief=1", "--gtest_fail_fast"]
+    call = [str(program), "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=" + tests]
     try:
         done = subprocess.run(call, cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE, preexec_fn=limited,
                               errors="replace")
@@ -166,15 +167,31 @@ def fails(program, seconds):
     return failed.group(1).rstrip(",") if failed else f"ends with {done.returncode}"
 
 
-def judge(build, mutant, programs, seconds):
+def judge(build, mutant, programs, seconds, tests="*"):
     made = build.mutant(mutant)
     if made is None:
         return "no change", ""
     for program in programs:
-        why = fails(build.link(program, made), 4 * seconds[program] + 30)
+        why = fails(build.link(program, made), 4 * seconds[program] + 30, tests)
         if why:
             return "killed", f"{program}: {why}"
     return ("no change" if build.is_as_before(mutant, made) else "survived"), ""
+
+
+def told(mutant):
+    name, number, _, old, new = mutant
+    return f"{name}:{number}: '{old.strip()}' as '{new.strip()}'"
+
+
+def judge_again(build, results, seconds, tests):
+    for r in results:
+        if r["result"] != "survived":
+            continue
+        own = r["file"].split("/")[2] + "_tests"
+        programs = [own] + [program for program in seconds if program != own]
+        mutant = (r["file"], r["line"], r["column"], r["old"], r["new"])
+        r["result"], r["why"] = judge(build, mutant, programs, seconds, tests)
+        print(f"{told(mutant)}: {r['result']} {r['why']}", flush=True)
 
 
 def report(results):
@@ -182,7 +199,7 @@ def report(results):
     killed = sum(r["result"] == "killed" for r in judged)
     for r in judged:
         if r["result"] == "survived":
-            print(f"survived: {r['file']}:{r['line']}: '{r['old'].strip()}' as '{r['new'].strip()}'")
+            print(f"survived: {told((r['file'], r['line'], r['column'], r['old'], r['new']))}")
     print(f"{killed} of {len(judged)} mutants killed" + (f" ({100 * killed / len(judged):.0f} %)" if judged else ""))
 
 
@@ -193,6 +210,8 @@ def main():
     parser.add_argument("--module", action="append", choices=MODULES, help="default: all three")
     parser.add_argument("--then", action="append", default=[], metavar="PROGRAM", help="tests that survivors also meet")
     parser.add_argument("--before", default="", metavar="WORDS", help="words before each compiler call")
+    parser.add_argument("--again", action="store_true", help="judge those anew that survived, and no others")
+    parser.add_argument("--tests", default="*", metavar="FILTER", help="with --again: the tests that they meet")
     options = parser.parse_args()
     if not (BUILD / "compile_commands.json").exists():
         sys.exit("there is no build/release: cmake --preset release && cmake --build --preset release")
@@ -205,9 +224,14 @@ def main():
     seconds = {}
     for program in [f"{module}_tests" for module in MODULES] + options.then:
         began = processor_seconds()
-        if why := fails(BUILD / "bin" / program, PATIENCE):
+        if why := fails(BUILD / "bin" / program, PATIENCE, options.tests):
             sys.exit(f"{program} fails without any mutant: {why}")
         seconds[program] = processor_seconds() - began
+    if options.again:
+        judge_again(build, results, seconds, options.tests)
+        kept.write_text("".join(json.dumps(r) + "\n" for r in results))
+        report(results)
+        return
     for mutant in drawn(modules, options.seed):
         if sum(r["result"] != "no change" for r in results) >= options.count:
             break
@@ -220,7 +244,7 @@ def main():
         results.append(dict(file=name, line=number, column=column, old=old, new=new, result=result, why=why))
         with kept.open("a") as file:
             file.write(json.dumps(results[-1]) + "\n")
-        print(f"{name}:{number}: '{old.strip()}' as '{new.strip()}': {result} {why}", flush=True)
+        print(f"{told(mutant)}: {result} {why}", flush=True)
     report(results)
 
 

@@ -97,6 +97,17 @@ TEST(Outlines, the_inside_of_a_concave_outline_leaves_out_its_bay) {
   EXPECT_FALSE(inside_outline(u, Vec3(0.0015, 0.006, 0.0011), 0.001)) << "too far from the outline's plane";
 }
 
+TEST(Outlines, the_distance_to_a_line_is_that_of_its_nearest_piece_wherever_it_lies) {
+  const Points corners = points_mm({{100, 50, -20}, {110, 50, -20}, {110, 60, -20}});
+  const Vec3 over_a_piece(0.107, 0.05, -0.016), beyond_the_end(0.11, 0.063, -0.024),
+      by_the_open_side(0.103, 0.053, -0.02);
+  EXPECT_NEAR(distance_to({corners, LineKind::open}, over_a_piece), 0.004, 1e-15);
+  EXPECT_NEAR(distance_to({corners, LineKind::open}, beyond_the_end), 0.005, 1e-15);
+  EXPECT_NEAR(distance_to({corners, LineKind::open}, by_the_open_side), 0.003, 1e-15);
+  EXPECT_NEAR(distance_to({corners, LineKind::closed}, by_the_open_side), 0, 1e-15);
+  EXPECT_NEAR(distance_to({corners, LineKind::cloud}, over_a_piece), 0.005, 1e-15);
+}
+
 TEST(Outlines, the_distance_to_a_line_with_a_repeated_point_is_finite) {
   const LandmarkSet line{points_mm({{0, 0, 0}, {0, 0, 0}, {4, 0, 0}}), LineKind::open};
   EXPECT_NEAR(distance_to(line, Vec3(0.002, 0.003, 0)), 0.003, 1e-15);

@@ -1,4 +1,5 @@
 #include <gracilis/calibrate/calibration_files.hpp>
+#include <gracilis/core/errors.hpp>
 #include <gracilis/io/input_file.hpp>
 
 #include "io/scene_folder.hpp"
@@ -67,6 +68,24 @@ TEST(RunCalibration, what_is_held_out_and_fails_at_the_best_point_is_left_blank_
   const std::string fit = read_text(folder.path("out/fit.csv"));
   EXPECT_THAT(fit, HasSubstr("seen,no,psoas,,0.0000,900.0000,500.0000,"));
   EXPECT_THAT(fit, HasSubstr("judged,yes,psoas,,0.0000,900.0000,500.0000,,mm,cannot be evaluated at the best point: "));
+}
+
+TEST(RunCalibration, a_folder_of_somebody_else_is_left_alone_even_by_force) {
+  const SceneFolder folder;
+  folder.write("out/definition.txt", "what I mean by a sprint");
+  folder.write("out/evaluations/mine.txt", "precious");
+  CalibrationOptions options;
+  options.folder = folder.path("out");
+  options.force = true;
+  const ObserveFunction observe = [](const std::vector<std::string>& set, const std::vector<CalibrationTarget>&) {
+    return Observation{{{x_of(set), x_of(set)}}};
+  };
+  SceneMatch match;
+  match.starts = {0.5};
+  match.whole = {0};
+  EXPECT_THROW(run_calibration(two_lengths(0.9), match, observe, options), ConfigurationError);
+  EXPECT_EQ(read_text(folder.path("out/evaluations/mine.txt")), "precious");
+  EXPECT_EQ(read_text(folder.path("out/definition.txt")), "what I mean by a sprint");
 }
 
 TEST(RunCalibration, a_start_that_is_not_finite_is_told_and_not_searched_from) {

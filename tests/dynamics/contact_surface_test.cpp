@@ -214,6 +214,13 @@ TEST(EdgeGap, parallel_edges_and_edges_past_an_end_do_not_cross) {
       << "a side that cannot be told";
 }
 
+TEST(EdgeGap, an_edge_that_begins_or_ends_over_another_crosses_it) {
+  EXPECT_TRUE(edge_gap({0, 0, 0.1f}, {1, 0, 0.1f}, {0, -1, 0}, {0, 1, 0}, {0, 0, 1}).crossing);
+  EXPECT_TRUE(edge_gap({-1, 0, 0.1f}, {0, 0, 0.1f}, {0, -1, 0}, {0, 1, 0}, {0, 0, 1}).crossing);
+  EXPECT_TRUE(edge_gap({-1, 0, 0.1f}, {1, 0, 0.1f}, {0, 0, 0}, {0, 1, 0}, {0, 0, 1}).crossing);
+  EXPECT_TRUE(edge_gap({-1, 0, 0.1f}, {1, 0, 0.1f}, {0, -1, 0}, {0, 0, 0}, {0, 0, 1}).crossing);
+}
+
 TEST(Walk, ends_at_the_nearest_face_of_a_sphere_wherever_it_begins) {
   const Body ball = body_of(shapes::sphere(Vec3::Zero(), 1, 4));
   std::mt19937 generator(4);

@@ -30,6 +30,27 @@ Real deepest(const Particles& probe, const Vec3& center) {
   return depth;
 }
 
+/// Two roofs, ridge over ridge: the lower's ridge lies along x, the upper's along y, so much (m) too low.
+Meeting crossed_roofs(Real too_low) {
+  const auto roof = [](Real ridge, Real eaves, bool along_x) {
+    std::vector<Vec3> v = {{-0.02, 0, ridge},    {0.02, 0, ridge},     {-0.02, -0.01, eaves},
+                           {0.02, -0.01, eaves}, {-0.02, 0.01, eaves}, {0.02, 0.01, eaves}};
+    std::vector<Eigen::Vector3i> f = {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4},
+                                      {0, 4, 2}, {1, 3, 5}, {2, 4, 5}, {2, 5, 3}};
+    if (!along_x)
+      for (Vec3& p : v) p = Vec3(p.y(), p.x(), p.z());
+    // Mirrored once per swap and once per turning upside down.
+    if (along_x == (eaves > ridge))
+      for (Eigen::Vector3i& t : f) std::swap(t[0], t[1]);
+    return shapes::mesh_of(v, f);
+  };
+  Meeting meeting;
+  meeting.add(roof(0, -0.01, true));
+  meeting.add(roof(-too_low, 0.01, false));
+  meeting.pair(0, 1, 0.0002f).reach = 0.03f;
+  return meeting;
+}
+
 }  // namespace
 
 TEST(SurfaceContact, leaves_alone_what_is_farther_than_the_gap) {
@@ -96,28 +117,35 @@ TEST(SurfaceContact, a_pair_s_shift_carries_one_into_the_other_s_coordinates) {
 }
 
 TEST(SurfaceContact, edges_that_cross_while_every_particle_is_outside_are_pushed_apart) {
-  // Two roofs, ridge over ridge: the lower's ridge lies along x, the upper's along y.
-  const auto roof = [](Real ridge, Real eaves, bool along_x) {
-    std::vector<Vec3> v = {{-0.02, 0, ridge},    {0.02, 0, ridge},     {-0.02, -0.01, eaves},
-                           {0.02, -0.01, eaves}, {-0.02, 0.01, eaves}, {0.02, 0.01, eaves}};
-    std::vector<Eigen::Vector3i> f = {{0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4},
-                                      {0, 4, 2}, {1, 3, 5}, {2, 4, 5}, {2, 5, 3}};
-    if (!along_x)
-      for (Vec3& p : v) p = Vec3(p.y(), p.x(), p.z());
-    // Mirrored once per swap and once per turning upside down.
-    if (along_x == (eaves > ridge))
-      for (Eigen::Vector3i& t : f) std::swap(t[0], t[1]);
-    return shapes::mesh_of(v, f);
-  };
-  Meeting meeting;
-  meeting.add(roof(0, -0.01, true));
-  meeting.add(roof(-0.0004, 0.01, false));
-  meeting.pair(0, 1, 0.0002f).reach = 0.03f;
+  Meeting meeting = crossed_roofs(0.0004);
   const auto gap = [&] { return meeting.particles[1].position(0).z() - meeting.particles[0].position(0).z(); };
   EXPECT_LT(gap(), 0);
   EXPECT_GT(meeting.solve(1), 0);
   meeting.solve(30);
   EXPECT_GT(gap(), 0.00019f);
+}
+
+TEST(SurfaceContact, lists_edges_that_cross_near_each_other_and_no_others) {
+  Meeting meeting = crossed_roofs(-0.0004);
+  meeting.solve(1);
+  ASSERT_FALSE(meeting.state.candidates[0].edges.empty());
+  for (const EdgeEdgeCandidate& each : meeting.state.candidates[0].edges) {
+    const auto& one = meeting.world.surfaces[0].edges[static_cast<std::size_t>(each.first)].ends;
+    const auto& other = meeting.world.surfaces[1].edges[static_cast<std::size_t>(each.second)].ends;
+    EXPECT_EQ(std::minmax(one[0], one[1]), std::minmax(0, 1)) << "the ridge";
+    EXPECT_EQ(std::minmax(other[0], other[1]), std::minmax(0, 1));
+  }
+  Meeting apart = crossed_roofs(-0.002);
+  apart.solve(1);
+  EXPECT_TRUE(apart.state.candidates[0].edges.empty());
+}
+
+TEST(SurfaceContact, edges_that_had_passed_each_other_come_back_by_half_a_millimetre_at_once) {
+  Meeting meeting = crossed_roofs(0.0004);
+  meeting.solve(1);
+  Real most = 1;
+  for (const EdgeEdgeCandidate& each : meeting.state.candidates[0].edges) most = std::min<Real>(most, each.most_gap);
+  EXPECT_NEAR(most, 0.0005 - 0.0004, 1e-7);
 }
 
 TEST(SurfaceContact, lets_go_of_what_is_torn_from_its_neighbors_until_the_step_ends) {

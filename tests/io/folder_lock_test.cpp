@@ -196,7 +196,8 @@ TEST(AtomicFile, a_link_in_the_way_of_a_temporary_is_never_followed) {
 
 TEST(AtomicFile, what_is_no_file_is_never_replaced_by_one) {
   const TestFolder folder;
-  const fs::path pipe = folder.path() / "pipe.txt", device = folder.path() / "device.txt", part = folder.path() / "part";
+  const fs::path pipe = folder.path() / "pipe.txt", device = folder.path() / "device.txt",
+                 part = folder.path() / "part";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   fs::create_symlink("/dev/null", device);
   fs::create_directory(part);
@@ -211,4 +212,18 @@ TEST(AtomicFile, what_is_no_file_is_never_replaced_by_one) {
   EXPECT_TRUE(fs::is_fifo(pipe));
   EXPECT_TRUE(fs::is_symlink(device));
   EXPECT_TRUE(fs::is_directory(part));
+}
+
+TEST(AtomicFile, what_killed_processes_left_goes_with_the_first_file_that_is_written_beside_it) {
+  const TestFolder folder;
+  const ProcessMark dead = ended(), own = own_mark();
+  const auto name = [](const ProcessMark& mark) {
+    return ".gracilis-" + mark.host + "-" + std::to_string(mark.process) + "-" + std::to_string(mark.started) +
+           "-99999.csv";
+  };
+  folder.write(name(dead), "half");
+  folder.write(name(own), "being written");
+  write_text_atomically(folder.path() / "a.txt", "whole");
+  EXPECT_FALSE(fs::exists(folder.path() / name(dead)));
+  EXPECT_TRUE(fs::exists(folder.path() / name(own)));
 }

@@ -9,12 +9,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace gracilis {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+/// Every definition of a calibration has this line.
+constexpr std::string_view definition_mark = "aimed at\n";
 
 /// A target of which nothing was seen.
 std::vector<std::vector<Real>> not_seen(const CalibrationTarget& target) {
@@ -79,9 +83,12 @@ class CalibrationRun {
     std::string definition = options_.definition + match.inputs;
     for (const CalibrationParameter& each : calibration_.parameters)
       definition += "parameter " + each.setting.key + "\n";
-    definition += "aimed at\n" + observation_definition(aimed_) + "held out\n" + observation_definition(held_out_);
+    definition += std::string(definition_mark) + observation_definition(aimed_) + "held out\n" +
+                  observation_definition(held_out_);
     const fs::path file = options_.folder / "definition.txt";
     if (is_there(file) && text_if_there(file) != definition) {
+      if (text_if_there(file).find(definition_mark) == std::string::npos)
+        throw ConfigurationError({file.string(), "", "is not of a calibration", "take another folder by --out"});
       if (!options_.force)
         throw ConfigurationError({options_.folder.string(), "",
                                   "holds a calibration of another scene, other targets, parameters or settings",

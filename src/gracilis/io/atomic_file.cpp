@@ -13,7 +13,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <string_view>
 
 namespace gracilis {
@@ -64,8 +66,21 @@ static void require_replaceable(const fs::path& path) {
     throw InputError({path.string(), "", "is no file that could be replaced", "name another file"});
 }
 
+/// What killed processes left goes when the first file is written beside it; to look again each time takes long where
+/// there are many files.
+static void clear_once(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> cleared;
+  {
+    const std::lock_guard lock(mutex);
+    if (!cleared.insert(folder).second) return;
+  }
+  remove_left_temporaries(folder, LeftBy::own_machine);
+}
+
 void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   require_replaceable(path);
+  clear_once(path.has_parent_path() ? path.parent_path() : fs::path("."));
   const fs::path temporary = new_temporary(path);
   try {
     write(temporary);
