@@ -1,9 +1,11 @@
+#include <gracilis/dynamics/contact/field/field_contact_points.hpp>
 #include <gracilis/dynamics/solver/bone_contact.hpp>
 
 #include "around_a_ball.hpp"
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 namespace gracilis {
@@ -44,6 +46,24 @@ TEST(BoneContact, edges_are_pushed_out_of_each_obstacle_the_first_the_last_and_a
   EXPECT_NEAR(pushed_out_by(0, 1), radius + 0.0005, 3e-5);
   EXPECT_NEAR(pushed_out_by(0, 2), radius + 0.0005, 3e-5);
   EXPECT_NEAR(pushed_out_by(1, 2), radius + 0.0005, 3e-5);
+}
+
+TEST(DeepestOnFace, comes_near_the_deepest_point_wherever_it_lies_in_the_face) {
+  for (const Vec3& foot : {Vec3(0.6, 0.3, 0.1), Vec3(0.1, 0.8, 0.1), Vec3(0.2, 0.2, 0.6), Vec3(0, 0.4, 0.6)}) {
+    // A face of 10 mm that lies 1 mm deep in the ball, over its own foot.
+    const Points face = (Points(3, 3) << 0, 0.01, 0, 0.029, 0.029, 0.029, 0, 0, 0.01).finished();
+    Vec3 shift = -face * foot;
+    shift.y() = 0;
+    std::array<ContactCorner, 3> corners;
+    for (Index k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)].q = (face.col(k) + shift).cast<float>();
+    const BoundedField field = bounded(ball());
+    const Eigen::Vector3f found = deepest_on_face(field.grid, corners);
+    EXPECT_NEAR(found.sum(), 1, 1e-6);
+    EXPECT_GE(found.minCoeff(), 0);
+    const auto height = [&](const Vec3& where) { return (face * where + shift).norm() - 0.029; };
+    // Six steps of the method halve how much higher than the foot the center of the face is, at least.
+    EXPECT_LT(height(found.cast<Real>()), 0.5 * height(Vec3::Constant(1.0 / 3)) + 1e-5) << foot.transpose();
+  }
 }
 
 }  // namespace gracilis

@@ -12,6 +12,8 @@ TEST(SobolPoints, every_column_has_a_point_in_each_equal_part) {
     std::set<int> parts;
     for (Eigen::Index row = 0; row < points.rows(); ++row) parts.insert(static_cast<int>(256 * points(row, column)));
     EXPECT_EQ(parts.size(), 256u) << "column " << column;
+    EXPECT_EQ(*parts.begin(), 0) << "column " << column;
+    EXPECT_EQ(*parts.rbegin(), 255) << "column " << column;
   }
 }
 
