@@ -68,6 +68,19 @@ TEST(RunRecord, a_file_that_has_changed_makes_a_run_stale_for_all) {
   EXPECT_EQ(collected.left, 1);
 }
 
+TEST(RunRecord, an_exit_code_that_no_program_has_makes_it_no_record) {
+  const RecordedStudy study;
+  for (const char* code : {"1e300", "-1", "256", "4294967296", "0.5"}) {
+    const std::string text =
+        std::string(R"({"definition": "d", "exit_code": )") + code +
+        R"(, "reason": "", "seconds": 1, "processor_seconds": 1, "peak_memory_bytes": 1, "host": "h"})";
+    EXPECT_FALSE(read_run_record(study.write("study.json", text))) << code;
+  }
+  const std::string text = R"({"definition": "d", "exit_code": 255, "reason": "", "seconds": 1, "processor_seconds": 1,
+                              "peak_memory_bytes": 1, "host": "h"})";
+  EXPECT_EQ(read_run_record(study.write("study.json", text)).value().code, 255);
+}
+
 TEST(RunRecord, inputs_that_are_no_texts_make_a_run_stale_and_are_named) {
   const RecordedStudy study;
   study.complete(nlohmann::json::array({nlohmann::json::object()}));

@@ -1,6 +1,7 @@
 #include <gracilis/study/run_record.hpp>
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/core/whole_number.hpp>
 #include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/content_hash.hpp>
 #include <gracilis/io/input_file.hpp>
@@ -44,7 +45,9 @@ std::optional<RunRecord> read_run_record(const fs::path& file) {
     const nlohmann::ordered_json json = read_json(file);
     RunRecord record;
     record.definition = json.at("definition").get<std::string>();
-    record.code = json.at("exit_code").get<int>();
+    const std::optional<int> code = whole_number<int>(json.at("exit_code").get<double>(), 0, 255);
+    if (!code) return std::nullopt;
+    record.code = *code;
     record.reason = json.at("reason").get<std::string>();
     record.seconds = json.at("seconds").get<double>();
     record.processor_seconds = json.at("processor_seconds").get<double>();
