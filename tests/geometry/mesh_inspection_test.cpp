@@ -1,6 +1,8 @@
 #include <gracilis/geometry/mesh_inspection.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 
+#include <shapes.hpp>
+
 #include <gtest/gtest.h>
 
 #include <ctime>
@@ -202,6 +204,13 @@ TEST(MeshRepair, a_triangle_soup_becomes_one_closed_surface) {
   EXPECT_EQ(report.vertex_count, 64);
   EXPECT_EQ(report.genus, 1);
   EXPECT_FALSE(repaired.repairs.empty());
+}
+
+TEST(MeshRepair, a_soup_of_two_bodies_that_touch_along_an_edge_stays_one) {
+  const TriangleMesh soup = soup_of(shapes::box(Vec3::Zero(), Vec3::Ones()));
+  const TriangleMesh touching = together(soup, soup, Vec3(1, 1, 0)), apart = together(soup, soup, Vec3(1.5, 1, 0));
+  EXPECT_TRUE(repair_mesh(touching).mesh.vertices == touching.vertices) << "four faces would meet in one edge";
+  EXPECT_EQ(repair_mesh(apart).mesh.vertex_count(), 16);
 }
 
 TEST(MeshRepair, vertices_in_no_face_are_dropped_and_the_others_keep_their_order) {
