@@ -118,6 +118,12 @@ TEST(SurfaceFibers, run_as_the_nearest_fibers_do) {
   const Points directions = directions_of_fibers(join({up, across}), places);
   EXPECT_GT(directions(2, 0), 0.999);
   EXPECT_GT(directions(0, 1), 0.999);
+  Points corner(3, 3);
+  corner << 0, 0.01, 0.01, 0, 0, 0.01, 0, 0, 0;
+  places << 0.005, 0.01, 0, 0.005, 0, 0;  // the middles of its two pieces
+  const Points around = directions_of_fibers(join({corner}), places);
+  EXPECT_GT(around(0, 0), 0.999);
+  EXPECT_GT(around(1, 1), 0.999);
 }
 
 TEST(SurfaceFibers, there_are_none_without_fibers) {

@@ -327,6 +327,15 @@ TEST(MeshRepair, a_face_that_is_a_line_gets_its_longest_edge_flipped) {
   EXPECT_NEAR(inspect_mesh(repaired.mesh).volume, 1.0 / 6, 1e-15);
 }
 
+TEST(MeshRepair, a_face_that_is_a_line_stays_where_flipping_it_would_double_an_edge) {
+  TriangleMesh mesh;  // vertex 2 lies on the edge 0-1; a third face runs along 3-2 already
+  mesh.vertices.resize(3, 5);
+  mesh.vertices << 0, 2, 1, 1, 1, 0, 0, 0, 1, 0.5, 0, 0, 0, 0, 1;
+  mesh.faces.resize(3, 3);
+  mesh.faces << 0, 1, 3, 1, 0, 2, 2, 3, 4;
+  EXPECT_TRUE(repair_mesh(mesh).mesh.faces == mesh.faces);
+}
+
 TEST(MeshRepair, crumbs_are_dropped_only_when_asked) {
   TriangleMesh crumb = tetrahedron();
   crumb.vertices *= 0.01;
