@@ -290,6 +290,12 @@ TEST(ImportCommand, a_folder_that_holds_a_model_is_left_alone) {
   const ProgramResult result = run_program("import " + model.string() + " --out " + folder.path().string());
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, testing::HasSubstr("holds a model already"));
+  std::filesystem::create_directory(folder.path() / "mine");
+  const auto scene = folder.write("mine/rest.toml", "mine");
+  const ProgramResult beside = run_program("import " + model.string() + " --out " + (folder.path() / "mine").string());
+  EXPECT_EQ(beside.exit_code, 2);
+  EXPECT_THAT(beside.err, testing::HasSubstr("rest.toml: is there already, and the import would replace it"));
+  EXPECT_EQ(read_text(scene), "mine");
 }
 
 TEST(ImportCommand, a_missing_surface_is_named_and_fails_when_strict) {

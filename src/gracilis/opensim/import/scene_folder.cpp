@@ -3,6 +3,7 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/geometry/mesh_repair.hpp>
 #include <gracilis/io/atomic_file.hpp>
+#include <gracilis/io/input_file.hpp>
 #include <gracilis/io/mesh/mesh_writer.hpp>
 #include <gracilis/opensim/import/made_muscles.hpp>
 #include <gracilis/opensim/import/scene_joints.hpp>
@@ -116,6 +117,10 @@ static void tell_shape(const MadeMuscle& muscle, const SceneFolderSettings& sett
 SceneFolderNotes write_scene_folder(const Model& model, const GeometryPlaces& places,
                                     const std::vector<NamedMotion>& motions, const SceneFolderSettings& settings,
                                     const fs::path& folder) {
+  for (const NamedMotion& motion : motions)
+    if (const fs::path scene = folder / (motion_file_name(motion) + ".toml"); is_there(scene))
+      throw ConfigurationError({scene.string(), "", "is there already, and the import would replace it",
+                                "name another folder, or remove the file"});
   Skeleton skeleton(model);
   const Eigen::VectorXd coordinates = default_coordinates(model);
   skeleton.place(coordinates);
