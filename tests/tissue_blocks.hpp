@@ -199,7 +199,7 @@ inline SettledBlock settle(Block& block, Real residual, const std::function<Vec3
   PreparedTissue& muscle = block.muscle;
   if (block.bone) {
     // Points of other sides slide on planes, and touch nothing else.
-    BoneGap bone{0, bounded(*block.bone), std::vector<Real>(muscle.points.size(), -1), {}};
+    BoneGap bone{0, bounded(*block.bone), std::vector<Real>(muscle.points.size(), -1), {}, {}};
     for (std::size_t p = block.sides[0].begin; p < block.sides[0].end; ++p)
       bone.gaps[p] =
           std::min(muscle.settings.contact_gap, sample_spline_precise(bone.field.grid, muscle.points[p].rest).distance);

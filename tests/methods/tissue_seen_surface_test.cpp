@@ -72,6 +72,28 @@ TEST(TissueSeenSurface, a_coarse_tube_that_is_bent_around_bones_keeps_its_volume
   }
 }
 
+TEST(TissueSeenSurface, a_blade_that_is_pressed_between_vertices_does_not_come_through_the_edges_over_it) {
+  Scene scene = tube_scene();
+  scene.method.name = "tissue";
+  scene.method.settings = converged;
+  scene.method.settings["contact_gap"] = 0.0;
+  scene.method.settings["fascia_stiffness"] = 0.0;  // or the blade would take the tube with it
+  scene.bodies.push_back("blade");
+  const auto blade = static_cast<Index>(scene.bodies.size()) - 1;
+  scene.bones = {{"blade", blade, shapes::box({0.036, 0.0008, -0.02}, {0.06, 0.0018, 0.02})}};
+  const auto method = make_tissue_method(scene, {build_bone_field(scene.bones[0], scene.distance_fields)});
+  Measurer measurer(scene);
+  Pose pose;
+  pose.bodies.assign(scene.bodies.size(), RigidTransform::Identity());
+  for (int frame = 1; frame <= 10; ++frame) {
+    pose.bodies[static_cast<std::size_t>(blade)].translation().x() = -0.001 * frame;
+    method->advance(pose, usual_time_step);
+    const MuscleMeasures measures = measurer.measure(frame_of(*method, pose, frame))[0];
+    EXPECT_LT(measures.vertex_depth_beyond_rest, 1e-4) << frame;
+    EXPECT_LT(measures.midpoint_depth_beyond_rest, 1e-5) << frame;
+  }
+}
+
 /// The tube of `tube_scene` at rest, where planes say that another muscle begins 1 mm inside of some of its vertices.
 struct PressedTube {
   Scene scene = tube_scene();

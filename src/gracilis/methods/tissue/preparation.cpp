@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/field_spline.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/methods/tissue/fiber_flux.hpp>
@@ -117,7 +118,7 @@ void find_fibers(const Muscle& muscle, PreparedTissue& prepared) {
 void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields,
                const std::vector<SignedDistance>& distances, PreparedTissue& prepared) {
   for (std::size_t b = 0; b < fields.size(); ++b) {
-    BoneGap bone{scene.bones[b].body, bounded(fields[b]), {}, {}};
+    BoneGap bone{scene.bones[b].body, bounded(fields[b]), {}, {}, {}};
     for (const SurfacePoint& point : prepared.points)
       bone.gaps.push_back(
           std::min(prepared.settings.contact_gap, sample_spline_precise(bone.field.grid, point.rest).distance));
@@ -128,12 +129,33 @@ void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields,
       bone.seen_least.push_back(is_near ? std::min(seen_clearance, distances[b].query(prepared.points[p].rest).distance)
                                         : seen_clearance);
     }
+    for (const auto& [first, second] : prepared.edges) {
+      const Vec3 middle = (prepared.points[static_cast<std::size_t>(first)].rest +
+                           prepared.points[static_cast<std::size_t>(second)].rest) /
+                          2;
+      const bool is_near = sample_spline_precise(bone.field.grid, middle).distance < seen_clearance + field_error;
+      bone.edge_least.push_back(is_near ? std::min(seen_clearance, distances[b].query(middle).distance)
+                                        : seen_clearance);
+    }
     prepared.bones.push_back(std::move(bone));
   }
 }
 
-void see_large_faces(const TriangleMesh& surface, PreparedTissue& prepared) {
+void list_edges(const TriangleMesh& surface, PreparedTissue& prepared) {
   prepared.faces = surface.faces;
+  const auto is_free = [&](Index v) { return prepared.points[static_cast<std::size_t>(v)].held_by < 0; };
+  for (const Eigen::Vector3i face : surface.faces.colwise())
+    for (Index k = 0; k < 3; ++k) {
+      const Index a = face[k], b = face[(k + 1) % 3];
+      if (is_free(a) || is_free(b)) prepared.edges.push_back({std::min(a, b), std::max(a, b)});
+    }
+  sort_unique(prepared.edges);
+  std::vector<Index> ends;
+  for (const auto& edge : prepared.edges) ends.insert(ends.end(), edge.begin(), edge.end());
+  prepared.edges_of_vertices = group_by_key(ends, prepared.vertex_count);
+}
+
+void see_large_faces(const TriangleMesh& surface, PreparedTissue& prepared) {
   prepared.volume = enclosed_volume(surface.vertices, surface.faces);
   std::vector<char> is_free;
   for (Index v = 0; v < prepared.vertex_count; ++v)
@@ -208,6 +230,7 @@ PreparedTissue prepare_tissue(const Scene& scene, const Muscle& muscle, const st
   lay_fibers(prepared);
   find_fibers(muscle, prepared);
   tie_to_bones(scene, distances, prepared);
+  list_edges(muscle.surface, prepared);
   keep_gaps(scene, fields, distances, prepared);
   see_large_faces(muscle.surface, prepared);
   sort_by_nodes(prepared);

@@ -38,6 +38,7 @@ struct BoneGap {
   BoundedField field;
   std::vector<Real> gaps;        ///< m, per point, by the field
   std::vector<Real> seen_least;  ///< m, per vertex: exact distance from it, see `seen_clearance`
+  std::vector<Real> edge_least;  ///< m, likewise, of the middles of `PreparedTissue::edges`
 };
 
 /// A muscle prepared for the minimizer; constant during a run.
@@ -53,6 +54,8 @@ struct PreparedTissue {
   std::vector<SurfacePoint> points;             ///< the surface's vertices in their order, then the others
   Index vertex_count = 0;
   Eigen::Matrix3Xi faces;  ///< of the surface
+  std::vector<std::array<Index, 2>> edges;  ///< of the surface, those with a free end, each once
+  GroupedByKey edges_of_vertices;           ///< edge * 2 + end, by their ends
   LargeFaces large_faces;
   Real volume = 0;        ///< m³, that the surface encloses at rest
   std::vector<Tie> ties;  ///< of points, one after the other

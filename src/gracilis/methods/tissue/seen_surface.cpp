@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace gracilis::tissue {
 
@@ -12,6 +14,11 @@ namespace {
 
 /// Of volume, then out of bones; each disturbs the other a little.
 constexpr int rounds = 3, volume_rounds = 3, bone_rounds = 4;
+/// Edges share their ends, so those that were pushed out of bones are looked at again, so often.
+constexpr int edge_rounds = 2;
+/// At the middles of edges splines of fields count as off by less than this, m: a bone is looked at less often than
+/// at vertices, of which there are fewer.
+constexpr Real edge_field_error = 3e-4;
 constexpr Real volume_tolerance = 1e-6;
 /// Places that are nearer to a bone than this beyond what they keep may have to be pushed: more than volume moves them
 /// (m).
@@ -187,6 +194,48 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
   }
 }
 
+/// Where the bones near a point are listed.
+std::span<const NearBone> bones_near(const Surroundings& around, Index point) {
+  const auto p = static_cast<std::size_t>(point);
+  return std::span(around.near).subspan(static_cast<std::size_t>(around.near_begin[p]),
+                                        static_cast<std::size_t>(around.near_begin[p + 1] - around.near_begin[p]));
+}
+
+/// The middle of an edge, by its ends that are free. True when it had to be pushed.
+bool push_edge_out(const PreparedTissue& muscle, const Surroundings& around, std::size_t b, const SignedDistance& exact,
+                   std::size_t edge, Points& x) {
+  const BoneGap& bone = muscle.bones[b];
+  const auto body = static_cast<std::size_t>(bone.body);
+  const auto [first, second] = muscle.edges[edge];
+  const Vec3 there = around.inverses[body] * Vec3((x.col(first) + x.col(second)) / 2);
+  const Real least = bone.edge_least[edge];
+  if (distance_in(bone, there) > least + edge_field_error) return false;
+  const Vec3 push = around.bodies[body].linear() * push_out_of(bone, exact, least, there);
+  for (const Index v : {first, second})
+    if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) x.col(v) += push;
+  return !push.isZero(0);
+}
+
+/// The middles of edges, which are deeper than both ends where a bone has a ridge.
+void push_edges_out(const PreparedTissue& muscle, const Surroundings& around,
+                    const std::vector<SignedDistance>& distances, Points& x) {
+  std::vector<std::pair<std::size_t, std::size_t>> pushed;  // bones and edges
+  for (Index v = 0; v < muscle.vertex_count; ++v)
+    for (const NearBone& near : bones_near(around, v)) {
+      const auto b = static_cast<std::size_t>(near.bone);
+      const auto is_this = [&](const NearBone& each) { return each.bone == near.bone; };
+      for (const Index at : muscle.edges_of_vertices.with(v)) {
+        const auto edge = static_cast<std::size_t>(at / 2);
+        const Index other = muscle.edges[edge][1 - static_cast<std::size_t>(at % 2)];
+        const std::span<const NearBone> at_other = bones_near(around, other);
+        if (other < v && std::any_of(at_other.begin(), at_other.end(), is_this)) continue;  // had its turn there
+        if (push_edge_out(muscle, around, b, distances[b], edge, x)) pushed.emplace_back(b, edge);
+      }
+    }
+  for (int round = 1; round < edge_rounds; ++round)
+    for (const auto& [b, edge] : pushed) push_edge_out(muscle, around, b, distances[b], edge, x);
+}
+
 /// From where soft contact lets a vertex come, through other muscles, back to the planes between them. Not to those of
 /// its own muscle: in a fold that is crushed they tell vertices beside each other to go different ways.
 Vec3 back_to_planes(const Surroundings& around, Index v, const Vec3& tissue) {
@@ -279,6 +328,7 @@ Points seen_surface(const PreparedTissue& muscle, const Surroundings& around,
   }
   push_out_of_muscles(muscle, around, tissue, x);
   push_vertices_out(muscle, around, distances, x);
+  push_edges_out(muscle, around, distances, x);
   return x;
 }
 
