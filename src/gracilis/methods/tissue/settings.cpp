@@ -50,6 +50,9 @@ std::span<const Setting<TissueSettings>> setting_table() {
       {"neighbor_stiffness", &S::neighbor_stiffness, "N/m³", 0, 1e13,
        "Stiffness per area of what keeps muscles out of each other. They are soft: where it is much stiffer than their "
        "bulk, thin ones lose volume between others."},
+      {"neighbor_per_tension", &S::neighbor_per_tension, "1/m", 0, 1e6,
+       "Stiffness of what keeps two muscles out of each other is at least this times the tension of the more active "
+       "one's fibers, which press as much harder."},
       {"contact_rounds", &S::contact_rounds, "", 0, 100,
        "How often in a step muscles look where their neighbors are, the largest of all muscles; 0: they do not feel "
        "each "

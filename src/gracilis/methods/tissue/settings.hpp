@@ -28,6 +28,7 @@ struct TissueSettings {
   Real contact_gap = 0.004;          ///< m
   Real neighbor_gap = 0.0005;        ///< m, between muscles
   Real neighbor_stiffness = 1e8;     ///< N/m per m²
+  Real neighbor_per_tension = 1300;  ///< 1/m: least neighbor stiffness over the active fibers' tension
   int contact_rounds = 2;            ///< of looking where other muscles are, in each step; 0: muscles do not meet
   bool self_contact = true;          ///< keeps a muscle out of itself where it folds
   Real fascia_stiffness = 1.5e7;     ///< N/m per m², at the bone

@@ -20,6 +20,12 @@ constexpr Real most_given_back = 0.02;
 /// How much of what is missing is asked for at once: all of it is too much where a muscle is not at rest yet.
 constexpr Real asked_at_once = 0.5;
 
+/// How many times as stiff a muscle's contact with others is as when it is passive.
+Real stiffer_when_active(const TissueSettings& settings, Real active_tension) {
+  if (!(settings.neighbor_stiffness > 0)) return 1;
+  return std::max(1.0, settings.neighbor_per_tension * active_tension / settings.neighbor_stiffness);
+}
+
 void look_at_neighbors(TissueMuscles& tissues, std::vector<MovingMuscle>& moving, const Look& look) {
   // What is seen of them meets, and the tissue gives way by as much.
   std::vector<Points> seen(moving.size()), tissue(moving.size());
@@ -28,9 +34,16 @@ void look_at_neighbors(TissueMuscles& tissues, std::vector<MovingMuscle>& moving
     seen[m] = enclosing_surface(tissues.muscles[m], moving[m].nodes, tissue[m]);
   });
   std::vector<std::vector<ContactPlane>> planes = contact_planes(tissues.neighbors, seen, look);
+  std::vector<Real> stiffer;
+  for (std::size_t m = 0; m < moving.size(); ++m)
+    stiffer.push_back(stiffer_when_active(tissues.muscles[m].settings, moving[m].active_tension));
   for (std::size_t m = 0; m < moving.size(); ++m) {
-    for (ContactPlane& plane : planes[m])
+    for (ContactPlane& plane : planes[m]) {
+      // Alike for both, so that they press on each other with the same force.
+      const std::size_t other = plane.muscle < 0 ? m : static_cast<std::size_t>(plane.muscle);
+      plane.share *= std::max(stiffer[m], stiffer[other]);
       plane.least += plane.normal.dot(tissue[m].col(plane.point) - seen[m].col(plane.point));
+    }
     set_planes(tissues.muscles[m], std::move(planes[m]), moving[m].equilibrium.around);
   }
 }

@@ -35,7 +35,8 @@ struct Equilibrium {
 /// A muscle on its way to a pose.
 struct MovingMuscle {
   Points nodes;
-  Points seen;  ///< its surface in the end
+  Points seen;              ///< its surface in the end
+  Real active_tension = 0;  ///< Pa, of its fibers
   Equilibrium equilibrium;
   std::vector<RigidTransform> bodies;  ///< where they were in the last step
   const FactoredMatrix* metric = nullptr;

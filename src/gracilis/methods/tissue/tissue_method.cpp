@@ -133,6 +133,7 @@ class TissueMethod final : public DeformationMethod {
     const Real tension = std::min(1.0, Real(frame_ + 1) / tissues_.muscles[m].settings.tension_frames);
     MovingMuscle moving;
     moving.nodes = nodes_[m];
+    moving.active_tension = tension * activation * tissues_.muscles[m].settings.largest_active_stress;
     moving.bodies = bodies_;
     moving.metric = &metric(m, activation);
     moving.equilibrium.laws = cell_laws(tissues_.muscles[m], activation, tension);
