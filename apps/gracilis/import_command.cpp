@@ -87,7 +87,7 @@ void say_next(const opensim::Model& model, const std::vector<opensim::NamedMotio
   spdlog::info("{}: {}, {}, {}", folder.string(), counted(files_in(folder / "muscles"), "muscle"),
                counted(files_in(folder / "bones"), "bone"), counted(model.coordinates.size(), "coordinate"));
   for (const opensim::NamedMotion& motion : motions) {
-    const fs::path scene = folder / (opensim::motion_file_name(motion) + ".toml");
+    const fs::path scene = opensim::scene_file(folder, motion);
     const std::size_t rows = motion.motion.times.size();
     const int kept = opensim::kept_rows(motion);
     if (static_cast<std::size_t>(kept) < rows)
@@ -112,18 +112,15 @@ void print_json(const opensim::Model& model, const std::vector<std::string>& sce
 void check_scenes(const ImportOptions& options, const opensim::Model& model,
                   const std::vector<opensim::NamedMotion>& motions) {
   const fs::path& folder = options.out;
-  const auto scene_of = [&](const opensim::NamedMotion& motion) {
-    return folder / (opensim::motion_file_name(motion) + ".toml");
-  };
   try {
     if (files_in(folder / "muscles") == 0)
       throw InputError({options.model.string(), "", "no muscle is left of it", "so there is nothing to run"});
     if (std::all_of(model.joints.begin(), model.joints.end(),
                     [&](const opensim::Joint& joint) { return opensim::scene_axes(model, joint).empty(); }))
       throw InputError({options.model.string(), "", "no coordinate of it moves a body", "so there is nothing to run"});
-    for (const opensim::NamedMotion& motion : motions) read_scene(scene_of(motion));
+    for (const opensim::NamedMotion& motion : motions) read_scene(opensim::scene_file(folder, motion));
   } catch (const Error&) {
-    for (const opensim::NamedMotion& motion : motions) fs::remove(scene_of(motion));
+    for (const opensim::NamedMotion& motion : motions) fs::remove(opensim::scene_file(folder, motion));
     fs::remove(folder / "model.toml");
     spdlog::warn("{}: no scene that runs comes of it", options.model.string());
     throw;
@@ -151,7 +148,7 @@ int import_model(ImportOptions options) {
   check_scenes(options, model, motions);
   std::vector<std::string> scenes;
   for (const opensim::NamedMotion& motion : motions)
-    scenes.push_back((options.out / (opensim::motion_file_name(motion) + ".toml")).string());
+    scenes.push_back(opensim::scene_file(options.out, motion).string());
   if (options.json)
     print_json(model, scenes, options.out, notes);
   else

@@ -4,6 +4,7 @@
 #include "handed_preparation.hpp"
 
 #include <gracilis/core/errors.hpp>
+#include <gracilis/io/atomic_file.hpp>
 #include <gracilis/io/run/recorded_run.hpp>
 #include <gracilis/io/scene/demo_scene.hpp>
 #include <gracilis/io/scene/field_cache.hpp>
@@ -153,7 +154,7 @@ int view(ViewOptions& options) {
   require_display();
   // What a file manager opens of a run.
   if (const std::filesystem::path file = options.what; file.filename() == "run.json")
-    options.what = file.has_parent_path() ? file.parent_path().string() : ".";
+    options.what = folder_of(file).string();
   if (std::filesystem::is_directory(options.what)) {
     view_run(options);
   } else {

@@ -228,11 +228,7 @@ TEST(Enhancement, rays_that_meet_nothing_take_the_mean_of_those_that_do) {
   // Two rods: the point between them that the published heuristic finds lies outside, and some rays miss both.
   const TriangleMesh one = shapes::box({0.03, -0.005, -0.05}, {0.05, 0.005, 0.05}),
                      other = shapes::box({0.013, 0.028, -0.05}, {0.027, 0.042, 0.05});
-  TriangleMesh rods;
-  rods.vertices.resize(3, 16);
-  rods.vertices << one.vertices, other.vertices;
-  rods.faces.resize(3, 24);
-  rods.faces << one.faces, Eigen::Matrix3Xi(other.faces.array() + 8);
+  const TriangleMesh rods = shapes::both(one, other);
   Points line(3, 3);
   line << 0, 0, 0, 0, 0, 0, -0.04, 0, 0.04;
   const EnhancedSections sections =

@@ -144,13 +144,15 @@ TEST(ProcessMark, of_a_process_that_ends_while_it_is_asked_for_is_no_error) {
   EXPECT_EQ(errors, 0);
 }
 
+/// What a temporary of this process is called.
+static std::string temporary_of(const ProcessMark& mark, const std::string& ending) {
+  return ".gracilis-" + mark.host + "-" + std::to_string(mark.process) + "-" + std::to_string(mark.started) + ending;
+}
+
 TEST(AtomicFile, temporaries_of_killed_processes_are_removed_and_no_others) {
   const TestFolder folder;
   const ProcessMark dead = ended(), own = own_mark();
-  const auto name = [](const ProcessMark& mark) {
-    return ".gracilis-" + mark.host + "-" + std::to_string(mark.process) + "-" + std::to_string(mark.started) +
-           "-0.vtp";
-  };
+  const auto name = [](const ProcessMark& mark) { return temporary_of(mark, "-0.vtp"); };
   folder.write(name(dead), "half");
   folder.write(name(own), "being written");
   folder.write(name({"elsewhere", 1, 1}), "perhaps being written");
@@ -217,10 +219,7 @@ TEST(AtomicFile, what_is_no_file_is_never_replaced_by_one) {
 TEST(AtomicFile, what_killed_processes_left_goes_with_the_first_file_that_is_written_beside_it) {
   const TestFolder folder;
   const ProcessMark dead = ended(), own = own_mark();
-  const auto name = [](const ProcessMark& mark) {
-    return ".gracilis-" + mark.host + "-" + std::to_string(mark.process) + "-" + std::to_string(mark.started) +
-           "-99999.csv";
-  };
+  const auto name = [](const ProcessMark& mark) { return temporary_of(mark, "-99999.csv"); };
   folder.write(name(dead), "half");
   folder.write(name(own), "being written");
   write_text_atomically(folder.path() / "a.txt", "whole");

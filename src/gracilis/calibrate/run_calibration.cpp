@@ -86,8 +86,9 @@ class CalibrationRun {
     definition += std::string(definition_mark) + observation_definition(aimed_) + "held out\n" +
                   observation_definition(held_out_);
     const fs::path file = options_.folder / "definition.txt";
-    if (is_there(file) && text_if_there(file) != definition) {
-      if (text_if_there(file).find(definition_mark) == std::string::npos)
+    const std::string kept = text_if_there(file);
+    if (is_there(file) && kept != definition) {
+      if (kept.find(definition_mark) == std::string::npos)
         throw ConfigurationError({file.string(), "", "is not of a calibration", "take another folder by --out"});
       if (!options_.force)
         throw ConfigurationError({options_.folder.string(), "",
@@ -96,7 +97,7 @@ class CalibrationRun {
       for (const char* part : {"evaluations", "held_out", "evaluations.csv", "log.txt"})
         fs::remove_all(options_.folder / part);
     }
-    if (text_if_there(file) != definition) write_text_atomically(file, definition);
+    if (kept != definition) write_text_atomically(file, definition);
   }
 
   std::vector<std::optional<Eigen::VectorXd>> residuals_at(const std::vector<Eigen::VectorXd>& points) {

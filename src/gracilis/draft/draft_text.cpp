@@ -3,6 +3,7 @@
 #include <gracilis/draft/folder_names.hpp>
 
 #include <gracilis/core/quoted_text.hpp>
+#include <gracilis/io/atomic_file.hpp>
 
 #include <fmt/format.h>
 
@@ -264,7 +265,7 @@ struct Writing {
 }  // namespace
 
 std::string draft_text(const SceneDraft& draft, const fs::path& out, const fs::path& landmarks) {
-  Writing writing{draft, out.has_parent_path() ? out.parent_path() : fs::path(".")};
+  Writing writing{draft, folder_of(out)};
   writing.head(out.stem().string(), landmarks);
   writing.bones();
   if (writing.is_whole())

@@ -58,6 +58,8 @@ static void sync_to_disk(const fs::path& temporary, const fs::path& path) {
   if (result != 0) throw_write_error(path, std::string("cannot be written: ") + std::strerror(reason));
 }
 
+fs::path folder_of(const fs::path& file) { return file.has_parent_path() ? file.parent_path() : fs::path("."); }
+
 /// A file that is renamed onto a device or a pipe takes its place, for everybody.
 static void require_replaceable(const fs::path& path) {
   std::error_code ignored;
@@ -80,7 +82,7 @@ static void clear_once(const fs::path& folder) {
 
 void write_file_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   require_replaceable(path);
-  clear_once(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  clear_once(folder_of(path));
   const fs::path temporary = new_temporary(path);
   try {
     write(temporary);
@@ -133,8 +135,6 @@ void create_folder(const std::filesystem::path& folder) {
     throw InputError({folder.string(), "", "cannot be created: " + error.message(), "choose another place with --out"});
 }
 
-void create_folder_of(const std::filesystem::path& file) {
-  if (file.has_parent_path()) create_folder(file.parent_path());
-}
+void create_folder_of(const std::filesystem::path& file) { create_folder(folder_of(file)); }
 
 }  // namespace gracilis

@@ -16,6 +16,9 @@ void write_file_atomically(const std::filesystem::path& path,
 /// The same for a text already in memory.
 void write_text_atomically(const std::filesystem::path& path, const std::string& text);
 
+/// The folder that a file lies in or is to be written into; "." for a bare name.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
 /// Makes a folder, and those above it, where they are not there. Throws InputError.
 void create_folder(const std::filesystem::path& folder);
 

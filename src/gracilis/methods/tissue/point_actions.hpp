@@ -28,8 +28,7 @@ void for_each_action(const PreparedTissue& muscle, const Surroundings& around, s
     act(PointActor::fascia, each.body,
         tie(p - around.tied.col(t), around.gliding.col(t), each.stiffness, settings.fascia_yield));
   }
-  for (Index i = around.near_begin[v]; i < around.near_begin[v + 1]; ++i) {
-    const NearBone& near = around.near[static_cast<std::size_t>(i)];
+  for (const NearBone& near : bones_near(around, static_cast<Index>(v))) {
     if ((p - around.seen.col(static_cast<Index>(v))).squaredNorm() < near.clear * near.clear) continue;
     const BoneGap& bone = muscle.bones[static_cast<std::size_t>(near.bone)];
     const auto body = static_cast<std::size_t>(bone.body);

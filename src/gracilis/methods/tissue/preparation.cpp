@@ -2,9 +2,9 @@
 
 #include <gracilis/anatomy/fibers/muscle_fibers.hpp>
 #include <gracilis/core/parallel.hpp>
-#include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/field_spline.hpp>
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/topology.hpp>
 #include <gracilis/methods/tissue/fiber_flux.hpp>
 #include <gracilis/methods/tissue/lattice_field.hpp>
 
@@ -122,20 +122,21 @@ void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields,
     for (const SurfacePoint& point : prepared.points)
       bone.gaps.push_back(
           std::min(prepared.settings.contact_gap, sample_spline_precise(bone.field.grid, point.rest).distance));
+    // Far ones need not be asked: the field is not that wrong.
+    const auto seen_least = [&](const Vec3& rest, Real by_field) {
+      return by_field < seen_clearance + field_error ? std::min(seen_clearance, distances[b].query(rest).distance)
+                                                     : seen_clearance;
+    };
     for (Index v = 0; v < prepared.vertex_count; ++v) {
-      // Held ones go with their bones, and far ones need not be asked: the field is not that wrong.
       const auto p = static_cast<std::size_t>(v);
-      const bool is_near = prepared.points[p].held_by < 0 && bone.gaps[p] < seen_clearance + field_error;
-      bone.seen_least.push_back(is_near ? std::min(seen_clearance, distances[b].query(prepared.points[p].rest).distance)
-                                        : seen_clearance);
+      const bool is_held = prepared.points[p].held_by >= 0;  // it goes with its bone
+      bone.seen_least.push_back(is_held ? seen_clearance : seen_least(prepared.points[p].rest, bone.gaps[p]));
     }
     for (const auto& [first, second] : prepared.edges) {
       const Vec3 middle = (prepared.points[static_cast<std::size_t>(first)].rest +
                            prepared.points[static_cast<std::size_t>(second)].rest) /
                           2;
-      const bool is_near = sample_spline_precise(bone.field.grid, middle).distance < seen_clearance + field_error;
-      bone.edge_least.push_back(is_near ? std::min(seen_clearance, distances[b].query(middle).distance)
-                                        : seen_clearance);
+      bone.edge_least.push_back(seen_least(middle, sample_spline_precise(bone.field.grid, middle).distance));
     }
     prepared.bones.push_back(std::move(bone));
   }
@@ -144,12 +145,8 @@ void keep_gaps(const Scene& scene, const std::vector<DistanceField>& fields,
 void list_edges(const TriangleMesh& surface, PreparedTissue& prepared) {
   prepared.faces = surface.faces;
   const auto is_free = [&](Index v) { return prepared.points[static_cast<std::size_t>(v)].held_by < 0; };
-  for (const Eigen::Vector3i face : surface.faces.colwise())
-    for (Index k = 0; k < 3; ++k) {
-      const Index a = face[k], b = face[(k + 1) % 3];
-      if (is_free(a) || is_free(b)) prepared.edges.push_back({std::min(a, b), std::max(a, b)});
-    }
-  sort_unique(prepared.edges);
+  for (const MeshEdge& edge : build_topology(surface.faces, surface.vertex_count()).edges)
+    if (is_free(edge.a) || is_free(edge.b)) prepared.edges.push_back({edge.a, edge.b});
   std::vector<Index> ends;
   for (const auto& edge : prepared.edges) ends.insert(ends.end(), edge.begin(), edge.end());
   prepared.edges_of_vertices = group_by_key(ends, prepared.vertex_count);

@@ -53,7 +53,7 @@ struct PreparedTissue {
   std::vector<std::vector<Index>> fiber_cells;  ///< of each of the muscle's fibers: the cells it runs through
   std::vector<SurfacePoint> points;             ///< the surface's vertices in their order, then the others
   Index vertex_count = 0;
-  Eigen::Matrix3Xi faces;  ///< of the surface
+  Eigen::Matrix3Xi faces;                   ///< of the surface
   std::vector<std::array<Index, 2>> edges;  ///< of the surface, those with a free end, each once
   GroupedByKey edges_of_vertices;           ///< edge * 2 + end, by their ends
   LargeFaces large_faces;

@@ -175,42 +175,41 @@ Vec3 push_out_of(const BoneGap& bone, const SignedDistance& exact, Real least, c
   return push;
 }
 
+/// A place in a bone's frame, how far from the bone it is to be, and by how much the field may be wrong there, m.
+struct NearPlace {
+  Vec3 there;
+  Real least = 0, error = 0;
+};
+
+/// What takes the place out of the bone, nothing where the field says that it is clear.
+Vec3 push_from(const BoneGap& bone, const Surroundings& around, const SignedDistance& exact, const NearPlace& place) {
+  if (distance_in(bone, place.there) > place.least + place.error) return Vec3::Zero();
+  return around.bodies[static_cast<std::size_t>(bone.body)].linear() *
+         push_out_of(bone, exact, place.least, place.there);
+}
+
 /// Vertices that contact, which is soft, lets come too near.
 void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
                        const std::vector<SignedDistance>& distances, Points& x) {
-  for (Index v = 0; v < muscle.vertex_count; ++v) {
-    const auto p = static_cast<std::size_t>(v);
-    for (Index i = around.near_begin[p]; i < around.near_begin[p + 1]; ++i) {
-      const auto b = static_cast<std::size_t>(around.near[static_cast<std::size_t>(i)].bone);
+  for (Index v = 0; v < muscle.vertex_count; ++v)
+    for (const NearBone& near : bones_near(around, v)) {
+      const auto b = static_cast<std::size_t>(near.bone);
       const BoneGap& bone = muscle.bones[b];
-      const auto body = static_cast<std::size_t>(bone.body);
-      const Vec3 there = around.inverses[body] * x.col(v);
-      const Real least = bone.seen_least[p];
+      const Real least = bone.seen_least[static_cast<std::size_t>(v)];
+      const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * x.col(v);
       const CachedBoneQuery& query = around.queries[b];
       if (query.distances[v] - largest_slope * (there - query.places.col(v)).norm() > least + field_error) continue;
-      if (distance_in(bone, there) > least + field_error) continue;
-      x.col(v) += around.bodies[body].linear() * push_out_of(bone, distances[b], least, there);
+      x.col(v) += push_from(bone, around, distances[b], {there, least, field_error});
     }
-  }
-}
-
-/// Where the bones near a point are listed.
-std::span<const NearBone> bones_near(const Surroundings& around, Index point) {
-  const auto p = static_cast<std::size_t>(point);
-  return std::span(around.near).subspan(static_cast<std::size_t>(around.near_begin[p]),
-                                        static_cast<std::size_t>(around.near_begin[p + 1] - around.near_begin[p]));
 }
 
 /// The middle of an edge, by its ends that are free. True when it had to be pushed.
 bool push_edge_out(const PreparedTissue& muscle, const Surroundings& around, std::size_t b, const SignedDistance& exact,
                    std::size_t edge, Points& x) {
   const BoneGap& bone = muscle.bones[b];
-  const auto body = static_cast<std::size_t>(bone.body);
   const auto [first, second] = muscle.edges[edge];
-  const Vec3 there = around.inverses[body] * Vec3((x.col(first) + x.col(second)) / 2);
-  const Real least = bone.edge_least[edge];
-  if (distance_in(bone, there) > least + edge_field_error) return false;
-  const Vec3 push = around.bodies[body].linear() * push_out_of(bone, exact, least, there);
+  const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * Vec3((x.col(first) + x.col(second)) / 2);
+  const Vec3 push = push_from(bone, around, exact, {there, bone.edge_least[edge], edge_field_error});
   for (const Index v : {first, second})
     if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) x.col(v) += push;
   return !push.isZero(0);

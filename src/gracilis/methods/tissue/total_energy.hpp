@@ -4,6 +4,7 @@
 
 #include <Eigen/SparseCore>
 
+#include <span>
 #include <vector>
 
 namespace gracilis::tissue {
@@ -40,6 +41,14 @@ struct Surroundings {
   Eigen::VectorXd drawn_stiffness;
   std::vector<Index> drawn_by;
 };
+
+/// The bones near a point of the muscle, as they were last found.
+inline std::span<const NearBone> bones_near(const Surroundings& around, Index point) {
+  const auto p = static_cast<std::size_t>(point);
+  return std::span(around.near)
+      .subspan(static_cast<std::size_t>(around.near_begin[p]),
+               static_cast<std::size_t>(around.near_begin[p + 1] - around.near_begin[p]));
+}
 
 /// Everything about the bodies there; nothing is near yet.
 Surroundings surroundings(const PreparedTissue& muscle, const std::vector<RigidTransform>& bodies,

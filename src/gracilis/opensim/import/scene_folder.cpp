@@ -69,6 +69,10 @@ std::string motion_file_name(const NamedMotion& motion) {
   return file_name_of(motion.name, taken);
 }
 
+fs::path scene_file(const fs::path& folder, const NamedMotion& motion) {
+  return folder / (motion_file_name(motion) + ".toml");
+}
+
 int kept_rows(const NamedMotion& motion) {
   gracilis::Motion rows;
   rows.times = motion.motion.times;
@@ -82,7 +86,7 @@ static void write_motion(const Model& model, const NamedMotion& motion, const fs
   const std::string name = motion_file_name(motion);
   write_sto(folder / (name + ".sto"), scene_motion(model, motion.motion, name));
   write_text_atomically(
-      folder / (name + ".toml"),
+      scene_file(folder, motion),
       fmt::format("schema = 1\nname = {}\ninclude = \"model.toml\"\n\n[motion]\nfile = {}\n"
                   "time_step = {}   # s; rows of the file that follow sooner are left out ({} of {} stay)\n",
                   toml_text(name), toml_text(name + ".sto"), imported_time_step, kept_rows(motion),
@@ -118,7 +122,7 @@ SceneFolderNotes write_scene_folder(const Model& model, const GeometryPlaces& pl
                                     const std::vector<NamedMotion>& motions, const SceneFolderSettings& settings,
                                     const fs::path& folder) {
   for (const NamedMotion& motion : motions)
-    if (const fs::path scene = folder / (motion_file_name(motion) + ".toml"); is_there(scene))
+    if (const fs::path scene = scene_file(folder, motion); is_there(scene))
       throw ConfigurationError({scene.string(), "", "is there already, and the import would replace it",
                                 "name another folder, or remove the file"});
   Skeleton skeleton(model);

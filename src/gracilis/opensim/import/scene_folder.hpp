@@ -35,6 +35,9 @@ int kept_rows(const NamedMotion& motion);
 /// What a motion's files are called, without the extension: file_name_of its name, and not "model".
 std::string motion_file_name(const NamedMotion& motion);
 
+/// The scene of a motion in the folder of its model.
+std::filesystem::path scene_file(const std::filesystem::path& folder, const NamedMotion& motion);
+
 /// Writes a folder that `gracilis run` understands, for the model with its coordinates at their default values:
 /// model.toml with bones, joints and muscles, their surfaces under bones/ and muscles/, and for each motion NAME.toml
 /// with NAME.sto. Throws InputError.
