@@ -119,6 +119,11 @@ EnclosingSurface enclosing(const PreparedTissue& muscle, const Points& nodes, co
   return found;
 }
 
+/// The field's distance at a place is no less, since the bone was looked at from vertex `v` close by.
+Real least_distance(const CachedBoneQuery& query, Index v, const Vec3& there) {
+  return query.distances[v] - largest_slope * (there - query.places.col(v)).norm();
+}
+
 /// The places on large triangles that a bone may have to push.
 std::vector<std::size_t> places_near(const PreparedTissue& muscle, const Surroundings& around, std::size_t b,
                                      const Points& x) {
@@ -131,9 +136,9 @@ std::vector<std::size_t> places_near(const PreparedTissue& muscle, const Surroun
     const Index v = large.free_corner;
     if (b < around.queries.size()) {
       const CachedBoneQuery& query = around.queries[b];
-      const Real moved = (inverse * x.col(v) - query.places.col(v)).norm();
       const Real size = longest_edge(x, muscle.faces.col(large.face));
-      if (query.distances[v] - largest_slope * (moved + size) > seen_clearance + candidates_within) continue;
+      const Real least_at_corner = least_distance(query, v, inverse * x.col(v));
+      if (least_at_corner - largest_slope * size > seen_clearance + candidates_within) continue;
     }
     for (Index i = large.kept_begin; i < large.kept_end; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -163,29 +168,37 @@ void push_out(const PreparedTissue& muscle, const Surroundings& around, std::siz
   }
 }
 
-/// The field, which is round where the bone has an edge, says which way is out, and the bone itself how far. It is not
-/// straight out, so once may not be enough. In the bone's frame.
-Vec3 push_out_of(const BoneGap& bone, const SignedDistance& exact, Real least, const Vec3& there) {
-  Vec3 push = Vec3::Zero();
-  for (int i = 0; i < bone_rounds; ++i) {
-    const Real distance = exact.query(there + push).distance;
-    if (!(distance < least)) break;
-    push += (least - distance) * sample_spline_precise(bone.field.grid, there + push).gradient.normalized();
-  }
-  return push;
-}
-
 /// A place in a bone's frame, how far from the bone it is to be, and by how much the field may be wrong there, m.
 struct NearPlace {
   Vec3 there;
   Real least = 0, error = 0;
 };
 
+/// How far from the bone a place is, the same whatever the field says of it, and the faster the nearer that is.
+SignedDistance::Answer distance_near(const SignedDistance& exact, const Vec3& there, Real by_field, Real error) {
+  const SignedDistance::Answer found = exact.query(there, std::abs(by_field) + error);
+  return found.nearest.face >= 0 ? found : exact.query(there);
+}
+
+/// The field, which is round where the bone has an edge, says which way is out, and the bone itself how far. It is not
+/// straight out, so once may not be enough. In the bone's frame.
+Vec3 push_out_of(const BoneGap& bone, const SignedDistance& exact, const NearPlace& place, Real by_field) {
+  Vec3 push = Vec3::Zero();
+  SignedDistance::Answer found = distance_near(exact, place.there, by_field, place.error);
+  for (int i = 0; i < bone_rounds && found.distance < place.least; ++i) {
+    if (i > 0) found = exact.query_from(found.nearest.face, place.there + push);
+    if (!(found.distance < place.least)) break;
+    push += (place.least - found.distance) *
+            sample_spline_precise(bone.field.grid, place.there + push).gradient.normalized();
+  }
+  return push;
+}
+
 /// What takes the place out of the bone, nothing where the field says that it is clear.
 Vec3 push_from(const BoneGap& bone, const Surroundings& around, const SignedDistance& exact, const NearPlace& place) {
-  if (distance_in(bone, place.there) > place.least + place.error) return Vec3::Zero();
-  return around.bodies[static_cast<std::size_t>(bone.body)].linear() *
-         push_out_of(bone, exact, place.least, place.there);
+  const Real by_field = distance_in(bone, place.there);
+  if (by_field > place.least + place.error) return Vec3::Zero();
+  return around.bodies[static_cast<std::size_t>(bone.body)].linear() * push_out_of(bone, exact, place, by_field);
 }
 
 /// Vertices that contact, which is soft, lets come too near.
@@ -197,8 +210,7 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
       const BoneGap& bone = muscle.bones[b];
       const Real least = bone.seen_least[static_cast<std::size_t>(v)];
       const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * x.col(v);
-      const CachedBoneQuery& query = around.queries[b];
-      if (query.distances[v] - largest_slope * (there - query.places.col(v)).norm() > least + field_error) continue;
+      if (least_distance(around.queries[b], v, there) > least + field_error) continue;
       x.col(v) += push_from(bone, around, distances[b], {there, least, field_error});
     }
 }
@@ -209,7 +221,9 @@ bool push_edge_out(const PreparedTissue& muscle, const Surroundings& around, std
   const BoneGap& bone = muscle.bones[b];
   const auto [first, second] = muscle.edges[edge];
   const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * Vec3((x.col(first) + x.col(second)) / 2);
-  const Vec3 push = push_from(bone, around, exact, {there, bone.edge_least[edge], edge_field_error});
+  const Real least = bone.edge_least[edge];
+  if (least_distance(around.queries[b], first, there) > least + edge_field_error) return false;
+  const Vec3 push = push_from(bone, around, exact, {there, least, edge_field_error});
   for (const Index v : {first, second})
     if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) x.col(v) += push;
   return !push.isZero(0);
