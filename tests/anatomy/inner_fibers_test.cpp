@@ -101,6 +101,57 @@ TEST(InnerFibers, of_a_bent_tube_follow_its_arcs) {
   }
 }
 
+TEST(InnerFibers, fill_a_thin_tendon_that_bends_sharply) {
+  // A belly of 15 mm draws in to a tendon of 3 mm, which turns by 90 degrees around 20 mm, as psoas does in front of
+  // the hip, and goes on straight.
+  const auto radius = [](Real z) { return 0.003 + 0.012 / (1 + std::exp((z - 0.08) / 0.006)); };
+  constexpr Real around = 0.02, from = 0.12, to = from + around * pi / 2;
+  const auto bent = [&](const Vec3& p) {
+    const Real x = p.x() / 0.015 * radius(p.z()), y = p.y() / 0.015 * radius(p.z());
+    if (p.z() < from) return Vec3(x, y, p.z());
+    const Real angle = (std::min(p.z(), to) - from) / around, further = std::max(p.z() - to, 0.0);
+    const Real out = around + x;
+    return Vec3(out * std::cos(angle) - around - further * std::sin(angle), y,
+                from + out * std::sin(angle) + further * std::cos(angle));
+  };
+  Muscle muscle = tube_muscle(bent);
+  muscle.fibers.segments = 60;
+  const Polylines fibers = inner_fibers(muscle);
+  expect_good_fibers(muscle, fibers);
+  // Half way around the bend, where a plane through its axis cuts across the tendon.
+  const Vec3 along(-std::sqrt(0.5), 0, std::sqrt(0.5)),
+      middle(around * std::sqrt(0.5) - around, 0, from + around * std::sqrt(0.5));
+  Points crossing(3, fibers.count());
+  for (Index i = 0; i < fibers.count(); ++i) {
+    const Points line = resampled(fibers.line(i), 2000);
+    Eigen::Index at = 0;
+    (along.transpose() * (line.colwise() - middle)).cwiseAbs().minCoeff(&at);
+    crossing.col(i) = line.col(at);
+  }
+  const Real spread = std::sqrt((crossing.colwise() - Vec3(crossing.rowwise().mean())).colwise().squaredNorm().mean());
+  EXPECT_GT(spread, 0.75 * 0.003 / std::sqrt(2.0));  // of what would fill the section evenly
+  const Real off = (crossing.rowwise().mean() - middle).norm();
+  EXPECT_LT(off, 0.001);
+}
+
+TEST(InnerFibers, do_not_go_past_where_they_end_and_turn_back) {
+  Muscle muscle = tube_muscle();
+  const Sections sections = cut_into_sections(muscle);
+  // Sections go on to the top, but fibers end half way up.
+  std::vector<Index>& insertion = muscle.attachments[1].vertices;
+  insertion.clear();
+  for (Index v = 0; v < muscle.surface.vertex_count(); ++v)
+    if (std::abs(muscle.surface.vertices(2, v) - 0.1) < 0.01) insertion.push_back(v);
+  const Polylines fibers =
+      fibers_through(muscle, sections, [](const Eigen::Vector2d& start, std::size_t) { return start; });
+  expect_good_fibers(muscle, fibers);
+  for (Index i = 0; i < fibers.count(); ++i) {
+    const Points line = fibers.line(i);
+    EXPECT_LT(line.row(2).maxCoeff(), 0.115) << "fiber " << i;
+    EXPECT_LT(polyline_length(line), 0.14) << "fiber " << i;
+  }
+}
+
 TEST(InnerFibers, keep_their_mean_length_when_count_or_resolution_double) {
   for (const Muscle& shape : {tube_muscle(), cone_muscle(), bent_muscle()}) {
     Muscle muscle = shape;

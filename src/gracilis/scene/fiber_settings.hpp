@@ -33,6 +33,9 @@ struct FiberSettings {
   Real curvature = 0.2;    ///< largest deflection of the curved template, as a share of the muscle's width
   Real convergence = 0.5;  ///< how far the fan template draws together at the insertion, 0: not, 1: to a point
   int smoothing = 30;      ///< rounds of smoothing
+  /// How far smoothing moves a fiber, as a share of half of its bundle's width and thickness, along each. Without a
+  /// limit it draws all fibers of a thin tendon together where that bends.
+  Real smoothing_reach = 0.25;
 };
 
 template <>

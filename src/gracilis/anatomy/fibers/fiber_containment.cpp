@@ -3,6 +3,7 @@
 #include <gracilis/geometry/measures.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gracilis {
 
@@ -30,14 +31,24 @@ void move_inside(const TriangleMesh& surface, const SignedDistance& distance, Re
   for (Index i = 0; i < line.cols(); ++i) line.col(i) = moved_inside(surface, distance, depth, line.col(i));
 }
 
-void smooth_inside(const TriangleMesh& surface, const SignedDistance& distance, Real depth, int rounds, Points& line) {
+/// `p`, or as much of the way there from `home` as the limit allows.
+static Vec3 held_near(const Vec3& home, const Eigen::Matrix3d& limit, const Vec3& p) {
+  const Real beyond = (p - home).dot(limit * (p - home));
+  return beyond > 1 ? Vec3(home + (p - home) / std::sqrt(beyond)) : p;
+}
+
+void smooth_inside(const TriangleMesh& surface, const SignedDistance& distance, Real depth, int rounds, Points& line,
+                   std::span<const Eigen::Matrix3d> limits) {
   const Eigen::Index inner = line.cols() - 2;
   if (inner <= 0) return;
+  const Points home = line.middleCols(1, inner);
   // How far each point may move before it could leave the inside: the surface is asked only once that is used up.
   Eigen::RowVectorXd leeway = Eigen::RowVectorXd::Zero(inner);
   Points middle = line.middleCols(1, inner);
   for (int round = 0; round < rounds; ++round) {
     middle = (line.leftCols(inner) + line.rightCols(inner)) / 4 + line.middleCols(1, inner) / 2;
+    for (Eigen::Index i = 0; i < inner && !limits.empty(); ++i)
+      middle.col(i) = held_near(home.col(i), limits[static_cast<std::size_t>(i) + 1], middle.col(i));
     leeway -= (middle - line.middleCols(1, inner)).colwise().norm();
     for (Eigen::Index i = 0; i < inner; ++i) {
       if (leeway[i] > 0) continue;

@@ -5,6 +5,8 @@
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/geometry/triangle_mesh.hpp>
 
+#include <span>
+
 namespace gracilis {
 
 /// Moves the points of a line that lie outside of the surface, or less than `depth` (m) inside, to that depth below the
@@ -12,8 +14,10 @@ namespace gracilis {
 void move_inside(const TriangleMesh& surface, const SignedDistance& distance, Real depth, Points& line);
 
 /// Smooths a line in `rounds` rounds, each of which moves every inner point half way to the middle of its neighbors and
-/// then inside the surface again. The ends stay where they are.
-void smooth_inside(const TriangleMesh& surface, const SignedDistance& distance, Real depth, int rounds, Points& line);
+/// then inside the surface again. The ends stay where they are. `limits`, where there are any, say per point how far it
+/// moves from where it was at first: with the way d (m), d · limit d stays at most 1.
+void smooth_inside(const TriangleMesh& surface, const SignedDistance& distance, Real depth, int rounds, Points& line,
+                   std::span<const Eigen::Matrix3d> limits = {});
 
 /// How far fibers keep from being inside.
 struct Containment {

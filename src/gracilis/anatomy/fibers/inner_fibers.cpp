@@ -9,7 +9,11 @@
 #include <gracilis/geometry/isocontours.hpp>
 #include <gracilis/geometry/measures.hpp>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace gracilis {
@@ -20,6 +24,10 @@ constexpr Index loop_points = 128;
 constexpr Index working_segments = 60;  ///< while fibers are smoothed, whatever the resolution asked for
 constexpr Real least_depth = 1e-4;      ///< m below the surface at least
 constexpr Real end_depth = 1e-5;        ///< m, of the ends
+constexpr Real least_reach = 1e-6;      ///< of smoothing, so that nothing is divided by zero
+
+/// Fibers that smoothing may move by as much as their bundle is thick hardly know where sections were.
+bool keeps_to_sections(const FiberSettings& settings) { return settings.smoothing_reach < 1; }
 
 Eigen::VectorXd field_on(const Muscle& muscle, const MeshTopology& topology) {
   std::vector<Index> fixed;
@@ -73,19 +81,58 @@ Points aligned(const Points& loop, const Points& before) {
   return result;
 }
 
-/// Contours that go around the muscle as one closed line, resampled.
-std::vector<Points> single_contours(const Muscle& muscle, const MeshTopology& topology, const Eigen::VectorXd& field,
-                                    int levels, std::vector<Real>& kept, int& left_out) {
-  std::vector<Points> contours;
+/// A contour that goes around the muscle as one closed line, resampled. Without points where it does not.
+Points single_contour(const Muscle& muscle, const MeshTopology& topology, const Eigen::VectorXd& field, Real level) {
+  const std::vector<Points> loops = isocontours(muscle.surface, topology, field, level);
+  const bool is_single =
+      !loops.empty() && (loops.size() == 1 || closed_length(loops[1]) <= closed_length(loops[0]) / 4);
+  return is_single ? resampled_loop(loops[0], loop_points) : Points(3, 0);
+}
+
+/// Contours that go around the muscle, ascending, and their levels.
+struct Contours {
+  std::vector<Points> loops;
+  std::vector<Real> levels;
+  int left_out = 0;
+};
+
+/// Halves ways between contours that are longer than half of their girth: on a thin tendon, which has little area,
+/// there would be few.
+void fill_in(const Muscle& muscle, const MeshTopology& topology, const Eigen::VectorXd& field, Contours& contours) {
+  constexpr int most_halvings = 3;
+  const auto is_wide = [&](const Points& a, const Points& b) {
+    return (a.rowwise().mean() - b.rowwise().mean()).norm() > (closed_length(a) + closed_length(b)) / 4;
+  };
+  for (int halving = 0; halving < most_halvings; ++halving) {
+    Contours filled;
+    for (std::size_t i = 0; i < contours.loops.size(); ++i) {
+      if (i > 0 && is_wide(filled.loops.back(), contours.loops[i])) {
+        const Real level = (contours.levels[i - 1] + contours.levels[i]) / 2;
+        if (Points between = single_contour(muscle, topology, field, level); between.cols() > 0) {
+          filled.loops.push_back(std::move(between));
+          filled.levels.push_back(level);
+        }
+      }
+      filled.loops.push_back(std::move(contours.loops[i]));
+      filled.levels.push_back(contours.levels[i]);
+    }
+    contours.loops = std::move(filled.loops);
+    contours.levels = std::move(filled.levels);
+  }
+}
+
+Contours contours_around(const Muscle& muscle, const MeshTopology& topology, const Eigen::VectorXd& field, int levels) {
+  Contours contours;
   for (const Real level : levels_of_equal_area(muscle, field, levels)) {
-    const std::vector<Points> loops = isocontours(muscle.surface, topology, field, level);
-    if (loops.empty() || (loops.size() > 1 && closed_length(loops[1]) > closed_length(loops[0]) / 4)) {
-      ++left_out;
+    Points loop = single_contour(muscle, topology, field, level);
+    if (loop.cols() == 0) {
+      ++contours.left_out;
     } else {
-      contours.push_back(resampled_loop(loops[0], loop_points));
-      kept.push_back(level);
+      contours.loops.push_back(std::move(loop));
+      contours.levels.push_back(level);
     }
   }
+  if (keeps_to_sections(muscle.fibers)) fill_in(muscle, topology, field, contours);
   return contours;
 }
 
@@ -98,9 +145,9 @@ Eigen::VectorXd origin_to_insertion(const Muscle& muscle) {
 Sections cut_into_sections(const Muscle& muscle, int levels) {
   const MeshTopology topology = build_topology(muscle.surface.faces, muscle.surface.vertex_count());
   Sections sections;
-  std::vector<Real> field_levels;
-  std::vector<Points> contours =
-      single_contours(muscle, topology, field_on(muscle, topology), levels, field_levels, sections.left_out);
+  Contours around = contours_around(muscle, topology, field_on(muscle, topology), levels);
+  std::vector<Points>& contours = around.loops;
+  sections.left_out = around.left_out;
   if (contours.empty()) return sections;
 
   // The middle contour decides where the corners lie; the angular parameter spreads from it to both ends.
@@ -119,7 +166,7 @@ Sections cut_into_sections(const Muscle& muscle, int levels) {
       continue;
     }
     sections.maps.push_back(std::move(*map));
-    sections.levels.push_back(field_levels[i]);
+    sections.levels.push_back(around.levels[i]);
     centers.emplace_back(contour.rowwise().mean());
   }
   centers.push_back(attachment_center(muscle, AttachmentEnd::insertion));
@@ -185,8 +232,82 @@ Polylines inner_fibers(const Muscle& muscle) {
   });
 }
 
+namespace {
+
+/// Of a bundle that crosses a section in these points: 1/m² across its width and its thickness, by half of each where
+/// it fills the section evenly; nothing along the fibers.
+Eigen::Matrix3d inverse_extents(const Points& crossing) {
+  const Points offsets = crossing.colwise() - Vec3(crossing.rowwise().mean());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(offsets * offsets.transpose() /
+                                                              static_cast<Real>(crossing.cols()));
+  Eigen::Matrix3d found = Eigen::Matrix3d::Zero();
+  for (const Index axis : {1, 2}) {  // the least is along the fibers, where sections are not flat
+    constexpr Real least = 1e-12;    // m²
+    const Vec3 across = spread.eigenvectors().col(axis);
+    found += across * across.transpose() / std::max(3 * spread.eigenvalues()[axis], least);
+  }
+  return found;
+}
+
+/// Per knot of the fibers; at their ends as in the section beside them.
+std::vector<Eigen::Matrix3d> extents_of(const std::vector<Points>& lines) {
+  const auto knots = static_cast<std::size_t>(lines.front().cols());
+  std::vector<Eigen::Matrix3d> found(knots, Eigen::Matrix3d::Zero());
+  Points crossing(3, static_cast<Index>(lines.size()));
+  for (std::size_t k = 1; k + 1 < knots; ++k) {
+    for (std::size_t f = 0; f < lines.size(); ++f)
+      crossing.col(static_cast<Index>(f)) = lines[f].col(static_cast<Index>(k));
+    found[k] = inverse_extents(crossing);
+  }
+  if (knots > 2) found.front() = found[1], found.back() = found[knots - 2];
+  return found;
+}
+
+/// A fiber's points in sections and its two ends, with `inverse_extents` of its bundle.
+struct Knots {
+  Points line;
+  std::vector<Eigen::Matrix3d> extents;
+};
+
+/// Without points from which a fiber would turn back: beside attached areas that lie along a muscle contours go past
+/// where fibers end, or around these areas.
+Knots without_turning_back(const Knots& all) {
+  const Points& line = all.line;
+  std::vector<Index> kept;
+  for (Index k = 0; k < line.cols(); ++k) {
+    const auto turns_back = [&] {
+      const Vec3 here = line.col(kept.back()), before = line.col(kept[kept.size() - 2]);
+      return (line.col(k) - here).dot(here - before) < 0;
+    };
+    while (kept.size() > 1 && turns_back()) kept.pop_back();
+    kept.push_back(k);
+  }
+  Knots found{line(Eigen::all, kept), {}};
+  for (const Index k : kept) found.extents.push_back(all.extents[static_cast<std::size_t>(k)]);
+  return found;
+}
+
+/// What limits how far smoothing moves a fiber's points, of which there are `count` with equal ways between them.
+std::vector<Eigen::Matrix3d> limits_along(const Knots& knots, Real reach, Index count) {
+  const Points& line = knots.line;
+  std::vector<Real> passed = {0};
+  for (Index k = 1; k < line.cols(); ++k) passed.push_back(passed.back() + (line.col(k) - line.col(k - 1)).norm());
+  std::vector<Eigen::Matrix3d> limits;
+  std::size_t k = 1;
+  for (Index i = 0; i < count; ++i) {
+    const Real at = passed.back() * static_cast<Real>(i) / static_cast<Real>(count - 1);
+    while (k + 1 < passed.size() && passed[k] < at) ++k;
+    const Real way = passed[k] - passed[k - 1], share = way > 0 ? std::min((at - passed[k - 1]) / way, 1.0) : 0;
+    limits.push_back(((1 - share) * knots.extents[k - 1] + share * knots.extents[k]) / (reach * reach));
+  }
+  return limits;
+}
+
+}  // namespace
+
 Polylines fibers_through(const Muscle& muscle, const Sections& sections, const FiberCourse& course) {
   std::vector<Points> lines = knots_of_fibers(muscle, sections, course);
+  const std::vector<Eigen::Matrix3d> extents = extents_of(lines);
   const SignedDistance distance(muscle.surface);
   parallel_for(static_cast<Index>(lines.size()), 1, [&](Index begin, Index end) {
     for (Index f = begin; f < end; ++f) {
@@ -196,8 +317,14 @@ Polylines fibers_through(const Muscle& muscle, const Sections& sections, const F
       move_inside(muscle.surface, distance, end_depth, last);
       line.col(0) = first;
       line.rightCols(1) = last;
+      std::vector<Eigen::Matrix3d> limits;
+      if (keeps_to_sections(muscle.fibers)) {
+        const Knots knots = without_turning_back({line, extents});
+        limits = limits_along(knots, std::max(muscle.fibers.smoothing_reach, least_reach), working_segments + 1);
+        line = knots.line;
+      }
       line = resampled(centripetal_spline(line, 6), working_segments);
-      smooth_inside(muscle.surface, distance, least_depth, muscle.fibers.smoothing, line);
+      smooth_inside(muscle.surface, distance, least_depth, muscle.fibers.smoothing, line, limits);
       line = resampled(line, muscle.fibers.segments);
       // Cutting corners may have led out again.
       Points inner = line.middleCols(1, line.cols() - 2);

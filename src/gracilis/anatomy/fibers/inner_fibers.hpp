@@ -23,15 +23,17 @@ Eigen::VectorXd origin_to_insertion(const Muscle& muscle);
 
 /// Cuts a muscle along isocontours of `origin_to_insertion` (template
 /// decomposition, Kohout and Kukačka 2014). The levels have equal areas of surface between them. A consistent angular
-/// parameter runs around all contours: each begins where its points come nearest to those of the contour before. Levels
-/// with a second contour longer than a quarter of the first, such as between two heads, are left out.
+/// parameter runs around all contours: each begins where its points come nearest to those of the contour before.
+/// Between contours that lie farther apart than half of their girth, as on thin tendons, there are more, unless fibers
+/// are smoothed by as much as their bundle is thick. Levels with a
+/// second contour longer than a quarter of the first, such as between two heads, are left out.
 Sections cut_into_sections(const Muscle& muscle, int levels = 32);
 
 /// The fibers of a muscle by template decomposition: `muscle.fibers.count` lines of `muscle.fibers.segments` pieces.
 /// Each starts in the origin, passes its template's point in every section, ends in the insertion, and stays inside.
 /// The ends spread evenly over the attachments; which fiber goes to which is the assignment with the least sum of
-/// squared distances. Smoothed with their ends in place. Deterministic for any number of threads. Requires an origin
-/// and an insertion; empty when the count is 0.
+/// squared distances. Smoothed with their ends in place, by little where their bundle is thin. Deterministic for any
+/// number of threads. Requires an origin and an insertion; empty when the count is 0.
 Polylines inner_fibers(const Muscle& muscle);
 
 /// Where a fiber that starts at a point of the unit square passes a section (by its number).
