@@ -66,4 +66,56 @@ TEST(DeepestOnFace, comes_near_the_deepest_point_wherever_it_lies_in_the_face) {
   }
 }
 
+/// A field that falls along x and z.
+static const DistanceField& slope() {
+  static const DistanceField field = [] {
+    DistanceField made;
+    made.origin = Vec3(-1, -1, -1);
+    made.nodes = {3, 3, 3};
+    for (int z = -1; z < 2; ++z)
+      for (int y = -1; y < 2; ++y)
+        for (int x = -1; x < 2; ++x) made.values.push_back(static_cast<float>(-x - 2 * z));
+    return made;
+  }();
+  return field;
+}
+
+TEST(DeepestOnFace, of_a_face_over_a_slope_is_but_for_one_part_in_thirty_its_lowest_corner) {
+  // Steps of 2/3, 2/4, 2/5 ... towards the lowest corner leave the others 2/3 · 1/3 · 2/4 · 3/5 · 4/6 · 5/7 = 2/63.
+  for (int lowest = 0; lowest < 3; ++lowest) {
+    std::array<ContactCorner, 3> corners;
+    for (int k = 0; k < 3; ++k) {
+      ContactCorner& corner = corners[static_cast<std::size_t>(k)];
+      corner.q =
+          k == lowest ? Eigen::Vector3f(0.5f, 0, 0) : Eigen::Vector3f(0, k == (lowest + 1) % 3 ? 0.3f : -0.3f, 0);
+    }
+    const Eigen::Vector3f found = deepest_on_face(grid_of(slope()), corners);
+    EXPECT_NEAR(found[lowest], 1 - 2.0 / 63, 1e-5);
+    EXPECT_NEAR(found.sum(), 1, 1e-6);
+  }
+}
+
+TEST(DeepestOnFace, counts_the_gaps_that_corners_keep) {
+  std::array<ContactCorner, 3> corners;
+  for (auto& corner : corners) corner.q.setZero();
+  corners[1].gap = 0.1f;
+  EXPECT_NEAR(deepest_on_face(grid_of(slope()), corners)[1], 1 - 2.0 / 63, 1e-5) << "all are as high";
+}
+
+TEST(DeepestOnFace, corners_that_cannot_move_have_a_share_that_is_not_tested) {
+  std::array<ContactCorner, 3> corners;
+  corners[0].q = {0.5f, 0, 0};  // deepest, and fixed
+  corners[1].q = {0, 0.3f, 0}, corners[2].q = {0, -0.3f, 0};
+  const float untested = 0.4f;
+  const Eigen::Vector3f found = deepest_tested(grid_of(slope()), corners, {0, 1, 1}, untested);
+  EXPECT_NEAR(found.sum(), 1, 1e-6);
+  EXPECT_NEAR(found[0], (1 - untested) * (1 - 2.0 / 63), 1e-5);
+  EXPECT_NEAR(found[1], found[2], 1e-5);
+  const Eigen::Vector3f one = deepest_tested(grid_of(slope()), corners, {0, 1, 0}, untested);
+  EXPECT_GE(one[1], untested - 1e-6);
+  corners[0].q = {0, 0, 0}, corners[1].q = {0.5f, 0, 0};
+  EXPECT_EQ(deepest_tested(grid_of(slope()), corners, {0, 1, 1}, untested), deepest_on_face(grid_of(slope()), corners))
+      << "what moves lies deepest";
+}
+
 }  // namespace gracilis

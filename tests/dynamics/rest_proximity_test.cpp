@@ -61,6 +61,59 @@ TEST(RestProximityConstraint, what_went_through_comes_back_to_its_side_and_the_c
   EXPECT_EQ(project_rest_proximities(places, particles), 0);
 }
 
+TEST(RestProximityConstraint, a_point_over_a_face_and_the_face_share_the_way_by_their_inverse_masses) {
+  Points points(3, 4);
+  points << 0, 0.03, 0, 0.01, 0, 0, 0.03, 0.01, 0, 0, 0, -1e-5;
+  Eigen::Vector4d inverse_masses(1, 1, 1, 3);
+  Particles particles = make_particles(points, inverse_masses);
+  const RestProximity place{{3, -1}, {0, 1, 2}, 1, 2e-5f};
+  EXPECT_EQ(project_rest_proximities({place}, particles), 1);
+  // The gap is missed by 30 µm. Each corner takes a third of the push: 3 of 3 + 3 · 1/9 parts are the point's.
+  const Real push = 3e-5 / (3 + 1.0 / 3);
+  EXPECT_NEAR(particles.position(3).z(), -1e-5 + 3 * push, 1e-9);
+  for (const Index corner : {0, 1, 2}) EXPECT_NEAR(particles.position(corner).z(), -push / 3, 1e-9) << corner;
+  EXPECT_NEAR(particles.position(3).x(), 0.01, 1e-9);
+}
+
+TEST(RestProximityConstraint, edges_share_the_way_by_where_they_pass_each_other) {
+  Points points(3, 4);
+  points << 0, 0.04, 0.01, 0.01, 0, 0, -0.03, 0.01, 0, 0, -1e-5, -1e-5;
+  Particles particles = make_particles(points, Eigen::VectorXd::Ones(4));
+  const RestProximity place{{0, 1}, {2, 3, -1}, 1, 2e-5f};
+  const float s = 0.25f, t = 0.75f;
+  // along × other points to +z, and so does the way from the target to the probe: 10 µm of 20 are kept.
+  const float push = 1e-5f / ((1 - s) * (1 - s) + s * s + (1 - t) * (1 - t) + t * t);
+  EXPECT_EQ(project_rest_proximities({place}, particles), 1);
+  EXPECT_NEAR(particles.position(0).z(), (1 - s) * push, 1e-9);
+  EXPECT_NEAR(particles.position(1).z(), s * push, 1e-9);
+  EXPECT_NEAR(particles.position(2).z(), -1e-5 - (1 - t) * push, 1e-9);
+  EXPECT_NEAR(particles.position(3).z(), -1e-5 - t * push, 1e-9);
+}
+
+TEST(RestProximityConstraint, what_passes_beside_a_face_or_beyond_an_edge_is_let_be) {
+  Points points(3, 5);
+  points << 0, 0.03, 0, 0.02, 0.02, 0, 0, 0.03, 0.02, 0.05, 0, 0, 0, -1e-5, -1e-5;
+  const Particles rest = make_particles(points, Eigen::VectorXd::Ones(5));
+  Particles particles = rest;
+  EXPECT_EQ(project_rest_proximities({{{3, -1}, {0, 1, 2}, 1, 2e-5f}, {{3, 4}, {0, 1, -1}, 1, 2e-5f}}, particles), 0);
+  EXPECT_EQ(particles.xyzw, rest.xyzw);
+}
+
+TEST(RestProximityConstraint, the_gap_is_half_of_the_distance_at_rest_on_the_side_of_rest) {
+  for (const Real height : {4e-5, -4e-5}) {
+    Stack inside(0);
+    inside.points.rightCols(3) = (inside.points.leftCols(3) * 0.5).colwise() + Vec3(0.0025, 0.002, height);
+    std::vector<Real> sides;
+    for (const RestProximity& place : find_rest_proximities(inside.points, inside.faces, 1e-4, inside.particles())) {
+      if (place.probe[1] >= 0) continue;
+      EXPECT_NEAR(place.gap, 2e-5, 1e-9);
+      sides.push_back(place.side);
+    }
+    ASSERT_EQ(sides.size(), 3u);
+    for (const Real side : sides) EXPECT_EQ(side, height > 0 ? 1 : -1);
+  }
+}
+
 TEST(RestProximityConstraint, touching_parts_keep_the_side_that_only_double_precision_can_tell) {
   for (const Real gap : {1e-12, -1e-12}) {
     const Stack stack(gap);
