@@ -124,6 +124,23 @@ TEST(AttachmentAreas, inner_vertices_of_a_sheet_own_a_cell_each) {
   EXPECT_FALSE(area.sliver());
 }
 
+TEST(AttachmentAreas, a_single_vertex_has_neither_length_nor_width) {
+  const AttachmentArea area = attachment_area(sheet(5, 0), std::vector<Index>{12});
+  EXPECT_EQ(area.length, 0);
+  EXPECT_EQ(area.width, 0);
+}
+
+TEST(AttachmentAreas, the_width_is_the_area_over_the_length) {
+  const TriangleMesh mesh = sheet(11, 0);
+  std::vector<Index> rows;  // three rows from the second column to the last but one, whose vertices own a cell each
+  for (Index j = 4; j < 7; ++j)
+    for (Index i = 1; i < 10; ++i) rows.push_back(11 * j + i);
+  const AttachmentArea area = attachment_area(mesh, rows);
+  EXPECT_NEAR(area.area, 27e-6, 1e-12);
+  EXPECT_NEAR(area.length, 0.008, 1e-12);
+  EXPECT_NEAR(area.width, 27e-6 / 0.008, 1e-12);
+}
+
 TEST(AttachmentAreas, a_row_of_vertices_is_a_sliver) {
   const TriangleMesh mesh = sheet(31, 0);
   std::vector<Index> row;

@@ -10,6 +10,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
+#include <random>
 
 namespace gracilis {
 namespace {
@@ -130,6 +132,50 @@ TEST(OverlapSides, a_tube_through_a_sheet_has_none) {
   Eigen::Affine3d flat = Eigen::Affine3d::Identity();
   flat.scale(Vec3(1, 1, 0.05));
   EXPECT_TRUE(sides_of(tube({0.005, 0, 0}, Vec3::UnitZ(), 0.006), moved(sheet, flat)).is_through);
+}
+
+/// The same surface with its vertices in another order; `order`: which was each.
+static TriangleMesh renumbered(const TriangleMesh& mesh, const std::vector<Index>& order) {
+  TriangleMesh result = mesh;
+  std::vector<Index> now(order.size());
+  for (std::size_t v = 0; v < order.size(); ++v) {
+    result.vertices.col(static_cast<Index>(v)) = mesh.vertices.col(order[v]);
+    now[static_cast<std::size_t>(order[v])] = static_cast<Index>(v);
+  }
+  for (Index& corner : result.faces.reshaped()) corner = now[static_cast<std::size_t>(corner)];
+  return result;
+}
+
+TEST(OverlapSides, a_dent_beside_a_tube_that_is_cut_through_keeps_its_way_out_whatever_vertices_are_called) {
+  const TriangleMesh cut = tube(Vec3::Zero(), Vec3::UnitZ());
+  // One tube goes right through below, another presses into the flank above.
+  const TriangleMesh through = tube({0, 0, -0.03}, Vec3::UnitX(), 0.012),
+                     beside = tube({0.018, 0, 0.03}, Vec3::UnitY());
+  std::vector<Index> order(static_cast<std::size_t>(cut.vertex_count()));
+  std::iota(order.begin(), order.end(), 0);
+  std::mt19937 chance(3);
+  for (int round = 0; round < 8; ++round) {
+    const TriangleMesh mesh = renumbered(cut, order);
+    const OverlapSides sides = sides_of(mesh, shapes::both(through, beside));
+    Index dented = 0, astray = 0;
+    for (Index v = 0; v < mesh.vertex_count(); ++v) {
+      const Vec3 p = mesh.vertices.col(v);
+      const Real astray_here = sides.first_astray[static_cast<std::size_t>(v)];
+      EXPECT_TRUE(p.z() < 0 || astray_here == 0) << round << ' ' << p.transpose();
+      if (p.z() > 0 && !sides.first_ways.col(v).isZero()) {
+        EXPECT_LT(sides.first_ways(0, v), -0.8) << round << ' ' << p.transpose();
+        ++dented;
+      }
+      // The end below is cut off, and goes as far astray as the cut is deep.
+      if (p.z() < -0.0421) {
+        EXPECT_NEAR(astray_here, 0.012, 5e-4) << round << ' ' << p.transpose();
+        ++astray;
+      }
+    }
+    EXPECT_GT(dented, 3) << round;
+    EXPECT_GT(astray, 32) << round;
+    std::shuffle(order.begin(), order.end(), chance);
+  }
 }
 
 TEST(OverlapReport, warns_of_free_vertices_in_bones_and_lets_attached_ones_be) {
