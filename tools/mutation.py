@@ -8,7 +8,9 @@ runs the module's tests until one fails (killed), then those of its neighbors an
 Which mutants is a matter of the seed alone; the numbers of which the built-in bones and muscles are made
 (anatomy/builtin) are data and left alone. It stands on a release build with its tests (cmake --preset release), whose
 files it leaves as they are: a mutant is compiled alone and linked before the library, and the linker takes the first of
-two functions of one name. Results are kept in build/mutation/seed_S.jsonl; called again, it goes on behind them.
+two functions of one name. What survives so meets the tests once more with the assertions of Eigen, of the standard
+library and of the mutant's own file, as in the builds debug and asan. Results are kept in build/mutation/seed_S.jsonl;
+called again, it goes on behind them.
 --before: words before each compiler call, such as "nice". --again: those that survived are judged anew, by tests that
 have come since; --tests says which (as --gtest_filter does), where all of them take too long.
 """
@@ -29,6 +31,8 @@ BUILD = ROOT / "build" / "release"
 WORK = ROOT / "build" / "mutation"
 MODULES = ["dynamics", "geometry", "anatomy"]
 MEMORY = 6 * 2**30  # a mutant that asks for more is killed by it
+ASSERTIONS = ["-UNDEBUG", "-D_GLIBCXX_ASSERTIONS"]
+BY_ASSERTIONS = " with assertions"
 PATIENCE = 3600  # s, with tests that stand still, and with those of no mutant
 
 WORDS = {
@@ -93,30 +97,31 @@ class Build:
                 self.of_source[source] = entry["command"]
         self.links = {}
 
-    def compile(self, source, text, made):
+    def compile(self, source, text, made, asserting=False):
         """Whether the source with this text compiles. Code that is linked from elsewhere, too, must not be inlined: it
         is not, since what is independent of its position calls what others may replace."""
         WORK.joinpath(source.name).write_text(text)
         words = shlex.split(self.of_source[str(source)])
         words[words.index("-o") + 1], words[-1] = str(made), str(WORK / source.name)
         words = [word for word in words if word != "-Werror" and not word.endswith("ccache")]
+        words += ASSERTIONS if asserting else []
         call = [*self.before, *words, "-w", "-iquote", str(source.parent)]
         return subprocess.run(call, cwd=BUILD, capture_output=True).returncode == 0
 
-    def mutant(self, mutant):
+    def mutant(self, mutant, asserting=False):
         """Its object, or None where it does not compile."""
         name, number, column, old, new = mutant
         lines = (ROOT / name).read_text().split("\n")
         line = lines[number - 1]
         lines[number - 1] = line[:column] + new + line[column + len(old):]
         made = WORK / "mutant.o"
-        return made if self.compile(ROOT / name, "\n".join(lines), made) else None
+        return made if self.compile(ROOT / name, "\n".join(lines), made, asserting) else None
 
-    def is_as_before(self, mutant, made):
-        """Whether the compiler makes the same code without it."""
-        original = WORK / "original.o"
-        self.compile(ROOT / mutant[0], (ROOT / mutant[0]).read_text(), original)
-        return code_in(made) == code_in(original)
+    def original(self, mutant, asserting=False):
+        """The object of its file without it."""
+        made = WORK / "original.o"
+        self.compile(ROOT / mutant[0], (ROOT / mutant[0]).read_text(), made, asserting)
+        return made
 
     def link(self, program, made):
         """The test program with the mutant in it."""
@@ -171,11 +176,21 @@ def judge(build, mutant, programs, seconds, tests="*"):
     made = build.mutant(mutant)
     if made is None:
         return "no change", ""
+
+    def failing(made, program):
+        return fails(build.link(program, made), 4 * seconds[program] + 30, tests)
+
     for program in programs:
-        why = fails(build.link(program, made), 4 * seconds[program] + 30, tests)
-        if why:
+        if why := failing(made, program):
             return "killed", f"{program}: {why}"
-    return ("no change" if build.is_as_before(mutant, made) else "survived"), ""
+    if code_in(made) == code_in(build.original(mutant)):
+        return "no change", ""
+    # What reads beyond an array is seen where the mutant's file has its assertions, unless it has others that fail.
+    made = build.mutant(mutant, asserting=True)
+    for program in programs:
+        if (why := failing(made, program)) and not failing(build.original(mutant, asserting=True), program):
+            return "killed", f"{program}{BY_ASSERTIONS}: {why}"
+    return "survived", ""
 
 
 def told(mutant):
@@ -200,7 +215,9 @@ def report(results):
     for r in judged:
         if r["result"] == "survived":
             print(f"survived: {told((r['file'], r['line'], r['column'], r['old'], r['new']))}")
-    print(f"{killed} of {len(judged)} mutants killed" + (f" ({100 * killed / len(judged):.0f} %)" if judged else ""))
+    asserted = sum(BY_ASSERTIONS in r["why"] for r in judged)
+    share = f" ({100 * killed / len(judged):.0f} %)" if judged else ""
+    print(f"{killed} of {len(judged)} mutants killed{share}, {asserted} of them{BY_ASSERTIONS} alone")
 
 
 def main():
