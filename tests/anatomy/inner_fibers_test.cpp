@@ -187,6 +187,31 @@ TEST(InnerFibers, of_other_templates_stay_inside_too) {
   }
 }
 
+TEST(CutIntoSections, a_tube_has_as_many_as_asked_for_of_equal_areas_between_them_and_knows_its_slenderness) {
+  const Muscle muscle = tube_muscle();
+  for (const int count : {4, 32}) {
+    const Sections sections = cut_into_sections(muscle, count);
+    ASSERT_EQ(static_cast<int>(sections.maps.size()), count);
+    EXPECT_EQ(sections.left_out, 0);
+    for (int k = 0; k < count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      // Levels are those of vertices, whose rings are an eightieth of the way apart.
+      EXPECT_NEAR(sections.shares[at], (k + 0.75) / (count + 0.5), 1.5 / 80) << k;
+      EXPECT_NEAR(sections.levels[at], sections.shares[at], 0.01) << "the field grows evenly";
+    }
+    // Half of the line around it is two sides of a square.
+    EXPECT_NEAR(sections.slenderness, 0.2 / (pi * 0.015 / 2), 0.2);
+  }
+}
+
+TEST(CutIntoSections, the_square_lies_the_same_way_in_all_of_them) {
+  const Sections sections = cut_into_sections(bent_muscle(), 16);
+  for (std::size_t k = 1; k < sections.maps.size(); ++k)
+    for (const Real a : {0.1, 0.9})
+      for (const Real b : {0.1, 0.9})
+        EXPECT_LT((sections.maps[k].at(a, b) - sections.maps[k - 1].at(a, b)).norm(), 0.016) << k << "; 10 mm apart";
+}
+
 TEST(FiberTemplate, points_are_spread_evenly_and_paths_do_as_their_names_say) {
   int quarter = 0;
   for (const Eigen::Vector2d& p : spread_over_square(1000)) quarter += p.x() < 0.5 && p.y() < 0.5;

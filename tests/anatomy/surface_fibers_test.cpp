@@ -143,6 +143,22 @@ TEST(FilledBetween, straight_lines_along_a_tube_gives_straight_fibers) {
   for (Index i = 0; i < fibers.count(); ++i) EXPECT_NEAR(polyline_length(fibers.line(i)), 0.2, 0.008);
 }
 
+TEST(FilledBetween, straight_lines_leave_the_fibers_of_the_parallel_template_where_they_are) {
+  // Places along a straight line are its mean place: between such lines nothing moves.
+  const Muscle muscle = tube_muscle();
+  std::vector<Points> lines;
+  for (const Real angle : {0.3, 0.9, 1.5, 2.1, 2.7}) {
+    Points line(3, 4);
+    for (Index i = 0; i < 4; ++i) line.col(i) = Vec3(0.015 * std::cos(angle), 0.015 * std::sin(angle), 0.01 + 0.06 * i);
+    lines.push_back(line);
+  }
+  const Polylines filled = filled_between(muscle, join(lines)), parallel = inner_fibers(muscle);
+  ASSERT_EQ(filled.points.cols(), parallel.points.cols());
+  Real sum = 0;
+  for (Index i = 0; i < filled.points.cols(); ++i) sum += (filled.points.col(i) - parallel.points.col(i)).norm();
+  EXPECT_LT(sum / static_cast<Real>(filled.points.cols()), 3e-4) << "fibers are 3 mm apart";
+}
+
 TEST(FilledBetween, lines_that_run_askew_gives_fibers_that_do) {
   const Muscle muscle = tube_muscle();
   const auto turn_of = [&](Real twist) {

@@ -1,4 +1,5 @@
 #include <gracilis/dynamics/coloring.hpp>
+#include <gracilis/dynamics/contact/field/face_set.hpp>
 #include <gracilis/geometry/topology.hpp>
 
 #include <shapes.hpp>
@@ -106,6 +107,28 @@ TEST(Coloring, a_chain_takes_two_colors_and_a_star_one_for_each_ray) {
 
 TEST(Coloring, is_the_same_every_time) {
   for (const ConstraintGraph& graph : graphs()) EXPECT_EQ(color_constraints(graph), color_constraints(graph));
+}
+
+TEST(FaceSet, holds_every_face_once_in_colors_without_common_particles) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 1, 2);
+  const FaceSet set = build_face_set(ball.faces, ball.vertex_count());
+  ASSERT_EQ(set.count(), ball.face_count());
+  std::set<std::array<Index, 3>> faces, found;
+  for (const auto face : ball.faces.colwise()) faces.insert({face[0], face[1], face[2]});
+  Index end = 0;
+  for (const ColorRange& color : set.colors) {
+    EXPECT_EQ(color.begin, end);
+    EXPECT_GT(color.end, color.begin) << "no color is empty";
+    end = color.end;
+    std::set<Index> touched;
+    for (auto slot = static_cast<std::size_t>(color.begin); slot < static_cast<std::size_t>(color.end); ++slot) {
+      found.insert({set.particles[0][slot], set.particles[1][slot], set.particles[2][slot]});
+      for (const auto& corners : set.particles) EXPECT_TRUE(touched.insert(corners[slot]).second);
+    }
+  }
+  EXPECT_EQ(end, set.count());
+  EXPECT_EQ(found, faces);
+  EXPECT_TRUE(build_face_set(Eigen::Matrix3Xi(3, 0), 5).colors.empty());
 }
 
 TEST(Coloring, of_nothing_is_nothing) {

@@ -66,6 +66,18 @@ TEST(ContactSurface, an_open_side_has_nothing_behind_it) {
   EXPECT_TRUE((build_contact_surface(triangle.faces, 3).across.array() == -1).all());
 }
 
+TEST(ContactSurface, edges_of_an_open_surface_are_listed_once_at_each_end_whichever_side_their_face_lies_on) {
+  const TriangleMesh square = shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}});
+  for (const bool turned : {false, true}) {
+    Eigen::Matrix3Xi faces = square.faces;
+    if (turned) faces.row(1).swap(faces.row(2));
+    const ContactSurface surface = build_contact_surface(faces, 4);
+    EXPECT_EQ(surface.edges.size(), 5u);
+    const std::size_t at_corners[] = {3, 2, 3, 2};
+    for (Index p = 0; p < 4; ++p) EXPECT_EQ(surface.edges_at(p).size(), at_corners[p]) << p;
+  }
+}
+
 TEST(ContactSurface, a_cube_s_corner_points_along_its_diagonal) {
   for (Index p = 0; p < 8; ++p) {
     const Vector3f diagonal = (cube().particles.position(p) - Vector3f::Constant(0.5f)).normalized();

@@ -78,6 +78,40 @@ TEST(SurfaceContact, within_a_step_lists_stay_where_hardly_anything_moves) {
   EXPECT_NEAR(nearest(), 0.0006, 1e-4) << "a new step looks again";
 }
 
+TEST(SurfaceContact, what_is_within_a_millimeter_and_a_half_is_listed_and_with_cohesion_what_is_within_reach) {
+  for (const float cohesion : {0.0f, 0.001f}) {
+    Meeting meeting = pressed_balls(-0.001);
+    meeting.world.settings.cohesion = cohesion;
+    meeting.prepare();
+    meeting.find();
+    meeting.follow();
+    const PairCandidates& candidates = meeting.state.candidates[0];
+    Index beyond = 0, expected = 0;
+    const float within = 0.0015f + (cohesion > 0 ? meeting.world.pairs[0].reach : 0);
+    for (const VertexFaceCandidate& candidate : candidates.near_second) expected += candidate.distance < within;
+    for (const VertexFaceCandidate& candidate : candidates.on_second) beyond += candidate.distance >= 0.0015f;
+    EXPECT_EQ(static_cast<Index>(candidates.on_second.size()), expected);
+    EXPECT_GT(expected, 3);
+    EXPECT_EQ(beyond > 0, cohesion > 0);
+  }
+}
+
+TEST(SurfaceContact, normals_from_before_are_not_used) {
+  Meeting fresh = pressed_balls(0.0003), stale = pressed_balls(0.0003);
+  for (Meeting* meeting : {&fresh, &stale}) {
+    meeting->prepare();
+    meeting->start = meeting->particles;
+    meeting->find();
+    if (meeting == &stale)
+      for (Eigen::Matrix3Xf& normals : meeting->state.normals) normals *= -1;
+    meeting->follow();
+    project_candidates(meeting->world, meeting->state, meeting->pointers<const Particles*>(meeting->start),
+                       meeting->pointers<Particles*>(meeting->particles));
+  }
+  for (std::size_t s = 0; s < 2; ++s) EXPECT_EQ(stale.particles[s].xyzw, fresh.particles[s].xyzw);
+  EXPECT_NE(fresh.particles[0].xyzw, fresh.start[0].xyzw);
+}
+
 TEST(SurfaceContact, rounds_hold_no_surface_twice) {
   Meeting meeting;
   for (int i = 0; i < 4; ++i) meeting.add(shapes::sphere({0.1 * i, 0, 0}, 0.01, 2));
