@@ -65,6 +65,30 @@ TEST(Solver, gives_the_same_bits_for_any_number_of_threads) {
   EXPECT_EQ(hashes[0], hashes[2]);
 }
 
+TEST(SurfaceState, begins_at_rest_with_multipliers_of_zero_to_which_a_reset_returns) {
+  SurfaceSystem system = system_of(off_center_ball());
+  SurfaceState state = make_state(system);
+  EXPECT_EQ(state.particles.xyzw, system.rest.xyzw);
+  EXPECT_EQ(state.start.xyzw, system.rest.xyzw);
+  EXPECT_EQ(state.velocities, decltype(state.velocities)(3 * static_cast<std::size_t>(system.rest.count()), 0));
+  EXPECT_EQ(state.volume, system.volume.target);
+  const SurfaceState fresh = state;
+  for (AlignedVector<float>* multipliers : {&state.distance_lambda, &state.tension_lambda, &state.dihedral_lambda}) {
+    multipliers->resize(multipliers->size() + 3);
+    for (float& each : *multipliers) each = 7;
+  }
+  state.volume_lambda = 7;
+  reset_multipliers(state);
+  for (const AlignedVector<float>* multipliers :
+       {&state.distance_lambda, &state.tension_lambda, &state.dihedral_lambda}) {
+    EXPECT_GE(multipliers->size(), 3u);
+    for (const float each : *multipliers) EXPECT_EQ(each, 0);
+  }
+  EXPECT_EQ(state.volume_lambda, 0);
+  for (const float each : fresh.distance_lambda) EXPECT_EQ(each, 0);
+  for (const float each : fresh.dihedral_lambda) EXPECT_EQ(each, 0);
+}
+
 TEST(Solver, at_rest_stays_at_rest) {
   SurfaceSystem system = pressed().system;
   system.contacts.clear();

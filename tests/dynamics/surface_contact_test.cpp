@@ -5,6 +5,7 @@
 #include <shapes.hpp>
 
 #include "meeting_surfaces.hpp"
+#include "strips.hpp"
 
 #include <gtest/gtest.h>
 
@@ -52,6 +53,20 @@ Meeting crossed_roofs(Real too_low) {
 }
 
 }  // namespace
+
+TEST(SurfaceContact, every_push_counts_once_whichever_surface_it_is_on) {
+  // Tips 0.1 mm above faces of a strip that are to keep 0.2 mm, away from the faces' sides.
+  const Vec3 tip(0.0013, 0.0003, 0.0001), other_tip(0.0033, 0.0003, 0.0001);
+  for (const bool is_first : {true, false})
+    for (const bool both : {true, false}) {
+      Meeting meeting;
+      const TriangleMesh tips = both ? shapes::both(tetrahedron(tip), tetrahedron(other_tip)) : tetrahedron(tip);
+      meeting.add(is_first ? tips : straight_strip(8));
+      meeting.add(is_first ? straight_strip(8) : tips);
+      meeting.pair(0, 1, 0.0002f);
+      EXPECT_EQ(meeting.solve(1), both ? 2 : 1);
+    }
+}
 
 TEST(SurfaceContact, leaves_alone_what_is_farther_than_the_gap) {
   Meeting meeting = pressed_balls(-0.001);

@@ -42,6 +42,25 @@ TEST(SphereFit, none_is_found_beyond_the_radii_that_may_be_or_where_it_is_not_li
   EXPECT_EQ(fit_sphere(surface_samples({Points(3, 0), Eigen::Matrix3Xi(3, 0)}), 0.01, 1).radius, 0);
 }
 
+TEST(SphereFit, tells_what_share_of_the_sphere_there_is_and_how_far_off_it_lies_at_any_size) {
+  for (const Real radius : {0.02, 3.0}) {
+    const SurfaceSamples ball = surface_samples(sphere(head, radius, 4));
+    const SphereFit whole = fit_sphere(ball, 0.7 * radius, 1.5 * radius);
+    EXPECT_NEAR(whole.share, 1, 0.01);
+    EXPECT_LT((whole.center - head).norm(), 1e-3 * radius);
+    EXPECT_NEAR(whole.radius / radius, 1, 1e-3);
+    EXPECT_LT(whole.residual, 1e-6 * radius) << "its vertices lie on it";
+    const SphereFit half =
+        fit_sphere(ball.kept([&](Index i) { return ball.points(2, i) > head.z(); }), 0.7 * radius, 1.5 * radius);
+    EXPECT_NEAR(half.share, 0.5, 0.03);
+    EXPECT_NEAR(half.radius / radius, 1, 1e-3);
+    SurfaceSamples rough = ball;
+    for (Index i = 0; i < rough.count(); ++i)
+      rough.points.col(i) += (i % 2 == 0 ? 0.01 : -0.01) * radius * rough.normals.col(i);
+    EXPECT_NEAR(fit_sphere(rough, 0.7 * radius, 1.5 * radius).residual / radius, 0.01, 1e-3);
+  }
+}
+
 TEST(RevolutionFit, half_a_spool_shows_its_axis) {
   // Thinner in the middle, as a trochlea is; about z through (0.02, 0.03).
   TriangleMesh spool = cylinder(0.012, 0.03, 40, 20);

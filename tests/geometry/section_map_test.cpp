@@ -69,6 +69,70 @@ TEST(SectionMap, of_a_crescent_stays_inside_it) {
     }
 }
 
+TEST(SectionMap, of_a_section_in_another_unit_and_elsewhere_is_the_same) {
+  // An ellipse, bent out of its plane.
+  Points loop(3, 90);
+  for (Index i = 0; i < 90; ++i) {
+    const Real angle = 2 * pi * i / 90;
+    loop.col(i) = Vec3(0.03 * std::cos(angle), 0.01 * std::sin(angle), 0.002 * std::cos(2 * angle));
+  }
+  Real aspect = 0, other_aspect = 0;
+  const SquareCorners corners = square_corners(loop, aspect);
+  const std::optional<SectionMap> map = SectionMap::build(loop, corners);
+  ASSERT_TRUE(map);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (const Real unit : {0.05, 1.0, 1000.0}) {
+    const Points other = (unit * turn * loop).colwise() + Vec3(1, -2, 3);
+    const SquareCorners others = square_corners(other, other_aspect);
+    EXPECT_NEAR(other_aspect, aspect, 1e-9);
+    // Which end is the beginning is free.
+    const bool is_swapped = std::abs(others[0] - corners[0]) > 0.25;
+    const std::optional<SectionMap> moved = SectionMap::build(other, corners);
+    ASSERT_TRUE(moved) << unit;
+    EXPECT_NEAR(std::remainder(others[is_swapped ? 2 : 0] - corners[0], 1), 0, 1e-6);
+    for (const Real a : {0.1, 0.5, 0.8})
+      for (const Real b : {0.2, 0.6}) {
+        const Vec3 p = map->at(a, b), q = unit * turn * p + Vec3(1, -2, 3);
+        EXPECT_LT((moved->at(a, b) - q).norm(), 2e-4 * unit) << unit << ": the lattice in it turns with its axes";
+        EXPECT_LT((moved->nearest(q) - Eigen::Vector2d(a, b)).norm(), 0.2);
+      }
+  }
+}
+
+TEST(SectionMap, its_rim_goes_around_the_square_by_length) {
+  const Points loop = polygon({{0, 0}, {0.04, 0}, {0.04, 0.04}, {0, 0.04}}, 30);
+  const std::optional<SectionMap> map = SectionMap::build(loop, {0, 0.25, 0.5, 0.75});
+  ASSERT_TRUE(map);
+  for (const Real t : {0.0, 0.3, 0.7, 1.0}) {
+    EXPECT_LT((map->at(t, 0) - Vec3(0.04 * t, 0, 0.5)).norm(), 1e-6);
+    EXPECT_LT((map->at(1, t) - Vec3(0.04, 0.04 * t, 0.5)).norm(), 1e-6);
+    EXPECT_LT((map->at(t, 1) - Vec3(0.04 * t, 0.04, 0.5)).norm(), 1e-6);
+    EXPECT_LT((map->at(0, t) - Vec3(0, 0.04 * t, 0.5)).norm(), 1e-6);
+  }
+}
+
+TEST(Polygons, distances_insides_and_crossings_are_told) {
+  PlanePoints square(2, 4), bow(2, 4);
+  square << 0, 2, 2, 0, 0, 0, 2, 2;
+  bow << 0, 2, 0, 2, 0, 2, 2, 0;
+  EXPECT_NEAR(distance_to_polygon(square, {0.5, 1}), 0.5, 1e-15);
+  EXPECT_NEAR(distance_to_polygon(square, {-3, -4}), 5, 1e-15);
+  EXPECT_NEAR(distance_to_polygon(square, {1.8, 1}), 0.2, 1e-15);
+  EXPECT_NEAR(distance_to_polygon(square, {1, 1.7}), 0.3, 1e-15);
+  EXPECT_TRUE(inside_polygon(square, {0.1, 1.9}));
+  EXPECT_FALSE(inside_polygon(square, {2.1, 1}));
+  EXPECT_FALSE(inside_polygon(square, {-0.1, 1}));
+  EXPECT_FALSE(inside_polygon(square, {1, 2.1}));
+  EXPECT_TRUE(is_simple(square));
+  EXPECT_FALSE(is_simple(bow));
+  // The crossing may be that of the last side.
+  for (int first = 0; first < 4; ++first) {
+    PlanePoints turned(2, 4);
+    for (int i = 0; i < 4; ++i) turned.col(i) = bow.col((i + first) % 4);
+    EXPECT_FALSE(is_simple(turned)) << first;
+  }
+}
+
 TEST(SectionMap, there_is_none_for_a_line_without_area_or_one_that_crosses_itself) {
   const SquareCorners corners = {0, 0.25, 0.5, 0.75};
   EXPECT_FALSE(SectionMap::build(polygon({{0, 0}, {1, 0}}, 10), corners));
