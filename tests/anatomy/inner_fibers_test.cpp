@@ -193,6 +193,8 @@ TEST(CutIntoSections, a_tube_has_as_many_as_asked_for_of_equal_areas_between_the
     const Sections sections = cut_into_sections(muscle, count);
     ASSERT_EQ(static_cast<int>(sections.maps.size()), count);
     EXPECT_EQ(sections.left_out, 0);
+    EXPECT_EQ(sections.shares.size(), sections.maps.size());
+    EXPECT_EQ(sections.levels.size(), sections.maps.size());
     for (int k = 0; k < count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       // Levels are those of vertices, whose rings are an eightieth of the way apart.
@@ -264,6 +266,58 @@ TEST(MoveInside, brings_points_below_the_surface_and_leaves_those_that_are_there
   EXPECT_NEAR(distance.query(points.col(0)).distance, -1e-4, 1e-5);
   EXPECT_LT(distance.query(points.col(1)).distance, -1e-5);
   EXPECT_EQ(points.col(2), deep);
+}
+
+TEST(MoveInside, in_a_plate_thinner_than_the_depth_goes_as_deep_as_it_can) {
+  const TriangleMesh plate = shapes::box({0, 0, 0}, {0.1, 0.1, 0.0004});
+  const SignedDistance distance(plate);
+  Points points = (Points(3, 2) << 0.05, 0.05, 0.05, 0.05, 0.001, 0.00039).finished();
+  move_inside(plate, distance, 0.001, points);
+  for (Index i = 0; i < 2; ++i) {
+    EXPECT_LT(distance.query(points.col(i)).distance, 0);
+    EXPECT_NEAR(points(2, i), 0.0004 - 0.00025, 1e-9) << "a quarter of the depth is the first that is inside";
+  }
+}
+
+TEST(SmoothInside, each_round_takes_points_half_way_to_the_middle_of_their_neighbors_and_leaves_the_ends) {
+  const TriangleMesh ball = shapes::sphere(Vec3::Zero(), 1, 3);
+  const SignedDistance distance(ball);
+  const Points line = (Points(3, 5) << 0, 0.1, 0.2, 0.3, 0.4, 0, 0.1, 0, 0.1, 0, 0, 0, 0.1, 0, 0).finished();
+  Points smooth = line, expected = line;
+  smooth_inside(ball, distance, 1e-4, 2, smooth);
+  for (int round = 0; round < 2; ++round) {
+    const Points before = expected;
+    for (Index i = 1; i < 4; ++i) expected.col(i) = (before.col(i - 1) + before.col(i + 1)) / 4 + before.col(i) / 2;
+  }
+  EXPECT_LT((smooth - expected).cwiseAbs().maxCoeff(), 1e-15);
+  Points untouched = line;
+  smooth_inside(ball, distance, 1e-4, 0, untouched);
+  EXPECT_EQ(untouched, line);
+  Points two = line.leftCols(2);
+  smooth_inside(ball, distance, 1e-4, 3, two);
+  EXPECT_EQ(two, line.leftCols(2)) << "nothing between the ends";
+}
+
+TEST(SmoothInside, around_a_bend_points_stay_as_deep_as_asked_for) {
+  const Muscle muscle = bent_muscle();
+  const SignedDistance distance(muscle.surface);
+  Points line(3, 31);  // along the inner side of the bend, where smoothing leads out
+  for (Index i = 0; i <= 30; ++i) {
+    const Real angle = pi / 2 * (0.02 + 0.96 * i / 30), away = bend_radius - 0.0135;
+    line.col(i) = Vec3(away * std::cos(angle), 0, away * std::sin(angle));
+  }
+  smooth_inside(muscle.surface, distance, 5e-4, 200, line);
+  for (Index i = 1; i < 30; ++i) EXPECT_LE(distance.query(line.col(i)).distance, -4.5e-4) << i;
+}
+
+TEST(Containment, counts_points_outside_and_tells_the_farthest) {
+  const SignedDistance distance(shapes::box({0, 0, 0}, {1, 1, 1}));
+  const Points line = (Points(3, 4) << 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 1 + 1e-10, 1.25, 1.5).finished();
+  const Containment found = containment(distance, join({line}));
+  EXPECT_EQ(found.points, 4);
+  EXPECT_EQ(found.outside, 2) << "rounding does not count";
+  EXPECT_NEAR(found.farthest, 0.5, 1e-12);
+  EXPECT_EQ(containment(distance, join({Points(line.leftCols(1))})).farthest, 0);
 }
 
 }  // namespace gracilis

@@ -126,6 +126,40 @@ TEST(SurfaceFibers, run_as_the_nearest_fibers_do) {
   EXPECT_GT(around(1, 1), 0.999);
 }
 
+TEST(SurfaceFibers, reach_what_lies_on_a_segment_or_beside_one) {
+  // One line along the tube's front covers its ring of vertices and those on either side: 3 columns of 40.
+  const Muscle muscle = tube_muscle();
+  Points line(3, 2);
+  line << 0.015, 0.015, 0, 0, 0, 0.2;
+  const SurfaceFibers found = surface_fibers_from_lines(muscle, join({line}));
+  EXPECT_EQ(found.segments.size(), 80u);
+  EXPECT_NEAR(found.coverage, 3.0 / 40, 1e-3);
+  // From a fifth to two fifths of its way: 16 segments, and the rings beside their ends, of which one way alone leads.
+  line.row(2) << 0.04, 0.08;
+  const SurfaceFibers part = surface_fibers_from_lines(muscle, join({line, line}));
+  ASSERT_EQ(part.segments.size(), 16u);
+  for (const FiberSegment& segment : part.segments) EXPECT_EQ(segment.fibers, 2);
+  EXPECT_NEAR(part.coverage, (17.0 * 3 + 4) / (40 * 79), 1e-3);
+  const Polylines lines = segment_lines(part, muscle.surface.vertices);
+  ASSERT_EQ(lines.count(), 16);
+  for (Index i = 0; i < 16; ++i) EXPECT_NEAR(polyline_length(lines.line(i)), 0.0025, 1e-12);
+}
+
+TEST(SurfaceFibers, a_muscle_contracts_along_lines_drawn_by_hand_or_along_its_fibers_in_as_many_pieces_as_it_says) {
+  Muscle muscle = tube_muscle();
+  muscle.contraction.segments = 7;
+  Muscle finer = muscle;
+  finer.fibers.segments = 7;
+  const SurfaceFibers along = contracting_fibers(muscle);
+  EXPECT_EQ(
+      along.paths,
+      surface_fibers(muscle, inner_fibers(finer), muscle.contraction.paths, muscle.contraction.reject_across).paths);
+  Points line(3, 2);
+  line << 0.015, 0.015, 0, 0, 0, 0.2;
+  muscle.given_surface_fibers = join({line});
+  EXPECT_EQ(contracting_fibers(muscle).paths.size(), 1u);
+}
+
 TEST(SurfaceFibers, there_are_none_without_fibers) {
   EXPECT_TRUE(surface_fibers(tube_muscle(), Polylines()).segments.empty());
 }

@@ -7,7 +7,9 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace gracilis {
 namespace {
@@ -31,6 +33,41 @@ TEST(FarSurfaces, no_point_of_a_box_is_carried_farther_than_told) {
   }
   EXPECT_LE(farthest, most);
   EXPECT_GT(farthest, 0.5f * most);
+}
+
+TEST(FarSurfaces, a_box_is_carried_as_far_as_the_corner_that_goes_farthest) {
+  const Eigen::AlignedBox3f box(Eigen::Vector3f(-0.1f, 0, 0.05f), Eigen::Vector3f(0.2f, 0.1f, 0.3f));
+  for (int way = 0; way < 24; ++way) {
+    // Turns about all corners and diagonals, so that each corner is the farthest once.
+    const Eigen::Vector3f still = box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(way % 8));
+    FieldPlacement to;
+    to.rotation = Eigen::AngleAxisf(0.3f, Eigen::Vector3f::Unit(way / 8)).toRotationMatrix();
+    to.translation = still - to.rotation * still;
+    float farthest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3f x = box.corner(static_cast<Eigen::AlignedBox3f::CornerType>(corner));
+      farthest = std::max(farthest, (to.to_obstacle(x) - x).norm());
+    }
+    EXPECT_NEAR(carried(FieldPlacement(), to, box), farthest, 1e-6f);
+  }
+  EXPECT_EQ(carried(FieldPlacement(), FieldPlacement(), box), 0);
+}
+
+TEST(FarSurfaces, know_how_far_they_went_and_how_far_they_are_at_least) {
+  const Particles from = make_particles((Points(3, 2) << 0, 1, 0, 0, 0, 0).finished(), Eigen::Vector2d::Ones());
+  Particles to = from;
+  to.position(1) += Eigen::Vector3f(0, 0.3f, 0.4f);
+  const SurfaceMotion motion = surface_motion(from, to);
+  EXPECT_NEAR(motion.farthest, 0.5f, 1e-6f);
+  EXPECT_EQ(motion.box.min(), Eigen::Vector3f(0, 0, 0));
+  EXPECT_EQ(motion.box.max(), Eigen::Vector3f(1, 0.3f, 0.4f));
+  EXPECT_EQ(surface_motion(Particles(), to).farthest, std::numeric_limits<float>::infinity()) << "nobody knows";
+  FieldPlacement shifted;
+  shifted.translation = Eigen::Vector3f(0, 0, 0.25f);
+  Away away;
+  away.distance = 2;
+  // Fields may fall by a tenth more than the way.
+  EXPECT_NEAR(away_after(motion, shifted, away), 2 - 1.1f * (0.5f + 0.25f), 1e-6f);
 }
 
 /// A ball of particles and one as obstacle, whose field ends 2 cm from it.

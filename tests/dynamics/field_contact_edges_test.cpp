@@ -56,6 +56,15 @@ TEST(FieldContact, pushes_an_edge_out_by_its_middle) {
   EXPECT_EQ(scenario.push_particles(), 0) << "the ends were never inside";
 }
 
+TEST(FieldContact, the_ends_of_an_edge_share_the_push_at_its_middle_by_their_inverse_masses) {
+  Scenario scenario = points_at({{-0.002, 0.029, 0}, {0.002, 0.029, 0}}, {1, 4}, -0.01f);
+  scenario.contact.middles = {{0, 1, 0.0005f}};
+  EXPECT_EQ(project_middle_contacts(scenario.contact, scenario.placement, scenario.near, scenario.particles), 1);
+  const float first = scenario.particles.position(0).y() - 0.029f, second = scenario.particles.position(1).y() - 0.029f;
+  EXPECT_NEAR(second / first, 4, 1e-3);
+  EXPECT_NEAR((first + second) / 2, 0.0015, 2e-5);
+}
+
 TEST(FieldContact, many_edges_at_once_all_leave_a_ball_that_is_elsewhere_and_turned) {
   // Chords of all directions, lengths and depths, some clear of the ball and some beyond the field.
   std::mt19937 random(11);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gracilis {
@@ -34,6 +35,30 @@ TEST(FieldContact, pushes_a_face_out_where_the_obstacle_pokes_through_between_it
   for (int k = 0; k < 3; ++k) deepest += where[k] * scenario.particles.position(k);
   EXPECT_NEAR(deepest.norm(), radius + 0.0005, 1e-4);
   EXPECT_EQ(scenario.particles.position(2).y(), 0.029f) << "a fixed corner";
+}
+
+TEST(FieldContact, the_corners_of_a_face_share_the_push_by_their_weights_and_inverse_masses) {
+  const std::vector<Vec3> corners = {{0.006, 0.029, 0}, {-0.004, 0.029, 0.005}, {-0.003, 0.029, -0.006}};
+  Scenario scenario = points_at(corners, {1, 2, 5}, 0.0005f);
+  scenario.faces = build_face_set(Eigen::Vector3i(0, 1, 2), 3);
+  scenario.contact.captured.face_sag = scenario.contact.released.face_sag = {0};
+  scenario.look();
+  ASSERT_EQ(scenario.near.faces.count(), 1);
+  const Particles before = scenario.particles;
+  EXPECT_EQ(scenario.push_faces(), 1);
+  const Eigen::Vector3f where = scenario.near.faces.where[0];
+  Eigen::Vector3f deepest = Eigen::Vector3f::Zero();
+  std::array<float, 3> share{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Index p = scenario.faces.particles[k][0];
+    const Eigen::Vector3f moved = scenario.particles.position(p) - before.position(p);
+    share[k] = moved.norm() / (where[static_cast<Index>(k)] * before.inverse_mass(p));
+    deepest += where[static_cast<Index>(k)] * scenario.particles.position(p);
+    EXPECT_GT(moved.y(), 0);
+  }
+  EXPECT_NEAR(share[1] / share[0], 1, 1e-3);
+  EXPECT_NEAR(share[2] / share[0], 1, 1e-3);
+  EXPECT_NEAR(deepest.norm(), radius + 0.0005, 2e-5) << "at once, but for the field's bend";
 }
 
 TEST(FieldContact, a_face_whose_fixed_corner_is_inside_is_not_thrown_away) {
