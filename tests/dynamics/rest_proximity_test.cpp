@@ -99,6 +99,42 @@ TEST(RestProximityConstraint, what_passes_beside_a_face_or_beyond_an_edge_is_let
   EXPECT_EQ(particles.xyzw, rest.xyzw);
 }
 
+TEST(RestProximityConstraint, edges_count_where_they_pass_each_other_between_their_ends_alone) {
+  // One along x from 0 to 20 mm; another along y, 10 mm long, 10 µm too low.
+  const auto count = [](Real x, Real begin) {
+    Points points(3, 6);
+    points << 0, 0.02, 0.01, x, x, x + 0.01, 0, 0, -0.03, begin, begin + 0.01, begin, 0, 0, 0, 1e-5, 1e-5, 0.01;
+    Particles particles = make_particles(points, Eigen::VectorXd::Ones(6));
+    const Index pushed = project_rest_proximities({{{0, 1}, {3, 4, -1}, -1, 2e-5f}}, particles);
+    Eigen::Matrix3Xi faces(3, 2);
+    faces << 0, 3, 1, 4, 2, 5;
+    const std::vector<RestProximity> found = find_rest_proximities(points, faces, 1e-4, particles);
+    const auto crossing = std::count_if(found.begin(), found.end(), [](const RestProximity& place) {
+      return place.probe == std::array<Index, 2>{0, 1} && place.target == std::array<Index, 3>{3, 4, -1};
+    });
+    EXPECT_EQ(crossing, pushed) << x << ' ' << begin;
+    return pushed;
+  };
+  for (const Real x : {0.001, 0.01, 0.019}) EXPECT_EQ(count(x, -0.005), 1) << x;
+  for (const Real x : {-0.001, 0.021, 0.035}) EXPECT_EQ(count(x, -0.005), 0) << x;
+  for (const Real begin : {-0.009, -0.001}) EXPECT_EQ(count(0.01, begin), 1) << begin;
+  for (const Real begin : {-0.025, -0.011, 0.001}) EXPECT_EQ(count(0.01, begin), 0) << begin;
+}
+
+TEST(RestProximityConstraint, one_particle_that_can_move_is_enough_whichever_it_is) {
+  const Stack stack(5e-5);
+  const std::size_t all = find_rest_proximities(stack.points, stack.faces, 1e-4, stack.particles()).size();
+  std::size_t sum = 0;
+  for (Index p = 0; p < 6; ++p) {
+    const std::vector<RestProximity> found = find_rest_proximities(
+        stack.points, stack.faces, 1e-4, make_particles(stack.points, Eigen::VectorXd::Unit(6, p)));
+    EXPECT_GT(found.size(), 0u) << p;
+    EXPECT_LT(found.size(), all) << p;
+    sum += found.size();
+  }
+  EXPECT_EQ(sum, 4 * all) << "each crossing has four ends";
+}
+
 TEST(RestProximityConstraint, the_gap_is_half_of_the_distance_at_rest_on_the_side_of_rest) {
   for (const Real height : {4e-5, -4e-5}) {
     Stack inside(0);
