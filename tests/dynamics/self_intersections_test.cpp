@@ -155,6 +155,34 @@ TEST(SelfIntersections, faces_turned_by_more_than_a_right_angle_about_their_comm
     }
 }
 
+TEST(SelfIntersections, folds_of_a_crumpled_ball_are_all_edges_that_turned_by_more_than_a_right_angle) {
+  Sheet sheet(shapes::sphere(Vec3::Zero(), 0.01, 3));
+  std::mt19937 random(8);
+  std::normal_distribution<float> offset(0, 0.0005f);
+  const Particles before = sheet.particles;
+  for (Index p = 0; p < sheet.particles.count(); ++p)
+    sheet.particles.position(p) += Vector3f(offset(random), offset(random), offset(random));
+  Pairs expected;
+  const auto normal = [&](Index face) { return face_area(sheet.surface, face, sheet.particles).normalized(); };
+  const auto at_rest = [&](Index face) { return face_area(sheet.surface, face, before).normalized(); };
+  for (const ContactSurface::Edge& edge : sheet.surface.edges) {
+    // Turned about the edge: by the angle between the normals, less what it was at rest, when it bends the same way.
+    const Vector3f along =
+        (sheet.particles.position(edge.ends[1]) - sheet.particles.position(edge.ends[0])).normalized();
+    const Vector3f then = (before.position(edge.ends[1]) - before.position(edge.ends[0])).normalized();
+    const auto turn = [](const Vector3f& left, const Vector3f& right, const Vector3f& about) {
+      return std::atan2(left.cross(right).dot(about), left.dot(right));
+    };
+    const Real by = turn(normal(edge.faces[0]), normal(edge.faces[1]), along) -
+                    turn(at_rest(edge.faces[0]), at_rest(edge.faces[1]), then);
+    if (std::abs(std::remainder(by, 2 * pi)) > pi / 2)
+      expected.push_back({std::min(edge.faces[0], edge.faces[1]), std::max(edge.faces[0], edge.faces[1])});
+  }
+  std::sort(expected.begin(), expected.end());
+  EXPECT_GT(expected.size(), 10u);
+  EXPECT_EQ(find_folds(sheet.surface, sheet.rest, before, sheet.particles), expected);
+}
+
 TEST(SelfIntersections, what_was_folded_before_the_step_and_what_cannot_move_are_not_unfolded) {
   const TriangleMesh flat = shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {{0, 1, 2}, {1, 0, 3}});
   for (const Real inverse_mass : {0.0, 1.0}) {

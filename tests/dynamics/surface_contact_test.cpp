@@ -140,6 +140,33 @@ TEST(SurfaceContact, edges_that_cross_while_every_particle_is_outside_are_pushed
   EXPECT_GT(gap(), 0.00019f);
 }
 
+TEST(SurfaceContact, edges_keep_what_lies_between_the_gaps_at_their_ends_or_the_other_edges_where_that_is_less) {
+  // The ridges cross in their middles: 0.2 mm there, on whichever of the two.
+  for (const bool is_first : {true, false}) {
+    Meeting meeting = crossed_roofs(0.0004);
+    SurfacePair& pair = meeting.world.pairs[0];
+    pair.first_gap.assign(6, 0.0006f), pair.second_gap.assign(6, 0.0006f);
+    std::vector<float>& less = is_first ? pair.first_gap : pair.second_gap;
+    less[0] = 0.0001f, less[1] = 0.0003f;
+    for (int i = 0; i < 10; ++i) meeting.start.clear(), meeting.solve(10);
+    EXPECT_NEAR(meeting.particles[1].position(0).z() - meeting.particles[0].position(0).z(), 0.0002, 1e-5);
+  }
+}
+
+TEST(SurfaceContact, takes_no_particle_further_from_where_the_step_began_than_it_may_and_each_outwards) {
+  Meeting meeting = pressed_balls(0.001);
+  meeting.world.settings.most_motion = 0.0002f;
+  meeting.solve(20);
+  Real farthest = 0;
+  for (std::size_t s = 0; s < 2; ++s)
+    for (Index p = 0; p < meeting.particles[s].count(); ++p) {
+      const Vector3f moved = meeting.particles[s].position(p) - meeting.start[s].position(p);
+      farthest = std::max<Real>(farthest, moved.norm());
+      EXPECT_TRUE(moved.norm() < 1e-6f || (s == 0 ? -1 : 1) * moved.x() > 0) << s << ' ' << p;
+    }
+  EXPECT_NEAR(farthest, 0.0002, 1e-7) << "in single precision";
+}
+
 TEST(SurfaceContact, lists_edges_that_cross_near_each_other_and_no_others) {
   Meeting meeting = crossed_roofs(-0.0004);
   meeting.solve(1);
