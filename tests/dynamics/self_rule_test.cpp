@@ -97,6 +97,15 @@ TEST(SelfRule, a_face_does_not_meet_its_own_corners_nor_an_edge_one_at_its_end) 
   for (const Index corner : {0, 1, 2}) EXPECT_EQ(two.rule().side_when_facing(corner, 0), 0);
   for (const std::array<Index, 2>& other : {std::array<Index, 2>{1, 5}, {5, 1}, {2, 5}, {5, 2}, {1, 2}})
     EXPECT_EQ(two.rule().side(lower_edge, other), 0);
+  // Whatever the normals at the ends say, by which an edge to particle 5 would face one between 1 and 2.
+  TwoParts facing(parts(0.001, false));
+  facing.rest_normals.col(5) = Eigen::Vector3f(0, 0, -3);
+  facing.rest_normals.col(0) = Eigen::Vector3f(0, 0, 1);
+  EXPECT_EQ(facing.rule().side(lower_edge, {0, 5}), 1);
+  for (const std::array<Index, 2>& other : {std::array<Index, 2>{1, 5}, {5, 1}, {2, 5}, {5, 2}}) {
+    EXPECT_EQ(facing.rule().side(lower_edge, other), 0) << other[0] << ' ' << other[1];
+    EXPECT_EQ(facing.rule().side(other, lower_edge), 0);
+  }
 }
 
 TEST(SelfRule, neighbors_keep_a_tenth_of_their_distance_at_rest) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 
 namespace gracilis {
@@ -105,6 +106,51 @@ TEST(Slivers, a_side_comes_to_a_fixed_tip) {
   settle_slivers(build_sliver_set(strip.faces, strip.rest, 0.1f), particles);
   EXPECT_EQ(particles.position(4), strip.rest.position(4));
   for (const Index end : {0, 1}) EXPECT_NEAR(particles.position(end).y(), 0.00025, 1e-7);
+}
+
+TEST(Slivers, the_ends_of_a_side_share_the_way_to_a_fixed_tip_by_their_shares_and_inverse_masses) {
+  Strip strip(0.0005);
+  strip.rest.position(4).x() = 0.004f;
+  strip.rest.at(4)[3] = 0;
+  strip.rest.at(0)[3] = 2, strip.rest.at(1)[3] = 5;
+  const SliverSet set = build_sliver_set(strip.faces, strip.rest, 0.1f);
+  Particles particles = strip.rest;
+  // The whole strip is raised by 0.6 mm: the tip lies 0.1 mm on the wrong side, and 0.35 mm are missing, of which a
+  // fiftieth of the side comes at once.
+  for (const Index p : {0, 1, 2, 3}) particles.position(p).y() += 0.0006f;
+  project_slivers(set, particles);
+  const float first = 0.0006f - particles.position(0).y(), second = 0.0006f - particles.position(1).y();
+  EXPECT_NEAR(second / first, 0.4 * 5 / (0.6 * 2), 1e-3);
+  EXPECT_NEAR(0.6f * first + 0.4f * second, 0.0002f, 1e-7f) << "where the tip belongs";
+}
+
+TEST(Slivers, neither_end_is_thrown_where_the_other_is_fixed) {
+  for (const Index near : {0, 1}) {
+    Strip strip(0.0005);
+    strip.rest.position(4).x() = near == 1 ? 0.0097f : 0.0003f;
+    strip.rest.at(4)[3] = strip.rest.at(near)[3] = 0;
+    strip.rest.at(1 - near)[3] = 3;
+    Particles particles = strip.rest;
+    for (const Index p : {0, 1, 2, 3}) particles.position(p).y() += 0.001f;
+    const Eigen::Vector3f before = particles.position(1 - near);
+    project_slivers(build_sliver_set(strip.faces, strip.rest, 0.1f), particles);
+    EXPECT_NEAR((particles.position(1 - near) - before).norm(), 2 * 0.0002, 2e-6) << "twice the longest push";
+  }
+}
+
+TEST(Slivers, are_flat_against_their_own_side_or_against_the_surfaces_mean_one) {
+  // A triangle with its tip, particle 2, so high over a side along x, and another one below that side.
+  const auto is_sliver = [](Real side, Real height, Real below) {
+    Points points(3, 4);
+    points << 0, side, side / 2, side / 2, 0, 0, height, -below, 0, 0, 0, 0;
+    const Eigen::Matrix3Xi faces = (Eigen::Matrix3Xi(3, 2) << 0, 1, 1, 0, 2, 3).finished();
+    const SliverSet set = build_sliver_set(faces, make_particles(points, Eigen::VectorXd::Ones(4)), 0.1f);
+    return std::any_of(set.tips.begin(), set.tips.end(), [](const SliverTip& tip) { return tip.particle == 2; });
+  };
+  EXPECT_TRUE(is_sliver(3, 2.5, 100)) << "the mean side is 35 long";
+  EXPECT_FALSE(is_sliver(3, 2.5, 20));
+  EXPECT_TRUE(is_sliver(400, 35, 300)) << "a tenth of its side is 40, of the mean one 32";
+  EXPECT_FALSE(is_sliver(400, 45, 300));
 }
 
 TEST(Slivers, where_tip_and_near_end_are_fixed_the_far_end_is_not_thrown_away) {
