@@ -224,6 +224,27 @@ TEST(Enhancement, a_center_that_the_published_heuristic_does_not_find_is_mended_
   EXPECT_LT(distance.query(enhance(line, Vec3::UnitX(), radii, surface, {12, false}).centers.col(1)).distance, 0);
 }
 
+TEST(Enhancement, the_inner_point_of_matches_that_lie_on_each_other_is_their_middle) {
+  Eigen::VectorXd radii(6);
+  radii << 2, 2, 1, -2, -2, -1;
+  EXPECT_TRUE(
+      inner_point({{0, 3}, {1, 4}}, even_angles(6), radii).isApprox(Eigen::Vector2d(1.5, std::sqrt(0.75)), 1e-12));
+}
+
+TEST(Enhancement, a_center_between_parts_of_a_section_is_mended_into_the_longest_of_them) {
+  const auto plate = [](Real from, Real to) { return shapes::box({from, -0.02, -0.05}, {to, 0.02, 0.05}); };
+  Points line(3, 3);
+  line << 0, 0, 0, 0, 0, 0, -0.04, 0, 0.04;
+  // From 20 to 60 mm beside the line; its middle at 40 mm lies between plates.
+  const auto center = [&](const TriangleMesh& first, const TriangleMesh& second, const TriangleMesh& third) -> Vec3 {
+    const TriangleMesh plates = shapes::both(shapes::both(first, second), third);
+    return enhance(line, Vec3::UnitX(), Eigen::MatrixXd::Constant(6, 3, 0.005), plates).centers.col(1);
+  };
+  EXPECT_LT((center(plate(0.02, 0.024), plate(0.03, 0.036), plate(0.05, 0.06)) - Vec3(0.055, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((center(plate(0.02, 0.032), plate(0.034, 0.036), plate(0.05, 0.06)) - Vec3(0.026, 0, 0)).norm(), 1e-9);
+  EXPECT_LT((center(plate(0.02, 0.022), plate(0.026, 0.038), plate(0.05, 0.06)) - Vec3(0.032, 0, 0)).norm(), 1e-9);
+}
+
 TEST(Enhancement, rays_that_meet_nothing_take_the_mean_of_those_that_do) {
   // Two rods: the point between them that the published heuristic finds lies outside, and some rays miss both.
   const TriangleMesh one = shapes::box({0.03, -0.005, -0.05}, {0.05, 0.005, 0.05}),
