@@ -97,6 +97,14 @@ TEST(Outlines, the_inside_of_a_concave_outline_leaves_out_its_bay) {
   EXPECT_FALSE(inside_outline(u, Vec3(0.0015, 0.006, 0.0011), 0.001)) << "too far from the outline's plane";
 }
 
+TEST(Outlines, the_inside_of_an_outline_with_slanted_sides_is_told_point_by_point) {
+  const Points diamond = points_mm({{10.37, 0, 0}, {0, 6.11, 0}, {-10.37, 0, 0}, {0, -6.11, 0}});
+  for (Real x = -10.5; x < 11; x += 1)
+    for (Real y = -6.5; y < 7; y += 1)
+      EXPECT_EQ(inside_outline(diamond, Vec3(x, y, 0) / 1000, 0.001), std::abs(x) / 10.37 + std::abs(y) / 6.11 < 1)
+          << x << ' ' << y;
+}
+
 TEST(Outlines, the_distance_to_a_line_is_that_of_its_nearest_piece_wherever_it_lies) {
   const Points corners = points_mm({{100, 50, -20}, {110, 50, -20}, {110, 60, -20}});
   const Vec3 over_a_piece(0.107, 0.05, -0.016), beyond_the_end(0.11, 0.063, -0.024),

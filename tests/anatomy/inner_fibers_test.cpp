@@ -24,6 +24,15 @@ void expect_good_fibers(const Muscle& muscle, const Polylines& fibers) {
   const Containment inside = containment(SignedDistance(muscle.surface), fibers);
   EXPECT_LE(inside.outside, 0.01 * inside.points);
   EXPECT_LE(inside.farthest, 5e-4);
+  const SignedDistance depth(muscle.surface);
+  for (Index i = 0; i < fibers.count(); ++i) {
+    const Points line = fibers.line(i);
+    for (const Index end : {Index{0}, static_cast<Index>(line.cols()) - 1}) {
+      const Real below = -depth.query(line.col(end)).distance;
+      EXPECT_GT(below, 0) << "ends lie a little inside";
+      EXPECT_LT(below, 2e-5);
+    }
+  }
   for (const AttachmentEnd end : {AttachmentEnd::origin, AttachmentEnd::insertion}) {
     std::vector<char> held(static_cast<std::size_t>(muscle.surface.vertex_count()), 0);
     for (const Attachment& attachment : muscle.attachments)

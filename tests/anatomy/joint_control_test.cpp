@@ -27,6 +27,15 @@ Real at(const JointControl& control, Real angle_deg) {
 
 }  // namespace
 
+TEST(JointControl, the_falloff_follows_from_the_median_distance_to_the_nearest_sample) {
+  Eigen::MatrixXd samples(5, 1);
+  samples << 15, 0, 3, 1, 7;  // from the nearest ones 8, 1, 2, 1 and 4 degrees
+  EXPECT_NEAR(falloff_for(samples), 1.0 / (2 * 2 * 2), 1e-12);
+  EXPECT_NEAR(falloff_for(samples.topRows(2)), 1.0 / (2 * 15 * 15), 1e-12);
+  EXPECT_EQ(falloff_for(samples.topRows(1)), 1);
+  EXPECT_EQ(falloff_for(Eigen::MatrixXd::Zero(3, 1)), 1) << "no other place";
+}
+
 TEST(JointControl, weighs_samples_by_a_gaussian_of_their_distance_in_degrees) {
   const JointControl control(unit_of({0, 2, 5}, {0.1, 0.5, 0.9}, 0.3));
   const Real a = std::exp(-0.3 * 1), b = std::exp(-0.3 * 1), c = std::exp(-0.3 * 16);

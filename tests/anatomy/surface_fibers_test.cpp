@@ -126,6 +126,23 @@ TEST(SurfaceFibers, run_as_the_nearest_fibers_do) {
   EXPECT_GT(around(1, 1), 0.999);
 }
 
+TEST(SurfaceFibers, are_the_same_wherever_the_muscle_lies) {
+  const Muscle muscle = bent_muscle();
+  const Polylines fibers = inner_fibers(muscle);
+  const Vec3 shift(0.5, -0.25, -0.5);
+  Muscle moved = muscle;
+  moved.surface.vertices.colwise() += shift;
+  Polylines moved_fibers = fibers;
+  moved_fibers.points.colwise() += shift;
+  for (const SurfacePaths paths : {SurfacePaths::along_fibers, SurfacePaths::nearest_joined}) {
+    const SurfaceFibers here = surface_fibers(muscle, fibers, paths),
+                        there = surface_fibers(moved, moved_fibers, paths);
+    EXPECT_NEAR(here.rejected, there.rejected, 2) << "as rounding decides between ways of one length";
+    EXPECT_NEAR(static_cast<Real>(here.segments.size()), static_cast<Real>(there.segments.size()), 20);
+    EXPECT_NEAR(here.coverage, there.coverage, 0.01);
+  }
+}
+
 TEST(SurfaceFibers, reach_what_lies_on_a_segment_or_beside_one) {
   // One line along the tube's front covers its ring of vertices and those on either side: 3 columns of 40.
   const Muscle muscle = tube_muscle();
