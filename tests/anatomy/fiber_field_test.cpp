@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/fibers/fiber_seams.hpp>
 #include <gracilis/anatomy/fibers/traced_fibers.hpp>
+#include <gracilis/geometry/polylines.hpp>
 
 #include <shapes.hpp>
 
