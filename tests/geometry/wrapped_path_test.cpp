@@ -70,6 +70,24 @@ TEST(WrappedPath, around_a_cylinder_is_two_tangents_and_an_arc) {
     EXPECT_LE((line.col(i) - line.col(i - 1)).norm(), 0.04 * std::sin(radians(2.5)) + 1e-12);
 }
 
+TEST(WrappedPath, a_sphere_is_passed_on_the_side_that_it_is_held_on_whichever_side_the_line_runs_on_and_whichever_way) {
+  for (const Real height : {0.005, -0.005})
+    for (const int side : {1, -1})
+      for (const Real way : {1.0, -1.0}) {
+        PlacedWrap wrap;
+        wrap.surface.kind = WrapSurface::Kind::sphere;
+        wrap.surface.radius = 0.02;
+        wrap.surface.side_axis = 1;
+        wrap.surface.side_sign = side;
+        wrap.last_point = 1;
+        const std::vector<PathStop> path =
+            solved({wrap}, {stop_at({-0.1 * way, height, 0}, 0), stop_at({0.1 * way, height, 0}, 1)});
+        ASSERT_EQ(path.size(), 4u);
+        EXPECT_NEAR(length_of(path), length_around(0.1, side * height, 0.02), 1e-12) << height << side << way;
+        EXPECT_NEAR(path[2].around.way.at(0.5).y(), side * 0.02, 1e-12);
+      }
+}
+
 TEST(WrappedPath, beside_or_out_of_the_range_of_a_surface_is_straight) {
   const std::vector<PathStop> across = {stop_at({-0.1, 0.005, 0}, 0), stop_at({0.1, 0.005, 0}, 2)};
   EXPECT_EQ(solved({cylinder_at({0, 0.05, 0}, 0.02, 0, 2)}, across).size(), 2u);
