@@ -52,6 +52,17 @@ TEST(AttachmentReach, an_attachment_lets_go_of_what_another_moves_away_from_by_m
   EXPECT_EQ(scene.muscles[0].attachments[1].vertices.size(), top);
 }
 
+TEST(AttachmentReach, what_is_out_of_reach_in_the_middle_of_a_motion_is_let_go_too) {
+  Scene scene = tube_held_below(0.17), there_and_back = tube_held_below(0.17);
+  std::vector<Pose> poses = top_moves_up_by(0.05);
+  let_go_beyond_reach(scene, poses);
+  const std::vector<Pose> back(poses.rbegin(), poses.rend());
+  poses.insert(poses.end(), back.begin(), back.end());
+  EXPECT_EQ(let_go_beyond_reach(there_and_back, poses).size(), 1u);
+  // Some sixty of the 402 poses are asked: the farthest of these is within 2 % of the way.
+  EXPECT_NEAR(highest_held(there_and_back), highest_held(scene), 0.2 / 80 + 1e-9);
+}
+
 TEST(AttachmentReach, nothing_is_let_go_that_the_surface_can_reach) {
   Scene scene = tube_held_below(0.17);
   EXPECT_TRUE(let_go_beyond_reach(scene, top_moves_up_by(0.025)).empty());
