@@ -64,30 +64,30 @@ TEST(RestProximityConstraint, what_went_through_comes_back_to_its_side_and_the_c
 TEST(RestProximityConstraint, a_point_over_a_face_and_the_face_share_the_way_by_their_inverse_masses) {
   Points points(3, 4);
   points << 0, 0.03, 0, 0.01, 0, 0, 0.03, 0.01, 0, 0, 0, -1e-5;
-  Eigen::Vector4d inverse_masses(1, 1, 1, 3);
+  Eigen::Vector4d inverse_masses(2, 2, 2, 3);
   Particles particles = make_particles(points, inverse_masses);
   const RestProximity place{{3, -1}, {0, 1, 2}, 1, 2e-5f};
   EXPECT_EQ(project_rest_proximities({place}, particles), 1);
-  // The gap is missed by 30 µm. Each corner takes a third of the push: 3 of 3 + 3 · 1/9 parts are the point's.
-  const Real push = 3e-5 / (3 + 1.0 / 3);
+  // The gap is missed by 30 µm. Each corner takes a third of the push: 3 of 3 + 3 · 2/9 parts are the point's.
+  const Real push = 3e-5 / (3 + 2.0 / 3);
   EXPECT_NEAR(particles.position(3).z(), -1e-5 + 3 * push, 1e-9);
-  for (const Index corner : {0, 1, 2}) EXPECT_NEAR(particles.position(corner).z(), -push / 3, 1e-9) << corner;
+  for (const Index corner : {0, 1, 2}) EXPECT_NEAR(particles.position(corner).z(), -2 * push / 3, 1e-9) << corner;
   EXPECT_NEAR(particles.position(3).x(), 0.01, 1e-9);
 }
 
 TEST(RestProximityConstraint, edges_share_the_way_by_where_they_pass_each_other) {
   Points points(3, 4);
   points << 0, 0.04, 0.01, 0.01, 0, 0, -0.03, 0.01, 0, 0, -1e-5, -1e-5;
-  Particles particles = make_particles(points, Eigen::VectorXd::Ones(4));
+  Particles particles = make_particles(points, Eigen::Vector4d(2, 3, 4, 5));
   const RestProximity place{{0, 1}, {2, 3, -1}, 1, 2e-5f};
   const float s = 0.25f, t = 0.75f;
   // along × other points to +z, and so does the way from the target to the probe: 10 µm of 20 are kept.
-  const float push = 1e-5f / ((1 - s) * (1 - s) + s * s + (1 - t) * (1 - t) + t * t);
+  const float push = 1e-5f / (2 * (1 - s) * (1 - s) + 3 * s * s + 4 * (1 - t) * (1 - t) + 5 * t * t);
   EXPECT_EQ(project_rest_proximities({place}, particles), 1);
-  EXPECT_NEAR(particles.position(0).z(), (1 - s) * push, 1e-9);
-  EXPECT_NEAR(particles.position(1).z(), s * push, 1e-9);
-  EXPECT_NEAR(particles.position(2).z(), -1e-5 - (1 - t) * push, 1e-9);
-  EXPECT_NEAR(particles.position(3).z(), -1e-5 - t * push, 1e-9);
+  EXPECT_NEAR(particles.position(0).z(), 2 * (1 - s) * push, 1e-9);
+  EXPECT_NEAR(particles.position(1).z(), 3 * s * push, 1e-9);
+  EXPECT_NEAR(particles.position(2).z(), -1e-5 - 4 * (1 - t) * push, 1e-9);
+  EXPECT_NEAR(particles.position(3).z(), -1e-5 - 5 * t * push, 1e-9);
 }
 
 TEST(RestProximityConstraint, what_passes_beside_a_face_or_beyond_an_edge_is_let_be) {

@@ -97,8 +97,12 @@ TEST(SurfaceContact, what_is_within_a_millimeter_and_a_half_is_listed_and_with_c
 }
 
 TEST(SurfaceContact, normals_from_before_are_not_used) {
-  Meeting fresh = pressed_balls(0.0003), stale = pressed_balls(0.0003);
+  Meeting fresh, stale;
   for (Meeting* meeting : {&fresh, &stale}) {
+    // Vertex against vertex, where normals alone tell the sides.
+    meeting->add(shapes::sphere(Vec3::Zero(), 0.01, 4));
+    meeting->add(shapes::sphere({0.0197, 0, 0}, 0.01, 4));
+    meeting->pair(0, 1, 0.0003f);
     meeting->prepare();
     meeting->start = meeting->particles;
     meeting->find();
