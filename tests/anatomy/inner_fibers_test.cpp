@@ -143,6 +143,14 @@ TEST(InnerFibers, fill_a_thin_tendon_that_bends_sharply) {
   EXPECT_LT(off, 0.001);
 }
 
+TEST(InnerFibers, one_alone_is_smoothed_as_among_many) {
+  Muscle muscle = bent_muscle();
+  muscle.fibers.count = 1;
+  const Polylines smooth = inner_fibers(muscle);
+  muscle.fibers.smoothing = 0;
+  EXPECT_GT((smooth.points - inner_fibers(muscle).points).colwise().norm().maxCoeff(), 2e-5);
+}
+
 TEST(InnerFibers, do_not_go_past_where_they_end_and_turn_back) {
   Muscle muscle = tube_muscle();
   const Sections sections = cut_into_sections(muscle);

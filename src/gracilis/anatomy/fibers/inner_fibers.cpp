@@ -234,12 +234,15 @@ Polylines inner_fibers(const Muscle& muscle) {
 
 namespace {
 
-/// Of a bundle that crosses a section in these points: 1/m² across its width and its thickness, by half of each where
-/// it fills the section evenly; nothing along the fibers.
-Eigen::Matrix3d inverse_extents(const Points& crossing) {
+/// Of a section: 1/m² across its width and its thickness, by half of each; nothing along the fibers.
+Eigen::Matrix3d inverse_extents(const SectionMap& map) {
+  constexpr Index probes = 32;
+  Points crossing(3, probes);
+  const std::vector<Eigen::Vector2d> starts = spread_over_square(probes);
+  for (Index i = 0; i < probes; ++i)
+    crossing.col(i) = map.at(starts[static_cast<std::size_t>(i)].x(), starts[static_cast<std::size_t>(i)].y());
   const Points offsets = crossing.colwise() - Vec3(crossing.rowwise().mean());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(offsets * offsets.transpose() /
-                                                              static_cast<Real>(crossing.cols()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(offsets * offsets.transpose() / probes);
   Eigen::Matrix3d found = Eigen::Matrix3d::Zero();
   for (const Index axis : {1, 2}) {  // the least is along the fibers, where sections are not flat
     constexpr Real least = 1e-12;    // m²
@@ -250,20 +253,15 @@ Eigen::Matrix3d inverse_extents(const Points& crossing) {
 }
 
 /// Per knot of the fibers; at their ends as in the section beside them.
-std::vector<Eigen::Matrix3d> extents_of(const std::vector<Points>& lines) {
-  const auto knots = static_cast<std::size_t>(lines.front().cols());
-  std::vector<Eigen::Matrix3d> found(knots, Eigen::Matrix3d::Zero());
-  Points crossing(3, static_cast<Index>(lines.size()));
-  for (std::size_t k = 1; k + 1 < knots; ++k) {
-    for (std::size_t f = 0; f < lines.size(); ++f)
-      crossing.col(static_cast<Index>(f)) = lines[f].col(static_cast<Index>(k));
-    found[k] = inverse_extents(crossing);
-  }
-  if (knots > 2) found.front() = found[1], found.back() = found[knots - 2];
+std::vector<Eigen::Matrix3d> extents_of(const Sections& sections) {
+  const std::size_t count = sections.maps.size();
+  std::vector<Eigen::Matrix3d> found(count + 2, Eigen::Matrix3d::Zero());
+  parallel_for_each(count, [&](std::size_t k) { found[k + 1] = inverse_extents(sections.maps[k]); });
+  if (count > 0) found.front() = found[1], found.back() = found[count];
   return found;
 }
 
-/// A fiber's points in sections and its two ends, with `inverse_extents` of its bundle.
+/// A fiber's points in sections and its two ends, with the sections' `inverse_extents`.
 struct Knots {
   Points line;
   std::vector<Eigen::Matrix3d> extents;
@@ -307,7 +305,8 @@ std::vector<Eigen::Matrix3d> limits_along(const Knots& knots, Real reach, Index 
 
 Polylines fibers_through(const Muscle& muscle, const Sections& sections, const FiberCourse& course) {
   std::vector<Points> lines = knots_of_fibers(muscle, sections, course);
-  const std::vector<Eigen::Matrix3d> extents = extents_of(lines);
+  const bool keeps = keeps_to_sections(muscle.fibers);
+  const std::vector<Eigen::Matrix3d> extents = keeps ? extents_of(sections) : std::vector<Eigen::Matrix3d>();
   const SignedDistance distance(muscle.surface);
   parallel_for(static_cast<Index>(lines.size()), 1, [&](Index begin, Index end) {
     for (Index f = begin; f < end; ++f) {
@@ -318,7 +317,7 @@ Polylines fibers_through(const Muscle& muscle, const Sections& sections, const F
       line.col(0) = first;
       line.rightCols(1) = last;
       std::vector<Eigen::Matrix3d> limits;
-      if (keeps_to_sections(muscle.fibers)) {
+      if (keeps) {
         const Knots knots = without_turning_back({line, extents});
         limits = limits_along(knots, std::max(muscle.fibers.smoothing_reach, least_reach), working_segments + 1);
         line = knots.line;

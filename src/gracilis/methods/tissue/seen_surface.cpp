@@ -186,10 +186,9 @@ Vec3 push_out_of(const BoneGap& bone, const SignedDistance& exact, const NearPla
   Vec3 push = Vec3::Zero();
   SignedDistance::Answer found = distance_near(exact, place.there, by_field, place.error);
   for (int i = 0; i < bone_rounds && found.distance < place.least; ++i) {
-    if (i > 0) found = exact.query_from(found.nearest.face, place.there + push);
-    if (!(found.distance < place.least)) break;
     push += (place.least - found.distance) *
             sample_spline_precise(bone.field.grid, place.there + push).gradient.normalized();
+    found = exact.query_from(found.nearest.face, place.there + push);
   }
   return push;
 }
