@@ -20,8 +20,8 @@ std::span<const Setting<FiberSettings>> setting_table() {
       {"convergence", &S::convergence, "", 0, 1,
        "How far a fan draws together at the insertion: 0 not at all, 1 to a point."},
       {"smoothing", &S::smoothing, "", 0, 10000, "Rounds of smoothing; the fibers' ends stay in place."},
-      {"smoothing_reach", &S::smoothing_reach, "", 0, 1000,
-       "How far smoothing moves a fiber at most, as a share of half of its bundle's width and thickness."},
+      {"smoothing_reach", &S::smoothing_reach, "", 0, unlimited_smoothing,
+       "How far smoothing moves a fiber at most, as a share of half of its bundle's width and thickness; 1: any way."},
   };
   return table;
 }

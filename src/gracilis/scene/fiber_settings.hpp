@@ -23,6 +23,10 @@ enum class FiberEnds {
 /// The names of the choices, in their order.
 constexpr std::array<std::string_view, 3> choices_of(FiberEnds) { return {"automatic", "attachments", "aponeuroses"}; }
 
+/// Of FiberSettings::smoothing_reach: fibers are as smooth as their rounds and the surface make them, through sections
+/// of equal areas alone, and may turn back beside attachments.
+inline constexpr Real unlimited_smoothing = 1;
+
 /// The fibers of one muscle. Defaults, units and ranges: setting_table<FiberSettings>().
 struct FiberSettings {
   int count = 100;    ///< fibers; 0: none
@@ -33,8 +37,8 @@ struct FiberSettings {
   Real curvature = 0.2;    ///< largest deflection of the curved template, as a share of the muscle's width
   Real convergence = 0.5;  ///< how far the fan template draws together at the insertion, 0: not, 1: to a point
   int smoothing = 30;      ///< rounds of smoothing
-  /// How far smoothing moves a fiber, as a share of half of its bundle's width and thickness, along each. Without a
-  /// limit it draws all fibers of a thin tendon together where that bends.
+  /// How far smoothing moves a fiber, as a share of half of its bundle's width and thickness, along each; or
+  /// `unlimited_smoothing`, which draws all fibers of a thin tendon together where that bends.
   Real smoothing_reach = 0.25;
 };
 

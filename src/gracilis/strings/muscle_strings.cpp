@@ -193,9 +193,6 @@ void find_neighbors(MuscleStrings& result) {
   }
 }
 
-/// Of fiber settings: strings will be pulled tight, and begin as the smoothest lines that the surface holds.
-constexpr Real smoothed_without_limit = 1000;
-
 }  // namespace
 
 bool runs_between_bodies(const Muscle& muscle) {
@@ -208,7 +205,8 @@ std::optional<MuscleStrings> muscle_strings(const Scene& scene, const Muscle& mu
   Muscle fibered = muscle;
   fibered.fibers.count = settings.count;
   fibered.fibers.segments = settings.segments;
-  fibered.fibers.smoothing_reach = smoothed_without_limit;
+  // They will be pulled tight, and begin as the smoothest lines that the surface holds.
+  fibered.fibers.smoothing_reach = unlimited_smoothing;
   const Polylines fibers = side_by_side(attached_fibers_of(fibered));
   if (fibers.count() == 0 || !fibers.points.allFinite()) return std::nullopt;
   MuscleStrings result;

@@ -2,6 +2,7 @@
 
 #include <gracilis/anatomy/attachments/attachment_samples.hpp>
 #include <gracilis/anatomy/fibers/fiber_containment.hpp>
+#include <gracilis/anatomy/fibers/fiber_knots.hpp>
 #include <gracilis/anatomy/fibers/fiber_template.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/assignment.hpp>
@@ -9,10 +10,7 @@
 #include <gracilis/geometry/isocontours.hpp>
 #include <gracilis/geometry/measures.hpp>
 
-#include <Eigen/Eigenvalues>
-
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -24,10 +22,9 @@ constexpr Index loop_points = 128;
 constexpr Index working_segments = 60;  ///< while fibers are smoothed, whatever the resolution asked for
 constexpr Real least_depth = 1e-4;      ///< m below the surface at least
 constexpr Real end_depth = 1e-5;        ///< m, of the ends
-constexpr Real least_reach = 1e-6;      ///< of smoothing, so that nothing is divided by zero
 
-/// Fibers that smoothing may move by as much as their bundle is thick hardly know where sections were.
-bool keeps_to_sections(const FiberSettings& settings) { return settings.smoothing_reach < 1; }
+/// Fibers that are smoothed without a limit hardly know where sections were.
+bool keeps_to_sections(const FiberSettings& settings) { return settings.smoothing_reach < unlimited_smoothing; }
 
 Eigen::VectorXd field_on(const Muscle& muscle, const MeshTopology& topology) {
   std::vector<Index> fixed;
@@ -232,81 +229,10 @@ Polylines inner_fibers(const Muscle& muscle) {
   });
 }
 
-namespace {
-
-/// Of a section: 1/m² across its width and its thickness, by half of each; nothing along the fibers.
-Eigen::Matrix3d inverse_extents(const SectionMap& map) {
-  constexpr Index probes = 32;
-  Points crossing(3, probes);
-  const std::vector<Eigen::Vector2d> starts = spread_over_square(probes);
-  for (Index i = 0; i < probes; ++i)
-    crossing.col(i) = map.at(starts[static_cast<std::size_t>(i)].x(), starts[static_cast<std::size_t>(i)].y());
-  const Points offsets = crossing.colwise() - Vec3(crossing.rowwise().mean());
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(offsets * offsets.transpose() / probes);
-  Eigen::Matrix3d found = Eigen::Matrix3d::Zero();
-  for (const Index axis : {1, 2}) {  // the least is along the fibers, where sections are not flat
-    constexpr Real least = 1e-12;    // m²
-    const Vec3 across = spread.eigenvectors().col(axis);
-    found += across * across.transpose() / std::max(3 * spread.eigenvalues()[axis], least);
-  }
-  return found;
-}
-
-/// Per knot of the fibers; at their ends as in the section beside them.
-std::vector<Eigen::Matrix3d> extents_of(const Sections& sections) {
-  const std::size_t count = sections.maps.size();
-  std::vector<Eigen::Matrix3d> found(count + 2, Eigen::Matrix3d::Zero());
-  parallel_for_each(count, [&](std::size_t k) { found[k + 1] = inverse_extents(sections.maps[k]); });
-  if (count > 0) found.front() = found[1], found.back() = found[count];
-  return found;
-}
-
-/// A fiber's points in sections and its two ends, with the sections' `inverse_extents`.
-struct Knots {
-  Points line;
-  std::vector<Eigen::Matrix3d> extents;
-};
-
-/// Without points from which a fiber would turn back: beside attached areas that lie along a muscle contours go past
-/// where fibers end, or around these areas.
-Knots without_turning_back(const Knots& all) {
-  const Points& line = all.line;
-  std::vector<Index> kept;
-  for (Index k = 0; k < line.cols(); ++k) {
-    const auto turns_back = [&] {
-      const Vec3 here = line.col(kept.back()), before = line.col(kept[kept.size() - 2]);
-      return (line.col(k) - here).dot(here - before) < 0;
-    };
-    while (kept.size() > 1 && turns_back()) kept.pop_back();
-    kept.push_back(k);
-  }
-  Knots found{line(Eigen::all, kept), {}};
-  for (const Index k : kept) found.extents.push_back(all.extents[static_cast<std::size_t>(k)]);
-  return found;
-}
-
-/// What limits how far smoothing moves a fiber's points, of which there are `count` with equal ways between them.
-std::vector<Eigen::Matrix3d> limits_along(const Knots& knots, Real reach, Index count) {
-  const Points& line = knots.line;
-  std::vector<Real> passed = {0};
-  for (Index k = 1; k < line.cols(); ++k) passed.push_back(passed.back() + (line.col(k) - line.col(k - 1)).norm());
-  std::vector<Eigen::Matrix3d> limits;
-  std::size_t k = 1;
-  for (Index i = 0; i < count; ++i) {
-    const Real at = passed.back() * static_cast<Real>(i) / static_cast<Real>(count - 1);
-    while (k + 1 < passed.size() && passed[k] < at) ++k;
-    const Real way = passed[k] - passed[k - 1], share = way > 0 ? std::min((at - passed[k - 1]) / way, 1.0) : 0;
-    limits.push_back(((1 - share) * knots.extents[k - 1] + share * knots.extents[k]) / (reach * reach));
-  }
-  return limits;
-}
-
-}  // namespace
-
 Polylines fibers_through(const Muscle& muscle, const Sections& sections, const FiberCourse& course) {
   std::vector<Points> lines = knots_of_fibers(muscle, sections, course);
   const bool keeps = keeps_to_sections(muscle.fibers);
-  const std::vector<Eigen::Matrix3d> extents = keeps ? extents_of(sections) : std::vector<Eigen::Matrix3d>();
+  const std::vector<Eigen::Matrix3d> extents = keeps ? inverse_extents(sections.maps) : std::vector<Eigen::Matrix3d>();
   const SignedDistance distance(muscle.surface);
   parallel_for(static_cast<Index>(lines.size()), 1, [&](Index begin, Index end) {
     for (Index f = begin; f < end; ++f) {
@@ -318,8 +244,8 @@ Polylines fibers_through(const Muscle& muscle, const Sections& sections, const F
       line.rightCols(1) = last;
       std::vector<Eigen::Matrix3d> limits;
       if (keeps) {
-        const Knots knots = without_turning_back({line, extents});
-        limits = limits_along(knots, std::max(muscle.fibers.smoothing_reach, least_reach), working_segments + 1);
+        const FiberKnots knots = without_turning_back({line, extents});
+        limits = smoothing_limits(knots, muscle.fibers.smoothing_reach, working_segments + 1);
         line = knots.line;
       }
       line = resampled(centripetal_spline(line, 6), working_segments);

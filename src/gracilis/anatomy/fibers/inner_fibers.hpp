@@ -25,8 +25,8 @@ Eigen::VectorXd origin_to_insertion(const Muscle& muscle);
 /// decomposition, Kohout and Kukačka 2014). The levels have equal areas of surface between them. A consistent angular
 /// parameter runs around all contours: each begins where its points come nearest to those of the contour before.
 /// Between contours that lie farther apart than half of their girth, as on thin tendons, there are more, unless fibers
-/// are smoothed by as much as their bundle is thick. Levels with a second contour longer than a quarter of the first,
-/// such as between two heads, are left out.
+/// are smoothed without a limit. Levels with a second contour longer than a quarter of the first, such as between two
+/// heads, are left out.
 Sections cut_into_sections(const Muscle& muscle, int levels = 32);
 
 /// The fibers of a muscle by template decomposition: `muscle.fibers.count` lines of `muscle.fibers.segments` pieces.

@@ -168,8 +168,10 @@ void push_out(const PreparedTissue& muscle, const Surroundings& around, std::siz
   }
 }
 
-/// A place in a bone's frame, how far from the bone it is to be, and by how much the field may be wrong there, m.
+/// A place in a bone's frame, which was looked at from vertex `seen_from` close by, how far from the bone it is to be,
+/// and by how much the field may be wrong there, m.
 struct NearPlace {
+  Index seen_from = 0;
   Vec3 there;
   Real least = 0, error = 0;
 };
@@ -194,9 +196,13 @@ Vec3 push_out_of(const BoneGap& bone, const SignedDistance& exact, const NearPla
 }
 
 /// What takes the place out of the bone, nothing where the field says that it is clear.
-Vec3 push_from(const BoneGap& bone, const Surroundings& around, const SignedDistance& exact, const NearPlace& place) {
+Vec3 push_from(const PreparedTissue& muscle, const Surroundings& around, std::size_t b, const SignedDistance& exact,
+               const NearPlace& place) {
+  const BoneGap& bone = muscle.bones[b];
+  const Real clear = place.least + place.error;
+  if (least_distance(around.queries[b], place.seen_from, place.there) > clear) return Vec3::Zero();
   const Real by_field = distance_in(bone, place.there);
-  if (by_field > place.least + place.error) return Vec3::Zero();
+  if (by_field > clear) return Vec3::Zero();
   return around.bodies[static_cast<std::size_t>(bone.body)].linear() * push_out_of(bone, exact, place, by_field);
 }
 
@@ -209,8 +215,7 @@ void push_vertices_out(const PreparedTissue& muscle, const Surroundings& around,
       const BoneGap& bone = muscle.bones[b];
       const Real least = bone.seen_least[static_cast<std::size_t>(v)];
       const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * x.col(v);
-      if (least_distance(around.queries[b], v, there) > least + field_error) continue;
-      x.col(v) += push_from(bone, around, distances[b], {there, least, field_error});
+      x.col(v) += push_from(muscle, around, b, distances[b], {v, there, least, field_error});
     }
 }
 
@@ -220,9 +225,7 @@ bool push_edge_out(const PreparedTissue& muscle, const Surroundings& around, std
   const BoneGap& bone = muscle.bones[b];
   const auto [first, second] = muscle.edges[edge];
   const Vec3 there = around.inverses[static_cast<std::size_t>(bone.body)] * Vec3((x.col(first) + x.col(second)) / 2);
-  const Real least = bone.edge_least[edge];
-  if (least_distance(around.queries[b], first, there) > least + edge_field_error) return false;
-  const Vec3 push = push_from(bone, around, exact, {there, least, edge_field_error});
+  const Vec3 push = push_from(muscle, around, b, exact, {first, there, bone.edge_least[edge], edge_field_error});
   for (const Index v : {first, second})
     if (muscle.points[static_cast<std::size_t>(v)].held_by < 0) x.col(v) += push;
   return !push.isZero(0);
