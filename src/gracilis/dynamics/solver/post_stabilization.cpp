@@ -19,6 +19,8 @@ constexpr double squeezed = 1e-3;
 /// the limit allows.
 constexpr int recovering_passes = 40;
 constexpr float torn = 1.1f;
+/// Rounds of repair, and passes after each in which what was moved gets its volume and keeps out of bones.
+constexpr int repair_rounds = 3, passes_after_repair = 2;
 
 /// Whether contact has squeezed it out of its volume.
 bool is_squeezed(const SurfaceSolve& surface) {
@@ -108,9 +110,8 @@ void list_near_shape_limits(const SurfaceSolve& surface) {
     state.near_shape_limit = near_shape_limits(surface.system->shape_limits, limits, near_limit, state.particles);
 }
 
-/// What was moved since the last iteration, by untangling too, may be near anything and may be stretched far.
-void look_again(JointSolve& solve) {
-  if (solve.coupling.refresh) solve.coupling.refresh(solve.movers);
+/// What was moved may be near any bone and may be stretched far.
+void list_anew(JointSolve& solve) {
   solve.for_each(movers_of_round(solve, 0), [&](std::size_t i) {
     const SurfaceSolve& surface = solve.surfaces[i];
     keep_listed(*surface.system, *surface.placements, *surface.state);
@@ -118,6 +119,12 @@ void look_again(JointSolve& solve) {
     activate_all(surface.state->strained);
     list_near_shape_limits(surface);
   });
+}
+
+/// What was moved since the last iteration, by untangling too, may be near anything.
+void look_again(JointSolve& solve) {
+  if (solve.coupling.refresh) solve.coupling.refresh(solve.movers);
+  list_anew(solve);
 }
 
 /// Goes on with those that are still squeezed.
@@ -149,6 +156,21 @@ void recover(JointSolve& solve) {
   for (int pass = 0; pass < recovering_passes && keep_movers(solve, is_hurt); ++pass) {
     project(ConstraintKind::volume, solve, all_movers(solve));
     pull_together(solve, all_movers(solve));
+  }
+}
+
+void repair(JointSolve& solve) {
+  if (!solve.coupling.repair_penetrations) return;
+  for (int round = 0; round < repair_rounds; ++round) {
+    solve.movers = {};
+    solve.coupling.refresh(solve.movers);
+    solve.movers.listed = solve.coupling.repair_penetrations();
+    if (solve.movers.listed.empty()) return;
+    list_anew(solve);
+    for (int pass = 0; pass < passes_after_repair; ++pass) {
+      project(ConstraintKind::volume, solve, all_movers(solve));
+      pull_together(solve, all_movers(solve));
+    }
   }
 }
 

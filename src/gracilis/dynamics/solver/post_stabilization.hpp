@@ -13,4 +13,8 @@ void settle(JointSolve& solve);
 /// What contact between surfaces, or untangling, has torn or squeezed recovers without them.
 void recover(JointSolve& solve);
 
+/// What then still lies deep in another surface is taken out of it, together with what lies around it
+/// (penetration_repair.hpp).
+void repair(JointSolve& solve);
+
 }  // namespace gracilis

@@ -50,6 +50,7 @@ void solve_together(std::vector<SurfaceSolve>& surfaces, const Coupling& couplin
   settle(solve);
   untangle(solve);
   recover(solve);
+  repair(solve);
 }
 
 SolveReport solve_substep(const SurfaceSystem& system, const std::vector<FieldPlacement>& placements,

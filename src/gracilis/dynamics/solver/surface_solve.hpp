@@ -52,6 +52,8 @@ struct Coupling {
   /// Of the movers, once they settled, per surface.
   std::function<std::vector<Tangle>(const Movers&)> find_tangles = {};
   std::function<void(const std::vector<Tangle>&, int attempt)> untangle = {};  ///< attempts of a step count from 0
+  /// After a refresh: takes what lies deep in another surface out of it; returns which surfaces moved, empty: none.
+  std::function<std::vector<char>()> repair_penetrations = {};
 };
 
 /// Called after each projection of a kind on a surface.

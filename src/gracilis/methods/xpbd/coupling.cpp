@@ -2,6 +2,7 @@
 
 #include <gracilis/dynamics/contact/surface/broad_phase.hpp>
 #include <gracilis/dynamics/contact/surface/narrow_phase.hpp>
+#include <gracilis/dynamics/contact/surface/penetration_repair.hpp>
 #include <gracilis/dynamics/contact/surface/surface_contact.hpp>
 #include <gracilis/dynamics/contact/surface/surface_ties.hpp>
 #include <gracilis/dynamics/contact/surface/untangling.hpp>
@@ -23,7 +24,8 @@ Coupling couple_by_surfaces(const std::vector<MuscleStep>& steps, const ContactW
           [&world, &state, seen](const Movers& movers) { return find_tangles(world, state, seen, movers); },
           [&world, particles](const std::vector<Tangle>& tangles, int attempt) {
             untangle(world, tangles, attempt, particles);
-          }};
+          },
+          [&world, &state, particles] { return repair_penetrations(world, state, particles); }};
 }
 
 Coupling couple_by_edges(const std::vector<MuscleStep>& steps, const VirtualEdgeWorld& world, VirtualEdgeState& state) {

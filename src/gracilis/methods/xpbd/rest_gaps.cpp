@@ -159,7 +159,8 @@ Real OverlapTable::deepest(Index first, Index second) const {
 void OverlapTable::mark(float reach, SurfacePair& pair) const {
   const Entry* entry = find(pair.first, pair.second);
   if (!entry) return;
-  pair.release = std::max(least_release, static_cast<float>(entry->overlap.deepest()) / release_steps);
+  pair.deepest = static_cast<float>(entry->overlap.deepest());
+  pair.release = std::max(least_release, pair.deepest / release_steps);
   const OverlapSides& sides = entry->sides;
   mark_side(entry->overlap.of_first, sides.first_astray, sides.is_through, reach, pair.first_gap, pair.first_overlaps);
   mark_side(entry->overlap.of_second, sides.second_astray, sides.is_through, reach, pair.second_gap,
