@@ -1,7 +1,7 @@
 """Attachment areas from points around them (chapter 2, section 5.11)."""
 import statistics
 
-from charts import Series, published
+from charts import PUBLISHED, Series, published
 from runs import groups, table
 
 FOUND = 99.9  # %: all links of an outline
@@ -29,7 +29,7 @@ def drawn(page):
     measured = points["measured"]
     for curve in ("shortest-tour", "angular"):
         page.draw(f"figure_5_11_{curve.replace('-', '_')}",
-                  [Series(curve, points[curve]), published("measured", measured, dash=True), Series("", measured, "#222", marks=True, size=2)])
+                  [Series(curve, points[curve]), Series("measured", measured, PUBLISHED, dash=True), Series("points", measured, "#222", marks=True, size=2)])
 
 
 def tell(page):

@@ -86,7 +86,7 @@ def signals(page):
 def exponents(page):
     """Figure 5.5."""
     tables = groups(table(page, "exponents"), "signal")
-    whole = [published("whole numbers" if n == 1 else "", [(n, -20), (n, 25)], dash=True) for n in range(1, 7)]
+    whole = [published(f"peak at {n}", [(n, -20), (n, 25)], dash=True, legend="published: peaks at whole numbers" if n == 1 else "") for n in range(1, 7)]
     error = [Series(name, [(row["exponent"], log(row["percent"])) for row in rows if row["percent"] is not None]) for name, rows in tables.items()]
     values = [y for s in error for _, y in s.points]
     room = 0.05 * (max(values) - min(values))

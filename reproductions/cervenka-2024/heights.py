@@ -61,7 +61,7 @@ def compression(page):
               for (field, placement), each in groups(rows, "field", "placement").items()]
     band = page.value("compression_low"), page.value("compression_high")
     bottom = min(y for s in series for _, y in s.points) - 0.3
-    told = [published(f"published: {band[0]:g} and {band[1]:g} %" if x == band[0] else "", [(x, bottom), (x, 3)], dash=True) for x in band]
+    told = [published(f"{x:g} %", [(x, bottom), (x, 3)], dash=True, legend=f"published: {band[0]:g} and {band[1]:g} %" if x == band[0] else "") for x in band]
     page.draw("compression", told + series, y_range=(bottom, 2.3))
     kept = groups([row for row in rows if row["placement"] == "Halton" and row["percent"] < 1], "field")
     least = {short(field): min(row["share_percent"] for row in each) for field, each in kept.items()}

@@ -1,9 +1,9 @@
 """Volumes, edges and angles of a box and of muscles that are bent and let go."""
-import json
 import os
 
 import runs
 from charts import Series, lines
+from files import read
 
 # What is measured, as it is drawn and as runs have it, and the first of the figures that show it, of the box, iliacus and gluteus maximus.
 CURVES = (("volume_error_percent", "volume_ratio", lambda value: 100 * (value - 1), 11), ("mean_edge_ratio", "edge_ratio_mean", float, 14),
@@ -19,7 +19,7 @@ def curves(page, bodies):
         page.draw(name, lines(found[name]))
         for number, muscle in enumerate(SHOWN):
             if first and muscle in found[name]:
-                page.draw(f"figure_{first + number}", lines({muscle: found[name][muscle]}), {"figure": first + number, "muscle": muscle.replace("_", " ")})
+                page.draw(f"figure_{first + number}", lines({muscle: found[name][muscle]}))
     return found
 
 
@@ -28,8 +28,8 @@ def fibers(page):
     of_muscles = runs.fibers(f"{page.out}/hip")
     for muscle, figure in (("iliacus_r", 20), ("gluteus_maximus_r", 21)):
         of_fibers = list(zip(*(lengths for _, lengths in of_muscles[muscle])))
-        page.draw(f"figure_{figure}", [Series("fibers" if i == 0 else "", list(enumerate(lengths)), "#0072b2") for i, lengths in enumerate(of_fibers)],
-                  {"figure": figure, "muscle": muscle.replace("_", " "), "fibers": len(of_fibers)})
+        page.draw(f"figure_{figure}", [Series(f"fiber {i}", list(enumerate(lengths)), "#0072b2", legend="" if i else "fibers") for i, lengths in enumerate(of_fibers)],
+                  {"fibers": len(of_fibers)})
 
 
 def make(page):
@@ -40,8 +40,7 @@ def make(page):
     else:
         page.cannot("Figures 20 and 21: lengths of fibers", "the cadaver's hip (--data), without --thin")
     for body in bodies:
-        with open(f"{page.out}/{body}.json") as file:
-            triangles = {os.path.basename(surface["file"]).removesuffix("_0000.vtp"): surface["triangles"] for surface in json.load(file)}
+        triangles = {os.path.basename(surface["file"]).removesuffix("_0000.vtp"): surface["triangles"] for surface in read(f"{page.out}/{body}.json")}
         for muscle, table in runs.groups(runs.measures(f"{page.out}/{body}"), "muscle").items():
             times = [row["milliseconds"] for row in table[1:]]
             page.put(f"{muscle} triangles", triangles[muscle])

@@ -5,21 +5,24 @@ import math
 import struct
 import zlib
 
-COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f3c8d", "#11a579", "#a5aa99"]
+COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#7f3c8d", "#8c564b", "#b5bd00"]
 PUBLISHED = "#555"
-LEFT, BOTTOM, TOP = 52, 36, 8
-BAR = 64  # what a field's color bar takes on the right
+BOTTOM, TOP = 36, 8
+RIGHT, BAR = 18, 66  # what is kept free on the right, and what a field's color bar takes there
 RISING = [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)]  # from dark to light, in gray, too
 ABOUT_ZERO = [(33, 102, 172), (247, 247, 247), (178, 24, 43)]
 
 
 class Series:
     """Points (x, y) joined by a line, or apart (`marks`); `band`: a second row of points, the area between is filled.
-    Points that are not finite are left out, and a line is broken there."""
+    Points that are not finite are left out, and a line is broken there. `legend`: what the legend says in place of the name; empty: nothing."""
 
-    def __init__(self, name, points, color=None, marks=False, dash=False, band=None, size=3):
+    def __init__(self, name, points, color=None, marks=False, dash=False, band=None, size=3, legend=None, published=False):
+        if not name:
+            raise ValueError("a curve without a name")
         self.name, self.points, self.color = name, points, color
         self.marks, self.dash, self.band, self.size = marks, dash, band, size
+        self.legend, self.published = name if legend is None else legend, published
 
 
 def lines(curves):
@@ -53,18 +56,18 @@ class Field:
 def color_bar(field, x, high):
     """Colors and numbers to the right of a chart."""
     steps = [[field.low + (field.high - field.low) * (1 - i / 99)] for i in range(100)]
-    parts = [f'<image x="{x}" y="{TOP}" width="10" height="{high}" preserveAspectRatio="none" href="{field.image(steps)}"/>'
-             f'<rect x="{x}" y="{TOP}" width="10" height="{high}" fill="none" stroke="#999"/>']
+    parts = [f'<image x="{x:.1f}" y="{TOP}" width="10" height="{high}" preserveAspectRatio="none" href="{field.image(steps)}"/>'
+             f'<rect x="{x:.1f}" y="{TOP}" width="10" height="{high}" fill="none" stroke="#999"/>']
     for t in ticks(field.low, field.high, 6):
         y = TOP + high * (field.high - t) / (field.high - field.low)
-        parts.append(f'<text x="{x + 13}" y="{y:.1f}" dy="4">{t:g}</text>')
-    parts.append(f'<text transform="translate({x + 50},{TOP + high / 2:.0f}) rotate(-90)" text-anchor="middle">'
+        parts.append(f'<text x="{x + 13:.1f}" y="{y:.1f}" dy="4">{t:g}</text>')
+    parts.append(f'<text transform="translate({x + 54:.1f},{TOP + high / 2:.0f}) rotate(-90)" text-anchor="middle">'
                  f'{html.escape(field.label)}</text>')
     return "".join(parts)
 
 
 def published(name, points, **more):
-    return Series(name, points, PUBLISHED, **more)
+    return Series(name, points, **{"color": PUBLISHED, **more}, published=True)
 
 
 def pieces(points):
@@ -112,12 +115,17 @@ def bounds(values, margin=0.05):
     return low - room, high + room
 
 
+def left_of(labels):
+    """What numbers of these labels and an axis' name take to the left of a chart."""
+    return 26 + 6.4 * max((len(label) for label in labels), default=0)
+
+
 def legend_rows(legend, width):
-    """Entries (name, drawn) in rows, three in each at most, and no more than there is room for: a letter takes some 6.2 units."""
+    """Entries (name, drawn) in rows, five in each at most, and no more than there is room for: a letter takes some 6.2 units."""
     rows, room = [], 0
     for name, drawn in legend:
         needs = 6.2 * (len(name) + 4)
-        if not rows or len(rows[-1]) == 3 or needs > room:
+        if not rows or len(rows[-1]) == 5 or needs > room:
             rows.append([])
             room = width
         rows[-1].append(drawn)
@@ -135,7 +143,8 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
         return ""
     left, right = x_range or bounds([p[0] for p in every], 0.02)
     bottom, top = y_range or bounds([p[1] for p in every])
-    across, high = width - LEFT - (BAR if field else 10), height - BOTTOM - TOP
+    edge = left_of([f"{t:g}" for t in ticks(bottom, top)])
+    across, high = width - edge - (BAR if field else RIGHT), height - BOTTOM - TOP
     if square:
         unit = max((right - left) / across, (top - bottom) / high)
         middle = (left + right) / 2, (bottom + top) / 2
@@ -143,7 +152,7 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
         bottom, top = middle[1] - unit * high / 2, middle[1] + unit * high / 2
 
     def at(point):
-        return LEFT + across * (point[0] - left) / (right - left), TOP + high * (top - point[1]) / (top - bottom)
+        return edge + across * (point[0] - left) / (right - left), TOP + high * (top - point[1]) / (top - bottom)
 
     def line(points, style):
         text = " ".join(f"{x:.1f},{y:.1f}" for x, y in map(at, points))
@@ -152,23 +161,24 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
     parts = []
     for t in ticks(bottom, top):
         y = at((left, t))[1]
-        parts.append(f'<line x1="{LEFT}" y1="{y:.1f}" x2="{LEFT + across}" y2="{y:.1f}" stroke="#e4e4e4"/>'
-                     f'<text x="{LEFT - 5}" y="{y:.1f}" dy="4" text-anchor="end">{t:g}</text>')
+        parts.append(f'<line x1="{edge:.1f}" y1="{y:.1f}" x2="{edge + across:.1f}" y2="{y:.1f}" stroke="#e4e4e4"/>'
+                     f'<text x="{edge - 5:.1f}" y="{y:.1f}" dy="4" text-anchor="end">{t:g}</text>')
     for t in ticks(left, right):
         x = at((t, bottom))[0]
         parts.append(f'<line x1="{x:.1f}" y1="{TOP}" x2="{x:.1f}" y2="{height - BOTTOM}" stroke="#f2f2f2"/>'
                      f'<text x="{x:.1f}" y="{height - BOTTOM + 14}" text-anchor="middle">{t:g}</text>')
-    parts.append(f'<text x="{LEFT + across / 2:.0f}" y="{height - 4}" text-anchor="middle">{html.escape(x_label)}</text>')
+    parts.append(f'<text x="{edge + across / 2:.0f}" y="{height - 4}" text-anchor="middle">{html.escape(x_label)}</text>')
     parts.append(f'<text transform="translate(11,{TOP + high / 2:.0f}) rotate(-90)" text-anchor="middle">'
                  f'{html.escape(y_label)}</text>')
     colors = iter([(color, dash) for dash in (False, True) * 9 for color in COLORS])  # what comes after all colors is dashed
+    broad = 1.8 if len(series) < 30 else 0.6
     legend = []
     inside = []
     if field:
         (x0, y0), (x1, y1) = at((field.x_range[0], field.y_range[1])), at((field.x_range[1], field.y_range[0]))
         inside.append(f'<image x="{x0:.1f}" y="{y0:.1f}" width="{x1 - x0:.1f}" height="{y1 - y0:.1f}" style="image-rendering:pixelated" '
                       f'preserveAspectRatio="none" href="{field.image(field.rows[::-1])}"/>')
-        parts.append(color_bar(field, LEFT + across + 6, high))
+        parts.append(color_bar(field, edge + across + 6, high))
     for s in series:
         color, dashed = (s.color, s.dash) if s.color else next(colors)
         if s.band:
@@ -180,16 +190,18 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
             inside += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{s.size}" fill="{color}"{rim}/>' for x, y in map(at, finite(s.points))]
         else:
             dash = ' stroke-dasharray="5 3"' if s.dash or dashed else ""
-            inside += [line(piece, f'stroke="{color}" stroke-width="1.8"{dash}') for piece in pieces(s.points)]
-        if s.name and s.points and not s.band:  # the curve through a band tells of it
-            legend.append((s.name, f'<tspan fill="{color}">{"┅" if dashed and not s.dash else "■"} {html.escape(s.name)}</tspan>'))
+            inside += [line(piece, f'stroke="{color}" stroke-width="{broad}"{dash}') for piece in pieces(s.points)]
+        through = s.band and any(other.name == s.name and not other.band for other in series)
+        if s.legend and s.points and not through:  # a curve through a band tells of it
+            mark = "●" if s.marks else "┅" if s.dash or dashed else "■"
+            legend.append((s.legend, f'<tspan fill="{color}">{mark}</tspan> {html.escape(s.legend)}'))
     clip = f"c{zlib.crc32(repr((title, x_label, y_label, width, height)).encode()):x}"
-    parts.append(f'<clipPath id="{clip}"><rect x="{LEFT}" y="{TOP}" width="{across}" height="{high}"/></clipPath>'
+    parts.append(f'<clipPath id="{clip}"><rect x="{edge:.1f}" y="{TOP}" width="{across:.1f}" height="{high}"/></clipPath>'
                  f'<g clip-path="url(#{clip})">{"".join(inside)}</g>')
-    parts.append(f'<rect x="{LEFT}" y="{TOP}" width="{across}" height="{high}" fill="none" stroke="#999"/>')
-    rows = legend_rows(legend, width - LEFT)
+    parts.append(f'<rect x="{edge:.1f}" y="{TOP}" width="{across:.1f}" height="{high}" fill="none" stroke="#999"/>')
+    rows = legend_rows(legend, width - edge)
     for row, names in enumerate(rows):
-        parts.append(f'<text x="{LEFT}" y="{height + 12 + 15 * row}">{" &#160; ".join(names)}</text>')
+        parts.append(f'<text x="{edge:.1f}" y="{height + 12 + 15 * row}">{" &#160; ".join(names)}</text>')
     extra = 15 * len(rows)
     return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height + extra}" '
             f'viewBox="0 0 {width} {height + extra}" font-size="11" font-family="sans-serif" role="img" '

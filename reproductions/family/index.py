@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """index.py OUT NAME...: OUT/index.html with a thumbnail of each figure and the command under it. Those without figures are named."""
 import html
-import json
 import os
 import sys
 
+from files import read
 from publication import STYLE
 
 
@@ -17,10 +17,9 @@ def figure(name, each):
 
 def section(name):
     path = os.path.join(OUT, name, "figures.json")
-    if not os.path.exists(path):
+    made = read(path)
+    if not made:
         return f"<h2>{name}</h2><p>Not made: its data are not here, or it failed.</p>"
-    with open(path) as file:
-        made = json.load(file)
     drawn = "".join(figure(name, each) for each in made["figures"])
     return (f'<h2><a href="{name}/index.html">{html.escape(made["title"])}</a></h2>'
             f'<div class="figures thumbs">{drawn}</div>')

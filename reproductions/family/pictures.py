@@ -7,16 +7,13 @@ import os
 import shlex
 import subprocess
 import sys
-import tomllib
+
+import files
 
 
 def listed(here):
     """Entries of HERE/pictures.toml; none where there is no such file."""
-    path = os.path.join(here, "pictures.toml")
-    if not os.path.exists(path):
-        return []
-    with open(path, "rb") as file:
-        return tomllib.load(file)["pictures"]
+    return files.read(os.path.join(here, "pictures.toml")).get("pictures", [])
 
 
 def picture_of(out, entry):

@@ -5,29 +5,26 @@ import fnmatch
 import html
 import json
 import os
-import re
 import struct
 import sys
-import tomllib
 
 import charts
+import comparing
+import files
+import naming
 import pictures
+from comparing import number
 
-STYLE = """body{font:15px/1.5 sans-serif;max-width:1100px;margin:2em auto;padding:0 1em;color:#222}
-.figures{display:flex;flex-wrap:wrap;gap:18px}figure{margin:0;max-width:100%}figcaption{max-width:380px;font-size:13px}
-figcaption b{display:block;font-size:15px}svg,img{background:#fff;max-width:100%;height:auto}
-figure img{width:380px}.broad,.broad img{width:100%}.broad figcaption{max-width:none}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;border-bottom:1px solid #ddd;text-align:right}
+STYLE = """body{font:15px/1.5 sans-serif;max-width:1180px;margin:2em auto;padding:0 1em;color:#222}
+.figures{display:flex;flex-wrap:wrap;gap:18px}figure{margin:0;max-width:100%;break-inside:avoid}figcaption{max-width:380px;font-size:13px}
+figcaption b{display:block;font-size:15px}figcaption i{display:block}svg,img{background:#fff;max-width:100%;height:auto}
+figure img{width:380px;max-height:560px;object-fit:contain}.broad{width:100%}.broad img{width:100%;max-height:700px;object-position:left}.broad figcaption{max-width:none}.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px}td,th{padding:2px 8px;border-bottom:1px solid #ddd;text-align:right}
 td.word,th.word{text-align:left}code{background:#f4f4f4;padding:0 3px;overflow-wrap:anywhere}.thumbs figure{width:210px}.thumbs svg,.thumbs img{width:210px;height:auto}
 .key{display:inline-block;width:22px;height:4px;margin:0 5px 3px 14px}"""
 NOT_MADE = "not made"
+UNEXPLAINED = "differs, not explained"
+BROAD = 1200  # pixels from which a picture has a row of its own
 COLUMNS = ["source", "quantity", "unit", "published", "ours", "ratio", "remark"]
-
-
-def number(text):
-    try:
-        return float(text)
-    except (TypeError, ValueError):
-        return None
 
 
 def shown(value):
@@ -79,12 +76,6 @@ def broad(drawn):
     return ' class="broad"' if drawn.startswith('<img class="broad"') else ""
 
 
-def figure_order(title):
-    """By the publication's first figure that the title names, those of appendices behind; what names none comes last."""
-    found = re.search(r"Figures? ([A-Z]?)\.?(\d+)(?:\.(\d+))?", title)
-    return (found[1] or " ", int(found[2]), int(found[3] or 0)) if found else ("~", 0, 0)
-
-
 class Page:
     """Collects figures and writes OUT/index.html, OUT/results.csv and, of each figure, its picture and its curves."""
 
@@ -92,9 +83,11 @@ class Page:
         self.out, self.title, self.about, self.command = out, title, about, command
         self.figures, self.rows, self.missing = [], [], []
         self.lacks = []  # what a complete pass would have had
+        self.unexplained = []  # figures that differ, or of which nothing tells how they compare
 
-    def chart(self, name, title, remark, series, x_label, y_label, command="", **more):
-        """A chart, OUT/figures/NAME.svg, and its points, NAME.csv (NAME_field.csv: what lies under them). `command`: what made its numbers, where that is not the page's."""
+    def chart(self, name, title, remark, series, x_label, y_label, command="", same="", differs="", **more):
+        """A chart, OUT/figures/NAME.svg, and its points, NAME.csv (NAME_field.csv: what lies under them). `command`: what made its numbers, where that is not the page's.
+        `same`: in what it is as published; `differs`: in what it is not, and why."""
         svg = charts.chart(title, series, x_label, y_label, **more)
         if not svg:
             self.lacks.append(title)
@@ -104,7 +97,7 @@ class Page:
         field = more.get("field")
         if field:
             self._field(name, field, x_label, y_label)
-        self.figures.append((name, title, remark, svg, command or self.command))
+        self._add(name, title, remark, svg, command, same, differs, comparing.unfollowed(series))
 
     def _field(self, name, field, x_label, y_label):
         """NAME_field.csv: the middle of each colored rectangle and the value there."""
@@ -122,12 +115,12 @@ class Page:
         for entry in pictures.listed(here):
             path = pictures.picture_of(self.out, entry)
             if os.path.exists(path):
-                self.picture(entry["name"], entry["title"], entry["remark"], path, pictures.command_of(entry))
+                self.picture(entry["name"], entry["title"], entry["remark"], path, pictures.command_of(entry), entry.get("same", ""), entry.get("differs", ""))
             else:
                 self.lacks.append(entry["title"])
                 self.cannot(entry["title"], entry["needs"])
 
-    def picture(self, name, title, remark, path, command=""):
+    def picture(self, name, title, remark, path, command="", same="", differs=""):
         """A PNG, which the page holds, and what drew it (empty: the page's command)."""
         if not os.path.exists(path):
             self.lacks.append(title)
@@ -138,22 +131,32 @@ class Page:
             file.write(data)
         encoded = base64.b64encode(data).decode()
         width, height = struct.unpack(">II", data[16:24])
-        kind = ' class="broad"' if width > 2 * height else ""
-        self.figures.append((name, title, remark,
-                             f'<img{kind} alt="{html.escape(title)}" src="data:image/png;base64,{encoded}">', command or self.command))
+        kind = ' class="broad"' if width > 2 * height or width >= BROAD else ""
+        self._add(name, title, remark, f'<img{kind} alt="{html.escape(title)}" src="data:image/png;base64,{encoded}">', command, same, differs)
+
+    def _add(self, name, title, remark, drawn, command, same, differs, unfollowed=()):
+        """A figure and how it compares. One of the publication that says nothing of that is listed, and so is one whose published curves no curve of ours follows."""
+        compared = [f"As published: {same}"] if same else []
+        if differs:
+            compared.append(f"Differs: {differs}")
+        elif unfollowed or not (same or naming.is_beside(title) or not naming.named(title)):
+            compared.append(": ".join([UNEXPLAINED, *unfollowed]))
+            self.unexplained.append(title)
+        self.figures.append((name, title, remark, drawn, command or self.command, compared))
 
     def cannot(self, what, why):
         self.missing.append({"of the publication": what, "what it would need": why})
 
     def write(self, complete=False):
         """`complete`: names what the page lacks, and ends with exit code 1 where it lacks something."""
-        self.figures.sort(key=lambda figure: figure_order(figure[1]))
+        self.figures.sort(key=lambda figure: naming.order(figure[1]))
         with open(os.path.join(self.out, "results.csv"), "w", newline="") as file:
             writer = csv.DictWriter(file, COLUMNS)
             writer.writeheader()
             writer.writerows(self.rows)
         figures = "".join(f'<figure id="{name}"{broad(drawn)}>{drawn}<figcaption><b>{html.escape(title)}</b>{html.escape(remark)}'
-                          f'</figcaption></figure>' for name, title, remark, drawn, _ in self.figures)
+                          f'{"".join(f"<i>{html.escape(line)}</i>" for line in compared)}</figcaption></figure>'
+                          for name, title, remark, drawn, _, compared in self.figures)
         missing = f"<h2>What is not made</h2>{table(self.missing)}" if self.missing else ""
         with open(os.path.join(self.out, "index.html"), "w") as file:
             file.write(f"""<!doctype html><html lang="en"><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>{html.escape(self.title)}</title>
@@ -164,10 +167,11 @@ class Page:
 """)
         with open(os.path.join(self.out, "figures.json"), "w") as file:
             json.dump({"title": self.title, "command": self.command,
-                       "figures": [{"name": n, "title": t, "command": c} for n, t, _, _, c in self.figures]}, file)
+                       "figures": [{"name": n, "title": t, "command": c, "compared": s} for n, t, _, _, c, s in self.figures]}, file)
         lacks = self.lacks + [f"{row['source']}: {row['quantity']}" for row in self.rows if row["remark"] == NOT_MADE]
-        if complete and lacks:
-            sys.exit("\n".join(f"not made: {what}" for what in lacks))
+        told = [f"{UNEXPLAINED}: {title}" for title in self.unexplained] + [f"not made: {what}" for what in lacks if complete]
+        if told:
+            sys.exit("\n".join(told))
 
     def _path(self, name):
         os.makedirs(os.path.join(self.out, "figures"), exist_ok=True)
@@ -178,25 +182,20 @@ class Page:
             file.write(text)
 
 
-def differs(published, ours):
-    """By more than half a percent, or in words."""
-    a, b = number(published), number(ours)
-    return abs(b - a) > 0.005 * abs(a) if a is not None and b is not None else published != ours
-
-
 def matching(patterns, key):
-    """Of a table's entries the first whose name, in which * stands for anything, is the key; and its name."""
+    """Of a table's entries the one of this name, or the first whose name, in which * stands for anything, is the key; and its name."""
+    if key in patterns:
+        return key, patterns[key]
     return next(((name, entry) for name, entry in patterns.items() if fnmatch.fnmatchcase(key, name)), (None, None))
 
 
 class WordedPage(Page):
-    """A page whose words stand in HERE/page.toml: title, about, figures (title, remark, x and y), remarks on values that differ from the published
-    ones, what is left out for good, and what cannot be made. Names and keys may have * for anything, and words {NAME} that the caller tells."""
+    """A page whose words stand in HERE/page.toml: title, about, figures (title, remark, in what each is the `same` as published and in what it `differs`, and
+    why, x and y; `every_figure`: what those have that do not say it), remarks on values that differ, what is left out for good, and what cannot be made. Names and keys may have * for anything, and words {NAME} that the caller tells."""
 
     def __init__(self, out, here, data):
         self.data = data
-        with open(os.path.join(here, "page.toml"), "rb") as file:
-            self.words = tomllib.load(file)
+        self.words = files.read(os.path.join(here, "page.toml"))
         super().__init__(out, self.words["title"], self.words["about"], f"reproductions/{os.path.basename(here)}/run.sh")
         self.published = read_published(os.path.join(here, "published.csv"))
         self.ours, self.told, self.drawn = {}, {}, set()
@@ -206,41 +205,41 @@ class WordedPage(Page):
     def draw(self, name, series, told=None, **more):
         """The figure of this name in page.toml; `told`: its words."""
         pattern, entry = matching(self.words["figures"], name)
+        if not entry:
+            sys.exit(f"page.toml has no figure '{name}'")
         self.drawn.add(pattern)
-        title, remark, x, y = (entry.get(key, "").format(**told or {}) for key in ("title", "remark", "x", "y"))
-        self.chart(name, title, remark, series, x, y, command=entry.get("command", "").format(**told or {}), **{**entry.get("size", {}), **more})
+        entry = {**self.words.get("every_figure", {}), **entry}
+        words = {key: entry.get(key, "").format(**told or {}) for key in ("title", "remark", "x", "y", "command", "same", "differs")}
+        self.chart(name, words.pop("title"), words.pop("remark"), series, words.pop("x"), words.pop("y"), **words, **{**entry.get("size", {}), **more})
 
     def text(self, key):
         """What was published."""
         return next(row["published"] for row in self.published if row["key"] == key)
 
     def value(self, key):
-        return number(self.text(key))
+        """The same as a number; of "below 1" the bound."""
+        return number(self.text(key).removeprefix("below "))
 
     def put(self, key, value, **told):
         """Ours beside the published value of this key; `told`: words of its remark."""
         if value is not None:
             self.ours[key], self.told[key] = value, told
 
-    def remark(self, key):
+    def remark(self, row):
+        key = row["key"]
         if key in self.words.get("left_out", {}):
             return self.words["left_out"][key]
         if key not in self.ours:
             return NOT_MADE
-        return (matching(self.words.get("remarks", {}), key)[1] or "").format(**self.told[key])
+        remark = (matching(self.words.get("remarks", {}), key)[1] or "").format(**self.told[key])
+        return remark or (UNEXPLAINED if row["published"] and comparing.differs(row["published"], shown(self.ours[key])) else "")
 
     def write(self, complete=False):
-        rows = beside(self.published, self.ours, {row["key"]: self.remark(row["key"]) for row in self.published})
+        rows = beside(self.published, self.ours, {row["key"]: self.remark(row) for row in self.published})
         self.rows = rows + self.rows
-        self.lacks += [entry["title"] for pattern, entry in self.words["figures"].items() if pattern not in self.drawn]
-        self.lacks += [f"remark on {row['source']}: {row['quantity']}" for row in rows if not row["remark"] and row["published"] and differs(row["published"], row["ours"])]
+        self.lacks += [entry.get("title", pattern) for pattern, entry in self.words["figures"].items() if pattern not in self.drawn]
+        self.lacks += [f"remark on {row['source']}: {row['quantity']}" for row in rows if row["remark"] == UNEXPLAINED]
         super().write(complete)
-        missed = [f"missed its bar: {own['quantity']}, {row['ours']}" for row, own in zip(rows, self.published) if beyond(own, row["ours"])]
+        missed = [f"missed its bar: {own['quantity']}, {row['ours']}" for row, own in zip(rows, self.published) if comparing.beyond(own, row["ours"])]
         if missed:
             sys.exit("\n".join(missed))
-
-
-def beyond(published, ours):
-    """Whether ours is outside of the bar that published.csv has for it in `least` and `most`."""
-    value, least, most = number(ours), number(published.get("least")), number(published.get("most"))
-    return value is not None and not ((least is None or value >= least) and (most is None or value <= most))

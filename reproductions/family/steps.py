@@ -13,7 +13,8 @@ import shutil
 import subprocess
 import sys
 import time
-import tomllib
+
+from files import read
 
 FIELD = re.compile(r"\{(\w+)\}")
 ENDED_WELL = ("exit code 0", "exit code 5")  # 5: the run is there, and has missed a gate
@@ -41,8 +42,7 @@ class Steps:
         self.folders = {"OUT": out, "DATA": data, "HERE": here, "ROOT": os.path.dirname(os.path.dirname(here))}
         self.here = here
         self.lacks = set()  # folders that the data lack
-        with open(os.path.join(here, "steps.toml"), "rb") as file:
-            listed = tomllib.load(file)
+        listed = read(os.path.join(here, "steps.toml"))
         self.steps, self.words = listed["steps"], listed.get("words", {})
         if not self.has(listed.get("without_data", {}).get("of", [])):
             self.words.update(listed["without_data"])

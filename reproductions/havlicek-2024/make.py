@@ -1,6 +1,4 @@
 """Fiber lengths, explosions, corrections, and parameters beside the published ones."""
-import json
-import os
 import re
 import statistics
 import tomllib
@@ -8,8 +6,9 @@ import tomllib
 import control
 import runs
 from charts import COLORS, Series, lines
+from files import read
 
-RUNS = {"passive": ("XPBD, passive", "#d55e00"), "active": ("XPBD, active", "#cc79a7"), "pbd": ("PBD, 3 iterations", "#0072b2")}
+RUNS = {"passive": ("XPBD, passive", "#d55e00"), "active": ("XPBD, active", "#cc79a7"), "pbd_fields": ("PBD, 3 iterations", "#0072b2")}
 FLEXION = "hip_flexion_r_deg"
 EXPLODED = 1.5  # a muscle's edges so many times as long as at rest, in the mean
 SAME = {"zero_iteration_threshold": "contact.contact_distance", "volume_time_diff": "settings.time_step"}  # published as two, one here
@@ -82,8 +81,7 @@ def many_muscles(page):
 
 def parameters(page):
     """Tables B.1 and 6.1, and Figures 6.1 and 6.2: what a run's first muscle had; of a vector its length."""
-    with open(f"{page.out}/passive/run.json") as file:
-        had = tomllib.loads(json.load(file)["settings"])
+    had = tomllib.loads(read(f"{page.out}/passive/run.json")["settings"])
     tables = [(part, had["muscles"][0][part]) for part in ("settings", "contraction", "fibers")] + [(part, had[part]) for part in ("contact", "distance_field")]
     ours = {f"{part}.{key}": sum(each**2 for each in value) ** 0.5 if isinstance(value, list) else value for part, table in tables for key, value in table.items()}
     with open(f"{page.out}/config.toml") as file:
@@ -91,9 +89,7 @@ def parameters(page):
     ours.update({key: ours[setting] for key, setting in SAME.items()})
     angles = [pose[0] for pose in control.poses(f"{page.out}/passive") if pose[1:] == (0, 0)]
     ours.update(motion_rows=len(angles), motion_first=angles[0], motion_step=angles[1] - angles[0], motion_last=angles[-1])
-    if os.path.exists(f"{page.out}/fibers.json"):
-        with open(f"{page.out}/fibers.json") as file:
-            ours.update({f"across_{muscle['muscle']}": 100 * muscle["on_surface"][1]["share_rejected"] for muscle in json.load(file)})
+    ours.update({f"across_{muscle['muscle']}": 100 * muscle["on_surface"][1]["share_rejected"] for muscle in read(f"{page.out}/fibers.json")})
     for key, value in ours.items():
         if isinstance(value, (int, float)):
             page.put(key, float(value))

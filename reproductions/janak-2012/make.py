@@ -2,7 +2,8 @@
 import statistics
 
 import runs
-from charts import COLORS, Series, lines
+from charts import COLORS, Series, lines, published
+from runs import log
 
 ONE = "adductor_brevis_r"  # of the cadaver's five muscles the one that is most like the publication's adductor longus
 BODIES = {"hip": "the cadaver's hip", "leg": "the walking model's thigh"}
@@ -34,12 +35,14 @@ def convergence(page):
     for layout in curves:
         page.draw(f"figure_5_3_{layout}", lines(runs.muscles_over_runs(folder, rf"hip_layout_{layout}_(\d+)", "displacement_mm")), {"layout": layout})
     page.draw("layouts", lines(curves))
+    of_layouts = {layout: statistics.mean(y for _, y in points) for layout, points in curves.items()}
+    page.put("displacement_ratio", statistics.mean(mean for layout, mean in of_layouts.items() if layout != "cubic-6") / of_layouts["cubic-6"])
     for kind, figure in (("layout", "figure_5_4"), ("neighbors", "figure_5_5")):
         one = runs.over_runs(folder, rf"hip_{kind}_(.+)_(\d+)", lambda rows: next(row["displacement_mm"] for row in rows if row["muscle"] == ONE))
         series, falls = [], {}
         for (what, points), color in zip(one.items(), COLORS):
             line, falls[what] = fitted(settled(points))
-            series += [Series(f"{what}: {1e6 * falls[what]:.3g} nm per iteration", settled(points), color), Series("", line, color, dash=True)]
+            series += [Series(what, settled(points), color, legend=f"{what}: {1e6 * falls[what]:.3g} nm per iteration"), Series(f"{what}, fitted", line, color, dash=True, legend="")]
         page.draw(figure, series)
         for key, what in (("slope_ratio", "cubic-26"), ("slope_ratio_nearest", "nearest")):
             if what in falls:
@@ -62,8 +65,8 @@ def time_steps(page):
 
 def collisions(page):
     """Table 5.1: what a kind of collision adds to the springs alone."""
-    for (body,), springs in runs.named(f"{page.out}/runs", r"(hip|leg)_springs_70"):
-        spent = {kind: seconds(f"{page.out}/runs/{body}_{kind}") - seconds(springs) for kind in ("rebuilt", "refitted", "of_muscles", "of_bones")}
+    for (body,), springs in runs.named(f"{page.out}/runs", r"(.+)_springs_70"):
+        spent = {kind: seconds(f"{page.out}/runs/{body}_{kind}") - seconds(springs) for kind in ("rebuilt", "refitted", "of_muscles", "of_bones", "refit_of_muscles", "refit_of_bones")}
         for kind, time in spent.items():
             page.put(f"{body}_{kind}", time)
         page.put(f"{body}_refit_gain", 100 * (1 - spent["refitted"] / spent["rebuilt"]))
@@ -80,6 +83,8 @@ def resolutions(page):
             springs.append((total(muscles, "particles"), seconds(alone)))
             continue
         page.put(f"at_{where.split('_')[-1]}_{each:g}", time)
+        if where == "leg_at_0.5":
+            page.put(f"springs_{each:g}", seconds(alone))
         spent.setdefault(each, []).append(time)
         for kind in ("boundary", "particles"):
             column = "boundary_particles" if kind == "boundary" else kind
@@ -92,8 +97,9 @@ def resolutions(page):
         growth = {kind: page.ours[f"{kind}_80"] / page.ours[f"{kind}_20"] for kind in ("collisions", "particles", "boundary")}
         page.put("growth_particles", growth["particles"])
         page.put("growth_collisions", growth["collisions"], growth=growth["boundary"])
-    page.draw("figure_5_17", lines({("the cadaver's hip" if where == "hip_resolution" else f"thigh, {where.split('_')[-1]} s of the walk"): points
-                                    for where, points in detected.items()}))
+    page.draw("figure_5_17", [published("published", [(page.value(f"boundary_{n}"), log(page.value(f"collisions_{n}"))) for n in (20, 40, 60, 80)])] +
+              lines({("the cadaver's hip" if where == "hip_resolution" else f"thigh, {where.split('_')[-1]} s of the walk"): [(count, log(time)) for count, time in points if time > 0]
+                     for where, points in detected.items()}))
     page.draw("figure_5_18", [Series("springs", springs)])
 
 

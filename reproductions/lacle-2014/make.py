@@ -1,5 +1,4 @@
 """Tendons, counts of vertices, slices, centers outside of their surfaces, and frames per second."""
-import json
 import math
 import statistics
 
@@ -8,25 +7,20 @@ import runs
 import sections
 import steps
 from charts import Series, lines, published
-
-
-def told(path):
-    """What `inspect --json` says of some surfaces."""
-    with open(path) as file:
-        return json.load(file)
+from files import read
 
 
 def counts(page):
     """Table 5.1."""
     for (level, corners), path in runs.matching(f"{page.out}/counts", r"(\d)_(\d+).json"):
-        page.put(f"vertices_{level}_{corners:g}", sum(surface["vertices"] for surface in told(path)))
+        page.put(f"vertices_{level}_{corners:g}", sum(surface["vertices"] for surface in read(path)))
     for (level, corners), path in runs.matching(f"{page.out}/outside", r"([12])_1_(\d+).json"):  # Figure 5.4
-        page.put(f"scale_{level}_{corners:g}", next(surface["vertices"] for surface in told(path) if surface["file"].endswith("sar_r.vtp")))
+        page.put(f"scale_{level}_{corners:g}", next(surface["vertices"] for surface in read(path) if surface["file"].endswith("sar_r.vtp")))
 
 
 def slices(page):
     """Figure 3.15."""
-    surfaces = told(f"{page.out}/slices.json")
+    surfaces = read(f"{page.out}/slices.json")
     found = [s for surface in surfaces for s in surface["slices"] if s["outlines"] > 0]
     quotients = [s["isoperimetric_quotient"] for s in found]
     page.put("vertices_surfaces", sum(s["vertices"] for s in surfaces), surfaces=len(surfaces))
@@ -38,13 +32,13 @@ def slices(page):
     page.draw("figure_3_15a", [Series(name, [(s["perimeter_mm"] / math.sqrt(s["area_mm2"]), s["isoperimetric_quotient"]) for s in found if s["convex"] == convex],
                                       marks=True) for name, convex in (("concave", False), ("convex", True))])
     outlines = [[(x / math.sqrt(s["area_mm2"]), y / math.sqrt(s["area_mm2"])) for x, y in s["outline_mm"]] for s in found]
-    page.draw("figure_3_15b", [Series("", outline + outline[:1], "#0072b2") for outline in outlines])
+    page.draw("figure_3_15b", [Series(f"slice {i}", outline + outline[:1], "#0072b2", legend="" if i > 1 else "slices") for i, outline in enumerate(outlines, 1)])
 
 
 def polygons(page):
     """Figure 3.22: the share of a circle's area that the polygon inscribed in it leaves out."""
     shares = [(n, 100 * (1 - n * math.sin(2 * math.pi / n) / (2 * math.pi))) for n in (3, 4, 5, 6, 8, 10, 12)]
-    page.draw("figure_3_22", [Series("ours", shares), Series("", shares, "#0072b2", marks=True)])
+    page.draw("figure_3_22", [Series("polygon in a circle", shares), Series("corners", shares, "#0072b2", marks=True, legend="")])
 
 
 def sections_of(folder):
@@ -62,8 +56,8 @@ def outside(page):
         page.put(f"sections_{level}", cut)
         curves.setdefault(int(level), {}).setdefault(int(corners), []).append((int(scalar), 100 * out / cut))
     for level, by_corners in curves.items():
-        told = [published("" if n > 6 else "published", [(s, 100 * page.value(f"outside_{level}_{s}_{n}") / page.value(f"sections_{level}")) for s in range(1, 7)],
-                          dash=n > 6) for n in (6, 8, 10, 12)]
+        told = [published(f"published, {n} corners", [(s, 100 * page.value(f"outside_{level}_{s}_{n}") / page.value(f"sections_{level}")) for s in range(1, 7)],
+                          dash=n > 6, legend="" if n > 6 else "published") for n in (6, 8, 10, 12)]
         page.draw(f"table_5_{level + 1}", told + lines({f"{n} corners": points for n, points in sorted(by_corners.items())}), {"number": level + 1, "level": level})
     page.put("mended_outside", sections_of(f"{page.out}/mended")[1])
     for planes in ("fixed", "forward", "centered"):

@@ -1,15 +1,15 @@
 """What the model tells of tibialis anterior, the publication's example: Tables 3.1 to 3.3."""
 import math
-import tomllib
 import xml.etree.ElementTree as xml
+
+from files import read
 
 LINE = "tib_ant_r"
 
 
 def action_line(folder):
     """Its length, m, and half of its tendon's slack length, m, as import has them."""
-    with open(f"{folder}/model.toml", "rb") as file:
-        line = tomllib.load(file)["muscles"][0]["action_line"]
+    line = read(f"{folder}/model.toml")["muscles"][0]["action_line"]
     return sum(math.dist(a, b) for a, b in zip(line["points_mm"], line["points_mm"][1:])) / 1000, line["tendon_mm"] / 1000
 
 

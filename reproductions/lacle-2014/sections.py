@@ -1,9 +1,9 @@
 """Sections that are brought onto a surface: Figures 5.2 and 5.4."""
 import math
-import tomllib
 
 import runs
-from charts import Series, published
+from charts import PUBLISHED, Series
+from files import read
 
 RAYS = 12
 
@@ -52,8 +52,7 @@ def in_plane(ring, origin):
 
 def moved_most(out):
     """(how far, muscle, section, the line's point, the inner point, corners), the farthest first, one of a muscle."""
-    with open(f"{out}/outside/1_6_12/model.toml", "rb") as file:
-        muscles = tomllib.load(file)["muscles"]
+    muscles = read(f"{out}/outside/1_6_12/model.toml")["muscles"]
     found = []
     for muscle in muscles:
         line, name = muscle["action_line"], muscle["name"]
@@ -73,8 +72,8 @@ def draw(page):
     for letter, (far, name, section, before, after, ring) in zip("abcd", moved_most(page.out)):
         flat = in_plane(ring, after)
         outline = [flat(corner) for corner in ring]
-        pairs = [Series("" if i else "matches", [flat(a), flat(b)], "#e69f00") for i, (a, b) in enumerate(found.get((name, section), []))]
+        pairs = [Series(f"match {i}", [flat(a), flat(b)], "#e69f00", legend="" if i else "matches") for i, (a, b) in enumerate(found.get((name, section), []))]
         page.draw(f"figure_5_2_{letter}", pairs +
-                  [Series("section", outline + outline[:1], "#0072b2"), published("the line's point", [flat(before)], marks=True),
+                  [Series("section", outline + outline[:1], "#0072b2"), Series("the line's point", [flat(before)], PUBLISHED, marks=True),
                    Series("way to the inner point", [flat(before), flat(after)], "#d55e00"), Series("inner point", [flat(after)], "#d55e00", marks=True)],
                   {"letter": letter, "muscle": name, "section": section, "corners": RAYS, "far": far})

@@ -2,7 +2,8 @@
 import csv
 import math
 
-from charts import COLORS, PUBLISHED, Series, bounds
+from charts import COLORS, Series, bounds
+from charts import published as published_curve
 from curves import arms_of_method, at, published
 from publication import matching
 
@@ -43,14 +44,14 @@ def compared(curve, reference):
 
 
 def where(curve):
-    return curve.coordinate if curve.over == curve.coordinate else f"{curve.coordinate} over {curve.over}"
+    return curve.coordinate if curve.over == curve.coordinate else f"{curve.coordinate}_over_{curve.over}"
 
 
 def row_of(page, row):
     """What the page says of a row of the table."""
     said = f"Root mean square {row['rms_mm']} mm, {row['largest_mm']} at most, {row['angles']} angles from {row['from_deg']} to {row['to_deg']}"
     said += f"; covers {row['coverage_percent']} %. " if row["coverage_percent"] else ". "
-    sentences = [matching(page.words[table], key)[1] for table, key in (("published", f"{row['coordinate']} {row['source']}"), ("methods", f"{row['method']} {row['coordinate']}"))]
+    sentences = [matching(page.words[table], key)[1] for table, key in (("published", f"{row['coordinate']} {row['source']} {row['muscle']}"), ("methods", f"{row['method']} {row['coordinate']} {row['muscle']}"))]
     over = "" if row["over"] == row["coordinate"] else f" over {row['over']}"
     ratio = "" if abs(float(row["published_mm"])) < 1 else f"{float(row['ours_mm']) / float(row['published_mm']):.3g}"
     return {"source": row["source"], "quantity": f"{row['muscle']}, {row['coordinate']}{over}, {row['method']}".replace("_", " "), "unit": "mm",
@@ -62,11 +63,12 @@ def draw(page, references, curves):
     every = [point for c in references for point in c.mean + c.low + c.high] + [point for _, c in curves for point in c.mean]
     angles = [point[0] for _, c in curves for point in c.mean]
     x_range = min(angles), max(angles)
-    series = [Series(c.source, c.low, "#bbb" if c.mean else COLORS[4], band=c.high) for c in references if c.low]
-    series += [Series(c.source, c.mean, PUBLISHED, dash=not c.low) for c in references if c.mean]
+    series = [published_curve(c.source, c.low, color="#bbb" if c.mean else COLORS[4], band=c.high) for c in references if c.low]
+    series += [published_curve(c.source, c.mean, dash=not c.low) for c in references if c.mean]
     series += [Series(c.source, c.mean, color) for color, c in curves]
     first = references[0]
-    page.draw(f"{first.muscle}_{where(first).replace(' ', '_')}", series, {"muscle": first.muscle.replace("_", " "), "where": where(first)}, x_range=x_range,
+    words = {"muscle": first.muscle, "where": where(first), "over": first.over}
+    page.draw(f"{first.muscle}_{where(first)}", series, {key: word.replace("_", " ") for key, word in words.items()}, x_range=x_range,
               y_range=bounds([y for x, y in every if x_range[0] <= x <= x_range[1]]))
 
 
@@ -81,6 +83,9 @@ def make(page):
         writer.writeheader()
         writer.writerows(table)
     page.rows = [row_of(page, row) for row in table]
+    for row in table:
+        if row["method"].startswith("Modenese") and row["coordinate"] == "hip_flexion_r" and row["coverage_percent"]:
+            page.put(f"coverage_{row['muscle']}", float(row["coverage_percent"]))
     colors = dict(zip(by_method, COLORS))
     for key in dict.fromkeys(map(key_of, references)):
         about = [r for r in references if key_of(r) == key]

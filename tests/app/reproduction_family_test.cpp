@@ -127,7 +127,7 @@ TEST(ReproductionFamily, a_complete_pass_fails_and_names_what_its_page_lacks) {
     return folder.python(
         "import os\nimport publication\nfrom charts import Series\nos.makedirs('out', exist_ok=True)\n"
         "page = publication.Page('out', 't', 'a', 'c')\n"
-        "page.chart('f', 'Figure 1: drawn', '', [Series('a', [(0, 1), (1, 2)])], 'x', 'y')\n"
+        "page.chart('f', 'Figure 1: drawn', '', [Series('a', [(0, 1), (1, 2)])], 'x', 'y', same='a line')\n"
         "page.chart('g', 'Figure 2: empty', '', [Series('a', [])], 'x', 'y')\n"
         "page.rows = publication.beside(publication.read_published('published.csv'), " +
         ours + ")\npage.write(" + complete + ")\n");
@@ -169,6 +169,7 @@ TEST(ReproductionFamily, a_complete_page_has_a_sentence_where_values_differ_and_
 about = "a"
 [figures."figure_*"]
 title = "Figure {number}"
+same = "a line of {number} parts"
 x = "x"
 y = "y"
 [left_out]
@@ -191,8 +192,10 @@ switch = "does nothing here"
   EXPECT_EQ(page(same + "page.put('error', 'below 1')\n", "True"), "code 0\n");
   EXPECT_THAT(folder.text("out/results.csv"), HasSubstr("page 4,a mass,kg,2,3,1.5,of a bone"));
   EXPECT_THAT(folder.text("out/results.csv"), HasSubstr("page 5,a switch,,1,,,does nothing here"));
+  EXPECT_THAT(folder.text("out/index.html"), HasSubstr("<i>As published: a line of 1 parts</i>"));
   EXPECT_EQ(page(same + "page.put('error', 0.5)\n", "True"), "not made: remark on page 6: an error\ncode 1\n");
   EXPECT_EQ(page(drawn + "page.put('length', 1.1)\npage.put('error', 0.5)\n", "False"), "code 0\n");
+  EXPECT_THAT(folder.text("out/results.csv"), HasSubstr("page 3,a length,m,1,1.1,1.1,\"differs, not explained\""));
   EXPECT_THAT(page("page.put('length', 1)\n", "True"), HasSubstr("not made: Figure {number}\n"));
   EXPECT_EQ(page("page.put('error', 2)\n", "False"), "missed its bar: an error, 2\ncode 1\n");
 }
