@@ -88,6 +88,8 @@ class Page:
     def chart(self, name, title, remark, series, x_label, y_label, command="", same="", differs="", **more):
         """A chart, OUT/figures/NAME.svg, and its points, NAME.csv (NAME_field.csv: what lies under them). `command`: what made its numbers, where that is not the page's.
         `same`: in what it is as published; `differs`: in what it is not, and why."""
+        if not x_label or not y_label or x_label == y_label:
+            raise ValueError(f"axes need names of their own: {title}")
         svg = charts.chart(title, series, x_label, y_label, **more)
         if not svg:
             self.lacks.append(title)

@@ -85,9 +85,14 @@ TEST(PublishedFigures, a_published_curve_that_none_of_ours_follows_needs_a_sente
   EXPECT_EQ(said_of_chart("Section 1", beside("(3, 5), (4, 5)")), "[]\ncode 0\n");  // no angle in common
 }
 
-TEST(PublishedFigures, a_curve_without_a_name_is_an_error) {
+TEST(PublishedFigures, curves_and_axes_without_a_name_are_errors) {
   EXPECT_THAT(said_of_chart("Section 1", "Series('', [(0, 1)])"),
               testing::HasSubstr("a curve without a name\ncode 1\n"));
+  const SceneFolder folder;
+  EXPECT_THAT(said_by_family(folder,
+                             "import publication\n"
+                             "publication.Page('out', 't', 'a', 'c').chart('f', 'Section 1', '', [], 'mm', 'mm')\n"),
+              testing::HasSubstr("axes need names of their own: Section 1\ncode 1\n"));
 }
 
 }  // namespace gracilis
