@@ -1,6 +1,7 @@
 """Charts as SVG, all of one family: axes with units, what was published in gray, ours in color, no scripts."""
 import base64
 import html
+import itertools
 import math
 import struct
 import zlib
@@ -10,6 +11,8 @@ PUBLISHED = "#555"
 BOTTOM, TOP = 36, 8
 RIGHT, BAR = 18, 66  # what is kept free on the right, and what a field's color bar takes there
 RISING = [(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)]  # from dark to light, in gray, too
+SIGNS = {"●": (), "■": ((-1, -1), (1, -1), (1, 1), (-1, 1)), "▲": ((0, -1.3), (1.2, 0.9), (-1.2, 0.9)), "◆": ((0, -1.4), (1.3, 0), (0, 1.4), (-1.3, 0)),
+         "▼": ((0, 1.3), (1.2, -0.9), (-1.2, -0.9))}  # corners about the middle
 ABOUT_ZERO = [(33, 102, 172), (247, 247, 247), (178, 24, 43)]
 
 
@@ -120,6 +123,25 @@ def left_of(labels):
     return 26 + 6.4 * max((len(label) for label in labels), default=0)
 
 
+def sign(glyph, x, y, color, size):
+    """A mark by which a curve is told from others without its color, too."""
+    if glyph == "●":
+        return f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{size}" fill="{color}"/>'
+    corners = " ".join(f"{x + size * dx:.1f},{y + size * dy:.1f}" for dx, dy in SIGNS[glyph])
+    return f'<polygon class="sign" points="{corners}" fill="{color}"/>'
+
+
+def some_of(points, turn):
+    """Points of a line that bear its mark: all where they are few, else six, elsewhere for each turn."""
+    return points if len(points) <= 10 else [points[int((i + turn % 5 / 5) * (len(points) - 1) / 6)] for i in range(6)]
+
+
+def signs_of(series, plain):
+    """{curve: its glyph, turn}; none where it would be the only one, there are very many, or `plain`."""
+    told = [s for s in series if s.legend and not s.band and not s.published and s.size == 3]
+    return {s: (glyph, turn) for turn, (s, glyph) in enumerate(zip(told, itertools.cycle(SIGNS)))} if 1 < len(told) < 30 and not plain else {}
+
+
 def legend_rows(legend, width):
     """Entries (name, drawn) in rows, five in each at most, and no more than there is room for: a letter takes some 6.2 units."""
     rows, room = [], 0
@@ -172,6 +194,7 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
                  f'{html.escape(y_label)}</text>')
     colors = iter([(color, dash) for dash in (False, True) * 9 for color in COLORS])  # what comes after all colors is dashed
     broad = 1.8 if len(series) < 30 else 0.6
+    signs = signs_of(series, square or field)
     legend = []
     inside = []
     if field:
@@ -187,13 +210,19 @@ def chart(title, series, x_label, y_label, width=380, height=260, x_range=None, 
                 inside.append(f'<polygon points="{corners}" fill="{color}" opacity="0.25"/>')
         elif s.marks:
             rim = ' stroke="#fff" stroke-width="0.8"' if field and s.size > 2 else ""
-            inside += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{s.size}" fill="{color}"{rim}/>' for x, y in map(at, finite(s.points))]
+            if s in signs:
+                inside += [sign(signs[s][0], x, y, color, s.size) for x, y in map(at, finite(s.points))]
+            else:
+                inside += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{s.size}" fill="{color}"{rim}/>' for x, y in map(at, finite(s.points))]
         else:
             dash = ' stroke-dasharray="5 3"' if s.dash or dashed else ""
             inside += [line(piece, f'stroke="{color}" stroke-width="{broad}"{dash}') for piece in pieces(s.points)]
+            if s in signs:
+                inside += [sign(signs[s][0], x, y, color, s.size) for x, y in map(at, some_of(finite(s.points), signs[s][1]))]
         through = s.band and any(other.name == s.name and not other.band for other in series)
         if s.legend and s.points and not through:  # a curve through a band tells of it
-            mark = "●" if s.marks else "┅" if s.dash or dashed else "■"
+            dashes = "┅" if not s.marks and (s.dash or dashed) else ""
+            mark = dashes + signs[s][0] if s in signs else dashes or ("●" if s.marks else "■")
             legend.append((s.legend, f'<tspan fill="{color}">{mark}</tspan> {html.escape(s.legend)}'))
     clip = f"c{zlib.crc32(repr((title, x_label, y_label, width, height)).encode()):x}"
     parts.append(f'<clipPath id="{clip}"><rect x="{edge:.1f}" y="{TOP}" width="{across:.1f}" height="{high}"/></clipPath>'

@@ -216,6 +216,19 @@ print(repr(chart("a", [Series("nothing", [(0, nan)])], "x", "y")), ticks(0, inf)
   EXPECT_EQ(said, "2 lines\n2 marks\n2 areas; False\n'' [] [] [0.0, 0.5, 1.0]\ncode 0\n");
 }
 
+TEST(ReproductionFamily, curves_are_told_apart_without_their_colors) {
+  const FamilyFolder folder;
+  const std::string said = folder.python(R"(from charts import Series, chart, published
+def signs(*series):
+    svg = chart("a", series, "x", "y")
+    return svg.count("<circle"), svg.count('class="sign"'), [svg.count(glyph) for glyph in "●■"]
+points = [(x, x) for x in range(3)]
+print(signs(Series("one", points)), signs(Series("one", points), Series("two", points), published("three", points)))
+print(signs(Series("one", [(x, x) for x in range(100)]), Series("two", points)))
+)");
+  EXPECT_EQ(said, "(0, 0, [0, 1]) (3, 3, [1, 2])\n(6, 3, [1, 1])\ncode 0\n");
+}
+
 TEST(ReproductionFamily, the_two_edges_of_a_band_are_named_in_the_table) {
   const FamilyFolder folder;
   const std::string said = folder.python(R"(import publication
