@@ -63,8 +63,8 @@ class ShapeLimit : public testing::Test {
 };
 
 TEST_F(ShapeLimit, nothing_is_near_one_at_rest_and_nothing_moves) {
-  EXPECT_TRUE(near_shape_limits(set, {1.5f, 2.5f}, 0.7f, particles).empty());
-  EXPECT_EQ(project_shape_limits(set, {1e-3f, 1.001f}, all(), particles), 0);
+  EXPECT_TRUE(near_shape_limits(set, {1.5f, 2.5f, 2}, 0.7f, particles).empty());
+  EXPECT_EQ(project_shape_limits(set, {1e-3f, 1.001f, 1.001f}, all(), particles), 0);
   EXPECT_EQ(largest_motion(at_rest(mesh), particles), 0);
 }
 
@@ -87,13 +87,50 @@ TEST_F(ShapeLimit, where_it_grew_thick_both_sides_come_together_until_it_is_that
   EXPECT_NEAR(particles.position(top).z(), -particles.position(set.opposite[t]).z(), 1e-3f);
 }
 
+TEST_F(ShapeLimit, where_it_was_pressed_thin_both_sides_part_until_it_is_that_thin) {
+  for (Index v = 0; v < particles.count(); ++v) particles.position(v).z() *= 0.05f;
+  const auto t = static_cast<std::size_t>(top);
+  const auto thinning = [&] {
+    const float thick = (particles.position(top) - particles.position(set.opposite[t])).norm();
+    return (set.thickness[t] + set.mean_edge) / (thick + set.mean_edge);
+  };
+  const float pressed = thinning();
+  ASSERT_GT(pressed, 2);
+  const ShapeLimits limits = {0, 0, 1.5f};
+  EXPECT_EQ(project_shape_limits(set, {0, 0, 1.01f * pressed}, {top}, particles), 0) << "it is not that thin";
+  EXPECT_EQ(project_shape_limits(set, limits, {top}, particles), 1);
+  EXPECT_NEAR(thinning(), 1.5f, 1e-4f);
+  EXPECT_NEAR(particles.position(top).z(), -particles.position(set.opposite[t]).z(), 1e-3f);
+  EXPECT_EQ(project_shape_limits(set, {0, 0, 1.501f}, {top}, particles), 0) << "it is at its limit";
+}
+
+TEST_F(ShapeLimit, a_place_is_near_the_limit_of_thinness_from_a_share_of_the_way_to_it_on) {
+  const auto is_near = [&](float limit) {
+    const std::vector<Index> near = near_shape_limits(set, {0, 0, limit}, 0.7f, particles);
+    return std::binary_search(near.begin(), near.end(), top);
+  };
+  const auto t = static_cast<std::size_t>(top);
+  particles.position(top).z() = particles.position(set.opposite[t]).z() + 0.5f * set.thickness[t];
+  const float thinning = (set.thickness[t] + set.mean_edge) / (0.5f * set.thickness[t] + set.mean_edge);
+  EXPECT_TRUE(is_near(1 + (thinning - 1) / 0.72f));
+  EXPECT_FALSE(is_near(1 + (thinning - 1) / 0.68f));
+}
+
+TEST_F(ShapeLimit, sides_that_lie_in_one_place_are_left_there) {
+  const auto t = static_cast<std::size_t>(top);
+  particles.position(top) = particles.position(set.opposite[t]);
+  const Particles together = particles;
+  EXPECT_EQ(project_shape_limits(set, {0, 0, 2}, {top}, particles), 0);
+  EXPECT_EQ(largest_motion(together, particles), 0);
+}
+
 TEST_F(ShapeLimit, what_is_pushed_back_pushes_the_others_as_much_the_other_way) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> uniform(-0.02f, 0.02f);
   for (Index v = 0; v < particles.count(); ++v)
     for (int i = 0; i < 3; ++i) particles.position(v)[i] += uniform(random);
   const Vec3 before = momentum_center(particles);
-  EXPECT_GT(project_shape_limits(set, {0.5f, 1.5f}, all(), particles), 10);
+  EXPECT_GT(project_shape_limits(set, {0.5f, 1.5f, 1.2f}, all(), particles), 10);
   EXPECT_LT((momentum_center(particles) - before).norm(), 1e-5);
 }
 
@@ -107,7 +144,7 @@ TEST_F(ShapeLimit, what_cannot_move_stays_and_the_others_come_all_the_way) {
   EXPECT_NEAR(from_neighbors(set, top, particles), set.apart[t] + 1.5f * set.reach[t], 1e-6f);
   for (Index v = 0; v < particles.count(); ++v) particles.at(v)[3] = 0;
   const Particles fixed = particles;
-  EXPECT_EQ(project_shape_limits(set, {1e-3f, 1.001f}, all(), particles), 0);
+  EXPECT_EQ(project_shape_limits(set, {1e-3f, 1.001f, 1.001f}, all(), particles), 0);
   EXPECT_EQ(largest_motion(fixed, particles), 0);
 }
 

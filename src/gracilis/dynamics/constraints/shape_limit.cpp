@@ -21,6 +21,8 @@ float farthest_apart(const ShapeLimitSet& set, float spike, std::size_t p) {
 float thickest(const ShapeLimitSet& set, float thickness, std::size_t p) {
   return thickness * (set.thickness[p] + set.mean_edge) - set.mean_edge;
 }
+/// The nearest; negative where any distance will do.
+float thinnest(const ShapeLimitSet& set, float thinness, std::size_t p) { return thickest(set, 1 / thinness, p); }
 
 /// C(x) = apart - |x - mean|, with the gradients -n for the particle and n / count for each neighbor.
 bool push_back_spike(const ShapeLimitSet& set, float spike, Index particle, Particles& particles) {
@@ -43,18 +45,34 @@ bool push_back_spike(const ShapeLimitSet& set, float spike, Index particle, Part
   return true;
 }
 
-bool press_together(const ShapeLimitSet& set, float thickness, Index particle, Particles& particles) {
-  const auto p = static_cast<std::size_t>(particle);
-  const Index opposite = set.opposite[p];
-  if (opposite < 0) return false;
+/// C(x) = ±(bound - |x - x_o|), with the gradients ∓n for the particle and ±n for the one that it faces: brings them to
+/// the distance `bound`.
+bool bring_to_distance(const ShapeLimitSet& set, Index particle, float bound, Particles& particles) {
+  const Index opposite = set.opposite[static_cast<std::size_t>(particle)];
   const Eigen::Vector3f across = particles.position(particle) - particles.position(opposite);
-  const float length = across.norm(), beyond = length - thickest(set, thickness, p);
+  const float length = across.norm();
   const float weight = particles.inverse_mass(particle) + particles.inverse_mass(opposite);
-  if (!(beyond > 0) || !(weight > 0)) return false;
-  const Eigen::Vector3f push = (beyond / (weight * length)) * across;
+  if (!(weight > 0) || !(length > 0)) return false;
+  const Eigen::Vector3f push = ((length - bound) / (weight * length)) * across;
   particles.position(particle) -= particles.inverse_mass(particle) * push;
   particles.position(opposite) += particles.inverse_mass(opposite) * push;
   return true;
+}
+
+float distance_through(const ShapeLimitSet& set, Index particle, const Particles& particles) {
+  return (particles.position(particle) - particles.position(set.opposite[static_cast<std::size_t>(particle)])).norm();
+}
+
+/// Brings the two that face each other together where they are too far apart, and apart where they are too near.
+bool keep_thickness(const ShapeLimitSet& set, const ShapeLimits& limits, Index particle, Particles& particles) {
+  const auto p = static_cast<std::size_t>(particle);
+  if (set.opposite[p] < 0) return false;
+  const float distance = distance_through(set, particle, particles);
+  if (limits.thickness > 0 && distance > thickest(set, limits.thickness, p))
+    return bring_to_distance(set, particle, thickest(set, limits.thickness, p), particles);
+  if (limits.thinness > 0 && distance < thinnest(set, limits.thinness, p))
+    return bring_to_distance(set, particle, thinnest(set, limits.thinness, p), particles);
+  return false;
 }
 
 }  // namespace
@@ -81,12 +99,13 @@ std::vector<Index> near_shape_limits(const ShapeLimitSet& set, const ShapeLimits
              (particles.position(particle) - mean_of_neighbors(set, particle, particles)).norm() >
                  farthest_apart(set, share * limits.spike, p);
     };
-    const auto swells = [&] {
-      return limits.thickness > 0 && set.opposite[p] >= 0 &&
-             (particles.position(particle) - particles.position(set.opposite[p])).norm() >
-                 thickest(set, 1 + share * (limits.thickness - 1), p);
+    const auto changes_thickness = [&] {
+      if (set.opposite[p] < 0) return false;
+      const float distance = distance_through(set, particle, particles);
+      return (limits.thickness > 0 && distance > thickest(set, 1 + share * (limits.thickness - 1), p)) ||
+             (limits.thinness > 0 && distance < thinnest(set, 1 + share * (limits.thinness - 1), p));
     };
-    if (swells() || spikes()) near.push_back(particle);
+    if (changes_thickness() || spikes()) near.push_back(particle);
   }
   return near;
 }
@@ -95,7 +114,7 @@ Index project_shape_limits(const ShapeLimitSet& set, const ShapeLimits& limits, 
                            Particles& particles) {
   Index beyond = 0;
   for (const Index particle : listed) {
-    if (limits.thickness > 0) beyond += press_together(set, limits.thickness, particle, particles);
+    beyond += keep_thickness(set, limits, particle, particles);
     if (limits.spike > 0) beyond += push_back_spike(set, limits.spike, particle, particles);
   }
   return beyond;

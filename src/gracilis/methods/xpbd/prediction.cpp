@@ -17,7 +17,7 @@ SolveSettings solve_settings(const XpbdSettings& settings, int substeps) {
   solve.projection.arccos_dihedrals = settings.dihedral_formula == DihedralFormula::arccos;
   solve.pressure = settings.pressure;
   solve.strain_limit = static_cast<float>(settings.stretch_limit);
-  solve.shape_limits = {static_cast<float>(settings.spike_limit), static_cast<float>(settings.thickness_limit)};
+  solve.shape_limits = shape_limits_of(settings);
   solve.stop_displacement = static_cast<float>(settings.stop_displacement);
   solve.stop_milliseconds = settings.stop_milliseconds / substeps;
   return solve;

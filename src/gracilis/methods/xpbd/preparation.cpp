@@ -227,6 +227,11 @@ void build_contacts(const Scene& scene, const MeshTopology& topology, const std:
 
 }  // namespace
 
+ShapeLimits shape_limits_of(const XpbdSettings& settings) {
+  return {static_cast<float>(settings.spike_limit), static_cast<float>(settings.thickness_limit),
+          static_cast<float>(settings.thinness_limit)};
+}
+
 bool asks_for_strings(const Scene& scene, const Muscle& muscle) {
   const XpbdSettings settings = xpbd_settings(scene, muscle);
   const bool is_carried = settings.predictor != Predictor::none || settings.slack_uptake;
@@ -272,7 +277,7 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
         find_rest_proximities(prepared.rest, prepared.faces, tight, prepared.system.rest);
   }
   const MeshTopology topology = build_topology(prepared.faces, prepared.particle_count());
-  if (prepared.settings.spike_limit > 0 || prepared.settings.thickness_limit > 0)
+  if (shape_limits_of(prepared.settings).any())
     prepared.system.shape_limits = build_shape_limits(shape_of({prepared.rest, prepared.faces}, topology));
   build_predictor(scene, topology, fields, prepared);
   build_edges(muscle, attachments, topology, prepared);

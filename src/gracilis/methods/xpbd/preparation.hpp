@@ -75,6 +75,9 @@ PreparedMuscle prepare_muscle(const Scene& scene, const Muscle& muscle, const st
 /// Whether a muscle's settings ask for strings; not where it runs along a line or is attached to one body alone.
 bool asks_for_strings(const Scene& scene, const Muscle& muscle);
 
+/// How far a muscle's shape may depart from that at rest.
+ShapeLimits shape_limits_of(const XpbdSettings& settings);
+
 /// The strings that a muscle asks for; none where it has no fibers from an origin to an insertion. `bones` must outlive
 /// the result.
 CarryingStrings carrying_strings(const Scene& scene, const Muscle& muscle, const strings::BoneDistances& bones);

@@ -42,6 +42,7 @@ static Preset thesis_2024() {
   xpbd.stretch_limit = 0;
   xpbd.spike_limit = 0;
   xpbd.thickness_limit = 0;
+  xpbd.thinness_limit = 0;
   xpbd.slack_uptake = false;
   preset.distance_fields.resolution = 128;
   preset.distance_fields.domain_margin = 0;

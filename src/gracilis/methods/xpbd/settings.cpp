@@ -98,6 +98,8 @@ std::span<const Setting<XpbdSettings>> setting_table() {
        "no limit."},
       {"thickness_limit", &S::thickness_limit, "", 0, 1000,
        "Thickest a place of the muscle may become as a multiple of its thickness at rest; 0 sets no limit."},
+      {"thinness_limit", &S::thinness_limit, "", 0, 1000,
+       "How many times as thin as at rest a place of the muscle may become; 0 sets no limit."},
       {"slack_uptake", &S::slack_uptake, "", 0, 0,
        "Edges aim at the lengths they have on the surface skinned to the bones, so that a muscle shortens and "
        "lengthens where the motion asks for it instead of folding."},

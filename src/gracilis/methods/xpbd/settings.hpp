@@ -55,6 +55,7 @@ struct SolverSettings {
   Real stretch_limit = 2.5;     ///< longest an edge may become, over its length at rest; 0: no limit
   Real spike_limit = 1.5;       ///< farthest a vertex may stand out of its neighbors, in edges; 0: no limit
   Real thickness_limit = 2.5;   ///< thickest a place may become, over its thickness at rest; 0: no limit
+  Real thinness_limit = 4;      ///< thinnest a place may become, its thickness at rest over it; 0: no limit
 };
 
 /// How much of a surface is simulated, and how fast.
