@@ -72,6 +72,82 @@ TEST(Tetrahedra, a_straight_hexagonal_rod_has_its_volumes_by_hand) {
   EXPECT_NEAR(physiological_area(2e-4, pi / 3, 0.1), 1e-3, 1e-15);
 }
 
+/// Squares of 20 mm about a line along z, sections at these places.
+SectionRings square_rod(const std::vector<Real>& places) {
+  SectionRings rings{4, Points(3, static_cast<Index>(places.size())), Points(3, 4 * static_cast<Index>(places.size()))};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const auto at = static_cast<Index>(k);
+    rings.centers.col(at) = Vec3(0, 0, places[k]);
+    for (Index i = 0; i < 4; ++i)
+      rings.corner(at, i) = Vec3(i == 0 || i == 3 ? 0.01 : -0.01, i < 2 ? 0.01 : -0.01, places[k]);
+  }
+  return rings;
+}
+
+TEST(Tetrahedra, tendons_end_where_they_are_said_to_wherever_sections_lie) {
+  const Real area = 4e-4;
+  for (const auto& [origin, insertion] : {std::pair(0.03, 0.05), std::pair(0.01, 0.16), std::pair(0.0, 0.05),
+                                          std::pair(0.05, 0.0), std::pair(0.06, 0.1), std::pair(0.1, 0.1)}) {
+    const std::vector<Real> places = {0.1, 0.15, 0.16, 0.3};
+    const Tetrahedra cells = tetrahedra_of(square_rod(places), places, origin, insertion);
+    const Real tendon = std::min(origin + insertion, 0.2);
+    EXPECT_NEAR(compartment_volume(cells, Compartment::tendon), tendon * area, 1e-15) << origin << ' ' << insertion;
+    EXPECT_NEAR(compartment_volume(cells, Compartment::muscle), (0.2 - tendon) * area, 1e-15);
+    for (Eigen::Index i = 0; i < cells.cells.cols(); ++i) EXPECT_GT(cell_volume(cells, i), 0);
+    EXPECT_EQ(cells.compartments.size(), static_cast<std::size_t>(cells.cells.cols()));
+  }
+}
+
+TEST(Tetrahedra, sections_that_are_put_in_lie_between_their_neighbors) {
+  const std::vector<Real> places = {0, 0.1};
+  const Tetrahedra cells = tetrahedra_of(square_rod(places), places, 0.03, 0.02);
+  ASSERT_EQ(cells.points.cols(), 4 * 5);
+  const Real heights[] = {0, 0.03, 0.08, 0.1};
+  for (Index k = 0; k < 4; ++k) {
+    for (Index i = 0; i < 4; ++i) EXPECT_NEAR(cells.points(2, 4 * k + i), heights[k], 1e-15);
+    EXPECT_LT((cells.points.col(16 + k) - Vec3(0, 0, heights[k])).norm(), 1e-15);
+  }
+  EXPECT_EQ(cells.cells.cols(), 3 * 4 * 3);
+}
+
+TEST(Tetrahedra, a_dented_outline_is_not_convex_and_one_with_a_corner_in_a_side_is) {
+  SectionRings rings{5, Points::Zero(3, 1), Points::Zero(3, 5)};
+  rings.corners << 1, 1, 0, -1, -1, -1, 1, 1, 1, -1, 0, 0, 0, 0, 0;
+  EXPECT_TRUE(section_shape(rings, 0).convex);
+  EXPECT_NEAR(section_shape(rings, 0).area, 4, 1e-15);
+  EXPECT_NEAR(section_shape(rings, 0).perimeter, 8, 1e-15);
+  EXPECT_NEAR(section_shape(rings, 0).quotient, pi / 4, 1e-15);
+  for (Index turn = 0; turn < 5; ++turn) {  // whichever corner comes first
+    SectionRings dented = rings;
+    dented.corners(1, 2) = 0.9;
+    Points turned(3, 5);
+    for (Index i = 0; i < 5; ++i) turned.col(i) = dented.corners.col((i + turn) % 5);
+    dented.corners = turned;
+    EXPECT_FALSE(section_shape(dented, 0).convex) << turn;
+    dented.corners = turned.rowwise().reverse().eval();
+    EXPECT_FALSE(section_shape(dented, 0).convex) << "the other way round, too";
+  }
+  SectionRings nothing{3, Points::Zero(3, 1), Points::Zero(3, 3)};
+  EXPECT_EQ(section_shape(nothing, 0).quotient, 0);
+}
+
+TEST(Tetrahedra, in_a_ring_that_is_squeezed_the_center_goes_by_its_size) {
+  const SectionRings rest = square_rod({0, 0.1});
+  Points centers = rest.centers;
+  centers.row(0).array() += 0.004;
+  Points squeezed = rest.corners;
+  squeezed.row(1) /= 2;
+  squeezed.row(2).array() += 0.3;
+  const SectionRings rings = rings_of(squeezed, 4, rest.corners, centers);
+  // Root mean square distances from the middle: of 1 and 1/4 for 1 and 1.
+  const Real size = std::sqrt(1.25 / 2);
+  for (Index k = 0; k < 2; ++k)
+    EXPECT_LT((rings.centers.col(k) - Vec3(size * 0.004, 0, 0.3 + 0.1 * k)).norm(), 1e-12) << k;
+  EXPECT_EQ(rings.corners, squeezed);
+  const Points nowhere = Points::Zero(3, 8);
+  EXPECT_TRUE(rings_of(rest.corners, 4, nowhere, Points::Zero(3, 2)).centers.allFinite());
+}
+
 TEST(Tetrahedra, a_star_is_not_convex) {
   Points line(3, 2);
   line << 0, 0, 0, 0, 0, 0.1;

@@ -151,4 +151,10 @@ TEST(Rounds, hold_every_pair_once_and_no_surface_twice) {
   EXPECT_EQ(seen.size(), pairs.size());
 }
 
+TEST(Rounds, each_pair_goes_into_the_first_that_is_free_for_it) {
+  EXPECT_EQ(rounds_of({{0, 1}, {2, 3}, {1, 2}, {0, 3}, {4, 4}, {0, 2}, {4, 1}}),
+            (std::vector<std::vector<Index>>{{0, 1, 4}, {2, 3}, {5, 6}}));
+  EXPECT_TRUE(rounds_of({}).empty());
+}
+
 }  // namespace gracilis

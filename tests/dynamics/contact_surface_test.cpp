@@ -246,6 +246,47 @@ TEST(Walk, ends_at_the_nearest_face_of_a_sphere_wherever_it_begins) {
   }
 }
 
+TEST(ContactSurface, sums_around_particles_are_those_of_their_faces) {
+  const Body ball = body_of(shapes::sphere({0.1, 0.2, 0.3}, 1, 2));
+  Eigen::Matrix3Xf of_faces(3, ball.surface.faces.cols());
+  for (Index face = 0; face < of_faces.cols(); ++face)
+    of_faces.col(face) = Vector3f(1, static_cast<float>(face), static_cast<float>(face % 7));
+  Eigen::Matrix3Xf expected = Eigen::Matrix3Xf::Zero(3, ball.particles.count());
+  for (Index face = 0; face < of_faces.cols(); ++face)
+    for (const Index corner : ball.surface.faces.col(face)) expected.col(corner) += of_faces.col(face);
+  EXPECT_EQ(sums_around_particles(ball.surface, of_faces), expected);
+}
+
+TEST(ContactSurface, the_nearest_point_of_a_face_is_told_by_weights_of_its_corners) {
+  const Body triangle = body_of(shapes::mesh_of({{0, 0, 0}, {2, 0, 0}, {0, 2, 0}}, {{0, 1, 2}}));
+  const auto nearest = [&](const Vector3f& p) -> Vector3f {
+    return point_on(triangle.surface, nearest_on_face(p, triangle.surface, 0, triangle.particles), triangle.particles);
+  };
+  EXPECT_LT((nearest({0.5f, 0.25f, 3}) - Vector3f(0.5f, 0.25f, 0)).norm(), 1e-6f);
+  EXPECT_LT((nearest({1, -1, 1}) - Vector3f(1, 0, 0)).norm(), 1e-6f);
+  EXPECT_LT((nearest({2, 2, -1}) - Vector3f(1, 1, 0)).norm(), 1e-6f);
+  EXPECT_LT((nearest({5, -1, 0}) - Vector3f(2, 0, 0)).norm(), 1e-6f);
+  EXPECT_LT(face_area(triangle.surface, 0, triangle.particles).cross(Vector3f::UnitZ()).norm(), 1e-6f);
+  EXPECT_NEAR(face_area(triangle.surface, 0, triangle.particles).z(), 4, 1e-6f) << "twice its area";
+}
+
+TEST(Walk, goes_only_where_it_may) {
+  // A strip of eight squares along x.
+  std::vector<Vec3> vertices;
+  std::vector<Eigen::Vector3i> faces;
+  for (int i = 0; i <= 8; ++i) vertices.emplace_back(i, 0, 0), vertices.emplace_back(i, 1, 0);
+  for (int i = 0; i < 8; ++i)
+    faces.emplace_back(2 * i, 2 * i + 2, 2 * i + 1), faces.emplace_back(2 * i + 1, 2 * i + 2, 2 * i + 3);
+  const Body strip = body_of(shapes::mesh_of(vertices, faces));
+  const Vector3f p(7.9f, 0.5f, 0.1f);
+  EXPECT_GE(walk_to_nearest(p, strip.surface, 0, strip.particles).face, 14);
+  const auto before_six = [](Index face) { return face < 6; };
+  const NearestFace stopped = walk_to_nearest(p, strip.surface, 0, strip.particles, before_six);
+  EXPECT_EQ(stopped.face, 5);
+  EXPECT_LT((point_on(strip.surface, stopped, strip.particles) - Vector3f(3, 0.5f, 0)).norm(), 1e-5f);
+  EXPECT_EQ(walk_to_nearest(p, strip.surface, 9, strip.particles, before_six).face, 9) << "where it begins it may stay";
+}
+
 TEST(Walk, stays_where_the_surface_ends) {
   const Body triangle = body_of(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}));
   EXPECT_EQ(walk_to_nearest({5, 5, 5}, triangle.surface, 0, triangle.particles).face, 0);

@@ -148,6 +148,57 @@ TEST_F(ShapeLimit, what_cannot_move_stays_and_the_others_come_all_the_way) {
   EXPECT_EQ(largest_motion(fixed, particles), 0);
 }
 
+TEST_F(ShapeLimit, is_near_from_that_share_of_the_way_to_it_on) {
+  const auto t = static_cast<std::size_t>(top);
+  const Eigen::Vector3f home = particles.position(top);
+  const Eigen::Vector3f mean = [&] {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    for (Index i = set.stars.offsets[t]; i < set.stars.offsets[t + 1]; ++i)
+      sum += particles.position(set.stars.neighbors[static_cast<std::size_t>(i)]);
+    return Eigen::Vector3f(sum / static_cast<float>(set.stars.offsets[t + 1] - set.stars.offsets[t]));
+  }();
+  const auto is_near = [&](const ShapeLimits& limits) {
+    const std::vector<Index> near = near_shape_limits(set, limits, 0.7f, particles);
+    return std::find(near.begin(), near.end(), top) != near.end();
+  };
+  // Seven tenths of the way to a spike of 1.5 edges, and from a thickness of 1 to one of 2.5.
+  for (const float share : {0.69f, 0.71f}) {
+    particles.position(top) = mean + Eigen::Vector3f(0, 0, set.apart[t] + share * 1.5f * set.reach[t]);
+    EXPECT_EQ(is_near({1.5f, 0}), share > 0.7f) << share;
+    const Eigen::Vector3f opposite = particles.position(set.opposite[t]);
+    const float thickness = 1 + share * 1.5f;
+    particles.position(top) =
+        opposite + (home - opposite).normalized() * (thickness * (set.thickness[t] + set.mean_edge) - set.mean_edge);
+    EXPECT_EQ(is_near({0, 2.5f}), share > 0.7f) << share;
+  }
+}
+
+TEST_F(ShapeLimit, all_that_move_share_the_way_by_their_inverse_masses) {
+  for (Index v = 0; v < particles.count(); ++v) particles.at(v)[3] = 1 + static_cast<float>(v % 5);
+  const auto t = static_cast<std::size_t>(top);
+  const Particles before = [&] {
+    particles.position(top).z() += 0.02f;
+    return particles;
+  }();
+  const auto moved = [&](Index v) { return Eigen::Vector3f(particles.position(v) - before.position(v)); };
+  EXPECT_EQ(project_shape_limits(set, {1.5f, 0}, {top}, particles), 1);
+  EXPECT_NEAR(from_neighbors(set, top, particles), set.apart[t] + 1.5f * set.reach[t], 1e-6f);
+  const Eigen::Vector3f push = moved(top) / before.inverse_mass(top);
+  const auto count = static_cast<float>(set.stars.offsets[t + 1] - set.stars.offsets[t]);
+  for (Index i = set.stars.offsets[t]; i < set.stars.offsets[t + 1]; ++i) {
+    const Index neighbor = set.stars.neighbors[static_cast<std::size_t>(i)];
+    EXPECT_LT((moved(neighbor) + before.inverse_mass(neighbor) / count * push).norm(), 1e-7f) << neighbor;
+  }
+  Particles thick = before;
+  for (Index v = 0; v < thick.count(); ++v) thick.position(v).z() *= 4;
+  particles = thick;
+  EXPECT_EQ(project_shape_limits(set, {0, 2.5f}, {top}, particles), 1);
+  const Index opposite = set.opposite[t];
+  const Eigen::Vector3f of_top = particles.position(top) - thick.position(top),
+                        of_opposite = particles.position(opposite) - thick.position(opposite);
+  EXPECT_LT((of_top / before.inverse_mass(top) + of_opposite / before.inverse_mass(opposite)).norm(), 1e-7f);
+}
+
 TEST_F(ShapeLimit, a_limit_of_zero_is_none) {
   for (Index v = 0; v < particles.count(); ++v) particles.position(v) *= 10;
   particles.position(top).z() += 0.1f;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <limits>
 #include <random>
 
 namespace gracilis {
@@ -23,6 +25,60 @@ std::vector<Vec3> places(Real reach) {
   std::vector<Vec3> all(200);
   for (Vec3& place : all) place = Vec3(along(random), along(random), along(random));
   return all;
+}
+
+/// Cells of different sizes and numbers along the axes, with values in meters.
+DistanceField sampled_field(const std::function<Real(const Vec3&)>& value) {
+  DistanceField made;
+  made.origin = Vec3(0.1, -0.2, 0.3);
+  made.cell_size = Vec3(0.001, 0.002, 0.004);
+  made.nodes = {7, 6, 5};
+  for (Index k = 0; k < 5; ++k)
+    for (Index j = 0; j < 6; ++j)
+      for (Index i = 0; i < 7; ++i)
+        made.values.push_back(static_cast<float>(value(made.origin + made.cell_size.cwiseProduct(Vec3(i, j, k)))));
+  return made;
+}
+
+TEST(FieldSpline, squares_come_out_a_quarter_of_a_cell_squared_higher_and_products_as_they_are) {
+  // Σ i² B(x - i) = x² + 1/4; what is linear along each axis stays.
+  const auto square = [](Real x) { return x * x; };
+  const auto value = [&](const Vec3& p) {
+    const Real x = 1000 * (p.x() - 0.1), y = 500 * (p.y() + 0.2), z = 250 * (p.z() - 0.3);  // in cells
+    return 1 + 2 * x - y + 3 * z + x * y - 2 * y * z + 0.5 * x * y * z + 3 * square(x) - 2 * square(y) + square(z);
+  };
+  const DistanceField made = sampled_field(value);
+  const Real higher = (3.0 - 2.0 + 1.0) / 4;
+  for (const Vec3& cells : {Vec3(2.3, 2.4, 1.7), Vec3(0.6, 4.4, 3.4), Vec3(5.4, 0.6, 0.6)}) {
+    const Vec3 p = made.origin + made.cell_size.cwiseProduct(cells);
+    const CurvedSample found = sample_spline_curved(grid_of(made), p);
+    EXPECT_NEAR(found.distance, value(p) + higher, 1e-4) << "values in single precision, up to 200";
+    EXPECT_NEAR(sample_spline_precise(grid_of(made), p).distance, found.distance, 1e-10);
+    const Vec3 scale = made.cell_size.cwiseInverse();
+    const Real x = cells.x(), y = cells.y(), z = cells.z();
+    const Vec3 gradient(2 + y + 0.5 * y * z + 6 * x, -1 + x - 2 * z + 0.5 * x * z - 4 * y,
+                        3 - 2 * y + 0.5 * x * y + 2 * z);
+    EXPECT_LT((found.gradient - gradient.cwiseProduct(scale)).norm(), 1e-5 * found.gradient.norm());
+    Eigen::Matrix3d bend;
+    bend << 6, 1 + 0.5 * z, 0.5 * y, 1 + 0.5 * z, -4, -2 + 0.5 * x, 0.5 * y, -2 + 0.5 * x, 2;
+    EXPECT_LT((found.curvature - scale.asDiagonal() * bend * scale.asDiagonal()).norm(), 1e-5 * found.curvature.norm());
+  }
+}
+
+TEST(FieldSpline, in_the_outermost_cells_is_the_trilinear_interpolant) {
+  const DistanceField made = sampled_field([](const Vec3& p) { return p.squaredNorm(); });
+  const auto at = [&](Real x, Real y, Real z) -> Vec3 {
+    return made.origin + made.cell_size.cwiseProduct(Vec3(x, y, z));
+  };
+  for (const Vec3& p : {at(0.3, 2.5, 2.5), at(5.7, 2.5, 2.5), at(2.5, 0.3, 2.5), at(2.5, 4.7, 2.5), at(2.5, 2.5, 0.3),
+                        at(2.5, 2.5, 3.7)}) {
+    const FieldSample flat = sample(made, Eigen::Vector3f(p.cast<float>()));
+    EXPECT_EQ(sample_spline(grid_of(made), p.cast<float>()).distance, flat.distance) << p.transpose();
+    EXPECT_EQ(sample_spline_precise(grid_of(made), p).distance, static_cast<Real>(flat.distance));
+    EXPECT_EQ(sample_spline_curved(grid_of(made), p).distance, static_cast<Real>(flat.distance));
+    EXPECT_TRUE(sample_spline_curved(grid_of(made), p).curvature.isZero());
+  }
+  EXPECT_EQ(sample_spline_precise(grid_of(made), at(7, 1, 1)).distance, std::numeric_limits<Real>::infinity());
 }
 
 TEST(FieldSpline, is_near_the_distance) {

@@ -68,6 +68,23 @@ TEST(RadialKernel, derivatives_are_those_of_finite_differences) {
     }
 }
 
+TEST(RadialKernel, values_at_half_of_the_reach_are_those_of_the_published_forms) {
+  // (1 - s)^n times a polynomial in s, numbers 1 to 10 of table 3.1; number 9 as in Wendland 1995.
+  const Real at_half[] = {1. / 2,     2.5 / 8,     5.5 / 32, 1. / 4,   3. / 16,
+                          20.75 / 64, 15.25 / 256, 1. / 8,   3.5 / 32, 8.5 / 128};
+  for (std::size_t i = 0; i < 10; ++i)
+    EXPECT_NEAR(radial_value({static_cast<RadialShape>(i)}, reach, reach / 2), at_half[i], 1e-15) << i;
+  EXPECT_NEAR(radial_value({RadialShape::gaussian}, reach, reach / 2), std::exp(-0.25), 1e-15);
+  EXPECT_NEAR(radial_value({RadialShape::thin_plate}, reach, 2 * reach), 4 * std::log(2.0), 1e-14);
+  EXPECT_NEAR(radial_value({RadialShape::power_minus_1, 3}, reach, 2 * reach), 28, 1e-13);
+}
+
+TEST(RadialKernel, what_is_four_times_differentiable_has_no_third_derivative_at_its_center) {
+  for (const RadialShape shape : {RadialShape::wendland_12, RadialShape::wendland_32, RadialShape::wendland_33,
+                                  RadialShape::wendland_52, RadialShape::gaussian})
+    EXPECT_NEAR(radial_profile({shape}, reach, 0).third, 0, 1e-10) << static_cast<int>(shape);
+}
+
 TEST(RadialKernel, limits_at_the_center_are_reached_from_beside_it) {
   for (const RadialKernel& kernel : all_kernels()) {
     const RadialProfile at = radial_profile(kernel, reach, 0), beside = radial_profile(kernel, reach, 1e-7);

@@ -1,11 +1,14 @@
 #include <gracilis/core/errors.hpp>
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/radial_fit.hpp>
+#include <gracilis/geometry/radial_sparse.hpp>
 
 #include "radial_kernels.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <random>
@@ -174,6 +177,37 @@ TEST(RadialFit, sparse_solutions_have_the_same_bits_for_any_number_of_threads) {
     return interpolate({{RadialShape::wendland_31}, RadialPolynomial::linear}, points, 0.3, values).basis.weights;
   };
   EXPECT_EQ(solve(1), solve(2));
+}
+
+TEST(SparseKernelSolver, solves_what_the_whole_matrix_does_whether_it_is_positive_definite_or_not) {
+  std::mt19937 chance(12);
+  std::uniform_real_distribution<Real> uniform(0, 1);
+  Points centers(3, 80);
+  for (Real& coordinate : centers.reshaped()) coordinate = uniform(chance);
+  const Real reach = 0.6;
+  // In space kernels for one dimension need not be positive definite.
+  for (const RadialShape shape : {RadialShape::wendland_31, RadialShape::wendland_33, RadialShape::wendland_12}) {
+    const RadialKernel kernel{shape};
+    Eigen::MatrixXd whole(80, 80);
+    for (Index i = 0; i < 80; ++i)
+      for (Index j = 0; j < 80; ++j)
+        whole(i, j) = radial_value(kernel, reach, (centers.col(i) - centers.col(j)).norm());
+    const SparseKernelSolver solver(kernel, centers, reach);
+    const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(80, -1, 2);
+    EXPECT_LT((solver.times(right) - whole * right).norm(), 1e-13 * (whole * right).norm());
+    const Eigen::VectorXd found = solver.solve(right);
+    EXPECT_LT((whole * found - right).norm(), 1e-12 * right.norm());
+    const Eigen::VectorXd sizes = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(whole).eigenvalues().cwiseAbs();
+    const Real condition = sizes.maxCoeff() / sizes.minCoeff();
+    EXPECT_LT(solver.condition(), 1.01 * condition) << "estimated from below";
+    EXPECT_GT(solver.condition(), 0.5 * condition);
+    EXPECT_TRUE(solver.solve(Eigen::VectorXd::Zero(80)).isZero());
+  }
+}
+
+TEST(SparseKernelSolver, centers_that_coincide_have_no_condition) {
+  Points centers = Points::Zero(3, 2);
+  EXPECT_GT(SparseKernelSolver({RadialShape::wendland_31}, centers, 1).condition(), 1e12);
 }
 
 }  // namespace gracilis

@@ -111,6 +111,76 @@ TEST(SectionMap, its_rim_goes_around_the_square_by_length) {
   }
 }
 
+TEST(SectionMap, corners_of_a_rectangle_are_its_own) {
+  for (const Real start : {0.0, 0.3}) {
+    // Begun anywhere on the line: 80 and 20 mm, 200 mm in all.
+    const Points whole = polygon({{0, 0}, {0.08, 0}, {0.08, 0.02}, {0, 0.02}}, 40);
+    Points loop = whole;
+    const auto shift = static_cast<Index>(start * 160);
+    for (Index i = 0; i < 160; ++i) loop.col(i) = whole.col((i + shift) % 160);
+    const Real passed = start == 0 ? 0 : (0.08 + 8 * 0.02 / 40) / 0.2;
+    Real aspect = 0;
+    const SquareCorners corners = square_corners(loop, aspect);
+    EXPECT_NEAR(aspect, 4, 0.02);
+    EXPECT_NEAR(corners[1] - corners[0], 0.4, 2e-3);
+    EXPECT_NEAR(corners[2] - corners[1], 0.1, 2e-3);
+    EXPECT_NEAR(corners[3] - corners[2], 0.4, 2e-3);
+    // A long side begins where a short one ends, at either end.
+    EXPECT_NEAR(std::remainder(corners[0] + passed, 0.5), 0, 4e-3) << start;
+  }
+}
+
+TEST(SectionMap, of_a_circle_is_as_wide_as_thick) {
+  Points loop(3, 200);
+  for (Index i = 0; i < 200; ++i) loop.col(i) = 0.02 * Vec3(std::cos(pi * i / 100), std::sin(pi * i / 100), 0);
+  Real aspect = 0;
+  square_corners(loop, aspect);
+  // No rectangle has so much area for its circumference as a circle: then a square.
+  EXPECT_NEAR(aspect, 1, 1e-12);
+  // An ellipse of 4 to 1: half of the circumference p and the area give sides of p/2 ± √(p²/4 - area).
+  for (Index i = 0; i < 200; ++i) loop.col(i) = Vec3(0.04 * std::cos(pi * i / 100), 0.01 * std::sin(pi * i / 100), 0);
+  square_corners(loop, aspect);
+  const Real half = 0.17156843550313666 / 2, area = pi * 0.04 * 0.01;
+  const Real thin = half / 2 - std::sqrt(half * half / 4 - area);
+  EXPECT_NEAR(aspect, (half - thin) / thin, 0.02);
+}
+
+TEST(SectionMap, heights_are_harmonic) {
+  // x y is harmonic; over the rim of a square it goes on as such inside.
+  Points loop = polygon({{-0.02, -0.02}, {0.02, -0.02}, {0.02, 0.02}, {-0.02, 0.02}}, 30);
+  for (Index i = 0; i < loop.cols(); ++i) loop(2, i) = 10 * loop(0, i) * loop(1, i);
+  const std::optional<SectionMap> map = SectionMap::build(loop, {0, 0.25, 0.5, 0.75});
+  ASSERT_TRUE(map);
+  for (const Real a : {0.2, 0.5, 0.7})
+    for (const Real b : {0.3, 0.5, 0.9}) {
+      const Vec3 p = map->at(a, b);
+      EXPECT_NEAR(p.z(), 10 * p.x() * p.y(), 5e-5) << a << ' ' << b << ", of 4 mm";
+      EXPECT_NEAR(p.x(), 0.04 * a - 0.02, 2e-4) << "a square is mapped straight, by triangles of 4 mm";
+      EXPECT_NEAR(p.y(), 0.04 * b - 0.02, 2e-4);
+    }
+}
+
+TEST(SectionMap, a_line_that_begins_elsewhere_maps_the_same_way) {
+  const Points loop = polygon({{0, 0}, {0.04, 0}, {0.04, 0.04}, {0, 0.04}}, 30);
+  for (const SquareCorners& corners :
+       {SquareCorners{-0.125, 0.125, 0.375, 0.625}, SquareCorners{0.125, 0.375, 0.625, 0.875}}) {
+    const std::optional<SectionMap> map = SectionMap::build(loop, corners);
+    ASSERT_TRUE(map);
+    const auto on_rim = [&](Real share) -> Vec3 {
+      const Real along = 4 * (share - std::floor(share)), rest = along - std::floor(along);
+      const Vec3 corner[] = {{0, 0, 0.5}, {0.04, 0, 0.5}, {0.04, 0.04, 0.5}, {0, 0.04, 0.5}};
+      const auto side = static_cast<std::size_t>(along) % 4;
+      return corner[side] + rest * (corner[(side + 1) % 4] - corner[side]);
+    };
+    for (const Real t : {0.0, 0.2, 0.4, 0.9}) {  // a corner of the line itself, half way, is cut off
+      EXPECT_LT((map->at(t, 0) - on_rim(corners[0] + t / 4)).norm(), 1e-6) << t;
+      EXPECT_LT((map->at(1, t) - on_rim(corners[1] + t / 4)).norm(), 1e-6) << t;
+      EXPECT_LT((map->at(1 - t, 1) - on_rim(corners[2] + t / 4)).norm(), 1e-6) << t;
+      EXPECT_LT((map->at(0, 1 - t) - on_rim(corners[3] + t / 4)).norm(), 1e-6) << t;
+    }
+  }
+}
+
 TEST(Polygons, distances_insides_and_crossings_are_told) {
   PlanePoints square(2, 4), bow(2, 4);
   square << 0, 2, 2, 0, 0, 0, 2, 2;

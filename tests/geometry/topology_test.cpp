@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <tuple>
 
@@ -82,6 +83,27 @@ TEST(Measures, volume_and_area_of_a_box_wherever_it_stands) {
   EXPECT_NEAR(enclosed_volume(box.vertices, box.faces), 6, 1e-9);
   EXPECT_NEAR(surface_area(box.vertices, box.faces), 22, 1e-9);
   EXPECT_NEAR(vertex_areas(box.vertices, box.faces).sum(), 22, 1e-9);
+}
+
+TEST(Measures, extents_and_lengths_are_those_of_the_corners_of_a_box) {
+  const TriangleMesh box = shapes::box({1, 2, 3}, {2, 4, 6});
+  EXPECT_EQ(bounding_box(box.vertices).min(), Vec3(1, 2, 3));
+  EXPECT_EQ(bounding_box(box.vertices).max(), Vec3(2, 4, 6));
+  EXPECT_NEAR(extent_of(box.vertices), std::sqrt(14.0) / 2, 1e-12) << "each corner half of a diagonal from the middle";
+  const std::vector<MeshEdge> edges = build_topology(box.faces, 8).edges;
+  ASSERT_EQ(edges.size(), 18u);
+  const Real diagonals = 2 * (std::sqrt(5.0) + std::sqrt(10.0) + std::sqrt(13.0));
+  EXPECT_NEAR(mean_edge_length(edges, box.vertices), (4 * (1 + 2 + 3) + diagonals) / 18, 1e-12);
+  EXPECT_EQ(mean_edge_length({}, box.vertices), 0);
+  EXPECT_EQ(enclosed_volume(Points(3, 0), Eigen::Matrix3Xi(3, 0)), 0);
+  // Of an edge the faces on both sides count, or the only one.
+  const TriangleMesh two = shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, -4, 0}}, {{0, 1, 2}, {1, 0, 3}});
+  for (const MeshEdge& edge : build_topology(two.faces, 4).edges) {
+    const bool is_shared = edge.a == 0 && edge.b == 1, is_first = edge.a == 2 || edge.b == 2;
+    EXPECT_NEAR(area_at(edge, two.vertices, two.faces), is_shared ? 3 : is_first ? 1 : 2, 1e-12);
+  }
+  const Eigen::VectorXd areas = vertex_areas(two.vertices, two.faces);
+  EXPECT_LT((areas - Eigen::Vector4d(1, 1, 1.0 / 3, 2.0 / 3)).norm(), 1e-12) << "a third of each face to each corner";
 }
 
 }  // namespace gracilis

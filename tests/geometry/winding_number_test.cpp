@@ -56,6 +56,28 @@ TEST(WindingNumber, errs_by_less_than_a_hundredth_on_surfaces_with_holes) {
   EXPECT_GT(between, 0.1) << "the hole was never seen";
 }
 
+TEST(WindingNumber, the_expansion_of_a_patch_errs_by_the_cube_of_its_size_over_its_distance) {
+  // Of a bent patch of eight triangles, which are a leaf: from ten radii on its expansion answers.
+  std::vector<Vec3> rim;
+  std::vector<Eigen::Vector3i> faces;
+  for (int i = 0; i < 8; ++i) {
+    const Real angle = pi / 4 * i;
+    rim.emplace_back(0.01 * std::cos(angle), 0.008 * std::sin(angle), 0.003 * std::cos(2 * angle) + 0.002 * (i % 3));
+    faces.emplace_back(8, i, (i + 1) % 8);
+  }
+  rim.emplace_back(0.001, -0.002, 0.004);
+  const TriangleMesh patch = shapes::mesh_of(rim, faces);
+  const WindingNumber winding(patch);
+  for (const Vec3& place : random_places(40, 1)) {
+    const Vec3 direction = place.normalized();
+    for (const Real distance : {0.1, 1.0}) {
+      const Real found = winding.query(distance * direction), expected = exact(patch, distance * direction);
+      const Real size = 0.011 / distance, seen = 3e-4 / (4 * pi * distance * distance);
+      EXPECT_NEAR(found, expected, 10 * size * size * size * seen) << distance << ' ' << direction.transpose();
+    }
+  }
+}
+
 TEST(WindingNumber, of_a_surface_turned_inside_out_is_negative) {
   TriangleMesh mesh = shapes::box(Vec3::Constant(-1), Vec3::Constant(1));
   mesh.faces.row(0).swap(mesh.faces.row(1));
