@@ -107,6 +107,7 @@ TEST(FeatureCenters, of_curvature_are_its_extrema_and_saddles) {
     EXPECT_GT(expected.size(), 10u);
     EXPECT_EQ(numbers(field, curvature_centers(field)), expected) << seed;
   }
+  EXPECT_EQ(curvature_centers(height_field(9, 9, [](Index i, Index j) { return 0.3 * i - 0.7 * j; })).cols(), 0);
 }
 
 TEST(FeatureCenters, inflections_are_nodes_less_curved_than_two_opposite_neighbors_of_different_sign) {
@@ -123,6 +124,8 @@ TEST(FeatureCenters, inflections_are_nodes_less_curved_than_two_opposite_neighbo
     EXPECT_GT(expected.size(), 10u);
     EXPECT_EQ(numbers(field, inflection_centers(field)), expected) << seed;
   }
+  EXPECT_EQ(inflection_centers(height_field(9, 9, [](Index i, Index j) { return 0.3 * i - 0.7 * j; })).cols(), 0)
+      << "rounding of a plane does not count";
 }
 
 TEST(FeatureCenters, edges_run_where_a_step_is_steepest_whichever_way_it_faces) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 /// The centers that features of a height field suggest.
 namespace gracilis {
@@ -55,6 +56,13 @@ HeightField curvature_of(const HeightField& field) {
   return curvature;
 }
 
+/// Below this a field's curvatures are rounding, by which planes would have some of both signs: that share of its
+/// largest, or what the heights' last digits make of it.
+Real least_curvature(const HeightField& field, const HeightField& curvature, Real share) {
+  const Real digits = 8 * std::numeric_limits<Real>::epsilon() * field.heights.cwiseAbs().maxCoeff();
+  return std::max(share * curvature.heights.cwiseAbs().maxCoeff(), digits / (field.step * field.step));
+}
+
 /// Slopes by central differences, at inner nodes.
 Eigen::Vector2d slope_at(const HeightField& field, Index i, Index j) {
   return Eigen::Vector2d(field.at(i + 1, j) - field.at(i - 1, j), field.at(i, j + 1) - field.at(i, j - 1)) /
@@ -85,8 +93,7 @@ Points extremum_centers(const HeightField& field) {
 
 Points inflection_centers(const HeightField& field) {
   const HeightField curvature = curvature_of(field);
-  // Rounding gives planes curvatures of both signs.
-  const Real least = 1e-9 * curvature.heights.cwiseAbs().maxCoeff();
+  const Real least = least_curvature(field, curvature, 1e-9);
   std::vector<char> marked = unmarked(field);
   for_inner_nodes(field, 2, [&](Index i, Index j) {
     for (const auto& [a, b] : {std::array{1, 0}, std::array{0, 1}}) {
@@ -101,7 +108,7 @@ Points inflection_centers(const HeightField& field) {
 
 Points curvature_centers(const HeightField& field) {
   const HeightField curvature = curvature_of(field);
-  const Real least = 1e-6 * curvature.heights.cwiseAbs().maxCoeff();
+  const Real least = least_curvature(field, curvature, 1e-6);
   std::vector<char> marked = unmarked(field);
   for_inner_nodes(field, 2, [&](Index i, Index j) {
     marked[static_cast<std::size_t>(j * field.columns + i)] =
