@@ -184,6 +184,26 @@ TEST(TracedFibers, odd_numbers_are_all_there_and_one_runs_through_the_middle) {
   EXPECT_TRUE(evenly_traced(room, field_of([](const Vec3&) { return Vec3::Zero(); }), 5).empty());
 }
 
+TEST(TracedFibers, are_the_same_in_any_unit) {
+  // By a power of two, so that rounding is the same.
+  const Real unit = 4096;
+  const TriangleMesh slab = shapes::box({-0.02, -0.02, 0}, {0.02, 0.02, 0.02});
+  TriangleMesh large = slab;
+  large.vertices *= unit;
+  const FiberRoom room(slab, {}, 1000), large_room(large, {}, 1000);
+  const auto along = [](const FiberRoom& in, Real smoothing) {
+    Points way = Points::Zero(3, in.grid().count());
+    way.row(2).setOnes();
+    return FiberField(in.grid(), way, smoothing);
+  };
+  const std::vector<Points> lines = evenly_traced(room, along(room, 0.003), 13),
+                            large_lines = evenly_traced(large_room, along(large_room, 0.003 * unit), 13);
+  ASSERT_EQ(lines.size(), 13u);
+  ASSERT_EQ(large_lines.size(), 13u);
+  for (std::size_t i = 0; i < 13; ++i)
+    EXPECT_LT((lines[i].leftCols(1) - large_lines[i].leftCols(1) / unit).norm(), 1e-6) << i;
+}
+
 TEST(FiberSeam, is_where_two_sides_meet_and_tells_how_they_come_to_it) {
   const FiberField field = bipennate();
   const Real reach = 0.005;

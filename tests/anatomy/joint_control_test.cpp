@@ -130,6 +130,17 @@ TEST(JointControl, interpolates_what_it_was_not_told) {
   EXPECT_EQ(leave_out_error(unit_of({0, 1}, {0, 1}))[0], 0) << "nothing to leave out";
 }
 
+TEST(JointControl, every_other_sample_is_left_out_and_told_by_the_rest) {
+  JointControlUnit unit = unit_of({0, 1, 5, 6, 10}, {0.1, 0.4, 0.5, 0.9, 1});
+  unit.neighbors = 1;
+  // At 1 degree the sample at 0 tells, at 6 that at 5: 0.3 and 0.4 off.
+  EXPECT_NEAR(leave_out_error(unit)[0], std::sqrt((0.09 + 0.16) / 2), 1e-12);
+  JointControlUnit even = unit_of({0, 1, 5, 6}, {0.1, 0.4, 0.5, 0.7});
+  even.neighbors = 1;
+  EXPECT_NEAR(leave_out_error(even)[0], std::sqrt((0.09 + 0.04) / 2), 1e-12);
+  EXPECT_EQ(leave_out_error(unit_of({0, 1, 2}, {0.2, 0.2, 0.2}))[0], 0);
+}
+
 TEST(JointControl, knows_the_body_and_center_of_its_joint) {
   Scene scene;
   scene.bodies = {"pelvis", "femur_r"};

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace gracilis {
 namespace {
@@ -64,6 +65,50 @@ TEST(SkinningWeights, without_tendons_they_are_harmonic) {
     given(i, 0) = tube.fixed_body[static_cast<std::size_t>(tube.fixed[static_cast<std::size_t>(i)])] == 1;
   const Eigen::MatrixXd field = harmonic_fields(tube.surface.vertices, tube.topology, tube.fixed, given);
   EXPECT_LT((tube.shares(0).row(1).transpose().cast<Real>() - field.col(0)).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(SkinningWeights, in_tendons_conductance_grows_with_the_slope_above_its_mean_the_more_the_nearer_the_attachment) {
+  const HeldByAPatch tube;
+  const Real tendon = 0.03;
+  Eigen::MatrixXd given = Eigen::MatrixXd::Zero(static_cast<Index>(tube.fixed.size()), 2);
+  for (Index i = 0; i < given.rows(); ++i)
+    given(i, tube.fixed_body[static_cast<std::size_t>(tube.fixed[static_cast<std::size_t>(i)])]) = 1;
+  const Points& x = tube.surface.vertices;
+  const std::vector<MeshEdge>& edges = tube.topology.edges;
+  // Along edges, by asking all again and again.
+  std::vector<Real> away(static_cast<std::size_t>(x.cols()), 1e9);
+  for (const Index v : tube.fixed) away[static_cast<std::size_t>(v)] = 0;
+  for (bool is_shorter = true; is_shorter;) {
+    is_shorter = false;
+    for (const MeshEdge& edge : edges)
+      for (const auto& [a, b] : {std::pair(edge.a, edge.b), std::pair(edge.b, edge.a)}) {
+        const Real way = away[static_cast<std::size_t>(a)] + (x.col(a) - x.col(b)).norm();
+        if (way + 1e-15 < away[static_cast<std::size_t>(b)]) away[static_cast<std::size_t>(b)] = way, is_shorter = true;
+      }
+  }
+  std::vector<Real> conductance(edges.size(), 1);
+  Eigen::MatrixXd fields = harmonic_fields(x, tube.topology, tube.fixed, given);
+  for (int round = 0; round < 8; ++round) {
+    std::vector<Real> squares;
+    Real mean = 0;
+    for (const MeshEdge& edge : edges) {
+      Real square = 0;
+      for (Index k = 0; k < 2; ++k) {
+        const Points slopes = face_gradients(x, tube.surface.faces, fields.col(k));
+        square += (slopes.col(edge.left).squaredNorm() + slopes.col(edge.right).squaredNorm()) / 2;
+      }
+      squares.push_back(square);
+      mean += square / static_cast<Real>(edges.size());
+    }
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const Real middle = (away[static_cast<std::size_t>(edges[e].a)] + away[static_cast<std::size_t>(edges[e].b)]) / 2;
+      const Real wanted = std::pow(std::max(squares[e] / mean, 1.0), std::max(1 - middle / tendon, 0.0));
+      conductance[e] = std::sqrt(conductance[e] * wanted);
+    }
+    fields = harmonic_fields(x, tube.topology, tube.fixed, given, conductance);
+  }
+  EXPECT_LT((tube.shares(tendon).transpose().cast<Real>() - fields).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_GT((tube.shares(tendon) - tube.shares(0)).cwiseAbs().maxCoeff(), 0.03f);
 }
 
 TEST(SkinningWeights, a_tube_held_by_whole_rings_needs_no_tendons) {

@@ -1,10 +1,13 @@
 #include <gracilis/geometry/distance_field.hpp>
+#include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/signed_distance.hpp>
 
 #include <shapes.hpp>
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <random>
 
 namespace gracilis {
@@ -160,6 +163,42 @@ TEST(DistanceField, of_a_sphere_and_its_gradient_agree_with_the_closed_form) {
     // A difference over one cell h of a field with curvature 1/r errs by less than h / r.
     EXPECT_NEAR(gradients.col(i).dot(radial.normalized()), 1, 0.002 / radial.norm());
   }
+}
+
+TEST(DistanceField, nodes_near_the_surface_are_exact_to_the_last_digit) {
+  const TriangleMesh mesh = shapes::box({0.001, 0.002, 0.003}, {0.05, 0.04, 0.03});
+  const FieldDomain domain = domain_by_cell_size(mesh, 0.0013, 0.01);
+  const DistanceField field = build_distance_field(mesh, domain);
+  const SignedDistance exact(mesh);
+  Index near = 0;
+  for (Index k = 0; k < field.nodes[2]; ++k)
+    for (Index j = 0; j < field.nodes[1]; ++j)
+      for (Index i = 0; i < field.nodes[0]; ++i) {
+        const Real distance = exact.query(field.origin + field.cell_size.cwiseProduct(Vec3(i, j, k))).distance;
+        const float value = field.values[static_cast<std::size_t>(i + field.nodes[0] * (j + field.nodes[1] * k))];
+        if (std::abs(distance) < 3 * 0.0013) {
+          EXPECT_NEAR(value, distance, 1e-8);
+          ++near;
+        }
+        EXPECT_NEAR(value, distance, 2e-3) << "and of the right size everywhere";
+      }
+  EXPECT_GT(near, 1000);
+}
+
+TEST(DistanceField, domains_hold_the_surface_with_its_margin_in_whole_cells) {
+  const TriangleMesh mesh = shapes::box({0.1, 0.2, 0.3}, {0.15, 0.22, 0.301});
+  const FieldDomain domain = domain_by_cell_size(mesh, 0.004, 0.0105);
+  EXPECT_LT((domain.box.min() - Vec3(0.0895, 0.1895, 0.2895)).norm(), 1e-12);
+  EXPECT_EQ(domain.cells, (std::array<Index, 3>{18, 11, 6}));
+  EXPECT_LT((domain.box.sizes() - 0.004 * Vec3(18, 11, 6)).norm(), 1e-12);
+  EXPECT_EQ(domain_by_cell_size(mesh, 1, 0.01).cells, (std::array<Index, 3>{1, 1, 1}));
+  const DistanceField field = build_distance_field(mesh, domain);
+  EXPECT_EQ(field.nodes, (std::array<Index, 3>{25, 17, 9})) << "up to whole eights of cells";
+  EXPECT_LT((field.cell_size - Vec3::Constant(0.004)).norm(), 1e-12);
+  const FieldDomain published = domain_by_resolution(shapes::box({0.1, 0.2, 0.3}, {0.15, 0.22, 0.3}), 10, 1.2);
+  EXPECT_LT((published.box.center() - Vec3(0.125, 0.21, 0.3)).norm(), 1e-12);
+  EXPECT_LT((published.box.sizes() - Vec3(0.06, 0.024, 2e-6)).norm(), 1e-12) << "what is flat, too";
+  EXPECT_EQ(published.cells, (std::array<Index, 3>{10, 10, 10}));
 }
 
 TEST(DistanceField, has_the_right_sign_far_from_the_surface_where_values_are_interpolated) {

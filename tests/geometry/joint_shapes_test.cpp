@@ -87,6 +87,25 @@ TEST(RevolutionFit, a_sphere_which_has_every_axis_gives_the_one_expected) {
   EXPECT_LT((fit.center - head).norm(), 0.0005);
 }
 
+TEST(RevolutionFit, of_a_cone_is_its_axis_wherever_it_stands) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Vec3(2, -1, 2) / 3).toRotationMatrix();
+  TriangleMesh cone = cylinder(0.01, 0.03, 60, 20);
+  for (auto point : cone.vertices.colwise()) point.head<2>() *= 1 + 20 * point.z();
+  cone.vertices = ((turn * cone.vertices).colwise() + Vec3(0.4, -0.3, 0.2)).eval();
+  const SurfaceSamples all = surface_samples(cone);
+  const auto in_cone = [&](Index i) -> Vec3 { return turn.transpose() * (all.points.col(i) - Vec3(0.4, -0.3, 0.2)); };
+  const SurfaceSamples side = all.kept([&](Index i) { return in_cone(i).z() > 0.002 && in_cone(i).z() < 0.028; });
+  const RevolutionFit fit = fit_revolution(side, turn * Vec3(0.1, -0.1, 1));
+  EXPECT_GT(fit.direction.dot(turn.col(2)), std::cos(radians(1))) << "its triangles lean all the same way";
+  EXPECT_LT((fit.center - Vec3(0.4, -0.3, 0.2)).cross(turn.col(2)).norm(), 1e-4);
+  EXPECT_LT(fit.misfit, 0.01);
+  Real radius = 0;
+  for (Index i = 0; i < side.count(); ++i)
+    radius += (side.points.col(i) - Vec3(0.4, -0.3, 0.2)).cross(turn.col(2)).norm() * side.areas[i] / side.areas.sum();
+  EXPECT_NEAR(fit.radius, radius, 1e-4) << "the mean, by area";
+  EXPECT_EQ(fit_revolution(side.kept([](Index i) { return i < 11; }), Vec3::UnitZ()).radius, 0) << "too few";
+}
+
 TEST(MirroredMesh, a_closed_surface_faces_outwards_as_before) {
   const TriangleMesh ball = sphere(head, 0.02, 2);
   const TriangleMesh other = mirrored(ball, Vec3::UnitX());
