@@ -120,6 +120,17 @@ TEST(LineShares, of_a_muscle_with_one_line_are_sections_alone) {
   EXPECT_EQ(line_shares(line, 20)[13].section, 2);
 }
 
+TEST(LineShares, of_lines_with_few_corners_are_sections_as_well) {
+  for (const Index rays : {3, 4}) {
+    ActionLine line;
+    line.rays = rays;
+    const std::vector<LineShare> shares = line_shares(line, 3 * rays + 2);
+    for (Index v = 0; v < 3 * rays; ++v) EXPECT_EQ(shares[static_cast<std::size_t>(v)].section, v / rays) << rays;
+    EXPECT_EQ(shares[static_cast<std::size_t>(3 * rays)].section, 0);
+    EXPECT_EQ(shares[static_cast<std::size_t>(3 * rays) + 1].section, 2) << "the last of three";
+  }
+}
+
 TEST(LineShares, of_any_point_are_those_of_the_nearest_place_between_lines) {
   std::vector<Points> centers;
   for (const Real x : {0.0, 0.02, 0.05}) {

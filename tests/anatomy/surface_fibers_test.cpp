@@ -233,6 +233,36 @@ TEST(FilledBetween, lines_that_run_askew_gives_fibers_that_do) {
   EXPECT_LT(one_way, other_way - 0.001);
 }
 
+TEST(FilledBetween, fibers_swing_with_lines_that_swing) {
+  // To one side until a quarter of their way, to the other until three quarters.
+  const Muscle muscle = tube_muscle();
+  const auto swing_of = [&](Real swing) {
+    std::vector<Points> lines;
+    for (const Real angle : {1.0, 1.3, pi / 2, 1.8, 2.1}) {
+      Points line(3, 33);
+      for (Index i = 0; i < 33; ++i) {
+        const Real z = 0.01 + 0.18 * i / 32, at = angle + swing * std::sin(2 * pi * z / 0.2);
+        line.col(i) = Vec3(0.015 * std::cos(at), 0.015 * std::sin(at), z);
+      }
+      lines.push_back(line);
+    }
+    const Polylines fibers = filled_between(muscle, join(lines));
+    // Of those near the front, from a quarter to three quarters of their way.
+    Vec3 sum = Vec3::Zero();
+    Index count = 0;
+    for (Index i = 0; i < fibers.count(); ++i) {
+      const Points line = resampled(fibers.line(i), 4);
+      if (line(1, 2) > 0.006) sum += line.col(3) - line.col(1), ++count;
+    }
+    EXPECT_GT(count, 5);
+    return sum.x() / count;
+  };
+  // Lines themselves go by 2 · 15 mm · sin(0.3), 9 mm; fibers at some depth, and smoothed, by somewhat less.
+  EXPECT_GT(swing_of(0.3), 0.004);
+  EXPECT_LT(swing_of(0.3), 0.0095);
+  EXPECT_LT(swing_of(-0.3), -0.004);
+}
+
 TEST(FilledBetween, no_usable_line_gives_the_parallel_template) {
   const Muscle muscle = tube_muscle();
   EXPECT_TRUE(filled_between(muscle, Polylines()).points == inner_fibers(muscle).points);
