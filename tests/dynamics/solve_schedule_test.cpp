@@ -24,7 +24,8 @@ struct Traced {
   std::vector<SurfaceSolve> solves;
   std::vector<FieldPlacement> nowhere;
   std::vector<Step> steps;
-  int refreshed = 0, coupled = 0;
+  int refreshed = 0, coupled = 0, repaired = 0;
+  int deep_for = -1;  ///< repairs that find the second surface deep in another; -1: none is asked for
 
   void add(const SolveSettings& settings) {
     systems.push_back(system_of(shapes::sphere(Vec3::Zero(), 0.03, 1)));
@@ -37,6 +38,12 @@ struct Traced {
     Coupling coupling;
     coupling.refresh = [this](const Movers&) { ++refreshed; };
     coupling.project = [this](const Movers&) { return static_cast<Index>(++coupled); };
+    if (deep_for >= 0)
+      coupling.repair_penetrations = [this] {
+        std::vector<char> moved;
+        if (++repaired <= deep_for) moved = {0, 1};
+        return moved;
+      };
     const ThreadLimit one(1);  // that steps are told one after the other
     solve_together(solves, coupling, [this](std::size_t i, ConstraintKind kind) { steps.push_back({i, kind}); });
   }
@@ -155,6 +162,31 @@ TEST(SolveSchedule, a_volume_that_may_give_way_is_not_squeezed) {
   traced.states[0] = make_state(fixed);
   traced.solve();
   EXPECT_EQ(traced.count(volume), 2 + 1);
+}
+
+TEST(SolveSchedule, what_lies_deep_in_another_surface_is_repaired_until_nothing_does_three_times_at_most) {
+  for (const int deep_for : {0, 1, 2, 5}) {
+    Traced traced;
+    traced.deep_for = deep_for;
+    for (int i = 0; i < 2; ++i) traced.add(iterating(2, 1));
+    traced.solve();
+    const int moved = std::min(deep_for, 3);
+    EXPECT_EQ(traced.repaired, std::min(deep_for + 1, 3)) << deep_for;
+    EXPECT_EQ(traced.refreshed, 1 + 1 + traced.repaired) << "each looks at what is near first";
+    EXPECT_EQ(traced.coupled, 2 + 1) << "contact between surfaces would take it back";
+    for (const ConstraintKind kind : {volume, bone_contact}) {
+      EXPECT_EQ(traced.count(kind, 0), 2 + 1) << "the other one stays";
+      EXPECT_EQ(traced.count(kind, 1), 2 + 1 + 2 * moved);
+    }
+  }
+}
+
+TEST(SolveSchedule, where_nothing_settles_nothing_is_repaired) {
+  Traced traced;
+  traced.deep_for = 5;
+  for (int i = 0; i < 2; ++i) traced.add(iterating(2));
+  traced.solve();
+  EXPECT_EQ(traced.repaired, 0);
 }
 
 }  // namespace gracilis
