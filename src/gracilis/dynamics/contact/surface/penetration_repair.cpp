@@ -63,7 +63,7 @@ void gather_deep(const std::vector<VertexFaceCandidate>& near, const ProbeAndTar
     const Eigen::Vector3f p = sides.probe.position(candidate.particle) + sides.shift;
     const PointGap gap = point_gap(p, sides.target_surface, NearestFace{candidate.face, candidate.barycentric},
                                    sides.target, sides.target_normals);
-    const float missing = std::min(candidate.most_gap, -sides.deepest) - gap.distance;
+    const float missing = -sides.deepest - gap.distance;
     if (!(missing > tolerated_depth) || !is_inside(p, sides.target_surface, sides.target)) continue;
     const bool both_move = sides.target_moves(candidate.face);
     const Eigen::Vector3f way = (both_move ? 0.5f : 1.0f) * missing * gap.normal;
