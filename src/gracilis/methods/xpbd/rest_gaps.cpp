@@ -156,11 +156,23 @@ Real OverlapTable::deepest(Index first, Index second) const {
   return entry ? entry->overlap.deepest() : 0;
 }
 
+Real OverlapTable::deepest_free(Index first, Index second, const std::vector<const Particles*>& rest) const {
+  const Entry* entry = find(first, second);
+  if (!entry) return 0;
+  const auto deepest_of = [](const InsideVertices& inside, const Particles& particles) {
+    Real deepest = 0;
+    for (std::size_t i = 0; i < inside.vertices.size(); ++i)
+      if (particles.inverse_mass(inside.vertices[i]) > 0) deepest = std::max(deepest, inside.depths[i]);
+    return deepest;
+  };
+  return std::max(deepest_of(entry->overlap.of_first, *rest[static_cast<std::size_t>(first)]),
+                  deepest_of(entry->overlap.of_second, *rest[static_cast<std::size_t>(second)]));
+}
+
 void OverlapTable::mark(float reach, SurfacePair& pair) const {
   const Entry* entry = find(pair.first, pair.second);
   if (!entry) return;
-  pair.deepest = static_cast<float>(entry->overlap.deepest());
-  pair.release = std::max(least_release, pair.deepest / release_steps);
+  pair.release = std::max(least_release, static_cast<float>(entry->overlap.deepest()) / release_steps);
   const OverlapSides& sides = entry->sides;
   mark_side(entry->overlap.of_first, sides.first_astray, sides.is_through, reach, pair.first_gap, pair.first_overlaps);
   mark_side(entry->overlap.of_second, sides.second_astray, sides.is_through, reach, pair.second_gap,

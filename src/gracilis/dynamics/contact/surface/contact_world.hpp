@@ -28,7 +28,7 @@ struct SurfacePair {
   std::vector<char> first_overlaps, second_overlaps;  ///< which particles lie in the other at rest; empty: none
   Eigen::Matrix3Xf first_ways, second_ways;  ///< unit, where those are to come out, in the other's shape at rest; zero:
                                              ///< where it is nearest; empty: none
-  float deepest = 0;  ///< m, how deep any particle of one lies in the other at rest
+  float deepest = 0;  ///< m, how deep any particle of one that can move lies in the other at rest
   float release = 0;  ///< m per step, how fast those come out that do: all alike, so that nothing bends on its way
   std::vector<char> first_touches, second_touches;  ///< which particles touch the other at rest; for cohesion
   bool is_self() const { return first == second; }  ///< a surface with itself
