@@ -1,5 +1,4 @@
 """Which figures and tables of a publication a text names, and which of them a page has or says that it cannot have."""
-import csv
 import re
 
 from files import read
@@ -39,8 +38,7 @@ def is_beside(title):
 def on_page(here):
     """Figures and tables of the publication that the page of HERE shows: titles of charts and pictures, and sources of published values."""
     titles = [entry.get("title", "") for entry in [*read(f"{here}/page.toml")["figures"].values(), *read(f"{here}/pictures.toml").get("pictures", [])]]
-    with open(f"{here}/published.csv", newline="") as file:
-        sources = [row["source"] for row in csv.DictReader(file)]
+    sources = [row["source"] for row in read(f"{here}/published.csv")]
     return {each for text in [title for title in titles if not is_beside(title)] + sources for each in named(text)}
 
 

@@ -31,14 +31,8 @@ def shown(value):
     return f"{value:.4g}" if isinstance(value, float) else "" if value is None else str(value)
 
 
-def read_published(path):
-    """Rows of a publication's values: key, quantity, unit, published, source (its table, figure or page)."""
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def beside(published, ours, remarks=None):
-    """Rows of results.csv. `ours` and `remarks` by the keys of the published rows."""
+    """Rows of results.csv. `published`: rows of published.csv (key, quantity, unit, published, source: its table, figure or page); `ours` and `remarks` by their keys."""
     rows = []
     for row in published:
         value = ours.get(row["key"])
@@ -199,7 +193,7 @@ class WordedPage(Page):
         self.data = data
         self.words = files.read(os.path.join(here, "page.toml"))
         super().__init__(out, self.words["title"], self.words["about"], f"reproductions/{os.path.basename(here)}/run.sh")
-        self.published = read_published(os.path.join(here, "published.csv"))
+        self.published = files.read(os.path.join(here, "published.csv"))
         self.ours, self.told, self.drawn = {}, {}, set()
         for entry in self.words.get("not_made", []):
             self.cannot(entry["what"], entry["needs"])

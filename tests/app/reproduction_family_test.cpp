@@ -125,11 +125,11 @@ TEST(ReproductionFamily, a_complete_pass_fails_and_names_what_its_page_lacks) {
                "key,quantity,unit,published,source\nlength,a length,m,1,page 3\nmass,a mass,kg,2,page 4\n");
   const auto page = [&](const std::string& ours, const std::string& complete) {
     return folder.python(
-        "import os\nimport publication\nfrom charts import Series\nos.makedirs('out', exist_ok=True)\n"
+        "import os\nimport files\nimport publication\nfrom charts import Series\nos.makedirs('out', exist_ok=True)\n"
         "page = publication.Page('out', 't', 'a', 'c')\n"
         "page.chart('f', 'Figure 1: drawn', '', [Series('a', [(0, 1), (1, 2)])], 'x', 'y', same='a line')\n"
         "page.chart('g', 'Figure 2: empty', '', [Series('a', [])], 'x', 'y')\n"
-        "page.rows = publication.beside(publication.read_published('published.csv'), " +
+        "page.rows = publication.beside(files.read('published.csv'), " +
         ours + ")\npage.write(" + complete + ")\n");
   };
   EXPECT_EQ(page("{'length': 1}", "complete=True"), "not made: Figure 2: empty\nnot made: page 4: a mass\ncode 1\n");

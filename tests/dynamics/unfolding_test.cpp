@@ -5,6 +5,8 @@
 
 #include <shapes.hpp>
 
+#include "sheet.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,22 +74,6 @@ struct Crumpled {
         (mixed + weight * nearest_rotation(mixed)) * (square + weight * Eigen::Matrix3d::Identity()).inverse();
     return [=](const Vec3& p) -> Vec3 { return to + linear * (p - from); };
   }
-};
-
-/// Two faces and where their particles are, at first at rest.
-struct TwoFaces {
-  ContactSurface surface;
-  Eigen::Matrix3Xf rest;
-  Particles particles, before;
-
-  explicit TwoFaces(const TriangleMesh& mesh, Real inverse_mass = 1)
-      : surface(build_contact_surface(mesh.faces, mesh.vertex_count())),
-        rest(mesh.vertices.cast<float>()),
-        particles(make_particles(mesh.vertices, Eigen::VectorXd::Constant(mesh.vertex_count(), inverse_mass))),
-        before(particles) {}
-
-  std::vector<FacePair> cuts() const { return find_self_intersections(surface, rest, before, particles, {0, 1}); }
-  std::vector<FacePair> folds() const { return find_folds(surface, rest, before, particles); }
 };
 
 /// A triangle in the plane z = 0 and one that stands on its tip over the middle of it.
@@ -177,13 +163,13 @@ TEST(Unfolding, a_shape_that_is_not_thin_is_restored_by_smoothing) {
 
 TEST(FacePairs, one_particle_of_either_face_that_can_move_is_enough) {
   for (Index movable = 0; movable < 6; ++movable) {
-    TwoFaces sheet(pierced_in_its_middle(), 0);
+    Sheet sheet(pierced_in_its_middle(), 0);
     sheet.particles.position(3).z() = -0.1f;
     sheet.particles.at(movable)[3] = 1;
     EXPECT_EQ(sheet.cuts(), (std::vector<FacePair>{{0, 1}})) << movable;
   }
   for (Index movable = 0; movable < 4; ++movable) {
-    TwoFaces sheet(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}), 0);
+    Sheet sheet(shapes::mesh_of({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, {{0, 1, 2}, {1, 0, 3}}), 0);
     sheet.particles.position(3) = Vector3f(0, 0.9f, 0.3f);
     sheet.particles.at(movable)[3] = 1;
     EXPECT_EQ(sheet.folds().size(), 1u) << movable;
@@ -211,7 +197,7 @@ TEST(FacePairs, two_faces_cut_when_a_side_of_one_passes_through_the_other_whiche
       expected = expected || passes(corners[k], corners[next], corners[3], corners[4], corners[5]) ||
                  passes(corners[3 + k], corners[3 + next], corners[0], corners[1], corners[2]);
     }
-    TwoFaces sheet(mesh);
+    Sheet sheet(mesh);
     // At rest and before, all of them elsewhere: apart.
     for (const Index p : {3, 4, 5}) {
       sheet.rest.col(p) += Vector3f(10, 0, 0);

@@ -63,16 +63,26 @@ float distance_through(const ShapeLimitSet& set, Index particle, const Particles
   return (particles.position(particle) - particles.position(set.opposite[static_cast<std::size_t>(particle)])).norm();
 }
 
+/// The distance nearest to `distance` that the limits allow between a particle and the one that it faces, m.
+float allowed_distance(const ShapeLimitSet& set, const ShapeLimits& limits, std::size_t p, float distance) {
+  if (limits.thickness > 0 && distance > thickest(set, limits.thickness, p)) return thickest(set, limits.thickness, p);
+  if (limits.thinness > 0 && distance < thinnest(set, limits.thinness, p)) return thinnest(set, limits.thinness, p);
+  return distance;
+}
+
 /// Brings the two that face each other together where they are too far apart, and apart where they are too near.
 bool keep_thickness(const ShapeLimitSet& set, const ShapeLimits& limits, Index particle, Particles& particles) {
   const auto p = static_cast<std::size_t>(particle);
   if (set.opposite[p] < 0) return false;
   const float distance = distance_through(set, particle, particles);
-  if (limits.thickness > 0 && distance > thickest(set, limits.thickness, p))
-    return bring_to_distance(set, particle, thickest(set, limits.thickness, p), particles);
-  if (limits.thinness > 0 && distance < thinnest(set, limits.thinness, p))
-    return bring_to_distance(set, particle, thinnest(set, limits.thinness, p), particles);
-  return false;
+  const float allowed = allowed_distance(set, limits, p, distance);
+  return allowed != distance && bring_to_distance(set, particle, allowed, particles);
+}
+
+/// Limits that are reached at this share of the way to others.
+ShapeLimits at_share(const ShapeLimits& limits, float share) {
+  const auto of_ratio = [share](float limit) { return limit > 0 ? 1 + share * (limit - 1) : 0; };
+  return {share * limits.spike, of_ratio(limits.thickness), of_ratio(limits.thinness)};
 }
 
 }  // namespace
@@ -92,18 +102,18 @@ ShapeLimitSet build_shape_limits(const SurfaceShape& rest) {
 std::vector<Index> near_shape_limits(const ShapeLimitSet& set, const ShapeLimits& limits, float share,
                                      const Particles& particles) {
   std::vector<Index> near;
+  const ShapeLimits nearer = at_share(limits, share);
   for (Index particle = 0; particle < static_cast<Index>(set.apart.size()); ++particle) {
     const auto p = static_cast<std::size_t>(particle);
     const auto spikes = [&] {
-      return limits.spike > 0 && has_neighbors(set, p) &&
+      return nearer.spike > 0 && has_neighbors(set, p) &&
              (particles.position(particle) - mean_of_neighbors(set, particle, particles)).norm() >
-                 farthest_apart(set, share * limits.spike, p);
+                 farthest_apart(set, nearer.spike, p);
     };
     const auto changes_thickness = [&] {
       if (set.opposite[p] < 0) return false;
       const float distance = distance_through(set, particle, particles);
-      return (limits.thickness > 0 && distance > thickest(set, 1 + share * (limits.thickness - 1), p)) ||
-             (limits.thinness > 0 && distance < thinnest(set, 1 + share * (limits.thinness - 1), p));
+      return allowed_distance(set, nearer, p, distance) != distance;
     };
     if (changes_thickness() || spikes()) near.push_back(particle);
   }

@@ -70,8 +70,7 @@ ContactWorld surfaces_of(const ContactSettings& settings, const SurfaceContactSe
     for (Index second = first; second < count; ++second) {
       if (second == first && !muscles[static_cast<std::size_t>(first)].keeps_out_of_itself) continue;
       world.pairs.push_back(pair_of(first, second, muscles, margin));
-      overlaps.mark(static_cast<float>(settings.reach), world.pairs.back());
-      world.pairs.back().deepest = static_cast<float>(overlaps.deepest_free(first, second, rest));
+      overlaps.mark(static_cast<float>(settings.reach), rest, world.pairs.back());
     }
   for (SurfacePair& pair : world.pairs)
     // Parts of one surface come near each other slowly, but edges may cross halfway between particles.

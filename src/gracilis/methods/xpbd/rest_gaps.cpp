@@ -1,11 +1,11 @@
 #include <gracilis/methods/xpbd/rest_gaps.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/contact/mesh/edge_spread.hpp>
 #include <gracilis/dynamics/contact/surface/overlap_release.hpp>
 #include <gracilis/methods/xpbd/preparation.hpp>
 
 #include <algorithm>
-#include <queue>
 
 namespace gracilis::xpbd {
 
@@ -35,9 +35,12 @@ void mark_side(const InsideVertices& inside, const std::vector<Real>& astray, bo
   }
 }
 
-bool is_held(const ContactSurface& surface, Index face, const Particles& particles) {
-  const auto corners = surface.faces.col(face);
-  return std::none_of(corners.begin(), corners.end(), [&](Index p) { return particles.inverse_mass(p) > 0; });
+/// How deep those lie inside that can move, m.
+float deepest_free(const InsideVertices& inside, const Particles& rest) {
+  Real deepest = 0;
+  for (std::size_t i = 0; i < inside.vertices.size(); ++i)
+    if (rest.inverse_mass(inside.vertices[i]) > 0) deepest = std::max(deepest, inside.depths[i]);
+  return static_cast<float>(deepest);
 }
 
 /// One side of a pair at rest.
@@ -55,7 +58,7 @@ struct RestSide {
     const auto corners = target_surface.faces.col(candidate.face);
     if (std::all_of(corners.begin(), corners.end(), [&](Index p) { return target_tied[static_cast<std::size_t>(p)]; }))
       return true;
-    return !(probe.inverse_mass(candidate.particle) > 0) && is_held(target_surface, candidate.face, target);
+    return !(probe.inverse_mass(candidate.particle) > 0) && !can_move(target_surface, candidate.face, target);
   }
 
   float distance(const VertexFaceCandidate& candidate) const {
@@ -72,7 +75,7 @@ void measure_side(const std::vector<VertexFaceCandidate>& near, const RestSide& 
     const float rest = side.distance(candidate);
     candidates[p] = rest < touching;
     // What overlaps is released; a wrong sign at a fold is not an overlap.
-    if (!side.overlaps.empty() && side.overlaps[p]) continue;
+    if (overlaps_at_rest(side.overlaps, candidate.particle)) continue;
     const float kept = rest < 0 && is_self  ? rest * static_cast<float>(1 - overlap_given_back)
                        : candidate.side < 0 ? rest * thinnest_sheet
                                             : rest;
@@ -104,30 +107,17 @@ std::vector<char> tied_to(Index guest, Index host, Index count, const std::vecto
   return tied;
 }
 
-/// Lowers gaps around what has a depth: to that depth, and by `release_slope` of the way from there less (Dijkstra
-/// 1959).
-void fade_release(const ContactSurface& surface, const Particles& rest, std::vector<float> depth,
+/// Lowers gaps around what has a depth: to that depth, and by `release_slope` of the way from there less.
+void fade_release(const ContactSurface& surface, const Particles& rest, const std::vector<float>& depth,
                   std::vector<float>& gaps) {
-  using Item = std::pair<float, Index>;
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> open;
+  std::vector<std::pair<float, Index>> sources;
   for (std::size_t p = 0; p < depth.size(); ++p)
-    if (depth[p] < gaps[p]) open.emplace(depth[p], static_cast<Index>(p));
-  while (!open.empty()) {
-    const auto [reached, p] = open.top();
-    open.pop();
-    if (reached > depth[static_cast<std::size_t>(p)]) continue;
-    float& gap = gaps[static_cast<std::size_t>(p)];
-    gap = std::min(gap, reached);
-    for (const Index edge : surface.edges_at(p)) {
-      const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
-      const Index other = ends[0] == p ? ends[1] : ends[0];
-      const float there = reached + release_slope * (rest.position(other) - rest.position(p)).norm();
-      if (!(there < depth[static_cast<std::size_t>(other)]) || !(there < gaps[static_cast<std::size_t>(other)]))
-        continue;
-      depth[static_cast<std::size_t>(other)] = there;
-      open.emplace(there, other);
-    }
-  }
+    if (depth[p] < gaps[p]) sources.emplace_back(depth[p], static_cast<Index>(p));
+  const auto growth = [&](Index from, Index to) {
+    return release_slope * (rest.position(to) - rest.position(from)).norm();
+  };
+  const auto gap_at = [&](Index p) -> float& { return gaps[static_cast<std::size_t>(p)]; };
+  spread_along_edges(surface, sources, growth, gap_at, [&](Index p, float reached) { gap_at(p) = reached; });
 }
 
 }  // namespace
@@ -156,22 +146,11 @@ Real OverlapTable::deepest(Index first, Index second) const {
   return entry ? entry->overlap.deepest() : 0;
 }
 
-Real OverlapTable::deepest_free(Index first, Index second, const std::vector<const Particles*>& rest) const {
-  const Entry* entry = find(first, second);
-  if (!entry) return 0;
-  const auto deepest_of = [](const InsideVertices& inside, const Particles& particles) {
-    Real deepest = 0;
-    for (std::size_t i = 0; i < inside.vertices.size(); ++i)
-      if (particles.inverse_mass(inside.vertices[i]) > 0) deepest = std::max(deepest, inside.depths[i]);
-    return deepest;
-  };
-  return std::max(deepest_of(entry->overlap.of_first, *rest[static_cast<std::size_t>(first)]),
-                  deepest_of(entry->overlap.of_second, *rest[static_cast<std::size_t>(second)]));
-}
-
-void OverlapTable::mark(float reach, SurfacePair& pair) const {
+void OverlapTable::mark(float reach, const std::vector<const Particles*>& rest, SurfacePair& pair) const {
   const Entry* entry = find(pair.first, pair.second);
   if (!entry) return;
+  pair.deepest = std::max(deepest_free(entry->overlap.of_first, *rest[static_cast<std::size_t>(pair.first)]),
+                          deepest_free(entry->overlap.of_second, *rest[static_cast<std::size_t>(pair.second)]));
   pair.release = std::max(least_release, static_cast<float>(entry->overlap.deepest()) / release_steps);
   const OverlapSides& sides = entry->sides;
   mark_side(entry->overlap.of_first, sides.first_astray, sides.is_through, reach, pair.first_gap, pair.first_overlaps);
@@ -204,8 +183,8 @@ void measure_rest_gaps(const ContactWorldState& state, const std::vector<const P
   std::vector<float> depth_first(pair.first_gap.size(), none), depth_second(pair.second_gap.size(), none);
   gather_grown_together(candidates.near_second, first, depth_first, depth_second);
   gather_grown_together(candidates.near_first, second, depth_second, depth_first);
-  fade_release(world.surfaces[a], *rest[a], std::move(depth_first), pair.first_gap);
-  fade_release(world.surfaces[b], *rest[b], std::move(depth_second), pair.second_gap);
+  fade_release(world.surfaces[a], *rest[a], depth_first, pair.first_gap);
+  fade_release(world.surfaces[b], *rest[b], depth_second, pair.second_gap);
 }
 
 }  // namespace gracilis::xpbd

@@ -19,12 +19,11 @@ class OverlapTable {
 
   /// m; 0 where they do not overlap.
   Real deepest(Index first, Index second) const;
-  /// The same of particles that can move; those of all muscles are given `rest`.
-  Real deepest_free(Index first, Index second, const std::vector<const Particles*>& rest) const;
-  /// Notes which particles overlap, and how fast they come out. Those that have no side to come out on stay as deep as
-  /// they are where one muscle passes through the other or their region is deeper than `reach`, m; elsewhere they are
-  /// not kept out, for where thin overlaps stay among others that are released, surfaces fold.
-  void mark(float reach, SurfacePair& pair) const;
+  /// Notes which particles of the muscles at `rest` overlap, how deep, and how fast they come out. Those that have no
+  /// side to come out on stay as deep as they are where one muscle passes through the other or their region is deeper
+  /// than `reach`, m; elsewhere they are not kept out, for where thin overlaps stay among others that are released,
+  /// surfaces fold.
+  void mark(float reach, const std::vector<const Particles*>& rest, SurfacePair& pair) const;
 
  private:
   struct Entry {

@@ -4,6 +4,7 @@
 #include <gracilis/dynamics/particles.hpp>
 #include <gracilis/dynamics/vertex_faces.hpp>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <span>
@@ -47,6 +48,19 @@ Eigen::Vector3f sum_around(const ContactSurface& surface, Index particle, const 
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (const Index face : surface.vertex_faces.around(particle)) sum += of_face(face);
   return sum;
+}
+/// Calls act(neighbor) for each particle at the other end of an edge.
+template <class Act>
+void for_each_neighbor(const ContactSurface& surface, Index particle, const Act& act) {
+  for (const Index edge : surface.edges_at(particle)) {
+    const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
+    act(ends[0] == particle ? ends[1] : ends[0]);
+  }
+}
+/// Whether a corner of the face can move.
+inline bool can_move(const ContactSurface& surface, Index face, const Particles& particles) {
+  const auto corners = surface.faces.col(face);
+  return std::any_of(corners.begin(), corners.end(), [&](Index corner) { return particles.inverse_mass(corner) > 0; });
 }
 /// At each particle the sum over its faces of what they have, one column each.
 Eigen::Matrix3Xf sums_around_particles(const ContactSurface& surface, const Eigen::Matrix3Xf& of_faces);

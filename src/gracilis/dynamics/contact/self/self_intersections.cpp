@@ -78,10 +78,7 @@ bool is_bent(const ContactSurface& surface, const ContactSurface::Edge& edge, co
 }
 
 bool can_move(const ContactSurface& surface, const FacePair& pair, const Particles& particles) {
-  for (const Index face : pair)
-    for (const Index corner : surface.faces.col(face))
-      if (particles.inverse_mass(corner) > 0) return true;
-  return false;
+  return can_move(surface, pair[0], particles) || can_move(surface, pair[1], particles);
 }
 
 }  // namespace

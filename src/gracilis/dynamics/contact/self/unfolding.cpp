@@ -21,15 +21,6 @@ constexpr float turn_weight = 0.1f;
 /// Where a surface is thin for its edges a particle stands out from its neighbors' middle by this share of them.
 constexpr float thin = 0.1f;
 
-/// Calls act(neighbor) for each particle at the other end of an edge.
-template <class Act>
-void for_each_neighbor(const ContactSurface& surface, Index particle, const Act& act) {
-  for (const Index edge : surface.edges_at(particle)) {
-    const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
-    act(ends[0] == particle ? ends[1] : ends[0]);
-  }
-}
-
 std::vector<Index> corners_of(const ContactSurface& surface, const FacePair& pair) {
   std::vector<Index> corners;
   for (const Index face : pair)

@@ -34,6 +34,11 @@ struct SurfacePair {
   bool is_self() const { return first == second; }  ///< a surface with itself
 };
 
+/// Whether a particle lies in the other surface at rest, by the pair's `first_overlaps` or `second_overlaps`.
+inline bool overlaps_at_rest(const std::vector<char>& overlaps, Index particle) {
+  return !overlaps.empty() && overlaps[static_cast<std::size_t>(particle)];
+}
+
 /// All surfaces that keep out of each other, and their pairs; constant. Self-contact needs the shape at rest, to tell
 /// what belongs together: `rest` and its normals per surface.
 struct ContactWorld {

@@ -41,8 +41,7 @@ Eigen::Vector3f edge_normal(const ContactSurface& surface, Index edge, const Par
 }
 
 bool any_overlaps(const std::vector<char>& overlaps, const std::array<Index, 2>& ends) {
-  return !overlaps.empty() &&
-         (overlaps[static_cast<std::size_t>(ends[0])] || overlaps[static_cast<std::size_t>(ends[1])]);
+  return overlaps_at_rest(overlaps, ends[0]) || overlaps_at_rest(overlaps, ends[1]);
 }
 
 float largest_gap(const std::vector<float>& gaps, const std::array<Index, 2>& ends) {

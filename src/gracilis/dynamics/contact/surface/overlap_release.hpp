@@ -14,10 +14,6 @@ struct OverlapRelease {
   const std::vector<char>& overlaps;  ///< which of the probe's particles lie in the target at rest; empty: none
   float speed = 0;                    ///< m per step, SurfacePair::release
 
-  /// Whether the probe's particle lies in the target at rest.
-  bool overlapped_at_rest(Index particle) const {
-    return !overlaps.empty() && overlaps[static_cast<std::size_t>(particle)];
-  }
   /// The most that the candidate may be asked to keep, m, where `gap` is what it shall keep in the end; infinite where
   /// that is near enough.
   float most_gap(const VertexFaceCandidate& candidate, float gap) const;

@@ -1,12 +1,11 @@
 #include <gracilis/dynamics/contact/surface/penetration_repair.hpp>
 
 #include <gracilis/core/parallel.hpp>
+#include <gracilis/dynamics/contact/mesh/edge_spread.hpp>
 #include <gracilis/geometry/winding_number.hpp>
 
 #include <algorithm>
 #include <map>
-#include <queue>
-#include <utility>
 
 namespace gracilis {
 
@@ -31,14 +30,6 @@ struct ProbeAndTarget {
   Eigen::Vector3f shift;              ///< from the probe's coordinates to the target's
   const std::vector<char>& overlaps;  ///< which of the probe's particles lie in the target at rest; empty: none
   float deepest;                      ///< m, of what lies in the other at rest
-
-  bool overlapped_at_rest(Index particle) const {
-    return !overlaps.empty() && overlaps[static_cast<std::size_t>(particle)];
-  }
-  bool target_moves(Index face) const {
-    const auto corners = target_surface.faces.col(face);
-    return std::any_of(corners.begin(), corners.end(), [&](Index each) { return target.inverse_mass(each) > 0; });
-  }
 };
 
 /// By the winding number: beside a fold the nearest point alone does not tell inside from outside.
@@ -57,7 +48,7 @@ void gather_deep(const std::vector<VertexFaceCandidate>& near, const ProbeAndTar
                  std::vector<Displacement>& of_probe, std::vector<Displacement>& of_target) {
   const float deep = -sides.deepest - tolerated_depth;
   for (const VertexFaceCandidate& candidate : near) {
-    if (!(candidate.distance < deep) || sides.overlapped_at_rest(candidate.particle) ||
+    if (!(candidate.distance < deep) || overlaps_at_rest(sides.overlaps, candidate.particle) ||
         !(sides.probe.inverse_mass(candidate.particle) > 0))
       continue;
     const Eigen::Vector3f p = sides.probe.position(candidate.particle) + sides.shift;
@@ -65,7 +56,7 @@ void gather_deep(const std::vector<VertexFaceCandidate>& near, const ProbeAndTar
                                    sides.target, sides.target_normals);
     const float missing = -sides.deepest - gap.distance;
     if (!(missing > tolerated_depth) || !is_inside(p, sides.target_surface, sides.target)) continue;
-    const bool both_move = sides.target_moves(candidate.face);
+    const bool both_move = can_move(sides.target_surface, candidate.face, sides.target);
     const Eigen::Vector3f way = (both_move ? 0.5f : 1.0f) * missing * gap.normal;
     of_probe.push_back({candidate.particle, way});
     if (!both_move) continue;
@@ -73,28 +64,17 @@ void gather_deep(const std::vector<VertexFaceCandidate>& near, const ProbeAndTar
   }
 }
 
-/// Adds what goes along with a particle to what goes already; of two ways the longer one counts (Dijkstra 1959).
+/// Adds what goes along with a particle to what goes already; of two ways the longer one counts.
 void blend(const ContactSurface& surface, const Eigen::Matrix3Xf& rest, const Displacement& displacement,
            std::map<Index, Eigen::Vector3f>& all) {
   const float radius = blended_over * displacement.by.norm();
-  std::map<Index, float> reached;
-  using Item = std::pair<float, Index>;
-  std::priority_queue<Item, std::vector<Item>, std::greater<>> open;
-  open.emplace(0.0f, displacement.particle);
-  while (!open.empty()) {
-    const auto [distance, particle] = open.top();
-    open.pop();
-    if (!reached.emplace(particle, distance).second) continue;
+  const auto length = [&](Index from, Index to) { return (rest.col(to) - rest.col(from)).norm(); };
+  const auto limit = [&](Index) { return radius; };
+  spread_along_edges(surface, {{0.0f, displacement.particle}}, length, limit, [&](Index particle, float distance) {
     const Eigen::Vector3f by = (1 - distance / radius) * displacement.by;
     Eigen::Vector3f& kept = all.try_emplace(particle, Eigen::Vector3f::Zero()).first->second;
     if (by.squaredNorm() > kept.squaredNorm()) kept = by;
-    for (const Index edge : surface.edges_at(particle)) {
-      const auto& ends = surface.edges[static_cast<std::size_t>(edge)].ends;
-      const Index next = ends[0] == particle ? ends[1] : ends[0];
-      const float there = distance + (rest.col(next) - rest.col(particle)).norm();
-      if (there < radius && !reached.contains(next)) open.emplace(there, next);
-    }
-  }
+  });
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ bool is_inside(const std::vector<VertexFaceCandidate>& near, Index particle) {
 /// Whether a particle lay in another surface at rest and still does.
 bool is_on_its_way_out(const ContactWorld& world, const ContactWorldState& state, std::size_t surface, Index particle) {
   const auto is_in = [&](const std::vector<char>& lay_in, const std::vector<VertexFaceCandidate>& near) {
-    return !lay_in.empty() && lay_in[static_cast<std::size_t>(particle)] && is_inside(near, particle);
+    return overlaps_at_rest(lay_in, particle) && is_inside(near, particle);
   };
   for (std::size_t i = 0; i < world.pairs.size(); ++i) {
     const SurfacePair& pair = world.pairs[i];
