@@ -75,6 +75,15 @@ TEST(RestProximityConstraint, a_point_over_a_face_and_the_face_share_the_way_by_
   EXPECT_NEAR(particles.position(3).x(), 0.01, 1e-9);
 }
 
+TEST(RestProximityConstraint,
+     a_particle_with_a_small_share_beside_fixed_ones_goes_twice_the_way_that_is_missing_at_most) {
+  Points points(3, 4);
+  points << 0, 0.03, 0, 0.0003, 0, 0, 0.03, 0.0003, 0, 0, 0, -1e-5;
+  Particles particles = make_particles(points, Eigen::Vector4d(0, 1, 0, 0));
+  EXPECT_EQ(project_rest_proximities({{{3, -1}, {0, 1, 2}, 1, 2e-5f}}, particles), 1);
+  EXPECT_NEAR(particles.position(1).z(), -2 * 3e-5, 1e-9) << "its share is a hundredth, 30 µm are missing";
+}
+
 TEST(RestProximityConstraint, edges_share_the_way_by_where_they_pass_each_other) {
   Points points(3, 4);
   points << 0, 0.04, 0.01, 0.01, 0, 0, -0.03, 0.01, 0, 0, -1e-5, -1e-5;

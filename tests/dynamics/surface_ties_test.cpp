@@ -56,6 +56,18 @@ TEST(SurfaceTies, one_projection_brings_the_particle_to_its_place_and_keeps_mome
   EXPECT_GT((tied.middle() - Eigen::Vector3f(0.01f, 0.01f, 0)).norm(), 1e-4f);
 }
 
+TEST(SurfaceTies, a_corner_with_a_small_share_beside_fixed_ones_goes_twice_the_way_that_is_missing_at_most) {
+  TiedPoint tied;
+  tied.host = make_particles(triangle(), Eigen::Vector3d(0, 1, 0));
+  tied.guest = make_particles(Points(Vec3(0.0003, 0.01, 0)), Eigen::VectorXd::Zero(1));
+  tied.ties[0].ties = {{0, {0, 1, 2}, {0.66f, 0.01f, 0.33f}, {0, 0, 0}}};
+  const Eigen::Vector3f before = tied.host.position(1);
+  tied.guest.position(0).z() += 0.001f;
+  tied.project();
+  EXPECT_GT(tied.host.position(1).z(), 0);
+  EXPECT_LE((tied.host.position(1) - before).norm(), 2.1e-3f) << "its share is a hundredth, 1 mm is missing";
+}
+
 TEST(SurfaceTies, the_offset_turns_with_the_patch) {
   TiedPoint tied;
   const Eigen::Matrix3f quarter = Eigen::AngleAxisf(static_cast<float>(pi / 2), Eigen::Vector3f::UnitX()).matrix();

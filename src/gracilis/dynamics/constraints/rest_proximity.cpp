@@ -2,6 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/contact/mesh/patch_tree.hpp>
+#include <gracilis/dynamics/leverage.hpp>
 
 #include <Eigen/Geometry>
 
@@ -117,11 +118,15 @@ struct Finder {
 /// Moves both sides along the normal.
 void push_apart(const RestProximity& place, const Eigen::Vector2f& probe_weights, const Eigen::Vector3f& target_weights,
                 const Eigen::Vector3f& along, float wanted, Particles& particles) {
-  float weight = 0;
-  for (int i = 0; i < 2; ++i)
-    if (place.probe[i] >= 0) weight += probe_weights[i] * probe_weights[i] * particles.inverse_mass(place.probe[i]);
-  for (int i = 0; i < 3; ++i)
-    if (place.target[i] >= 0) weight += target_weights[i] * target_weights[i] * particles.inverse_mass(place.target[i]);
+  float weight = 0, largest = 0;
+  const auto add = [&](Index particle, float share) {
+    if (particle < 0) return;
+    weight += share * share * particles.inverse_mass(particle);
+    largest = std::max(largest, share * particles.inverse_mass(particle));
+  };
+  for (int i = 0; i < 2; ++i) add(place.probe[i], probe_weights[i]);
+  for (int i = 0; i < 3; ++i) add(place.target[i], target_weights[i]);
+  weight = limit_leverage(weight, largest);
   if (!(weight > 0)) return;
   const Eigen::Vector3f push = wanted / weight * along;
   for (int i = 0; i < 2; ++i)

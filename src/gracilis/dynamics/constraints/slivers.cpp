@@ -1,6 +1,7 @@
 #include <gracilis/dynamics/constraints/slivers.hpp>
 
 #include <gracilis/dynamics/constraints/lost_slivers.hpp>
+#include <gracilis/dynamics/leverage.hpp>
 #include <gracilis/dynamics/vertex_faces.hpp>
 
 #include <Eigen/Geometry>
@@ -12,10 +13,6 @@
 namespace gracilis {
 
 namespace {
-
-/// How far an end of a side may go at once, over what is missing: where the other is fixed, too, one near which the tip
-/// is not would have to go as much further as its share is smaller, and would be thrown to and fro.
-constexpr float most_side_leverage = 2;
 
 /// How far anything may go at once, over the length of the side. Tips lie nearer to their sides than a tenth of that:
 /// what is missing beyond has been torn away, not turned over, and comes back gradually, or slivers and the limit of
@@ -126,8 +123,8 @@ void project_sliver(const SliverSet& set, const SliverTip& tip, Particles& parti
     return;
   }
   const float wa = particles.inverse_mass(tip.a), wb = particles.inverse_mass(tip.b);
-  const float weight = std::max({share_of_a * share_of_a * wa + tip.share * tip.share * wb,
-                                 share_of_a * wa / most_side_leverage, tip.share * wb / most_side_leverage});
+  const float weight = limit_leverage(share_of_a * share_of_a * wa + tip.share * tip.share * wb,
+                                      std::max(share_of_a * wa, tip.share * wb));
   if (!(weight > 0)) return;
   particles.position(tip.a) -= share_of_a * wa / weight * push;
   particles.position(tip.b) -= tip.share * wb / weight * push;

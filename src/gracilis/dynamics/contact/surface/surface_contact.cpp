@@ -2,6 +2,7 @@
 
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/dynamics/contact/surface/pressing_candidates.hpp>
+#include <gracilis/dynamics/leverage.hpp>
 
 #include <algorithm>
 #include <array>
@@ -25,10 +26,6 @@ struct Contact {
   float distance = 0, gap = 0;
   bool bound = false;  ///< both touched at rest: cohesion holds them
 };
-
-/// How far a particle may go at once, over what is missing from the gap. Where a contact's other particles cannot move,
-/// one that has a small share in it would go as much further as its share is smaller.
-constexpr float most_leverage = 2;
 
 /// One side of a pair, seen from the other.
 struct Sides {
@@ -121,7 +118,7 @@ bool project(const Contact& contact, const SurfaceContactSettings& settings, Mov
   };
   for (std::size_t i = 0; i < 2; ++i) add(contact.probe[i], contact.probe_weight[i], probe, 1);
   for (std::size_t i = 0; i < 3; ++i) add(contact.target[i], contact.target_weight[i], target, -1);
-  weight = std::max(weight, largest / most_leverage);
+  weight = limit_leverage(weight, largest);
   if (!(weight > 0)) return false;
   Eigen::Vector3f push = wanted * contact.normal;
   if (settings.friction > 0 && !parted) push += friction_of(contact, settings.friction, wanted, moved);

@@ -1,5 +1,6 @@
 #include <gracilis/dynamics/contact/surface/surface_ties.hpp>
 
+#include <gracilis/dynamics/leverage.hpp>
 #include <gracilis/geometry/rotations.hpp>
 
 namespace gracilis {
@@ -28,13 +29,15 @@ void project(const TiedSurfaces& tied, bool guest_moves, bool host_moves, Partic
   for (const SurfaceTie& tie : tied.ties) {
     const float of_guest = guest_moves ? guest.inverse_mass(tie.particle) : 0;
     std::array<float, 3> of_corner{};
-    float sum = of_guest;
+    float sum = of_guest, largest = of_guest;
     for (std::size_t k = 0; k < 3 && host_moves; ++k) {
       of_corner[k] = tie.weights[static_cast<Index>(k)] * host.inverse_mass(tie.corners[k]);
       sum += tie.weights[static_cast<Index>(k)] * of_corner[k];
+      largest = std::max(largest, of_corner[k]);
     }
     if (!(sum > 0)) continue;
-    const Eigen::Vector3f pull = (guest.position(tie.particle) + tied.shift - place_on(tie, turn, host)) / sum;
+    const Eigen::Vector3f pull =
+        (guest.position(tie.particle) + tied.shift - place_on(tie, turn, host)) / limit_leverage(sum, largest);
     guest.position(tie.particle) -= of_guest * pull;
     for (std::size_t k = 0; k < 3; ++k) host.position(tie.corners[k]) += of_corner[k] * pull;
   }
