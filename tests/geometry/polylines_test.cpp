@@ -60,6 +60,16 @@ TEST(Polylines, know_how_far_along_their_points_are_and_what_lies_there) {
   EXPECT_LT((points_along(doubled, {0, 1, 2}) - (Points(3, 3) << 0, 1, 2, 0, 0, 0, 0, 0, 0).finished()).norm(), 1e-15);
 }
 
+TEST(Polylines, are_as_far_from_a_point_as_the_nearest_place_on_any_segment) {
+  Points line(3, 4);
+  line << 0, 1, 1, 1, 0, 0, 0, 2, 0, 0, 0, 0;  // one segment has no length
+  EXPECT_DOUBLE_EQ(distance_to_polyline(line, {0.5, -0.3, 0.4}), 0.5) << "beside the first";
+  EXPECT_DOUBLE_EQ(distance_to_polyline(line, {-3, -4, 0}), 5) << "before its beginning";
+  EXPECT_DOUBLE_EQ(distance_to_polyline(line, {1, 2, 0.25}), 0.25) << "at its end";
+  EXPECT_EQ(distance_to_polyline(line, {1, 1.5, 0}), 0);
+  EXPECT_TRUE(std::isinf(distance_to_polyline(line.leftCols(1), Vec3::Zero()))) << "no segment";
+}
+
 TEST(CentripetalSpline, passes_through_its_knots_and_keeps_to_a_straight_line) {
   const Points smooth = centripetal_spline(corner(), 8);
   ASSERT_EQ(smooth.cols(), 17);

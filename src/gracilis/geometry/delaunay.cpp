@@ -1,5 +1,7 @@
 #include <gracilis/geometry/delaunay.hpp>
 
+#include <gracilis/geometry/point_segment.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -90,12 +92,8 @@ bool is_simple(const PlanePoints& polygon) {
 
 Real distance_to_polygon(const PlanePoints& polygon, const Vec2& p) {
   Real nearest = std::numeric_limits<Real>::infinity();
-  for (Eigen::Index i = 0, j = polygon.cols() - 1; i < polygon.cols(); j = i++) {
-    const Vec2 a = polygon.col(j), along = polygon.col(i) - a;
-    const Real square = along.squaredNorm();
-    const Real share = square > 0 ? std::clamp((p - a).dot(along) / square, Real{0}, Real{1}) : 0;
-    nearest = std::min(nearest, (p - a - share * along).norm());
-  }
+  for (Eigen::Index i = 0, j = polygon.cols() - 1; i < polygon.cols(); j = i++)
+    nearest = std::min(nearest, distance_to_segment<Vec2>(p, polygon.col(j), polygon.col(i)));
   return nearest;
 }
 

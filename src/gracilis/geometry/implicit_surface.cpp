@@ -1,5 +1,6 @@
 #include <gracilis/geometry/implicit_surface.hpp>
 #include <gracilis/geometry/implicit_surface_spline.hpp>
+#include <gracilis/geometry/point_segment.hpp>
 
 #include <algorithm>
 #include <cassert>
@@ -59,10 +60,8 @@ ImplicitSolid thick_curve(const std::vector<ThickPoint>& points) {
     for (std::size_t i = 1; i < chain.size(); ++i) {
       const ThickPoint& a = chain[i - 1];
       const ThickPoint& b = chain[i];
-      const Vec3 along = b.point - a.point;
-      const Real length2 = along.squaredNorm();
-      const Real t = length2 > 0 ? std::clamp((point - a.point).dot(along) / length2, 0.0, 1.0) : 0;
-      best = std::min(best, (point - a.point - t * along).norm() - a.radius - t * (b.radius - a.radius));
+      const Real t = nearest_on_segment<Vec3>(point, a.point, b.point);
+      best = std::min(best, (point - a.point - t * (b.point - a.point)).norm() - a.radius - t * (b.radius - a.radius));
     }
     return best;
   });

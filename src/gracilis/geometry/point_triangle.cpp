@@ -1,6 +1,6 @@
 #include <gracilis/geometry/point_triangle.hpp>
 
-#include <algorithm>
+#include <gracilis/geometry/point_segment.hpp>
 
 namespace gracilis {
 
@@ -8,14 +8,6 @@ namespace {
 
 template <class S>
 using Vector3 = Eigen::Matrix<S, 3, 1>;
-
-/// Parameter in [0, 1] of the point of segment (a, b) nearest to p; 0 when the segment has no length.
-template <class S>
-S nearest_on_segment(const Vector3<S>& p, const Vector3<S>& a, const Vector3<S>& b) {
-  const Vector3<S> ab = b - a;
-  const S length2 = ab.squaredNorm();
-  return length2 > 0 ? std::clamp((p - a).dot(ab) / length2, S{0}, S{1}) : S{0};
-}
 
 template <class S>
 Vector3<S> nearest_on_boundary(const Vector3<S>& p, const Vector3<S>& a, const Vector3<S>& b, const Vector3<S>& c) {

@@ -1,8 +1,11 @@
 #include <gracilis/geometry/polylines.hpp>
 
+#include <gracilis/geometry/point_segment.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace gracilis {
 
@@ -51,6 +54,13 @@ std::vector<Real> polyline_lengths(const Polylines& lines) {
     lengths.push_back(length);
   }
   return lengths;
+}
+
+Real distance_to_polyline(const Points& line, const Vec3& p) {
+  Real nearest = std::numeric_limits<Real>::infinity();
+  for (Eigen::Index i = 1; i < line.cols(); ++i)
+    nearest = std::min(nearest, distance_to_segment<Vec3>(p, line.col(i - 1), line.col(i)));
+  return nearest;
 }
 
 std::vector<Real> distances_along(const Points& line) {

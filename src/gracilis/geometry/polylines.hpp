@@ -35,6 +35,9 @@ Real polyline_length(const Points& line);
 /// The length of every line, m.
 std::vector<Real> polyline_lengths(const Polylines& lines);
 
+/// How far a point is from the nearest of a line's segments, m; infinite without any.
+Real distance_to_polyline(const Points& line, const Vec3& p);
+
 /// How far along the line each of its points is, m; 0 for the first.
 std::vector<Real> distances_along(const Points& line);
 

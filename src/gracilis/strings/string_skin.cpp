@@ -3,6 +3,7 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
+#include <gracilis/geometry/point_segment.hpp>
 #include <gracilis/geometry/polylines.hpp>
 
 #include <algorithm>
@@ -33,10 +34,9 @@ NearestOnFiber nearest_on_fiber(const MuscleStrings& muscle, Index string, const
   NearestOnFiber best{std::numeric_limits<Real>::infinity(), 0, 0};
   for (Index i = 0; i + 1 < muscle.nodes; ++i) {
     const Index p = muscle.node(string, i);
-    const Vec3 from = muscle.fibers.col(p), along = muscle.fibers.col(p + 1) - from;
-    const Real length2 = along.squaredNorm();
-    const Real share = length2 > 0 ? std::clamp((place - from).dot(along) / length2, 0.0, 1.0) : 0;
-    const Real distance = (from + share * along - place).norm();
+    const Vec3 from = muscle.fibers.col(p), to = muscle.fibers.col(p + 1);
+    const Real share = nearest_on_segment<Vec3>(place, from, to);
+    const Real distance = (from + share * (to - from) - place).norm();
     if (distance < best.distance) best = {distance, p, share};
   }
   return best;

@@ -3,6 +3,7 @@
 #include <gracilis/core/sort_unique.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/outline_curves.hpp>
+#include <gracilis/geometry/point_segment.hpp>
 #include <gracilis/geometry/principal_axes.hpp>
 #include <gracilis/geometry/surface_region.hpp>
 
@@ -11,13 +12,6 @@
 
 namespace gracilis {
 
-static Real distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const Real square = along.squaredNorm();
-  const Real share = square > 0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0;
-  return (p - a - share * along).norm();
-}
-
 Real distance_to(const LandmarkSet& landmarks, const Vec3& p) {
   const Points& points = landmarks.points;
   Real nearest = std::numeric_limits<Real>::infinity();
@@ -25,7 +19,7 @@ Real distance_to(const LandmarkSet& landmarks, const Vec3& p) {
   if (landmarks.kind == LineKind::cloud) return nearest;
   const Index segments = points.cols() - (landmarks.kind == LineKind::open ? 1 : 0);
   for (Index i = 0; i < segments; ++i) {
-    nearest = std::min(nearest, distance_to_segment(p, points.col(i), points.col((i + 1) % points.cols())));
+    nearest = std::min(nearest, distance_to_segment<Vec3>(p, points.col(i), points.col((i + 1) % points.cols())));
   }
   return nearest;
 }

@@ -4,12 +4,12 @@
 #include <gracilis/core/parallel.hpp>
 #include <gracilis/geometry/measures.hpp>
 #include <gracilis/geometry/nearest_points.hpp>
+#include <gracilis/geometry/polylines.hpp>
 #include <gracilis/geometry/shortest_paths.hpp>
 #include <gracilis/scene/attached_vertices.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace gracilis {
@@ -54,17 +54,6 @@ class DirectionField {
   NearestPoints nearest_;
 };
 
-Real distance_to_line(const Points& line, const Vec3& p) {
-  Real nearest = std::numeric_limits<Real>::infinity();
-  for (Eigen::Index i = 1; i < line.cols(); ++i) {
-    const Vec3 a = line.col(i - 1), along = line.col(i) - a;
-    const Real square = along.squaredNorm();
-    const Real share = square > 0 ? std::clamp((p - a).dot(along) / square, Real{0}, Real{1}) : 0;
-    nearest = std::min(nearest, (p - a - share * along).squaredNorm());
-  }
-  return std::sqrt(nearest);
-}
-
 /// The published way.
 std::vector<Index> joined_nearest(const Points& line, const NearestPoints& vertices, const EdgeGraph& lengths) {
   std::vector<Index> path;
@@ -104,7 +93,7 @@ std::vector<Index> along_fiber(const Points& x, const Points& line, const Neares
   const Index last = vertices.nearest(line.col(line.cols() - 1));
   // Distances count against the fiber's own from the surface: those in the middle of the belly are far from it all.
   Eigen::VectorXd distances(x.cols());
-  for (Index v = 0; v < x.cols(); ++v) distances[v] = distance_to_line(line, x.col(v));
+  for (Index v = 0; v < x.cols(); ++v) distances[v] = distance_to_polyline(line, x.col(v));
   Real depth = 0;
   for (Eigen::Index i = 0; i < line.cols(); ++i)
     depth = std::max(depth, (Vec3(x.col(vertices.nearest(line.col(i)))) - line.col(i)).norm());

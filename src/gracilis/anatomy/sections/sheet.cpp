@@ -1,5 +1,6 @@
 #include <gracilis/anatomy/sections/sheet.hpp>
 
+#include <gracilis/geometry/point_segment.hpp>
 #include <gracilis/scene/section_line.hpp>
 
 #include <algorithm>
@@ -105,9 +106,9 @@ LineShare nearest_share(const std::vector<Points>& centers, const Vec3& point) {
   }
   least = std::numeric_limits<Real>::infinity();
   for (std::size_t line = 0; line + 1 < centers.size(); ++line) {
-    const Vec3 from = centers[line].col(share.section), way = centers[line + 1].col(share.section) - from;
-    const Real next = way.norm() > 0 ? std::clamp((point - from).dot(way) / way.squaredNorm(), 0.0, 1.0) : 0;
-    const Real distance = (point - from - next * way).squaredNorm();
+    const Vec3 from = centers[line].col(share.section), to = centers[line + 1].col(share.section);
+    const Real next = nearest_on_segment<Vec3>(point, from, to);
+    const Real distance = (point - from - next * (to - from)).squaredNorm();
     if (!(distance < least)) continue;
     least = distance;
     share.line = line;

@@ -1,6 +1,7 @@
 #include <gracilis/opensim/import/neighbor_clearance.hpp>
 
 #include <gracilis/geometry/measures.hpp>
+#include <gracilis/geometry/point_segment.hpp>
 #include <gracilis/geometry/polylines.hpp>
 
 #include <algorithm>
@@ -31,10 +32,9 @@ struct NearestPlace {
 NearestPlace nearest_place(const RoundMuscle& muscle, const Vec3& p) {
   NearestPlace nearest;
   for (Eigen::Index k = 0; k + 1 < muscle.centers.cols(); ++k) {
-    const Vec3 a = muscle.centers.col(k), along = muscle.centers.col(k + 1) - a;
-    const Real length2 = along.squaredNorm(),
-               share = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0;
-    const Vec3 foot = a + share * along;
+    const Vec3 a = muscle.centers.col(k), b = muscle.centers.col(k + 1);
+    const Real share = nearest_on_segment<Vec3>(p, a, b);
+    const Vec3 foot = a + share * (b - a);
     const Real radius = muscle.radii[k] + share * (muscle.radii[k + 1] - muscle.radii[k]);
     if (const Real radii = (p - foot).norm() / radius; radii < nearest.radii) nearest = {radii, foot, radius};
   }
