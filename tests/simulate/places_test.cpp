@@ -98,6 +98,24 @@ TEST(Places, a_muscle_that_swings_off_is_off_its_place) {
   EXPECT_THAT(missed_gates(measures, {}), testing::Contains(testing::HasSubstr("off its place")));
 }
 
+TEST(Places, a_belly_pulled_straight_off_its_bone_by_the_joint_is_in_its_place) {
+  Scene scene = arm();
+  // Inserted 0.13 m below the hinge, so that the straight way leaves the upper bone as the joint closes.
+  for (auto p : scene.muscles[0].surface.vertices.colwise()) p.z() = -0.02 + (p.z() + 0.02) * 1.3;
+  const Real angle = -radians(60);
+  const Vec3 hinge(0, 0, -0.3), end(0.017, 0, -0.436);
+  const Vec3 moved = hinge + Eigen::AngleAxisd(angle, Vec3::UnitY()) * (end - hinge) - end;
+  ASSERT_GT(moved.x(), 0.05);
+  const auto share = [](const Vec3& p) { return std::clamp((-0.02 - p.z()) / 0.416, 0.0, 1.0); };
+  const auto off_place = [&](const Vec3& aside) {
+    const Frame frame = frame_of(
+        scene, [&](const Vec3& p) -> Vec3 { return p + share(p) * moved + std::sin(pi * share(p)) * aside; }, angle);
+    return measured(scene, frame).belly_off_place;
+  };
+  EXPECT_LT(off_place(Vec3::Zero()), 0.006) << "it is sheared, not turned";
+  EXPECT_GT(off_place({0.04, 0, 0}), 0.025) << "bowed further";
+}
+
 TEST(Places, a_muscle_that_slides_by_5_millimetres_meets_all_gates) {
   const Scene scene = arm();
   for (const Vec3& way : {Vec3(0, 0, 0.005), Vec3(0, 0.005, 0)}) {

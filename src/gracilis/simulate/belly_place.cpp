@@ -50,8 +50,8 @@ Eigen::VectorXd share_of_way(const Muscle& muscle) {
   return from.array() / (from + to).array();
 }
 
-BellyPlace::BellyPlace(const Scene& scene, const std::vector<SignedDistance>& bones)
-    : scene_(scene), bones_(bones), contacts_(scene.muscles.size()), grounds_(scene.muscles.size()) {
+BellyPlace::BellyPlace(const Scene& scene, const std::vector<SignedDistance>& bones, const TautWays& ways)
+    : scene_(scene), bones_(bones), ways_(ways), contacts_(scene.muscles.size()), grounds_(scene.muscles.size()) {
   Frame frame;
   frame.pose = capture_pose(scene.bodies.size());
   for (const Muscle& muscle : scene.muscles) {
@@ -74,6 +74,7 @@ BellyPlace::BellyPlace(const Scene& scene, const std::vector<SignedDistance>& bo
       const Vec3 p = frame.muscles[m].points.col(contact.vertex);
       contact.rest_gap = gap(m, contact, rest, p);
       contact.carrier = nearest_bone(p);
+      contact.place = place_beside(ways_.of(m), p);
     }
   });
 }
@@ -116,7 +117,7 @@ std::vector<BellyPlace::Contact> BellyPlace::contacts_of(std::size_t muscle, con
   Real area = 0;
   for (const Index v : belly_vertices(scene_.muscles[muscle])) {
     Candidate& candidate = candidates.emplace_back();
-    candidate.contact = {v, areas[v], far_away, {}, {}, {}};
+    candidate.contact = {v, areas[v], far_away, {}, {}, {}, {}};
     area += areas[v];
     const Vec3 p = surface.vertices.col(v);
     // What is beyond both the reach and the nearest so far is not asked for: it counts as far away.
@@ -163,6 +164,12 @@ Real BellyPlace::moved(std::size_t muscle, const Contact& contact, const Surroun
   return (around.to_local[*contact.carrier] * p - scene_.muscles[muscle].surface.vertices.col(contact.vertex)).norm();
 }
 
+/// How far a vertex is from where its taut way has taken it, beyond what thickening explains.
+Real BellyPlace::off_way(std::size_t muscle, const Contact& contact, const Vec3& p, Real thickening) const {
+  if (!contact.place) return std::numeric_limits<Real>::infinity();
+  return distance_from_place(*contact.place, ways_.of(muscle), p) - (thickening - 1) * contact.place->offset.norm();
+}
+
 std::vector<Real> BellyPlace::off_place(const Frame& frame, const std::vector<Real>& length_ratios) const {
   const Surroundings around = surroundings(frame, asked_);
   std::vector<Real> off(contacts_.size(), 0);
@@ -172,8 +179,10 @@ std::vector<Real> BellyPlace::off_place(const Frame& frame, const std::vector<Re
     for (const Contact& contact : contacts_[m]) {
       const Vec3 p = frame.muscles[m].points.col(contact.vertex);
       const Real come_off = gap(m, contact, around, p) - thickening * contact.rest_gap;
-      sum += contact.area * std::max(std::min(come_off, moved(m, contact, around, p)), Real{0});
       area += contact.area;
+      if (!(come_off > 0)) continue;
+      const Real least = std::min({come_off, moved(m, contact, around, p), off_way(m, contact, p, thickening)});
+      sum += contact.area * std::max(least, Real{0});
     }
     if (area > 0) off[m] = sum / area;
   });

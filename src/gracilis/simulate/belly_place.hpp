@@ -3,7 +3,9 @@
 #include <gracilis/geometry/signed_distance.hpp>
 #include <gracilis/scene/frame.hpp>
 #include <gracilis/scene/scene.hpp>
+#include <gracilis/simulate/place_beside_way.hpp>
 #include <gracilis/simulate/shape_now.hpp>
+#include <gracilis/simulate/taut_way.hpp>
 
 #include <optional>
 #include <vector>
@@ -22,16 +24,18 @@ Eigen::VectorXd share_of_way(const Muscle& muscle);
 /// what is nearest.
 class BellyPlace {
  public:
-  /// The scene and the distances to its bones must outlive this.
-  BellyPlace(const Scene& scene, const std::vector<SignedDistance>& bones);
+  /// The scene, the distances to its bones and the ways, which are those of the capture pose here, must outlive this.
+  BellyPlace(const Scene& scene, const std::vector<SignedDistance>& bones, const TautWays& ways);
 
   /// Per muscle the mean over those vertices, by area, of how much further they are than at rest from the nearest of
   /// the other muscles that they lay on and the bones that any of them lay on, m; what is nearer counts as 0. A belly
   /// may slide along them, and touch others in one place that it touched in another. No vertex counts for more than it
-  /// has moved against the bone that was nearest to it: what stays is not off because others have left it.
+  /// has moved against the bone that was nearest to it: what stays is not off because others have left it. Nor does one
+  /// count for more than it is from where the nearest of the muscle's taut ways has taken it: what tension pulls
+  /// straight between its ends is in its place.
   /// `length_ratios` is per muscle the length of its fibers over that at rest: a muscle that becomes shorter becomes
   /// thicker, by one over its root, and a vertex may be further from its ground by as much. 0 for muscles without
-  /// origin or insertion. Deterministic.
+  /// origin or insertion. The ways are those of the frame's pose. Deterministic.
   std::vector<Real> off_place(const Frame& frame, const std::vector<Real>& length_ratios) const;
 
  private:
@@ -43,6 +47,7 @@ class BellyPlace {
     std::vector<std::size_t> bones;  ///< that it lies on
     std::vector<std::size_t> muscles;
     std::optional<std::size_t> carrier;  ///< the nearest bone
+    std::optional<PlaceBesideWay> place;
   };
   /// Where bones and muscles are in a frame.
   struct Surroundings {
@@ -54,11 +59,13 @@ class BellyPlace {
   std::vector<Contact> contacts_of(std::size_t muscle, const Surroundings& rest) const;
   std::optional<std::size_t> nearest_bone(const Vec3& p) const;
   Real moved(std::size_t muscle, const Contact& contact, const Surroundings& around, const Vec3& p) const;
+  Real off_way(std::size_t muscle, const Contact& contact, const Vec3& p, Real thickening) const;
   Real bone_gap(std::size_t bone, const Surroundings& around, const Vec3& p, Real reach) const;
   Real gap(std::size_t muscle, const Contact& contact, const Surroundings& around, const Vec3& p) const;
 
   const Scene& scene_;
   const std::vector<SignedDistance>& bones_;
+  const TautWays& ways_;
   std::vector<FacesAround> around_;                ///< per muscle
   std::vector<std::vector<Contact>> contacts_;     ///< per muscle
   std::vector<std::vector<std::size_t>> grounds_;  ///< per muscle: the bones that any of its contacts lies on

@@ -43,8 +43,8 @@ Measurer::Measurer(const Scene& scene, const FiberTracker* tracker, MeasureLevel
   if (level == MeasureLevel::full) {
     bones_ = distances_to_bones(scene);
     if (scene.muscles.size() > 1 && keeps_surfaces_apart(scene)) muscle_depths_.emplace(scene);
-    bellies_.emplace(scene, bones_);
     ways_.emplace(scene, bones_, tracker);
+    bellies_.emplace(scene, bones_, ways_->taut());
   }
   for (const Bone& bone : scene.bones) bone_boxes_.push_back(box_of(bone.surface.vertices));
   for (const Muscle& muscle : scene.muscles) muscles_.push_back(rest_of(muscle));

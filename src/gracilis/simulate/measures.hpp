@@ -94,8 +94,8 @@ class Measurer {
   std::vector<SignedDistance> bones_;  ///< these and what follows are there where depths and places are measured
   std::vector<Eigen::AlignedBox3d> bone_boxes_;  ///< in the capture pose
   std::optional<MuscleDepths> muscle_depths_;    ///< where the method keeps muscles out of each other
-  std::optional<BellyPlace> bellies_;
   std::optional<WayMeasures> ways_;
+  std::optional<BellyPlace> bellies_;  ///< looks at the ways
   std::vector<MuscleRest> muscles_;
   std::vector<std::vector<LastSeen>> last_;  ///< per muscle: of vertices, then of midpoints, per bone
 };

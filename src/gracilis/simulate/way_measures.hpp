@@ -44,6 +44,8 @@ class WayMeasures {
   /// Takes the taut ways on to a pose; they remember every pose they went through.
   void follow(const Pose& pose) { ways_.follow(pose); }
 
+  const TautWays& taut() const { return ways_; }
+
   /// Per muscle, in the pose that the ways were taken to. `fibers` are what the tracker says of the frame, or empty,
   /// which asks it.
   std::vector<MuscleWay> measure(const Frame& frame, const std::vector<MuscleFibers>& fibers) const;
