@@ -107,6 +107,9 @@ TEST(StudyReader, what_is_wrong_is_told_once_with_its_place) {
               ElementsAre("3:8 there is no sampling 'latine'"));
   EXPECT_THAT(problems_of("scene = \"demo\"\n[sampling]\nkind = \"sobol\"\n"),
               ElementsAre("3:8 a sampling 'sobol' needs 'samples'"));
+  for (const std::string kind : {"latin", "halton", "sobol", "morris", "indices"})
+    EXPECT_THAT(problems_of("scene = \"demo\"\n[sampling]\nkind = \"" + kind + "\"\nsamples = 2\n"),
+                ElementsAre("2:1 this sampling has no parameters to spread"));
   EXPECT_THAT(problems_of(latin), ElementsAre(HasSubstr("a parameter needs 'values' or a 'range'")));
   EXPECT_THAT(problems_of(latin + "range = [3, 1]\n"), ElementsAre("7:9 'range' must begin below its end"));
   EXPECT_THAT(problems_of(latin + "range = [0, 1]\nscale = \"log\"\n"),

@@ -69,9 +69,18 @@ static Eigen::MatrixXd mixed_points(Index samples, Index columns) {
   return points;
 }
 
-static Eigen::MatrixXd points_of_seed(const Sampling& sampling, Index columns, std::uint64_t seed) {
-  if (sampling.kind == SamplingKind::latin) return latin_hypercube(sampling.samples, columns, seed);
-  return morris_points(sampling.samples, columns, sampling.levels, seed);
+/// A design per seed, one after the other.
+static Eigen::MatrixXd points_of_seeds(const Sampling& sampling, Index columns) {
+  const bool is_latin = sampling.kind == SamplingKind::latin;
+  const Index rows = is_latin ? sampling.samples : sampling.samples * (columns + 1);
+  Eigen::MatrixXd points(rows * static_cast<Index>(sampling.seeds.size()), columns);
+  Index first = 0;
+  for (const std::uint64_t seed : sampling.seeds) {
+    points.middleRows(first, rows) = is_latin ? latin_hypercube(sampling.samples, columns, seed)
+                                              : morris_points(sampling.samples, columns, sampling.levels, seed);
+    first += rows;
+  }
+  return points;
 }
 
 Eigen::MatrixXd design_points(const Sampling& sampling, Index columns, const std::vector<Index>& steps,
@@ -91,13 +100,7 @@ Eigen::MatrixXd design_points(const Sampling& sampling, Index columns, const std
     case SamplingKind::morris:
       break;
   }
-  Eigen::MatrixXd points(0, columns);
-  for (const std::uint64_t seed : sampling.seeds) {
-    const Eigen::MatrixXd more = points_of_seed(sampling, columns, seed);
-    points.conservativeResize(points.rows() + more.rows(), columns);
-    points.bottomRows(more.rows()) = more;
-  }
-  return points;
+  return points_of_seeds(sampling, columns);
 }
 
 Real design_size(const Sampling& sampling, Index columns, const std::vector<Index>& steps) {

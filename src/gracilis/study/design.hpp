@@ -33,8 +33,8 @@ struct Sampling {
 };
 
 /// Points in the unit cube, a row per run. Of grid `steps` says how many values each column has: the middles of as many
-/// equal parts where `in_parts` says so, else from 0 to 1. Preconditions: list has no points of its own; dimensions at
-/// most 16 of halton, 21 of sobol, 10 of indices; levels even and positive.
+/// equal parts where `in_parts` says so, else from 0 to 1. Preconditions: list has no points of its own, others but
+/// grid a column or more; dimensions at most 16 of halton, 21 of sobol, 10 of indices; levels even and positive.
 Eigen::MatrixXd design_points(const Sampling& sampling, Index columns, const std::vector<Index>& steps,
                               const std::vector<bool>& in_parts);
 

@@ -63,9 +63,10 @@ void read_run_table(const std::filesystem::path& file, const std::string& scene,
     if (!is_run_name(run.name))
       rows.fail("'" + run.name + "' cannot name a run", "take letters, digits, dots, _ and -");
     if (!names.insert(run.name).second) rows.fail("there are two runs '" + run.name + "'", "rename one");
-    for (const std::string& key : study.parameters) {
-      const std::string value(rows.cell(*rows.column(key)));
-      if (!value.empty() && !give_value(run, key, value))
+    for (std::size_t column = 0; column < rows.labels().size(); ++column) {
+      if (named == column) continue;
+      const std::string value(rows.cell(column));
+      if (!value.empty() && !give_value(run, std::string(rows.labels()[column]), value))
         rows.fail("'" + value + "' is no flexion", "0 to 130 degrees");
       run.values.push_back(value);
     }

@@ -116,6 +116,10 @@ static void add_runs(Study& study, const std::vector<StudyParameter>& parameters
                     "choose kind = \"grid\" for every combination");
     return;
   }
+  if (columns == 0 && study.sampling.samples > 0) {
+    top.add_problem("sampling", "this sampling has no parameters to spread", "add [[parameters]]");
+    return;
+  }
   if (columns > most_columns(study.sampling.kind)) {
     top.add_problem("parameters",
                     fmt::format("this sampling knows at most {} parameters", most_columns(study.sampling.kind)),
